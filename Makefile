@@ -1,0 +1,96 @@
+# lrcs: settings, targets, rules. Everything built goes under $(BUILD).
+#   make            the tool build/lrcs and the library build/liblrcs.a
+#   make demo       sigma of the built-in satellite, with a picture
+#   make test       every test (needs cmocka; gets it by itself where it can)
+#   make asan lint purity layers    further checks
+
+# --- settings ------------------------------------------------------------------------------------
+CC       = gcc
+AR       = ar
+BUILD    = build
+OPT      = -O2
+STD      = -std=c11 -pedantic -ffp-contract=off
+WARN     = -Wall -Wextra -Werror -Wshadow -Wconversion -Wsign-conversion -Wstrict-prototypes \
+           -Wmissing-prototypes -Wold-style-definition -Wcast-qual -Wcast-align -Wwrite-strings \
+           -Wpointer-arith -Wformat=2 -Wundef -Wvla -Wswitch-enum -Wdouble-promotion
+CFLAGS   =
+LDLIBS   = -lm
+PREFIX   = /usr/local
+
+CORE     = base mesh optics scene view visibility integrate
+CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
+HOST_SRC = $(sort $(wildcard src/host/*.c))
+CLI_SRC  = $(sort $(wildcard src/cli/*.c))
+TEST_SRC = $(sort $(wildcard test/*/test_*.c))
+SH_TESTS = $(sort $(wildcard test/*/test_*.sh))
+
+CORE_OBJ = $(CORE_SRC:%.c=$(BUILD)/%.o)
+HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
+CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
+TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
+LIB      = $(BUILD)/liblrcs.a
+TOOL     = $(BUILD)/lrcs
+
+# --- targets -------------------------------------------------------------------------------------
+all: $(TOOL) $(LIB)
+
+demo: $(TOOL)
+	$(TOOL) run demo --image $(BUILD)/demo.png
+
+test: cmocka $(TOOL) $(TESTS)
+	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
+
+asan: cmocka
+	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) -lm" test
+SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+
+lint:
+	sh test/lint.sh
+
+purity: $(LIB)
+	sh test/purity.sh $(CORE_OBJ)
+
+layers:
+	sh test/layers.sh
+
+clean:
+	rm -rf $(BUILD)
+
+# cmocka: found, or installed, or one line that says how.
+cmocka:
+	@sh test/cmocka.sh $(CC)
+
+.PHONY: all demo test asan lint purity layers clean cmocka
+.DELETE_ON_ERROR:
+
+# --- rules ---------------------------------------------------------------------------------------
+$(TOOL): $(CLI_OBJ) $(LIB)
+	@mkdir -p $(@D)
+	$(CC) -o $@ $(CLI_OBJ) $(LIB) $(LDLIBS)
+
+$(LIB): $(CORE_OBJ) $(HOST_OBJ)
+	@mkdir -p $(@D)
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+$(BUILD)/src/cli/%.o: src/cli/%.c
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -MMD -MP -c -o $@ $<
+
+$(BUILD)/src/host/%.o: src/host/%.c
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -MMD -MP -c -o $@ $<
+
+$(BUILD)/src/%.o: src/%.c
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -Isrc -MMD -MP -c -o $@ $<
+
+$(BUILD)/test/%.o: test/%.c
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -Itest -MMD -MP -c -o $@ $<
+
+$(BUILD)/test/%: $(BUILD)/test/%.o $(LIB)
+	$(CC) -o $@ $< $(LIB) -lcmocka $(LDLIBS)
+
+.SECONDARY: $(TEST_SRC:%.c=$(BUILD)/%.o)
+-include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d)

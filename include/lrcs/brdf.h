@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/* The four-parameter mono-station BRDF, and a library of typical satellite materials.
+   f_r(theta) = A / cos^6(theta) exp(-tan^2(theta) / s^2) + B cos^m(theta), 1/sr.
+   Source: O. Steinvall, Appl. Opt. 39 (2000) 4381; Y. Han et al., Opt. Laser Technol. 56 (2014)
+   151-157, Eq. 1. */
+#ifndef LRCS_BRDF_H
+#define LRCS_BRDF_H
+
+#include <lrcs/status.h>
+
+typedef struct lrcs_brdf {
+    double A; /* glint amplitude, 1/sr, >= 0 */
+    double B; /* diffuse amplitude, 1/sr, >= 0 */
+    double s; /* rms surface slope, > 0 (0 only with A = 0) */
+    double m; /* diffusivity coefficient, >= 0 */
+} lrcs_brdf;
+
+/* What an unbound facet gets: A=1, B=0.25, s=0.2, m=0.5. */
+lrcs_brdf lrcs_brdf_default(void);
+
+/* Values that the formula accepts but the model does not mean: bits of lrcs_brdf_check. */
+enum lrcs_brdf_warning {
+    LRCS_BRDF_SLOPE_LARGE = 1 << 0,   /* s > 0.7: a plate's glint peaks off its normal */
+    LRCS_BRDF_DIFFUSE_GAIN = 1 << 1,  /* pi B > 1: reflects more than it receives when m = 0 */
+    LRCS_BRDF_GLINT_GAIN = 1 << 2,    /* pi A s^2 > 1: the glint alone does */
+    LRCS_BRDF_DARK = 1 << 3           /* A = 0 and B = 0 */
+};
+
+/* Checks the four numbers: negative status where they are not finite or outside the domain
+   (A, B, m < 0; s < 0; s = 0 with A > 0), else warning bits, 0 for none. */
+int lrcs_brdf_check(const lrcs_brdf *brdf);
+
+/* One sentence for one warning bit. Never NULL. */
+const char *lrcs_brdf_warning_text(int bit);
+
+/* f_r at an incidence angle.
+   Given: brdf in its domain; cos_theta in [-1, 1].
+   Returned: f_r, 1/sr; 0 where cos_theta <= 0. From the cosine alone tan^2 is known to
+   a relative 2^-52 / theta^2: the engine itself works from tan^2.
+   Notes: 1. May overflow to infinity only where f_r itself exceeds the largest double. */
+double lrcs_brdf_eval(const lrcs_brdf *brdf, double cos_theta);
+
+/* A material of the library. The values are ILLUSTRATIVE: no published table of A, B, s, m for
+   satellite materials could be found; they are chosen for typical behaviour only. */
+typedef struct lrcs_brdf_entry {
+    const char *name; /* "solar-cell", "mli-gold", ... lower case with hyphens */
+    const char *text; /* what it stands for */
+    lrcs_brdf brdf;
+} lrcs_brdf_entry;
+
+/* The library: entry i, or NULL beyond the last. */
+const lrcs_brdf_entry *lrcs_brdf_library(uint32_t i);
+
+/* The library entry of that name, or NULL. */
+const lrcs_brdf_entry *lrcs_brdf_find(const char *name);
+
+#endif

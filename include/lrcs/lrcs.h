@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs: monostatic laser radar cross-section of a facet mesh, with a proved error bound. */
+#ifndef LRCS_LRCS_H
+#define LRCS_LRCS_H
+
+#include <lrcs/brdf.h>
+#include <lrcs/mesh.h>
+#include <lrcs/pose.h>
+#include <lrcs/read.h>
+#include <lrcs/run.h>
+#include <lrcs/scene.h>
+#include <lrcs/shape.h>
+#include <lrcs/status.h>
+#include <lrcs/work.h>
+
+#endif

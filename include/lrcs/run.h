@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+/* sigma of a prepared scene from a pose: Eq. 2 of Han et al. (2014) over the visible surface. */
+#ifndef LRCS_RUN_H
+#define LRCS_RUN_H
+
+#include <lrcs/pose.h>
+#include <lrcs/scene.h>
+
+enum lrcs_method { LRCS_METHOD_AUTO = 0, LRCS_METHOD_FACET, LRCS_METHOD_ZBUFFER, LRCS_METHOD_EXACT };
+
+/* The method's name ("auto", ...), or NULL. And back: LRCS_E_NAME for none. */
+const char *lrcs_method_text(int method);
+int lrcs_method_find(const char *name);
+
+/* Everything about a scene that does not depend on direction: normals, edges, which facets
+   touch which, what the planner can prove. Opaque; lives in the caller's work area. */
+typedef struct lrcs_prepared lrcs_prepared;
+
+/* Bytes a scene's preparation takes: an upper bound for ordinary scenes; where a scene's facets
+   pierce each other without number, lrcs_prepare_run says LRCS_E_MEMORY and work->peak how far
+   it got; a larger area then serves. */
+size_t lrcs_prepare_need(const lrcs_scene *scene);
+
+/* Prepares a scene, which must outlive the result. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_INDEX,
+   LRCS_E_NUMBER (a scene not made by lrcs_scene_build). */
+int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared);
+
+typedef struct lrcs_run_options {
+    double tolerance;    /* relative, > 0: bound <= tolerance * sigma is asked for */
+    int method;          /* lrcs_method */
+    uint32_t resolution; /* raster N x N; 0: chosen from the tolerance */
+} lrcs_run_options;
+
+lrcs_run_options lrcs_run_options_default(void); /* 1e-4, auto, 0 */
+
+/* What the engine can leave out. */
+enum lrcs_effect_name {
+    LRCS_EFFECT_SELF_SHADOWING,
+    LRCS_EFFECT_BACK_FACE_CASTERS,
+    LRCS_EFFECT_GLINT,
+    LRCS_EFFECT_DIFFUSE,
+    LRCS_EFFECT_CURVED_NORMALS,
+    LRCS_EFFECT_TWO_SIDED,
+    LRCS_EFFECT_ARTICULATION,
+    LRCS_EFFECTS
+};
+
+typedef struct lrcs_effect {
+    int on;
+    const char *reason; /* constant text */
+} lrcs_effect;
+
+const char *lrcs_effect_text(int effect); /* "self_shadowing", ... or NULL */
+
+/* Flags: the answer is degraded, the bound widened accordingly. */
+enum lrcs_flag {
+    LRCS_FLAG_TOLERANCE_NOT_MET = 1 << 0,
+    LRCS_FLAG_MEMORY_FALLBACK = 1 << 1, /* coarser raster than asked, for want of memory */
+    LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2  /* two facets closer at a sample than the arithmetic tells apart */
+};
+const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
+
+/* Notices: true and worth knowing, not a degradation. */
+enum lrcs_notice {
+    LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,    /* open or inverted mesh */
+    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1   /* curved shapes under shadowing */
+};
+const char *lrcs_notice_text(int bit);
+
+typedef struct lrcs_budget {
+    double visibility_m2;   /* raster or clip */
+    double tessellation_m2; /* negative: not known */
+    double rounding_m2;
+} lrcs_budget;
+
+/* What happened to one facet. */
+typedef struct lrcs_facet_record {
+    double area_m2;         /* of the facet itself; 0 for degenerate and omitted ones */
+    double cos_theta;       /* signed */
+    double visible_area_m2; /* visible projected area, also of back sides */
+    double sigma_m2;
+} lrcs_facet_record;
+
+typedef struct lrcs_result {
+    double sigma_m2, sigma_glint_m2, sigma_diffuse_m2;
+    double bound_m2;    /* proved: |sigma - truth| <= bound, truth being Eq. 2 over the placed
+                           facets (over the true shapes where the tessellation is known) */
+    lrcs_budget budget;
+    double estimate_m2; /* likely error of a raster's answer; negative: none */
+    double projected_area_m2; /* the whole silhouette */
+    double back_side_area_m2; /* visible projected area of one-sided back sides */
+    uint32_t back_side_facets;
+    int method;          /* the one used, never AUTO */
+    uint32_t resolution; /* 0: no raster */
+    uint32_t facets_total, facets_front, facets_hidden, facets_partial;
+    lrcs_effect effect[LRCS_EFFECTS];
+    uint32_t flags, notices;
+} lrcs_result;
+
+/* What the laser sees, pixel by pixel (row 0 on top, column 0 left; x right, y up). */
+typedef struct lrcs_image {
+    uint32_t size;   /* N */
+    uint32_t *facet; /* N * N: facet index, or LRCS_NONE */
+} lrcs_image;
+
+/* Bytes of work area that lrcs_sigma_run takes, an upper bound for ordinary scenes; with less
+   it uses a coarser raster (LRCS_FLAG_MEMORY_FALLBACK), or says LRCS_E_MEMORY when even the
+   coarsest does not fit. */
+size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options);
+
+/* sigma from a pose.
+   Given: prepared; pose; options; work.
+   Returned: result; records[facet_count] unless NULL; image unless NULL: then a raster is drawn
+   whatever the method, image->size > 0 asks for its size and image->facet has room for it.
+   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range);
+   LRCS_E_UNSUPPORTED (LRCS_METHOD_EXACT in this version).
+   Work: nothing stays in the work area. */
+int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                   const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,
+                   lrcs_facet_record *records, lrcs_image *image);
+
+#endif

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+/* Bodies with a closed form: their dimensions, their sigma, and their facet meshes.
+   Frame: axis +z, base at z = 0, nose up; plate, box and sphere centred at the origin, the
+   plate's and the disc's normal +z (both at z = 0). Every surface reflects from outside only. */
+#ifndef LRCS_SHAPE_H
+#define LRCS_SHAPE_H
+
+#include <lrcs/brdf.h>
+#include <lrcs/mesh.h>
+
+enum lrcs_shape_kind {
+    LRCS_SHAPE_PLATE = 0, /* size[0] x size[1], one-sided, normal +z */
+    LRCS_SHAPE_DISC,      /* radius, one-sided, normal +z */
+    LRCS_SHAPE_BOX,       /* size[0] x size[1] x size[2] */
+    LRCS_SHAPE_SPHERE,    /* radius */
+    LRCS_SHAPE_DOME,      /* radius: upper half sphere, z = 0 .. radius; base disc with ALL */
+    LRCS_SHAPE_CYLINDER,  /* radius, length; two end discs with ALL */
+    LRCS_SHAPE_CONE,      /* radius (base), and half_angle_deg or length; base with ALL */
+    LRCS_SHAPE_FRUSTUM,   /* radius (the end at aspect 0, z = length), radius2 (z = 0), length */
+    LRCS_SHAPE_PARABOLOID, /* radius (base), length (height): z = H (1 - r^2/R^2); base with ALL */
+    LRCS_SHAPE_KINDS
+};
+
+enum lrcs_shape_parts {
+    LRCS_SHAPE_ALL = 0, /* with caps or base */
+    LRCS_SHAPE_WALL = 1
+};
+
+/* Lengths in metres; what a kind does not use is 0. A dimension may be zero (no area). */
+typedef struct lrcs_shape {
+    int kind;  /* lrcs_shape_kind */
+    int parts; /* lrcs_shape_parts */
+    double size[3];
+    double radius, radius2, length;
+    double half_angle_deg; /* cone, 0 < .. < 90; 0: take it from length */
+} lrcs_shape;
+
+/* The kind's name in lower case ("plate"), or NULL. And back: LRCS_E_NAME for none. */
+const char *lrcs_shape_text(int kind);
+int lrcs_shape_find(const char *name);
+
+/* LRCS_OK, or LRCS_E_ARGUMENT / LRCS_E_NUMBER with where->item naming the dimension at fault. */
+int lrcs_shape_check(const lrcs_shape *shape, lrcs_where *where);
+
+/* Where the laser stands: by an angle from the axis, exact as given in degrees (90 is 90), or by
+   a direction in the shape's frame, which need not be normalised. */
+typedef struct lrcs_aspect {
+    int by_direction;
+    double deg;          /* 0 .. 180, angle between s_hat and +z; 0 is nose-on */
+    double direction[3]; /* to the laser */
+} lrcs_aspect;
+
+/* A closed form's answer. |value - truth| <= bound, the dimensions, brdf and aspect taken as
+   exact. */
+typedef struct lrcs_closed {
+    double sigma_m2, sigma_glint_m2, sigma_diffuse_m2, bound_m2;
+} lrcs_closed;
+
+/* sigma of a shape alone, from its closed form (or a 1-D quadrature held to 1e-14 where none is
+   known).
+   Given: shape (lrcs_shape_check), brdf (lrcs_brdf_check), aspect. A box or plate whose aspect
+   is an angle is turned about its y axis: s_hat = (sin, 0, cos).
+   Returned: closed, m^2.
+   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_NUMBER.
+   Work: O(1), bounded; no work area.
+   Source: see src/optics. */
+int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_aspect *aspect,
+                     lrcs_closed *closed);
+
+/* How a mesh stands to the curved body it replaces. For each facet there is a patch of the true
+   surface, patches cover the body once, and over every patch:
+     the true normal turns from the facet's normal by at most `turn` (rad);
+     |patch area - facet area| <= area_error * facet area;
+     |integral over the patch of the turn vector (rad, in the facet's plane)| <= lean * facet area.
+   All zero for plane-faced bodies. These hold for the exact dimensions and outlive any rigid motion,
+   mirror and uniform scale. */
+typedef struct lrcs_curvature {
+    double turn;
+    double area_error;
+    double lean;
+} lrcs_curvature;
+
+/* How finely to tessellate. */
+typedef struct lrcs_fineness {
+    double tolerance;  /* relative error of sigma aimed at, > 0 */
+    lrcs_brdf brdf;    /* the material it will wear */
+    uint32_t max_facets; /* never more than this; >= 64 */
+} lrcs_fineness;
+
+/* Fineness for tolerance 1e-4, the default brdf, at most 2^20 facets. */
+lrcs_fineness lrcs_fineness_default(void);
+
+/* Divisions of a shape's mesh, chosen by lrcs_shape_count, obeyed by lrcs_shape_mesh. */
+typedef struct lrcs_divisions {
+    uint32_t around; /* sectors, or subdivisions of an octant edge on a sphere or dome */
+    uint32_t along;  /* rings of a paraboloid; 1 otherwise */
+} lrcs_divisions;
+
+/* Chooses divisions for a shape and fineness, and counts the mesh they make (one part, no
+   materials; text_bytes for the part's name). Curved bodies: the fewest facets whose proved error (lrcs_curvature with
+   lrcs_brdf bounds) meets the tolerance over all aspects relative to the body's mean sigma, capped.
+   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_NUMBER. */
+int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
+                     lrcs_divisions *divisions, lrcs_mesh_counts *counts);
+
+/* Makes the mesh. Vertices shared by position; facets outward; vertices rounded once from the
+   exact points. Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY. */
+int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,
+                    lrcs_mesh *mesh, lrcs_curvature *curvature);
+
+#endif

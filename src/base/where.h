@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* Filling lrcs_where: a reader's account of where it stopped. Each returns `status`, so that a
+   reader can say `return lrcsi_where_text(...)`. `where` may be NULL. */
+#ifndef LRCSI_WHERE_H
+#define LRCSI_WHERE_H
+
+#include <lrcs/status.h>
+
+/* Found: an excerpt of text; bytes that are not printable become "\xNN", cut to fit. */
+int lrcsi_where_text(lrcs_where *where, int status, uint64_t offset, uint32_t line,
+                     const char *item, const char *expected, const char *found, size_t size);
+
+/* Found: an unsigned number. */
+int lrcsi_where_number(lrcs_where *where, int status, uint64_t offset, uint32_t line,
+                       const char *item, const char *expected, uint64_t found);
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* Taking from the caller's work area: in order, aligned, checked, never freed but to a mark. */
+#ifndef LRCSI_WORK_H
+#define LRCSI_WORK_H
+
+#include <lrcs/work.h>
+
+/* Room for `count` items of `size` bytes, not cleared, or NULL (peak then says what was missing).
+   A count of 0 gives a valid pointer. */
+void *lrcsi_work_take(lrcs_work *work, size_t count, size_t size);
+
+/* The same, every byte zero. */
+void *lrcsi_work_take_zero(lrcs_work *work, size_t count, size_t size);
+
+/* Bytes lrcsi_work_take uses at most for such a block: for the _need functions. Saturates. */
+size_t lrcsi_work_bytes(size_t count, size_t size);
+
+/* a + b, saturating at SIZE_MAX. */
+size_t lrcsi_work_add(size_t a, size_t b);
+
+/* Release is setting `used` back to what it was: size_t mark = work->used; ... work->used = mark. */
+
+#endif

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* Which facets touch the inside of which others, in space: interpenetration, T-contacts,
+   coincident coplanar facets. It does not depend on direction; visibility may change across such
+   contacts although no contour is near. Every decision is exact. */
+#ifndef LRCSI_TOUCH_H
+#define LRCSI_TOUCH_H
+
+#include "mesh/topology.h"
+
+enum lrcsi_touch_kind {
+    LRCSI_TOUCH_CROSS = 0,   /* not in one plane: `other` meets the open inside of `facet` */
+    LRCSI_TOUCH_COPLANAR = 1 /* exactly in one plane, and their open insides overlap */
+};
+
+/* `other` (closed) meets the relative interior of `facet`. Directed: a strut standing on a plate
+   touches the plate's inside, but the plate only the strut's rim: then there is an entry for the
+   plate alone. */
+typedef struct lrcsi_touch {
+    uint32_t other;
+    uint32_t kind;
+} lrcsi_touch;
+
+typedef struct lrcsi_touches {
+    uint32_t *first;    /* facet_count + 1: entries of facet i are touch[first[i] .. first[i+1]) */
+    lrcsi_touch *touch; /* by facet, then by other */
+    uint32_t count;
+} lrcsi_touches;
+
+/* Finds all of them. Facets marked in `skip` (degenerate, omitted) neither touch nor are touched.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 entries).
+   Work: near linear on ordinary meshes, quadratic where everything overlaps everything. The
+   result stays in the work area, scratch does not; lrcsi_touches_need bytes serve up to `count`
+   entries. */
+size_t lrcsi_touches_need(uint32_t facet_count, size_t count);
+int lrcsi_touches_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
+                       const unsigned char *skip, lrcs_work *work, lrcsi_touches *touches);
+
+#endif

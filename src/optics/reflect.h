@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* f_r cos^2, the integrand of Eq. 2 per unit of surface, glint and diffuse part apart, from
+   tan^2(theta); and how far it strays over a cone of normals. */
+#ifndef LRCSI_REFLECT_H
+#define LRCSI_REFLECT_H
+
+#include <lrcs/brdf.h>
+#include <lrcs/shape.h>
+
+typedef struct lrcsi_reflection {
+    double glint, diffuse; /* f_r cos^2, 1/sr */
+    double error;          /* absolute bound on glint + diffuse: from rounding here, and from the
+                              relative error that tan2 came with */
+} lrcsi_reflection;
+
+/* Given: tan2 = tan^2(theta) >= 0 (infinity allowed: edge-on, both parts 0) with relative error
+   at most tan2_error. Finite and not NaN for every brdf in its domain. */
+lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error);
+
+/* Bound on the flat-facet error of a curved patch, per unit of facet area:
+     | integral over the patch of F dA / (facet area)  -  F(facet normal) |,
+   F(n) = f_r cos^2 where n . s_hat > 0, else 0 (the 4 pi is the caller's).
+   Given: brdf; the facet normal's cos and tan^2 to s_hat (cos <= 0: it faces away, though part of
+   the patch may not); the patch's curvature. Proved; 0 for a flat patch (all three zero). */
+double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
+                           const lrcs_curvature *curvature);
+
+#endif
