@@ -59,7 +59,11 @@ int lrcs_obj_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *me
 int lrcs_mtl_read(const void *bytes, size_t size, lrcs_mesh *mesh, lrcs_where *where);
 
 /* STL, one part, no materials; equal positions are welded (bitwise, -0 equals 0), in order of
-   first use. Attribute words and stored normals are ignored (a notice where they disagree). */
+   first use. Attribute words and stored normals are ignored (a notice where they disagree). The
+   part is named as the first solid of an ASCII file, "" for a binary one.
+   Status as for 3DS.
+   Notes: 1. Counting does not weld: counts->vertices is three per facet, an upper bound;
+   mesh->vertex_count is exact. */
 int lrcs_stl_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrcs_where *where);
 int lrcs_stl_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *mesh,
                   lrcs_where *where);

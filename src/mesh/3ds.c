@@ -5,6 +5,7 @@
  */
 #include <lrcs/read.h>
 
+#include "base/bytes.h"
 #include "base/where.h"
 #include "base/work.h"
 #include "mesh/3ds.h"
@@ -93,11 +94,11 @@ static int tds_find_root(lrcsi_tds_walk *walk, lrcsi_tds_chunk *root)
     if (walk->size < 6) {
         return lrcsi_tds_fail(walk, LRCS_E_TRUNCATED, 0, "chunk header", "6 bytes", walk->size);
     }
-    if (lrcsi_tds_u16(walk, 0) != LRCSI_TDS_ROOT) {
+    if (lrcsi_bytes_u16(walk->bytes) != LRCSI_TDS_ROOT) {
         return lrcsi_where_text(walk->where, LRCS_E_SYNTAX, 0, 0, "file", "chunk 0x4D4D (\"MM\")",
                                 (const char *)walk->bytes, 2);
     }
-    uint32_t length = lrcsi_tds_u32(walk, 2);
+    uint32_t length = lrcsi_bytes_u32(walk->bytes + 2);
     if (length < 6) {
         return lrcsi_tds_fail(walk, LRCS_E_SYNTAX, 2, "length of the root chunk", "at least 6",
                               length);

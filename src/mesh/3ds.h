@@ -12,6 +12,7 @@
 #include "mesh/store.h"
 
 enum lrcsi_tds_id {
+    LRCSI_TDS_VERSION = 0x0002,
     LRCSI_TDS_COLOUR_FLOAT = 0x0010,
     LRCSI_TDS_COLOUR_24 = 0x0011,
     LRCSI_TDS_COLOUR_24_LINEAR = 0x0012,
@@ -57,11 +58,6 @@ typedef struct lrcsi_tds_walk {
     lrcsi_span *name;         /* of each material, as in the file */
     const lrcsi_names *names; /* the same, once all are known */
 } lrcsi_tds_walk;
-
-/* Little-endian items; the caller has checked that they are there. */
-unsigned lrcsi_tds_u16(const lrcsi_tds_walk *walk, size_t at);
-uint32_t lrcsi_tds_u32(const lrcsi_tds_walk *walk, size_t at);
-float lrcsi_tds_float(const lrcsi_tds_walk *walk, size_t at);
 
 /* Says where the walk stopped; returns `status`. */
 int lrcsi_tds_fail(const lrcsi_tds_walk *walk, int status, size_t at, const char *item,

@@ -5,29 +5,11 @@
 
 #include <string.h>
 
+#include "base/bytes.h"
 #include "base/text.h"
 #include "base/where.h"
 
 #define TDS_HEADER 6u
-
-unsigned lrcsi_tds_u16(const lrcsi_tds_walk *walk, size_t at)
-{
-    const unsigned char *byte = walk->bytes + at;
-    return byte[0] | (unsigned)byte[1] << 8;
-}
-
-uint32_t lrcsi_tds_u32(const lrcsi_tds_walk *walk, size_t at)
-{
-    return lrcsi_tds_u16(walk, at) | (uint32_t)lrcsi_tds_u16(walk, at + 2) << 16;
-}
-
-float lrcsi_tds_float(const lrcsi_tds_walk *walk, size_t at)
-{
-    uint32_t bits = lrcsi_tds_u32(walk, at);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
 
 int lrcsi_tds_fail(const lrcsi_tds_walk *walk, int status, size_t at, const char *item,
                    const char *expected, uint64_t found)
@@ -60,7 +42,7 @@ int lrcsi_tds_next(lrcsi_tds_walk *walk, lrcsi_tds_chunk *parent, lrcsi_tds_chun
         walk->notices |= LRCS_MESH_TRAILING_BYTES;
         return 0;
     }
-    uint32_t length = lrcsi_tds_u32(walk, at + 2);
+    uint32_t length = lrcsi_bytes_u32(walk->bytes + at + 2);
     if (length < TDS_HEADER) {
         return lrcsi_tds_fail(walk, LRCS_E_SYNTAX, at + 2, "chunk length", "at least 6", length);
     }
@@ -72,7 +54,7 @@ int lrcsi_tds_next(lrcsi_tds_walk *walk, lrcsi_tds_chunk *parent, lrcsi_tds_chun
         return lrcsi_tds_fail(walk, LRCS_E_SYNTAX, at + 2, "chunk length",
                               "no more than the bytes left in the enclosing chunk", length);
     }
-    *chunk = (lrcsi_tds_chunk){lrcsi_tds_u16(walk, at), at + TDS_HEADER, at + length};
+    *chunk = (lrcsi_tds_chunk){lrcsi_bytes_u16(walk->bytes + at), at + TDS_HEADER, at + length};
     parent->at = at + length;
     return 1;
 }

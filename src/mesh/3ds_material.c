@@ -6,14 +6,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/bytes.h"
+
 /* Three floats as a colour: clamped to 0..1, rounded to 0..255. */
 static int tds_float_colour(const lrcsi_tds_walk *walk, size_t at, unsigned char rgb[3])
 {
     for (size_t i = 0; i < 3; i++) {
-        double value = (double)lrcsi_tds_float(walk, at + 4 * i);
+        double value = lrcsi_bytes_float(walk->bytes + at + 4 * i);
         if (!isfinite(value)) {
             return lrcsi_tds_fail(walk, LRCS_E_NUMBER, at + 4 * i, "material colour",
-                                  "a finite number", lrcsi_tds_u32(walk, at + 4 * i));
+                                  "a finite number", lrcsi_bytes_u32(walk->bytes + at + 4 * i));
         }
         rgb[i] = (unsigned char)(255.0 * fmin(fmax(value, 0.0), 1.0) + 0.5);
     }
@@ -82,12 +84,12 @@ static int tds_read_transparency(lrcsi_tds_walk *walk, lrcsi_tds_chunk parent,
         if (status != LRCS_OK) {
             return status;
         }
-        unsigned word = is_float ? 0 : lrcsi_tds_u16(walk, chunk.at);
+        unsigned word = is_float ? 0 : lrcsi_bytes_u16(walk->bytes + chunk.at);
         double percent = word < 0x8000 ? (double)word : (double)word - 65536.0;
-        percent = is_float ? (double)lrcsi_tds_float(walk, chunk.at) : percent;
+        percent = is_float ? lrcsi_bytes_float(walk->bytes + chunk.at) : percent;
         if (!isfinite(percent)) {
             return lrcsi_tds_fail(walk, LRCS_E_NUMBER, chunk.at, "material transparency",
-                                  "a finite number", lrcsi_tds_u32(walk, chunk.at));
+                                  "a finite number", lrcsi_bytes_u32(walk->bytes + chunk.at));
         }
         surface->transparency = fmin(fmax(percent / 100.0, 0.0), 1.0);
     }

@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+#include "base/bytes.h"
+
 /* A facet whose last group names a material that the file does not define, until its mesh ends. */
 #define TDS_UNDEFINED (LRCS_NONE - 1)
 
@@ -29,7 +31,7 @@ static int tds_find_list(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, size_t siz
     if (list->end != 0) {
         return lrcsi_tds_fail(walk, LRCS_E_SYNTAX, chunk.at, item, "one such list in a mesh", 2);
     }
-    *count = lrcsi_tds_u16(walk, chunk.at);
+    *count = lrcsi_bytes_u16(walk->bytes + chunk.at);
     chunk.at += 2;
     *list = chunk;
     return lrcsi_tds_check(walk, &chunk, *count, size, item);
@@ -40,10 +42,11 @@ static int tds_read_vertices(const lrcsi_tds_walk *walk, const tds_trimesh *mesh
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         for (size_t k = 0; k < 3; k++) {
             size_t at = mesh->vertices.at + 12 * i + 4 * k;
-            double value = (double)lrcsi_tds_float(walk, at);
+            double value = lrcsi_bytes_float(walk->bytes + at);
             if (!isfinite(value)) {
                 return lrcsi_tds_fail(walk, LRCS_E_NUMBER, at, "vertex coordinate",
-                                      "a finite number (found: its bits)", lrcsi_tds_u32(walk, at));
+                                      "a finite number (found: its bits)",
+                                      lrcsi_bytes_u32(walk->bytes + at));
             }
             if (walk->mesh) {
                 walk->mesh->vertex[mesh->first_vertex + i].x[k] = value;
@@ -58,7 +61,7 @@ static int tds_read_faces(const lrcsi_tds_walk *walk, const tds_trimesh *mesh)
     for (size_t i = 0; i < mesh->face_count; i++) {
         size_t at = mesh->faces.at + 8 * i;
         for (size_t k = 0; k < 3; k++) {
-            unsigned corner = lrcsi_tds_u16(walk, at + 2 * k);
+            unsigned corner = lrcsi_bytes_u16(walk->bytes + at + 2 * k);
             if (corner >= mesh->vertex_count) {
                 return lrcsi_tds_fail(walk, LRCS_E_INDEX, at + 2 * k, "face index",
                                       "less than the mesh's vertex count", corner);
@@ -85,7 +88,7 @@ static int tds_read_group_head(const lrcsi_tds_walk *walk, lrcsi_tds_chunk *chun
     if (status != LRCS_OK) {
         return status;
     }
-    *count = lrcsi_tds_u16(walk, chunk->at);
+    *count = lrcsi_bytes_u16(walk->bytes + chunk->at);
     chunk->at += 2;
     return lrcsi_tds_check(walk, chunk, *count, 2, "material group");
 }
@@ -104,7 +107,7 @@ static int tds_read_group(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const tds
         material = material == LRCS_NONE ? TDS_UNDEFINED : material;
     }
     for (size_t i = 0; i < count; i++) {
-        unsigned face = lrcsi_tds_u16(walk, chunk.at + 2 * i);
+        unsigned face = lrcsi_bytes_u16(walk->bytes + chunk.at + 2 * i);
         if (face >= mesh->face_count) {
             return lrcsi_tds_fail(walk, LRCS_E_INDEX, chunk.at + 2 * i, "face of a material group",
                                   "less than the mesh's face count", face);
@@ -125,7 +128,8 @@ static int tds_read_smoothing(const lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk,
 {
     int status = lrcsi_tds_check(walk, &chunk, mesh->face_count, 4, "smoothing groups");
     for (size_t i = 0; status == LRCS_OK && walk->mesh && i < mesh->face_count; i++) {
-        walk->mesh->facet_smooth[mesh->first_facet + i] = lrcsi_tds_u32(walk, chunk.at + 4 * i);
+        walk->mesh->facet_smooth[mesh->first_facet + i] =
+            lrcsi_bytes_u32(walk->bytes + chunk.at + 4 * i);
     }
     return status;
 }
@@ -135,8 +139,8 @@ static int tds_read_matrix(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk)
 {
     int status = lrcsi_tds_check(walk, &chunk, 12, 4, "mesh matrix");
     for (size_t i = 0; status == LRCS_OK && i < 12; i++) {
-        float identity = i < 9 && i % 4 == 0 ? 1.0f : 0.0f;
-        if (!(lrcsi_tds_float(walk, chunk.at + 4 * i) == identity)) {
+        double identity = i < 9 && i % 4 == 0 ? 1.0 : 0.0;
+        if (!(lrcsi_bytes_float(walk->bytes + chunk.at + 4 * i) == identity)) {
             walk->notices |= LRCS_MESH_LOCAL_MATRIX;
         }
     }
