@@ -264,19 +264,22 @@ static int is_number(const char *at, const char *end, int *integer)
     return at == end;
 }
 
-/* The value of a number, its underscores left out in the work area; NaN for want of room.
-   Without a work area only its shape matters. */
-static double number_value(lrcs_work *work, const char *at, const char *end)
+/* The value of a number, its underscores left out in the work area. Without a work area those with
+   underscores count as 0: then only their form matters. */
+static int number_value(lrcs_work *work, const char *at, const char *end, double *value)
 {
-    double value = NAN;
     if (!memchr(at, '_', (size_t)(end - at))) {
-        lrcsi_decimal_read(at, end, &value);
-        return value;
+        lrcsi_decimal_read(at, end, value);
+        return LRCS_OK;
     }
-    size_t mark = work ? work->used : 0;
-    char *plain = work ? lrcsi_work_take(work, (size_t)(end - at), 1) : NULL;
+    if (!work) {
+        *value = 0.0;
+        return LRCS_OK;
+    }
+    size_t mark = work->used;
+    char *plain = lrcsi_work_take(work, (size_t)(end - at), 1);
     if (!plain) {
-        return work ? NAN : 0.0;
+        return LRCS_E_MEMORY;
     }
     size_t size = 0;
     for (; at < end; at++) {
@@ -284,9 +287,9 @@ static double number_value(lrcs_work *work, const char *at, const char *end)
             plain[size++] = *at;
         }
     }
-    lrcsi_decimal_read(plain, plain + size, &value);
+    lrcsi_decimal_read(plain, plain + size, value);
     work->used = mark;
-    return value;
+    return LRCS_OK;
 }
 
 static int is_literal_byte(char c)
@@ -335,8 +338,7 @@ static int read_literal(lrcsi_toml *toml, int *type, int *truth, double *number)
         *truth = *begin == 't';
     } else if (is_number(begin, end, &integer)) {
         *type = LRCSI_TOML_NUMBER;
-        *number = number_value(toml->work, begin, end);
-        if (isnan(*number)) {
+        if (number_value(toml->work, begin, end, number) != LRCS_OK) {
             return toml_stop(toml, LRCS_E_MEMORY, begin, "number", "more work area");
         }
         if (integer && fabs(*number) > INTEGER_MOST) {
@@ -372,7 +374,8 @@ static int read_array(lrcsi_toml *toml, lrcsi_toml_event *event)
         }
         if (type != LRCSI_TOML_NUMBER) {
             return toml_stop(toml, toml->at < toml->end ? LRCS_E_UNSUPPORTED : LRCS_E_SYNTAX,
-                             toml->at, "array", "a number (only they stand in the subset's arrays)");
+                             toml->at, "array",
+                             "a number (only they stand in the subset's arrays)");
         }
         if (event->count < LRCSI_TOML_NUMBERS) {
             event->number[event->count] = number;
@@ -541,6 +544,18 @@ int lrcsi_toml_start(lrcsi_toml *toml, const char *text, size_t size, lrcs_work 
     toml->at = begin;
     toml->line = 1;
     return LRCS_OK;
+}
+
+int lrcsi_toml_name_is(const lrcsi_toml_name *name, const char *text)
+{
+    return name->size == strlen(text) && memcmp(name->text, text, name->size) == 0;
+}
+
+int lrcsi_toml_refuse(const lrcsi_toml *toml, int status, uint32_t line, const char *raw,
+                      size_t size, const char *item, const char *expected)
+{
+    return lrcsi_where_text(toml->where, status, (uint64_t)(raw - toml->start), line, item,
+                            expected, raw, size < EXCERPT_MOST ? size : EXCERPT_MOST);
 }
 
 size_t lrcsi_toml_offset(const char *text, size_t size, uint32_t line)

@@ -69,6 +69,13 @@ int lrcsi_toml_start(lrcsi_toml *toml, const char *text, size_t size, lrcs_work 
    Status: LRCS_OK; LRCS_E_SYNTAX, _UNSUPPORTED, _NUMBER, _MEMORY. */
 int lrcsi_toml_next(lrcsi_toml *toml, lrcsi_toml_event *event);
 
+/* 1 where a name is `text`, which has fewer than LRCSI_TOML_NAME bytes. */
+int lrcsi_toml_name_is(const lrcsi_toml_name *name, const char *text);
+
+/* Reports what is wrong with something that was read: its bytes are quoted. Returns `status`. */
+int lrcsi_toml_refuse(const lrcsi_toml *toml, int status, uint32_t line, const char *raw,
+                      size_t size, const char *item, const char *expected);
+
 /* Where line `line` begins: its offset in the text. */
 size_t lrcsi_toml_offset(const char *text, size_t size, uint32_t line);
 
