@@ -114,7 +114,9 @@ typedef struct lrcs_part {
     int curvature_known; /* 0 where a non-uniform scale spoilt it; 1 for models (nothing to know) */
     int convex_patch;    /* a piece of a convex surface by construction, up to rounding */
     int solid;           /* a closed outward solid by construction, up to rounding */
-    double thinnest;     /* m, smallest dimension of such a shape: against rounding */
+    double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
+    double misplaced;    /* m, bound on the rounding of its placed vertices */
+    int articulated;     /* stands on a joint */
 } lrcs_part;
 
 /* The scene: what the engine sees. Facets keep the order of the recipe's parts and of each
