@@ -260,8 +260,8 @@ static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene
     return LRCS_OK;
 }
 
-/* The least of a shape's dimensions, in its own units. */
-static double least_dimension(const lrcs_shape *shape)
+/* The least of a shape's extents, in its own units; 0 for what is flat. */
+static double least_extent(const lrcs_shape *shape)
 {
     double sine;
     double cosine;
@@ -269,10 +269,10 @@ static double least_dimension(const lrcs_shape *shape)
     double across = 2.0 * fmax(shape->radius, shape->radius2);
     switch (shape->kind) {
     case LRCS_SHAPE_PLATE:
-        return fmin(shape->size[0], shape->size[1]);
+    case LRCS_SHAPE_DISC:
+        return 0.0;
     case LRCS_SHAPE_BOX:
         return fmin(shape->size[0], fmin(shape->size[1], shape->size[2]));
-    case LRCS_SHAPE_DISC:
     case LRCS_SHAPE_SPHERE:
         return across;
     case LRCS_SHAPE_DOME:
@@ -294,20 +294,36 @@ static int is_closed(const lrcs_shape *shape)
             shape->parts == LRCS_SHAPE_ALL);
 }
 
+/* How far a shape's placed vertices may be off. The mesh's own coordinates are good to a relative
+   (16 + rings) u (src/mesh/profile.c), but for what underflows. */
+static double misplacement(const lrcs_mesh *mesh, const lrcs_divisions *divisions,
+                           const lrcsi_placer *placer)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        const double *x = mesh->vertex[i].x;
+        most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
+    }
+    double error = (17.0 + (double)divisions->along) * 0x1p-53 * most + 0x1p-1022;
+    return lrcsi_placer_error(placer, most + error, error);
+}
+
 /* What holds of a placed shape by construction. Curvature outlives uniform scaling only; convexity
    any affine map, and with the winding flipped the outside stays outside under a mirror. */
-static void describe_shape(const lrcs_recipe_part *recipe, const lrcs_curvature *curvature,
+static void describe_shape(const scene_piece *piece, const lrcs_curvature *curvature,
                            lrcs_part *part)
 {
+    const lrcs_recipe_part *recipe = piece->part;
     const double *scale = recipe->place.scale;
     double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
     double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
-    int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->lean == 0.0;
+    int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->lean == 0.0 &&
+                curvature->spread == 0.0;
     part->kind = recipe->shape.kind;
     part->curvature = *curvature;
     part->curvature_known = plane || least == most;
     part->convex_patch = 1;
-    part->thinnest = least * least_dimension(&recipe->shape);
+    part->thinnest = least * least_extent(&recipe->shape);
     part->solid = is_closed(&recipe->shape) && part->thinnest > 0.0;
 }
 
@@ -351,7 +367,9 @@ static int add_shape(scene_builder *builder, scene_piece *piece, lrcs_work *work
                    ? refuse_memory(builder)
                    : refuse_part(builder, status, piece->part, "a shape that can be meshed");
     }
-    describe_shape(piece->part, &curvature, &scene->part[scene->part_count]);
+    lrcs_part *part = &scene->part[scene->part_count];
+    describe_shape(piece, &curvature, part);
+    part->misplaced = misplacement(&mesh, &divisions, &piece->placer);
     status = add_piece(builder, &mesh, piece, scene);
     work->used = mark;
     return status;
