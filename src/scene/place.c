@@ -18,21 +18,18 @@ lrcs_place lrcs_place_default(void)
     return place;
 }
 
-static int all_finite(const double *number, int count)
+static int is_finite(const double v[3])
 {
-    for (int i = 0; i < count; i++) {
-        if (!isfinite(number[i])) {
-            return 0;
-        }
-    }
-    return 1;
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
 static int is_identity(const double R[3][3])
 {
-    for (int i = 0; i < 9; i++) {
-        if (R[i / 3][i % 3] != (i % 4 == 0 ? 1.0 : 0.0)) {
-            return 0;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            if (R[i][j] != (i == j ? 1.0 : 0.0)) {
+                return 0;
+            }
         }
     }
     return 1;
@@ -52,7 +49,7 @@ static int make_joint(const lrcs_joint *joint, lrcsi_placer *placer)
     if (!joint->used) {
         return LRCS_OK;
     }
-    if (!all_finite(joint->origin, 3)) {
+    if (!is_finite(joint->origin)) {
         return LRCS_E_NUMBER;
     }
     int status = lrcsi_rotate_axis(joint->axis, joint->angle_deg, placer->joint);
@@ -63,9 +60,11 @@ static int make_joint(const lrcs_joint *joint, lrcsi_placer *placer)
 
 int lrcsi_placer_make(const lrcs_place *place, const lrcs_joint *joint, lrcsi_placer *placer)
 {
-    if (!all_finite(place->translate, 3) || !all_finite(place->scale, 3) ||
-        !all_finite(place->rotate[0], 3) || !all_finite(place->rotate[1], 3) ||
-        !all_finite(place->rotate[2], 3)) {
+    int finite = is_finite(place->translate) && is_finite(place->scale);
+    for (int i = 0; i < 3; i++) {
+        finite = finite && is_finite(place->rotate[i]);
+    }
+    if (!finite) {
         return LRCS_E_NUMBER;
     }
     int hand = handedness(place->rotate);
