@@ -94,7 +94,7 @@ $(BUILD)/src/%.o: src/%.c
 
 $(BUILD)/test/%.o: test/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -Itest -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -Itest -MMD -MP -c -o $@ $<
 
 $(BUILD)/test/%: $(BUILD)/test/%.o $(LIB)
 	$(CC) -o $@ $< $(LIB) -lcmocka $(LDLIBS)
