@@ -35,7 +35,7 @@ enum lrcs_mesh_notice {
     LRCS_MESH_NORMALS_DISAGREE = 1 << 6    /* STL: stored normals against the winding */
 };
 
-/* Counts of stored items. STL vertices are welded by equal position; others are as stored. */
+/* Counts of stored items. STL vertices are to be welded: their count is an upper bound. */
 typedef struct lrcs_mesh_counts {
     uint32_t vertices, facets, materials, parts;
     size_t text_bytes; /* names, with their terminators */
@@ -80,9 +80,13 @@ size_t lrcs_mesh_check_need(uint32_t vertex_count, uint32_t facet_count);
 /* Examines a triangle soup.
    Given: vertex, facet (indices in range, coordinates finite and at most 1e100).
    Returned: report. Nothing stays in the work area.
-   Status: LRCS_OK; LRCS_E_MEMORY.
-   Work: O(n log n); lrcs_mesh_check_need bytes.
-   Notes: 1. A mesh without facets gives zeros, an empty box at the origin, not closed. */
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 1.4e9 facets).
+   Work: O(n); lrcs_mesh_check_need bytes.
+   Notes: 1. A mesh without facets gives zeros, an empty box at the origin, not closed.
+   2. Degenerate facets count for the box.
+   3. Exact decisions (degenerate, convex) hold for coordinates that are zero or above 2^-300;
+   below, underflow may take a facet for degenerate or a mesh for not convex.
+   4. Area is relative to a few ulp for each facet, volume to 1e-30 of the box's for each. */
 int lrcs_mesh_check(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                     uint32_t facet_count, lrcs_work *work, lrcs_mesh_report *report);
 

@@ -31,7 +31,7 @@ typedef struct lrcsi_topology {
 /* Upper bound of what lrcsi_topology_make takes; what it returns stays in the work area. */
 size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count);
 
-/* Status: LRCS_OK; LRCS_E_MEMORY. O(n log n) or better, no recursion. */
+/* Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (3 facet_count above 2^32 - 2). Linear time. */
 int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count,
                         const lrcs_facet *facet, uint32_t facet_count, lrcs_work *work,
                         lrcsi_topology *topology);

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* Stable sorting in linear time, without comparisons and without recursion. */
+#ifndef LRCSI_SORT_H
+#define LRCSI_SORT_H
+
+#include <stdint.h>
+
+/* Sorts `count` pairs by key, ascending; pairs of equal keys keep their order. The spare arrays
+   are scratch of the same length. Radix sort, eight passes at most. */
+void lrcsi_sort_pairs(uint64_t *key, uint32_t *value, uint64_t *key_spare, uint32_t *value_spare,
+                      uint32_t count);
+
+#endif

@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: MIT */
+/* The report on a mesh: what is counted, and its box, area and volume. Which points and edges are
+   the same is decided in topology.c, convexity in convex.c.
+
+   Area and volume are computed in double-double on coordinates divided by a power of two near the
+   box's size, so that nothing overflows and only what is beyond notice underflows. With u = 2^-53
+   and coordinate differences exact, each component of a facet's normal errs by at most 20 u^2
+   times its largest product: a sliver of aspect q loses a factor q of that, so its area is good to
+   a few u up to q = 10^15. Volume: the corners relative to the box centre are exact, and each
+   facet's determinant errs by at most 64 u^2 times the sum of its products. Sums are
+   double-double. */
+#include <lrcs/mesh.h>
+
+#include <math.h>
+
+#include "base/dd.h"
+#include "base/sort.h"
+#include "base/work.h"
+#include "mesh/convex.h"
+#include "mesh/topology.h"
+
+/* A mesh on its way to being measured. */
+typedef struct measured_mesh {
+    const lrcs_point *vertex;
+    const lrcs_facet *facet;
+    uint32_t facet_count;
+} measured_mesh;
+
+static void measure_box(const measured_mesh *m, double low[3], double high[3])
+{
+    for (int k = 0; k < 3; k++) {
+        low[k] = high[k] = m->facet_count ? m->vertex[m->facet[0].corner[0]].x[k] : 0.0;
+    }
+    for (uint32_t f = 0; f < m->facet_count; f++) {
+        for (int c = 0; c < 3; c++) {
+            const double *x = m->vertex[m->facet[f].corner[c]].x;
+            for (int k = 0; k < 3; k++) {
+                low[k] = x[k] < low[k] ? x[k] : low[k];
+                high[k] = x[k] > high[k] ? x[k] : high[k];
+            }
+        }
+    }
+}
+
+/* A power of two within a factor of two of the box's longest side (1 for a point). */
+static double box_scale(const double low[3], const double high[3])
+{
+    double side = 0.0;
+    for (int k = 0; k < 3; k++) {
+        side = fmax(side, high[k] - low[k]);
+    }
+    double scale = 1.0;
+    while (scale < side) {
+        scale *= 2.0;
+    }
+    while (side > 0.0 && scale * 0.5 >= side && scale > 0x1p-1000) {
+        scale *= 0.5;
+    }
+    return scale;
+}
+
+/* (p - o) / scale, exactly. */
+static void scaled_difference(const double *p, const double *o, double scale, lrcsi_dd d[3])
+{
+    for (int k = 0; k < 3; k++) {
+        lrcsi_dd s = lrcsi_dd_two_sum(p[k], -o[k]);
+        d[k] = (lrcsi_dd){s.hi / scale, s.lo / scale};
+    }
+}
+
+static void dd_cross(const lrcsi_dd a[3], const lrcsi_dd b[3], lrcsi_dd c[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        c[k] = lrcsi_dd_sub(lrcsi_dd_mul(a[i], b[j]), lrcsi_dd_mul(a[j], b[i]));
+    }
+}
+
+/* Length without overflow or underflow of the squares; 4 u. */
+static double vector_length(const lrcsi_dd v[3])
+{
+    double x = fabs(lrcsi_dd_value(v[0]));
+    double y = fabs(lrcsi_dd_value(v[1]));
+    double z = fabs(lrcsi_dd_value(v[2]));
+    double most = fmax(x, fmax(y, z));
+    if (most == 0.0) {
+        return 0.0;
+    }
+    x /= most;
+    y /= most;
+    z /= most;
+    return most * sqrt(x * x + y * y + z * z);
+}
+
+static double measure_area(const measured_mesh *m, const unsigned char *degenerate, double scale)
+{
+    lrcsi_dd sum = {0.0, 0.0};
+    for (uint32_t f = 0; f < m->facet_count; f++) {
+        if (degenerate[f]) {
+            continue;
+        }
+        const uint32_t *c = m->facet[f].corner;
+        lrcsi_dd p[3];
+        lrcsi_dd q[3];
+        lrcsi_dd n[3];
+        scaled_difference(m->vertex[c[1]].x, m->vertex[c[0]].x, scale, p);
+        scaled_difference(m->vertex[c[2]].x, m->vertex[c[0]].x, scale, q);
+        dd_cross(p, q, n);
+        sum = lrcsi_dd_add(sum, (lrcsi_dd){vector_length(n), 0.0});
+    }
+    return 0.5 * lrcsi_dd_value(sum) * scale * scale;
+}
+
+static double measure_volume(const measured_mesh *m, const unsigned char *degenerate,
+                             const double centre[3], double scale)
+{
+    lrcsi_dd sum = {0.0, 0.0};
+    for (uint32_t f = 0; f < m->facet_count; f++) {
+        if (degenerate[f]) {
+            continue;
+        }
+        lrcsi_dd p[3][3];
+        lrcsi_dd n[3];
+        for (int c = 0; c < 3; c++) {
+            scaled_difference(m->vertex[m->facet[f].corner[c]].x, centre, scale, p[c]);
+        }
+        dd_cross(p[0], p[1], n);
+        for (int k = 0; k < 3; k++) {
+            sum = lrcsi_dd_add(sum, lrcsi_dd_mul(n[k], p[2][k]));
+        }
+    }
+    return lrcsi_dd_value(sum) / 6.0 * scale * scale * scale;
+}
+
+static void count_edge_uses(const lrcsi_topology *t, lrcs_mesh_report *report)
+{
+    report->edges = t->edge_count;
+    report->closed = t->edge_count > 0;
+    for (uint32_t e = 0; e < t->edge_count; e++) {
+        uint32_t uses = t->edge[e].uses;
+        uint32_t forward = 0;
+        for (uint32_t i = 0; i < uses; i++) {
+            forward += t->use[t->edge[e].first_use + i].forward;
+        }
+        report->boundary_edges += uses == 1;
+        report->nonmanifold_edges += uses > 2;
+        report->misoriented_edges += uses == 2 && forward != 1;
+        report->closed = report->closed && uses % 2 == 0 && forward == uses / 2;
+    }
+}
+
+/* The three points of a facet in ascending order, and the parity of the reordering. */
+typedef struct facet_key {
+    uint32_t low, middle, high;
+    int odd;
+} facet_key;
+
+static facet_key facet_key_of(const lrcsi_topology *t, const lrcs_facet *facet)
+{
+    uint32_t a = t->weld[facet->corner[0]];
+    uint32_t b = t->weld[facet->corner[1]];
+    uint32_t c = t->weld[facet->corner[2]];
+    int odd = (a > b) ^ (b > c) ^ (a > c); /* one inversion each */
+    uint32_t low = a < b ? (a < c ? a : c) : (b < c ? b : c);
+    uint32_t high = a > b ? (a > c ? a : c) : (b > c ? b : c);
+    return (facet_key){low, a ^ b ^ c ^ low ^ high, high, odd};
+}
+
+static size_t duplicate_scratch(uint32_t facet_count)
+{
+    return lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
+                          2 * lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
+}
+
+/* Facets ordered by their points, equal ones by index: each is compared with the first of its
+   group, the earliest facet in that place. */
+static void count_group_repeats(const measured_mesh *m, const lrcsi_topology *t,
+                                const uint32_t *order, uint32_t count, lrcs_mesh_report *report)
+{
+    facet_key first = {LRCS_NONE, LRCS_NONE, LRCS_NONE, 0};
+    for (uint32_t i = 0; i < count; i++) {
+        facet_key key = facet_key_of(t, &m->facet[order[i]]);
+        if (key.low == first.low && key.middle == first.middle && key.high == first.high) {
+            report->duplicate++;
+            report->opposite_pairs += key.odd != first.odd;
+        } else {
+            first = key;
+        }
+    }
+}
+
+static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, lrcs_work *work,
+                            lrcs_mesh_report *report)
+{
+    size_t mark = work->used;
+    uint64_t *key = lrcsi_work_take(work, m->facet_count, sizeof *key);
+    uint64_t *key_spare = lrcsi_work_take(work, m->facet_count, sizeof *key);
+    uint32_t *order = lrcsi_work_take(work, m->facet_count, sizeof *order);
+    uint32_t *order_spare = lrcsi_work_take(work, m->facet_count, sizeof *order);
+    work->used = mark;
+    if (!key || !key_spare || !order || !order_spare) {
+        return LRCS_E_MEMORY;
+    }
+    uint32_t n = 0;
+    for (uint32_t f = 0; f < m->facet_count; f++) {
+        if (!t->degenerate[f]) {
+            key[n] = facet_key_of(t, &m->facet[f]).high;
+            order[n++] = f;
+        }
+    }
+    lrcsi_sort_pairs(key, order, key_spare, order_spare, n);
+    for (uint32_t i = 0; i < n; i++) {
+        facet_key k = facet_key_of(t, &m->facet[order[i]]);
+        key[i] = (uint64_t)k.low << 32 | k.middle;
+    }
+    lrcsi_sort_pairs(key, order, key_spare, order_spare, n);
+    count_group_repeats(m, t, order, n, report);
+    return LRCS_OK;
+}
+
+static int count_used_points(const measured_mesh *m, const lrcsi_topology *t, uint32_t vertex_count,
+                             lrcs_work *work, lrcs_mesh_report *report)
+{
+    size_t mark = work->used;
+    unsigned char *used = lrcsi_work_take_zero(work, vertex_count, sizeof *used);
+    work->used = mark;
+    if (!used) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t f = 0; f < m->facet_count; f++) {
+        report->degenerate += t->degenerate[f];
+        for (int c = 0; c < 3 && !t->degenerate[f]; c++) {
+            unsigned char *u = &used[t->weld[m->facet[f].corner[c]]];
+            report->vertices += !*u;
+            *u = 1;
+        }
+    }
+    return LRCS_OK;
+}
+
+static void measure_mesh(const measured_mesh *m, const unsigned char *degenerate,
+                         lrcs_mesh_report *report)
+{
+    double centre[3];
+    measure_box(m, report->box_min, report->box_max);
+    for (int k = 0; k < 3; k++) {
+        centre[k] = 0.5 * report->box_min[k] + 0.5 * report->box_max[k];
+    }
+    double scale = box_scale(report->box_min, report->box_max);
+    report->area = measure_area(m, degenerate, scale);
+    report->volume = measure_volume(m, degenerate, centre, scale);
+}
+
+size_t lrcs_mesh_check_need(uint32_t vertex_count, uint32_t facet_count)
+{
+    size_t convex = lrcsi_convex_need(vertex_count, facet_count);
+    size_t duplicates = duplicate_scratch(facet_count);
+    size_t points = lrcsi_work_bytes(vertex_count, 1);
+    size_t most = convex > duplicates ? convex : duplicates;
+    return lrcsi_work_add(lrcsi_topology_need(vertex_count, facet_count),
+                          most > points ? most : points);
+}
+
+int lrcs_mesh_check(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
+                    uint32_t facet_count, lrcs_work *work, lrcs_mesh_report *report)
+{
+    size_t mark = work->used;
+    measured_mesh m = {vertex, facet, facet_count};
+    lrcs_mesh_report made = {0};
+    lrcsi_topology t;
+    int status = lrcsi_topology_make(vertex, vertex_count, facet, facet_count, work, &t);
+    if (status == LRCS_OK) {
+        status = count_used_points(&m, &t, vertex_count, work, &made);
+    }
+    if (status == LRCS_OK) {
+        status = count_duplicates(&m, &t, work, &made);
+    }
+    if (status == LRCS_OK) {
+        status =
+            lrcsi_convex_prove(vertex, vertex_count, facet, facet_count, &t, work, &made.convex);
+    }
+    if (status == LRCS_OK) {
+        count_edge_uses(&t, &made);
+        measure_mesh(&m, t.degenerate, &made);
+        *report = made;
+    }
+    work->used = mark;
+    return status;
+}
