@@ -2,9 +2,9 @@
 /* Bodies of revolution as facets: where the rows of vertices stand, and what can be proved about
    the facets between them. It makes no mesh (tessellate.c).
 
-   Sectors. Every row is a regular N-gon; with h = pi/N its vertices stand at mu = sqrt(2 h / sin 2h)
-   times the true radius rho, its sides' middles at kappa = mu cos h times it. The N-gon then has
-   exactly the area pi rho^2 of its circle, so that discs, caps and bases are exact.
+   Sectors. Every row is a regular N-gon; with h = pi/N its vertices stand at mu = sqrt(2 h / sin
+   2h) times the true radius rho, its sides' middles at kappa = mu cos h times it. The N-gon then
+   has exactly the area pi rho^2 of its circle, so that discs, caps and bases are exact.
 
    Rings. Two neighbouring rows are joined by planar trapezoids, one a sector, each cut into two
    facets. Its patch is the true surface between the two true circles and the two half-planes of
@@ -33,7 +33,7 @@
 #include <math.h>
 
 #define HALF_PI 1.57079632679489661923
-#define UNIT 1.1102230246251565e-16 /* 2^-53 */
+#define UNIT    1.1102230246251565e-16 /* 2^-53 */
 /* D is 1 minus a quotient of sums of positive products: 20 roundings or functions good to 2 units
    reach it, and so A/A' - 1. */
 #define SLACK (64.0 * UNIT)
@@ -96,8 +96,9 @@ static strip strip_straight(const lrcsi_profile *profile)
     double unit = slant > 0.0 ? slant : 1.0;
     double elevation = atan2(fall, profile->height);
     double sinc = sin(profile->half) / profile->half;
-    return (strip){slant / unit,   sinc * profile->height / unit, fall / unit,
-                   profile->swell, elevation,                     elevation};
+    return (strip){slant / unit, sinc * profile->height / unit,
+                   fall / unit,  profile->swell,
+                   elevation,    elevation};
 }
 
 /* In units of the strip's area: with theta its middle and d its width on the meridian,
