@@ -31,6 +31,12 @@ static int recipe_read(void *context, lrcs_work *work)
     return lrcs_recipe_read(step->text, step->size, work, step->recipe, &step->where);
 }
 
+static int names_scene_file(const char *path)
+{
+    const char *dot = strrchr(lrcsi_host_basename(path), '.');
+    return dot && strcasecmp(dot, ".toml") == 0;
+}
+
 /* The recipe's texts may point into the file's: the scene keeps those bytes. */
 static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char *text, size_t size,
                             lrcs_host_error *error)
@@ -41,9 +47,16 @@ static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char
         return lrcsi_host_fail_memory(error, size);
     }
     int status = lrcsi_host_step_run(scene, lrcs_recipe_need(size), recipe_read, &step, error);
-    return status == LRCS_OK || status == LRCS_E_SYSTEM
-               ? status
-               : lrcsi_host_fail_where(error, status, path, &step.where);
+    if (status == LRCS_OK || status == LRCS_E_SYSTEM) {
+        return status;
+    }
+    lrcsi_host_fail_where(error, status, path, &step.where);
+    if (error && strcmp(path, "demo") != 0 && !names_scene_file(path)) {
+        size_t used = strlen(error->text);
+        snprintf(error->text + used, sizeof error->text - used,
+                 "; it is no 3DS, OBJ or STL model and was read as a scene file");
+    }
+    return status;
 }
 
 /* A model file by itself: one part, in metres after the unit. */
@@ -95,8 +108,7 @@ static int bindings_add(lrcs_host_scene *scene, const lrcs_host_options *options
 static int recipe_from_file(lrcs_host_scene *scene, const char *path, const lrcs_host_file *file,
                             const lrcs_host_options *options, lrcs_host_error *error)
 {
-    const char *dot = strrchr(lrcsi_host_basename(path), '.');
-    int toml = dot && strcasecmp(dot, ".toml") == 0;
+    int toml = names_scene_file(path);
     if (!toml && lrcs_format_check(file->bytes, file->size, lrcsi_host_basename(path)) !=
                      LRCS_FORMAT_UNKNOWN) {
         return recipe_from_model(scene, path, options->unit_m, error);

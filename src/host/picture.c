@@ -10,7 +10,8 @@
 
 #define OVERSAMPLE  2u   /* raster cells a pixel, each way: smooth outlines */
 #define LEGEND_FROM 160u /* smaller pictures have no legend */
-#define SCALE_DB    40.0 /* what the scale spans at most, below the strongest return */
+#define SCALE_DB    40.0 /* what the scale spans at most */
+#define SCALE_BINS  800  /* a histogram of -400 .. 400 dB */
 
 static const unsigned char picture_ground[3] = {13, 17, 28};
 static const unsigned char picture_ink[3] = {205, 210, 220};
@@ -66,25 +67,38 @@ static double facet_return(const lrcs_facet_record *record)
     return 10.0 * (log10(record->sigma_m2) - log10(record->visible_area_m2));
 }
 
-/* The scale: from the strongest return seen down to the weakest, whole tens, SCALE_DB at most. */
+/* The value below which `share` of the counted cells lie, from a histogram of whole dB. */
+static double histogram_at(const uint32_t count[SCALE_BINS], double share)
+{
+    double total = 0.0;
+    double seen = 0.0;
+    int bin = 0;
+    for (int i = 0; i < SCALE_BINS; i++) {
+        total += count[i];
+    }
+    while (bin < SCALE_BINS - 1 && seen + count[bin] <= share * total) {
+        seen += count[bin++];
+    }
+    return bin - SCALE_BINS / 2;
+}
+
+/* The scale covers all returns seen but the weakest and strongest half percent of the area, in
+   steps of 5 dB; what lies beyond has the end's colour. */
 static void scale_read(const lrcs_scene *scene, const lrcs_facet_record *records,
                        const lrcs_image *image, double range[2])
 {
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
+    uint32_t count[SCALE_BINS] = {0};
     for (size_t i = 0; i < (size_t)image->size * image->size; i++) {
         uint32_t facet = image->facet[i];
         double value = facet < scene->facet_count ? facet_return(&records[facet]) : -HUGE_VAL;
-        if (isfinite(value)) {
-            low = fmin(low, value);
-            high = fmax(high, value);
+        double bin = floor(value) + SCALE_BINS / 2.0;
+        if (bin >= 0.0 && bin < SCALE_BINS) {
+            count[(int)bin]++;
         }
     }
-    if (!(high >= low)) {
-        low = high = 0.0;
-    }
-    range[1] = 10.0 * ceil(high / 10.0);
-    range[0] = fmax(10.0 * floor(low / 10.0), range[1] - SCALE_DB);
+    range[1] = 5.0 * ceil((histogram_at(count, 0.995) + 1.0) / 5.0);
+    range[0] = 5.0 * floor(histogram_at(count, 0.005) / 5.0);
+    range[0] = fmax(range[0], range[1] - SCALE_DB);
     range[0] = fmin(range[0], range[1] - 10.0);
 }
 
@@ -173,7 +187,8 @@ static void legend_make(uint32_t size, const picture_layout *at, const double ra
             }
         }
     }
-    for (double db = range[0]; db <= range[1]; db += 10.0) {
+    double step = range[1] - range[0] > 20.0 ? 10.0 : 5.0;
+    for (double db = step * ceil(range[0] / step); db <= range[1]; db += step) {
         char text[16];
         snprintf(text, sizeof text, "%.0f", db);
         uint32_t half = (uint32_t)strlen(text) * LRCSI_FONT_ADVANCE * at->scale / 2;
