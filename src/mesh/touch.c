@@ -19,6 +19,7 @@
       of a_k against the plane of T tell. */
 #include "mesh/touch.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/exact.h"
@@ -27,50 +28,49 @@
 
 static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-/* The corners of a facet. */
-typedef struct touch_corners {
+/* A facet's corners, an axis along which it is not edge-on, and the sign of its turn there. */
+typedef struct touch_facet {
     const double *x[3];
-} touch_corners;
+    const double *axis;
+    int turn;
+} touch_facet;
 
 /* Entries are taken from the work area in blocks that follow one another without gaps. */
 enum { TOUCH_BLOCK = LRCS_WORK_ALIGN / sizeof(lrcsi_touch) };
 
-static touch_corners corners_of(const lrcs_point *vertex, lrcs_facet facet)
+static touch_facet corners_of(const lrcs_point *vertex, lrcs_facet facet)
 {
-    return (touch_corners){
-        {vertex[facet.corner[0]].x, vertex[facet.corner[1]].x, vertex[facet.corner[2]].x}};
+    return (touch_facet){
+        {vertex[facet.corner[0]].x, vertex[facet.corner[1]].x, vertex[facet.corner[2]].x},
+        unit_axis[0],
+        0};
 }
 
-/* The axis along which F is seen most broadly and the sign of its turn, by exact choice where the
-   rounded one sees it edge-on. */
-static const double *broad_axis(const touch_corners *f, int *turn)
+/* Chooses the axis along which F is seen most broadly, by exact signs where the rounded one sees
+   it edge-on. */
+static void choose_axis(touch_facet *f)
 {
     double most = -1.0;
     int best = 0;
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
-        double n = (f->x[1][i] - f->x[0][i]) * (f->x[2][j] - f->x[0][j]) -
-                   (f->x[1][j] - f->x[0][j]) * (f->x[2][i] - f->x[0][i]);
-        n = n < 0.0 ? -n : n;
+        double n = fabs((f->x[1][i] - f->x[0][i]) * (f->x[2][j] - f->x[0][j]) -
+                        (f->x[1][j] - f->x[0][j]) * (f->x[2][i] - f->x[0][i]));
         if (n > most) {
             most = n;
             best = k;
         }
     }
-    for (int k = 0; k < 3; k++) {
-        const double *axis = unit_axis[(best + k) % 3];
-        *turn = lrcsi_exact_turn(f->x[0], f->x[1], f->x[2], axis);
-        if (*turn != 0) {
-            return axis;
-        }
+    for (int k = 0; k < 3 && f->turn == 0; k++) {
+        f->axis = unit_axis[(best + k) % 3];
+        f->turn = lrcsi_exact_turn(f->x[0], f->x[1], f->x[2], f->axis);
     }
-    return unit_axis[best];
 }
 
 /* 1 where, along the axis, some side of f (which turns by `turn`, not 0) has all of g outside or
    on its line. */
-static int side_line_separates(const touch_corners *f, int turn, const touch_corners *g,
+static int side_line_separates(const touch_facet *f, int turn, const touch_facet *g,
                                const double *axis)
 {
     for (int k = 0; k < 3; k++) {
@@ -88,18 +88,16 @@ static int side_line_separates(const touch_corners *f, int turn, const touch_cor
 }
 
 /* Step 1. */
-static int separated_along_axis(const touch_corners *f, const touch_corners *t)
+static int separated_along_axis(const touch_facet *f, const touch_facet *t)
 {
-    int f_turn;
-    const double *axis = broad_axis(f, &f_turn);
-    if (side_line_separates(f, f_turn, t, axis)) {
+    if (side_line_separates(f, f->turn, t, f->axis)) {
         return 1;
     }
-    int t_turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], axis);
-    return t_turn != 0 && side_line_separates(t, t_turn, f, axis);
+    int t_turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], f->axis);
+    return t_turn != 0 && side_line_separates(t, t_turn, f, f->axis);
 }
 
-static void plane_sides(const touch_corners *f, const touch_corners *t, int side[3])
+static void plane_sides(const touch_facet *f, const touch_facet *t, int side[3])
 {
     for (int k = 0; k < 3; k++) {
         side[k] = lrcsi_exact_side(f->x[0], f->x[1], f->x[2], t->x[k]);
@@ -114,7 +112,7 @@ typedef struct cut_line {
 
 /* The lines whose crossings end the cut of T: one or two, for signs neither all positive, nor all
    negative, nor all zero. */
-static int cut_ends(const touch_corners *t, const int side[3], cut_line end[2])
+static int cut_ends(const touch_facet *t, const int side[3], cut_line end[2])
 {
     int n = 0;
     for (int k = 0; k < 3 && n < 2; k++) {
@@ -130,7 +128,7 @@ static int cut_ends(const touch_corners *t, const int side[3], cut_line end[2])
 }
 
 /* Step 3, given the signs of T's corners against the plane of F. */
-static int cut_meets_inside(const touch_corners *f, const touch_corners *t, const int side[3])
+static int cut_meets_inside(const touch_facet *f, const touch_facet *t, const int side[3])
 {
     cut_line end[2];
     int ends = cut_ends(t, side, end);
@@ -154,25 +152,32 @@ static int cut_meets_inside(const touch_corners *f, const touch_corners *t, cons
     return above && below;
 }
 
-int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+/* How t touches f, whose axis has been chosen. */
+static int touch_kind(const touch_facet *f, const touch_facet *t)
 {
-    touch_corners f = corners_of(vertex, facet);
-    touch_corners t = corners_of(vertex, other);
-    if (separated_along_axis(&f, &t)) {
+    if (separated_along_axis(f, t)) {
         return LRCSI_TOUCH_NONE;
     }
     int side[3];
-    plane_sides(&f, &t, side);
+    plane_sides(f, t, side);
     if (side[0] == side[1] && side[1] == side[2]) {
         return side[0] == 0 ? LRCSI_TOUCH_COPLANAR : LRCSI_TOUCH_NONE;
     }
-    return cut_meets_inside(&f, &t, side) ? LRCSI_TOUCH_CROSS : LRCSI_TOUCH_NONE;
+    return cut_meets_inside(f, t, side) ? LRCSI_TOUCH_CROSS : LRCSI_TOUCH_NONE;
+}
+
+int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+{
+    touch_facet f = corners_of(vertex, facet);
+    touch_facet t = corners_of(vertex, other);
+    choose_axis(&f);
+    return touch_kind(&f, &t);
 }
 
 int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
 {
-    touch_corners f = corners_of(vertex, facet);
-    touch_corners t = corners_of(vertex, other);
+    touch_facet f = corners_of(vertex, facet);
+    touch_facet t = corners_of(vertex, other);
     int side[3];
     plane_sides(&f, &t, side);
     return side[0] == 0 && side[1] == 0 && side[2] == 0;
@@ -214,9 +219,12 @@ static int collect_touches(const lrcs_point *vertex, const lrcs_facet *facet, ui
                            const lrcsi_tree *tree, lrcs_work *work, lrcsi_touches *t)
 {
     lrcsi_tree_walk walk = lrcsi_tree_around(tree, vertex, facet[f]);
+    touch_facet inside = corners_of(vertex, facet[f]);
+    choose_axis(&inside);
     uint32_t other;
     while ((other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
-        int kind = other == f ? LRCSI_TOUCH_NONE : lrcsi_touch_pair(vertex, facet[f], facet[other]);
+        touch_facet candidate = corners_of(vertex, facet[other]);
+        int kind = other == f ? LRCSI_TOUCH_NONE : touch_kind(&inside, &candidate);
         if (kind == LRCSI_TOUCH_NONE) {
             continue;
         }
