@@ -35,7 +35,7 @@ enum lrcs_mesh_notice {
     LRCS_MESH_NORMALS_DISAGREE = 1 << 6    /* STL: stored normals against the winding */
 };
 
-/* Counts of stored items. STL vertices are welded by equal position; others are as stored. */
+/* Counts of stored items. STL vertices are to be welded: their count is an upper bound. */
 typedef struct lrcs_mesh_counts {
     uint32_t vertices, facets, materials, parts;
     size_t text_bytes; /* names, with their terminators */

@@ -30,19 +30,40 @@ int lrcs_3ds_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrc
 int lrcs_3ds_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *mesh,
                   lrcs_where *where);
 
-/* Wavefront OBJ: polygons are fanned from their first vertex; parts are `o` and `g` names;
-   materials are the `usemtl` names in order of first use, without colours until lrcs_mtl_read
-   gives them. Status as for 3DS. */
+/* Wavefront OBJ: polygons of any size, concave ones too, are fanned from their first vertex. Parts
+   are the names that `o` and `g` give, materials those that `usemtl` gives, each in order of its
+   first facet; a name that comes back continues what it named; names without facets are left out.
+   Facets before any `o` or `g` are in a part named "", facets before any `usemtl` (or after one
+   without a name) have no material. Colours come from lrcs_mtl_read.
+   Status as for 3DS.
+   Notes: 1. `count` has no memory for names: its materials, parts and text_bytes are upper bounds,
+   in which a name that comes back counts again. Vertices and facets are exact.
+   2. Negative indices count back from the vertices above them; positive ones may also point
+   forward. Texture and normal indices are not looked up.
+   3. Smoothing group N sets bit (N - 1) mod 32; `s off`, `s 0` and `s` are hard, `s on` is group 1.
+   4. A name is the rest of its line, blanks inside included. Of several `mtllib` the first counts,
+   up to its first ".mtl" that a blank follows.
+   5. Weights and colours after the coordinates of a vertex, `l`, `p`, `vt`, `vn`, `vp`, free-form
+   geometry and unknown statements are passed over. */
 int lrcs_obj_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrcs_where *where);
 int lrcs_obj_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *mesh,
                   lrcs_where *where);
 
-/* The material library of an OBJ file: sets colour and transparency (Kd, d, Tr) of the mesh's
-   materials by name; names that the mesh does not use are passed over. Takes no work area. */
+/* The material library of an OBJ file: sets colour and transparency of the mesh's materials by
+   name; names that the mesh does not use are passed over, materials that it does not define are
+   left as they are, with a notice (LRCS_MESH_UNDEFINED_MATERIAL).
+   Status: LRCS_OK, _SYNTAX, _TRUNCATED, _NUMBER, _EMPTY. On failure the mesh is untouched.
+   Work: no work area; O(size), times the number of materials where the orders of both differ.
+   Notes: 1. Kd is clamped to 0..1 and rounded to 0..255; transparency is 1 - d, or Tr where a
+   material has no d, clamped to 0..1. 2. A material defined twice takes the last of each value. */
 int lrcs_mtl_read(const void *bytes, size_t size, lrcs_mesh *mesh, lrcs_where *where);
 
 /* STL, one part, no materials; equal positions are welded (bitwise, -0 equals 0), in order of
-   first use. Attribute words and stored normals are ignored (a notice where they disagree). */
+   first use. Attribute words and stored normals are ignored (a notice where they disagree). The
+   part is named as the first solid of an ASCII file, "" for a binary one.
+   Status as for 3DS.
+   Notes: 1. Counting does not weld: counts->vertices is three per facet, an upper bound;
+   mesh->vertex_count is exact. */
 int lrcs_stl_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrcs_where *where);
 int lrcs_stl_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *mesh,
                   lrcs_where *where);

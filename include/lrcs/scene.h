@@ -9,7 +9,7 @@
 
 /* A material of the scene: what facets refer to. */
 typedef struct lrcs_material {
-    const char *name;     /* the file's or the recipe's name; "" for the default */
+    const char *name; /* the file's or the recipe's name; "" for the default */
     lrcs_brdf brdf;
     unsigned char rgb[3];
     unsigned char has_colour;
@@ -37,13 +37,15 @@ lrcs_place lrcs_place_default(void);
 
 typedef struct lrcs_recipe_part {
     const char *name;
-    const char *file;  /* model file, or NULL for a shape */
-    lrcs_shape shape;  /* used where file is NULL */
+    const char *file; /* model file, or NULL for a shape */
+    lrcs_shape shape; /* used where file is NULL */
     lrcs_place place;
     lrcs_joint joint;
-    const char *material; /* name of a material for the whole part, or NULL: the model's own */
-    int wears;            /* the same, as an index into the recipe's materials; -1 for none */
-    uint32_t line;        /* where the scene file declares it; 0 elsewhere */
+    const char *material;   /* name of a material for the whole part, or NULL: the model's own */
+    int wears;              /* the same, as an index into the recipe's materials; -1 for none,
+                               or for a material of the library */
+    uint32_t line;          /* where the scene file declares it; 0 elsewhere */
+    uint32_t material_line; /* where it names its material; 0 elsewhere */
 } lrcs_recipe_part;
 
 /* A named material of the recipe. */
@@ -54,8 +56,15 @@ typedef struct lrcs_recipe_material {
     uint32_t line;
 } lrcs_recipe_material;
 
-/* Which material a model's facets get. Later kinds yield to earlier ones:
-   NAME, COLOUR (from the command line), MAP_NAME, MAP_COLOUR (from the scene file), DEFAULT. */
+/* Which material a model's facets get. The first of these that answers:
+     1. NAME, then COLOUR, of the facet's material as the model gives it (the command line);
+     2. the part's own material, on every facet of the part;
+     3. MAP_NAME, then MAP_COLOUR (the scene file);
+     4. a material of the library that has the name of the model's material;
+     5. DEFAULT;
+     6. lrcs_brdf_default, unbound.
+   A shape's facets have only 2, 5 and 6. A NAME also replaces the material of that name wherever
+   2, 3 or 5 put it, so that the command line can change a scene file's materials. */
 enum lrcs_binding_kind {
     LRCS_BIND_NAME,
     LRCS_BIND_COLOUR,
@@ -69,11 +78,13 @@ typedef struct lrcs_binding {
     const char *name;     /* for the NAME kinds */
     unsigned char rgb[3]; /* for the COLOUR kinds */
     lrcs_brdf brdf;
-    int two_sided; /* -1: keeps what the model says */
-    uint32_t line;
+    int two_sided;        /* -1: keeps what the model says */
+    const char *material; /* the recipe's or library's name for brdf; NULL for plain numbers */
+    uint32_t line;        /* where the scene file names the material; 0 elsewhere */
 } lrcs_binding;
 
 typedef struct lrcs_recipe {
+    const char *name; /* of the scene, or NULL */
     lrcs_recipe_part *part;
     lrcs_recipe_material *material;
     lrcs_binding *binding; /* within a kind, the last one given wins */
@@ -81,10 +92,15 @@ typedef struct lrcs_recipe {
     int keep_transparent; /* do not leave out fully transparent facets */
 } lrcs_recipe;
 
-/* Reads a scene file (a strict subset of TOML 1.0; see the README). Unknown keys, wrong types,
-   missing or doubled names are errors with a line. Model files are named, not opened.
-   Bytes: lrcs_recipe_need(size), an upper bound that grows linearly with size.
-   Status: LRCS_OK; _SYNTAX, _NAME, _NUMBER, _ARGUMENT, _MEMORY, _EMPTY (no part). */
+/* Reads a scene file: a strict subset of TOML 1.0 (examples/satellite.toml shows all of it).
+   Unknown keys, wrong types, missing or doubled names are errors with a line. Model files are
+   named, not opened.
+   Given: text, size bytes, not terminated.
+   Returned: recipe, in the work area, with its strings: it does not refer to the text.
+   Status: LRCS_OK; _SYNTAX; _UNSUPPORTED (TOML outside the subset, another schema); _NAME
+   (unknown, missing, doubled); _ARGUMENT (wrong type or value); _NUMBER; _MEMORY; _LIMIT;
+   _EMPTY (no part).
+   Work: lrcs_recipe_need(size), an upper bound that grows linearly with size; O(size). */
 size_t lrcs_recipe_need(size_t size);
 int lrcs_recipe_read(const char *text, size_t size, lrcs_work *work, lrcs_recipe *recipe,
                      lrcs_where *where);
@@ -92,27 +108,29 @@ int lrcs_recipe_read(const char *text, size_t size, lrcs_work *work, lrcs_recipe
 /* A placed part. */
 typedef struct lrcs_part {
     const char *name;
-    int kind;                  /* lrcs_shape_kind, or -1 for a model file */
+    int kind; /* lrcs_shape_kind, or -1 for a model file */
     uint32_t first_facet, facet_count;
-    lrcs_curvature curvature;  /* of an engine-made shape; zero for a model */
-    int curvature_known;       /* 0 where a non-uniform scale spoilt it; 1 for models (nothing to know) */
-    int convex_patch;          /* a piece of a convex surface by construction, up to rounding */
-    int solid;                 /* a closed outward solid by construction, up to rounding */
-    double thinnest;           /* m, smallest dimension of such a shape: against rounding */
+    lrcs_curvature curvature; /* of an engine-made shape; zero for a model */
+    int curvature_known; /* 0 where a non-uniform scale spoilt it; 1 for models (nothing to know) */
+    int convex_patch;    /* a piece of a convex surface by construction, up to rounding */
+    int solid;           /* a closed outward solid by construction, up to rounding */
+    double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
+    double misplaced;    /* m, bound on the rounding of its placed vertices */
+    int articulated;     /* stands on a joint */
 } lrcs_part;
 
 /* The scene: what the engine sees. Facets keep the order of the recipe's parts and of each
    file, degenerate and omitted ones included. */
 typedef struct lrcs_scene {
     uint32_t vertex_count, facet_count, material_count, part_count;
-    lrcs_point *vertex;       /* m, body frame */
+    lrcs_point *vertex; /* m, body frame */
     lrcs_facet *facet;
-    uint32_t *facet_material;  /* index into material; always valid */
-    uint32_t *facet_part;      /* index into part */
-    uint32_t *facet_smooth;    /* smoothing groups, as in lrcs_mesh */
+    uint32_t *facet_material; /* index into material; always valid */
+    uint32_t *facet_part;     /* index into part */
+    uint32_t *facet_smooth;   /* smoothing groups, as in lrcs_mesh */
     lrcs_material *material;
     lrcs_part *part;
-    uint32_t unmatched;        /* the first NAME or COLOUR binding that matched nothing, or LRCS_NONE */
+    uint32_t unmatched; /* the first NAME or COLOUR binding that matched nothing, or LRCS_NONE */
 } lrcs_scene;
 
 /* How shapes are tessellated; the material comes from the recipe. */
@@ -123,10 +141,19 @@ typedef struct lrcs_build_options {
 
 lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^20 */
 
-/* Builds the scene. Given: recipe; models[i] the mesh of part i (ignored for shapes).
-   Returned: scene, in the work area, at most lrcs_scene_need bytes.
+/* Builds the scene: vertex = translate + rotate (scale (joint (vertex))), where steps that do
+   nothing are exact, and so is a scale by powers of two; mirroring flips the winding.
+   Given: recipe; models[i] the mesh of part i (ignored for shapes; models may be NULL where all
+   are shapes); options.
+   Returned: scene, in the work area. Its names point into the recipe, the models and the library.
+   Materials: for each model part one for each of the model's, in the model's order and whether
+   used or not; one for each recipe material that parts wear; one named "" for facets without.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_NAME (a material that nothing defines);
-   LRCS_E_NUMBER (coordinates above 1e100 m after placing); LRCS_E_LIMIT; as lrcs_shape_check. */
+   LRCS_E_ARGUMENT (a scale of zero, a joint without axis, options outside their range);
+   LRCS_E_NUMBER (a place that is not finite, coordinates above 1e100 m after placing);
+   LRCS_E_INDEX (a mesh with an index out of range); LRCS_E_LIMIT; as lrcs_shape_check.
+   `where` has the part's line, and what is at fault in `found`.
+   Work: at most lrcs_scene_need bytes; O(vertices + facets + bindings). */
 size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
                        const lrcs_build_options *options);
 int lrcs_scene_build(const lrcs_recipe *recipe, const lrcs_mesh *models,

@@ -68,16 +68,20 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
                      lrcs_closed *closed);
 
 /* How a mesh stands to the curved body it replaces. For each facet there is a patch of the true
-   surface, patches cover the body once, and over every patch:
+   surface, patches cover the body once (facets of one plane may share one, each in proportion to
+   its area), and over every patch:
      the true normal turns from the facet's normal by at most `turn` (rad);
      |patch area - facet area| <= area_error * facet area;
-     |integral over the patch of the turn vector (rad, in the facet's plane)| <= lean * facet area.
-   All zero for plane-faced bodies. These hold for the exact dimensions and outlive any rigid motion,
-   mirror and uniform scale. */
+     |integral over the patch of the turn vector (rad, in the facet's plane)| <= lean * facet area;
+     integral over the patch of the squared turn (rad^2) <= spread^2 * facet area.
+   All zero for plane-faced bodies. These hold for the exact dimensions, the rounding of the mesh's
+   own vertices included, and outlive any rigid motion, mirror and uniform scale (whose own
+   rounding is not in them). */
 typedef struct lrcs_curvature {
     double turn;
     double area_error;
     double lean;
+    double spread;
 } lrcs_curvature;
 
 /* How finely to tessellate. */
@@ -92,8 +96,8 @@ lrcs_fineness lrcs_fineness_default(void);
 
 /* Divisions of a shape's mesh, chosen by lrcs_shape_count, obeyed by lrcs_shape_mesh. */
 typedef struct lrcs_divisions {
-    uint32_t around; /* sectors, or subdivisions of an octant edge on a sphere or dome */
-    uint32_t along;  /* rings of a paraboloid; 1 otherwise */
+    uint32_t around; /* sectors: a multiple of 4, 8 .. 2^24; 4 for plate and box */
+    uint32_t along;  /* rings of a dome, a paraboloid, half a sphere: 1 .. 2^24; 1 otherwise */
 } lrcs_divisions;
 
 /* Chooses divisions for a shape and fineness, and counts the mesh they make (one part, no

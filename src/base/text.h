@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* Names from files, whatever bytes they are, as UTF-8 text. */
+#ifndef LRCSI_TEXT_H
+#define LRCSI_TEXT_H
+
+#include <stddef.h>
+
+/* 1 where the bytes are well-formed UTF-8 (RFC 3629: no overlong forms, surrogates or code points
+   above U+10FFFF), else 0. Plain ASCII and no bytes at all are. */
+int lrcsi_text_is_utf8(const char *bytes, size_t size);
+
+/* Writes a name as UTF-8 with a terminator: as it stands where it is UTF-8, else each byte as
+   Latin-1. Control characters (below U+0020, and U+007F) become '?'.
+   Returned: bytes written with the terminator, at most 2 size + 1; `out` may be NULL to count.
+   Notes: 1. U+0080..U+009F stay: Latin-1 turns bytes of other code pages into them, and names are
+   to be told apart. */
+size_t lrcsi_text_utf8(const char *bytes, size_t size, char *out);
+
+#endif

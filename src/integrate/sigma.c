@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: MIT */
+/* One pose, from a prepared scene to a result: it chooses the raster's resolution, lays out the
+   memory and hands each stage the work of the one before. */
+#include <lrcs/run.h>
+
+#include <math.h>
+
+#include "base/work.h"
+#include "integrate/plan.h"
+#include "integrate/total.h"
+
+/* Rasters: the first tried, the finest and the coarsest. Beyond 4096 the bound gains less than it
+   costs; below 16 there is nothing to gain. */
+#define FIRST_SIZE 512u
+#define LAST_SIZE  4096u
+#define MOST_SIZE  16384u
+
+/* What a run passes from stage to stage. */
+typedef struct sigma_run {
+    lrcsi_view view;
+    lrcsi_plan plan;
+    lrcsi_contest contest;
+    lrcsi_visible *visible;
+    lrcsi_total total;
+    lrcs_work *work;
+    lrcs_image *image;
+    lrcs_facet_record *records;
+    uint32_t size; /* of the raster used, 0: none */
+    uint32_t flags;
+} sigma_run;
+
+lrcs_run_options lrcs_run_options_default(void)
+{
+    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0};
+}
+
+static int options_check(const lrcs_run_options *options)
+{
+    if (options->method < LRCS_METHOD_AUTO || options->method > LRCS_METHOD_EXACT ||
+        !(options->tolerance > 0) || options->resolution > MOST_SIZE) {
+        return LRCS_E_ARGUMENT;
+    }
+    return options->method == LRCS_METHOD_EXACT ? LRCS_E_UNSUPPORTED : LRCS_OK;
+}
+
+size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
+{
+    uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
+    size_t facets = prepared->scene->facet_count;
+    size_t need = lrcsi_view_need(prepared);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
+    if (options->method == LRCS_METHOD_FACET) {
+        return need;
+    }
+    need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
+    return lrcsi_work_add(need, lrcsi_visible_need(prepared, size));
+}
+
+static double run_bound(const lrcsi_total *total)
+{
+    return total->visibility + fmax(0, total->tessellation) + total->rounding;
+}
+
+static int run_meets(const lrcsi_total *total, double tolerance)
+{
+    return run_bound(total) <= tolerance * (total->glint + total->diffuse);
+}
+
+/* Hands the raster out as a picture, row 0 on top. */
+static void image_fill(const lrcsi_raster *raster, lrcs_image *image)
+{
+    for (uint32_t y = 0; y < raster->size; y++) {
+        const uint32_t *row = raster->owner + (size_t)(raster->size - 1 - y) * raster->size;
+        for (uint32_t x = 0; x < raster->size; x++) {
+            image->facet[(size_t)y * raster->size + x] = row[x];
+        }
+    }
+}
+
+static int run_image(sigma_run *run)
+{
+    lrcsi_raster raster;
+    size_t mark = run->work->used;
+    int status = lrcsi_raster_make(&run->view, run->image->size, run->work, &raster);
+    if (status == LRCS_OK) {
+        image_fill(&raster, run->image);
+    }
+    run->work->used = mark;
+    return status;
+}
+
+static int run_facet(sigma_run *run)
+{
+    double graze = run->plan.unshadowed ? run->view.prepared->graze : 1;
+    lrcsi_visible_unshadowed(&run->view, graze, run->visible);
+    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->records);
+    return LRCS_OK;
+}
+
+/* On an open convex surface samples serve the back sides only: fronts are known. */
+static void fronts_are_known(const lrcsi_view *view, lrcsi_visible *visible)
+{
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        if (view->facing[f] > 0) {
+            lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
+            double low = tilt.cos_theta > view->prepared->graze ? tilt.projected : 0;
+            visible[f] = (lrcsi_visible){tilt.projected, low, tilt.projected, 0};
+        }
+    }
+}
+
+/* One raster of the given size, or of the largest smaller one that the work area holds. */
+static int run_raster(sigma_run *run, uint32_t size)
+{
+    lrcsi_raster raster;
+    size_t mark = run->work->used;
+    int status = LRCS_E_MEMORY;
+    for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
+        run->work->used = mark;
+        status = lrcsi_raster_make(&run->view, size, run->work, &raster);
+        if (status == LRCS_OK) {
+            status = lrcsi_visible_sampled(&run->contest, &raster, run->work, run->visible);
+        }
+        run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
+    }
+    if (status == LRCS_OK) {
+        run->size = raster.size;
+        for (uint32_t f = 0; f < run->view.prepared->scene->facet_count; f++) {
+            run->flags |= raster.undecided[f] ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
+        }
+        if (run->plan.unshadowed) {
+            fronts_are_known(&run->view, run->visible);
+        }
+        run->total =
+            lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->records);
+    }
+    run->work->used = mark;
+    return status;
+}
+
+/* The size at which the visibility bound, falling as 1/N, would leave the tolerance room. */
+static uint32_t next_size(const sigma_run *run, double tolerance)
+{
+    double sigma = run->total.glint + run->total.diffuse;
+    double room = tolerance * sigma - (run_bound(&run->total) - run->total.visibility);
+    double size = 1.2 * run->size * run->total.visibility / room;
+    if (!(room > 0) || !(size < LAST_SIZE)) {
+        return LAST_SIZE;
+    }
+    return 64 * ((uint32_t)size / 64 + 1);
+}
+
+static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
+{
+    int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    status = run_raster(run, options->resolution != 0 ? options->resolution : FIRST_SIZE);
+    while (status == LRCS_OK && options->resolution == 0 && run->size < LAST_SIZE &&
+           !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) && run->contest.contested_count != 0 &&
+           !run_meets(&run->total, options->tolerance)) {
+        uint32_t size = next_size(run, options->tolerance);
+        status = run_raster(run, size > run->size ? size : LAST_SIZE);
+    }
+    return status;
+}
+
+static void result_fill(const sigma_run *run, const lrcs_run_options *options, lrcs_result *result)
+{
+    const lrcsi_total *t = &run->total;
+    lrcs_result r = {.sigma_m2 = t->glint + t->diffuse,
+                     .sigma_glint_m2 = t->glint,
+                     .sigma_diffuse_m2 = t->diffuse,
+                     .bound_m2 = run_bound(t),
+                     .budget = {t->visibility, t->tessellation, t->rounding},
+                     .estimate_m2 = run->size != 0 ? t->likely : -1,
+                     .projected_area_m2 = t->projected,
+                     .back_side_area_m2 = t->back_side,
+                     .back_side_facets = t->back_sides,
+                     .method = run->plan.method,
+                     .resolution = run->size,
+                     .facets_total = run->view.prepared->scene->facet_count,
+                     .facets_front = run->view.front,
+                     .facets_hidden = t->hidden,
+                     .facets_partial = t->partial,
+                     .flags = run->flags};
+    lrcsi_plan_effects(&run->view, &run->plan, r.effect);
+    r.flags |= run_meets(t, options->tolerance) ? 0u : LRCS_FLAG_TOLERANCE_NOT_MET;
+    r.notices |= t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
+    r.notices |= t->tessellation < 0 ? LRCS_NOTICE_TESSELLATION_UNKNOWN : 0u;
+    *result = r;
+}
+
+int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                   const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,
+                   lrcs_facet_record *records, lrcs_image *image)
+{
+    int status = options_check(options);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    size_t mark = work->used;
+    sigma_run run = {.work = work, .records = records, .image = image};
+    status = lrcsi_view_make(prepared, pose, work, &run.view);
+    if (status == LRCS_OK) {
+        run.visible = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *run.visible);
+        status = run.visible ? LRCS_OK : LRCS_E_MEMORY;
+    }
+    if (status == LRCS_OK) {
+        run.plan = lrcsi_plan_make(&run.view, options->method);
+        status = run.plan.method == LRCS_METHOD_FACET ? run_facet(&run)
+                                                      : run_zbuffer(&run, options);
+    }
+    if (status == LRCS_OK && image && image->size != 0) {
+        status = run_image(&run);
+    }
+    work->used = mark;
+    if (status == LRCS_OK && !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse)) {
+        status = LRCS_E_NUMBER;
+    }
+    if (status == LRCS_OK) {
+        result_fill(&run, options, result);
+    }
+    return status;
+}

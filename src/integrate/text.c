@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/* Names and sentences for methods, effects, flags and notices. */
+#include <lrcs/run.h>
+
+#include <string.h>
+
+const char *lrcs_method_text(int method)
+{
+    static const char *const text[] = {"auto", "facet", "zbuffer", "exact"};
+    return method >= 0 && method <= LRCS_METHOD_EXACT ? text[method] : NULL;
+}
+
+int lrcs_method_find(const char *name)
+{
+    for (int method = 0; method <= LRCS_METHOD_EXACT; method++) {
+        if (strcmp(name, lrcs_method_text(method)) == 0) {
+            return method;
+        }
+    }
+    return LRCS_E_NAME;
+}
+
+const char *lrcs_effect_text(int effect)
+{
+    static const char *const text[LRCS_EFFECTS] = {
+        "self_shadowing", "back_face_casters", "glint",       "diffuse",
+        "curved_normals", "two_sided",         "articulation"};
+    return effect >= 0 && effect < LRCS_EFFECTS ? text[effect] : NULL;
+}
+
+const char *lrcs_flag_text(int bit)
+{
+    switch (bit) {
+    case LRCS_FLAG_TOLERANCE_NOT_MET:
+        return "tolerance_not_met";
+    case LRCS_FLAG_MEMORY_FALLBACK:
+        return "memory_fallback";
+    case LRCS_FLAG_DEPTH_UNDECIDED:
+        return "depth_undecided";
+    default:
+        return "unknown_flag";
+    }
+}
+
+const char *lrcs_notice_text(int bit)
+{
+    switch (bit) {
+    case LRCS_NOTICE_BACK_SIDES_VISIBLE:
+        return "back sides of one-sided facets are visible: the mesh is open or inverted; they "
+               "contribute nothing";
+    case LRCS_NOTICE_TESSELLATION_UNKNOWN:
+        return "curved shapes under shadowing: the bound refers to their facets, not to the true "
+               "curves";
+    default:
+        return "unknown notice";
+    }
+}

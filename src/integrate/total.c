@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT */
+/* The sum of Eq. 2 over visible areas, in facet order, compensated. A facet of area S at incidence
+   theta, of which a share is visible, adds 4 pi (f_r cos^2)(theta) S share. What each facet adds to
+   the bounds stands beside each step; the bounds themselves are widened by 1e-9 for their own
+   rounding. */
+#include "integrate/total.h"
+
+#include <math.h>
+
+#include "base/sum.h"
+#include "optics/reflect.h"
+
+#define U 0x1p-53
+#define FOUR_PI 12.566370614359172954
+
+/* Running sums, in scaled units. */
+typedef struct total_sums {
+    lrcsi_sum glint, diffuse, projected, back_side;
+    double visibility, tessellation, rounding, likely;
+} total_sums;
+
+/* The largest value of (1 + u)^2 exp(-u / s^2) over u >= 0. */
+static double glint_peak(double s)
+{
+    double q = 2 * s * s;
+    return q <= 1 ? 1 : q * q * exp(2 / q - 2);
+}
+
+/* How far f_r cos^2 may be off for want of knowing tan^2. With u = tan^2 known to a relative r,
+   log of the glint moves by at most r (2 min(u, 1) + u / s^2), of the diffuse part by at most
+   r (m + 2)/2 min(u, 1); where that is no small number the glint's peak and B bound both. Near
+   edge-on (r infinite) u is at least this, and both parts only fall from here. */
+static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
+                               const lrcsi_reflection *at)
+{
+    if (isinf(tilt->stretch)) {
+        return at->glint + at->diffuse;
+    }
+    double bent = fmin(tilt->tan2, 1);
+    double glint = brdf->A > 0 ? tilt->stretch * (2 * bent + tilt->tan2 / brdf->s / brdf->s) : 0;
+    double diffuse = tilt->stretch * (0.5 * brdf->m + 1) * bent;
+    if (!(glint < 1 && diffuse < 1)) {
+        return (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
+    }
+    return at->glint * expm1(glint) + at->diffuse * expm1(diffuse);
+}
+
+/* One facet that reflects towards the laser. Returns its sigma. */
+static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t facet,
+                             const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+{
+    const lrcs_brdf *brdf = &lrcsi_prepared_material(view->prepared, facet)->brdf;
+    lrcsi_reflection at = lrcsi_reflect(brdf, tilt->tan2, 0);
+    double whole = FOUR_PI * 0.5 * view->prepared->normal[facet].length;
+    double share = visible->area / tilt->projected;
+    double doubt = fmax(visible->area - visible->low, visible->high - visible->area);
+    double per_area = whole * (at.glint + at.diffuse) / tilt->projected;
+    double glint = whole * at.glint * share;
+    double diffuse = whole * at.diffuse * share;
+    lrcsi_sum_add(&sums->glint, glint);
+    lrcsi_sum_add(&sums->diffuse, diffuse);
+    sums->visibility += per_area * doubt;
+    sums->likely += (per_area * visible->likely) * (per_area * visible->likely);
+    /* S, 4 pi, two products and the share: 8 u, with the relative error of areas */
+    sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
+                      whole * share * (at.error + reflection_vague(brdf, tilt, &at));
+    return glint + diffuse;
+}
+
+/* What the flat facets of an engine-made shape may be off, whichever way they face: part of the
+   patch behind a facet that faces away may still see the light. */
+static void add_tessellation(total_sums *sums, const lrcsi_view *view, uint32_t facet,
+                             const lrcsi_tilt *tilt)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+    const lrcs_brdf *brdf = &lrcsi_prepared_material(p, facet)->brdf;
+    double stray = lrcsi_reflect_stray(brdf, tilt->cos_theta, tilt->tan2, &part->curvature);
+    sums->tessellation += FOUR_PI * 0.5 * p->normal[facet].length * stray;
+    if (!part->curvature_known) {
+        sums->tessellation = -INFINITY;
+    }
+}
+
+static void count_facet(lrcsi_total *total, total_sums *sums, int reflects,
+                        const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+{
+    lrcsi_sum_add(&sums->projected, visible->area);
+    if (reflects) {
+        total->hidden += visible->area == 0;
+        total->partial += visible->area > 0 && visible->area < tilt->projected;
+    } else if (visible->area > 0) {
+        lrcsi_sum_add(&sums->back_side, visible->area);
+        total->back_sides++;
+    }
+}
+
+static lrcs_facet_record record_of(const lrcsi_view *view, uint32_t facet, const lrcsi_tilt *tilt,
+                                   double visible, double sigma)
+{
+    const lrcs_prepared *p = view->prepared;
+    lrcs_facet_record record = {0, 0, 0, 0};
+    if (!p->skip[facet]) {
+        record.area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[facet].length);
+        record.cos_theta = tilt->cos_theta;
+        record.visible_area_m2 = lrcsi_prepared_area(p, visible);
+        record.sigma_m2 = lrcsi_prepared_area(p, sigma);
+    }
+    return record;
+}
+
+/* To square metres; the compensated sums' own error goes to rounding. */
+static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total_sums *sums)
+{
+    const lrcs_prepared *p = view->prepared;
+    double glint = lrcsi_sum_value(&sums->glint);
+    double diffuse = lrcsi_sum_value(&sums->diffuse);
+    double count = p->scene->facet_count;
+    double outward = 1 + 1e-9;
+    total->glint = lrcsi_prepared_area(p, glint);
+    total->diffuse = lrcsi_prepared_area(p, diffuse);
+    total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));
+    total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
+    total->visibility = lrcsi_prepared_area(p, sums->visibility * outward);
+    total->tessellation =
+        sums->tessellation < 0 ? -1 : lrcsi_prepared_area(p, sums->tessellation * outward);
+    double adding = (glint + diffuse) * (4 * U + 3 * (count * U) * (count * U));
+    total->rounding = lrcsi_prepared_area(p, (sums->rounding + adding) * outward);
+    total->likely = lrcsi_prepared_area(p, 2 * sqrt(sums->likely));
+}
+
+lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible, int unshadowed,
+                             lrcs_facet_record *records)
+{
+    const lrcs_prepared *p = view->prepared;
+    lrcsi_total total = {0};
+    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0};
+    if (p->curved && !unshadowed) {
+        sums.tessellation = -INFINITY;
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
+        double sigma = 0;
+        if (view->facing[f] != 0) {
+            int reflects = view->facing[f] > 0 || (lrcsi_prepared_material(p, f)->two_sided && !p->solid);
+            if (reflects && visible[f].high > 0) {
+                sigma = add_reflecting(&sums, view, f, &tilt, &visible[f]);
+            }
+            count_facet(&total, &sums, reflects, &tilt, &visible[f]);
+        }
+        if (p->curved && unshadowed && !p->skip[f]) {
+            add_tessellation(&sums, view, f, &tilt);
+        }
+        if (records) {
+            records[f] = record_of(view, f, &tilt, visible[f].area, sigma);
+        }
+    }
+    total_finish(&total, view, &sums);
+    return total;
+}

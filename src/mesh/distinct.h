@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* Distinct names as a file brings them, numbered in order of appearance. */
+#ifndef LRCSI_DISTINCT_H
+#define LRCSI_DISTINCT_H
+
+#include <lrcs/mesh.h>
+
+typedef struct lrcsi_distinct {
+    const char **name; /* the caller's list, by number */
+    uint32_t count;
+    uint32_t *slot; /* index into name, or LRCS_NONE */
+    size_t slots;
+} lrcsi_distinct;
+
+/* An empty table for up to `most` names, lrcsi_store_slots(most) words of the work area.
+   Status: LRCS_OK; LRCS_E_MEMORY. */
+int lrcsi_distinct_make(const char **name, uint32_t most, lrcs_work *work,
+                        lrcsi_distinct *distinct);
+
+/* The number of a name. One whose UTF-8 text (lrcsi_text_utf8) is new is written to *text, which
+   moves behind it, and takes the next number. */
+uint32_t lrcsi_distinct_add(lrcsi_distinct *distinct, const char *bytes, size_t size, char **text);
+
+#endif

@@ -1,0 +1,380 @@
+/* SPDX-License-Identifier: MIT */
+/* Wavefront OBJ. One walk over the statements serves both calls: it counts, and where it has a
+   mesh to fill it stores as well. lrcs_obj_read counts first, so what fails, fails before
+   anything is taken. It decides what facets, parts and materials a file holds; the material
+   library is a file of its own (mtl.c). */
+#include "base/text.h"
+#include "base/where.h"
+#include "base/work.h"
+#include "mesh/distinct.h"
+#include "mesh/lines.h"
+#include "mesh/store.h"
+
+#include <lrcs/read.h>
+
+#include <math.h>
+#include <string.h>
+
+#define COORDINATE_MOST 1e100
+#define COUNT_MOST      (UINT32_MAX - 1)
+
+/* A name that later facets belong to; it counts once a facet does. */
+typedef struct obj_name {
+    const char *bytes;
+    size_t size;
+    uint32_t index;
+    int pending; /* 1: no facet yet since the statement */
+} obj_name;
+
+typedef struct obj_walk {
+    lrcsi_lines lines;
+    lrcs_where *where;
+    lrcs_mesh_counts counts;
+    uint32_t vertex_limit; /* positive indices are at most this */
+    uint32_t vertex_most;  /* the largest positive index met */
+    uint32_t notices;
+    uint32_t smooth;
+    obj_name part, material, library;
+    /* Only where a mesh is filled. */
+    lrcs_mesh *mesh;
+    lrcsi_distinct parts, materials;
+    char *text;
+} obj_walk;
+
+static int obj_fail(obj_walk *w, int status, const char *item, const char *expected)
+{
+    return lrcsi_lines_fail(&w->lines, status, item, expected, w->where);
+}
+
+static void set_name(obj_walk *w, obj_name *name)
+{
+    name->size = lrcsi_lines_name(&w->lines, &name->bytes);
+    name->pending = 1;
+}
+
+/* Bytes of text a name takes, and the notice where it is not UTF-8. */
+static size_t name_text(obj_walk *w, const obj_name *name)
+{
+    if (!lrcsi_text_is_utf8(name->bytes, name->size)) {
+        w->notices |= LRCS_MESH_LATIN1_NAMES;
+    }
+    return lrcsi_text_utf8(name->bytes, name->size, NULL);
+}
+
+/* The first facet after an `o` or `g` statement, or of the file. */
+static void enter_part(obj_walk *w)
+{
+    w->part.pending = 0;
+    w->counts.parts++;
+    w->counts.text_bytes += name_text(w, &w->part);
+    if (w->mesh) {
+        w->part.index = lrcsi_distinct_add(&w->parts, w->part.bytes, w->part.size, &w->text);
+    }
+}
+
+/* The first facet after a `usemtl` statement. */
+static void enter_material(obj_walk *w)
+{
+    w->material.pending = 0;
+    w->material.index = LRCS_NONE;
+    if (w->material.size == 0) {
+        return;
+    }
+    w->counts.materials++;
+    w->counts.text_bytes += name_text(w, &w->material);
+    if (w->mesh) {
+        w->material.index =
+            lrcsi_distinct_add(&w->materials, w->material.bytes, w->material.size, &w->text);
+    }
+}
+
+static int add_facet(obj_walk *w, const uint32_t corner[3])
+{
+    if (w->counts.facets == COUNT_MOST) {
+        return obj_fail(w, LRCS_E_LIMIT, "facets", "fewer than 2^32 - 1");
+    }
+    if (w->part.pending) {
+        enter_part(w);
+    }
+    if (w->material.pending) {
+        enter_material(w);
+    }
+    if (w->mesh) {
+        uint32_t i = w->counts.facets;
+        memcpy(w->mesh->facet[i].corner, corner, sizeof w->mesh->facet[i].corner);
+        w->mesh->facet_material[i] = w->material.index;
+        w->mesh->facet_part[i] = w->part.index;
+        w->mesh->facet_smooth[i] = w->smooth;
+    }
+    w->counts.facets++;
+    return LRCS_OK;
+}
+
+static int read_vertex(obj_walk *w)
+{
+    static const char item[] = "vertex coordinate";
+    lrcs_point point;
+    for (int k = 0; k < 3; k++) {
+        lrcsi_lines from = w->lines;
+        int status = lrcsi_lines_number(&w->lines, item, &point.x[k], w->where);
+        if (status != LRCS_OK) {
+            return status;
+        }
+        if (fabs(point.x[k]) > COORDINATE_MOST) {
+            w->lines = from;
+            return obj_fail(w, LRCS_E_NUMBER, item, "a magnitude of at most 1e100");
+        }
+    }
+    while (!lrcsi_lines_done(&w->lines)) { /* a weight or a colour */
+        double ignored = 0.0;
+        int status = lrcsi_lines_number(&w->lines, item, &ignored, w->where);
+        if (status != LRCS_OK) {
+            return status;
+        }
+    }
+    if (w->counts.vertices == COUNT_MOST) {
+        return obj_fail(w, LRCS_E_LIMIT, "vertices", "fewer than 2^32 - 1");
+    }
+    if (w->mesh) {
+        w->mesh->vertex[w->counts.vertices] = point;
+    }
+    w->counts.vertices++;
+    return LRCS_OK;
+}
+
+/* An integer at `at`, saturated far beyond any index. Returns what follows, NULL where none is. */
+static const char *read_integer(const char *at, const char *end, int64_t *value)
+{
+    int negative = at < end && *at == '-';
+    at += at < end && (*at == '-' || *at == '+');
+    if (at == end || *at < '0' || *at > '9') {
+        return NULL;
+    }
+    int64_t magnitude = 0;
+    for (; at < end && *at >= '0' && *at <= '9'; at++) {
+        magnitude = magnitude < INT64_C(1) << 40 ? magnitude * 10 + (*at - '0') : magnitude;
+    }
+    *value = negative ? -magnitude : magnitude;
+    return at;
+}
+
+/* The vertex index of "v", "v/t", "v//n" or "v/t/n"; t and n are integers or missing, and not
+   looked up. Returns 0 where the word is none of these. */
+static int parse_corner(const char *word, size_t size, int64_t *index)
+{
+    const char *end = word + size;
+    const char *at = read_integer(word, end, index);
+    for (int k = 0; at && at < end && *at == '/' && k < 2; k++) {
+        int64_t ignored = 0;
+        const char *after = read_integer(at + 1, end, &ignored);
+        at = after ? after : at + 1;
+    }
+    return at == end;
+}
+
+static int read_corner(obj_walk *w, uint32_t *corner)
+{
+    lrcsi_lines from = w->lines;
+    const char *word = NULL;
+    size_t size = lrcsi_lines_word(&w->lines, &word);
+    int64_t index = 0;
+    if (!parse_corner(word, size, &index)) {
+        w->lines = from;
+        return obj_fail(w, LRCS_E_SYNTAX, "face corner", "v, v/t, v//n or v/t/n");
+    }
+    int64_t vertices = w->counts.vertices;
+    if (index == 0 || index > w->vertex_limit || -index > vertices) {
+        w->lines = from;
+        return obj_fail(w, LRCS_E_INDEX, "face corner",
+                        index < 0 ? "at most as far back as there are vertices above"
+                                  : "an index from 1 to the number of vertices");
+    }
+    *corner = (uint32_t)(index > 0 ? index - 1 : vertices + index);
+    w->vertex_most = *corner >= w->vertex_most ? *corner + 1 : w->vertex_most;
+    return LRCS_OK;
+}
+
+/* A polygon, fanned from its first vertex as its corners come. */
+static int read_face(obj_walk *w)
+{
+    uint32_t corner[3] = {0, 0, 0};
+    int count = 0; /* stays at 3 */
+    while (!lrcsi_lines_done(&w->lines)) {
+        int k = count < 2 ? count : 2;
+        int status = read_corner(w, &corner[k]);
+        if (status == LRCS_OK && k == 2) {
+            status = add_facet(w, corner);
+            corner[1] = corner[2];
+        }
+        if (status != LRCS_OK) {
+            return status;
+        }
+        count = k + 1;
+    }
+    return count == 3 ? LRCS_OK : obj_fail(w, LRCS_E_SYNTAX, "face", "at least three vertices");
+}
+
+/* Group N is bit N - 1; beyond 32 groups the bits are used again. */
+static int read_smooth(obj_walk *w)
+{
+    lrcsi_lines from = w->lines;
+    const char *word = NULL;
+    size_t size = lrcsi_lines_word(&w->lines, &word);
+    int64_t group = 0;
+    if (size == 0 || lrcsi_lines_is(word, size, "off")) {
+        group = 0;
+    } else if (lrcsi_lines_is(word, size, "on")) {
+        group = 1;
+    } else if (read_integer(word, word + size, &group) != word + size || group < 0) {
+        w->lines = from;
+        return obj_fail(w, LRCS_E_SYNTAX, "smoothing group", "off or a number from 0");
+    }
+    w->smooth = group > 0 ? UINT32_C(1) << ((group - 1) % 32) : 0;
+    return LRCS_OK;
+}
+
+/* The first file that `mtllib` names. It ends with ".mtl", so that names may have blanks and
+   several may stand in the line, or else with the line. */
+static void read_library(obj_walk *w)
+{
+    if (w->library.size > 0) {
+        return;
+    }
+    obj_name *name = &w->library;
+    name->size = lrcsi_lines_name(&w->lines, &name->bytes);
+    for (size_t i = 4; i < name->size; i++) {
+        const char *c = name->bytes + i - 4;
+        if (c[0] == '.' && (c[1] | 0x20) == 'm' && (c[2] | 0x20) == 't' && (c[3] | 0x20) == 'l' &&
+            (c[4] == ' ' || c[4] == '\t')) {
+            name->size = i;
+        }
+    }
+    if (name->size > 0) {
+        w->counts.text_bytes += name_text(w, name);
+    }
+}
+
+static int read_statement(obj_walk *w)
+{
+    const char *word = NULL;
+    size_t size = lrcsi_lines_word(&w->lines, &word);
+    if (lrcsi_lines_is(word, size, "v")) {
+        return read_vertex(w);
+    }
+    if (lrcsi_lines_is(word, size, "f")) {
+        return read_face(w);
+    }
+    if (lrcsi_lines_is(word, size, "s")) {
+        return read_smooth(w);
+    }
+    if (lrcsi_lines_is(word, size, "o") || lrcsi_lines_is(word, size, "g")) {
+        set_name(w, &w->part);
+    } else if (lrcsi_lines_is(word, size, "usemtl")) {
+        set_name(w, &w->material);
+    } else if (lrcsi_lines_is(word, size, "mtllib")) {
+        read_library(w);
+    }
+    return LRCS_OK;
+}
+
+static int walk_statements(obj_walk *w)
+{
+    int status = LRCS_OK;
+    do {
+        status = read_statement(w);
+    } while (status == LRCS_OK && lrcsi_lines_next(&w->lines));
+    return status;
+}
+
+static obj_walk obj_walk_make(const void *bytes, size_t size, lrcs_where *where)
+{
+    obj_walk w;
+    memset(&w, 0, sizeof w);
+    w.lines = lrcsi_lines_make(bytes, size);
+    w.where = where;
+    w.vertex_limit = COUNT_MOST;
+    w.part.bytes = "";
+    w.part.pending = 1;
+    w.material.index = LRCS_NONE;
+    w.mesh = NULL;
+    return w;
+}
+
+int lrcs_obj_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrcs_where *where)
+{
+    if (size == 0) {
+        return lrcsi_where_number(where, LRCS_E_EMPTY, 0, 1, "file", "OBJ statements", 0);
+    }
+    obj_walk w = obj_walk_make(bytes, size, where);
+    int status = walk_statements(&w);
+    if (status == LRCS_OK && w.vertex_most > w.counts.vertices) {
+        uint32_t limit = w.counts.vertices;
+        w = obj_walk_make(bytes, size, where); /* once more, to stop at the first such index */
+        w.vertex_limit = limit;
+        status = walk_statements(&w);
+    }
+    if (status == LRCS_OK) {
+        *counts = w.counts;
+    }
+    return status;
+}
+
+/* The mesh's blocks, and for as long as it is read the tables of names. */
+static int obj_take(obj_walk *w, const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh,
+                    size_t *kept)
+{
+    int status = lrcsi_store_take(counts, work, mesh, &w->text);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    *kept = work->used;
+    const char **name = lrcsi_work_take(work, counts->materials, sizeof *name);
+    status =
+        name ? lrcsi_distinct_make(name, counts->materials, work, &w->materials) : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        status = lrcsi_distinct_make(mesh->part, counts->parts, work, &w->parts);
+    }
+    w->mesh = mesh;
+    return status;
+}
+
+/* Closes the mesh: names, and the numbers of what proved distinct. */
+static void obj_finish(obj_walk *w)
+{
+    lrcs_mesh *mesh = w->mesh;
+    for (uint32_t i = 0; i < w->materials.count; i++) {
+        mesh->material[i].name = w->materials.name[i];
+    }
+    mesh->material_count = w->materials.count;
+    mesh->part_count = w->parts.count;
+    mesh->notices = w->notices;
+    if (w->library.size > 0) {
+        mesh->material_file = w->text;
+        lrcsi_text_utf8(w->library.bytes, w->library.size, w->text);
+    }
+}
+
+int lrcs_obj_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *mesh,
+                  lrcs_where *where)
+{
+    lrcs_mesh_counts counts = {0};
+    int status = lrcs_obj_count(bytes, size, &counts, where);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    size_t mark = work->used;
+    size_t kept = mark;
+    lrcs_mesh made;
+    obj_walk w = obj_walk_make(bytes, size, where);
+    status = obj_take(&w, &counts, work, &made, &kept);
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return lrcsi_where_number(where, status, 0, 0, "work area", "lrcs_mesh_need bytes",
+                                  work->size - mark);
+    }
+    walk_statements(&w); /* succeeds, as it did when it counted */
+    obj_finish(&w);
+    work->used = kept;
+    *mesh = made;
+    return LRCS_OK;
+}

@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: MIT */
+/* Bodies of revolution as facets: where the rows of vertices stand, and what can be proved about
+   the facets between them. It makes no mesh (tessellate.c).
+
+   Sectors. Every row is a regular N-gon; with h = pi/N its vertices stand at mu = sqrt(2 h / sin
+   2h) times the true radius rho, its sides' middles at kappa = mu cos h times it. The N-gon then
+   has exactly the area pi rho^2 of its circle, so that discs, caps and bases are exact.
+
+   Rings. Two neighbouring rows are joined by planar trapezoids, one a sector, each cut into two
+   facets. Its patch is the true surface between the two true circles and the two half-planes of
+   the sector; its two facets, being of one plane, share that patch in proportion to their areas.
+   Vector areas (integral of the normal, in the sector's middle plane) of patch and trapezoid:
+       outward   patch X = 2 sin h  Int rho dz      trapezoid tan h kappa (rho0 + rho1) dz'
+       upward    patch V = h (rho0^2 - rho1^2)      trapezoid the same, by the choice of kappa
+   Straight walls (cylinder, cone, frustum) keep their height: the trapezoid's outward part is
+   kappa tan h / sin h = mu times the patch's. Curved walls (sphere, dome, paraboloid) take the rise
+   dz' = 2 / (mu (rho0 + rho1)) Int rho dz, for which it is the same too: then the facet's normal is
+   the mean normal of its patch and the first-order error vanishes. Rows of such a body lie on a
+   convex curve, because the mean normals of successive patches turn one way.
+
+   Numbers. A = patch area, A' = facet area = |(X', V)|, n' = (X', V)/A', gamma = turn:
+       mean of 1 - cos gamma = D = 1 - (X X' + V V) / (A A');
+       |mean of sin gamma, as a vector| = |V (X' - X)| / (A A') = T;
+       sin^2(gamma/2) = sin^2((psi - nu)/2) + cos psi cos nu sin^2(phi/2), psi and nu the elevations
+       of true and facet normal, phi the azimuth from the sector's middle: bounds gamma by `turn`;
+       gamma^2 <= q 4 sin^2(gamma/2) = 2 q (1 - cos gamma), q = (turn/2)^2 / sin^2(turn/2), as
+       x / sin x grows: spread^2 = (A/A') 2 q D;
+       gamma - sin gamma <= gamma^3/6: lean = (A/A') T + turn spread^2 / 6.
+   Each is evaluated to a few units of rounding; SLACK covers those. `blur` then adds what rounding
+   the vertices does to a facet's plane and area. */
+#include "mesh/profile.h"
+
+#include <math.h>
+
+#define HALF_PI 1.57079632679489661923
+#define UNIT    1.1102230246251565e-16 /* 2^-53 */
+/* D is 1 minus a quotient of sums of positive products: 20 roundings or functions good to 2 units
+   reach it, and so A/A' - 1. */
+#define SLACK (64.0 * UNIT)
+/* A paraboloid's slope is kept inside these, which only a radius or a length below 1e-300 of the
+   other can leave: flatter is flat, and no narrower radius can be told from a line. */
+#define SLOPE_LEAST 1e-300
+#define SLOPE_MOST  1e300
+/* Absolute error of a coordinate near the end of double's range, generously. */
+#define COARSE 1e-322
+
+/* A strip's patch and facet: areas and vector areas in any one unit. */
+typedef struct strip {
+    double area, across, up; /* A, X, V */
+    double gain;             /* X' / X */
+    double low, high;        /* elevation of the true normal on the lower and the upper circle */
+} strip;
+
+static int profile_straight(const lrcsi_profile *profile)
+{
+    return profile->kind == LRCS_SHAPE_DISC || profile->kind == LRCS_SHAPE_CYLINDER ||
+           profile->kind == LRCS_SHAPE_CONE || profile->kind == LRCS_SHAPE_FRUSTUM;
+}
+
+/* x - sin x for 0 <= x <= pi/2, to 4 units: the alternating series, 12 terms (pi/2^27 / 27! is
+   below 2^-70 of x^3/6). */
+static double sine_rest(double x)
+{
+    double square = x * x;
+    double sum = 0.0;
+    for (int k = 26; k >= 4; k -= 2) {
+        sum = square / (k * (k + 1)) * (1.0 - sum);
+    }
+    return x * square / 6.0 * (1.0 - sum);
+}
+
+/* Angle on the meridian from the top to row i. */
+static double profile_polar(const lrcsi_profile *profile, uint32_t i)
+{
+    return (double)(profile->strips - i) * profile->step;
+}
+
+/* Paraboloid: slope of the surface at row i, and its radius as a fraction of the base's. */
+static double profile_tangent(const lrcsi_profile *profile, uint32_t i)
+{
+    return i == 0 ? profile->slope : i == profile->strips ? 0.0 : tan(profile_polar(profile, i));
+}
+
+static double profile_fraction(const lrcsi_profile *profile, uint32_t i)
+{
+    if (profile->slope > 0.0) {
+        return profile_tangent(profile, i) / profile->slope;
+    }
+    return (double)(profile->strips - i) / (double)profile->strips;
+}
+
+static strip strip_straight(const lrcsi_profile *profile)
+{
+    double fall = profile->base - profile->top;
+    double slant = hypot(fall, profile->height);
+    double unit = slant > 0.0 ? slant : 1.0;
+    double elevation = atan2(fall, profile->height);
+    double sinc = sin(profile->half) / profile->half;
+    return (strip){slant / unit, sinc * profile->height / unit,
+                   fall / unit,  profile->swell,
+                   elevation,    elevation};
+}
+
+/* In units of the strip's area: with theta its middle and d its width on the meridian,
+   A = 2 sin theta sin(d/2), V = A cos theta cos(d/2),
+   Int rho dz = ((d - sin d) + 2 sin^2 theta sin d) / 2. */
+static strip strip_round(const lrcsi_profile *profile, uint32_t i)
+{
+    double d = profile->step;
+    double theta = profile_polar(profile, i) - 0.5 * d;
+    double sinc = sin(profile->half) / profile->half;
+    double outward = sine_rest(d) / (4.0 * sin(theta) * sin(0.5 * d)) + sin(theta) * cos(0.5 * d);
+    return (strip){1.0,
+                   sinc * outward,
+                   cos(theta) * cos(0.5 * d),
+                   1.0,
+                   HALF_PI - profile_polar(profile, i),
+                   HALF_PI - profile_polar(profile, i + 1)};
+}
+
+/* y = tan of the angle from the top = slope rho/R, y1 below, y0 = t y1 above. In units of
+   2 h R^2 y1 (y1 - y0) / slope^2:
+   A from Int y sqrt(1 + y^2) dy = (q^3 - p^3)/3 with q, p = sqrt(1 + y^2), r = p/q and
+       q - p = (y1^2 - y0^2)/(q + p);
+   X = sinc y1 (1 + t + t^2) / 3; V = (1 + t) / 2. */
+static strip strip_paraboloid(const lrcsi_profile *profile, uint32_t i)
+{
+    double y1 = profile_tangent(profile, i);
+    double y0 = profile_tangent(profile, i + 1);
+    double t = profile_fraction(profile, i + 1) / profile_fraction(profile, i);
+    double q = hypot(1.0, y1);
+    double r = hypot(1.0, y0) / q;
+    double sinc = sin(profile->half) / profile->half;
+    return (strip){(1.0 + t) * q * (1.0 + r + r * r) / (3.0 * (1.0 + r)),
+                   sinc * y1 * (1.0 + t + t * t) / 3.0,
+                   0.5 * (1.0 + t),
+                   1.0,
+                   atan2(1.0, y1),
+                   atan2(1.0, y0)};
+}
+
+static strip strip_make(const lrcsi_profile *profile, uint32_t i)
+{
+    if (profile_straight(profile)) {
+        return strip_straight(profile);
+    }
+    return profile->kind == LRCS_SHAPE_PARABOLOID ? strip_paraboloid(profile, i)
+                                                  : strip_round(profile, i);
+}
+
+/* What rounding does to the facets of strip i: at most so many radians of tilt, and so much of
+   their area. A corner displaced by e tilts its facet by at most e over the altitude that stands
+   on the opposite side, and changes its area by at most that part. Coordinates are good to a
+   relative `e` (straight walls have exact z); all corners of a row share one z. With l the slant
+   height, two corners of a facet lie on a row of radius r, their altitudes at least
+   w l / (w + l), w >= 2 r sin h (r over that: 1/(2 sin h) + r/l), the third's is l. Rows of equal
+   radius have equal x and y, which cancels all but the error along the row. */
+static double profile_blur(const lrcsi_profile *profile, uint32_t i)
+{
+    double below = lrcsi_profile_radius(profile, i);
+    double above = lrcsi_profile_radius(profile, i + 1);
+    double kappa = profile->swell * cos(profile->half);
+    double slant = hypot(kappa * (below - above), lrcsi_profile_rise(profile, i));
+    double e = (16.0 + (double)profile->strips) * UNIT;
+    double along = 1.0 / sin(profile->half);
+    double narrow = above > 0.0 ? fmin(below, above) : below;
+    double blur = e * along;
+    if (below > 0.0 || above > 0.0) {
+        blur += COARSE / (narrow > 0.0 ? narrow : above) * along;
+    }
+    if (slant > 0.0 && below != above) {
+        blur += 3.0 * (e * fmax(below, above) + COARSE) / slant;
+    }
+    if (slant > 0.0 && !profile_straight(profile)) {
+        blur += 2.0 * (e * profile->height + COARSE) / slant;
+    }
+    return fmin(blur, 2.0 * HALF_PI);
+}
+
+static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
+{
+    strip s = strip_make(profile, i);
+    double across = s.gain * s.across; /* X' */
+    double facet = hypot(across, s.up);
+    lrcs_curvature c = {0.0, 0.0, 0.0, 0.0};
+    if (!(facet > 0.0)) { /* no area: nothing to err on */
+        return c;
+    }
+    double nu = atan2(s.up, across);
+    double off = fmax(fabs(s.low - nu), fabs(s.high - nu)) + SLACK;
+    double nearest = fmax(0.0, fmin(fabs(s.low), fabs(s.high)) - SLACK);
+    double level = s.low * s.high <= 0.0 ? 1.0 : cos(nearest);
+    double a = sin(0.5 * off);
+    double b = sin(0.5 * profile->half);
+    c.turn = 2.0 * asin(fmin(1.0, sqrt(a * a + level * cos(nu) * b * b))) + SLACK;
+    double x = 0.5 * c.turn;
+    double q = x / sin(x) * (x / sin(x));
+    double ratio = s.area / facet;
+    double part = (s.across / s.area) * (across / facet) + (s.up / s.area) * (s.up / facet);
+    c.spread = sqrt(ratio * 2.0 * q * (fmax(0.0, 1.0 - part) + SLACK));
+    double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
+    c.lean = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
+    c.area_error = fabs(ratio - 1.0);
+    double blur = profile_blur(profile, i) * (1.0 + c.area_error) + SLACK;
+    c.turn = fmin(c.turn + blur, 2.0 * HALF_PI);
+    c.area_error += 2.0 * blur;
+    c.lean += 2.0 * blur;
+    c.spread += 2.0 * blur;
+    return c;
+}
+
+lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)
+{
+    double h = 2.0 * HALF_PI / (double)divisions->around;
+    lrcsi_profile profile = {.kind = shape->kind,
+                             .base = shape->radius,
+                             .around = divisions->around,
+                             .strips = divisions->along,
+                             .half = h,
+                             .swell = sqrt(2.0 * h / sin(2.0 * h))};
+    double rings = (double)divisions->along;
+    if (shape->kind == LRCS_SHAPE_DISC) {
+        profile.strips = 0;
+    } else if (shape->kind == LRCS_SHAPE_CYLINDER) {
+        profile.top = shape->radius;
+        profile.height = shape->length;
+    } else if (shape->kind == LRCS_SHAPE_FRUSTUM) {
+        profile.base = shape->radius2;
+        profile.top = shape->radius;
+        profile.height = shape->length;
+    } else if (shape->kind == LRCS_SHAPE_CONE) {
+        profile.height = shape->half_angle_deg > 0.0
+                             ? shape->radius / tan(shape->half_angle_deg * (HALF_PI / 90.0))
+                             : shape->length;
+    } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
+        profile.height = shape->length;
+        double slope = shape->radius > 0.0 ? 2.0 * (shape->length / shape->radius) : 0.0;
+        profile.slope = slope < SLOPE_LEAST ? 0.0 : fmin(slope, SLOPE_MOST);
+        profile.step = atan(profile.slope) / rings;
+    } else {
+        profile.height = shape->radius;
+        profile.step = HALF_PI / rings;
+    }
+    return profile;
+}
+
+double lrcsi_profile_radius(const lrcsi_profile *profile, uint32_t i)
+{
+    if (i == 0) {
+        return profile->base;
+    }
+    if (i == profile->strips) {
+        return profile->top;
+    }
+    if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+        return profile->base * profile_fraction(profile, i);
+    }
+    return profile->base * sin(profile_polar(profile, i));
+}
+
+double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i)
+{
+    if (profile_straight(profile)) {
+        return profile->height;
+    }
+    if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+        double x1 = profile_fraction(profile, i);
+        double x0 = profile_fraction(profile, i + 1);
+        double t = x0 / x1;
+        double cubes = x1 * (1.0 + t + t * t) / (1.0 + t);
+        return profile->height * (4.0 / 3.0) * (x1 - x0) * cubes / profile->swell;
+    }
+    double d = profile->step;
+    double theta = profile_polar(profile, i) - 0.5 * d;
+    double twice = sine_rest(d) + 2.0 * sin(theta) * sin(theta) * sin(d);
+    return profile->height * twice / (2.0 * sin(theta) * cos(0.5 * d)) / profile->swell;
+}
+
+lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
+{
+    lrcs_curvature most = {0.0, 0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < profile->strips; i++) {
+        lrcs_curvature c = strip_curvature(profile, i);
+        most.turn = fmax(most.turn, c.turn);
+        most.area_error = fmax(most.area_error, c.area_error);
+        most.lean = fmax(most.lean, c.lean);
+        most.spread = fmax(most.spread, c.spread);
+    }
+    return most;
+}

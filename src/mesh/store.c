@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT */
+/* Lays a mesh's blocks out in the work area and knows what they and the readers' scratch take. It
+   does not know any format. */
+#include "mesh/store.h"
+
+#include <lrcs/read.h>
+
+#include <string.h>
+
+#include "base/work.h"
+
+size_t lrcsi_store_slots(size_t count)
+{
+    size_t slots = 2;
+    while (slots / 2 < count) {
+        if (slots > SIZE_MAX / 2) {
+            return SIZE_MAX;
+        }
+        slots *= 2;
+    }
+    return slots;
+}
+
+uint64_t lrcsi_store_mix(uint64_t key)
+{
+    /* splitmix64's finaliser (Stafford 2011, variant 13) */
+    key = (key ^ key >> 30) * 0xbf58476d1ce4e5b9u;
+    key = (key ^ key >> 27) * 0x94d049bb133111ebu;
+    return key ^ key >> 31;
+}
+
+uint64_t lrcsi_store_key(const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    uint64_t key = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < size; i++) {
+        key = (key ^ at[i]) * 0x100000001b3u;
+    }
+    return key;
+}
+
+/* The slot where a name stands, or the empty one where it would. */
+static size_t name_slot(const lrcsi_spans *names, const unsigned char *name, size_t size)
+{
+    size_t slot = (size_t)lrcsi_store_mix(lrcsi_store_key(name, size)) & (names->slots - 1);
+    while (names->slot[slot] != LRCS_NONE) {
+        lrcsi_span there = names->name[names->slot[slot]];
+        if (there.size == size && memcmp(names->bytes + there.at, name, size) == 0) {
+            break;
+        }
+        slot = (slot + 1) & (names->slots - 1);
+    }
+    return slot;
+}
+
+int lrcsi_spans_make(const unsigned char *bytes, const lrcsi_span *name, uint32_t count,
+                     lrcs_work *work, lrcsi_spans *names)
+{
+    lrcsi_spans made = {bytes, name, NULL, lrcsi_store_slots(count)};
+    made.slot = lrcsi_work_take(work, made.slots, sizeof *made.slot);
+    if (!made.slot) {
+        return LRCS_E_MEMORY;
+    }
+    memset(made.slot, 0xff, made.slots * sizeof *made.slot); /* LRCS_NONE */
+    for (uint32_t i = 0; i < count; i++) {
+        size_t slot = name_slot(&made, bytes + name[i].at, name[i].size);
+        if (made.slot[slot] == LRCS_NONE) {
+            made.slot[slot] = i;
+        }
+    }
+    *names = made;
+    return LRCS_OK;
+}
+
+uint32_t lrcsi_spans_find(const lrcsi_spans *names, const unsigned char *name, size_t size)
+{
+    return names->slot[name_slot(names, name, size)];
+}
+
+int lrcsi_store_take(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh, char **text)
+{
+    size_t mark = work->used;
+    lrcs_mesh made = {.vertex_count = counts->vertices,
+                      .facet_count = counts->facets,
+                      .material_count = counts->materials,
+                      .part_count = counts->parts};
+    made.material = lrcsi_work_take_zero(work, counts->materials, sizeof *made.material);
+    made.part = lrcsi_work_take_zero(work, counts->parts, sizeof *made.part);
+    made.facet = lrcsi_work_take_zero(work, counts->facets, sizeof *made.facet);
+    made.facet_material = lrcsi_work_take(work, counts->facets, sizeof *made.facet_material);
+    made.facet_part = lrcsi_work_take_zero(work, counts->facets, sizeof *made.facet_part);
+    made.facet_smooth = lrcsi_work_take_zero(work, counts->facets, sizeof *made.facet_smooth);
+    char *names = lrcsi_work_take(work, counts->text_bytes, 1);
+    made.vertex = lrcsi_work_take(work, counts->vertices, sizeof *made.vertex);
+    if (!made.material || !made.part || !made.facet || !made.facet_material || !made.facet_part ||
+        !made.facet_smooth || !names || !made.vertex) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
+    }
+    memset(made.facet_material, 0xff, counts->facets * sizeof *made.facet_material);
+    *mesh = made;
+    *text = names;
+    return LRCS_OK;
+}
+
+size_t lrcs_mesh_need(const lrcs_mesh_counts *counts)
+{
+    const size_t block[] = {
+        lrcsi_work_bytes(counts->materials, sizeof(lrcs_surface)),
+        lrcsi_work_bytes(counts->parts, sizeof(const char *)),
+        lrcsi_work_bytes(counts->facets, sizeof(lrcs_facet)),
+        lrcsi_work_bytes(counts->facets, 3 * sizeof(uint32_t)),
+        2 * (size_t)LRCS_WORK_ALIGN, /* those three are separate blocks */
+        lrcsi_work_bytes(counts->text_bytes, 1),
+        lrcsi_work_bytes(counts->vertices, sizeof(lrcs_point)),
+        /* scratch: names of materials or parts, or welded vertices, in a table */
+        lrcsi_work_bytes(counts->materials, sizeof(lrcsi_span)),
+        lrcsi_work_bytes(lrcsi_store_slots(counts->materials), sizeof(uint32_t)),
+        lrcsi_work_bytes(counts->parts, sizeof(lrcsi_span)),
+        lrcsi_work_bytes(lrcsi_store_slots(counts->parts), sizeof(uint32_t)),
+        lrcsi_work_bytes(lrcsi_store_slots(counts->vertices), sizeof(uint32_t)),
+    };
+    size_t bytes = 0;
+    for (size_t i = 0; i < sizeof block / sizeof *block; i++) {
+        bytes = lrcsi_work_add(bytes, block[i]);
+    }
+    return bytes;
+}

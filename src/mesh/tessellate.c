@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: MIT */
+/* A shape's facet mesh, row by row from the base up. Where rows stand and how well they serve is
+   decided in profile.c; this file places vertices and joins them. Azimuths are exact fractions of
+   a turn, folded to an eighth of it, so that the mesh has the exact symmetry of its polygon. */
+#include "mesh/tessellate.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/dd.h"
+#include "base/work.h"
+#include "mesh/profile.h"
+
+#define TURN_2PI    6.28318530717958647693
+#define SQRT_HALF   0.70710678118654752440
+#define AROUND_MOST (1u << 24)
+#define ALONG_MOST  (1u << 24)
+#define WALL_SMOOTH 1u /* smoothing group of a curved wall; flat parts are hard */
+
+/* A mesh under construction: the row placed last, and which way is up. */
+typedef struct row_builder {
+    lrcs_mesh *mesh;
+    uint32_t around;
+    uint32_t first;  /* first vertex of the last row */
+    uint32_t count;  /* its vertices: 0 none yet, 1 a point, else `around` */
+    double mirror;   /* 1, or -1: z negated and facets turned */
+    uint32_t smooth; /* group of the facets to come */
+} row_builder;
+
+static int shape_is_plane_faced(const lrcs_shape *shape)
+{
+    return shape->kind == LRCS_SHAPE_PLATE || shape->kind == LRCS_SHAPE_BOX;
+}
+
+static int shape_has_rings(const lrcs_shape *shape)
+{
+    return shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME ||
+           shape->kind == LRCS_SHAPE_PARABOLOID;
+}
+
+static int shape_has_apex(const lrcs_shape *shape)
+{
+    return shape_has_rings(shape) || shape->kind == LRCS_SHAPE_CONE;
+}
+
+/* Discs that ALL adds: one under an apex, two on an open wall. */
+static uint32_t shape_caps(const lrcs_shape *shape)
+{
+    if (shape->parts == LRCS_SHAPE_WALL || shape->kind == LRCS_SHAPE_SPHERE ||
+        shape->kind == LRCS_SHAPE_DISC) {
+        return 0;
+    }
+    return shape_has_apex(shape) ? 1 : 2;
+}
+
+/* cos and sin of k/n of a turn, n a multiple of 4: at k = 0 exactly (1, 0), and with every
+   symmetry of the square exact. Error at most 2 units in the last place. */
+static void turn_fraction(uint32_t k, uint32_t n, double *c, double *s)
+{
+    uint32_t quarter = n / 4;
+    uint32_t rest = k % quarter;
+    uint32_t fold = 2 * rest > quarter ? quarter - rest : rest;
+    double angle = TURN_2PI * (double)fold / (double)n;
+    double x = 2 * fold == quarter ? SQRT_HALF : cos(angle);
+    double y = 2 * fold == quarter ? SQRT_HALF : sin(angle);
+    double ahead = 2 * rest > quarter ? y : x;
+    double aside = 2 * rest > quarter ? x : y;
+    switch (k / quarter) {
+    case 0:
+        *c = ahead;
+        *s = aside;
+        return;
+    case 1:
+        *c = -aside;
+        *s = ahead;
+        return;
+    case 2:
+        *c = -ahead;
+        *s = -aside;
+        return;
+    default:
+        *c = aside;
+        *s = -ahead;
+        return;
+    }
+}
+
+static void mesh_vertex(lrcs_mesh *mesh, double x, double y, double z)
+{
+    /* + 0.0 turns -0 into 0 */
+    mesh->vertex[mesh->vertex_count++] = (lrcs_point){{x + 0.0, y + 0.0, z + 0.0}};
+}
+
+static void mesh_facet(lrcs_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t smooth)
+{
+    uint32_t i = mesh->facet_count++;
+    mesh->facet[i] = (lrcs_facet){{a, b, c}};
+    mesh->facet_material[i] = LRCS_NONE;
+    mesh->facet_part[i] = 0;
+    mesh->facet_smooth[i] = smooth;
+}
+
+/* A facet a, b, c, counter-clockwise from outside while z is not mirrored. */
+static void row_facet(const row_builder *row, uint32_t a, uint32_t b, uint32_t c)
+{
+    if (row->mirror > 0.0) {
+        mesh_facet(row->mesh, a, b, c, row->smooth);
+    } else {
+        mesh_facet(row->mesh, a, c, b, row->smooth);
+    }
+}
+
+/* Joins the last row to the one that starts at `first` with `count` vertices. */
+static void row_join(const row_builder *row, uint32_t first, uint32_t count)
+{
+    for (uint32_t k = 0; k < row->around; k++) {
+        uint32_t next = k + 1 < row->around ? k + 1 : 0;
+        if (row->count > 1) {
+            row_facet(row, row->first + k, row->first + next, count > 1 ? first + next : first);
+        }
+        if (count > 1) {
+            row_facet(row, row->count > 1 ? row->first + k : row->first, first + next, first + k);
+        }
+    }
+}
+
+/* Adds a row: a point on the axis, or a polygon of the circle of radius r. */
+static void row_add(row_builder *row, double r, double z, int point)
+{
+    lrcs_mesh *mesh = row->mesh;
+    uint32_t first = mesh->vertex_count;
+    uint32_t count = point ? 1 : row->around;
+    for (uint32_t k = 0; k < count; k++) {
+        double c = 0.0;
+        double s = 0.0;
+        if (!point) {
+            turn_fraction(k, row->around, &c, &s);
+        }
+        mesh_vertex(mesh, r * c, r * s, row->mirror * z);
+    }
+    if (row->count > 0) {
+        row_join(row, first, count);
+    }
+    row->first = first;
+    row->count = count;
+}
+
+/* Rows 1 .. strips of the wall above the row placed last, at z = 0. */
+static double wall_add(row_builder *row, const lrcsi_profile *profile, int apex)
+{
+    lrcsi_dd z = {0.0, 0.0};
+    for (uint32_t i = 0; i < profile->strips; i++) {
+        z = lrcsi_dd_add(z, (lrcsi_dd){lrcsi_profile_rise(profile, i), 0.0});
+        int last = i + 1 == profile->strips;
+        row_add(row, profile->swell * lrcsi_profile_radius(profile, i + 1), lrcsi_dd_value(z),
+                last && apex);
+    }
+    return lrcsi_dd_value(z);
+}
+
+static void revolve(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_mesh *mesh)
+{
+    lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
+    uint32_t caps = shape_caps(shape);
+    row_builder row = {mesh, divisions->around, 0, 0, 1.0, 0};
+    if (caps > 0) {
+        row_add(&row, 0.0, 0.0, 1);
+    }
+    row_add(&row, profile.swell * profile.base, 0.0, 0);
+    uint32_t rim = row.first;
+    row.smooth = WALL_SMOOTH;
+    double top = wall_add(&row, &profile, shape_has_apex(shape));
+    if (shape->kind == LRCS_SHAPE_SPHERE) {
+        row.first = rim;
+        row.count = row.around;
+        row.mirror = -1.0;
+        wall_add(&row, &profile, 1);
+    }
+    row.smooth = 0;
+    if (caps == 2 || shape->kind == LRCS_SHAPE_DISC) {
+        row_add(&row, 0.0, top, 1);
+    }
+}
+
+static void make_plate(const double size[3], lrcs_mesh *mesh)
+{
+    double x = 0.5 * size[0];
+    double y = 0.5 * size[1];
+    mesh_vertex(mesh, -x, -y, 0.0);
+    mesh_vertex(mesh, x, -y, 0.0);
+    mesh_vertex(mesh, x, y, 0.0);
+    mesh_vertex(mesh, -x, y, 0.0);
+    mesh_facet(mesh, 0, 1, 2, 0);
+    mesh_facet(mesh, 0, 2, 3, 0);
+}
+
+static void make_box(const double size[3], lrcs_mesh *mesh)
+{
+    static const unsigned char face[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                             {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (int i = 0; i < 8; i++) {
+        mesh_vertex(mesh, 0.5 * (i & 1 ? size[0] : -size[0]), 0.5 * (i & 2 ? size[1] : -size[1]),
+                    0.5 * (i & 4 ? size[2] : -size[2]));
+    }
+    for (int f = 0; f < 6; f++) {
+        mesh_facet(mesh, face[f][0], face[f][1], face[f][2], 0);
+        mesh_facet(mesh, face[f][0], face[f][2], face[f][3], 0);
+    }
+}
+
+/* Vertices and facets of a body of revolution. */
+static void revolved_counts(const lrcs_shape *shape, const lrcs_divisions *divisions,
+                            uint64_t *vertices, uint64_t *facets)
+{
+    uint64_t around = divisions->around;
+    uint64_t strips = shape->kind == LRCS_SHAPE_DISC ? 0 : divisions->along;
+    uint64_t caps = shape_caps(shape) + (shape->kind == LRCS_SHAPE_DISC ? 1u : 0u);
+    uint64_t apex = shape_has_apex(shape) ? 1 : 0;
+    *vertices = around * (1 + strips - apex) + apex + caps;
+    *facets = around * (2 * strips - apex + caps);
+    if (shape->kind == LRCS_SHAPE_SPHERE) {
+        *vertices = 2 * *vertices - around;
+        *facets *= 2;
+    }
+}
+
+int lrcsi_tessellate_fits(const lrcs_shape *shape, const lrcs_divisions *divisions)
+{
+    uint32_t around = divisions->around;
+    uint32_t along = divisions->along;
+    if (shape_is_plane_faced(shape)) {
+        return around == 4 && along == 1;
+    }
+    if (around < 8 || around > AROUND_MOST || around % 4 != 0 || along < 1 || along > ALONG_MOST ||
+        (along > 1 && !shape_has_rings(shape))) {
+        return 0;
+    }
+    uint64_t vertices = 0;
+    uint64_t facets = 0;
+    revolved_counts(shape, divisions, &vertices, &facets);
+    return vertices < LRCS_NONE && facets < LRCS_NONE;
+}
+
+lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_divisions *divisions)
+{
+    uint64_t vertices = shape->kind == LRCS_SHAPE_BOX ? 8 : 4;
+    uint64_t facets = shape->kind == LRCS_SHAPE_BOX ? 12 : 2;
+    if (!shape_is_plane_faced(shape)) {
+        revolved_counts(shape, divisions, &vertices, &facets);
+    }
+    return (lrcs_mesh_counts){.vertices = (uint32_t)vertices,
+                              .facets = (uint32_t)facets,
+                              .parts = 1,
+                              .text_bytes = strlen(lrcs_shape_text(shape->kind)) + 1};
+}
+
+lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_divisions *divisions)
+{
+    if (shape_is_plane_faced(shape)) {
+        return (lrcs_curvature){0.0, 0.0, 0.0, 0.0};
+    }
+    lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
+    return lrcsi_profile_curvature(&profile);
+}
+
+/* Room for the mesh, empty; 0 where there is none. */
+static int mesh_take(const lrcs_mesh_counts *counts, const char *name, lrcs_work *work,
+                     lrcs_mesh *mesh)
+{
+    mesh->vertex = lrcsi_work_take(work, counts->vertices, sizeof *mesh->vertex);
+    mesh->facet = lrcsi_work_take(work, counts->facets, sizeof *mesh->facet);
+    mesh->facet_material = lrcsi_work_take(work, counts->facets, sizeof *mesh->facet_material);
+    mesh->facet_part = lrcsi_work_take(work, counts->facets, sizeof *mesh->facet_part);
+    mesh->facet_smooth = lrcsi_work_take(work, counts->facets, sizeof *mesh->facet_smooth);
+    mesh->material = lrcsi_work_take(work, 0, sizeof *mesh->material);
+    mesh->part = lrcsi_work_take(work, 1, sizeof *mesh->part);
+    char *text = lrcsi_work_take(work, counts->text_bytes, 1);
+    if (!mesh->vertex || !mesh->facet || !mesh->facet_material || !mesh->facet_part ||
+        !mesh->facet_smooth || !mesh->material || !mesh->part || !text) {
+        return 0;
+    }
+    memcpy(text, name, counts->text_bytes);
+    mesh->part[0] = text;
+    mesh->part_count = 1;
+    return 1;
+}
+
+int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,
+                    lrcs_mesh *mesh, lrcs_curvature *curvature)
+{
+    if (lrcs_shape_check(shape, NULL) != LRCS_OK || !lrcsi_tessellate_fits(shape, divisions)) {
+        return LRCS_E_ARGUMENT;
+    }
+    lrcs_mesh_counts counts = lrcsi_tessellate_counts(shape, divisions);
+    lrcs_mesh made = {0};
+    size_t mark = work->used;
+    if (!mesh_take(&counts, lrcs_shape_text(shape->kind), work, &made)) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
+    }
+    if (shape->kind == LRCS_SHAPE_PLATE) {
+        make_plate(shape->size, &made);
+    } else if (shape->kind == LRCS_SHAPE_BOX) {
+        make_box(shape->size, &made);
+    } else {
+        revolve(shape, divisions, &made);
+    }
+    *mesh = made;
+    if (curvature) {
+        *curvature = lrcsi_tessellate_curvature(shape, divisions);
+    }
+    return LRCS_OK;
+}

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+/* The four parameters of a material: which are allowed, which deserve a warning, f_r from a cosine,
+   and the library of typical materials. f_r cos^2, what the engine integrates, is reflect.c. */
+#include <lrcs/brdf.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "optics/reflect.h"
+
+#define BRDF_PI 3.14159265358979323846
+
+/* Chosen, not measured. A smooth-walled microfacet surface (Beckmann) of mirror reflectance R has
+   A = R / (4 pi s^2) at the mono-station geometry, and a Lambert surface of reflectance rho has
+   B = rho / pi: R + rho <= 1 in every entry, R and rho as in its line. */
+static const lrcs_brdf_entry brdf_library[] = {
+    {"solar-cell", "cover glass over dark cells (R 0.08, rho 0.05)", {0.6, 0.016, 0.1, 0.5}},
+    {"mli-gold", "wrinkled gold foil (R 0.70, rho 0.16)", {0.62, 0.05, 0.3, 0.3}},
+    {"mli-silver", "wrinkled silver foil (R 0.65, rho 0.19)", {0.83, 0.06, 0.25, 0.3}},
+    {"paint-white", "white thermal paint (R 0.04, rho 0.79)", {0.02, 0.25, 0.4, 0.2}},
+    {"paint-black", "black thermal paint (R 0.04, rho 0.04)", {0.02, 0.012, 0.4, 0.3}},
+    {"aluminium-bare", "milled aluminium (R 0.59, rho 0.19)", {2.1, 0.06, 0.15, 0.5}},
+    {"aluminium-anodised", "anodised aluminium (R 0.20, rho 0.38)", {0.18, 0.12, 0.3, 0.3}},
+    {"ideal-diffuse", "Lambert surface of reflectance 1", {0.0, 0.3183098861837907, 0.0, 0.0}},
+    {"ideal-glint", "mirror facets of slope 0.1 (R 0.999)", {7.95, 0.0, 0.1, 0.0}},
+};
+
+#define BRDF_LIBRARY_COUNT (sizeof brdf_library / sizeof brdf_library[0])
+
+lrcs_brdf lrcs_brdf_default(void)
+{
+    return (lrcs_brdf){1.0, 0.25, 0.2, 0.5};
+}
+
+int lrcs_brdf_check(const lrcs_brdf *brdf)
+{
+    if (!isfinite(brdf->A) || !isfinite(brdf->B) || !isfinite(brdf->s) || !isfinite(brdf->m)) {
+        return LRCS_E_NUMBER;
+    }
+    if (brdf->A < 0.0 || brdf->B < 0.0 || brdf->s < 0.0 || brdf->m < 0.0) {
+        return LRCS_E_NUMBER;
+    }
+    if (brdf->s == 0.0 && brdf->A > 0.0) {
+        return LRCS_E_NUMBER;
+    }
+    int bits = 0;
+    if (brdf->A > 0.0 && brdf->s > 0.7) {
+        bits |= LRCS_BRDF_SLOPE_LARGE;
+    }
+    if (BRDF_PI * brdf->B > 1.0) {
+        bits |= LRCS_BRDF_DIFFUSE_GAIN;
+    }
+    if (4.0 * BRDF_PI * brdf->A * brdf->s * brdf->s > 1.0) {
+        bits |= LRCS_BRDF_GLINT_GAIN;
+    }
+    if (brdf->A == 0.0 && brdf->B == 0.0) {
+        bits |= LRCS_BRDF_DARK;
+    }
+    return bits;
+}
+
+const char *lrcs_brdf_warning_text(int bit)
+{
+    switch (bit) {
+    case LRCS_BRDF_SLOPE_LARGE:
+        return "s is above 0.7: the glint of a plate peaks away from its normal";
+    case LRCS_BRDF_DIFFUSE_GAIN:
+        return "pi B is above 1: the diffuse part reflects more light than it receives";
+    case LRCS_BRDF_GLINT_GAIN:
+        return "4 pi A s^2 is above 1: the glint reflects more light than it receives";
+    case LRCS_BRDF_DARK:
+        return "A and B are both 0: nothing is reflected";
+    default:
+        return "unknown warning";
+    }
+}
+
+double lrcs_brdf_eval(const lrcs_brdf *brdf, double cos_theta)
+{
+    if (!(cos_theta > 0.0)) {
+        return 0.0;
+    }
+    double sum = brdf->B > 0.0 ? brdf->B * pow(cos_theta, brdf->m) : 0.0;
+    if (brdf->A > 0.0) {
+        /* 1 - cos is exact from cos = 1/2 up; sin^2 first, so that 1/cos^2 cannot overflow alone */
+        double tan2 = (1.0 - cos_theta) * (1.0 + cos_theta) / cos_theta / cos_theta;
+        lrcs_brdf glint = {brdf->A, 0.0, brdf->s, 0.0};
+        double part = lrcsi_reflect(&glint, fmax(tan2, 0.0), 0.0).glint;
+        sum += part > 0.0 ? part / cos_theta / cos_theta : 0.0;
+    }
+    return sum;
+}
+
+const lrcs_brdf_entry *lrcs_brdf_library(uint32_t i)
+{
+    return i < BRDF_LIBRARY_COUNT ? &brdf_library[i] : NULL;
+}
+
+const lrcs_brdf_entry *lrcs_brdf_find(const char *name)
+{
+    for (size_t i = 0; i < BRDF_LIBRARY_COUNT; i++) {
+        if (strcmp(brdf_library[i].name, name) == 0) {
+            return &brdf_library[i];
+        }
+    }
+    return NULL;
+}

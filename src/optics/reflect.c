@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/* f_r cos^2 from u = tan^2(theta), with its rounding bound. It decides in which form each part is
+   evaluated; where u comes from, and how good it is, the caller says.
+
+   Glint: A q^2 with q = (1 + u) exp(-x/2), x = u / s^2: no cancellation between a growing and a
+   decaying exponent (for s > 0.7 they cancel), no intermediate overflow, and x carries a correction
+   term, so that a far flank (x up to 745) is as good as the peak.
+   Diffuse: B r^2 / (1 + u) with r = (1 + u)^(-m/4), where 1 + u = w + w' exactly and w' enters to
+   first order.
+
+   Rounding, in units of 2^-53, libm within 2 ulp (4 units):
+   glint    1 + u: 1, exp: 4, its correction 1 - x'/2 and two products: 4; squared: 18; times A: 2
+   diffuse  pow: 4, correction: 4, their product: 1; squared: 18; 1 - w'/w, products, quotient: 5;
+            and d = (m/4) w'/w, doubled: at most 4 d for its rounding, 2 d for its second order
+   These are first order; the constants below leave room for the rest. */
+#include "optics/reflect.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/dd.h"
+
+#define REFLECT_GLINT_UNITS   24.0
+#define REFLECT_DIFFUSE_UNITS 28.0
+#define REFLECT_UNIT          0x1p-53
+
+/* Beyond this x, exp(-x/2) nears underflow and q^2 may not: the exponents are added instead. */
+#define REFLECT_X_FAR 1400.0
+
+/* One part and its relative error, `flank` being |d log(part) / d log(u)| at most. */
+typedef struct reflect_part {
+    double value, relative, flank;
+} reflect_part;
+
+/* u / s^2 = hi + lo. The remainders of both quotients are exact where their products neither
+   overflow nor underflow to matter: s in [2^-500, 2^500]. Elsewhere lo = 0, and x is good to 2
+   units. */
+static lrcsi_dd glint_exponent(double u, double s)
+{
+    double t = u / s;
+    double x = t / s;
+    if (s < 0x1p-500 || s > 0x1p500 || !(x < REFLECT_X_FAR)) {
+        return (lrcsi_dd){x, 0.0};
+    }
+    lrcsi_dd p = lrcsi_dd_two_product(t, s);
+    double t_lo = ((u - p.hi) - p.lo) / s;
+    p = lrcsi_dd_two_product(x, s);
+    return (lrcsi_dd){x, (((t - p.hi) - p.lo) + t_lo) / s};
+}
+
+static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
+{
+    lrcsi_dd x = glint_exponent(u, brdf->s);
+    reflect_part part = {0.0, REFLECT_GLINT_UNITS * REFLECT_UNIT, 2.0 * fmin(u, 1.0) + x.hi};
+    if (x.hi < REFLECT_X_FAR) {
+        double q = (1.0 + u) * (exp(-0.5 * x.hi) * (1.0 - 0.5 * x.lo));
+        part.value = brdf->A * q * q;
+        part.relative += x.lo == 0.0 ? 4.0 * REFLECT_UNIT * x.hi : 0.0;
+    } else {
+        part.value = brdf->A * exp(2.0 * log1p(u) - x.hi);
+        part.relative += 16.0 * REFLECT_UNIT * x.hi;
+    }
+    return part;
+}
+
+static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
+{
+    double quarter_m = 0.25 * brdf->m;
+    lrcsi_dd w = lrcsi_dd_two_sum(1.0, u);
+    double ratio = w.lo / w.hi;
+    double d = quarter_m * ratio;
+    /* where -d exceeds 400, pow has underflowed: w.hi >= 1 + 2^-52, |w.lo| <= 2^-53 w.hi */
+    double r = pow(w.hi, -quarter_m) * (fabs(d) < 0x1p-30 ? 1.0 - d : exp(fmin(-d, 400.0)));
+    reflect_part part;
+    part.value = brdf->B * r * r / w.hi * (1.0 - ratio);
+    part.relative = REFLECT_UNIT * (REFLECT_DIFFUSE_UNITS + 10.0 * fmin(fabs(d), 1e4));
+    part.flank = (2.0 * quarter_m + 1.0) * fmin(u, 1.0);
+    return part;
+}
+
+/* A bound on the glint for every u in [low, high]: (1 + u)^2 grows and the exponential falls; and
+   on the glint anywhere, with its peak at 1 + u = 2 s^2 where s^2 > 1/2. */
+static double glint_most(const lrcs_brdf *brdf, double low, double high)
+{
+    double s2 = brdf->s * brdf->s;
+    double peak = s2 > 0.5 ? 2.0 * s2 * exp(-1.0 + 0.5 / s2) : 1.0;
+    double q = fmin(peak, exp(log1p(high) - 0.5 * (low / brdf->s / brdf->s)));
+    return brdf->A * q * q;
+}
+
+/* Is the first-order error good? Where not (u hardly known, or the part so small that a factor of
+   it may have underflowed), a bound on the part itself stands in. */
+static int part_is_plain(const reflect_part *part, double e)
+{
+    return e <= 0.25 && part->relative + 2.0 * e * part->flank <= 0.25 && part->value > 0x1p-900;
+}
+
+/* The true u lies in [u / (1 + e), u / (1 - e)]: for e <= 1/4, log(u) errs by at most 1.16 e and
+   the flank grows by at most 4/3 there, so log(part) errs by delta. */
+static double part_error(const reflect_part *part, double e)
+{
+    double delta = part->relative + 2.0 * e * part->flank;
+    return part->value * delta * (1.0 + delta);
+}
+
+/* For a bound `most` on the part: twice, for its own underflow and rounding. */
+static double part_error_all(const reflect_part *part, double most)
+{
+    return 2.0 * fmax(part->value, most) + 0x1p-1000;
+}
+
+lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error)
+{
+    lrcsi_reflection out = {0.0, 0.0, 0.0};
+    double e = tan2_error;
+    double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
+    double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
+    if (brdf->A > 0.0 && isfinite(tan2)) {
+        reflect_part glint = reflect_glint(brdf, tan2);
+        out.glint = fmin(glint.value, DBL_MAX);
+        out.error = part_is_plain(&glint, e) ? part_error(&glint, e)
+                                             : part_error_all(&glint, glint_most(brdf, low, high));
+    }
+    if (brdf->B > 0.0 && isfinite(tan2)) {
+        reflect_part diffuse = reflect_diffuse(brdf, tan2);
+        out.diffuse = diffuse.value;
+        out.error += part_is_plain(&diffuse, e)
+                         ? part_error(&diffuse, e)
+                         : part_error_all(&diffuse, reflect_diffuse(brdf, low).value);
+    }
+    return out;
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+/* A table of a scene file while it is read: which keys it may hold, which it held, and complaints
+   about them. What a finished table means is recipe.c's and recipe_part.c's business. */
+#ifndef LRCSI_DRAFT_H
+#define LRCSI_DRAFT_H
+
+#include "scene/toml.h"
+
+enum lrcsi_table {
+    LRCSI_TABLE_TOP = 0,
+    LRCSI_TABLE_PART,
+    LRCSI_TABLE_JOINT, /* goes on with the draft of its part */
+    LRCSI_TABLE_MATERIAL,
+    LRCSI_TABLE_MAP,
+    LRCSI_TABLES
+};
+
+/* Keys of all tables; one that several tables know has one number. */
+enum lrcsi_key {
+    LRCSI_KEY_NAME,
+    LRCSI_KEY_MATERIAL,
+    LRCSI_KEY_UNIT,
+    LRCSI_KEY_SCHEMA,
+    LRCSI_KEY_KEEP_TRANSPARENT,
+    LRCSI_KEY_DEFAULT_MATERIAL,
+    LRCSI_KEY_FILE,
+    LRCSI_KEY_SHAPE,
+    LRCSI_KEY_SIZE,
+    LRCSI_KEY_RADIUS,
+    LRCSI_KEY_RADIUS2,
+    LRCSI_KEY_LENGTH,
+    LRCSI_KEY_HALF_ANGLE_DEG,
+    LRCSI_KEY_WALL_ONLY,
+    LRCSI_KEY_TRANSLATE,
+    LRCSI_KEY_ROTATE_EULER,
+    LRCSI_KEY_ROTATE_AXIS,
+    LRCSI_KEY_ROTATE_QUATERNION,
+    LRCSI_KEY_ROTATE_DEG,
+    LRCSI_KEY_SCALE,
+    LRCSI_KEY_AXIS,
+    LRCSI_KEY_ORIGIN,
+    LRCSI_KEY_ANGLE_DEG,
+    LRCSI_KEY_LIKE,
+    LRCSI_KEY_A,
+    LRCSI_KEY_B,
+    LRCSI_KEY_S,
+    LRCSI_KEY_M,
+    LRCSI_KEY_TWO_SIDED,
+    LRCSI_KEY_COLOUR,
+    LRCSI_KEYS
+};
+
+typedef struct lrcsi_draft {
+    const lrcsi_toml *toml;
+    int table; /* lrcsi_table: where the next keys go */
+    int has_joint;
+    lrcsi_toml_event header;
+    lrcsi_toml_event value[LRCSI_KEYS]; /* kind LRCSI_TOML_NONE where not given */
+} lrcsi_draft;
+
+/* Begins the top of the file. */
+void lrcsi_draft_start(const lrcsi_toml *toml, lrcsi_draft *draft);
+
+/* The table that a header opens (lrcsi_table), or LRCS_E_NAME. Draft: the one it ends or, for a
+   joint, goes on with. */
+int lrcsi_draft_table(const lrcsi_draft *draft, const lrcsi_toml_event *header);
+
+/* Begins a table, or goes on with a part's joint. */
+void lrcsi_draft_open(lrcsi_draft *draft, int table, const lrcsi_toml_event *header);
+
+/* Adds a key. Status: LRCS_OK; LRCS_E_NAME (unknown, given twice); LRCS_E_ARGUMENT (type). */
+int lrcsi_draft_add(lrcsi_draft *draft, const lrcsi_toml_event *event);
+
+/* The value of a key, or NULL. */
+const lrcsi_toml_event *lrcsi_draft_find(const lrcsi_draft *draft, int key);
+
+/* A string's text, or NULL. */
+const char *lrcsi_draft_text(const lrcsi_draft *draft, int key);
+
+/* A number, or `other` where it is not given. */
+double lrcsi_draft_number(const lrcsi_draft *draft, int key, double other);
+
+/* Complaints; they return `status`. About the table as a whole, naming it; about a key's value
+   (which must be there). */
+int lrcsi_draft_refuse(const lrcsi_draft *draft, int status, const char *expected);
+int lrcsi_draft_refuse_value(const lrcsi_draft *draft, int key, int status, const char *expected);
+
+#endif

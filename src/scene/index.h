@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* An index from names to numbers: open addressing over FNV-1a, in the work area. */
+#ifndef LRCSI_INDEX_H
+#define LRCSI_INDEX_H
+
+#include <lrcs/status.h>
+#include <lrcs/work.h>
+
+/* A name is some bytes and a tag, which keeps names of different kinds apart. */
+typedef struct lrcsi_indexed {
+    const void *bytes;
+    size_t size;
+    uint32_t tag, value;
+} lrcsi_indexed;
+
+typedef struct lrcsi_index {
+    lrcsi_indexed *name;
+    uint32_t *slot; /* mask + 1 of them: 0, or a name's index + 1 */
+    size_t mask;
+    uint32_t count;
+} lrcsi_index;
+
+/* Bytes for an index of at most `count` names (upper bound). */
+size_t lrcsi_index_need(size_t count);
+
+/* An empty index for at most `count` names, which are not copied. Status: LRCS_OK;
+   LRCS_E_MEMORY. */
+int lrcsi_index_make(lrcs_work *work, uint32_t count, lrcsi_index *names);
+
+/* The value of a name, or LRCS_NONE. */
+uint32_t lrcsi_index_find(const lrcsi_index *names, uint32_t tag, const void *bytes, size_t size);
+
+/* Sets the value of a name, new or known. */
+void lrcsi_index_put(lrcsi_index *names, uint32_t tag, const void *bytes, size_t size,
+                     uint32_t value);
+
+#endif

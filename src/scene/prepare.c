@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: MIT */
+/* Preparing a scene: scaling by a power of two, normals, edges, contacts, and what can be proved
+   for every direction at once. It decides nothing that depends on where the laser stands. */
+#include "scene/prepare.h"
+
+#include <math.h>
+
+#include "base/dd.h"
+#include "base/work.h"
+#include "scene/solid.h"
+
+#define U 0x1p-53
+
+double lrcsi_prepared_area(const lrcs_prepared *p, double scaled)
+{
+    return ldexp(scaled, 2 * p->exponent);
+}
+
+/* Checks what lrcs_scene_build promises, so that nothing later need be asked. */
+static int prepare_door(const lrcs_scene *scene)
+{
+    for (uint32_t v = 0; v < scene->vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            if (!(fabs(scene->vertex[v].x[k]) <= 1e100)) {
+                return LRCS_E_NUMBER;
+            }
+        }
+    }
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        for (int k = 0; k < 3; k++) {
+            if (scene->facet[f].corner[k] >= scene->vertex_count) {
+                return LRCS_E_INDEX;
+            }
+        }
+        if (scene->facet_material[f] >= scene->material_count ||
+            scene->facet_part[f] >= scene->part_count) {
+            return LRCS_E_INDEX;
+        }
+    }
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (lrcs_brdf_check(&scene->material[i].brdf) < 0) {
+            return LRCS_E_NUMBER;
+        }
+    }
+    return LRCS_OK;
+}
+
+/* The power of two that brings the facets' largest coordinate into [0.5, 1). */
+static int prepare_exponent(const lrcs_scene *scene)
+{
+    double most = 0;
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        for (int k = 0; k < 3; k++) {
+            const double *x = scene->vertex[scene->facet[f].corner[k]].x;
+            most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
+        }
+    }
+    int exponent = 0;
+    frexp(most, &exponent);
+    return exponent;
+}
+
+static void prepare_vertices(lrcs_prepared *p)
+{
+    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            p->vertex[v].x[k] = ldexp(p->scene->vertex[v].x[k], -p->exponent);
+        }
+    }
+}
+
+/* p x q - component of a cross product of exact differences, in double-double. Each product has
+   relative error 7 u^2, the difference 3 u^2: together at most 10 u^2 (|p1 q2| + |p2 q1|). */
+static lrcsi_dd cross_component(lrcsi_dd p1, lrcsi_dd q2, lrcsi_dd p2, lrcsi_dd q1)
+{
+    return lrcsi_dd_sub(lrcsi_dd_mul(p1, q2), lrcsi_dd_mul(p2, q1));
+}
+
+/* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| comes out
+   of doubles within 10 u: 21 u^2 |p| |q| covers both. */
+static void normal_make(const double *a, const double *b, const double *c, lrcsi_normal *n)
+{
+    lrcsi_dd p[3];
+    lrcsi_dd q[3];
+    double pp = 0;
+    double qq = 0;
+    double nn = 0;
+    for (int k = 0; k < 3; k++) {
+        p[k] = lrcsi_dd_two_sum(b[k], -a[k]);
+        q[k] = lrcsi_dd_two_sum(c[k], -a[k]);
+        pp += p[k].hi * p[k].hi;
+        qq += q[k].hi * q[k].hi;
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        lrcsi_dd component = cross_component(p[i], q[j], p[j], q[i]);
+        n->high[k] = component.hi;
+        n->low[k] = component.lo;
+        nn += component.hi * component.hi;
+    }
+    n->length = sqrt(nn);
+    n->error = 21 * U * U * sqrt(pp) * sqrt(qq);
+}
+
+static void prepare_normals(lrcs_prepared *p)
+{
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        normal_make(lrcsi_prepared_corner(p, f, 0), lrcsi_prepared_corner(p, f, 1),
+                    lrcsi_prepared_corner(p, f, 2), &p->normal[f]);
+        p->skip[f] = p->topology.degenerate[f] || lrcsi_prepared_material(p, f)->omitted;
+        p->live += !p->skip[f];
+    }
+}
+
+/* The box around the live facets. */
+static void prepare_box(lrcs_prepared *p)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY};
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
+            const double *x = lrcsi_prepared_corner(p, f, corner);
+            for (int k = 0; k < 3; k++) {
+                low[k] = fmin(low[k], x[k]);
+                high[k] = fmax(high[k], x[k]);
+            }
+        }
+    }
+    for (int k = 0; k < 3 && p->live > 0; k++) {
+        p->centre[k] = 0.5 * (low[k] + high[k]);
+        double half = fmax(high[k] - p->centre[k], p->centre[k] - low[k]);
+        p->radius = fmax(p->radius, half);
+    }
+}
+
+/* What the live facets' materials and parts call for. */
+static void prepare_effects(lrcs_prepared *p)
+{
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (p->skip[f]) {
+            continue;
+        }
+        const lrcs_material *material = lrcsi_prepared_material(p, f);
+        const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
+        p->two_sided |= material->two_sided != 0;
+        p->glint |= material->brdf.A > 0;
+        p->diffuse |= material->brdf.B > 0;
+        p->curved |= part->curvature.turn > 0 || !part->curvature_known;
+        p->articulated |= part->articulated != 0;
+    }
+}
+
+static int prepare_arrays(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared *p)
+{
+    p->vertex = lrcsi_work_take(work, scene->vertex_count, sizeof *p->vertex);
+    p->skip = lrcsi_work_take_zero(work, scene->facet_count, sizeof *p->skip);
+    p->normal = lrcsi_work_take(work, scene->facet_count, sizeof *p->normal);
+    if (!p->vertex || !p->skip || !p->normal) {
+        return LRCS_E_MEMORY;
+    }
+    prepare_vertices(p);
+    return lrcsi_topology_make(p->vertex, scene->vertex_count, scene->facet, scene->facet_count,
+                               work, &p->topology);
+}
+
+static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
+{
+    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, p->skip,
+                                    work, &p->touches);
+    if (status == LRCS_OK) {
+        status = lrcsi_solid_check(p, work, &p->solid);
+    }
+    if (status == LRCS_OK) {
+        status = lrcsi_convex_check(p, work, &p->convex, &p->graze);
+    }
+    return status;
+}
+
+size_t lrcs_prepare_need(const lrcs_scene *scene)
+{
+    size_t facets = scene->facet_count;
+    size_t need = lrcsi_work_bytes(1, sizeof(lrcs_prepared));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, sizeof(lrcs_point)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
+    need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
+    size_t proof = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
+    proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
+    return lrcsi_work_add(need, proof);
+}
+
+int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared)
+{
+    int status = prepare_door(scene);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    size_t mark = work->used;
+    lrcs_prepared *p = lrcsi_work_take_zero(work, 1, sizeof *p);
+    if (!p) {
+        return LRCS_E_MEMORY;
+    }
+    p->scene = scene;
+    p->exponent = prepare_exponent(scene);
+    status = prepare_arrays(scene, work, p);
+    if (status == LRCS_OK) {
+        prepare_normals(p);
+        prepare_box(p);
+        prepare_effects(p);
+        status = prepare_proofs(p, work);
+    }
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    *prepared = p;
+    return LRCS_OK;
+}

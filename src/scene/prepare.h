@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/* A prepared scene: everything that does not depend on direction. Coordinates here are the
+   scene's times a power of two, so that the largest magnitude lies in [0.5, 1): exact, and far
+   from overflow. Areas computed from them are scaled back by lrcsi_prepared_area. */
+#ifndef LRCSI_PREPARE_H
+#define LRCSI_PREPARE_H
+
+#include <lrcs/run.h>
+
+#include "mesh/topology.h"
+#include "mesh/touch.h"
+
+/* (b - a) x (c - a) in double-double. Its true value differs by at most `error` in norm. */
+typedef struct lrcsi_normal {
+    double high[3], low[3];
+    double length; /* |N|, relative error at most 4 u beyond error / length */
+    double error;
+} lrcsi_normal;
+
+struct lrcs_prepared {
+    const lrcs_scene *scene;
+    int exponent;        /* scene coordinate = vertex * 2^exponent */
+    lrcs_point *vertex;  /* scaled */
+    unsigned char *skip; /* facet: 1 where degenerate or omitted; it takes part in nothing */
+    lrcsi_normal *normal;
+    lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
+    lrcsi_touches touches;   /* between facets that are not skipped */
+    double centre[3];        /* of the box around the live facets */
+    double radius;           /* no live vertex is farther from the centre in any coordinate */
+    uint32_t live;           /* facets not skipped */
+    int convex;      /* live facets lie on one convex surface, outward and one-sided: exactly, or
+                        by construction; then only facets that graze the light can be hidden */
+    double graze;    /* where convex: a facet with cos(theta) above this is wholly visible */
+    int solid;       /* winding number >= 0 everywhere, proved: back sides are never seen */
+    int two_sided;   /* some live facet is */
+    int glint, diffuse; /* some live facet's A, B is not 0 */
+    int curved;      /* some live part was tessellated from a curved shape */
+    int articulated; /* some part stands on a joint */
+};
+
+/* The material of a facet. */
+static inline const lrcs_material *lrcsi_prepared_material(const lrcs_prepared *p, uint32_t facet)
+{
+    return &p->scene->material[p->scene->facet_material[facet]];
+}
+
+/* Corner k of a facet, scaled. */
+static inline const double *lrcsi_prepared_corner(const lrcs_prepared *p, uint32_t facet, int k)
+{
+    return p->vertex[p->scene->facet[facet].corner[k]].x;
+}
+
+/* An area in scaled units, in square metres. Exact but for overflow and underflow. */
+double lrcsi_prepared_area(const lrcs_prepared *p, double scaled);
+
+#endif

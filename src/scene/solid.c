@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: MIT */
+/* Proofs about a scene's shape: closed and outward (back sides are never seen), convex (front
+   sides are never hidden). They refuse where they are not sure; nothing depends on direction. */
+#include "scene/solid.h"
+
+#include <math.h>
+
+#include "base/work.h"
+
+#define U 0x1p-53
+
+/* --- pieces: facets joined by edges ----------------------------------------------------------- */
+
+static uint32_t piece_root(uint32_t *parent, uint32_t i)
+{
+    while (parent[i] != i) { /* halving the path: every step shortens it */
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+static void piece_join(uint32_t *parent, uint32_t i, uint32_t j)
+{
+    i = piece_root(parent, i);
+    j = piece_root(parent, j);
+    parent[i > j ? i : j] = i > j ? j : i;
+}
+
+/* Joins facets over every edge; 0 where a live facet's edge is not used by exactly two live
+   facets in opposite directions. */
+static int pieces_closed(const lrcs_prepared *p, uint32_t *parent)
+{
+    const lrcsi_topology *t = &p->topology;
+    for (uint32_t e = 0; e < t->edge_count; e++) {
+        const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
+        uint32_t live = 0;
+        uint32_t pair[2] = {0, 0};
+        uint32_t forward = 0;
+        for (uint32_t i = 0; i < t->edge[e].uses; i++) {
+            if (p->skip[use[i].facet]) {
+                continue;
+            }
+            if (live < 2) {
+                pair[live] = use[i].facet;
+            }
+            live++;
+            forward += use[i].forward;
+        }
+        if (live != 0 && (live != 2 || forward != 1)) {
+            return 0;
+        }
+        if (live == 2) {
+            piece_join(parent, pair[0], pair[1]);
+        }
+    }
+    return 1;
+}
+
+static int pieces_untouched(const lrcs_prepared *p, uint32_t *parent)
+{
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        for (uint32_t i = p->touches.first[f]; i < p->touches.first[f + 1]; i++) {
+            if (piece_root(parent, f) == piece_root(parent, p->touches.touch[i].other)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* Six times the signed volume of a facet's tetrahedron about `o`, and a bound on its rounding:
+   each difference, product and sum is off by u of its magnitude, all below |a| |b| |c|. */
+static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *o, double *error)
+{
+    double v[3][3];
+    double size = 1;
+    for (int corner = 0; corner < 3; corner++) {
+        const double *x = lrcsi_prepared_corner(p, facet, corner);
+        double square = 0;
+        for (int k = 0; k < 3; k++) {
+            v[corner][k] = x[k] - o[k];
+            square += v[corner][k] * v[corner][k];
+        }
+        size *= sqrt(square);
+    }
+    double det = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) +
+                 v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) +
+                 v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+    *error = 40 * U * size;
+    return det;
+}
+
+/* Every piece has positive volume, beyond the rounding of its sum. */
+static int pieces_outward(const lrcs_prepared *p, uint32_t *parent, double *volume, double *error)
+{
+    uint32_t count = p->scene->facet_count;
+    for (uint32_t f = 0; f < count; f++) {
+        if (p->skip[f]) {
+            continue;
+        }
+        uint32_t root = piece_root(parent, f);
+        double off = 0;
+        double six = tetrahedron(p, f, lrcsi_prepared_corner(p, root, 0), &off);
+        volume[root] += six;
+        error[root] += off + 2 * U * fabs(volume[root]);
+    }
+    for (uint32_t f = 0; f < count; f++) {
+        if (!p->skip[f] && parent[f] == f && !(volume[f] > 2 * error[f])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int lrcsi_solid_check(const lrcs_prepared *p, lrcs_work *work, int *proved)
+{
+    size_t mark = work->used;
+    uint32_t count = p->scene->facet_count;
+    uint32_t *parent = lrcsi_work_take(work, count, sizeof *parent);
+    double *volume = lrcsi_work_take_zero(work, count, sizeof *volume);
+    double *error = lrcsi_work_take_zero(work, count, sizeof *error);
+    int status = LRCS_E_MEMORY;
+    if (parent && volume && error) {
+        for (uint32_t f = 0; f < count; f++) {
+            parent[f] = f;
+        }
+        *proved = pieces_closed(p, parent) && pieces_untouched(p, parent) &&
+                  pieces_outward(p, parent, volume, error);
+        status = LRCS_OK;
+    }
+    work->used = mark;
+    return status;
+}
+
+/* --- convexity -------------------------------------------------------------------------------- */
+
+/* The only part with live facets, or LRCS_NONE. */
+static uint32_t lone_part(const lrcs_prepared *p)
+{
+    uint32_t part = LRCS_NONE;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (p->skip[f]) {
+            continue;
+        }
+        if (part != LRCS_NONE && part != p->scene->facet_part[f]) {
+            return LRCS_NONE;
+        }
+        part = p->scene->facet_part[f];
+    }
+    return part;
+}
+
+/* How far (scaled) the corner of `other` off their common edge stands above the plane of `facet`;
+   negative below. */
+static double corner_above(const lrcs_prepared *p, uint32_t facet, uint32_t other)
+{
+    const lrcsi_normal *n = &p->normal[facet];
+    const double *a = lrcsi_prepared_corner(p, facet, 0);
+    double most = -INFINITY;
+    for (int corner = 0; corner < 3; corner++) {
+        const double *x = lrcsi_prepared_corner(p, other, corner);
+        double above = 0;
+        for (int k = 0; k < 3; k++) {
+            above += n->high[k] * (x[k] - a[k]);
+        }
+        most = fmax(most, above / n->length);
+    }
+    return most;
+}
+
+/* The largest such height over all edges, and the smallest altitude of a facet. */
+static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude)
+{
+    const lrcsi_topology *t = &p->topology;
+    *dent = 0;
+    *altitude = INFINITY;
+    for (uint32_t e = 0; e < t->edge_count; e++) {
+        const double *a = p->vertex[t->edge[e].low].x;
+        const double *b = p->vertex[t->edge[e].high].x;
+        double length = sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) +
+                             (b[2] - a[2]) * (b[2] - a[2]));
+        const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
+        for (uint32_t i = 0; i < t->edge[e].uses; i++) {
+            *altitude = fmin(*altitude, p->normal[use[i].facet].length / length);
+            uint32_t other = use[t->edge[e].uses - 1 - i].facet;
+            *dent = fmax(*dent, corner_above(p, use[i].facet, other));
+        }
+    }
+}
+
+/* A lone engine-made part. Its exact vertices lie on a convex surface, the placed ones within
+   `off` of them. Let x on a front facet i be hidden by y = x + t d. The body lies below the true
+   surface's tangent plane, so y is within sagitta / cos(theta) of x. Where cos(theta) exceeds
+   three turns that distance is less than a facet, and every normal in reach has a positive
+   component along d: the surface there is a graph over the view plane, met once: x is not hidden.
+   Without dents beyond rounding (plane-faced and singly curved bodies, Delaunay diagonals) the
+   exact mesh is itself convex and only the rounding's tilt counts, at most 2 off / altitude for
+   either facet; 16 covers both and the margin. A body thinner than 1e6 roundings is refused. */
+static int convex_by_construction(const lrcs_prepared *p, const lrcs_part *part, double *graze)
+{
+    double off = ldexp(part->misplaced, -p->exponent) + 4 * U;
+    double thin = ldexp(part->thinnest, -p->exponent);
+    int plane = part->kind == LRCS_SHAPE_PLATE || part->kind == LRCS_SHAPE_DISC;
+    if (!part->convex_patch || (!plane && !(thin > 1e6 * off))) {
+        return 0;
+    }
+    double dent = 0;
+    double altitude = 0;
+    measure_dents(p, &dent, &altitude);
+    *graze = 16 * off / altitude;
+    if (dent > 16 * off) {
+        *graze += 3 * part->curvature.turn;
+    }
+    return 1;
+}
+
+/* Exact convexity of a mesh from a file. */
+static int convex_exactly(const lrcs_prepared *p, lrcs_work *work, int *proved)
+{
+    size_t mark = work->used;
+    lrcs_facet *facet = lrcsi_work_take(work, p->live, sizeof *facet);
+    int status = LRCS_E_MEMORY;
+    if (facet) {
+        uint32_t count = 0;
+        for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+            if (!p->skip[f]) {
+                facet[count++] = p->scene->facet[f];
+            }
+        }
+        lrcs_mesh_report report;
+        status = lrcs_mesh_check(p->vertex, p->scene->vertex_count, facet, count, work, &report);
+        if (status == LRCS_OK) {
+            *proved = report.convex && report.volume > 0;
+        }
+    }
+    work->used = mark;
+    return status;
+}
+
+int lrcsi_convex_check(const lrcs_prepared *p, lrcs_work *work, int *proved, double *graze)
+{
+    *proved = 0;
+    *graze = 0;
+    if (p->live == 0) {
+        *proved = 1;
+        return LRCS_OK;
+    }
+    if (p->two_sided && !p->solid) { /* the inside of an open surface would reflect too */
+        return LRCS_OK;
+    }
+    uint32_t part = lone_part(p);
+    if (part != LRCS_NONE && convex_by_construction(p, &p->scene->part[part], graze)) {
+        *proved = 1;
+        return LRCS_OK;
+    }
+    return p->solid ? convex_exactly(p, work, proved) : LRCS_OK;
+}

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT */
+/* From a prepared scene and a pose to a view. It decides facing, exactly, and the window; it does
+   not decide what hides what. */
+#include "view/view.h"
+
+#include <math.h>
+
+#include "base/dd.h"
+#include "base/exact.h"
+#include "base/work.h"
+
+#define U 0x1p-53
+
+/* N . d in double-double. Off by at most N's own error times |d|, and 3 products of 3 u^2 with two
+   sums of 3 u^2 each: 12 u^2 |N| |d| sqrt(3). */
+static lrcsi_dd normal_dot(const lrcsi_normal *n, const double *d)
+{
+    lrcsi_dd sum = {0, 0};
+    for (int k = 0; k < 3; k++) {
+        sum = lrcsi_dd_add(sum, lrcsi_dd_scale((lrcsi_dd){n->high[k], n->low[k]}, d[k]));
+    }
+    return sum;
+}
+
+/* |N x d|, from components in double-double: each off by at most 9 u^2 |N| |d| beyond N's own
+   error, together with the norm's rounding at most 16 u^2 |N| |d| + 3 u |N x d|. */
+static double normal_cross(const lrcsi_normal *n, const double *d)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        lrcsi_dd a = lrcsi_dd_scale((lrcsi_dd){n->high[i], n->low[i]}, d[j]);
+        lrcsi_dd b = lrcsi_dd_scale((lrcsi_dd){n->high[j], n->low[j]}, d[i]);
+        double component = lrcsi_dd_value(lrcsi_dd_sub(a, b));
+        square += component * component;
+    }
+    return sqrt(square);
+}
+
+/* The absolute error of both, per unit of |d|. */
+static double normal_off(const lrcsi_normal *n)
+{
+    return 21 * U * U * n->length + n->error;
+}
+
+/* The sign of N . d: from doubles where their error (N.high is N within u, three products and two
+   sums: 4 u sum |N_k d_k| and N's own error) allows, else exactly. */
+static signed char facing_of(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcsi_normal *n = &view->prepared->normal[facet];
+    const double *d = view->direction;
+    double dot = 0;
+    double size = 0;
+    for (int k = 0; k < 3; k++) {
+        dot += n->high[k] * d[k];
+        size += fabs(n->high[k] * d[k]);
+    }
+    if (fabs(dot) > 8 * U * size + 2 * n->error * view->length) {
+        return dot > 0 ? 1 : -1;
+    }
+    return (signed char)lrcsi_exact_turn(lrcsi_prepared_corner(view->prepared, facet, 0),
+                                         lrcsi_prepared_corner(view->prepared, facet, 1),
+                                         lrcsi_prepared_corner(view->prepared, facet, 2), d);
+}
+
+/* tan^2 = |N x d|^2 / (N . d)^2. Near normal incidence the cross product drowns in its own error
+   and only an upper bound of tan^2 is known; near grazing the dot product does, and only a lower
+   bound is. */
+lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcsi_normal *n = &view->prepared->normal[facet];
+    int facing = view->facing[facet];
+    lrcsi_tilt tilt = {0, INFINITY, 0, 0, 0};
+    if (facing == 0) {
+        return tilt;
+    }
+    double off = normal_off(n) * view->length;
+    double dot = fabs(lrcsi_dd_value(normal_dot(n, view->direction)));
+    double cross = normal_cross(n, view->direction);
+    tilt.error = 2 * off / dot + n->error / n->length + 8 * U;
+    tilt.stretch = 4 * off / dot + 12 * U;
+    if (cross > 1000 * off) {
+        tilt.stretch += 2.1 * off / cross;
+    } else {
+        cross += off;
+        tilt.stretch = 1;
+    }
+    if (!(dot > 1000 * off)) {
+        dot += off;
+        tilt.error = 2;
+        tilt.stretch = INFINITY;
+    }
+    tilt.tan2 = (cross / dot) * (cross / dot);
+    tilt.cos_theta = facing * fmin(1, dot / (n->length * view->length));
+    tilt.projected = dot / (2 * view->length);
+    return tilt;
+}
+
+static void view_point(const lrcsi_view *view, const double *x, double *out)
+{
+    double p[3];
+    for (int k = 0; k < 3; k++) {
+        p[k] = x[k] - view->prepared->centre[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        out[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
+    }
+}
+
+void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3])
+{
+    for (int k = 0; k < 3; k++) {
+        point[k] = view->prepared->centre[k] + (view->R[0][k] * x + view->R[1][k] * y);
+    }
+}
+
+static void view_facings(lrcsi_view *view)
+{
+    const lrcs_prepared *p = view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        view->facing[f] = p->skip[f] ? 0 : facing_of(view, f);
+        view->front += view->facing[f] > 0;
+        view->back += view->facing[f] < 0;
+    }
+}
+
+/* The square over the projected box's longer side, centred. */
+static void view_window(lrcsi_view *view)
+{
+    const lrcs_prepared *p = view->prepared;
+    double low[2] = {INFINITY, INFINITY};
+    double high[2] = {-INFINITY, -INFINITY};
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
+            const double *x = view->point[p->scene->facet[f].corner[corner]].x;
+            for (int k = 0; k < 2; k++) {
+                low[k] = fmin(low[k], x[k]);
+                high[k] = fmax(high[k], x[k]);
+            }
+        }
+    }
+    if (p->live > 0) {
+        view->side = fmax(high[0] - low[0], high[1] - low[1]);
+        for (int k = 0; k < 2; k++) {
+            view->low[k] = 0.5 * (low[k] + high[k]) - 0.5 * view->side;
+        }
+    }
+}
+
+size_t lrcsi_view_need(const lrcs_prepared *prepared)
+{
+    return lrcsi_work_add(lrcsi_work_bytes(prepared->scene->facet_count, 1),
+                          lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcs_point)));
+}
+
+int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+                    lrcsi_view *view)
+{
+    lrcsi_view v = {.prepared = prepared};
+    size_t mark = work->used;
+    v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
+    v.point = lrcsi_work_take(work, prepared->scene->vertex_count, sizeof *v.point);
+    if (!v.facing || !v.point) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
+    }
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        v.direction[k] = pose->direction[k];
+        square += v.direction[k] * v.direction[k];
+        for (int j = 0; j < 3; j++) {
+            v.R[k][j] = pose->R[k][j];
+        }
+    }
+    v.length = sqrt(square);
+    /* A coordinate is three products of |R| <= 1 with a rounded difference: 6 u times the reach,
+       and R's own rows are off by a few u; a lifted point adds u of the centre. */
+    double reach = 0;
+    for (int k = 0; k < 3; k++) {
+        reach = fmax(reach, fabs(prepared->centre[k]));
+    }
+    v.off = 32 * U * (prepared->radius + reach);
+    view_facings(&v);
+    for (uint32_t i = 0; i < prepared->scene->vertex_count; i++) {
+        view_point(&v, prepared->vertex[i].x, v.point[i].x);
+    }
+    view_window(&v);
+    *view = v;
+    return LRCS_OK;
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+/* A prepared scene seen from a pose: which way each facet faces (exact), its incidence angle with
+   its error, and view coordinates. View coordinates carry areas and choose candidates; every
+   decision that they leave open is taken on the scene's own coordinates. */
+#ifndef LRCSI_VIEW_H
+#define LRCSI_VIEW_H
+
+#include "scene/prepare.h"
+
+/* The part of a facet's geometry that depends on direction. Lengths are scaled, as in
+   lrcs_prepared. */
+typedef struct lrcsi_tilt {
+    double cos_theta;  /* signed; its sign agrees with facing */
+    double tan2;       /* tan^2(theta), infinity where edge-on */
+    double stretch;    /* relative error of tan2; 1: it lies in 0 .. tan2; infinity: it is at
+                          least tan2, the facet being edge-on to within the arithmetic */
+    double projected;  /* projected area, >= 0 */
+    double error;      /* relative error of projected and of the area */
+} lrcsi_tilt;
+
+typedef struct lrcsi_view {
+    const lrcs_prepared *prepared;
+    double direction[3]; /* to the laser, exact, not normalised */
+    double R[3][3];
+    double length;       /* |direction| */
+    signed char *facing; /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
+    lrcs_point *point;   /* vertex, view coordinates about the scene's centre: x right, y up,
+                            z to the laser; each off by at most `off` */
+    double off;
+    double low[2], side; /* the square window around the projection of the live facets */
+    uint32_t front, back; /* live facets facing either way */
+} lrcsi_view;
+
+size_t lrcsi_view_need(const lrcs_prepared *prepared);
+
+/* Status: LRCS_OK; LRCS_E_MEMORY. The view stays in the work area. */
+int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+                    lrcsi_view *view);
+
+/* The incidence of a facet that is not skipped. */
+lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet);
+
+/* The point (x, y) of the view plane, on the plane through the scene's centre, in scaled scene
+   coordinates, rounded: the sample line through it along the direction is exact by definition. */
+void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/* Which facets are seen wholly or not at all, and which only in part.
+
+   Along a path over the inside of a facet i, the number of surfaces in front of it can change only
+   where the path crosses, in projection,
+     (1) an event edge nearer than i: one whose facets do not continue each other, that is, not
+         exactly two, in opposite directions, both facing the same way (contours, rims, and edges
+         of three or more facets); or
+     (2) a point where another facet touches the inside of i itself (mesh/touch.h); a coplanar
+         facet that i beats hides nothing.
+   A facet that meets neither is uniform: one exact sample tells whether all of it is visible. The
+   others are contested. All decisions are exact, so a uniform facet is certain. */
+#ifndef LRCSI_CONTEST_H
+#define LRCSI_CONTEST_H
+
+#include "visibility/grid.h"
+
+typedef struct lrcsi_contest {
+    const lrcsi_view *view;
+    uint32_t *event; /* topology edges that are event edges in this view */
+    uint32_t event_count;
+    lrcsi_grid grid;          /* of events */
+    uint32_t *seen;           /* scratch: event -> the search that last met it */
+    uint32_t asked;           /* scratch: searches so far */
+    uint32_t *crossing;       /* scratch: what lrcsi_contest_crossings found */
+    unsigned char *contested; /* facet: 1 contested; 0 uniform, or of no area in this view */
+    uint32_t contested_count;
+} lrcsi_contest;
+
+/* Upper bound for ordinary scenes. */
+size_t lrcsi_contest_need(const lrcs_prepared *prepared);
+
+/* Decides every facet that faces either way (front ones only where back sides are never seen).
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The result stays in the work area. */
+int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *contest);
+
+/* The event edges that cross the inside of a facet, nearer than it somewhere: their count; the
+   topology edges are then in contest->crossing. */
+uint32_t lrcsi_contest_crossings(lrcsi_contest *contest, uint32_t facet);
+
+/* Can the facet of a contact hide some of the facet that it touches? */
+int lrcsi_contest_touch_hides(const lrcsi_view *view, uint32_t facet, const lrcsi_touch *touch);
+
+#endif

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* One exact sample on a facet that the raster missed: is the facet hidden there? */
+#ifndef LRCSI_QUERY_H
+#define LRCSI_QUERY_H
+
+#include "visibility/grid.h"
+
+enum lrcsi_query_answer {
+    LRCSI_QUERY_HIDDEN = 0,
+    LRCSI_QUERY_VISIBLE = 1,
+    LRCSI_QUERY_UNDECIDED = 2 /* no point inside the facet was found, or depths too close */
+};
+
+/* Asks at the facet's centroid, or at another inside point where that one rounds outside. */
+int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet);
+
+#endif

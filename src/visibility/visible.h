@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* How much of each facet the laser sees: a projected area with its bounds, whichever method found
+   it. This is what visibility hands to integration. */
+#ifndef LRCSI_VISIBLE_H
+#define LRCSI_VISIBLE_H
+
+#include "visibility/contest.h"
+#include "visibility/raster.h"
+
+/* Projected areas in scaled units; 0 <= low <= area <= high <= the facet's projected area, but for
+   rounding. The truth lies between low and high. */
+typedef struct lrcsi_visible {
+    double area, low, high;
+    double likely; /* of a sampled area: its likely error; else 0 */
+} lrcsi_visible;
+
+/* Every facet is wholly visible, front or back, except that where back sides are never seen
+   (prepared->solid) they show nothing. Certain for |cos(theta)| > graze; below it the area is an
+   upper bound (low is 0). graze = 1 makes all of them so. */
+void lrcsi_visible_unshadowed(const lrcsi_view *view, double graze, lrcsi_visible *visible);
+
+size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size);
+
+/* The hybrid of exact decisions and samples: uniform facets keep their exact projected area or
+   show nothing; contested ones show the share of their samples that they own, bounded by the
+   pixels that no change of visibility touches.
+   Given: contest and raster of the same view.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. */
+int lrcsi_visible_sampled(lrcsi_contest *contest, const lrcsi_raster *raster, lrcs_work *work,
+                          lrcsi_visible *visible);
+
+#endif
