@@ -23,7 +23,7 @@ enum { LEAF_FACETS = 4, MORTON_BITS = 21 };
 
 static lrcsi_box empty_box(void)
 {
-    return (lrcsi_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    return (lrcsi_box){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 }
 
 static void grow_box(lrcsi_box *box, const double low[3], const double high[3])
