@@ -63,8 +63,8 @@ static int format_ends(const char *name, const char *ending)
         return 0;
     }
     for (size_t i = 0; i < count; i++) {
-        char letter = name[size - count + i];
-        letter = letter >= 'A' && letter <= 'Z' ? (char)(letter + 32) : letter;
+        int letter = name[size - count + i];
+        letter = letter >= 'A' && letter <= 'Z' ? letter - 'A' + 'a' : letter;
         if (letter != ending[i]) {
             return 0;
         }
