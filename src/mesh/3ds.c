@@ -139,7 +139,7 @@ static int tds_fill(lrcsi_tds_walk *walk, lrcsi_tds_chunk root, lrcs_work *work)
     walk->name = lrcsi_work_take(work, materials, sizeof *walk->name);
     int status = walk->name ? tds_read_all(walk, root, LRCSI_TDS_MATERIAL) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        status = lrcsi_names_make(walk->bytes, walk->name, materials, work, &walk->names);
+        status = lrcsi_spans_make(walk->bytes, walk->name, materials, work, &walk->names);
     }
     if (status == LRCS_OK) {
         status = tds_read_all(walk, root, LRCSI_TDS_OBJECT);
