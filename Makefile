@@ -2,7 +2,7 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make test       every test (needs cmocka; gets it by itself where it can)
-#   make asan lint purity layers    further checks
+#   make asan lint purity layers fuzz    further checks
 
 # --- settings ------------------------------------------------------------------------------------
 CC       = gcc
@@ -53,6 +53,15 @@ purity: $(LIB)
 layers:
 	sh test/layers.sh
 
+# The readers under libFuzzer (needs clang), for FUZZ_SECONDS.
+fuzz:
+	@mkdir -p $(BUILD)/fuzz/corpus
+	clang $(STD) -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -Iinclude -Isrc \
+	    -o $(BUILD)/fuzz/readers test/fuzz/fuzz_readers.c $(wildcard src/base/*.c src/mesh/*.c) -lm
+	$(BUILD)/fuzz/readers -max_total_time=$(FUZZ_SECONDS) -max_len=4096 -print_final_stats=1 \
+	    -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus test/fuzz/seeds
+FUZZ_SECONDS = 120
+
 clean:
 	rm -rf $(BUILD)
 
@@ -60,7 +69,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo test asan lint purity layers clean cmocka
+.PHONY: all demo test asan lint purity layers fuzz clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
