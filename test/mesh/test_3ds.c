@@ -723,7 +723,7 @@ static void of_equal_material_names_the_first_is_bound(void **state)
 static void many_materials_are_told_apart(void **state)
 {
     (void)state;
-    char name[8] = "m0000";
+    char name[16];
     build3ds_begin(&file);
     for (unsigned i = 0; i < 1000; i++) {
         snprintf(name, sizeof name, "m%u", i);
