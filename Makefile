@@ -44,8 +44,8 @@ asan: cmocka
 	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) -lm" test
 SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 
-lint:
-	sh test/lint.sh
+lint: $(BUILD)/demo.inc
+	sh test/lint.sh $(BUILD)
 
 purity: $(LIB)
 	sh test/purity.sh $(CORE_OBJ)
