@@ -101,14 +101,21 @@ typedef struct lrcs_divisions {
 } lrcs_divisions;
 
 /* Chooses divisions for a shape and fineness, and counts the mesh they make (one part, no
-   materials; text_bytes for the part's name). Curved bodies: the fewest facets whose proved error (lrcs_curvature with
-   lrcs_brdf bounds) meets the tolerance over all aspects relative to the body's mean sigma, capped.
-   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_NUMBER. */
+   materials; text_bytes for the part's name). Curved bodies: the fewest facets whose proved error
+   (lrcs_curvature with lrcs_brdf bounds) meets the tolerance relative to sigma or to its mean over
+   attitudes, whichever is larger, at every one of a fan of aspects; capped. Where not even the cap
+   brings the error below sigma itself, the glint is given up and the diffuse part sets the count.
+   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_NUMBER.
+   Work: O(around log around); milliseconds. */
 int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
                      lrcs_divisions *divisions, lrcs_mesh_counts *counts);
 
-/* Makes the mesh. Vertices shared by position; facets outward; vertices rounded once from the
-   exact points. Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY. */
+/* Makes the mesh. Vertices shared by position; facets outward; symmetric to the bit; coordinates
+   good to a few units of rounding. Every circle becomes an N-gon of the same area, its first corner
+   on +x; a cylinder's, cone's or frustum's length is kept, the rise of a sphere, dome or paraboloid
+   is such that each facet's normal is the mean normal of its patch. Smoothing group 1 is the curved
+   wall; flat faces are hard. curvature may be NULL.
+   Status: LRCS_OK; LRCS_E_ARGUMENT (shape, or divisions that do not suit it); LRCS_E_MEMORY. */
 int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,
                     lrcs_mesh *mesh, lrcs_curvature *curvature);
 
