@@ -79,7 +79,14 @@ $(BUILD)/src/cli/%.o: src/cli/%.c
 
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
+
+# The built-in scene, as the bytes of a C array.
+$(BUILD)/demo.inc: examples/satellite.toml
+	@mkdir -p $(@D)
+	od -An -v -td1 $< | sed 's/-*[0-9][0-9]*/&,/g' >$@
+
+$(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
 
 $(BUILD)/src/%.o: src/%.c
 	@mkdir -p $(@D)
@@ -87,7 +94,7 @@ $(BUILD)/src/%.o: src/%.c
 
 $(BUILD)/test/%.o: test/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -Itest -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -Itest -MMD -MP -c -o $@ $<
 
 $(BUILD)/test/%: $(BUILD)/test/%.o $(LIB)
 	$(CC) -o $@ $< $(LIB) -lcmocka $(LDLIBS)
