@@ -56,7 +56,7 @@ typedef struct lrcsi_tds_walk {
     lrcs_mesh *mesh;
     char *text;               /* where the next name goes */
     lrcsi_span *name;         /* of each material, as in the file */
-    const lrcsi_names *names; /* the same, once all are known */
+    const lrcsi_spans *names; /* the same, once all are known */
 } lrcsi_tds_walk;
 
 /* Says where the walk stopped; returns `status`. */

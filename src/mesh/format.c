@@ -74,16 +74,16 @@ static int format_ends(const char *name, const char *ending)
 
 int lrcs_format_check(const void *bytes, size_t size, const char *name)
 {
-    if (size > 0 && lrcsi_stl_is_binary(bytes, size)) {
+    if (lrcsi_stl_is_binary(bytes, size)) {
         return LRCS_FORMAT_STL;
     }
-    if (size > 0 && format_is_3ds(bytes, size)) {
+    if (format_is_3ds(bytes, size)) {
         return LRCS_FORMAT_3DS;
     }
-    if (size > 0 && lrcsi_stl_is_text(bytes, size)) {
+    if (lrcsi_stl_is_text(bytes, size)) {
         return LRCS_FORMAT_STL;
     }
-    if (size > 0 && format_is_obj(bytes, size)) {
+    if (format_is_obj(bytes, size)) {
         return LRCS_FORMAT_OBJ;
     }
     if (name && format_ends(name, ".3ds")) {

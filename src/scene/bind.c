@@ -32,9 +32,8 @@ static const void *key_of(const lrcs_binding *binding, size_t *size)
 
 size_t lrcsi_binder_need(const lrcs_recipe *recipe)
 {
-    return lrcsi_work_add(
-        lrcsi_names_need((size_t)recipe->binding_count + recipe->material_count),
-        lrcsi_work_bytes(recipe->binding_count, 1));
+    return lrcsi_work_add(lrcsi_index_need((size_t)recipe->binding_count + recipe->material_count),
+                          lrcsi_work_bytes(recipe->binding_count, 1));
 }
 
 lrcsi_binder lrcsi_binder_plain(const lrcs_recipe *recipe)
@@ -49,7 +48,7 @@ lrcsi_binder lrcsi_binder_plain(const lrcs_recipe *recipe)
 static uint32_t find(const lrcsi_binder *binder, int tag, const void *bytes, size_t size)
 {
     if (binder->indexed) {
-        return lrcsi_names_find(&binder->names, (uint32_t)tag, bytes, size);
+        return lrcsi_index_find(&binder->names, (uint32_t)tag, bytes, size);
     }
     const lrcs_recipe *recipe = binder->recipe;
     for (uint32_t i = tag == TAG_RECIPE ? recipe->material_count : 0; i-- > 0;) {
@@ -95,18 +94,18 @@ int lrcsi_binder_make(const lrcs_recipe *recipe, lrcs_work *work, lrcsi_binder *
     *binder = lrcsi_binder_plain(recipe);
     binder->matched = lrcsi_work_take_zero(work, recipe->binding_count, 1);
     if (!binder->matched || total >= LRCS_NONE ||
-        lrcsi_names_make(work, (uint32_t)total, &binder->names) != LRCS_OK) {
+        lrcsi_index_make(work, (uint32_t)total, &binder->names) != LRCS_OK) {
         return LRCS_E_MEMORY;
     }
     binder->indexed = 1;
     for (uint32_t i = 0; i < recipe->binding_count; i++) {
         size_t size;
         const void *key = key_of(&recipe->binding[i], &size);
-        lrcsi_names_put(&binder->names, (uint32_t)recipe->binding[i].kind, key, size, i);
+        lrcsi_index_put(&binder->names, (uint32_t)recipe->binding[i].kind, key, size, i);
     }
     for (uint32_t i = 0; i < recipe->material_count; i++) {
         const char *name = recipe->material[i].name;
-        lrcsi_names_put(&binder->names, TAG_RECIPE, name, strlen(name), i);
+        lrcsi_index_put(&binder->names, TAG_RECIPE, name, strlen(name), i);
         find_named(binder, LRCS_BIND_NAME, name); /* a defined material counts as a match */
     }
     return LRCS_OK;

@@ -6,11 +6,11 @@
 
 #include <lrcs/scene.h>
 
-#include "scene/names.h"
+#include "scene/index.h"
 
 typedef struct lrcsi_binder {
     const lrcs_recipe *recipe;
-    lrcsi_names names;      /* bindings by kind and name or colour; materials of the recipe */
+    lrcsi_index names;      /* bindings by kind and name or colour; materials of the recipe */
     unsigned char *matched; /* by binding, the last of equal ones standing for all */
     int indexed;            /* 0: search the recipe instead (slow, no work area) */
 } lrcsi_binder;

@@ -17,8 +17,12 @@ typedef struct lrcsi_placer {
    determinant 0, a joint's axis of no length). */
 int lrcsi_placer_make(const lrcs_place *place, const lrcs_joint *joint, lrcsi_placer *placer);
 
-/* translate + rotate (scale (joint (given))). Each step that does something adds a rounding error
-   of at most a few ulp of its largest term. */
+/* translate + rotate (scale (joint (given))), rounded. */
 void lrcsi_placer_run(const lrcsi_placer *placer, const double given[3], double placed[3]);
+
+/* How far a placed point may lie from the exact image of the true one under the same matrices: a
+   bound on the distance, where the true point's coordinates are at most `most` and those given are
+   within `error` of them. */
+double lrcsi_placer_error(const lrcsi_placer *placer, double most, double error);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "base/where.h"
 #include "base/work.h"
-#include "scene/names.h"
+#include "scene/index.h"
 #include "scene/recipe.h"
 
 /* Tags of names that must differ among themselves. */
@@ -34,7 +34,7 @@ size_t lrcs_recipe_need(size_t size)
     /* Strings with terminator and padding; one number without its underscores. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(strings, 1 + LRCS_WORK_ALIGN));
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, 2));
-    return lrcsi_work_add(need, lrcsi_names_need(tables));
+    return lrcsi_work_add(need, lrcsi_index_need(tables));
 }
 
 static int out_of_memory(lrcs_where *where)
@@ -242,17 +242,17 @@ static int refuse_name(const recipe_reader *reader, uint32_t line, const char *i
 }
 
 /* Enters a name; LRCS_E_NAME where it is known. */
-static int enter_name(lrcsi_names *names, uint32_t tag, const void *bytes, size_t size,
+static int enter_name(lrcsi_index *names, uint32_t tag, const void *bytes, size_t size,
                       uint32_t value)
 {
-    if (lrcsi_names_find(names, tag, bytes, size) != LRCS_NONE) {
+    if (lrcsi_index_find(names, tag, bytes, size) != LRCS_NONE) {
         return LRCS_E_NAME;
     }
-    lrcsi_names_put(names, tag, bytes, size, value);
+    lrcsi_index_put(names, tag, bytes, size, value);
     return LRCS_OK;
 }
 
-static int enter_names(const recipe_reader *reader, lrcsi_names *names)
+static int enter_names(const recipe_reader *reader, lrcsi_index *names)
 {
     const lrcs_recipe *recipe = &reader->recipe;
     for (uint32_t i = 0; i < recipe->part_count; i++) {
@@ -282,10 +282,10 @@ static int enter_names(const recipe_reader *reader, lrcsi_names *names)
 }
 
 /* The recipe's own materials first, then the library's; which one in *own, LRCS_NONE for these. */
-static int resolve_name(const recipe_reader *reader, const lrcsi_names *names, const char *name,
+static int resolve_name(const recipe_reader *reader, const lrcsi_index *names, const char *name,
                         uint32_t line, uint32_t *own, lrcs_binding *binding)
 {
-    *own = lrcsi_names_find(names, TAG_MATERIAL, name, strlen(name));
+    *own = lrcsi_index_find(names, TAG_MATERIAL, name, strlen(name));
     if (*own != LRCS_NONE) {
         binding->brdf = reader->recipe.material[*own].brdf;
         binding->two_sided = reader->recipe.material[*own].two_sided;
@@ -301,7 +301,7 @@ static int resolve_name(const recipe_reader *reader, const lrcsi_names *names, c
     return LRCS_OK;
 }
 
-static int resolve_materials(recipe_reader *reader, const lrcsi_names *names)
+static int resolve_materials(recipe_reader *reader, const lrcsi_index *names)
 {
     lrcs_recipe *recipe = &reader->recipe;
     uint32_t own;
@@ -334,12 +334,12 @@ static int resolve_names(recipe_reader *reader, lrcs_work *work)
     const lrcs_recipe *recipe = &reader->recipe;
     size_t mark = work->used;
     size_t total = (size_t)recipe->part_count + recipe->material_count + recipe->binding_count;
-    lrcsi_names names;
+    lrcsi_index names;
     if (total >= LRCS_NONE || recipe->material_count > INT32_MAX) {
         return lrcsi_where_number(reader->toml.where, LRCS_E_LIMIT, 0, 0, "scene file",
                                   "fewer tables", total);
     }
-    if (lrcsi_names_make(work, (uint32_t)total, &names) != LRCS_OK) {
+    if (lrcsi_index_make(work, (uint32_t)total, &names) != LRCS_OK) {
         return out_of_memory(reader->toml.where);
     }
     int status = enter_names(reader, &names);
