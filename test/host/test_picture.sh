@@ -5,7 +5,7 @@ tool=$1
 command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; exit 0; }
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
-"$tool" run demo --azel 30,20 --json --image "$scratch/i.png" --image-size 200 \
+"$tool" run demo --tolerance 0.01 --azel 30,20 --json --image "$scratch/i.png" --image-size 200 \
     --facets "$scratch/f.csv" >"$scratch/o.json" 2>/dev/null
 "$tool" info demo --json >"$scratch/info.json" 2>/dev/null
 python3 - "$scratch" <<'END'
