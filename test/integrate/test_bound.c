@@ -3,7 +3,6 @@
    contacts (test/vectors/visible.py), at several resolutions, one-sided and two-sided. */
 #include <lrcs/lrcs.h>
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
@@ -95,10 +94,8 @@ static void run_case(const visible_case *c, int two_sided, int method, uint32_t 
 {
     scene_room room;
     scene_of(c, two_sided, &room);
-    size_t bytes = 64u << 20;
-    unsigned char *memory = malloc(bytes);
-    assert_non_null(memory);
-    lrcs_work work = lrcs_work_make(memory, bytes);
+    static unsigned char memory[16u << 20];
+    lrcs_work work = lrcs_work_make(memory, sizeof memory);
     const lrcs_prepared *prepared = NULL;
     assert_int_equal(lrcs_prepare_run(&room.scene, &work, &prepared), LRCS_OK);
     lrcs_pose pose;
@@ -106,7 +103,6 @@ static void run_case(const visible_case *c, int two_sided, int method, uint32_t 
     lrcs_run_options options = {1e-4, method, size};
     assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, result, records, NULL),
                      LRCS_OK);
-    free(memory);
 }
 
 static void zbuffer_bound_holds_on_every_scene(void **state)
@@ -128,6 +124,36 @@ static void zbuffer_bound_holds_on_every_scene(void **state)
             }
         }
     }
+}
+
+/* Extent of the coordinates, for areas: they lie within -8 .. 8. */
+#define EXTENT 16.0
+
+static void exact_areas_agree_with_rational_arithmetic(void **state)
+{
+    (void)state;
+    double worst = 0;
+    for (size_t i = 0; i < CASES; i++) {
+        double silhouette = 0;
+        double truth = true_sigma(&cases[i], 1, &silhouette);
+        lrcs_result r;
+        lrcs_facet_record records[MOST];
+        run_case(&cases[i], 1, LRCS_METHOD_EXACT, 0, &r, records);
+        for (uint32_t f = 0; f < cases[i].facets; f++) {
+            double whole = records[f].area_m2 * fabs(records[f].cos_theta);
+            double want = whole * fmax(0, cases[i].share[f]);
+            if (fabs(records[f].visible_area_m2 - want) > 1e-12 * whole + 1e-15 * EXTENT * EXTENT) {
+                fprintf(stderr, "scene %zu (%s), facet %u\n", i, cases[i].kind, f);
+            }
+            check_abs(records[f].visible_area_m2, want, 1e-12 * whole + 1e-15 * EXTENT * EXTENT);
+        }
+        check_abs(r.sigma_m2, truth, r.bound_m2 + 4e-16 * truth);
+        check_abs(r.projected_area_m2, silhouette, 1e-12 * silhouette);
+        if (truth > 0) {
+            worst = fmax(worst, r.bound_m2 / truth);
+        }
+    }
+    check_most(worst, 1e-9);
 }
 
 static void facet_bound_holds_what_could_be_hidden(void **state)
@@ -184,6 +210,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(zbuffer_bound_holds_on_every_scene),
+        cmocka_unit_test(exact_areas_agree_with_rational_arithmetic),
         cmocka_unit_test(facet_bound_holds_what_could_be_hidden),
         cmocka_unit_test(uniform_facets_are_exact_at_any_resolution),
         cmocka_unit_test(bound_shrinks_with_resolution),
