@@ -34,8 +34,9 @@ TOOL     = $(BUILD)/lrcs
 # --- targets -------------------------------------------------------------------------------------
 all: $(TOOL) $(LIB)
 
+# Exit 3 says that the tolerance was not met, and is not a failure here.
 demo: $(TOOL)
-	$(TOOL) run demo --image $(BUILD)/demo.png
+	$(TOOL) run demo --image $(BUILD)/demo.png || [ $$? -eq 3 ]
 
 test: cmocka $(TOOL) $(TESTS)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
