@@ -95,10 +95,10 @@ static int surely_behind(const lrcsi_target *t, uint32_t other)
     const uint32_t *its = view->prepared->scene->facet[other].corner;
     double off = 4 * view->off;
     for (int k = 0; k < 3; k++) {
-        double own_low = INFINITY;
-        double own_high = -INFINITY;
-        double its_low = INFINITY;
-        double its_high = -INFINITY;
+        double own_low = HUGE_VAL;
+        double own_high = -HUGE_VAL;
+        double its_low = HUGE_VAL;
+        double its_high = -HUGE_VAL;
         for (int i = 0; i < 3; i++) {
             own_low = fmin(own_low, view->point[own[i]].x[k]);
             own_high = fmax(own_high, view->point[own[i]].x[k]);
@@ -188,7 +188,7 @@ static double side_cut(const occlude_caster *c, int k, double at[2])
     for (int i = 0; i < 2; i++) {
         at[i] = c->corner[k][i] + t * (c->corner[next][i] - c->corner[k][i]);
     }
-    return span > 2 * off ? 4 * c->reach * (off / span) : (double)INFINITY;
+    return span > 2 * off ? 4 * c->reach * (off / span) : HUGE_VAL;
 }
 
 /* The points where the cut by the target's plane enters and leaves the occluder. */
@@ -220,7 +220,7 @@ static void region_side(const occlude_caster *c, int k, region_cut *cut)
 static int region_make(const occlude_caster *c, lrcsi_clip_region *region, double *slip)
 {
     region_cut cut = {{0, 0}, {0, 0}, 0, 0};
-    *region = (lrcsi_clip_region){.low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+    *region = (lrcsi_clip_region){.low = {HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL}};
     for (int k = 0; k < 3; k++) {
         int next = (k + 1) % 3;
         if (c->above[k] >= 0) {
