@@ -93,6 +93,9 @@ const char *cli_material_name(const lrcs_material *material);
 /* dBsm of a sigma > 0. */
 double cli_dbsm(double sigma_m2);
 
+/* Text on stdout, blanks after it up to `width`, control characters as '?'. */
+void cli_column(const char *text, int width);
+
 /* "notice: ..." for each, on `out`. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
 

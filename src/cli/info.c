@@ -28,6 +28,8 @@ static const cli_option info_options[] = {{"unit", 1, 0}, {"material", 1, 1},
 /* Where the glint error passes this, a run is warned about. */
 #define GLINT_WARN 1e-2
 
+#define DEGREES (180.0 / 3.14159265358979323846)
+
 typedef struct info_material {
     uint32_t facets;
     double area, low; /* a sum and its carry */
@@ -207,8 +209,7 @@ static void json_glint(const info_job *job, lrcs_host_json *json)
         lrcs_host_json_text(json, "part", scene->part[glint->part].name);
         lrcs_host_json_text(json, "material", scene->material[glint->material].name);
         lrcs_host_json_number(json, "s", glint->s);
-        lrcs_host_json_number(json, "turn_estimate_deg",
-                              glint->turn * (180.0 / 3.14159265358979323846));
+        lrcs_host_json_number(json, "turn_estimate_deg", glint->turn * DEGREES);
         lrcs_host_json_number(json, "relative_error_estimate", glint->error);
         lrcs_host_json_number(json, "facets_around_for_1e-2", glint->around_1_percent);
         lrcs_host_json_number(json, "facets_around_for_1e-3", glint->around_01_percent);
@@ -278,7 +279,9 @@ static void table_materials(const info_job *job)
             snprintf(colour, sizeof colour, "#%02X%02X%02X", material->rgb[0], material->rgb[1],
                      material->rgb[2]);
         }
-        printf("  %-24s %-8s %9lu %12.6g  %g,%g,%g,%g%s%s%s\n", cli_material_name(material), colour,
+        printf("  ");
+        cli_column(cli_material_name(material), 24);
+        printf(" %-8s %9lu %12.6g  %g,%g,%g,%g%s%s%s\n", colour,
                (unsigned long)job->material[i].facets, job->material[i].area + job->material[i].low,
                material->brdf.A, material->brdf.B, material->brdf.s, material->brdf.m,
                material->bound ? "" : "  (unbound)", material->two_sided ? "  two-sided" : "",
@@ -298,9 +301,11 @@ static void table_glint(const info_job *job)
            "part", "material", "s", "turn deg", "error", "N 1 %", "N 0.1 %");
     for (uint32_t i = 0; i < job->glint_count; i++) {
         const lrcs_host_glint *glint = &job->glint[i];
-        printf("  %-20s %-20s %6g %9.3g %8.2g%s %8.0f %8.0f\n", scene->part[glint->part].name,
-               cli_material_name(&scene->material[glint->material]), glint->s,
-               glint->turn * (180.0 / 3.14159265358979323846), glint->error,
+        printf("  ");
+        cli_column(scene->part[glint->part].name, 20);
+        printf(" ");
+        cli_column(cli_material_name(&scene->material[glint->material]), 20);
+        printf(" %6g %9.3g %8.2g%s %8.0f %8.0f\n", glint->s, glint->turn * DEGREES, glint->error,
                glint->error > GLINT_WARN ? "!" : " ", glint->around_1_percent,
                glint->around_01_percent);
     }

@@ -15,7 +15,7 @@ static const char verify_help[] =
 static const cli_option verify_options[] = {{"json", 0, 0}, {"help", 0, 0}, {NULL, 0, 0}};
 
 /* Fine enough to be a test, coarse enough to take seconds. */
-#define VERIFY_TOLERANCE 1e-3
+#define VERIFY_TOLERANCE 1e-2
 
 static const lrcs_shape verify_shapes[] = {
     {.kind = LRCS_SHAPE_PLATE, .size = {1.2, 0.8, 0.0}},

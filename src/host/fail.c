@@ -8,6 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A name from a file may hold anything; what would move a terminal's cursor becomes '?'. */
+static void text_tame(char *text)
+{
+    for (; *text; text++) {
+        if ((unsigned char)*text < 0x20 || *text == 0x7f) {
+            *text = '?';
+        }
+    }
+}
+
 int lrcsi_host_fail(lrcs_host_error *error, int status, const char *format, ...)
 {
     if (error) {
@@ -15,6 +25,7 @@ int lrcsi_host_fail(lrcs_host_error *error, int status, const char *format, ...)
         va_start(list, format);
         vsnprintf(error->text, sizeof error->text, format, list);
         va_end(list);
+        text_tame(error->text);
     }
     return status;
 }
@@ -54,6 +65,7 @@ void lrcsi_host_note(lrcs_host_notices *notices, const char *format, ...)
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
+    text_tame(text);
     for (uint32_t i = 0; i < notices->count; i++) {
         if (strcmp(notices->text[i], text) == 0) {
             return;

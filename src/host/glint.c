@@ -8,8 +8,10 @@
 
 #define GLINT_PI 3.14159265358979323846
 
-/* Neighbours that turn by less are taken for halves of one flat polygon. */
-#define FLAT_TURN 1e-3
+/* Neighbours that turn by less are taken for halves of one flat polygon, by more (60 deg) for
+   faces of a box that its maker smoothed. */
+#define FLAT_TURN  1e-3
+#define SHARP_TURN (GLINT_PI / 3.0)
 
 /* An edge of a facet, lower vertex first. */
 typedef struct glint_edge {
@@ -119,7 +121,7 @@ static size_t turns_list(const lrcs_scene *scene, const glint_edge *edges, size_
             continue;
         }
         double turn = facets_turn(scene, a, b);
-        if (turn > FLAT_TURN) {
+        if (turn > FLAT_TURN && turn < SHARP_TURN) {
             turns[count++] = (glint_turn){scene->facet_part[a], scene->facet_material[a], turn};
         }
     }

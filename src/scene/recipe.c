@@ -103,7 +103,7 @@ static int read_brdf(const lrcsi_draft *draft, lrcs_brdf *brdf)
         const lrcsi_toml_event *number = lrcsi_draft_find(draft, key[i]);
         given += number != NULL;
         if (number && !(number->number[0] >= 0.0)) {
-            return lrcsi_draft_refuse_value(draft, key[i], LRCS_E_ARGUMENT, "a number, 0 or more");
+            return lrcsi_draft_refuse_value(draft, key[i], LRCS_E_NUMBER, "a number, 0 or more");
         }
     }
     if (given != (like ? 0 : 4)) {
