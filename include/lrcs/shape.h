@@ -9,14 +9,14 @@
 #include <lrcs/mesh.h>
 
 enum lrcs_shape_kind {
-    LRCS_SHAPE_PLATE = 0, /* size[0] x size[1], one-sided, normal +z */
-    LRCS_SHAPE_DISC,      /* radius, one-sided, normal +z */
-    LRCS_SHAPE_BOX,       /* size[0] x size[1] x size[2] */
-    LRCS_SHAPE_SPHERE,    /* radius */
-    LRCS_SHAPE_DOME,      /* radius: upper half sphere, z = 0 .. radius; base disc with ALL */
-    LRCS_SHAPE_CYLINDER,  /* radius, length; two end discs with ALL */
-    LRCS_SHAPE_CONE,      /* radius (base), and half_angle_deg or length; base with ALL */
-    LRCS_SHAPE_FRUSTUM,   /* radius (the end at aspect 0, z = length), radius2 (z = 0), length */
+    LRCS_SHAPE_PLATE = 0,  /* size[0] x size[1], one-sided, normal +z */
+    LRCS_SHAPE_DISC,       /* radius, one-sided, normal +z */
+    LRCS_SHAPE_BOX,        /* size[0] x size[1] x size[2] */
+    LRCS_SHAPE_SPHERE,     /* radius */
+    LRCS_SHAPE_DOME,       /* radius: upper half sphere, z = 0 .. radius; base disc with ALL */
+    LRCS_SHAPE_CYLINDER,   /* radius, length; two end discs with ALL */
+    LRCS_SHAPE_CONE,       /* radius (base), and half_angle_deg or length; base with ALL */
+    LRCS_SHAPE_FRUSTUM,    /* radius (the end at aspect 0, z = length), radius2 (z = 0), length */
     LRCS_SHAPE_PARABOLOID, /* radius (base), length (height): z = H (1 - r^2/R^2); base with ALL */
     LRCS_SHAPE_KINDS
 };
@@ -86,8 +86,8 @@ typedef struct lrcs_curvature {
 
 /* How finely to tessellate. */
 typedef struct lrcs_fineness {
-    double tolerance;  /* relative error of sigma aimed at, > 0 */
-    lrcs_brdf brdf;    /* the material it will wear */
+    double tolerance;    /* relative error of sigma aimed at, > 0 */
+    lrcs_brdf brdf;      /* the material it will wear */
     uint32_t max_facets; /* never more than this; >= 64 */
 } lrcs_fineness;
 
