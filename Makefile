@@ -45,7 +45,7 @@ asan: cmocka
 	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) -lm" test
 SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 
-lint:
+lint: $(BUILD)/demo.inc
 	sh test/lint.sh
 
 purity: $(LIB)

@@ -17,7 +17,7 @@ trap 'rm -f "$log"' EXIT
 
 echo 'lint: clang-tidy over src (.clang-tidy says which checks, and why not the others)'
 if ! find src -name '*.c' | LC_ALL=C sort | xargs -P 2 -I FILE clang-tidy --quiet FILE -- \
-    -std=c11 -ffp-contract=off -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc >"$log" 2>&1; then
+    -std=c11 -ffp-contract=off -D_XOPEN_SOURCE=700 -Iinclude -Isrc -Ibuild >"$log" 2>&1; then
     grep -E ': (warning|error):' "$log" | LC_ALL=C sort -u >&2 || cat "$log" >&2
     bad=1
 fi
