@@ -2,7 +2,7 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make test       every test (needs cmocka; gets it by itself where it can)
-#   make asan lint purity layers    further checks
+#   make asan lint purity layers fuzz    further checks
 
 # --- settings ------------------------------------------------------------------------------------
 CC       = gcc
@@ -46,13 +46,22 @@ asan: cmocka
 SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 
 lint: $(BUILD)/demo.inc
-	sh test/lint.sh
+	sh test/lint.sh $(BUILD)
 
 purity: $(LIB)
 	sh test/purity.sh $(CORE_OBJ)
 
 layers:
 	sh test/layers.sh
+
+# The readers under libFuzzer (needs clang), for FUZZ_SECONDS.
+fuzz:
+	@mkdir -p $(BUILD)/fuzz/corpus
+	clang $(STD) -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -Iinclude -Isrc \
+	    -o $(BUILD)/fuzz/readers test/fuzz/fuzz_readers.c $(wildcard src/base/*.c src/mesh/*.c) -lm
+	$(BUILD)/fuzz/readers -max_total_time=$(FUZZ_SECONDS) -max_len=4096 -print_final_stats=1 \
+	    -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus test/fuzz/seeds
+FUZZ_SECONDS = 120
 
 clean:
 	rm -rf $(BUILD)
@@ -61,7 +70,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo test asan lint purity layers clean cmocka
+.PHONY: all demo test asan lint purity layers fuzz clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------

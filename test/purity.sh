@@ -5,10 +5,10 @@
 # all they show outside is named lrcs_ or lrcsi_.
 # usage: purity.sh OBJ...
 allowed='
-memchr memcmp memcpy memmove memset strchr strcmp strlen strncmp
+memchr memcmp memcpy memmove memset strchr strcmp strcspn strlen strncmp strspn
 acos asin atan atan2 cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs floor fma fmax fmin
 fmod frexp hypot ilogb ldexp lgamma llround log log10 log1p log2 logb lrint lround modf nearbyint
-nextafter pow remainder rint round scalbln scalbn sin sincos sinh sqrt tan tanh tgamma trunc
+nextafter pow remainder remquo rint round scalbln scalbn sin sincos sinh sqrt tan tanh tgamma trunc
 _GLOBAL_OFFSET_TABLE_ __stack_chk_fail
 '
 # sincos: what gcc makes of sin and cos of one angle. The last two are the compiler's own.

@@ -63,9 +63,9 @@ static int format_ends(const char *name, const char *ending)
         return 0;
     }
     for (size_t i = 0; i < count; i++) {
-        char letter = name[size - count + i];
-        letter = letter >= 'A' && letter <= 'Z' ? (char)(letter + 32) : letter;
-        if (letter != ending[i]) {
+        unsigned char letter = (unsigned char)name[size - count + i];
+        letter = letter >= 'A' && letter <= 'Z' ? (unsigned char)(letter + 32) : letter;
+        if (letter != (unsigned char)ending[i]) {
             return 0;
         }
     }

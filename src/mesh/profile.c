@@ -43,6 +43,10 @@
 #define SLOPE_MOST  1e300
 /* Absolute error of a coordinate near the end of double's range, generously. */
 #define COARSE 1e-322
+/* Facets blurred beyond this part of themselves get USELESS numbers: finite, for a facet may have
+   no area to multiply them with. */
+#define BLUR_MOST 0x1p-6
+#define USELESS   1e300
 
 /* A strip's patch and facet: areas and vector areas in any one unit. */
 typedef struct strip {
@@ -174,7 +178,19 @@ static double profile_blur(const lrcsi_profile *profile, uint32_t i)
     if (slant > 0.0 && !profile_straight(profile)) {
         blur += 2.0 * (e * profile->height + COARSE) / slant;
     }
-    return fmin(blur, 2.0 * HALF_PI);
+    return blur;
+}
+
+/* The numbers for a facet tilted and resized by rounding. The turn vector changes by at most
+   gamma / sin gamma < 2 times the tilt. A facet that rounding moves by a part of itself has no
+   numbers that mean anything. */
+static lrcs_curvature curvature_blur(const lrcs_curvature *c, double blur)
+{
+    if (blur > BLUR_MOST) {
+        return (lrcs_curvature){2.0 * HALF_PI, USELESS, USELESS, sqrt(USELESS)};
+    }
+    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * HALF_PI), c->area_error + 2.0 * blur,
+                            c->lean + 2.0 * blur, c->spread + 2.0 * blur};
 }
 
 static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
@@ -201,12 +217,7 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
     c.lean = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
     c.area_error = fabs(ratio - 1.0);
-    double blur = profile_blur(profile, i) * (1.0 + c.area_error) + SLACK;
-    c.turn = fmin(c.turn + blur, 2.0 * HALF_PI);
-    c.area_error += 2.0 * blur;
-    c.lean += 2.0 * blur;
-    c.spread += 2.0 * blur;
-    return c;
+    return curvature_blur(&c, profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
 }
 
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)

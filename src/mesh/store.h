@@ -34,7 +34,7 @@ typedef struct lrcsi_spans {
     size_t slots;
 } lrcsi_spans;
 
-/* Makes the table in the work area, `names` then refers to `name` and `bytes`. Of equal names the
+/* Makes the table in the work area, it then refers to `name` and `bytes`. Of equal names the
    first is found. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_spans_make(const unsigned char *bytes, const lrcsi_span *name, uint32_t count,
                      lrcs_work *work, lrcsi_spans *names);

@@ -3,6 +3,9 @@
    intersection point is ever computed.
 
    F, with corners a_0 a_1 a_2, is touched inside; T, with corners p_0 p_1 p_2, touches it.
+   0. Where those p_k that are not corners of F all lie strictly on one side of its plane, T meets
+   that plane in corners of F or between them at most: refused. Rounded, with the bound of
+   mesh/tree.c; what it leaves undecided goes on.
    1. Seen along any direction in which F is not edge-on: where the line of a side of F has all of
       T on its outer side or on it, or the line of a side of T has F on the one side and T on the
       other, T does not meet the inside of F. In one plane this decides (separating axes of convex
@@ -19,6 +22,7 @@
       of a_k against the plane of T tell. */
 #include "mesh/touch.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/exact.h"
@@ -27,50 +31,95 @@
 
 static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-/* The corners of a facet. */
-typedef struct touch_corners {
+/* A facet's corners; for F also its plane, an axis along which it is not edge-on, and the sign of
+   its turn there. */
+typedef struct touch_facet {
     const double *x[3];
-} touch_corners;
+    double normal[3], weight[3]; /* computed, and what bounds its error (mesh/tree.c) */
+    const double *axis;
+    int turn;
+} touch_facet;
+
+/* 10 u, as in mesh/tree.c. */
+#define TOUCH_FILTER (10.0 * 0x1p-53)
 
 /* Entries are taken from the work area in blocks that follow one another without gaps. */
 enum { TOUCH_BLOCK = LRCS_WORK_ALIGN / sizeof(lrcsi_touch) };
 
-static touch_corners corners_of(const lrcs_point *vertex, lrcs_facet facet)
+static touch_facet corners_of(const lrcs_point *vertex, lrcs_facet facet)
 {
-    return (touch_corners){
-        {vertex[facet.corner[0]].x, vertex[facet.corner[1]].x, vertex[facet.corner[2]].x}};
+    touch_facet f = {.axis = unit_axis[0]};
+    for (int k = 0; k < 3; k++) {
+        f.x[k] = vertex[facet.corner[k]].x;
+    }
+    return f;
 }
 
-/* The axis along which F is seen most broadly and the sign of its turn, by exact choice where the
+/* Adds the plane, and the axis along which F is seen most broadly, by exact signs where the
    rounded one sees it edge-on. */
-static const double *broad_axis(const touch_corners *f, int *turn)
+static void make_inside(touch_facet *f)
 {
-    double most = -1.0;
     int best = 0;
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
-        double n = (f->x[1][i] - f->x[0][i]) * (f->x[2][j] - f->x[0][j]) -
-                   (f->x[1][j] - f->x[0][j]) * (f->x[2][i] - f->x[0][i]);
-        n = n < 0.0 ? -n : n;
-        if (n > most) {
-            most = n;
-            best = k;
-        }
+        double plus = (f->x[1][i] - f->x[0][i]) * (f->x[2][j] - f->x[0][j]);
+        double minus = (f->x[1][j] - f->x[0][j]) * (f->x[2][i] - f->x[0][i]);
+        f->normal[k] = plus - minus;
+        f->weight[k] = fabs(plus) + fabs(minus);
+        best = fabs(f->normal[k]) > fabs(f->normal[best]) ? k : best;
     }
+    for (int k = 0; k < 3 && f->turn == 0; k++) {
+        f->axis = unit_axis[(best + k) % 3];
+        f->turn = lrcsi_exact_turn(f->x[0], f->x[1], f->x[2], f->axis);
+    }
+}
+
+static int is_corner_of(const touch_facet *f, const double *p)
+{
     for (int k = 0; k < 3; k++) {
-        const double *axis = unit_axis[(best + k) % 3];
-        *turn = lrcsi_exact_turn(f->x[0], f->x[1], f->x[2], axis);
-        if (*turn != 0) {
-            return axis;
+        const double *x = f->x[k];
+        if (x == p || (x[0] == p[0] && x[1] == p[1] && x[2] == p[2])) {
+            return 1;
         }
     }
-    return unit_axis[best];
+    return 0;
+}
+
+/* The side of F's plane on which p is proved to lie, or 0. */
+static int sure_side(const touch_facet *f, const double *p)
+{
+    double height = 0.0;
+    double error = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double d = p[k] - f->x[0][k];
+        height += f->normal[k] * d;
+        error += f->weight[k] * fabs(d);
+    }
+    error *= TOUCH_FILTER;
+    return height > error ? 1 : height < -error ? -1 : 0;
+}
+
+/* Step 0. */
+static int surely_on_one_side(const touch_facet *f, const touch_facet *t)
+{
+    int seen = 0;
+    for (int k = 0; k < 3; k++) {
+        if (is_corner_of(f, t->x[k])) {
+            continue;
+        }
+        int side = sure_side(f, t->x[k]);
+        if (side == 0 || side == -seen) {
+            return 0;
+        }
+        seen = side;
+    }
+    return seen != 0;
 }
 
 /* 1 where, along the axis, some side of f (which turns by `turn`, not 0) has all of g outside or
    on its line. */
-static int side_line_separates(const touch_corners *f, int turn, const touch_corners *g,
+static int side_line_separates(const touch_facet *f, int turn, const touch_facet *g,
                                const double *axis)
 {
     for (int k = 0; k < 3; k++) {
@@ -88,18 +137,16 @@ static int side_line_separates(const touch_corners *f, int turn, const touch_cor
 }
 
 /* Step 1. */
-static int separated_along_axis(const touch_corners *f, const touch_corners *t)
+static int separated_along_axis(const touch_facet *f, const touch_facet *t)
 {
-    int f_turn;
-    const double *axis = broad_axis(f, &f_turn);
-    if (side_line_separates(f, f_turn, t, axis)) {
+    if (side_line_separates(f, f->turn, t, f->axis)) {
         return 1;
     }
-    int t_turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], axis);
-    return t_turn != 0 && side_line_separates(t, t_turn, f, axis);
+    int t_turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], f->axis);
+    return t_turn != 0 && side_line_separates(t, t_turn, f, f->axis);
 }
 
-static void plane_sides(const touch_corners *f, const touch_corners *t, int side[3])
+static void plane_sides(const touch_facet *f, const touch_facet *t, int side[3])
 {
     for (int k = 0; k < 3; k++) {
         side[k] = lrcsi_exact_side(f->x[0], f->x[1], f->x[2], t->x[k]);
@@ -114,7 +161,7 @@ typedef struct cut_line {
 
 /* The lines whose crossings end the cut of T: one or two, for signs neither all positive, nor all
    negative, nor all zero. */
-static int cut_ends(const touch_corners *t, const int side[3], cut_line end[2])
+static int cut_ends(const touch_facet *t, const int side[3], cut_line end[2])
 {
     int n = 0;
     for (int k = 0; k < 3 && n < 2; k++) {
@@ -130,7 +177,7 @@ static int cut_ends(const touch_corners *t, const int side[3], cut_line end[2])
 }
 
 /* Step 3, given the signs of T's corners against the plane of F. */
-static int cut_meets_inside(const touch_corners *f, const touch_corners *t, const int side[3])
+static int cut_meets_inside(const touch_facet *f, const touch_facet *t, const int side[3])
 {
     cut_line end[2];
     int ends = cut_ends(t, side, end);
@@ -154,25 +201,32 @@ static int cut_meets_inside(const touch_corners *f, const touch_corners *t, cons
     return above && below;
 }
 
-int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+/* How t touches f, which has its plane and axis. */
+static int touch_kind(const touch_facet *f, const touch_facet *t)
 {
-    touch_corners f = corners_of(vertex, facet);
-    touch_corners t = corners_of(vertex, other);
-    if (separated_along_axis(&f, &t)) {
+    if (surely_on_one_side(f, t) || separated_along_axis(f, t)) {
         return LRCSI_TOUCH_NONE;
     }
     int side[3];
-    plane_sides(&f, &t, side);
+    plane_sides(f, t, side);
     if (side[0] == side[1] && side[1] == side[2]) {
         return side[0] == 0 ? LRCSI_TOUCH_COPLANAR : LRCSI_TOUCH_NONE;
     }
-    return cut_meets_inside(&f, &t, side) ? LRCSI_TOUCH_CROSS : LRCSI_TOUCH_NONE;
+    return cut_meets_inside(f, t, side) ? LRCSI_TOUCH_CROSS : LRCSI_TOUCH_NONE;
+}
+
+int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+{
+    touch_facet f = corners_of(vertex, facet);
+    touch_facet t = corners_of(vertex, other);
+    make_inside(&f);
+    return touch_kind(&f, &t);
 }
 
 int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
 {
-    touch_corners f = corners_of(vertex, facet);
-    touch_corners t = corners_of(vertex, other);
+    touch_facet f = corners_of(vertex, facet);
+    touch_facet t = corners_of(vertex, other);
     int side[3];
     plane_sides(&f, &t, side);
     return side[0] == 0 && side[1] == 0 && side[2] == 0;
@@ -214,9 +268,12 @@ static int collect_touches(const lrcs_point *vertex, const lrcs_facet *facet, ui
                            const lrcsi_tree *tree, lrcs_work *work, lrcsi_touches *t)
 {
     lrcsi_tree_walk walk = lrcsi_tree_around(tree, vertex, facet[f]);
+    touch_facet inside = corners_of(vertex, facet[f]);
+    make_inside(&inside);
     uint32_t other;
     while ((other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
-        int kind = other == f ? LRCSI_TOUCH_NONE : lrcsi_touch_pair(vertex, facet[f], facet[other]);
+        touch_facet candidate = corners_of(vertex, facet[other]);
+        int kind = other == f ? LRCSI_TOUCH_NONE : touch_kind(&inside, &candidate);
         if (kind == LRCSI_TOUCH_NONE) {
             continue;
         }

@@ -8,7 +8,11 @@
    u of itself, and the sum of three products by 3 u of its terms, so that for x in a box
        n . (x - a) > e,   e = 10 u sum w_k max |x_k - a_k|,
    at the corner where the computed value is least proves that the whole box lies above the
-   plane; |n_k| <= (1 + 4u) w_k covers the last two. */
+   plane; |n_k| <= (1 + 4u) w_k covers the last two.
+
+   Slab test. The direction d of a node is the rounded sum of its facets' normals, taken as it is;
+   d . x errs by 3 u sum |d_k x_k|, and widening the result by e rounds once more: e = 6 u of that
+   sum serves. */
 #include "mesh/tree.h"
 
 #include <math.h>
@@ -20,10 +24,11 @@
 enum { LEAF_FACETS = 4, MORTON_BITS = 21 };
 
 #define PLANE_FILTER (10.0 * 0x1p-53)
+#define SLAB_FILTER  (6.0 * 0x1p-53)
 
 static lrcsi_box empty_box(void)
 {
-    return (lrcsi_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    return (lrcsi_box){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 }
 
 static void grow_box(lrcsi_box *box, const double low[3], const double high[3])
@@ -87,18 +92,84 @@ static uint32_t leaves_for(uint32_t count)
     return leaves;
 }
 
-/* Boxes of leaves from those of facets, then of nodes from their children, upward. */
-static void fill_nodes(const lrcsi_tree *tree)
+/* The normal of a facet, and for each component the sum of its two terms' magnitudes. */
+static void facet_normal(const double *const corner[3], double normal[3], double weight[3])
+{
+    const double *a = corner[0];
+    const double *b = corner[1];
+    const double *c = corner[2];
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        double plus = (b[i] - a[i]) * (c[j] - a[j]);
+        double minus = (b[j] - a[j]) * (c[i] - a[i]);
+        normal[k] = plus - minus;
+        weight[k] = fabs(plus) + fabs(minus);
+    }
+}
+
+/* Widens low .. high by the corners' places along a direction. */
+static void widen_slab(const double *const corner[3], const double direction[3], double *low,
+                       double *high)
+{
+    for (int c = 0; c < 3; c++) {
+        double place = 0.0;
+        double error = 0.0;
+        for (int k = 0; k < 3; k++) {
+            double term = direction[k] * corner[c][k];
+            place += term;
+            error += fabs(term);
+        }
+        error *= SLAB_FILTER;
+        *low = place - error < *low ? place - error : *low;
+        *high = place + error > *high ? place + error : *high;
+    }
+}
+
+static void facet_corners(const lrcs_point *vertex, const lrcs_facet *facet,
+                          const double *corner[3])
+{
+    for (int c = 0; c < 3; c++) {
+        corner[c] = vertex[facet->corner[c]].x;
+    }
+}
+
+/* Boxes and directions of leaves from their facets, then of nodes from their children. */
+static void fill_nodes(const lrcsi_tree *tree, const lrcs_point *vertex, const lrcs_facet *facet)
 {
     for (uint32_t i = 0; i < 2 * tree->leaves; i++) {
-        tree->node[i] = empty_box();
+        tree->node[i] = (lrcsi_tree_node){empty_box(), {0, 0, 0}, HUGE_VAL, -HUGE_VAL};
     }
     for (uint32_t i = 0; i < tree->count; i++) {
-        lrcsi_box *leaf = &tree->node[tree->leaves + i / LEAF_FACETS];
-        grow_box(leaf, tree->box[i].low, tree->box[i].high);
+        lrcsi_tree_node *leaf = &tree->node[tree->leaves + i / LEAF_FACETS];
+        const double *corner[3];
+        double normal[3];
+        double weight[3];
+        facet_corners(vertex, &facet[tree->order[i]], corner);
+        facet_normal(corner, normal, weight);
+        for (int k = 0; k < 3; k++) {
+            leaf->direction[k] += normal[k];
+        }
+        grow_box(&leaf->box, tree->box[i].low, tree->box[i].high);
     }
     for (uint32_t i = 2 * tree->leaves - 1; i > 1; i--) {
-        grow_box(&tree->node[i / 2], tree->node[i].low, tree->node[i].high);
+        grow_box(&tree->node[i / 2].box, tree->node[i].box.low, tree->node[i].box.high);
+        for (int k = 0; k < 3; k++) {
+            tree->node[i / 2].direction[k] += tree->node[i].direction[k];
+        }
+    }
+}
+
+/* Slabs of all nodes, once their directions are known. */
+static void fill_slabs(const lrcsi_tree *tree, const lrcs_point *vertex, const lrcs_facet *facet)
+{
+    for (uint32_t i = 0; i < tree->count; i++) {
+        const double *corner[3];
+        facet_corners(vertex, &facet[tree->order[i]], corner);
+        for (uint32_t n = tree->leaves + i / LEAF_FACETS; n > 0; n /= 2) {
+            lrcsi_tree_node *node = &tree->node[n];
+            widen_slab(corner, node->direction, &node->low, &node->high);
+        }
     }
 }
 
@@ -132,9 +203,9 @@ size_t lrcsi_tree_need(uint32_t facet_count)
 {
     size_t scratch = lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
                                     lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
-    size_t boxes =
-        lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(lrcsi_box)),
-                       lrcsi_work_bytes((size_t)2 * leaves_for(facet_count), sizeof(lrcsi_box)));
+    size_t boxes = lrcsi_work_add(
+        lrcsi_work_bytes(facet_count, sizeof(lrcsi_box)),
+        lrcsi_work_bytes((size_t)2 * leaves_for(facet_count), sizeof(lrcsi_tree_node)));
     return lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(uint32_t)),
                           scratch > boxes ? scratch : boxes);
 }
@@ -164,7 +235,8 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
     for (uint32_t i = 0; i < made.count; i++) {
         made.box[i] = facet_box(vertex, &facet[made.order[i]]);
     }
-    fill_nodes(&made);
+    fill_nodes(&made, vertex, facet);
+    fill_slabs(&made, vertex, facet);
     *tree = made;
     return LRCS_OK;
 }
@@ -173,18 +245,8 @@ lrcsi_tree_walk lrcsi_tree_around(const lrcsi_tree *tree, const lrcs_point *vert
                                   lrcs_facet facet)
 {
     lrcsi_tree_walk walk = {.tree = tree, .box = facet_box(vertex, &facet), .node = 1};
-    const double *a = vertex[facet.corner[0]].x;
-    const double *b = vertex[facet.corner[1]].x;
-    const double *c = vertex[facet.corner[2]].x;
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3;
-        int j = (k + 2) % 3;
-        double plus = (b[i] - a[i]) * (c[j] - a[j]);
-        double minus = (b[j] - a[j]) * (c[i] - a[i]);
-        walk.origin[k] = a[k];
-        walk.normal[k] = plus - minus;
-        walk.weight[k] = fabs(plus) + fabs(minus);
-    }
+    facet_corners(vertex, &facet, walk.corner);
+    facet_normal(walk.corner, walk.normal, walk.weight);
     return walk;
 }
 
@@ -195,8 +257,8 @@ static int box_is_off_plane(const lrcsi_tree_walk *w, const lrcsi_box *box)
     double most = 0.0;
     double error = 0.0;
     for (int k = 0; k < 3; k++) {
-        double low = box->low[k] - w->origin[k];
-        double high = box->high[k] - w->origin[k];
+        double low = box->low[k] - w->corner[0][k];
+        double high = box->high[k] - w->corner[0][k];
         double at_low = w->normal[k] * low;
         double at_high = w->normal[k] * high;
         least += at_low < at_high ? at_low : at_high;
@@ -217,6 +279,17 @@ static int box_is_candidate(const lrcsi_tree_walk *w, const lrcsi_box *box)
     return !box_is_off_plane(w, box);
 }
 
+static int node_is_candidate(const lrcsi_tree_walk *w, const lrcsi_tree_node *node)
+{
+    if (!box_is_candidate(w, &node->box)) {
+        return 0;
+    }
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    widen_slab(w->corner, node->direction, &low, &high);
+    return low <= node->high && high >= node->low;
+}
+
 /* The node after this one and all below it, from left to right, or 0. */
 static uint32_t node_after(uint32_t node)
 {
@@ -232,7 +305,7 @@ static int next_leaf(lrcsi_tree_walk *w)
     const lrcsi_tree *tree = w->tree;
     while (w->node) {
         uint32_t node = w->node;
-        int candidate = box_is_candidate(w, &tree->node[node]);
+        int candidate = node_is_candidate(w, &tree->node[node]);
         if (candidate && node < tree->leaves) {
             w->node = 2 * node;
             continue;

@@ -22,6 +22,7 @@
 #define AROUND_LEAST 8u
 #define AROUND_LIMIT (1u << 24)
 #define PLAN_NODES   48
+#define PLAN_SAMPLE  1e-2 /* the tolerance at which dome and paraboloid are sampled */
 #define FACETS_LEAST 64u
 
 /* A material on a curved wall, and how coarse the wall is. */
@@ -130,6 +131,60 @@ static double plan_elevation(const lrcs_shape *shape)
                                        : atan2(shape->radius, shape->length);
 }
 
+/* Area per solid angle of normals on a dome or paraboloid at polar angle theta, up to a factor. */
+static double plan_density(const lrcs_shape *shape, double theta)
+{
+    double c = cos(theta);
+    return shape->kind == LRCS_SHAPE_PARABOLOID ? 1.0 / (c * c * c * c) : 1.0;
+}
+
+/* Polar angle of the normal at the rim. */
+static double plan_rim(const lrcs_shape *shape)
+{
+    return shape->kind == LRCS_SHAPE_PARABOLOID ? atan2(2.0 * shape->length, shape->radius)
+                                                : 0.5 * PLAN_PI;
+}
+
+/* Error and sigma of a cap of normals from aspect alpha, and in *size the cap's area. Nodes crowd
+   about alpha, on both sides of it. */
+static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, double alpha,
+                           double *size)
+{
+    plan_value sum = {0.0, 0.0};
+    double rim = plan_rim(shape);
+    double middle = fmin(alpha, rim);
+    *size = 0.0;
+    for (int k = 0; k < 2 * PLAN_NODES; k++) {
+        double end = k < PLAN_NODES ? middle : rim - middle;
+        double weight = 0.0;
+        double off = plan_node(k % PLAN_NODES, plan_near(plan, end), end, &weight);
+        double theta = k < PLAN_NODES ? middle - off : middle + off;
+        weight *= sin(theta) * plan_density(shape, theta);
+        plan_value value = plan_circle(plan, 0.5 * PLAN_PI - theta, alpha);
+        sum.sigma += weight * value.sigma;
+        sum.stray += weight * value.stray;
+        *size += weight;
+    }
+    return sum;
+}
+
+/* Worst ratio of a cap of normals over aspects: down to the rim, and about it. */
+static double plan_caps(const facet_plan *plan, const lrcs_shape *shape)
+{
+    double mean = plan_round(plan).sigma;
+    double rim = plan_rim(shape);
+    double step = fmin(plan->brdf->s, 0.2);
+    double worst = 0.0;
+    for (int k = 0; k < 8; k++) {
+        double size = 0.0;
+        double alpha = fmax(0.0, k < 4 ? 0.25 * k * rim : rim + (k - 6) * step);
+        plan_value value = plan_cap(plan, shape, alpha, &size);
+        double base = fmax(value.sigma, size * mean);
+        worst = fmax(worst, base > 0.0 ? value.stray / base : 0.0);
+    }
+    return worst;
+}
+
 static int plan_is_round(const lrcs_shape *shape)
 {
     return shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME ||
@@ -141,8 +196,7 @@ static lrcs_divisions plan_divisions(const lrcs_shape *shape, uint32_t around)
 {
     lrcs_divisions divisions = {around, 1};
     if (shape->kind == LRCS_SHAPE_PARABOLOID) {
-        double polar = atan2(2.0 * shape->length, shape->radius);
-        divisions.along = (uint32_t)fmax(1.0, ceil(polar / (2.0 * PLAN_PI) * around));
+        divisions.along = (uint32_t)fmax(1.0, ceil(plan_rim(shape) / (2.0 * PLAN_PI) * around));
     } else if (plan_is_round(shape)) {
         divisions.along = around / 4;
     }
@@ -201,9 +255,9 @@ static uint32_t plan_least(const lrcs_shape *shape, const lrcs_brdf *brdf, doubl
     return 4 * good;
 }
 
-/* A disc's polygon has the disc's area whatever its corners; between the two curves lie
-   8 h^2 / (9 sqrt 3) / 2 = 0.2566 h^2 of it, h = pi/N, which the tolerance bounds. (With
-   r = R (1 - h^2/6 + phi^2/2) the part is the mean of |2 (r/R - 1)|.) */
+/* A disc's polygon has the disc's area whatever its corners. Between the two outlines lies the part
+   4 h^2 / (9 sqrt 3) = 0.2566 h^2 of it, h = pi/N, the mean of |2 (r/R - 1)| with
+   r = R (1 - h^2/6 + phi^2/2), |phi| <= h: the tolerance bounds that. */
 static uint32_t plan_disc(double tolerance, uint32_t most)
 {
     double corners = PLAN_PI * sqrt(0.2566 / tolerance);
@@ -212,6 +266,20 @@ static uint32_t plan_disc(double tolerance, uint32_t most)
     }
     uint32_t around = 4 * (uint32_t)ceil(corners / 4.0);
     return around < AROUND_LEAST ? AROUND_LEAST : around > most ? most : around;
+}
+
+/* By how much a dome or paraboloid errs more than a sphere of its fineness, at least 1. */
+static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t most)
+{
+    if (shape->kind != LRCS_SHAPE_DOME && shape->kind != LRCS_SHAPE_PARABOLOID) {
+        return 1.0;
+    }
+    uint32_t around = plan_least(shape, brdf, PLAN_SAMPLE, most);
+    lrcs_divisions divisions = plan_divisions(shape, around);
+    facet_plan plan = {brdf, lrcsi_tessellate_curvature(shape, &divisions)};
+    double sphere = plan_error(shape, brdf, around);
+    double factor = sphere > 0.0 ? plan_caps(&plan, shape) / sphere : 1.0;
+    return isfinite(factor) ? fmax(1.0, factor) : 1.0;
 }
 
 /* Where even `most` leaves an error as large as sigma itself, facets buy nothing: the glint is
@@ -225,7 +293,8 @@ static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *finene
     if (!(brdf.A > 0.0) && !(brdf.B > 0.0)) {
         brdf = (lrcs_brdf){0.0, 1.0, 1.0, 0.0};
     }
-    return plan_least(shape, &brdf, fineness->tolerance, most);
+    double factor = plan_factor(shape, &brdf, most);
+    return plan_least(shape, &brdf, fineness->tolerance / factor, most);
 }
 
 lrcs_fineness lrcs_fineness_default(void)

@@ -32,7 +32,8 @@
 #define HALF_PI_BELOW 1.57079632679489655800 /* the double below pi/2 */
 #define STRAY_UNIT    0x1p-53
 #define STRAY_MARGIN  (1.0 + 1e-10)
-#define STRAY_TINY    0x1p-1022 /* stands for what underflows */
+#define EXPONENT_LOW  (-700.0)
+#define STRAY_TINY    0x1p-1009 /* above e^-700: stands for what is below it */
 #define SLOPE_HUGE    1e75      /* s beyond: peaks lie past every finite u met here */
 
 /* An interval of u = tan^2(theta); high may be infinite. */
@@ -49,7 +50,7 @@ typedef struct stray_size {
 /* An upper bound on e^x, but for the margin. */
 static double exp_above(double x)
 {
-    return x < -700.0 ? STRAY_TINY : exp(x);
+    return x < EXPONENT_LOW ? STRAY_TINY : exp(x);
 }
 
 /* 0 times infinity is 0 here. */

@@ -10,15 +10,6 @@
 
 #include "base/work.h"
 
-/* A piece's most corners: a triangle gains at most one per line that cut it. Longer ones are
-   refused, as is what outgrows the lists. */
-#define MOST_CORNERS 64u
-
-typedef struct clip_polygon {
-    double corner[MOST_CORNERS][2];
-    uint32_t count;
-} clip_polygon;
-
 size_t lrcsi_clip_need(void)
 {
     size_t one = lrcsi_work_add(lrcsi_work_bytes(LRCSI_CLIP_CORNERS, 2 * sizeof(double)),
@@ -58,11 +49,11 @@ static int clip_append(lrcsi_clip_list *list, const double (*corner)[2], uint32_
     return 1;
 }
 
-void lrcsi_clip_start(lrcsi_clip *clip, const double corner[3][2])
+void lrcsi_clip_start(lrcsi_clip *clip, const lrcsi_clip_polygon *polygon)
 {
     clip->list.pieces = 0;
     clip->splits = 0;
-    clip_append(&clip->list, corner, 3);
+    clip_append(&clip->list, (const double(*)[2])polygon->corner, polygon->count);
 }
 
 /* Positive where the point lies left of the line. */
@@ -71,9 +62,9 @@ static double line_side(const lrcsi_clip_line *line, const double *p)
     return line->to[0] * (p[1] - line->at[1]) - line->to[1] * (p[0] - line->at[0]);
 }
 
-static void polygon_add(clip_polygon *polygon, double x, double y)
+static void polygon_add(lrcsi_clip_polygon *polygon, double x, double y)
 {
-    if (polygon->count < MOST_CORNERS) {
+    if (polygon->count < LRCSI_CLIP_SIDES) {
         polygon->corner[polygon->count][0] = x;
         polygon->corner[polygon->count][1] = y;
     }
@@ -81,8 +72,8 @@ static void polygon_add(clip_polygon *polygon, double x, double y)
 }
 
 /* Splits a polygon into what lies left of the line and what lies right of it. */
-static void polygon_split(const clip_polygon *from, const lrcsi_clip_line *line,
-                          clip_polygon *left, clip_polygon *right)
+static void polygon_split(const lrcsi_clip_polygon *from, const lrcsi_clip_line *line,
+                          lrcsi_clip_polygon *left, lrcsi_clip_polygon *right)
 {
     left->count = right->count = 0;
     const double *p = from->corner[from->count - 1];
@@ -108,20 +99,64 @@ static void polygon_split(const clip_polygon *from, const lrcsi_clip_line *line,
     }
 }
 
-static int box_apart(const double (*corner)[2], uint32_t count, const lrcsi_clip_region *region)
+void lrcsi_clip_triangle(const double corner[3][2], lrcsi_clip_polygon *polygon)
+{
+    memcpy(polygon->corner, corner, 3 * sizeof *corner);
+    polygon->count = 3;
+}
+
+static void corners_box(const double (*corner)[2], uint32_t count, double low[2], double high[2])
 {
     for (int k = 0; k < 2; k++) {
-        int below = 1;
-        int above = 1;
-        for (uint32_t i = 0; i < count; i++) {
-            below &= corner[i][k] <= region->low[k];
-            above &= corner[i][k] >= region->high[k];
-        }
-        if (below || above) {
-            return 1;
+        low[k] = high[k] = corner[0][k];
+        for (uint32_t i = 1; i < count; i++) {
+            low[k] = corner[i][k] < low[k] ? corner[i][k] : low[k];
+            high[k] = corner[i][k] > high[k] ? corner[i][k] : high[k];
         }
     }
-    return 0;
+}
+
+static int box_apart(const double (*corner)[2], uint32_t count, const lrcsi_clip_region *region)
+{
+    double low[2];
+    double high[2];
+    corners_box(corner, count, low, high);
+    return high[0] <= region->low[0] || low[0] >= region->high[0] || high[1] <= region->low[1] ||
+           low[1] >= region->high[1];
+}
+
+void lrcsi_clip_halve(const lrcsi_clip_polygon *polygon, lrcsi_clip_polygon *left,
+                      lrcsi_clip_polygon *right)
+{
+    double low[2];
+    double high[2];
+    corners_box((const double(*)[2])polygon->corner, polygon->count, low, high);
+    int wide = high[0] - low[0] > high[1] - low[1];
+    lrcsi_clip_line line = {{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])},
+                            {wide ? 0 : 1, wide ? 1 : 0}};
+    polygon_split(polygon, &line, left, right);
+}
+
+int lrcsi_clip_overlap(const lrcsi_clip_polygon *polygon, const lrcsi_clip_region *region)
+{
+    if (box_apart((const double(*)[2])polygon->corner, polygon->count, region)) {
+        return LRCSI_CLIP_NONE;
+    }
+    int covered = 1;
+    for (int k = 0; k < region->lines; k++) {
+        int inside = 0;
+        int outside = 0;
+        for (uint32_t i = 0; i < polygon->count; i++) {
+            double side = line_side(&region->line[k], polygon->corner[i]);
+            inside |= side > 0;
+            outside |= side < 0;
+        }
+        if (!inside) {
+            return LRCSI_CLIP_NONE;
+        }
+        covered &= !outside;
+    }
+    return covered ? LRCSI_CLIP_COVERED : LRCSI_CLIP_SOME;
 }
 
 /* Cuts the region out of one piece and files what is left in the spare list. A piece that turns out
@@ -129,12 +164,12 @@ static int box_apart(const double (*corner)[2], uint32_t count, const lrcsi_clip
 static int piece_subtract(lrcsi_clip *clip, const double (*corner)[2], uint32_t count,
                           const lrcsi_clip_region *region)
 {
-    if (count > MOST_CORNERS - 4 || box_apart(corner, count, region)) {
-        return count <= MOST_CORNERS - 4 && clip_append(&clip->spare, corner, count);
+    if (count > LRCSI_CLIP_SIDES - 4 || box_apart(corner, count, region)) {
+        return count <= LRCSI_CLIP_SIDES - 4 && clip_append(&clip->spare, corner, count);
     }
-    clip_polygon inside = {.count = count};
-    clip_polygon left;
-    clip_polygon right;
+    lrcsi_clip_polygon inside = {.count = count};
+    lrcsi_clip_polygon left;
+    lrcsi_clip_polygon right;
     memcpy(inside.corner, corner, count * sizeof *corner);
     uint32_t filed = clip->spare.pieces;
     for (int k = 0; k < region->lines; k++) {
@@ -170,16 +205,28 @@ int lrcsi_clip_subtract(lrcsi_clip *clip, const lrcsi_clip_region *region)
     return 1;
 }
 
+static double corners_area(const double (*c)[2], uint32_t count)
+{
+    double area = 0;
+    for (uint32_t j = 2; j < count; j++) {
+        area += 0.5 * ((c[j - 1][0] - c[0][0]) * (c[j][1] - c[0][1]) -
+                       (c[j - 1][1] - c[0][1]) * (c[j][0] - c[0][0]));
+    }
+    return area;
+}
+
+double lrcsi_clip_polygon_area(const lrcsi_clip_polygon *polygon)
+{
+    return corners_area((const double(*)[2])polygon->corner, polygon->count);
+}
+
 double lrcsi_clip_area(const lrcsi_clip *clip)
 {
     double area = 0;
     for (uint32_t i = 0; i < clip->list.pieces; i++) {
-        const double(*c)[2] = (const double(*)[2])(clip->list.corner + piece_first(&clip->list, i));
-        uint32_t count = clip->list.end[i] - piece_first(&clip->list, i);
-        for (uint32_t j = 2; j < count; j++) {
-            area += 0.5 * ((c[j - 1][0] - c[0][0]) * (c[j][1] - c[0][1]) -
-                           (c[j - 1][1] - c[0][1]) * (c[j][0] - c[0][0]));
-        }
+        uint32_t first = piece_first(&clip->list, i);
+        area += corners_area((const double(*)[2])(clip->list.corner + first),
+                             clip->list.end[i] - first);
     }
     return area;
 }

@@ -12,6 +12,13 @@
 #define LRCSI_CLIP_CORNERS 8192u
 #define LRCSI_CLIP_PIECES  1024u
 
+/* A convex piece, counter-clockwise. */
+#define LRCSI_CLIP_SIDES 32u
+typedef struct lrcsi_clip_polygon {
+    double corner[LRCSI_CLIP_SIDES][2];
+    uint32_t count;
+} lrcsi_clip_polygon;
+
 /* A line, positive on its left: through `at` along `to`. */
 typedef struct lrcsi_clip_line {
     double at[2], to[2];
@@ -39,8 +46,21 @@ typedef struct lrcsi_clip {
 size_t lrcsi_clip_need(void);
 int lrcsi_clip_make(lrcs_work *work, lrcsi_clip *clip);
 
-/* Starts again with one counter-clockwise triangle. */
-void lrcsi_clip_start(lrcsi_clip *clip, const double corner[3][2]);
+void lrcsi_clip_triangle(const double corner[3][2], lrcsi_clip_polygon *polygon);
+double lrcsi_clip_polygon_area(const lrcsi_clip_polygon *polygon);
+
+/* Halves a piece across the longer side of its box. Either half may come out with less than three
+   corners: then it is nothing. */
+void lrcsi_clip_halve(const lrcsi_clip_polygon *polygon, lrcsi_clip_polygon *left,
+                      lrcsi_clip_polygon *right);
+
+enum lrcsi_clip_overlap_kind { LRCSI_CLIP_NONE, LRCSI_CLIP_SOME, LRCSI_CLIP_COVERED };
+
+/* How a region stands to a piece: some line parts them, it covers the piece, or neither is seen. */
+int lrcsi_clip_overlap(const lrcsi_clip_polygon *polygon, const lrcsi_clip_region *region);
+
+/* Starts again with one piece. */
+void lrcsi_clip_start(lrcsi_clip *clip, const lrcsi_clip_polygon *polygon);
 
 /* Takes a region away. 0 where the pieces would outgrow the lists; then nothing was taken. */
 int lrcsi_clip_subtract(lrcsi_clip *clip, const lrcsi_clip_region *region);

@@ -140,6 +140,14 @@ static void the_tree_misses_no_contact(void **state)
     check_against_all_pairs(600, skip);
     make_soup(600, 5.0, skip);
     check_against_all_pairs(600, skip);
+    make_soup(600, 0.0, skip);
+    for (uint32_t i = 0; i < 1800; i++) { /* slivers along one slanted line */
+        double along = 30.0 * vertex[i].x[0] - 50.0 * vertex[i].x[1] + 40.0 * vertex[i].x[2];
+        for (int k = 0; k < 3; k++) {
+            vertex[i].x[k] += (1.0 + k) * along;
+        }
+    }
+    check_against_all_pairs(600, skip);
     for (uint32_t n = 1; n < 20; n++) {
         make_soup(n, 3.0, skip);
         check_against_all_pairs(n, skip);

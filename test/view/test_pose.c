@@ -86,8 +86,8 @@ static void euler_angles_agree_with_products_at_50_digits(void **state)
     (void)state;
     for (size_t i = 0; i < ROWS(euler_rows); i++) {
         lrcs_pose pose;
-        assert_int_equal(
-            lrcs_pose_from_euler(euler_rows[i].sequence, euler_rows[i].deg, &pose), LRCS_OK);
+        assert_int_equal(lrcs_pose_from_euler(euler_rows[i].sequence, euler_rows[i].deg, &pose),
+                         LRCS_OK);
         check_matrix(pose.R, euler_rows[i].R);
         check_direction(&pose);
     }
@@ -235,8 +235,8 @@ static void matrices_stay_orthonormal_all_round_the_sphere(void **state)
 static void unfit_input_is_refused_and_the_pose_untouched(void **state)
 {
     (void)state;
-    static const char *const sequence[] = {"",     "X",   "XY",  "XYZX", "XXY", "XYY",
-                                           "XyZ",  "xYz", "ABC", "XY ",  "zzx", "XYZ "};
+    static const char *const sequence[] = {"",    "X",   "XY",  "XYZX", "XXY", "XYY",
+                                           "XyZ", "xYz", "ABC", "XY ",  "zzx", "XYZ "};
     const double angles[3] = {1.0, 2.0, 3.0};
     const double broken[4] = {0.0, (double)NAN, 1.0, 2.0};
     const double endless[4] = {(double)INFINITY, 0.0, 1.0, 2.0};

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: MIT */
+/* sigma of a shape alone. It decides what each shape is made of (plane faces, caps, one curved
+   wall), scales its lengths by a power of two to about 1, which sigma then takes back exactly, and
+   checks; the curved walls are closed_ring.c and closed_cap.c. The bodies are convex, so what faces
+   the light is lit. */
+#include <math.h>
+
+#include "base/degrees.h"
+#include "optics/closed.h"
+
+/* Slopes for which s^2 and s^4 stay doubles whatever else they meet. */
+#define CLOSED_SLOPE_LEAST 0x1p-333
+#define CLOSED_SLOPE_MOST  0x1p333
+
+static lrcsi_dd dd_hypot(lrcsi_dd a, lrcsi_dd b)
+{
+    return lrcsi_closed_root(lrcsi_dd_add(lrcsi_dd_mul(a, a), lrcsi_dd_mul(b, b)));
+}
+
+static int light_by_degrees(double deg, lrcsi_light *light)
+{
+    if (!isfinite(deg)) {
+        return LRCS_E_NUMBER;
+    }
+    if (deg < 0.0 || deg > 180.0) {
+        return LRCS_E_ARGUMENT;
+    }
+    lrcsi_degrees_sincos_dd(deg, 0.0, &light->aspect.sine, &light->aspect.cosine);
+    light->s_hat[0] = light->aspect.sine;
+    light->s_hat[1] = (lrcsi_dd){0.0, 0.0};
+    light->s_hat[2] = light->aspect.cosine;
+    light->deg = deg;
+    return LRCS_OK;
+}
+
+/* The length is taken of components scaled to about 1; one that is 2^-500 of the largest or less
+   counts as 0 in squares. */
+static int light_by_direction(const double direction[3], lrcsi_light *light)
+{
+    double most = 0.0;
+    for (int i = 0; i < 3; i++) {
+        if (!isfinite(direction[i])) {
+            return LRCS_E_NUMBER;
+        }
+        most = fmax(most, fabs(direction[i]));
+    }
+    if (!(most > 0.0)) {
+        return LRCS_E_ARGUMENT;
+    }
+    int shift = -ilogb(most);
+    lrcsi_dd d[3];
+    for (int i = 0; i < 3; i++) {
+        d[i] = (lrcsi_dd){scalbn(direction[i], shift), 0.0};
+    }
+    lrcsi_dd side = dd_hypot(d[0], d[1]);
+    lrcsi_dd length = dd_hypot(side, d[2]);
+    for (int i = 0; i < 3; i++) {
+        light->s_hat[i] = lrcsi_closed_divide(d[i], length);
+    }
+    light->aspect.sine = lrcsi_closed_divide(side, length);
+    light->aspect.cosine = light->s_hat[2];
+    light->deg = -1.0;
+    return LRCS_OK;
+}
+
+/* A plane face whose normal is +axis or -axis. */
+static void closed_add_face(const lrcs_brdf *brdf, const lrcsi_light *light, int axis, int sign,
+                            double area, lrcsi_amount *sum)
+{
+    lrcsi_angle theta = {dd_hypot(light->s_hat[(axis + 1) % 3], light->s_hat[(axis + 2) % 3]),
+                         light->s_hat[axis]};
+    if (sign < 0) {
+        theta.cosine = lrcsi_dd_negate(theta.cosine);
+    }
+    if (axis == 2) { /* the aspect's sine has not been through a square and a root */
+        theta.sine = light->aspect.sine;
+    }
+    lrcsi_amount face = lrcsi_closed_reflect(brdf, theta);
+    lrcsi_closed_scale(&face, area, 4.0);
+    lrcsi_closed_add(sum, &face);
+}
+
+static void closed_add_disc(const lrcs_brdf *brdf, const lrcsi_light *light, int sign,
+                            double radius, lrcsi_amount *sum)
+{
+    closed_add_face(brdf, light, 2, sign, LRCSI_PI * radius * radius, sum);
+}
+
+static void closed_add_box(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcsi_light *light,
+                           lrcsi_amount *sum)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        int sign = light->s_hat[axis].hi < 0.0 ? -1 : 1;
+        double area = shape->size[(axis + 1) % 3] * shape->size[(axis + 2) % 3];
+        closed_add_face(brdf, light, axis, sign, area, sum);
+    }
+}
+
+/* Plane-faced bodies, and the end discs of the others. */
+static void closed_add_planes(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                              const lrcsi_light *light, lrcsi_amount *sum)
+{
+    int ends = shape->parts == LRCS_SHAPE_ALL;
+    switch (shape->kind) {
+    case LRCS_SHAPE_PLATE:
+        closed_add_face(brdf, light, 2, 1, shape->size[0] * shape->size[1], sum);
+        break;
+    case LRCS_SHAPE_DISC:
+        closed_add_disc(brdf, light, 1, shape->radius, sum);
+        break;
+    case LRCS_SHAPE_BOX:
+        closed_add_box(shape, brdf, light, sum);
+        break;
+    case LRCS_SHAPE_CYLINDER:
+        closed_add_disc(brdf, light, 1, ends ? shape->radius : 0.0, sum);
+        closed_add_disc(brdf, light, -1, ends ? shape->radius : 0.0, sum);
+        break;
+    case LRCS_SHAPE_FRUSTUM:
+        closed_add_disc(brdf, light, 1, ends ? shape->radius : 0.0, sum);
+        closed_add_disc(brdf, light, -1, ends ? shape->radius2 : 0.0, sum);
+        break;
+    case LRCS_SHAPE_DOME:
+    case LRCS_SHAPE_CONE:
+    case LRCS_SHAPE_PARABOLOID:
+        closed_add_disc(brdf, light, -1, ends ? shape->radius : 0.0, sum);
+        break;
+    default:
+        break;
+    }
+}
+
+static void closed_add_wall(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                            const lrcsi_light *light, lrcsi_amount *sum)
+{
+    lrcsi_amount wall = {{0.0, 0.0}, {0.0, 0.0}};
+    switch (shape->kind) {
+    case LRCS_SHAPE_SPHERE:
+        wall = lrcsi_closed_sphere(shape, brdf);
+        break;
+    case LRCS_SHAPE_DOME:
+        wall = lrcsi_closed_dome(shape, brdf, light);
+        break;
+    case LRCS_SHAPE_CYLINDER:
+        wall = lrcsi_closed_cylinder(shape, brdf, light);
+        break;
+    case LRCS_SHAPE_CONE:
+    case LRCS_SHAPE_FRUSTUM:
+        wall = lrcsi_closed_cone(shape, brdf, light);
+        break;
+    case LRCS_SHAPE_PARABOLOID:
+        wall = lrcsi_closed_paraboloid(shape, brdf, light);
+        break;
+    default:
+        break;
+    }
+    lrcsi_closed_add(sum, &wall);
+}
+
+/* The largest dimension's binary exponent, taken out of all. */
+static int closed_normalise(lrcs_shape *shape)
+{
+    double *length[] = {&shape->size[0], &shape->size[1], &shape->size[2],
+                        &shape->radius,  &shape->radius2, &shape->length};
+    double most = 0.0;
+    for (int i = 0; i < 6; i++) {
+        most = fmax(most, *length[i]);
+    }
+    int shift = most > 0.0 ? ilogb(most) : 0;
+    for (int i = 0; i < 6; i++) {
+        *length[i] = scalbn(*length[i], -shift);
+    }
+    return shift;
+}
+
+static int closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf)
+{
+    int status = lrcs_shape_check(shape, NULL);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    status = lrcs_brdf_check(brdf);
+    if (status < 0) {
+        return status;
+    }
+    int slope_fits = brdf->s >= CLOSED_SLOPE_LEAST && brdf->s <= CLOSED_SLOPE_MOST;
+    return brdf->A > 0.0 && !slope_fits ? LRCS_E_NUMBER : LRCS_OK;
+}
+
+/* The last rounding of each part may be to a subnormal: 2^-1074 each, and again in their sum. */
+int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_aspect *aspect,
+                     lrcs_closed *closed)
+{
+    int status = closed_check(shape, brdf);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    lrcsi_light light;
+    status = aspect->by_direction ? light_by_direction(aspect->direction, &light)
+                                  : light_by_degrees(aspect->deg, &light);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    lrcs_shape unit = *shape;
+    int shift = closed_normalise(&unit);
+    lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
+    closed_add_planes(&unit, brdf, &light, &sum);
+    closed_add_wall(&unit, brdf, &light, &sum);
+    lrcsi_closed_scale(&sum, 4.0 * LRCSI_PI, 1.0);
+    lrcs_closed out;
+    out.sigma_glint_m2 = scalbn(sum.value[LRCSI_GLINT], 2 * shift);
+    out.sigma_diffuse_m2 = scalbn(sum.value[LRCSI_DIFFUSE], 2 * shift);
+    out.sigma_m2 = out.sigma_glint_m2 + out.sigma_diffuse_m2;
+    double error = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE];
+    out.bound_m2 = scalbn(error, 2 * shift) + LRCSI_CLOSED_UNIT * out.sigma_m2;
+    out.bound_m2 += error > 0.0 ? 0x1p-1072 : 0.0;
+    if (!isfinite(out.sigma_m2) || !isfinite(out.bound_m2)) {
+        return LRCS_E_NUMBER;
+    }
+    *closed = out;
+    return LRCS_OK;
+}

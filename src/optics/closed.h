@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/* What the families of closed forms share: lengths and angles in double-double, F = f_r cos^2 at
+   such an angle, and sums of parts with their relative error. */
+#ifndef LRCSI_CLOSED_H
+#define LRCSI_CLOSED_H
+
+#include <lrcs/shape.h>
+
+#include "base/dd.h"
+#include "optics/reflect.h"
+
+#define LRCSI_PI          3.14159265358979323846
+#define LRCSI_CLOSED_UNIT 0x1p-53
+
+/* An angle by its sine and cosine, good to 2^-96 each. */
+typedef struct lrcsi_angle {
+    lrcsi_dd sine, cosine;
+} lrcsi_angle;
+
+/* Where the laser stands: s_hat in the shape's frame, and its angle from +z. deg is that angle
+   where it was given so, else negative. */
+typedef struct lrcsi_light {
+    lrcsi_dd s_hat[3];
+    lrcsi_angle aspect;
+    double deg;
+} lrcsi_light;
+
+/* The parts of F. */
+enum lrcsi_part { LRCSI_GLINT, LRCSI_DIFFUSE, LRCSI_PARTS };
+
+/* The integral of F over some surface, by part, with absolute bounds on the errors. */
+typedef struct lrcsi_amount {
+    double value[LRCSI_PARTS], error[LRCSI_PARTS];
+} lrcsi_amount;
+
+/* a / b: relative error at most 2^-98 for operands that are good to that. */
+static inline lrcsi_dd lrcsi_closed_divide(lrcsi_dd a, lrcsi_dd b)
+{
+    double q = a.hi / b.hi;
+    lrcsi_dd rest = lrcsi_dd_sub(a, lrcsi_dd_scale(b, q));
+    return lrcsi_dd_quick_sum(q, rest.hi / b.hi);
+}
+
+/* Square root, one Newton step: the same. */
+lrcsi_dd lrcsi_closed_root(lrcsi_dd a);
+
+/* sine and cosine of a + b and a - b: relative error 2^-94 times the cancellation. */
+lrcsi_angle lrcsi_closed_angle_sum(lrcsi_angle a, lrcsi_angle b);
+lrcsi_angle lrcsi_closed_angle_difference(lrcsi_angle a, lrcsi_angle b);
+
+/* The angle in [0, pi] in radians, for sine >= 0: relative error 6 units. */
+double lrcsi_closed_radians(lrcsi_angle a);
+
+/* F per unit of surface at that angle to its normal; 0 where the cosine is not positive. */
+lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta);
+
+/* amount *= factor, by part; the factors' relative error is `units` of 2^-53. */
+void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units);
+
+/* The same factor for both parts. */
+void lrcsi_closed_scale(lrcsi_amount *amount, double factor, double units);
+
+/* sum += amount. */
+void lrcsi_closed_add(lrcsi_amount *sum, const lrcsi_amount *amount);
+
+/* The families: integral of F over the lit wall, without the 4 pi, caps or base. Lengths are at
+   most 1 or so in magnitude. */
+lrcsi_amount lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                                   const lrcsi_light *light);
+lrcsi_amount lrcsi_closed_cone(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                               const lrcsi_light *light);
+lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf);
+lrcsi_amount lrcsi_closed_dome(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                               const lrcsi_light *light);
+lrcsi_amount lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                                     const lrcsi_light *light);
+
+#endif

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT */
+/* Integrals over an arc that have no closed form, by one quadrature: what an integrand must know of
+   itself, and the rule. */
+#ifndef LRCSI_CLOSED_ARC_H
+#define LRCSI_CLOSED_ARC_H
+
+#include "optics/closed.h"
+
+/* The nodes (one of each pair +-x) and weights of the 24-point Gauss-Legendre rule on [-1, 1]:
+   roots of P_24 and 2 / ((1 - x^2) P_24'(x)^2), rounded from 60 digits. */
+#define LRCSI_GAUSS_PAIRS 12
+extern const double lrcsi_gauss_rule[LRCSI_GAUSS_PAIRS][2];
+
+/* F along an arc, relative to F at the reference angle theta_r where the arc comes nearest to the
+   light: with q = cos(theta)/cos(theta_r) and y = 1 - q (each without cancellation) the glint is
+   q^-4 exp(-y (2 - y) gain / q^2), gain = 1/(cos(theta_r) s)^2, and the diffuse part q^nu. */
+typedef struct lrcsi_arc_law {
+    int part; /* lrcsi_part */
+    double gain, nu;
+} lrcsi_arc_law;
+
+/* What an integrand is at a point: its value; the exponent by which F has fallen from its reference
+   (infinity where it is 0); and whether F falls for good with q from here on. */
+typedef struct lrcsi_arc_sample {
+    double value, decay;
+    int falling;
+} lrcsi_arc_sample;
+
+lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int part, double cos_reference);
+lrcsi_arc_sample lrcsi_arc_law_sample(const lrcsi_arc_law *law, double y, double q);
+
+/* A ring of normals, azimuth phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). Where rest = 1 - k >= 0 it
+   is wholly lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi - phi_1. */
+typedef struct lrcsi_ring {
+    double k, rest, psi_1;
+} lrcsi_ring;
+
+/* Angles theta from the light, the integral over the azimuth about it done: see closed_cap.c. */
+typedef struct lrcsi_cap {
+    int inner;      /* 1: the whole circle lies in the cap of normals; 0: an arc of it */
+    int nearer;     /* the light is inside the cap of normals (alpha < tau) */
+    int horizon;    /* theta ends at pi/2, else where the circle leaves the cap */
+    int paraboloid; /* weighted with (n_0 / n_z)^4; else with 1 */
+    double sin_start, cos_start, start; /* theta_d = |tau - alpha| */
+    double sin_end, cos_end, end;       /* of the end of theta */
+    double gap, slack;                  /* tau + alpha - pi/2, and pi - gap, where horizon */
+    double sin_alpha, cos_alpha, sin_tau, n_0;
+} lrcsi_cap;
+
+typedef struct lrcsi_arc {
+    lrcsi_arc_law law;
+    double length;
+    int is_cap;
+    lrcsi_ring ring;
+    lrcsi_cap cap;
+    /* Within this distance of an end the integrand, but for F, is smooth; 0: an algebraic zero or
+       root stands at the end itself. */
+    double left_clear, right_clear;
+    double grain; /* beyond this distance of an end the rest may still vary by a power */
+} lrcsi_arc;
+
+/* At distance d from the left or the right end, 0 < d <= length/2 or so. */
+lrcsi_arc_sample lrcsi_ring_sample(const lrcsi_arc *arc, int right, double d);
+lrcsi_arc_sample lrcsi_cap_sample(const lrcsi_arc *arc, int right, double d);
+
+/* The integral over the arc. Relative error at most LRCSI_ARC_UNITS of 2^-53. */
+#define LRCSI_ARC_UNITS 64.0
+double lrcsi_arc_integral(const lrcsi_arc *arc);
+
+#endif

@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: MIT */
+/* Bodies whose normals fill a cap about the axis, once each: sphere, dome, paraboloid. It decides
+   which of the normals are lit; all but the sphere integrate over circles about the light.
+
+   The normals within tau of +z (dome: pi/2; paraboloid: atan(2 H / R)) carry a surface of
+   dA = R^2 dOmega (dome), K n_z^-4 dOmega with K = (R^2 / 2 H)^2 (paraboloid: 1/K n_z^4 is its
+   Gaussian curvature). With theta and phi about the light, at alpha from +z,
+     integral of F dA = integral over theta of F(theta) sin(theta) Phi(theta),
+   Phi the integral over the azimuths phi whose normal lies in the cap: all, where
+   theta < tau - alpha; else |phi| < phi_1, by the half-angle formula of the triangle with sides
+   theta, alpha, tau:
+     tan^2(phi_1/2) = sin((tau+theta-alpha)/2) sin((tau+alpha-theta)/2) /
+                      (sin((alpha+theta+tau)/2) sin((alpha+theta-tau)/2)).
+   Each of these four angles is a sum of positive ones once theta counts from the end that is near.
+
+   Paraboloid: n_z = P + Q cos(phi), P = cos(alpha) cos(theta), Q = sin(alpha) sin(theta). With
+   kappa = (P - Q)/(P + Q), tan(phi/2) = tan(sqrt(kappa) y / 2)/sqrt(kappa) and
+   S = sin^2(sqrt(kappa) y / 2)/kappa (for kappa < 0 their hyperbolic twins) one finds
+     dphi / n_z^4 = (1 + 2 S Q/(P + Q))^3 dy / (P + Q)^4,  n_z = (P + Q)/(1 + 2 S Q/(P + Q)),
+   an entire function of y with positive terms only, smooth across kappa = 0. */
+#include <math.h>
+
+#include "optics/closed_arc.h"
+#include "optics/special.h"
+
+/* Longest stretch of y sqrt(-kappa) for one Gauss rule: exp(3 * 4) is the most it then spans. */
+#define CAP_STRETCH 4.0
+
+/* E = s^2 + (sqrt(pi)/2) s^3 erfcx(1/s) and 2/(m + 3): DESIGN.md section 2. */
+lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
+{
+    double s = brdf->s;
+    double width = s > 0.0 ? 1.0 + 0.5 * sqrt(LRCSI_PI) * s * lrcsi_special_erfcx(1.0 / s) : 0.0;
+    const double factor[LRCSI_PARTS] = {s * s * width, 2.0 / (brdf->m + 3.0)};
+    lrcsi_amount amount = {{brdf->A, brdf->B}, {0.0, 0.0}};
+    amount.error[LRCSI_GLINT] = LRCSI_CLOSED_UNIT * brdf->A;
+    amount.error[LRCSI_DIFFUSE] = LRCSI_CLOSED_UNIT * brdf->B;
+    lrcsi_closed_weigh(&amount, factor, 22.0);
+    lrcsi_closed_scale(&amount, LRCSI_PI * shape->radius * shape->radius, 3.0);
+    return amount;
+}
+
+/* The integral over y = 0 .. stretch/sqrt(|kappa|) of (g + 2 g r S)^3 dy, times g; r = Q/(P+Q),
+   g = n_0/(P+Q). From the far end, where it is largest, in stretches. */
+static double cap_stretch_integral(double kappa, double stretch, double g, double r)
+{
+    double root = sqrt(fabs(kappa));
+    double sum = 0.0;
+    for (double high = stretch; high > 0.0; high -= CAP_STRETCH) {
+        double low = fmax(high - CAP_STRETCH, 0.0);
+        double half = kappa < 0.0 ? 0.5 * (high - low) : 0.5 * high;
+        double middle = high - half;
+        double panel = 0.0;
+        for (int i = 0; i < 2 * LRCSI_GAUSS_PAIRS; i++) {
+            const double *rule = lrcsi_gauss_rule[i / 2];
+            double at = middle + (i % 2 ? half : -half) * rule[0];
+            double sine = kappa < 0.0 ? sinh(0.5 * at) : sin(0.5 * at);
+            double n = g * (1.0 + 2.0 * r * (sine / root) * (sine / root));
+            panel += rule[1] * n * n * n;
+        }
+        sum += half * panel;
+        if (kappa > 0.0 || half * panel <= 0x1p-60 * sum) {
+            break;
+        }
+    }
+    return sum / root * g;
+}
+
+/* Phi, weighted with (n_0/n_z)^4, over the arc |phi| < phi_1 with w2 = tan^2(phi_1/2); near and far
+   are P + Q and P - Q. For kappa < 0, 1 + kappa w2 = n_0 (1 + w2)/(P + Q) without cancellation. */
+static double cap_weight_arc(double near, double far, double q, double n_0, double w2)
+{
+    double kappa = far != 0.0 ? far / near : 0x1p-1000;
+    double g = n_0 / near;
+    double z = sqrt(fabs(kappa) * w2);
+    double stretch = 2.0 * atan(z);
+    if (kappa < 0.0) {
+        double rest = g * (1.0 + w2);
+        stretch = rest > 0.5 ? 2.0 * atanh(z) : 2.0 * log1p(z) - log(rest);
+    }
+    return 2.0 * cap_stretch_integral(kappa, stretch, g, q / near);
+}
+
+/* The same over the whole circle, where kappa > 0: (a - b cos E)^3 integrated over a half turn. */
+static double cap_weight_circle(double near, double far, double q, double n_0)
+{
+    double a = 0.5 * n_0 * (near + far) / near / far;
+    double b = n_0 * q / near / far;
+    return 2.0 * LRCSI_PI * (n_0 / sqrt(near * far)) * (a * a * a + 1.5 * a * b * b);
+}
+
+/* Phi at theta = start + delta = end - h (outer), sine and cosine of theta given. */
+static double cap_outer_weight(const lrcsi_cap *cap, double delta, double h, double sine,
+                               double cosine)
+{
+    double inward = cap->nearer ? 2.0 * cap->start + delta : delta;  /* tau + theta - alpha */
+    double outward = cap->nearer ? delta : 2.0 * cap->start + delta; /* alpha + theta - tau */
+    double first = sin(0.5 * inward) * sin(0.5 * (cap->horizon ? cap->gap + h : h));
+    double second =
+        sin(0.5 * outward) * (cap->horizon ? sin(0.5 * (cap->slack + h)) : sin(cap->end - 0.5 * h));
+    if (!cap->paraboloid) {
+        return 4.0 * atan2(sqrt(first), sqrt(second));
+    }
+    double near = cap->cos_alpha >= 0.0 ? cap->cos_alpha * cosine + cap->sin_alpha * sine
+                                        : cap->n_0 * cos(delta) + cap->sin_tau * sin(delta);
+    double far = cap->n_0 * cos(outward) - cap->sin_tau * sin(outward);
+    return cap_weight_arc(near, far, cap->sin_alpha * sine, cap->n_0, first / second);
+}
+
+static double cap_inner_weight(const lrcsi_cap *cap, double h, double sine, double cosine)
+{
+    if (!cap->paraboloid) {
+        return 2.0 * LRCSI_PI;
+    }
+    double near = cap->cos_alpha * cosine + cap->sin_alpha * sine;
+    double far = cap->n_0 * cos(h) + cap->sin_tau * sin(h); /* cos(tau - h) */
+    return cap_weight_circle(near, far, cap->sin_alpha * sine, cap->n_0);
+}
+
+lrcsi_arc_sample lrcsi_cap_sample(const lrcsi_arc *arc, int right, double d)
+{
+    const lrcsi_cap *cap = &arc->cap;
+    double delta = right ? arc->length - d : d;
+    double h = right ? d : arc->length - d;
+    double half = sin(0.5 * delta);
+    double ahead = cap->horizon && !cap->inner
+                       ? sin(h)
+                       : cap->cos_end * cos(h) + cap->sin_end * sin(h); /* cos(end - h) */
+    if (cap->inner) {
+        double cosine = right ? ahead : cos(delta);
+        lrcsi_arc_sample sample = lrcsi_arc_law_sample(&arc->law, 2.0 * half * half, cosine);
+        if (sample.value > 0.0) {
+            sample.value *= sin(delta) * cap_inner_weight(cap, h, sin(delta), cosine);
+        }
+        return sample;
+    }
+    double y = 2.0 * half * half + cap->sin_start / cap->cos_start * sin(delta);
+    double q = right ? ahead / cap->cos_start : 1.0 - y;
+    lrcsi_arc_sample sample = lrcsi_arc_law_sample(&arc->law, y, q);
+    if (sample.value > 0.0) {
+        double sine = sin(cap->start + delta);
+        sample.value *= sine * cap_outer_weight(cap, delta, h, sine, q * cap->cos_start);
+    }
+    return sample;
+}
+
+/* sum += the integral over one piece of theta that starts at theta_r, nearest to the light.
+   Units: the piece's ends 10, its weight 20, the arc. */
+static void cap_add_piece(const lrcs_brdf *brdf, lrcsi_arc *arc, lrcsi_angle theta_r,
+                          lrcsi_amount *sum)
+{
+    lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta_r);
+    double factor[LRCSI_PARTS] = {10.0, 10.0}; /* pi/2 2 pi at most, for what has underflowed */
+    for (int part = 0; part < LRCSI_PARTS; part++) {
+        if (amount.value[part] > 0.0) {
+            arc->law = lrcsi_arc_law_make(brdf, part, theta_r.cosine.hi);
+            factor[part] = lrcsi_arc_integral(arc);
+        }
+    }
+    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 30.0);
+    lrcsi_closed_add(sum, &amount);
+}
+
+/* Both pieces: whole circles up to |tau - alpha|, then arcs up to tau + alpha or the horizon.
+   n_z is regular within pi/2 - tau (`grain`) of what is lit. */
+static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light, lrcsi_angle tau,
+                                 int paraboloid)
+{
+    lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
+    lrcsi_angle start = lrcsi_closed_angle_difference(tau, light->aspect);
+    lrcsi_angle end = lrcsi_closed_angle_sum(tau, light->aspect);
+    const lrcsi_angle nose = {{0.0, 0.0}, {1.0, 0.0}};
+    lrcsi_cap cap = {.nearer = start.sine.hi > 0.0,
+                     .horizon = !(end.cosine.hi > 0.0),
+                     .paraboloid = paraboloid,
+                     .sin_alpha = light->aspect.sine.hi,
+                     .cos_alpha = light->aspect.cosine.hi,
+                     .sin_tau = tau.sine.hi,
+                     .n_0 = tau.cosine.hi};
+    if (!cap.nearer) {
+        start.sine = lrcsi_dd_negate(start.sine);
+    }
+    cap.sin_start = start.sine.hi;
+    cap.cos_start = start.cosine.hi;
+    cap.start = lrcsi_closed_radians(start);
+    cap.gap = atan2(-end.cosine.hi, end.sine.hi);
+    cap.slack = atan2(-end.cosine.hi, -end.sine.hi);
+    cap.end = lrcsi_closed_radians(end);
+    lrcsi_arc arc = {.is_cap = 1, .cap = cap};
+    arc.grain = paraboloid ? atan2(cap.n_0, cap.sin_tau) : LRCSI_PI;
+    if (cap.nearer) {
+        arc.length = arc.left_clear = cap.start;
+        arc.right_clear = 0.25 * fmin(cap.cos_start, arc.grain);
+        arc.cap.inner = 1;
+        arc.cap.sin_end = cap.sin_start;
+        arc.cap.cos_end = cap.cos_start;
+        cap_add_piece(brdf, &arc, nose, &sum);
+    }
+    arc.cap.inner = 0;
+    arc.cap.sin_end = end.sine.hi;
+    arc.cap.cos_end = end.cosine.hi;
+    arc.left_clear = arc.right_clear = 0.0;
+    arc.length = cap.horizon
+                     ? atan2(cap.cos_start, cap.sin_start)
+                     : 2.0 * fmin(lrcsi_closed_radians(light->aspect), lrcsi_closed_radians(tau));
+    cap_add_piece(brdf, &arc, start, &sum);
+    return sum;
+}
+
+lrcsi_amount lrcsi_closed_dome(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                               const lrcsi_light *light)
+{
+    const lrcsi_angle tau = {{1.0, 0.0}, {0.0, 0.0}};
+    lrcsi_amount amount = cap_integral(brdf, light, tau, 0);
+    lrcsi_closed_scale(&amount, shape->radius * shape->radius, 1.0);
+    return amount;
+}
+
+/* K n_0^-4 = ((R^2 + 4 H^2)/(2 H))^2. A paraboloid flatter than 2^-480 is its disc: its normals
+   turn by less than 2^-478, which moves F by less than a unit for s > 2^-333. */
+lrcsi_amount lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                                     const lrcsi_light *light)
+{
+    double radius = shape->radius;
+    double height = shape->length;
+    if (height <= 0x1p-480 * radius) {
+        lrcsi_amount flat = lrcsi_closed_reflect(brdf, light->aspect);
+        lrcsi_closed_scale(&flat, LRCSI_PI * radius * radius, 4.0);
+        return flat;
+    }
+    lrcsi_dd r = {radius, 0.0};
+    lrcsi_dd h = {2.0 * height, 0.0};
+    lrcsi_dd hyp = lrcsi_closed_root(lrcsi_dd_add(lrcsi_dd_mul(r, r), lrcsi_dd_mul(h, h)));
+    lrcsi_angle tau = {lrcsi_closed_divide(h, hyp), lrcsi_closed_divide(r, hyp)};
+    lrcsi_amount amount = {{0.0, 0.0}, {0.0, 0.0}};
+    if (radius > 0.0) {
+        amount = cap_integral(brdf, light, tau, 1);
+        double scale = hyp.hi * (hyp.hi / h.hi);
+        lrcsi_closed_scale(&amount, scale, 4.0);
+        lrcsi_closed_scale(&amount, scale, 4.0);
+    }
+    return amount;
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT */
+/* Walls whose normals make one ring about the axis: cylinder, cone, frustum. It decides which part
+   of the ring is lit; the integral of F over it is the Gauss-Legendre rule of closed_arc.c, but for
+   the cylinder, which has a closed form.
+
+   With the half-angle beta (the wall's normals stand pi/2 - beta off the axis) the normal at
+   azimuth phi has cos(theta) = sin(beta) cos(alpha) + cos(beta) sin(alpha) cos(phi) = c_max (1 - k
+   sin^2(phi/2)), c_max = sin(alpha + beta), k = 2 cos(beta) sin(alpha) / c_max, and 1 - k = c_min /
+   c_max with c_min = sin(beta - alpha). The integral of F over the wall is area/pi * F(c_max) *
+   integral over phi = 0 .. phi_1 of F / F(c_max). */
+#include <math.h>
+
+#include "base/degrees.h"
+#include "optics/closed_arc.h"
+#include "optics/special.h"
+
+/* The half-angle and the surface of a wall of revolution. beta_deg is negative where the angle came
+   from lengths. */
+typedef struct ring_wall {
+    lrcsi_angle beta;
+    double beta_deg, area;
+} ring_wall;
+
+/* beta from the lengths, radius2 - radius over length, sign and all. */
+static ring_wall ring_wall_make(double top, double base, double length)
+{
+    lrcsi_dd rise = lrcsi_dd_two_sum(base, -top);
+    lrcsi_dd height = {length, 0.0};
+    lrcsi_dd slant =
+        lrcsi_closed_root(lrcsi_dd_add(lrcsi_dd_mul(rise, rise), lrcsi_dd_mul(height, height)));
+    ring_wall wall = {{{0.0, 0.0}, {1.0, 0.0}}, -1.0, 0.0};
+    if (slant.hi > 0.0) {
+        wall.beta.sine = lrcsi_closed_divide(rise, slant);
+        wall.beta.cosine = lrcsi_closed_divide(height, slant);
+        wall.area = LRCSI_PI * (top + base) * slant.hi;
+    }
+    return wall;
+}
+
+static ring_wall ring_wall_from_degrees(double radius, double beta_deg)
+{
+    ring_wall wall;
+    lrcsi_degrees_sincos_dd(beta_deg, 0.0, &wall.beta.sine, &wall.beta.cosine);
+    wall.beta_deg = beta_deg;
+    wall.area = LRCSI_PI * radius * radius / wall.beta.sine.hi;
+    return wall;
+}
+
+/* alpha + beta and beta - alpha; from exact degrees where both are given so, and then exactly 0 or
+   180 where they are that. */
+static void ring_extremes(const ring_wall *wall, const lrcsi_light *light, lrcsi_angle *most,
+                          lrcsi_angle *least)
+{
+    if (wall->beta_deg >= 0.0 && light->deg >= 0.0) {
+        lrcsi_degrees_sincos_dd(light->deg, wall->beta_deg, &most->sine, &most->cosine);
+        lrcsi_degrees_sincos_dd(wall->beta_deg, -light->deg, &least->sine, &least->cosine);
+    } else {
+        *most = lrcsi_closed_angle_sum(light->aspect, wall->beta);
+        *least = lrcsi_closed_angle_difference(wall->beta, light->aspect);
+    }
+}
+
+/* sin^2(phi/2) counts from the left end, and its complement from phi = pi or from phi_1:
+   1 - k sin^2(phi/2) = k sin(d/2) sin(psi_1 + d/2) at phi = phi_1 - d. */
+lrcsi_arc_sample lrcsi_ring_sample(const lrcsi_arc *arc, int right, double d)
+{
+    const lrcsi_ring *ring = &arc->ring;
+    double sine = sin(0.5 * d);
+    double y = ring->k * sine * sine;
+    double q = 1.0 - y;
+    if (right && ring->rest >= 0.0) {
+        double cosine = cos(0.5 * d);
+        q = ring->rest + y;
+        y = ring->k * cosine * cosine;
+    } else if (right) {
+        q = ring->k * sine * sin(ring->psi_1 + 0.5 * d);
+        y = 1.0 - q;
+    }
+    return lrcsi_arc_law_sample(&arc->law, y, q);
+}
+
+static lrcsi_arc ring_arc(const lrcs_brdf *brdf, int part, double c_max, double c_min, double b)
+{
+    lrcsi_arc arc = {0};
+    arc.law = lrcsi_arc_law_make(brdf, part, c_max);
+    arc.ring.k = 2.0 * b / c_max;
+    arc.ring.rest = c_min / c_max;
+    arc.length = LRCSI_PI;
+    arc.left_clear = LRCSI_PI;
+    arc.grain = LRCSI_PI;
+    if (c_min < 0.0) {
+        arc.length = 2.0 * atan2(sqrt(c_max), sqrt(-c_min));
+        arc.ring.psi_1 = 2.0 * atan2(sqrt(-c_min), sqrt(c_max));
+    } else {
+        /* q varies by at most an eighth of itself, and its zeros stand at +-2 sqrt(rest/k) i */
+        arc.right_clear = fmin(LRCSI_PI, sqrt(0.5 * arc.ring.rest / arc.ring.k));
+    }
+    return arc;
+}
+
+/* Units beside F: area 6, c_max and k 4, phi_1 6, the arc. */
+static lrcsi_amount ring_integral(const ring_wall *wall, const lrcs_brdf *brdf,
+                                  const lrcsi_light *light)
+{
+    lrcsi_angle most, least;
+    ring_extremes(wall, light, &most, &least);
+    lrcsi_angle theta = {most.cosine, most.sine}; /* cos(theta) = sin(alpha + beta) */
+    lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta);
+    double b = wall->beta.cosine.hi * light->aspect.sine.hi;
+    double factor[LRCSI_PARTS] = {1.0, 1.0};
+    for (int part = 0; part < LRCSI_PARTS && b > 0.0; part++) {
+        if (amount.value[part] > 0.0) {
+            lrcsi_arc arc = ring_arc(brdf, part, most.sine.hi, least.sine.hi, b);
+            factor[part] = lrcsi_arc_integral(&arc) / LRCSI_PI;
+        }
+    }
+    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 12.0);
+    lrcsi_closed_scale(&amount, wall->area, 6.0);
+    return amount;
+}
+
+lrcsi_amount lrcsi_closed_cone(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                               const lrcsi_light *light)
+{
+    double base = shape->kind == LRCS_SHAPE_FRUSTUM ? shape->radius2 : shape->radius;
+    double top = shape->kind == LRCS_SHAPE_FRUSTUM ? shape->radius : 0.0;
+    ring_wall wall = shape->half_angle_deg > 0.0
+                         ? ring_wall_from_degrees(base, shape->half_angle_deg)
+                         : ring_wall_make(top, base, shape->length);
+    lrcsi_light seen = *light;
+    if (wall.beta.sine.hi < 0.0) { /* widest above: the same cone upside down */
+        wall.beta.sine = lrcsi_dd_negate(wall.beta.sine);
+        seen.aspect.cosine = lrcsi_dd_negate(seen.aspect.cosine);
+        seen.deg = -1.0;
+    }
+    return ring_integral(&wall, brdf, &seen);
+}
+
+/* F at the brightest line, theta = pi/2 - alpha, times 2 R L / 2 pi and the integrals over phi of
+   q^-4 exp(-(1/q^2 - 1)/w^2) = sqrt(pi) w (1 + w^2/2), w = s sin(alpha) (t = tan(phi)), and of
+   cos^(m+2). Units: area 2, w 2, sum and products 6; special 48. */
+lrcsi_amount lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                                   const lrcsi_light *light)
+{
+    lrcsi_angle theta = {light->aspect.cosine, light->aspect.sine};
+    lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta);
+    double w = brdf->s * light->aspect.sine.hi;
+    const double factor[LRCSI_PARTS] = {sqrt(LRCSI_PI) * w * (1.0 + 0.5 * w * w),
+                                        lrcsi_special_cosine_power(brdf->m + 2.0)};
+    lrcsi_closed_weigh(&amount, factor, 50.0);
+    lrcsi_closed_scale(&amount, shape->radius * shape->length, 1.0);
+    return amount;
+}
