@@ -84,9 +84,10 @@ static double cap_weight_arc(double near, double far, double q, double n_0, doub
 /* The same over the whole circle, where kappa > 0: (a - b cos E)^3 integrated over a half turn. */
 static double cap_weight_circle(double near, double far, double q, double n_0)
 {
-    double a = 0.5 * n_0 * (near + far) / near / far;
-    double b = n_0 * q / near / far;
-    return 2.0 * LRCSI_PI * (n_0 / sqrt(near * far)) * (a * a * a + 1.5 * a * b * b);
+    double g = n_0 / near;
+    double a = 0.5 * g * ((near + far) / far);
+    double b = g * (q / far);
+    return 2.0 * LRCSI_PI * sqrt(g) * sqrt(n_0 / far) * (a * a * a + 1.5 * a * b * b);
 }
 
 /* Phi at theta = start + delta = end - h (outer), sine and cosine of theta given. */
@@ -144,35 +145,45 @@ lrcsi_arc_sample lrcsi_cap_sample(const lrcsi_arc *arc, int right, double d)
     return sample;
 }
 
-/* sum += the integral over one piece of theta that starts at theta_r, nearest to the light.
-   Units: the piece's ends 10, its weight 20, the arc. */
-static void cap_add_piece(const lrcs_brdf *brdf, lrcsi_arc *arc, lrcsi_angle theta_r,
-                          lrcsi_amount *sum)
+/* What the caps of dome and paraboloid differ in: the normals' radius tau, and the surface they
+   stand for, `scale`^2 times the weight of a direction, `area` in all. */
+typedef struct cap_body {
+    lrcsi_angle tau;
+    int paraboloid;
+    double scale, area;
+} cap_body;
+
+/* sum += the integral over one piece of theta that starts at theta_r, nearest to the light. What
+   has underflowed there falls further, over no more than the whole area. Units: the piece's ends
+   10, its weight 20, scale 10, the arc. */
+static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc *arc,
+                          lrcsi_angle theta_r, lrcsi_amount *sum)
 {
     lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta_r);
-    double factor[LRCSI_PARTS] = {10.0, 10.0}; /* pi/2 2 pi at most, for what has underflowed */
+    double factor[LRCSI_PARTS] = {body->area, body->area};
     for (int part = 0; part < LRCSI_PARTS; part++) {
         if (amount.value[part] > 0.0) {
             arc->law = lrcsi_arc_law_make(brdf, part, theta_r.cosine.hi);
-            factor[part] = lrcsi_arc_integral(arc);
+            factor[part] = lrcsi_arc_integral(arc) * body->scale * body->scale;
         }
     }
-    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 30.0);
+    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 40.0);
     lrcsi_closed_add(sum, &amount);
 }
 
 /* Both pieces: whole circles up to |tau - alpha|, then arcs up to tau + alpha or the horizon.
    n_z is regular within pi/2 - tau (`grain`) of what is lit. */
-static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light, lrcsi_angle tau,
-                                 int paraboloid)
+static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light,
+                                 const cap_body *body)
 {
+    lrcsi_angle tau = body->tau;
     lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
     lrcsi_angle start = lrcsi_closed_angle_difference(tau, light->aspect);
     lrcsi_angle end = lrcsi_closed_angle_sum(tau, light->aspect);
     const lrcsi_angle nose = {{0.0, 0.0}, {1.0, 0.0}};
     lrcsi_cap cap = {.nearer = start.sine.hi > 0.0,
                      .horizon = !(end.cosine.hi > 0.0),
-                     .paraboloid = paraboloid,
+                     .paraboloid = body->paraboloid,
                      .sin_alpha = light->aspect.sine.hi,
                      .cos_alpha = light->aspect.cosine.hi,
                      .sin_tau = tau.sine.hi,
@@ -187,14 +198,14 @@ static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light
     cap.slack = atan2(-end.cosine.hi, -end.sine.hi);
     cap.end = lrcsi_closed_radians(end);
     lrcsi_arc arc = {.is_cap = 1, .cap = cap};
-    arc.grain = paraboloid ? atan2(cap.n_0, cap.sin_tau) : LRCSI_PI;
+    arc.grain = body->paraboloid ? atan2(cap.n_0, cap.sin_tau) : LRCSI_PI;
     if (cap.nearer) {
         arc.length = arc.left_clear = cap.start;
         arc.right_clear = 0.25 * fmin(cap.cos_start, arc.grain);
         arc.cap.inner = 1;
         arc.cap.sin_end = cap.sin_start;
         arc.cap.cos_end = cap.cos_start;
-        cap_add_piece(brdf, &arc, nose, &sum);
+        cap_add_piece(brdf, body, &arc, nose, &sum);
     }
     arc.cap.inner = 0;
     arc.cap.sin_end = end.sine.hi;
@@ -203,41 +214,37 @@ static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light
     arc.length = cap.horizon
                      ? atan2(cap.cos_start, cap.sin_start)
                      : 2.0 * fmin(lrcsi_closed_radians(light->aspect), lrcsi_closed_radians(tau));
-    cap_add_piece(brdf, &arc, start, &sum);
+    cap_add_piece(brdf, body, &arc, start, &sum);
     return sum;
 }
 
 lrcsi_amount lrcsi_closed_dome(const lrcs_shape *shape, const lrcs_brdf *brdf,
                                const lrcsi_light *light)
 {
-    const lrcsi_angle tau = {{1.0, 0.0}, {0.0, 0.0}};
-    lrcsi_amount amount = cap_integral(brdf, light, tau, 0);
-    lrcsi_closed_scale(&amount, shape->radius * shape->radius, 1.0);
-    return amount;
+    double radius = shape->radius;
+    cap_body body = {{{1.0, 0.0}, {0.0, 0.0}}, 0, radius, 2.0 * LRCSI_PI * radius * radius};
+    return cap_integral(brdf, light, &body);
 }
 
 /* K n_0^-4 = ((R^2 + 4 H^2)/(2 H))^2. A paraboloid flatter than 2^-480 is its disc: its normals
-   turn by less than 2^-478, which moves F by less than a unit for s > 2^-333. */
+   turn by less than 2^-478, which moves F by less than a unit for s > 2^-333. Its area is at most
+   pi R^2 sqrt(1 + T^2), T = 2 H / R. */
 lrcsi_amount lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs_brdf *brdf,
                                      const lrcsi_light *light)
 {
     double radius = shape->radius;
     double height = shape->length;
-    if (height <= 0x1p-480 * radius) {
+    if (height <= 0x1p-480 * radius || radius == 0.0) {
         lrcsi_amount flat = lrcsi_closed_reflect(brdf, light->aspect);
         lrcsi_closed_scale(&flat, LRCSI_PI * radius * radius, 4.0);
         return flat;
     }
     lrcsi_dd r = {radius, 0.0};
     lrcsi_dd h = {2.0 * height, 0.0};
-    lrcsi_dd hyp = lrcsi_closed_root(lrcsi_dd_add(lrcsi_dd_mul(r, r), lrcsi_dd_mul(h, h)));
-    lrcsi_angle tau = {lrcsi_closed_divide(h, hyp), lrcsi_closed_divide(r, hyp)};
-    lrcsi_amount amount = {{0.0, 0.0}, {0.0, 0.0}};
-    if (radius > 0.0) {
-        amount = cap_integral(brdf, light, tau, 1);
-        double scale = hyp.hi * (hyp.hi / h.hi);
-        lrcsi_closed_scale(&amount, scale, 4.0);
-        lrcsi_closed_scale(&amount, scale, 4.0);
-    }
-    return amount;
+    lrcsi_dd hyp = lrcsi_closed_hypot(r, h);
+    cap_body body = {{lrcsi_closed_divide(h, hyp), lrcsi_closed_divide(r, hyp)},
+                     1,
+                     hyp.hi * (hyp.hi / h.hi),
+                     LRCSI_PI * radius * hyp.hi};
+    return cap_integral(brdf, light, &body);
 }
