@@ -15,7 +15,8 @@ for test in "$@"; do
     esac
     status=$?
     good=$(grep -cE '^(\[       OK \]|ok )' "$log")
-    bad=$(grep -cE '^(\[  FAILED  \] [a-z0-9_]+$|not ok )' "$log")
+    # cmocka names a failed test twice
+    bad=$(grep -E '^(\[  FAILED  \] [a-z0-9_]+$|not ok )' "$log" | sort -u | grep -c .)
     if [ "$status" -eq 0 ] && [ "$bad" -eq 0 ] && [ "$good" -gt 0 ]; then
         echo "ok   $test ($good)"
     else

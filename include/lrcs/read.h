@@ -25,7 +25,14 @@ size_t lrcs_mesh_need(const lrcs_mesh_counts *counts);
 /* 3D Studio: stored vertices are the geometry; mesh matrices and the keyframer are ignored, with
    a notice. Parts are the triangle meshes, in file order.
    Status: LRCS_OK, _SYNTAX, _TRUNCATED, _INDEX, _NUMBER, _LIMIT, _EMPTY (no bytes); read also
-   _MEMORY. A file without facets is read; the mesh is empty. */
+   _MEMORY. A file without facets is read; the mesh is empty.
+   Notes: 1. Materials are all that the file defines, in its order; a group binds to the first of
+   its name. A facet in two groups belongs to the last; in none, or one of a material that is not
+   defined, to LRCS_NONE. Groups and smoothing count inside the face list and beside it.
+   2. Colour is the diffuse one: chunk 0x0011 before 0x0012 before floats, which are clamped to 0..1
+   and rounded to 0..255. Transparency is in percent in both its forms.
+   3. A chunk longer than its parent is an error; a root that disagrees with the size of the file,
+   or up to 5 bytes too many at the end of a chunk, is a notice. */
 int lrcs_3ds_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrcs_where *where);
 int lrcs_3ds_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *mesh,
                   lrcs_where *where);

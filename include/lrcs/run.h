@@ -112,8 +112,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    Given: prepared; pose; options; work.
    Returned: result; records[facet_count] unless NULL; image unless NULL: then a raster is drawn
    whatever the method, image->size > 0 asks for its size and image->facet has room for it.
-   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range);
-   LRCS_E_UNSUPPORTED (LRCS_METHOD_EXACT in this version).
+   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range).
    Work: nothing stays in the work area. */
 int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                    const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,

@@ -98,8 +98,8 @@ typedef struct lrcs_recipe {
    Given: text, size bytes, not terminated.
    Returned: recipe, in the work area, with its strings: it does not refer to the text.
    Status: LRCS_OK; _SYNTAX; _UNSUPPORTED (TOML outside the subset, another schema); _NAME
-   (unknown, missing, doubled); _ARGUMENT (wrong type or value); _NUMBER; _MEMORY; _LIMIT;
-   _EMPTY (no part).
+   (unknown, missing, doubled); _ARGUMENT (wrong type or form); _NUMBER (out of range); _MEMORY;
+   _LIMIT; _EMPTY (no part).
    Work: lrcs_recipe_need(size), an upper bound that grows linearly with size; O(size). */
 size_t lrcs_recipe_need(size_t size);
 int lrcs_recipe_read(const char *text, size_t size, lrcs_work *work, lrcs_recipe *recipe,

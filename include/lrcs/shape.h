@@ -9,14 +9,14 @@
 #include <lrcs/mesh.h>
 
 enum lrcs_shape_kind {
-    LRCS_SHAPE_PLATE = 0, /* size[0] x size[1], one-sided, normal +z */
-    LRCS_SHAPE_DISC,      /* radius, one-sided, normal +z */
-    LRCS_SHAPE_BOX,       /* size[0] x size[1] x size[2] */
-    LRCS_SHAPE_SPHERE,    /* radius */
-    LRCS_SHAPE_DOME,      /* radius: upper half sphere, z = 0 .. radius; base disc with ALL */
-    LRCS_SHAPE_CYLINDER,  /* radius, length; two end discs with ALL */
-    LRCS_SHAPE_CONE,      /* radius (base), and half_angle_deg or length; base with ALL */
-    LRCS_SHAPE_FRUSTUM,   /* radius (the end at aspect 0, z = length), radius2 (z = 0), length */
+    LRCS_SHAPE_PLATE = 0,  /* size[0] x size[1], one-sided, normal +z */
+    LRCS_SHAPE_DISC,       /* radius, one-sided, normal +z */
+    LRCS_SHAPE_BOX,        /* size[0] x size[1] x size[2] */
+    LRCS_SHAPE_SPHERE,     /* radius */
+    LRCS_SHAPE_DOME,       /* radius: upper half sphere, z = 0 .. radius; base disc with ALL */
+    LRCS_SHAPE_CYLINDER,   /* radius, length; two end discs with ALL */
+    LRCS_SHAPE_CONE,       /* radius (base), and half_angle_deg or length; base with ALL */
+    LRCS_SHAPE_FRUSTUM,    /* radius (the end at aspect 0, z = length), radius2 (z = 0), length */
     LRCS_SHAPE_PARABOLOID, /* radius (base), length (height): z = H (1 - r^2/R^2); base with ALL */
     LRCS_SHAPE_KINDS
 };
@@ -90,8 +90,8 @@ typedef struct lrcs_curvature {
 
 /* How finely to tessellate. */
 typedef struct lrcs_fineness {
-    double tolerance;  /* relative error of sigma aimed at, > 0 */
-    lrcs_brdf brdf;    /* the material it will wear */
+    double tolerance;    /* relative error of sigma aimed at, > 0 */
+    lrcs_brdf brdf;      /* the material it will wear */
     uint32_t max_facets; /* never more than this; >= 64 */
 } lrcs_fineness;
 
@@ -105,14 +105,21 @@ typedef struct lrcs_divisions {
 } lrcs_divisions;
 
 /* Chooses divisions for a shape and fineness, and counts the mesh they make (one part, no
-   materials; text_bytes for the part's name). Curved bodies: the fewest facets whose proved error (lrcs_curvature with
-   lrcs_brdf bounds) meets the tolerance over all aspects relative to the body's mean sigma, capped.
-   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_NUMBER. */
+   materials; text_bytes for the part's name). Curved bodies: the fewest facets whose proved error
+   (lrcs_curvature with lrcs_brdf bounds) meets the tolerance relative to sigma or to its mean over
+   attitudes, whichever is larger, at every one of a fan of aspects; capped. Where not even the cap
+   brings the error below sigma itself, the glint is given up and the diffuse part sets the count.
+   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_NUMBER.
+   Work: O(around log around); milliseconds. */
 int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
                      lrcs_divisions *divisions, lrcs_mesh_counts *counts);
 
-/* Makes the mesh. Vertices shared by position; facets outward; vertices rounded once from the
-   exact points. Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY. */
+/* Makes the mesh. Vertices shared by position; facets outward; symmetric to the bit; coordinates
+   good to a few units of rounding. Every circle becomes an N-gon of the same area, its first corner
+   on +x; a cylinder's, cone's or frustum's length is kept, the rise of a sphere, dome or paraboloid
+   is such that each facet's normal is the mean normal of its patch. Smoothing group 1 is the curved
+   wall; flat faces are hard. curvature may be NULL.
+   Status: LRCS_OK; LRCS_E_ARGUMENT (shape, or divisions that do not suit it); LRCS_E_MEMORY. */
 int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,
                     lrcs_mesh *mesh, lrcs_curvature *curvature);
 

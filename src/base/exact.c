@@ -105,7 +105,7 @@ static int pair_product(lrcsi_dd a, lrcsi_dd b, double *h)
 }
 
 /* h = component k of p x q, EXACT_MINOR terms at most. */
-static int cross_component(const lrcsi_dd p[3], const lrcsi_dd q[3], int k, double *h)
+static int expansion_cross(const lrcsi_dd p[3], const lrcsi_dd q[3], int k, double *h)
 {
     int i = (k + 1) % 3;
     int j = (k + 2) % 3;
@@ -128,7 +128,7 @@ static int exact_det_sign(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_
     int n[3];
     for (int k = 0; k < 3; k++) {
         double minor[EXACT_MINOR];
-        int m = cross_component(p, q, k, minor);
+        int m = expansion_cross(p, q, k, minor);
         n[k] = expansion_times(minor, m, r[k], term[k]);
     }
     double two[2 * EXACT_TERM];
@@ -257,7 +257,7 @@ int lrcsi_exact_collinear(const double a[3], const double b[3], const double c[3
     exact_difference(a, c, qq);
     for (int k = 0; k < 3; k++) {
         double minor[EXACT_MINOR];
-        if (cross_component(pp, qq, k, minor) != 0) {
+        if (expansion_cross(pp, qq, k, minor) != 0) {
             return 0;
         }
     }

@@ -1,8 +1,116 @@
 /* SPDX-License-Identifier: MIT */
-#include <lrcs/lrcs.h>
-#include <stdio.h>
-int main(void)
+/* The tool's front door: which command runs, and help for all of them. */
+#include "cli/cli.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const cli_command *const main_commands[] = {&cli_run_command, &cli_info_command,
+                                                   &cli_shape_command, &cli_verify_command};
+
+#define MAIN_COMMANDS (sizeof main_commands / sizeof main_commands[0])
+
+static const char main_help[] =
+    "lrcs: monostatic laser radar cross-section (sigma, m2) of a facet mesh, with a proved bound.\n"
+    "\n"
+    "usage: lrcs COMMAND [operand] [options]\n"
+    "\n"
+    "  run SCENE     sigma from a pose, its bound, what was simulated\n"
+    "  info SCENE    what a model holds: parts, materials, area, volume, defects\n"
+    "  shape KIND    sigma of a simple body from its closed form\n"
+    "  verify        the engine against closed forms on this machine\n"
+    "  help COMMAND  options, units and examples of one command\n"
+    "\n"
+    "SCENE is a .3ds, .obj or .stl model, a scene file (.toml), or 'demo', which is built in.\n"
+    "Options take '--name value' or '--name=value'. --version prints the version.\n"
+    "Exit: 0 done, 1 failed, 2 usage, 3 done but tolerance not met or memory short.\n"
+    "\n"
+    "examples:\n"
+    "  lrcs run demo\n"
+    "  lrcs run satellite.3ds --unit mm --azel 30,20 --material 'solar=solar-cell'\n"
+    "  lrcs shape sphere --radius 1 --material 1,0.25,0.2,0.5\n";
+
+static const cli_command *command_find(const char *name)
 {
-    puts(lrcs_version());
-    return 0;
+    for (size_t i = 0; i < MAIN_COMMANDS; i++) {
+        if (strcmp(main_commands[i]->name, name) == 0) {
+            return main_commands[i];
+        }
+    }
+    return NULL;
+}
+
+static int unknown_command(const char *name)
+{
+    const char *best = NULL;
+    for (size_t i = 0; i < MAIN_COMMANDS; i++) {
+        best = cli_nearest(name, best, main_commands[i]->name);
+    }
+    return cli_usage(NULL, "unknown command '%s'; the nearest is %s", name, best);
+}
+
+/* A command's help, and the library where it takes a material. */
+static int help_print(const cli_command *command)
+{
+    const lrcs_brdf_entry *entry;
+    fputs(command ? command->help : main_help, stdout);
+    for (const cli_option *o = command ? command->option : NULL; o && o->name; o++) {
+        if (strcmp(o->name, "material") != 0) {
+            continue;
+        }
+        printf("\nlibrary materials (A,B,s,m are ILLUSTRATIVE, not measured):\n");
+        for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
+            printf("  %-20s %.5g,%.5g,%.5g,%.5g  %s\n", entry->name, entry->brdf.A, entry->brdf.B,
+                   entry->brdf.s, entry->brdf.m, entry->text);
+        }
+    }
+    return cli_finish(CLI_DONE);
+}
+
+static int is_help(const char *word)
+{
+    return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
+}
+
+static int help_command(int count, char **word)
+{
+    if (count == 0 || is_help(word[0])) {
+        return help_print(NULL);
+    }
+    const cli_command *command = command_find(word[0]);
+    return command ? help_print(command) : unknown_command(word[0]);
+}
+
+int main(int count, char **word)
+{
+    if (count < 2) {
+        fputs(main_help, stderr);
+        return CLI_USAGE;
+    }
+    if (is_help(word[1]) || strcmp(word[1], "help") == 0) {
+        return help_command(count - 2, word + 2);
+    }
+    if (strcmp(word[1], "--version") == 0) {
+        printf("lrcs %s\n", lrcs_version());
+        return cli_finish(CLI_DONE);
+    }
+    if (word[1][0] == '-') {
+        return cli_usage(NULL, "a command is expected before options, found '%s'", word[1]);
+    }
+    const cli_command *command = command_find(word[1]);
+    if (!command) {
+        return unknown_command(word[1]);
+    }
+    for (int i = 2; i < count; i++) {
+        if (is_help(word[i])) {
+            return help_print(command);
+        }
+    }
+    cli_args args;
+    int code = cli_args_read(command, count - 2, word + 2, &args);
+    if (code == 0) {
+        code = cli_finish(command->run(&args));
+    }
+    free(args.given);
+    return code;
 }

@@ -2,15 +2,19 @@
 /* What the planner decides from the proofs of scene/solid.h and the facets' facing. */
 #include "integrate/plan.h"
 
-lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, int method)
+lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *options)
 {
     const lrcs_prepared *p = view->prepared;
     lrcsi_plan plan;
     plan.unshadowed = p->convex;
     plan.alone = p->convex && (p->solid || view->front == 0 || view->back == 0);
-    plan.method = method == LRCS_METHOD_AUTO
-                      ? (plan.alone ? LRCS_METHOD_FACET : LRCS_METHOD_ZBUFFER)
-                      : method;
+    plan.method = options->method;
+    if (options->method == LRCS_METHOD_AUTO) { /* clipping the few contested facets costs less
+                                                  than a raster fine enough for its bound */
+        plan.method = plan.alone                  ? LRCS_METHOD_FACET
+                      : options->resolution != 0 ? LRCS_METHOD_ZBUFFER
+                                                  : LRCS_METHOD_EXACT;
+    }
     return plan;
 }
 

@@ -8,6 +8,7 @@
 #include "base/work.h"
 #include "integrate/plan.h"
 #include "integrate/total.h"
+#include "visibility/occlude.h"
 
 /* Rasters: the first tried, the finest and the coarsest. Beyond 4096 the bound gains less than it
    costs; below 16 there is nothing to gain. */
@@ -40,7 +41,7 @@ static int options_check(const lrcs_run_options *options)
         !(options->tolerance > 0) || options->resolution > MOST_SIZE) {
         return LRCS_E_ARGUMENT;
     }
-    return options->method == LRCS_METHOD_EXACT ? LRCS_E_UNSUPPORTED : LRCS_OK;
+    return LRCS_OK;
 }
 
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
@@ -53,6 +54,9 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
         return need;
     }
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
+    if (options->method == LRCS_METHOD_EXACT) {
+        return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
+    }
     need = lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
     return lrcsi_work_add(need, lrcsi_visible_need(prepared, size));
 }
@@ -110,6 +114,15 @@ static void fronts_are_known(const lrcsi_view *view, lrcsi_visible *visible)
     }
 }
 
+/* The sum over visible areas found by clipping or sampling. */
+static void run_sum(sigma_run *run)
+{
+    if (run->plan.unshadowed) {
+        fronts_are_known(&run->view, run->visible);
+    }
+    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->records);
+}
+
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
 static int run_raster(sigma_run *run, uint32_t size)
 {
@@ -129,13 +142,19 @@ static int run_raster(sigma_run *run, uint32_t size)
         for (uint32_t f = 0; f < run->view.prepared->scene->facet_count; f++) {
             run->flags |= raster.undecided[f] ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
         }
-        if (run->plan.unshadowed) {
-            fronts_are_known(&run->view, run->visible);
-        }
-        run->total =
-            lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->records);
+        run_sum(run);
     }
     run->work->used = mark;
+    return status;
+}
+
+static int run_exact(sigma_run *run)
+{
+    int status = lrcsi_occlude_all(&run->contest, run->work, run->visible);
+    if (status == LRCS_OK) {
+        run->size = 0;
+        run_sum(run);
+    }
     return status;
 }
 
@@ -153,16 +172,43 @@ static uint32_t next_size(const sigma_run *run, double tolerance)
 
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
-    int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
-    if (status != LRCS_OK) {
-        return status;
-    }
-    status = run_raster(run, options->resolution != 0 ? options->resolution : FIRST_SIZE);
+    int status = run_raster(run, options->resolution != 0 ? options->resolution : FIRST_SIZE);
     while (status == LRCS_OK && options->resolution == 0 && run->size < LAST_SIZE &&
            !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) && run->contest.contested_count != 0 &&
            !run_meets(&run->total, options->tolerance)) {
         uint32_t size = next_size(run, options->tolerance);
         status = run_raster(run, size > run->size ? size : LAST_SIZE);
+    }
+    return status;
+}
+
+/* Under auto, the other of the two methods that shadow, where the first missed the tolerance; the
+   better bound stays. */
+static int run_other(sigma_run *run, const lrcs_run_options *options)
+{
+    sigma_run first = *run;
+    run->plan.method =
+        first.plan.method == LRCS_METHOD_EXACT ? LRCS_METHOD_ZBUFFER : LRCS_METHOD_EXACT;
+    int status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
+    if (status == LRCS_OK && run_bound(&run->total) <= run_bound(&first.total)) {
+        return LRCS_OK;
+    }
+    *run = first;
+    return first.plan.method == LRCS_METHOD_EXACT ? run_exact(run)
+                                                  : run_raster(run, first.size);
+}
+
+static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
+{
+    int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    if (status == LRCS_OK) {
+        status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
+    }
+    double missing = run->total.visibility;
+    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
+        !run_meets(&run->total, options->tolerance) &&
+        missing > 0.5 * options->tolerance * (run->total.glint + run->total.diffuse)) {
+        status = run_other(run, options);
     }
     return status;
 }
@@ -209,9 +255,9 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         status = run.visible ? LRCS_OK : LRCS_E_MEMORY;
     }
     if (status == LRCS_OK) {
-        run.plan = lrcsi_plan_make(&run.view, options->method);
+        run.plan = lrcsi_plan_make(&run.view, options);
         status = run.plan.method == LRCS_METHOD_FACET ? run_facet(&run)
-                                                      : run_zbuffer(&run, options);
+                                                      : run_shadowed(&run, options);
     }
     if (status == LRCS_OK && image && image->size != 0) {
         status = run_image(&run);

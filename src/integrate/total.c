@@ -78,7 +78,7 @@ static void add_tessellation(total_sums *sums, const lrcsi_view *view, uint32_t 
     double stray = lrcsi_reflect_stray(brdf, tilt->cos_theta, tilt->tan2, &part->curvature);
     sums->tessellation += FOUR_PI * 0.5 * p->normal[facet].length * stray;
     if (!part->curvature_known) {
-        sums->tessellation = -INFINITY;
+        sums->tessellation = -HUGE_VAL;
     }
 }
 
@@ -136,7 +136,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visibl
     lrcsi_total total = {0};
     total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0};
     if (p->curved && !unshadowed) {
-        sums.tessellation = -INFINITY;
+        sums.tessellation = -HUGE_VAL;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         lrcsi_tilt tilt = lrcsi_view_tilt(view, f);

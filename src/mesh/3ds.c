@@ -135,15 +135,13 @@ int lrcs_3ds_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrc
 static int tds_fill(lrcsi_tds_walk *walk, lrcsi_tds_chunk root, lrcs_work *work)
 {
     size_t mark = work->used;
-    lrcsi_names names;
     uint32_t materials = walk->mesh->material_count;
     walk->name = lrcsi_work_take(work, materials, sizeof *walk->name);
     int status = walk->name ? tds_read_all(walk, root, LRCSI_TDS_MATERIAL) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        status = lrcsi_names_make(walk->bytes, walk->name, materials, work, &names);
+        status = lrcsi_spans_make(walk->bytes, walk->name, materials, work, &walk->names);
     }
     if (status == LRCS_OK) {
-        walk->names = &names;
         status = tds_read_all(walk, root, LRCSI_TDS_OBJECT);
     }
     work->used = mark;

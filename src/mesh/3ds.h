@@ -54,9 +54,9 @@ typedef struct lrcsi_tds_walk {
     uint32_t notices;
     /* NULL while counting: */
     lrcs_mesh *mesh;
-    char *text;               /* where the next name goes */
-    lrcsi_span *name;         /* of each material, as in the file */
-    const lrcsi_names *names; /* the same, once all are known */
+    char *text;        /* where the next name goes */
+    lrcsi_span *name;  /* of each material, as in the file */
+    lrcsi_spans names; /* the same, once all are known */
 } lrcsi_tds_walk;
 
 /* Says where the walk stopped; returns `status`. */

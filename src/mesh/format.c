@@ -63,9 +63,9 @@ static int format_ends(const char *name, const char *ending)
         return 0;
     }
     for (size_t i = 0; i < count; i++) {
-        char letter = name[size - count + i];
-        letter = letter >= 'A' && letter <= 'Z' ? (char)(letter + 32) : letter;
-        if (letter != ending[i]) {
+        unsigned char letter = (unsigned char)name[size - count + i];
+        letter = letter >= 'A' && letter <= 'Z' ? (unsigned char)(letter + 32) : letter;
+        if (letter != (unsigned char)ending[i]) {
             return 0;
         }
     }
@@ -74,16 +74,16 @@ static int format_ends(const char *name, const char *ending)
 
 int lrcs_format_check(const void *bytes, size_t size, const char *name)
 {
-    if (size > 0 && lrcsi_stl_is_binary(bytes, size)) {
+    if (lrcsi_stl_is_binary(bytes, size)) {
         return LRCS_FORMAT_STL;
     }
-    if (size > 0 && format_is_3ds(bytes, size)) {
+    if (format_is_3ds(bytes, size)) {
         return LRCS_FORMAT_3DS;
     }
-    if (size > 0 && lrcsi_stl_is_text(bytes, size)) {
+    if (lrcsi_stl_is_text(bytes, size)) {
         return LRCS_FORMAT_STL;
     }
-    if (size > 0 && format_is_obj(bytes, size)) {
+    if (format_is_obj(bytes, size)) {
         return LRCS_FORMAT_OBJ;
     }
     if (name && format_ends(name, ".3ds")) {

@@ -197,7 +197,7 @@ static int read_corner(obj_walk *w, uint32_t *corner)
 /* A polygon, fanned from its first vertex as its corners come. */
 static int read_face(obj_walk *w)
 {
-    uint32_t corner[3];
+    uint32_t corner[3] = {0, 0, 0};
     int count = 0; /* stays at 3 */
     while (!lrcsi_lines_done(&w->lines)) {
         int k = count < 2 ? count : 2;
@@ -357,7 +357,7 @@ static void obj_finish(obj_walk *w)
 int lrcs_obj_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *mesh,
                   lrcs_where *where)
 {
-    lrcs_mesh_counts counts;
+    lrcs_mesh_counts counts = {0};
     int status = lrcs_obj_count(bytes, size, &counts, where);
     if (status != LRCS_OK) {
         return status;

@@ -2,9 +2,9 @@
 /* Bodies of revolution as facets: where the rows of vertices stand, and what can be proved about
    the facets between them. It makes no mesh (tessellate.c).
 
-   Sectors. Every row is a regular N-gon; with h = pi/N its vertices stand at mu = sqrt(2 h / sin 2h)
-   times the true radius rho, its sides' middles at kappa = mu cos h times it. The N-gon then has
-   exactly the area pi rho^2 of its circle, so that discs, caps and bases are exact.
+   Sectors. Every row is a regular N-gon; with h = pi/N its vertices stand at mu = sqrt(2 h / sin
+   2h) times the true radius rho, its sides' middles at kappa = mu cos h times it. The N-gon then
+   has exactly the area pi rho^2 of its circle, so that discs, caps and bases are exact.
 
    Rings. Two neighbouring rows are joined by planar trapezoids, one a sector, each cut into two
    facets. Its patch is the true surface between the two true circles and the two half-planes of
@@ -33,7 +33,7 @@
 #include <math.h>
 
 #define HALF_PI 1.57079632679489661923
-#define UNIT 1.1102230246251565e-16 /* 2^-53 */
+#define UNIT    1.1102230246251565e-16 /* 2^-53 */
 /* D is 1 minus a quotient of sums of positive products: 20 roundings or functions good to 2 units
    reach it, and so A/A' - 1. */
 #define SLACK (64.0 * UNIT)
@@ -43,6 +43,10 @@
 #define SLOPE_MOST  1e300
 /* Absolute error of a coordinate near the end of double's range, generously. */
 #define COARSE 1e-322
+/* Facets blurred beyond this part of themselves get USELESS numbers: finite, for a facet may have
+   no area to multiply them with. */
+#define BLUR_MOST 0x1p-6
+#define USELESS   1e300
 
 /* A strip's patch and facet: areas and vector areas in any one unit. */
 typedef struct strip {
@@ -96,8 +100,9 @@ static strip strip_straight(const lrcsi_profile *profile)
     double unit = slant > 0.0 ? slant : 1.0;
     double elevation = atan2(fall, profile->height);
     double sinc = sin(profile->half) / profile->half;
-    return (strip){slant / unit,   sinc * profile->height / unit, fall / unit,
-                   profile->swell, elevation,                     elevation};
+    return (strip){slant / unit, sinc * profile->height / unit,
+                   fall / unit,  profile->swell,
+                   elevation,    elevation};
 }
 
 /* In units of the strip's area: with theta its middle and d its width on the meridian,
@@ -173,7 +178,19 @@ static double profile_blur(const lrcsi_profile *profile, uint32_t i)
     if (slant > 0.0 && !profile_straight(profile)) {
         blur += 2.0 * (e * profile->height + COARSE) / slant;
     }
-    return fmin(blur, 2.0 * HALF_PI);
+    return blur;
+}
+
+/* The numbers for a facet tilted and resized by rounding. The turn vector changes by at most
+   gamma / sin gamma < 2 times the tilt. A facet that rounding moves by a part of itself has no
+   numbers that mean anything. */
+static lrcs_curvature curvature_blur(const lrcs_curvature *c, double blur)
+{
+    if (blur > BLUR_MOST) {
+        return (lrcs_curvature){2.0 * HALF_PI, USELESS, USELESS, sqrt(USELESS)};
+    }
+    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * HALF_PI), c->area_error + 2.0 * blur,
+                            c->lean + 2.0 * blur, c->spread + 2.0 * blur};
 }
 
 static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
@@ -200,12 +217,7 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
     c.lean = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
     c.area_error = fabs(ratio - 1.0);
-    double blur = profile_blur(profile, i) * (1.0 + c.area_error) + SLACK;
-    c.turn = fmin(c.turn + blur, 2.0 * HALF_PI);
-    c.area_error += 2.0 * blur;
-    c.lean += 2.0 * blur;
-    c.spread += 2.0 * blur;
-    return c;
+    return curvature_blur(&c, profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
 }
 
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)

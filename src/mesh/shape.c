@@ -117,8 +117,8 @@ int lrcs_shape_check(const lrcs_shape *shape, lrcs_where *where)
         double value;
         int bit;
     } length[] = {
-        {"size[0]", shape->size[0], USES_SIZE_X}, {"size[1]", shape->size[1], USES_SIZE_Y},
-        {"size[2]", shape->size[2], USES_SIZE_Z}, {"radius", shape->radius, USES_RADIUS},
+        {"size[0]", shape->size[0], USES_SIZE_X},  {"size[1]", shape->size[1], USES_SIZE_Y},
+        {"size[2]", shape->size[2], USES_SIZE_Z},  {"radius", shape->radius, USES_RADIUS},
         {"radius2", shape->radius2, USES_RADIUS2}, {"length", shape->length, USES_LENGTH},
     };
     int uses = shape_table[shape->kind].uses;
@@ -132,5 +132,5 @@ int lrcs_shape_check(const lrcs_shape *shape, lrcs_where *where)
                                  90.0, "degrees above 0 and below 90", where);
     }
     return status == LRCS_OK && shape->kind == LRCS_SHAPE_CONE ? shape_check_cone(shape, where)
-                                                                : status;
+                                                               : status;
 }

@@ -62,7 +62,8 @@ static uint32_t stl_weld(lrcsi_stl_walk *walk, const double x[3])
     size_t slot = (size_t)key & (walk->slots - 1);
     while (walk->slot[slot] != LRCS_NONE) {
         uint32_t there = walk->slot[slot];
-        if (memcmp(&mesh->vertex[there], &point, sizeof point) == 0) {
+        const double *y = mesh->vertex[there].x;
+        if (y[0] == point.x[0] && y[1] == point.x[1] && y[2] == point.x[2]) {
             return there;
         }
         slot = (slot + 1) & (walk->slots - 1);

@@ -25,9 +25,8 @@ typedef struct lrcsi_stl_walk {
    taken for one: its count would be at least 0x09090909, its size over 7 GB. */
 int lrcsi_stl_is_binary(const unsigned char *bytes, size_t size);
 
-/* 1 where the bytes start like a text file: "solid" and a line, then "facet", "endsolid" or
-   nothing; or "facet normal" at once. A binary file may start with "solid" and even with a line,
-   but not with these words behind it. */
+/* 1 where the bytes start like a text file: "solid" and a line, then "facet", "endsolid", "solid"
+   or nothing; or "facet normal" at once. A binary file may start with "solid" too. */
 int lrcsi_stl_is_text(const unsigned char *bytes, size_t size);
 
 /* Adds a facet, welding its corners; its numbers are finite, the normal's need not be.

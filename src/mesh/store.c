@@ -40,7 +40,7 @@ uint64_t lrcsi_store_key(const void *bytes, size_t size)
 }
 
 /* The slot where a name stands, or the empty one where it would. */
-static size_t name_slot(const lrcsi_names *names, const unsigned char *name, size_t size)
+static size_t name_slot(const lrcsi_spans *names, const unsigned char *name, size_t size)
 {
     size_t slot = (size_t)lrcsi_store_mix(lrcsi_store_key(name, size)) & (names->slots - 1);
     while (names->slot[slot] != LRCS_NONE) {
@@ -53,10 +53,10 @@ static size_t name_slot(const lrcsi_names *names, const unsigned char *name, siz
     return slot;
 }
 
-int lrcsi_names_make(const unsigned char *bytes, const lrcsi_span *name, uint32_t count,
-                     lrcs_work *work, lrcsi_names *names)
+int lrcsi_spans_make(const unsigned char *bytes, const lrcsi_span *name, uint32_t count,
+                     lrcs_work *work, lrcsi_spans *names)
 {
-    lrcsi_names made = {bytes, name, NULL, lrcsi_store_slots(count)};
+    lrcsi_spans made = {bytes, name, NULL, lrcsi_store_slots(count)};
     made.slot = lrcsi_work_take(work, made.slots, sizeof *made.slot);
     if (!made.slot) {
         return LRCS_E_MEMORY;
@@ -72,7 +72,7 @@ int lrcsi_names_make(const unsigned char *bytes, const lrcsi_span *name, uint32_
     return LRCS_OK;
 }
 
-uint32_t lrcsi_names_find(const lrcsi_names *names, const unsigned char *name, size_t size)
+uint32_t lrcsi_spans_find(const lrcsi_spans *names, const unsigned char *name, size_t size)
 {
     return names->slot[name_slot(names, name, size)];
 }

@@ -27,19 +27,19 @@ typedef struct lrcsi_span {
 } lrcsi_span;
 
 /* Names by their bytes, for the material lookups of a reader. */
-typedef struct lrcsi_names {
+typedef struct lrcsi_spans {
     const unsigned char *bytes; /* the input */
     const lrcsi_span *name;
     uint32_t *slot; /* index into name, or LRCS_NONE */
     size_t slots;
-} lrcsi_names;
+} lrcsi_spans;
 
-/* Makes the table in the work area, `names` then refers to `name` and `bytes`. Of equal names the
+/* Makes the table in the work area, it then refers to `name` and `bytes`. Of equal names the
    first is found. Status: LRCS_OK; LRCS_E_MEMORY. */
-int lrcsi_names_make(const unsigned char *bytes, const lrcsi_span *name, uint32_t count,
-                     lrcs_work *work, lrcsi_names *names);
+int lrcsi_spans_make(const unsigned char *bytes, const lrcsi_span *name, uint32_t count,
+                     lrcs_work *work, lrcsi_spans *names);
 
 /* The index of the first name with these bytes, or LRCS_NONE. */
-uint32_t lrcsi_names_find(const lrcsi_names *names, const unsigned char *name, size_t size);
+uint32_t lrcsi_spans_find(const lrcsi_spans *names, const unsigned char *name, size_t size);
 
 #endif

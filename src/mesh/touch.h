@@ -8,6 +8,7 @@
 #include "mesh/topology.h"
 
 enum lrcsi_touch_kind {
+    LRCSI_TOUCH_NONE = -1,   /* no contact */
     LRCSI_TOUCH_CROSS = 0,   /* not in one plane: `other` meets the open inside of `facet` */
     LRCSI_TOUCH_COPLANAR = 1 /* exactly in one plane, and their open insides overlap */
 };
@@ -25,6 +26,13 @@ typedef struct lrcsi_touches {
     lrcsi_touch *touch; /* by facet, then by other */
     uint32_t count;
 } lrcsi_touches;
+
+/* How `other` (closed) meets the relative interior of `facet`: a lrcsi_touch_kind. Neither may be
+   degenerate. */
+int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);
+
+/* 1 where two facets lie exactly in one plane. Neither may be degenerate. */
+int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);
 
 /* Finds all of them. Facets marked in `skip` (degenerate, omitted) neither touch nor are touched.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 entries).

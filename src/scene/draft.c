@@ -14,18 +14,15 @@ typedef struct schema_row {
     const char *name, *expected;
 } schema_row;
 
-#define TEXT      LRCSI_TOML_STRING, 0, 0
-#define NUMBER    LRCSI_TOML_NUMBER, 0, 0
-#define TRUTH     LRCSI_TOML_BOOLEAN, 0, 0
-#define THREE     LRCSI_TOML_ARRAY, 3, 3
-#define IS_TEXT   "a string"
-#define IS_NUMBER "a number"
-#define IS_TRUTH  "true or false"
-#define IS_THREE  "three numbers, [x, y, z]"
-#define PART_KEYS                                                                                  \
-    "one of name, file, shape, size, radius, radius2, length, half_angle_deg, wall_only, unit, "   \
-    "scale, rotate_euler, rotate_axis, rotate_quaternion, rotate_deg, translate, material"
-#define NUMBER_OR(t) LRCSI_TOML_NUMBER | (t)
+#define TEXT         LRCSI_TOML_STRING, 0, 0
+#define NUMBER       LRCSI_TOML_NUMBER, 0, 0
+#define TRUTH        LRCSI_TOML_BOOLEAN, 0, 0
+#define THREE        LRCSI_TOML_ARRAY, 3, 3
+#define IS_TEXT      "a string"
+#define IS_NUMBER    "a number"
+#define IS_TRUTH     "true or false"
+#define IS_THREE     "three numbers, [x, y, z]"
+#define NUMBER_OR(t) (LRCSI_TOML_NUMBER | (t))
 
 static const schema_row schema[] = {
     {LRCSI_TABLE_TOP, LRCSI_KEY_SCHEMA, NUMBER, "schema", IS_NUMBER},
@@ -72,9 +69,12 @@ static const schema_row schema[] = {
 
 static const char *const table_header[LRCSI_TABLES] = {"top of the file", "[[part]]",
                                                        "[part.joint]", "[[material]]", "[[map]]"};
+static const char part_keys[] =
+    "one of name, file, shape, size, radius, radius2, length, half_angle_deg, wall_only, unit, "
+    "scale, rotate_euler, rotate_axis, rotate_quaternion, rotate_deg, translate, material";
 static const char *const table_keys[LRCSI_TABLES] = {
     "one of schema, name, unit, keep_transparent, default_material",
-    PART_KEYS,
+    part_keys,
     "one of axis, origin, angle_deg",
     "one of name, like, A, B, s, m, two_sided",
     "one of name, colour, material",

@@ -116,8 +116,8 @@ static void prepare_normals(lrcs_prepared *p)
 /* The box around the live facets. */
 static void prepare_box(lrcs_prepared *p)
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY};
-    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
             const double *x = lrcsi_prepared_corner(p, f, corner);

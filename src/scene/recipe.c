@@ -5,7 +5,7 @@
 
 #include "base/where.h"
 #include "base/work.h"
-#include "scene/names.h"
+#include "scene/index.h"
 #include "scene/recipe.h"
 
 /* Tags of names that must differ among themselves. */
@@ -34,7 +34,7 @@ size_t lrcs_recipe_need(size_t size)
     /* Strings with terminator and padding; one number without its underscores. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(strings, 1 + LRCS_WORK_ALIGN));
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, 2));
-    return lrcsi_work_add(need, lrcsi_names_need(tables));
+    return lrcsi_work_add(need, lrcsi_index_need(tables));
 }
 
 static int out_of_memory(lrcs_where *where)
@@ -103,7 +103,7 @@ static int read_brdf(const lrcsi_draft *draft, lrcs_brdf *brdf)
         const lrcsi_toml_event *number = lrcsi_draft_find(draft, key[i]);
         given += number != NULL;
         if (number && !(number->number[0] >= 0.0)) {
-            return lrcsi_draft_refuse_value(draft, key[i], LRCS_E_ARGUMENT, "a number, 0 or more");
+            return lrcsi_draft_refuse_value(draft, key[i], LRCS_E_NUMBER, "a number, 0 or more");
         }
     }
     if (given != (like ? 0 : 4)) {
@@ -242,17 +242,17 @@ static int refuse_name(const recipe_reader *reader, uint32_t line, const char *i
 }
 
 /* Enters a name; LRCS_E_NAME where it is known. */
-static int enter_name(lrcsi_names *names, uint32_t tag, const void *bytes, size_t size,
+static int enter_name(lrcsi_index *names, uint32_t tag, const void *bytes, size_t size,
                       uint32_t value)
 {
-    if (lrcsi_names_find(names, tag, bytes, size) != LRCS_NONE) {
+    if (lrcsi_index_find(names, tag, bytes, size) != LRCS_NONE) {
         return LRCS_E_NAME;
     }
-    lrcsi_names_put(names, tag, bytes, size, value);
+    lrcsi_index_put(names, tag, bytes, size, value);
     return LRCS_OK;
 }
 
-static int enter_names(const recipe_reader *reader, lrcsi_names *names)
+static int enter_names(const recipe_reader *reader, lrcsi_index *names)
 {
     const lrcs_recipe *recipe = &reader->recipe;
     for (uint32_t i = 0; i < recipe->part_count; i++) {
@@ -281,14 +281,14 @@ static int enter_names(const recipe_reader *reader, lrcsi_names *names)
     return LRCS_OK;
 }
 
-/* The recipe's own materials first, then the library's; which one in *own, LRCS_NONE for these. */
-static int resolve_name(const recipe_reader *reader, const lrcsi_names *names, const char *name,
-                        uint32_t line, uint32_t *own, lrcs_binding *binding)
+/* A material by its name, the recipe's own first, then the library's; its place among the recipe's
+   in *own, LRCS_NONE for the library's. */
+static int resolve_name(const recipe_reader *reader, const lrcsi_index *names, const char *name,
+                        uint32_t line, lrcs_recipe_material *material, uint32_t *own)
 {
-    *own = lrcsi_names_find(names, TAG_MATERIAL, name, strlen(name));
+    *own = lrcsi_index_find(names, TAG_MATERIAL, name, strlen(name));
     if (*own != LRCS_NONE) {
-        binding->brdf = reader->recipe.material[*own].brdf;
-        binding->two_sided = reader->recipe.material[*own].two_sided;
+        *material = reader->recipe.material[*own];
         return LRCS_OK;
     }
     const lrcs_brdf_entry *entry = lrcs_brdf_find(name);
@@ -296,36 +296,33 @@ static int resolve_name(const recipe_reader *reader, const lrcsi_names *names, c
         return refuse_name(reader, line, "material",
                            "the name of a [[material]] or of one of the library", name);
     }
-    binding->brdf = entry->brdf;
-    binding->two_sided = -1;
+    *material = (lrcs_recipe_material){entry->name, entry->brdf, -1, 0};
     return LRCS_OK;
 }
 
-static int resolve_materials(recipe_reader *reader, const lrcsi_names *names)
+static int resolve_materials(recipe_reader *reader, const lrcsi_index *names)
 {
     lrcs_recipe *recipe = &reader->recipe;
+    lrcs_recipe_material material;
     uint32_t own;
-    for (uint32_t i = 0; i < recipe->binding_count; i++) {
+    int status = LRCS_OK;
+    for (uint32_t i = 0; status == LRCS_OK && i < recipe->binding_count; i++) {
         lrcs_binding *binding = &recipe->binding[i];
-        int status = resolve_name(reader, names, binding->material, binding->line, &own, binding);
-        if (status != LRCS_OK) {
-            return status;
+        status = resolve_name(reader, names, binding->material, binding->line, &material, &own);
+        if (status == LRCS_OK) {
+            binding->brdf = material.brdf;
+            binding->two_sided = material.two_sided;
         }
     }
-    for (uint32_t i = 0; i < recipe->part_count; i++) {
+    for (uint32_t i = 0; status == LRCS_OK && i < recipe->part_count; i++) {
         lrcs_recipe_part *part = &recipe->part[i];
-        lrcs_binding unused;
-        if (!part->material) {
-            continue;
+        if (part->material) {
+            status =
+                resolve_name(reader, names, part->material, part->material_line, &material, &own);
+            part->wears = status == LRCS_OK && own != LRCS_NONE ? (int)own : -1;
         }
-        int status =
-            resolve_name(reader, names, part->material, part->material_line, &own, &unused);
-        if (status != LRCS_OK) {
-            return status;
-        }
-        part->wears = own != LRCS_NONE ? (int)own : -1;
     }
-    return LRCS_OK;
+    return status;
 }
 
 /* Doubled names and names that nothing answers to. */
@@ -334,12 +331,12 @@ static int resolve_names(recipe_reader *reader, lrcs_work *work)
     const lrcs_recipe *recipe = &reader->recipe;
     size_t mark = work->used;
     size_t total = (size_t)recipe->part_count + recipe->material_count + recipe->binding_count;
-    lrcsi_names names;
+    lrcsi_index names;
     if (total >= LRCS_NONE || recipe->material_count > INT32_MAX) {
         return lrcsi_where_number(reader->toml.where, LRCS_E_LIMIT, 0, 0, "scene file",
                                   "fewer tables", total);
     }
-    if (lrcsi_names_make(work, (uint32_t)total, &names) != LRCS_OK) {
+    if (lrcsi_index_make(work, (uint32_t)total, &names) != LRCS_OK) {
         return out_of_memory(reader->toml.where);
     }
     int status = enter_names(reader, &names);
@@ -361,7 +358,7 @@ static int take_arrays(lrcs_work *work, const uint32_t count[3], lrcs_recipe *re
 static int read_recipe(recipe_reader *reader, const char *text, size_t size, lrcs_work *work,
                        lrcs_where *where)
 {
-    uint32_t count[3];
+    uint32_t count[3] = {0, 0, 0};
     int status = count_tables(text, size, where, count);
     if (status != LRCS_OK) {
         return status;

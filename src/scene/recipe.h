@@ -8,7 +8,7 @@
 #include "scene/draft.h"
 
 /* The draft's `unit` in metres, or `other` where it has none. Status: LRCS_OK; LRCS_E_NAME;
-   LRCS_E_ARGUMENT (not above 0). */
+   LRCS_E_NUMBER (not above 0). */
 int lrcsi_recipe_unit(const lrcsi_draft *draft, double other, double *metres);
 
 /* A part from its finished draft. `unit` is the file's, for models. The material stays a name. */

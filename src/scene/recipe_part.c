@@ -51,7 +51,7 @@ int lrcsi_recipe_unit(const lrcsi_draft *draft, double other, double *metres)
     }
     *metres = unit->number[0];
     return *metres > 0.0 ? LRCS_OK
-                         : lrcsi_draft_refuse_value(draft, LRCSI_KEY_UNIT, LRCS_E_ARGUMENT,
+                         : lrcsi_draft_refuse_value(draft, LRCSI_KEY_UNIT, LRCS_E_NUMBER,
                                                     "metres in a unit, above 0");
 }
 
@@ -100,6 +100,28 @@ static int check_shape_keys(const lrcsi_draft *draft, int kind)
     return LRCS_OK;
 }
 
+/* The shape knows which dimension is at fault, the draft where it stands. */
+static int check_shape(const lrcsi_draft *draft, const lrcs_shape *shape)
+{
+    lrcs_where *where = draft->toml->where;
+    int status = lrcs_shape_check(shape, where);
+    if (status == LRCS_OK || !where) {
+        return status;
+    }
+    const lrcsi_toml_event *at = &draft->header;
+    for (int key = LRCSI_KEY_SIZE; key <= LRCSI_KEY_HALF_ANGLE_DEG; key++) {
+        const lrcsi_toml_event *value = lrcsi_draft_find(draft, key);
+        size_t size = value ? value->name[0].size : 0; /* "radius", or "size" in "size[1]" */
+        if (value && strncmp(where->item, value->name[0].text, size) == 0 &&
+            (where->item[size] == '\0' || where->item[size] == '[')) {
+            at = value;
+        }
+    }
+    where->line = at->line;
+    where->offset = (uint64_t)(at->raw - draft->toml->start);
+    return status;
+}
+
 static int read_shape(const lrcsi_draft *draft, lrcs_shape *shape)
 {
     int kind = lrcs_shape_find(lrcsi_draft_text(draft, LRCSI_KEY_SHAPE));
@@ -123,12 +145,7 @@ static int read_shape(const lrcsi_draft *draft, lrcs_shape *shape)
     shape->radius2 = lrcsi_draft_number(draft, LRCSI_KEY_RADIUS2, 0.0);
     shape->length = lrcsi_draft_number(draft, LRCSI_KEY_LENGTH, 0.0);
     shape->half_angle_deg = lrcsi_draft_number(draft, LRCSI_KEY_HALF_ANGLE_DEG, 0.0);
-    status = lrcs_shape_check(shape, draft->toml->where);
-    if (status != LRCS_OK && draft->toml->where) { /* the shape knows what, the draft knows where */
-        draft->toml->where->line = draft->header.line;
-        draft->toml->where->offset = (uint64_t)(draft->header.raw - draft->toml->start);
-    }
-    return status;
+    return check_shape(draft, shape);
 }
 
 /* A file or a shape, and not both. */
@@ -174,11 +191,11 @@ static int read_rotation(const lrcsi_draft *draft, double R[3][3])
                                         "(extrinsic), neighbours different");
     }
     if (deg && axis && lrcsi_rotate_axis(axis->number, deg->number[0], R) != LRCS_OK) {
-        return lrcsi_draft_refuse_value(draft, LRCSI_KEY_ROTATE_AXIS, LRCS_E_ARGUMENT,
+        return lrcsi_draft_refuse_value(draft, LRCSI_KEY_ROTATE_AXIS, LRCS_E_NUMBER,
                                         "an axis that is not zero");
     }
     if (q && lrcsi_rotate_quaternion(q->number, R) != LRCS_OK) {
-        return lrcsi_draft_refuse_value(draft, LRCSI_KEY_ROTATE_QUATERNION, LRCS_E_ARGUMENT,
+        return lrcsi_draft_refuse_value(draft, LRCSI_KEY_ROTATE_QUATERNION, LRCS_E_NUMBER,
                                         "a quaternion that is not zero");
     }
     return LRCS_OK;
@@ -192,7 +209,7 @@ static int read_scale(const lrcsi_draft *draft, double unit, double scale[3])
         double factor = given ? given->number[given->type == LRCSI_TOML_ARRAY ? i : 0] : 1.0;
         scale[i] = unit * factor;
         if (given && factor == 0.0) {
-            return lrcsi_draft_refuse_value(draft, LRCSI_KEY_SCALE, LRCS_E_ARGUMENT,
+            return lrcsi_draft_refuse_value(draft, LRCSI_KEY_SCALE, LRCS_E_NUMBER,
                                             "a factor other than 0");
         }
         if (!isfinite(scale[i]) || scale[i] == 0.0) {
@@ -211,7 +228,7 @@ static int read_joint(const lrcsi_draft *draft, lrcs_joint *joint)
         return lrcsi_draft_refuse(draft, LRCS_E_NAME, "axis and angle_deg in [part.joint]");
     }
     if (axis->number[0] == 0.0 && axis->number[1] == 0.0 && axis->number[2] == 0.0) {
-        return lrcsi_draft_refuse_value(draft, LRCSI_KEY_AXIS, LRCS_E_ARGUMENT,
+        return lrcsi_draft_refuse_value(draft, LRCSI_KEY_AXIS, LRCS_E_NUMBER,
                                         "an axis that is not zero");
     }
     joint->used = 1;

@@ -157,7 +157,7 @@ static double corner_above(const lrcs_prepared *p, uint32_t facet, uint32_t othe
 {
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
-    double most = -INFINITY;
+    double most = -HUGE_VAL;
     for (int corner = 0; corner < 3; corner++) {
         const double *x = lrcsi_prepared_corner(p, other, corner);
         double above = 0;
@@ -174,7 +174,7 @@ static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude
 {
     const lrcsi_topology *t = &p->topology;
     *dent = 0;
-    *altitude = INFINITY;
+    *altitude = HUGE_VAL;
     for (uint32_t e = 0; e < t->edge_count; e++) {
         const double *a = p->vertex[t->edge[e].low].x;
         const double *b = p->vertex[t->edge[e].high].x;

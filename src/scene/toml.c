@@ -11,8 +11,8 @@
 #include "base/where.h"
 #include "base/work.h"
 
-/* Integers up to here are doubles exactly, whichever of the two a reader makes of them. */
-#define INTEGER_MOST 9007199254740992.0
+/* Integers up to here are doubles exactly, and no others round to them: 2^53 - 1. */
+#define INTEGER_MOST 9007199254740991.0
 /* Bytes of the file that a message quotes at most. */
 #define EXCERPT_MOST 40
 
@@ -343,7 +343,7 @@ static int read_literal(lrcsi_toml *toml, int *type, int *truth, double *number)
         }
         if (integer && fabs(*number) > INTEGER_MOST) {
             return toml_stop(toml, LRCS_E_NUMBER, begin, "integer",
-                             "at most 2^53 in magnitude, or a float (1e20)");
+                             "below 2^53 in magnitude, or a float (1e20)");
         }
         if (!isfinite(*number)) {
             return toml_stop(toml, LRCS_E_NUMBER, begin, "number", "within the range of a double");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A pull reader for a strict subset of TOML 1.0: what it accepts, TOML reads with the same
    values. In the subset: comments; [a], [a.b], [[a]] and [[a.b]] headers; bare and quoted keys;
-   single-line strings, "basic" and 'literal'; decimal integers up to 2^53, finite floats,
+   single-line strings, "basic" and 'literal'; decimal integers below 2^53, finite floats,
    booleans; arrays of numbers, over several lines too. Beside it, refused as unsupported: dotted
    keys, multi-line strings, inline and nested structures, dates, hexadecimal, U+0000, inf, nan.
    A byte order mark at the start is passed over. Which tables and keys mean something, and that

@@ -71,7 +71,7 @@ lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
     int facing = view->facing[facet];
-    lrcsi_tilt tilt = {0, INFINITY, 0, 0, 0};
+    lrcsi_tilt tilt = {0, HUGE_VAL, 0, 0, 0};
     if (facing == 0) {
         return tilt;
     }
@@ -89,7 +89,7 @@ lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
     if (!(dot > 1000 * off)) {
         dot += off;
         tilt.error = 2;
-        tilt.stretch = INFINITY;
+        tilt.stretch = HUGE_VAL;
     }
     tilt.tan2 = (cross / dot) * (cross / dot);
     tilt.cos_theta = facing * fmin(1, dot / (n->length * view->length));
@@ -129,8 +129,8 @@ static void view_facings(lrcsi_view *view)
 static void view_window(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
-    double low[2] = {INFINITY, INFINITY};
-    double high[2] = {-INFINITY, -INFINITY};
+    double low[2] = {HUGE_VAL, HUGE_VAL};
+    double high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
             const double *x = view->point[p->scene->facet[f].corner[corner]].x;

@@ -151,6 +151,14 @@ int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t coun
     return status;
 }
 
+size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
+{
+    size_t facets = prepared->scene->facet_count;
+    size_t cells = facets < 2048u * 2048u ? facets : 2048u * 2048u;
+    return lrcsi_work_add(lrcsi_work_bytes(cells + 1, sizeof(uint32_t)),
+                          lrcsi_work_bytes(16 * facets + 65536, sizeof(uint32_t)));
+}
+
 static void grid_put_facet(lrcsi_grid *grid, uint32_t facet)
 {
     double low[2];

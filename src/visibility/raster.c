@@ -94,7 +94,7 @@ static double plane_slack(const lrcsi_view *view, uint32_t facet)
     double n[3];
     plane_normal(view, facet, n);
     double cosine = fabs(n[2]) / view->prepared->normal[facet].length;
-    return cosine > 64 * U ? 8 * view->off / cosine : INFINITY;
+    return cosine > 64 * U ? 8 * view->off / cosine : HUGE_VAL;
 }
 
 /* One sample that the facet covers: it takes it, or leaves it to the owner. */

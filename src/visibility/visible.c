@@ -209,11 +209,8 @@ static lrcsi_visible uniform_area(const lrcsi_view *view, const lrcsi_raster *ra
 
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    size_t facets = prepared->scene->facet_count;
-    size_t cells = facets < 2048u * 2048u ? facets : 2048u * 2048u;
-    size_t need = lrcsi_work_bytes((size_t)size * size, 1);
-    need = lrcsi_work_add(need, lrcsi_work_bytes(cells + 1, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(16 * facets + 65536, sizeof(uint32_t)));
+    return lrcsi_work_add(lrcsi_work_bytes((size_t)size * size, 1),
+                          lrcsi_grid_facets_need(prepared));
 }
 
 int lrcsi_visible_sampled(lrcsi_contest *contest, const lrcsi_raster *raster, lrcs_work *work,

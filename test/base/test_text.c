@@ -30,8 +30,9 @@ static void other_bytes_are_latin1(void **state)
     (void)state;
     reads_as("Folie d\xe9or\xe9"
              "e",
-             12, "Folie d\xc3\xa9or\xc3\xa9"
-                 "e");
+             12,
+             "Folie d\xc3\xa9or\xc3\xa9"
+             "e");
     reads_as("\x94\x92 white", 8, "\xc2\x94\xc2\x92 white");
     reads_as("\xff", 1, "\xc3\xbf");
     /* one bad byte makes the whole name Latin-1 */
@@ -42,17 +43,35 @@ static void ill_formed_utf8_is_not_utf8(void **state)
 {
     (void)state;
     static const char *const bad[] = {
-        "\x80",         "\xc0\xaf",         "\xc1\xbf",         "\xc3",
-        "\xe0\x9f\xbf", "\xed\xa0\x80",     "\xe2\x82",         "\xe2\x28\xa1",
-        "\xf0\x8f\x80", "\xf0\x8f\x80\x80", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80",
-        "\xf0\x9f\x9b", "\xf0\x9f\x9b\x28", "\xff",
+        "\x80",
+        "\xc0\xaf",
+        "\xc1\xbf",
+        "\xc3",
+        "\xe0\x9f\xbf",
+        "\xed\xa0\x80",
+        "\xe2\x82",
+        "\xe2\x28\xa1",
+        "\xf0\x8f\x80",
+        "\xf0\x8f\x80\x80",
+        "\xf4\x90\x80\x80",
+        "\xf5\x80\x80\x80",
+        "\xf0\x9f\x9b",
+        "\xf0\x9f\x9b\x28",
+        "\xff",
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         assert_int_equal(lrcsi_text_is_utf8(bad[i], strlen(bad[i])), 0);
     }
     static const char *const good[] = {
-        "",         "a",        "\xc2\x80",         "\xdf\xbf",         "\xe0\xa0\x80",
-        "\xed\x9f\xbf", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf",
+        "",
+        "a",
+        "\xc2\x80",
+        "\xdf\xbf",
+        "\xe0\xa0\x80",
+        "\xed\x9f\xbf",
+        "\xef\xbf\xbf",
+        "\xf0\x90\x80\x80",
+        "\xf4\x8f\xbf\xbf",
     };
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
         assert_int_equal(lrcsi_text_is_utf8(good[i], strlen(good[i])), 1);

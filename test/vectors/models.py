@@ -54,6 +54,7 @@ def row(model, first):
     box = ", ".join("{" + ", ".join(repr(x) for x in corner) + "}" for corner in truth["bbox"])
     fields = [
         text(model["file"]), truth["triangles"], vertices(model), s.get("trimeshes", 0),
+        text(model["mtl"]["file"]) if "mtl" in model else "NULL",
         first, len(model.get("materials", [])), "{" + box + "}", repr(truth["area"]),
         repr(truth["signed_volume_about_bbox_centre"]), none.get("triangles", 0),
         repr(none.get("area", 0.0)), sum(v["triangles"] for v in undefined),

@@ -1,37 +1,37 @@
 /* SPDX-License-Identifier: MIT */
 /* An index from names to numbers: open addressing over FNV-1a, in the work area. */
-#ifndef LRCSI_NAMES_H
-#define LRCSI_NAMES_H
+#ifndef LRCSI_INDEX_H
+#define LRCSI_INDEX_H
 
 #include <lrcs/status.h>
 #include <lrcs/work.h>
 
 /* A name is some bytes and a tag, which keeps names of different kinds apart. */
-typedef struct lrcsi_name {
+typedef struct lrcsi_indexed {
     const void *bytes;
     size_t size;
     uint32_t tag, value;
-} lrcsi_name;
+} lrcsi_indexed;
 
-typedef struct lrcsi_names {
-    lrcsi_name *name;
+typedef struct lrcsi_index {
+    lrcsi_indexed *name;
     uint32_t *slot; /* mask + 1 of them: 0, or a name's index + 1 */
     size_t mask;
     uint32_t count;
-} lrcsi_names;
+} lrcsi_index;
 
 /* Bytes for an index of at most `count` names (upper bound). */
-size_t lrcsi_names_need(size_t count);
+size_t lrcsi_index_need(size_t count);
 
 /* An empty index for at most `count` names, which are not copied. Status: LRCS_OK;
    LRCS_E_MEMORY. */
-int lrcsi_names_make(lrcs_work *work, uint32_t count, lrcsi_names *names);
+int lrcsi_index_make(lrcs_work *work, uint32_t count, lrcsi_index *names);
 
 /* The value of a name, or LRCS_NONE. */
-uint32_t lrcsi_names_find(const lrcsi_names *names, uint32_t tag, const void *bytes, size_t size);
+uint32_t lrcsi_index_find(const lrcsi_index *names, uint32_t tag, const void *bytes, size_t size);
 
 /* Sets the value of a name, new or known. */
-void lrcsi_names_put(lrcsi_names *names, uint32_t tag, const void *bytes, size_t size,
+void lrcsi_index_put(lrcsi_index *names, uint32_t tag, const void *bytes, size_t size,
                      uint32_t value);
 
 #endif

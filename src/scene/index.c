@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The index from names to numbers. Decides where a name sits; what its number means is the
    caller's business. */
-#include "scene/names.h"
+#include "scene/index.h"
 
 #include <string.h>
 
@@ -18,26 +18,26 @@ static size_t slot_count(size_t count)
     return slots;
 }
 
-size_t lrcsi_names_need(size_t count)
+size_t lrcsi_index_need(size_t count)
 {
-    return lrcsi_work_add(lrcsi_work_bytes(count, sizeof(lrcsi_name)),
+    return lrcsi_work_add(lrcsi_work_bytes(count, sizeof(lrcsi_indexed)),
                           lrcsi_work_bytes(slot_count(count), sizeof(uint32_t)));
 }
 
-int lrcsi_names_make(lrcs_work *work, uint32_t count, lrcsi_names *names)
+int lrcsi_index_make(lrcs_work *work, uint32_t count, lrcsi_index *names)
 {
     size_t slots = slot_count(count);
-    lrcsi_name *name = lrcsi_work_take(work, count, sizeof *name);
+    lrcsi_indexed *name = lrcsi_work_take(work, count, sizeof *name);
     uint32_t *slot = lrcsi_work_take_zero(work, slots, sizeof *slot);
     if (!name || !slot) {
         return LRCS_E_MEMORY;
     }
-    *names = (lrcsi_names){name, slot, slots - 1, 0};
+    *names = (lrcsi_index){name, slot, slots - 1, 0};
     return LRCS_OK;
 }
 
 /* The slot that holds a name, or the empty one where it belongs. */
-static size_t slot_of(const lrcsi_names *names, uint32_t tag, const void *bytes, size_t size)
+static size_t slot_of(const lrcsi_index *names, uint32_t tag, const void *bytes, size_t size)
 {
     uint64_t hash = lrcsi_fnv_bits(LRCSI_FNV_START, tag, 4);
     for (size_t i = 0; i < size; i++) {
@@ -45,7 +45,7 @@ static size_t slot_of(const lrcsi_names *names, uint32_t tag, const void *bytes,
     }
     size_t at = (size_t)(hash ^ hash >> 32) & names->mask;
     while (names->slot[at] != 0) {
-        const lrcsi_name *name = &names->name[names->slot[at] - 1];
+        const lrcsi_indexed *name = &names->name[names->slot[at] - 1];
         if (name->tag == tag && name->size == size && memcmp(name->bytes, bytes, size) == 0) {
             break;
         }
@@ -54,18 +54,18 @@ static size_t slot_of(const lrcsi_names *names, uint32_t tag, const void *bytes,
     return at;
 }
 
-uint32_t lrcsi_names_find(const lrcsi_names *names, uint32_t tag, const void *bytes, size_t size)
+uint32_t lrcsi_index_find(const lrcsi_index *names, uint32_t tag, const void *bytes, size_t size)
 {
     uint32_t slot = names->slot[slot_of(names, tag, bytes, size)];
     return slot != 0 ? names->name[slot - 1].value : LRCS_NONE;
 }
 
-void lrcsi_names_put(lrcsi_names *names, uint32_t tag, const void *bytes, size_t size,
+void lrcsi_index_put(lrcsi_index *names, uint32_t tag, const void *bytes, size_t size,
                      uint32_t value)
 {
     uint32_t *slot = &names->slot[slot_of(names, tag, bytes, size)];
     if (*slot == 0) {
-        names->name[names->count] = (lrcsi_name){bytes, size, tag, value};
+        names->name[names->count] = (lrcsi_indexed){bytes, size, tag, value};
         *slot = ++names->count;
     }
     names->name[*slot - 1].value = value;

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: MIT */
+/* The host layer: files, memory, notices, pictures and writers around the core. It may use the
+   heap and stdio, never prints by itself and never exits: what went wrong is a status and a
+   sentence. None of it is needed to fly: the core works without. */
+#ifndef LRCS_HOST_H
+#define LRCS_HOST_H
+
+#include <lrcs/lrcs.h>
+
+#include <stdio.h>
+
+/* The operating system refused: a file, a folder, memory. Beside the codes of lrcs/status.h. */
+#define LRCS_E_SYSTEM (-64)
+
+/* One sentence: the file, the place in it, what was found and what was expected. Every function
+   below that takes one fills it when it fails; it may be NULL. */
+typedef struct lrcs_host_error {
+    char text[1024];
+} lrcs_host_error;
+
+/* ---- numbers ---- */
+
+/* Room for any double as text. */
+#define LRCS_HOST_NUMBER_SIZE 32
+
+/* A double as decimal text with 17 significant digits ("%.17g"), a point whatever the locale. */
+void lrcs_host_number_text(double value, char text[LRCS_HOST_NUMBER_SIZE]);
+
+/* Reads decimal text that is a finite number from end to end, blanks around it allowed.
+   Status: LRCS_OK; LRCS_E_SYNTAX; LRCS_E_NUMBER (beyond double range). */
+int lrcs_host_number_read(const char *text, size_t size, double *value);
+
+/* ---- files ---- */
+
+typedef struct lrcs_host_file {
+    unsigned char *bytes; /* never NULL once read */
+    size_t size;
+} lrcs_host_file;
+
+/* A whole file in memory. Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_LIMIT (above 16 GiB). */
+int lrcs_host_file_read(const char *path, lrcs_host_file *file, lrcs_host_error *error);
+void lrcs_host_file_free(lrcs_host_file *file);
+
+/* A file being written. It appears under its name only when it is complete: until then it is a
+   temporary file in the same folder. "-" is standard output; a device or pipe is written
+   directly. */
+typedef struct lrcs_host_output {
+    FILE *stream;
+    char *path;      /* final name, links followed; NULL: standard output */
+    char *temporary; /* NULL: written directly */
+} lrcs_host_output;
+
+/* Status: LRCS_OK; LRCS_E_SYSTEM. */
+int lrcs_host_output_open(const char *path, lrcs_host_output *output, lrcs_host_error *error);
+
+/* Ends the writing: keeps the file, or removes it where keep is 0 or a write failed.
+   Status: LRCS_OK; LRCS_E_SYSTEM. */
+int lrcs_host_output_close(lrcs_host_output *output, int keep, lrcs_host_error *error);
+
+/* ---- scenes ---- */
+
+/* A list of sentences, owned. */
+typedef struct lrcs_host_notices {
+    char **text;
+    uint32_t count;
+} lrcs_host_notices;
+
+typedef struct lrcs_host_options {
+    double unit_m;               /* metres per unit of a model file; 0: not given, 1 m */
+    int keep_transparent;        /* do not leave out fully transparent facets */
+    const lrcs_binding *binding; /* from the command line: kinds NAME, COLOUR, DEFAULT */
+    uint32_t binding_count;
+    lrcs_build_options build;
+} lrcs_host_options;
+
+lrcs_host_options lrcs_host_options_default(void);
+
+/* A scene with all that it stands on. Zero it before the first read; free it in any case. */
+typedef struct lrcs_host_scene {
+    lrcs_recipe recipe;
+    lrcs_mesh *model; /* one for each part of the recipe; all zero for shapes */
+    lrcs_scene scene;
+    const lrcs_prepared *prepared; /* NULL until prepared */
+    lrcs_host_notices notices;
+    double seconds_load, seconds_prepare;
+    void *blocks; /* memory owned */
+} lrcs_host_scene;
+
+/* Loads a scene: a model file (3DS, OBJ with its MTL, STL), a scene file, or "demo", which is
+   built in. Model files of a scene file are sought from the scene file's folder, a material file
+   beside its OBJ.
+   Returned: scene->scene, and notices about what was met. scene.unmatched is for the caller to
+   judge: it indexes scene->recipe.binding.
+   Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_ARGUMENT (a unit for a scene file, which states its
+   own); as the readers, lrcs_recipe_read and lrcs_scene_build. */
+int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrcs_host_scene *scene,
+                         lrcs_host_error *error);
+
+/* Builds a scene from a recipe of shapes alone; the recipe is copied but for its texts.
+   Status: as above. */
+int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
+                         lrcs_host_scene *scene, lrcs_host_error *error);
+
+/* Does what is done once a scene. Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_prepare_run. */
+int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error);
+
+/* sigma from a pose of a prepared scene: lrcs_sigma_run with memory from the heap. Where that is
+   short, less is tried, and result->flags says so.
+   Returned: result; records and image unless NULL; seconds unless NULL. */
+int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                        const lrcs_run_options *options, lrcs_result *result,
+                        lrcs_facet_record *records, lrcs_image *image, double *seconds,
+                        lrcs_host_error *error);
+
+void lrcs_host_scene_free(lrcs_host_scene *scene);
+
+/* How a mesh of a curved body serves the glint of what it wears. An ESTIMATE: the turn is the
+   median angle between neighbours that share a smoothing group (engine shapes: twice the proved
+   turn), the error that of a cylinder of such facets at broadside: (dphi/2)^2 / 6 for the chords
+   and 2 exp(-(pi s / dphi)^2) for the comb. */
+typedef struct lrcs_host_glint {
+    uint32_t part, material; /* of the scene */
+    double s;                /* the material's slope */
+    double turn;             /* dphi, rad */
+    double error;            /* relative, at the worst aspect, an estimate */
+    double around_1_percent; /* facets around a full turn that 1 % and 0.1 % need */
+    double around_01_percent;
+} lrcs_host_glint;
+
+/* Lists them, ordered by part and material, in an array that the caller frees.
+   Status: LRCS_OK; LRCS_E_SYSTEM (memory). */
+int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint32_t *count,
+                          lrcs_host_error *error);
+
+/* ---- writers: none looks at write errors, lrcs_host_output_close does ---- */
+
+/* The per-facet table of a run: header and one row for every facet. */
+void lrcs_host_facets_write(FILE *out, const lrcs_scene *scene, const lrcs_facet_record *records);
+
+/* JSON as it is written: one container inside another, commas and escapes by themselves. */
+enum lrcs_host_json_kind {
+    LRCS_HOST_OBJECT, /* one item a line */
+    LRCS_HOST_ARRAY,
+    LRCS_HOST_ROW_OBJECT, /* all in one line, and so is what it holds */
+    LRCS_HOST_ROW_ARRAY
+};
+typedef struct lrcs_host_json {
+    FILE *out;
+    uint32_t depth;
+    struct {
+        char close;
+        unsigned char row, filled;
+    } level[16];
+} lrcs_host_json;
+
+lrcs_host_json lrcs_host_json_make(FILE *out);
+/* key: NULL inside arrays and at the top. At most 16 levels deep. */
+void lrcs_host_json_begin(lrcs_host_json *json, const char *key, int kind);
+void lrcs_host_json_end(lrcs_host_json *json);
+void lrcs_host_json_text(lrcs_host_json *json, const char *key, const char *text); /* NULL: null */
+void lrcs_host_json_number(lrcs_host_json *json, const char *key,
+                           double value); /* not finite: null */
+void lrcs_host_json_count(lrcs_host_json *json, const char *key, uint64_t value);
+void lrcs_host_json_bool(lrcs_host_json *json, const char *key, int value);
+
+/* PNG, 8 bits a channel; channels 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha.
+   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_LIMIT (2 GiB); LRCS_E_SYSTEM (memory). */
+int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, uint32_t height,
+                        uint32_t channels, lrcs_host_error *error);
+
+/* What the laser sees, coloured by sigma per projected area, as `size` x `size` RGB pixels.
+   The image is a run's with records, side lrcs_host_picture_need(size).
+   Given: rgb with room for 3 size^2 bytes; size 16 .. 16384. */
+uint32_t lrcs_host_picture_need(uint32_t size);
+void lrcs_host_picture_make(const lrcs_scene *scene, const lrcs_facet_record *records,
+                            const lrcs_image *image, uint32_t size, unsigned char *rgb);
+
+#endif

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: MIT */
+/* The command line: words to options, and what is said when they do not fit. It decides the
+   syntax, not what an option means. */
+#include "cli/cli.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NAME_MOST 64u
+
+int cli_usage(const cli_command *command, const char *format, ...)
+{
+    va_list list;
+    fprintf(stderr, "lrcs%s%s: ", command ? " " : "", command ? command->name : "");
+    va_start(list, format);
+    vfprintf(stderr, format, list);
+    va_end(list);
+    fprintf(stderr, "\nTry 'lrcs%s%s --help'.\n", command ? " " : "", command ? command->name : "");
+    return CLI_USAGE;
+}
+
+int cli_failed(const lrcs_host_error *error)
+{
+    fprintf(stderr, "lrcs: %s\n", error->text);
+    return CLI_FAILED;
+}
+
+int cli_finish(int code)
+{
+    errno = 0;
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "lrcs: standard output: cannot write: %s\n",
+                errno ? strerror(errno) : "an earlier write failed");
+        return CLI_FAILED;
+    }
+    return code;
+}
+
+static unsigned least_of(unsigned a, unsigned b)
+{
+    return a < b ? a : b;
+}
+
+/* Levenshtein's distance, with neighbours swapped counted once (optimal string alignment). */
+static unsigned edit_distance(const char *a, const char *b)
+{
+    unsigned row[3][NAME_MOST + 1];
+    size_t na = strlen(a) < NAME_MOST ? strlen(a) : NAME_MOST;
+    size_t nb = strlen(b) < NAME_MOST ? strlen(b) : NAME_MOST;
+    for (unsigned k = 0; k <= nb; k++) {
+        row[0][k] = k;
+    }
+    for (size_t i = 1; i <= na; i++) {
+        unsigned *now = row[i % 3];
+        const unsigned *last = row[(i - 1) % 3];
+        now[0] = (unsigned)i;
+        for (size_t k = 1; k <= nb; k++) {
+            now[k] =
+                least_of(least_of(last[k], now[k - 1]) + 1, last[k - 1] + (a[i - 1] != b[k - 1]));
+            if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1]) {
+                now[k] = least_of(now[k], row[(i - 2) % 3][k - 2] + 1);
+            }
+        }
+    }
+    return row[na % 3][nb];
+}
+
+/* A beginning counts as nearer than any misspelling. */
+static unsigned name_distance(const char *text, const char *name)
+{
+    return text[0] && strncmp(text, name, strlen(text)) == 0 ? 0 : edit_distance(text, name);
+}
+
+const char *cli_nearest(const char *text, const char *best, const char *candidate)
+{
+    return !best || name_distance(text, candidate) < name_distance(text, best) ? candidate : best;
+}
+
+static int unknown_option(const cli_command *command, const char *word, size_t size)
+{
+    char name[NAME_MOST];
+    size_t dashes = strspn(word, "-");
+    const char *best = NULL;
+    dashes = dashes < size ? dashes : size;
+    size_t rest = size - dashes < NAME_MOST - 1 ? size - dashes : NAME_MOST - 1;
+    memcpy(name, word + dashes, rest);
+    name[rest] = '\0';
+    for (const cli_option *option = command->option; option->name; option++) {
+        best = cli_nearest(name, best, option->name);
+    }
+    return cli_usage(command, "unknown option '%.*s'; the nearest is --%s", (int)size, word,
+                     best ? best : "help");
+}
+
+static const cli_option *option_find(const cli_command *command, const char *name, size_t size)
+{
+    for (const cli_option *option = command->option; option->name; option++) {
+        if (strlen(option->name) == size && strncmp(option->name, name, size) == 0) {
+            return option;
+        }
+    }
+    return NULL;
+}
+
+/* One option at word[i]; moves *i past a value that stands apart. A value may begin with a minus
+   sign, but not like an option. */
+static int option_read(cli_args *args, int count, char **word, int *i)
+{
+    const cli_command *command = args->command;
+    const char *at = word[*i];
+    const char *equals = strchr(at, '=');
+    size_t size = equals ? (size_t)(equals - at) : strlen(at);
+    const cli_option *option =
+        size > 2 && strncmp(at, "--", 2) == 0 ? option_find(command, at + 2, size - 2) : NULL;
+    if (!option) {
+        return unknown_option(command, at, size);
+    }
+    if (!option->repeats && cli_value(args, option->name)) {
+        return cli_usage(command, "--%s is given twice", option->name);
+    }
+    const char *value = NULL;
+    if (!option->has_value && equals) {
+        return cli_usage(command, "--%s takes no value, found '%s'", option->name, equals + 1);
+    }
+    if (option->has_value && equals) {
+        value = equals + 1;
+    } else if (option->has_value) {
+        if (*i + 1 >= count || strncmp(word[*i + 1], "--", 2) == 0) {
+            return cli_usage(command, "--%s needs a value", option->name);
+        }
+        value = word[++*i];
+    }
+    if (value && !*value) {
+        return cli_usage(command, "--%s needs a value, found an empty one", option->name);
+    }
+    args->given[args->given_count++] = (cli_given){option->name, value};
+    return 0;
+}
+
+int cli_args_read(const cli_command *command, int count, char **word, cli_args *args)
+{
+    *args = (cli_args){command, NULL, calloc((size_t)count + 1, sizeof *args->given), 0};
+    if (!args->given) {
+        fprintf(stderr, "lrcs: out of memory\n");
+        return CLI_FAILED;
+    }
+    for (int i = 0; i < count; i++) {
+        if (word[i][0] == '-' && word[i][1] != '\0') {
+            int code = option_read(args, count, word, &i);
+            if (code != 0) {
+                return code;
+            }
+        } else if (!command->operand) {
+            return cli_usage(command, "takes no operand, found '%s'", word[i]);
+        } else if (args->operand) {
+            return cli_usage(command, "one %s is expected, found '%s' and '%s'", command->operand,
+                             args->operand, word[i]);
+        } else {
+            args->operand = word[i];
+        }
+    }
+    if (command->operand && !args->operand) {
+        return cli_usage(command, "%s is missing: %s", command->operand, command->operand_hint);
+    }
+    return 0;
+}
+
+const char *cli_value(const cli_args *args, const char *name)
+{
+    for (int i = 0; i < args->given_count; i++) {
+        if (strcmp(args->given[i].name, name) == 0) {
+            return args->given[i].value ? args->given[i].value : "";
+        }
+    }
+    return NULL;
+}
+
+int cli_number(const cli_args *args, const char *name, double *value)
+{
+    const char *text = cli_value(args, name);
+    if (!text) {
+        return 0;
+    }
+    if (lrcs_host_number_read(text, strlen(text), value) != LRCS_OK) {
+        return cli_usage(args->command, "--%s: expected a finite number, found '%s'", name, text);
+    }
+    return 0;
+}
+
+int cli_list(const char *text, double *value, int count)
+{
+    for (int i = 0; i < count; i++) {
+        size_t size = strcspn(text, ",");
+        int last = text[size] == '\0';
+        if (lrcs_host_number_read(text, size, &value[i]) != LRCS_OK || last != (i == count - 1)) {
+            return -1;
+        }
+        text += size + 1;
+    }
+    return 0;
+}

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+/* What the commands share: the exit codes, the command line as it was given, and the messages
+   about it. The tool stands on the public headers alone. */
+#ifndef LRCS_CLI_H
+#define LRCS_CLI_H
+
+#include <lrcs/host.h>
+
+enum cli_exit {
+    CLI_DONE = 0,
+    CLI_FAILED = 1,
+    CLI_USAGE = 2,
+    CLI_DEGRADED = 3 /* done, but the tolerance was not met or memory forced a fallback */
+};
+
+/* What --json says it is. */
+#define CLI_SCHEMA 1
+
+typedef struct cli_option {
+    const char *name; /* without its dashes; NULL ends a list */
+    int has_value;
+    int repeats;
+} cli_option;
+
+typedef struct cli_args cli_args;
+
+typedef struct cli_command {
+    const char *name;
+    const char *operand; /* the one thing that is not an option, "SCENE"; NULL for none */
+    const char *operand_hint;
+    const char *help;
+    const cli_option *option;
+    int (*run)(const cli_args *args);
+} cli_command;
+
+typedef struct cli_given {
+    const char *name;
+    const char *value; /* NULL: an option without one */
+} cli_given;
+
+struct cli_args {
+    const cli_command *command;
+    const char *operand;
+    cli_given *given; /* in the order given */
+    int given_count;
+};
+
+/* Reads the words after the command's name. 0, or CLI_USAGE with the message printed. The
+   caller frees args->given in any case. */
+int cli_args_read(const cli_command *command, int count, char **word, cli_args *args);
+
+/* The value of an option ("" for one without), or NULL where it was not given. */
+const char *cli_value(const cli_args *args, const char *name);
+
+/* Reads an option's number, untouched where it was not given. 0 or CLI_USAGE. */
+int cli_number(const cli_args *args, const char *name, double *value);
+
+/* Reads exactly `count` numbers with commas between; 0, or -1. */
+int cli_list(const char *text, double *value, int count);
+
+/* The known name nearest to `text`: one that begins with it, else by edit distance. */
+const char *cli_nearest(const char *text, const char *best, const char *candidate);
+
+/* A message on stderr, "lrcs run: ...", and where help is. Returns CLI_USAGE. */
+__attribute__((format(printf, 2, 3))) int cli_usage(const cli_command *command, const char *format,
+                                                    ...);
+
+/* "lrcs: TEXT" on stderr. Returns CLI_FAILED. */
+int cli_failed(const lrcs_host_error *error);
+
+/* Ends a command: CLI_FAILED with a message where stdout could not be written, else `code`. */
+int cli_finish(int code);
+
+/* The pose that the options ask for; 0 or CLI_USAGE. */
+int cli_pose_read(const cli_args *args, lrcs_pose *pose);
+
+/* Four numbers A,B,s,m or a library material's name; 0 or CLI_USAGE. `option` is for messages. */
+int cli_brdf_read(const cli_command *command, const char *text, const char *option,
+                  lrcs_brdf *brdf);
+
+/* Scene options shared by run and info: --material (repeatable), --unit, --keep-transparent.
+   The bindings' array and names are the caller's to free (cli_scene_options_free). */
+int cli_scene_options_read(const cli_args *args, lrcs_host_options *options);
+void cli_scene_options_free(lrcs_host_options *options);
+
+/* Loads the command's scene; 0, CLI_FAILED or CLI_USAGE with the message printed. A binding that
+   matches nothing is a usage error. */
+int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
+
+/* The name of a scene's material for people: "(default)" where it has none. */
+const char *cli_material_name(const lrcs_material *material);
+
+/* dBsm of a sigma > 0. */
+double cli_dbsm(double sigma_m2);
+
+/* Text on stdout, blanks after it up to `width`, control characters as '?'. */
+void cli_column(const char *text, int width);
+
+/* "notice: ..." for each, on `out`. */
+void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
+
+/* The commands. */
+extern const cli_command cli_run_command;
+extern const cli_command cli_info_command;
+extern const cli_command cli_shape_command;
+extern const cli_command cli_verify_command;
+
+#endif

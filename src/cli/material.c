@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+/* What facets wear, as the command line says it: A,B,s,m or a library name, for all, for a
+   material's name or for a colour. */
+#include "cli/cli.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int brdf_fault(const cli_command *command, const char *option, const lrcs_brdf *brdf)
+{
+    const char *fault = brdf->A < 0.0   ? "A is negative"
+                        : brdf->B < 0.0 ? "B is negative"
+                        : brdf->s < 0.0 ? "s is negative"
+                        : brdf->m < 0.0 ? "m is negative"
+                                        : "s is 0, which needs A = 0";
+    return cli_usage(command, "%s: %s (A, B, m >= 0 and s > 0)", option, fault);
+}
+
+int cli_brdf_read(const cli_command *command, const char *text, const char *option, lrcs_brdf *brdf)
+{
+    double v[4];
+    if (cli_list(text, v, 4) == 0) {
+        lrcs_brdf read = {v[0], v[1], v[2], v[3]};
+        if (lrcs_brdf_check(&read) < 0) {
+            return brdf_fault(command, option, &read);
+        }
+        *brdf = read;
+        return 0;
+    }
+    const lrcs_brdf_entry *entry = lrcs_brdf_find(text);
+    if (!entry) {
+        const char *best = NULL;
+        for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
+            best = cli_nearest(text, best, entry->name);
+        }
+        return cli_usage(command,
+                         "%s: expected A,B,s,m (four finite numbers) or a library material, found "
+                         "'%s'; the nearest in the library is %s",
+                         option, text, best ? best : "(none)");
+    }
+    *brdf = entry->brdf;
+    return 0;
+}
+
+/* '#RRGGBB' exactly. */
+static int colour_read(const char *text, size_t size, unsigned char rgb[3])
+{
+    static const char digit[] = "0123456789abcdef";
+    if (size != 7 || text[0] != '#') {
+        return -1;
+    }
+    for (int i = 0; i < 6; i++) {
+        char c = text[1 + i];
+        c = c >= 'A' && c <= 'F' ? (char)(c - 'A' + 'a') : c;
+        const char *at = c ? strchr(digit, c) : NULL;
+        if (!at) {
+            return -1;
+        }
+        rgb[i / 2] = (unsigned char)(i % 2 ? rgb[i / 2] + (at - digit) : 16 * (at - digit));
+    }
+    return 0;
+}
+
+/* One --material: what stands before the last '=' is a colour or a name; no number has one. */
+static int binding_read(const cli_command *command, const char *text, lrcs_binding *binding)
+{
+    const char *equals = strrchr(text, '=');
+    *binding = (lrcs_binding){.kind = LRCS_BIND_DEFAULT, .two_sided = -1};
+    if (equals) {
+        size_t size = (size_t)(equals - text);
+        if (size == 0) {
+            return cli_usage(command, "--material: expected NAME=A,B,s,m, found '%s'", text);
+        }
+        binding->kind = text[0] == '#' ? LRCS_BIND_COLOUR : LRCS_BIND_NAME;
+        if (text[0] == '#' && colour_read(text, size, binding->rgb) != 0) {
+            return cli_usage(command, "--material: expected '#RRGGBB', found '%.*s'", (int)size,
+                             text);
+        }
+        char *name = malloc(size + 1);
+        if (!name) {
+            fprintf(stderr, "lrcs: out of memory\n");
+            return CLI_FAILED;
+        }
+        memcpy(name, text, size);
+        name[size] = '\0';
+        binding->name = name;
+    }
+    return cli_brdf_read(command, equals ? equals + 1 : text, "--material", &binding->brdf);
+}
+
+static int unit_read(const cli_args *args, double *unit_m)
+{
+    static const struct {
+        const char *name;
+        double m;
+    } unit[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
+    const char *text = cli_value(args, "unit");
+    if (!text) {
+        return 0;
+    }
+    for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++) {
+        if (strcmp(text, unit[i].name) == 0) {
+            *unit_m = unit[i].m;
+            return 0;
+        }
+    }
+    if (lrcs_host_number_read(text, strlen(text), unit_m) != LRCS_OK || !(*unit_m > 0.0)) {
+        return cli_usage(args->command,
+                         "--unit: expected mm, cm, m, in, ft or metres per unit (> 0), found '%s'",
+                         text);
+    }
+    return 0;
+}
+
+int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
+{
+    *options = lrcs_host_options_default();
+    options->keep_transparent = cli_value(args, "keep-transparent") != NULL;
+    int code = unit_read(args, &options->unit_m);
+    lrcs_binding *all = calloc((size_t)args->given_count + 1, sizeof *all);
+    options->binding = all;
+    for (int i = 0; i < args->given_count && code == 0 && all; i++) {
+        if (strcmp(args->given[i].name, "material") == 0) {
+            code =
+                binding_read(args->command, args->given[i].value, &all[options->binding_count++]);
+        }
+    }
+    return code;
+}
+
+void cli_scene_options_free(lrcs_host_options *options)
+{
+    for (uint32_t i = 0; i < options->binding_count; i++) {
+        free((void *)(uintptr_t)options->binding[i].name);
+    }
+    free((void *)(uintptr_t)options->binding);
+    options->binding = NULL;
+    options->binding_count = 0;
+}
+
+const char *cli_material_name(const lrcs_material *material)
+{
+    return material->name[0] ? material->name : "(default)";
+}
+
+/* A --material that no facet answers to: the message names what there is. */
+static int unmatched_binding(const cli_command *command, const lrcs_host_scene *host)
+{
+    const lrcs_scene *scene = &host->scene;
+    const lrcs_binding *binding = &host->recipe.binding[scene->unmatched];
+    if (binding->kind != LRCS_BIND_NAME) {
+        return cli_usage(command,
+                         "--material: no material of the scene has the colour #%02X%02X%02X",
+                         binding->rgb[0], binding->rgb[1], binding->rgb[2]);
+    }
+    const char *best = NULL;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (scene->material[i].name[0]) {
+            best = cli_nearest(binding->name, best, scene->material[i].name);
+        }
+    }
+    if (!best) {
+        return cli_usage(command, "--material: the scene has no material named '%s', nor any other",
+                         binding->name);
+    }
+    return cli_usage(command,
+                     "--material: the scene has no material named '%s'; the nearest is '%s'",
+                     binding->name, best);
+}
+
+int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene)
+{
+    lrcs_host_error error;
+    int status = lrcs_host_scene_read(args->operand, options, scene, &error);
+    if (status == LRCS_E_ARGUMENT && options->unit_m > 0.0) {
+        return cli_usage(args->command, "--unit: %s", error.text);
+    }
+    if (status != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    return scene->scene.unmatched == LRCS_NONE ? 0 : unmatched_binding(args->command, scene);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* What several commands print alike. */
+#include "cli/cli.h"
+
+#include <math.h>
+
+double cli_dbsm(double sigma_m2)
+{
+    return 10.0 * log10(sigma_m2);
+}
+
+/* Columns are counted in code points: every byte but the trailing ones of UTF-8. */
+void cli_column(const char *text, int width)
+{
+    for (; *text; text++) {
+        unsigned char byte = (unsigned char)*text;
+        putchar(byte < 0x20 || byte == 0x7f ? '?' : *text);
+        width -= (byte & 0xc0) != 0x80;
+    }
+    printf("%*s", width > 0 ? width : 0, "");
+}
+
+void cli_notices_print(FILE *out, const lrcs_host_notices *notices)
+{
+    for (uint32_t i = 0; i < notices->count; i++) {
+        fprintf(out, "notice: %s\n", notices->text[i]);
+    }
+}

@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: MIT */
+/* What lrcs run prints. The keys and their order are the contract of DESIGN.md, section 4. */
+#include "cli/run.h"
+
+#include <math.h>
+
+/* Every notice of a run: the scene's, the result's, and of options that had no effect. To the
+   JSON array that is open, or to stderr. */
+static void notice_say(lrcs_host_json *json, const char *text)
+{
+    if (json) {
+        lrcs_host_json_text(json, NULL, text);
+    } else {
+        fprintf(stderr, "notice: %s\n", text);
+    }
+}
+
+static void notices_say(const run_job *job, lrcs_host_json *json)
+{
+    const lrcs_host_notices *notices = &job->scene.notices;
+    for (uint32_t i = 0; i < notices->count; i++) {
+        notice_say(json, notices->text[i]);
+    }
+    for (uint32_t bits = job->result.notices, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
+        if (bits & 1u) {
+            notice_say(json, lrcs_notice_text((int)bit));
+        }
+    }
+    if (job->options.resolution != 0 && job->result.resolution == 0) {
+        notice_say(json, "--resolution has no effect: no raster was needed");
+    }
+}
+
+/* Negative stands for not known. */
+static void known_number(lrcs_host_json *json, const char *key, double value)
+{
+    lrcs_host_json_number(json, key, value >= 0.0 ? value : (double)NAN);
+}
+
+/* The direction with length 1, for people and scripts. */
+static void unit_direction(const lrcs_pose *pose, double s_hat[3])
+{
+    const double *d = pose->direction;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int k = 0; k < 3; k++) {
+        s_hat[k] = d[k] / length;
+    }
+}
+
+static void json_head(const run_job *job, lrcs_host_json *json)
+{
+    const lrcs_result *result = &job->result;
+    char hash[17];
+    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
+    lrcs_host_json_text(json, "version", lrcs_version());
+    lrcs_host_json_text(json, "scene_hash", hash);
+    lrcs_host_json_number(json, "sigma_m2", result->sigma_m2);
+    lrcs_host_json_number(json, "sigma_dbsm",
+                          result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN);
+    lrcs_host_json_begin(json, "tolerance", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(json, "asked", job->options.tolerance);
+    lrcs_host_json_bool(json, "met", job->met);
+    lrcs_host_json_end(json);
+    if (result->resolution != 0) {
+        lrcs_host_json_count(json, "resolution", result->resolution);
+    } else {
+        lrcs_host_json_text(json, "resolution", NULL);
+    }
+    lrcs_host_json_text(json, "normals", "flat");
+    known_number(json, "estimate_m2", result->estimate_m2);
+    lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
+    notices_say(job, json);
+    lrcs_host_json_end(json);
+}
+
+static void json_effects(const lrcs_result *result, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, "effects", LRCS_HOST_ARRAY);
+    for (int i = 0; i < LRCS_EFFECTS; i++) {
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_text(json, "name", lrcs_effect_text(i));
+        lrcs_host_json_bool(json, "on", result->effect[i].on);
+        lrcs_host_json_text(json, "reason", result->effect[i].reason);
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_begin(json, "flags", LRCS_HOST_ROW_ARRAY);
+    for (uint32_t bits = result->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
+        if (bits & 1u) {
+            lrcs_host_json_text(json, NULL, lrcs_flag_text((int)bit));
+        }
+    }
+    lrcs_host_json_end(json);
+}
+
+static void json_tail(const run_job *job, lrcs_host_json *json)
+{
+    const lrcs_result *result = &job->result;
+    double s_hat[3];
+    unit_direction(&job->pose, s_hat);
+    lrcs_host_json_begin(json, "facets", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_count(json, "total", result->facets_total);
+    lrcs_host_json_count(json, "front", result->facets_front);
+    lrcs_host_json_count(json, "hidden", result->facets_hidden);
+    lrcs_host_json_count(json, "partial", result->facets_partial);
+    lrcs_host_json_end(json);
+    lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
+    for (int k = 0; k < 3; k++) {
+        lrcs_host_json_number(json, NULL, s_hat[k]);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_begin(json, "seconds", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(json, "load", job->scene.seconds_load);
+    lrcs_host_json_number(json, "prepare", job->scene.seconds_prepare);
+    lrcs_host_json_number(json, "pose", job->seconds);
+    lrcs_host_json_end(json);
+}
+
+static void table_sigma(const run_job *job)
+{
+    const lrcs_result *r = &job->result;
+    printf("sigma        %.10g m2", r->sigma_m2);
+    if (r->sigma_m2 > 0.0) {
+        printf("   %.6f dBsm", cli_dbsm(r->sigma_m2));
+    }
+    printf("\n  glint      %.10g m2\n  diffuse    %.10g m2\n", r->sigma_glint_m2,
+           r->sigma_diffuse_m2);
+    printf("bound        %.3g m2", r->bound_m2);
+    if (r->sigma_m2 > 0.0) {
+        printf("   %.2g of sigma", r->bound_m2 / r->sigma_m2);
+    }
+    printf("; tolerance %g %s\n", job->options.tolerance, job->met ? "met" : "NOT met");
+    printf("  visibility %.3g m2\n", r->budget.visibility_m2);
+    if (r->budget.tessellation_m2 >= 0.0) {
+        printf("  tessellation %.3g m2\n", r->budget.tessellation_m2);
+    } else {
+        printf("  tessellation not known\n");
+    }
+    printf("  rounding   %.3g m2\n", r->budget.rounding_m2);
+    if (r->estimate_m2 >= 0.0) {
+        printf("estimate     %.3g m2   likely error, not a bound\n", r->estimate_m2);
+    }
+    printf("silhouette   %.10g m2\n", r->projected_area_m2);
+}
+
+void cli_run_json(const run_job *job)
+{
+    const lrcs_result *result = &job->result;
+    lrcs_host_json json = lrcs_host_json_make(stdout);
+    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    json_head(job, &json);
+    lrcs_host_json_number(&json, "sigma_glint_m2", result->sigma_glint_m2);
+    lrcs_host_json_number(&json, "sigma_diffuse_m2", result->sigma_diffuse_m2);
+    lrcs_host_json_number(&json, "bound_m2", result->bound_m2);
+    lrcs_host_json_begin(&json, "budget_m2", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(&json, "visibility", result->budget.visibility_m2);
+    known_number(&json, "tessellation", result->budget.tessellation_m2);
+    lrcs_host_json_number(&json, "rounding", result->budget.rounding_m2);
+    lrcs_host_json_end(&json);
+    lrcs_host_json_number(&json, "projected_area_m2", result->projected_area_m2);
+    lrcs_host_json_text(&json, "method", lrcs_method_text(result->method));
+    json_effects(result, &json);
+    json_tail(job, &json);
+    lrcs_host_json_end(&json);
+}
+
+void cli_run_table(const run_job *job)
+{
+    const lrcs_result *r = &job->result;
+    double s_hat[3];
+    unit_direction(&job->pose, s_hat);
+    printf("scene        %s, hash %016llx\n", job->args->operand,
+           (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+    printf("direction    %.10g, %.10g, %.10g   to the laser, body frame\n", s_hat[0], s_hat[1],
+           s_hat[2]);
+    table_sigma(job);
+    printf("method       %s", lrcs_method_text(r->method));
+    if (r->resolution != 0) {
+        printf(", %lu x %lu", (unsigned long)r->resolution, (unsigned long)r->resolution);
+    }
+    printf(" (%s)\n", job->options.method == LRCS_METHOD_AUTO ? "chosen by auto" : "as asked");
+    printf("simulated    normals flat\n");
+    for (int i = 0; i < LRCS_EFFECTS; i++) {
+        printf("  %-18s %-4s %s\n", lrcs_effect_text(i), r->effect[i].on ? "on" : "off",
+               r->effect[i].reason);
+    }
+    printf("facets       %lu: %lu face the laser, %lu hidden, %lu partly hidden\n",
+           (unsigned long)r->facets_total, (unsigned long)r->facets_front,
+           (unsigned long)r->facets_hidden, (unsigned long)r->facets_partial);
+    for (uint32_t bits = r->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
+        if (bits & 1u) {
+            printf("flag         %s\n", lrcs_flag_text((int)bit));
+        }
+    }
+    printf("time         load %.3g ms, prepare %.3g ms, pose %.3g ms\n",
+           1e3 * job->scene.seconds_load, 1e3 * job->scene.seconds_prepare, 1e3 * job->seconds);
+    if (job->image_path) {
+        printf("picture      %s\n", job->image_path);
+    }
+}
+
+void cli_run_notices(const run_job *job)
+{
+    notices_say(job, NULL);
+}

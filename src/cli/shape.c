@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs shape: sigma of a simple body from its closed form. */
+#include "cli/cli.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char shape_help[] =
+    "usage: lrcs shape KIND dimensions [--aspect DEG] [--material A,B,s,m] [--json]\n"
+    "\n"
+    "sigma (m2) of a simple body alone, from its closed form. Lengths in metres.\n"
+    "\n"
+    "  plate       --size a,b                    one-sided, normal +z\n"
+    "  disc        --radius R                    one-sided, normal +z\n"
+    "  box         --size a,b,c\n"
+    "  sphere      --radius R\n"
+    "  dome        --radius R                    half a sphere\n"
+    "  cylinder    --radius R --length L\n"
+    "  cone        --radius R, and --half-angle DEG or --length H\n"
+    "  frustum     --radius R --radius2 R2 --length L   R: the end at aspect 0\n"
+    "  paraboloid  --radius R --length H         R: base, H: height\n"
+    "\n"
+    "options\n"
+    "  --aspect DEG        0 .. 180, between the line of sight and the axis or normal (0)\n"
+    "  --direction x,y,z   of the laser instead (box and plate)\n"
+    "  --parts wall|all    without or with caps or base (all)\n"
+    "  --material A,B,s,m  or a library material (1,0.25,0.2,0.5)\n"
+    "  --json              keys sigma_m2, sigma_glint_m2, sigma_diffuse_m2, bound_m2\n"
+    "\n"
+    "examples\n"
+    "  lrcs shape plate --size 1,1 --aspect 20 --material 1,0.25,0.2,0.5\n"
+    "  lrcs shape cone --radius 0.5 --half-angle 15 --parts wall --json\n";
+
+static const cli_option shape_options[] = {
+    {"size", 1, 0},       {"radius", 1, 0}, {"radius2", 1, 0},   {"length", 1, 0},
+    {"half-angle", 1, 0}, {"aspect", 1, 0}, {"direction", 1, 0}, {"parts", 1, 0},
+    {"material", 1, 0},   {"json", 0, 0},   {"help", 0, 0},      {NULL, 0, 0}};
+
+/* What a kind is described by, as bits. */
+enum {
+    DIMENSION_SIZE2 = 1,
+    DIMENSION_SIZE3 = 2,
+    DIMENSION_RADIUS = 4,
+    DIMENSION_RADIUS2 = 8,
+    DIMENSION_LENGTH = 16,
+    DIMENSION_CONE = 32,  /* half-angle or length */
+    DIMENSION_CAPS = 64,  /* has caps or a base */
+    DIMENSION_TURNS = 128 /* takes a direction */
+};
+
+static unsigned shape_dimensions(int kind)
+{
+    switch (kind) {
+    case LRCS_SHAPE_PLATE:
+        return DIMENSION_SIZE2 | DIMENSION_TURNS;
+    case LRCS_SHAPE_BOX:
+        return DIMENSION_SIZE3 | DIMENSION_TURNS;
+    case LRCS_SHAPE_DISC:
+    case LRCS_SHAPE_SPHERE:
+        return DIMENSION_RADIUS;
+    case LRCS_SHAPE_DOME:
+        return DIMENSION_RADIUS | DIMENSION_CAPS;
+    case LRCS_SHAPE_CONE:
+        return DIMENSION_RADIUS | DIMENSION_CONE | DIMENSION_CAPS;
+    case LRCS_SHAPE_FRUSTUM:
+        return DIMENSION_RADIUS | DIMENSION_RADIUS2 | DIMENSION_LENGTH | DIMENSION_CAPS;
+    default: /* cylinder, paraboloid */
+        return DIMENSION_RADIUS | DIMENSION_LENGTH | DIMENSION_CAPS;
+    }
+}
+
+/* One number that a kind needs or must not have. */
+static int dimension_read(const cli_args *args, const char *name, int wanted, double *value)
+{
+    int given = cli_value(args, name) != NULL;
+    if (given && !wanted) {
+        return cli_usage(args->command, "%s takes no --%s", args->operand, name);
+    }
+    if (!given && wanted) {
+        return cli_usage(args->command, "%s needs --%s", args->operand, name);
+    }
+    int code = cli_number(args, name, value);
+    if (code == 0 && *value < 0.0) {
+        return cli_usage(args->command, "--%s: expected a number >= 0, found '%s'", name,
+                         cli_value(args, name));
+    }
+    return code;
+}
+
+static int size_read(const cli_args *args, unsigned dimensions, lrcs_shape *shape)
+{
+    const char *text = cli_value(args, "size");
+    int count = dimensions & DIMENSION_SIZE2 ? 2 : dimensions & DIMENSION_SIZE3 ? 3 : 0;
+    const char *form = count == 2 ? "a,b" : "a,b,c";
+    if (text && count == 0) {
+        return cli_usage(args->command, "%s takes no --size", args->operand);
+    }
+    if (!text && count != 0) {
+        return cli_usage(args->command, "%s needs --size %s", args->operand, form);
+    }
+    if (!text) {
+        return 0;
+    }
+    if (cli_list(text, shape->size, count) != 0 || shape->size[0] < 0.0 || shape->size[1] < 0.0 ||
+        shape->size[2] < 0.0) {
+        return cli_usage(args->command, "--size: expected %s (metres, >= 0), found '%s'", form,
+                         text);
+    }
+    return 0;
+}
+
+static int parts_read(const cli_args *args, unsigned dimensions, lrcs_shape *shape)
+{
+    const char *text = cli_value(args, "parts");
+    if (!text || strcmp(text, "all") == 0) {
+        return 0;
+    }
+    if (strcmp(text, "wall") != 0) {
+        return cli_usage(args->command, "--parts: expected wall or all, found '%s'", text);
+    }
+    if (!(dimensions & DIMENSION_CAPS)) {
+        return cli_usage(args->command, "--parts: a %s has no caps to leave out", args->operand);
+    }
+    shape->parts = LRCS_SHAPE_WALL;
+    return 0;
+}
+
+/* A cone's height is given, or its half-angle. */
+static int cone_read(const cli_args *args, unsigned dimensions, lrcs_shape *shape)
+{
+    int cone = (dimensions & DIMENSION_CONE) != 0;
+    int angle = cli_value(args, "half-angle") != NULL;
+    int length = cli_value(args, "length") != NULL;
+    if (cone && angle == length) {
+        return cli_usage(args->command, "cone needs --half-angle or --length%s",
+                         angle ? ", not both" : "");
+    }
+    int code = dimension_read(args, "half-angle", cone && angle, &shape->half_angle_deg);
+    code = code
+               ? code
+               : dimension_read(args, "length", (dimensions & DIMENSION_LENGTH) || (cone && length),
+                                &shape->length);
+    if (code == 0 && cone && angle &&
+        !(shape->half_angle_deg > 0.0 && shape->half_angle_deg < 90.0)) {
+        return cli_usage(args->command, "--half-angle: expected 0 < DEG < 90, found '%s'",
+                         cli_value(args, "half-angle"));
+    }
+    return code;
+}
+
+static int aspect_read(const cli_args *args, unsigned dimensions, lrcs_aspect *aspect)
+{
+    const char *direction = cli_value(args, "direction");
+    if (direction && cli_value(args, "aspect")) {
+        return cli_usage(args->command, "--aspect and --direction both say where the laser is");
+    }
+    if (direction && !(dimensions & DIMENSION_TURNS)) {
+        return cli_usage(args->command, "%s takes --aspect, not --direction", args->operand);
+    }
+    if (direction) {
+        double *v = aspect->direction;
+        aspect->by_direction = 1;
+        if (cli_list(direction, v, 3) != 0 || (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0)) {
+            return cli_usage(args->command, "--direction: expected x,y,z, not all zero, found '%s'",
+                             direction);
+        }
+        return 0;
+    }
+    int code = cli_number(args, "aspect", &aspect->deg);
+    if (code == 0 && !(aspect->deg >= 0.0 && aspect->deg <= 180.0)) {
+        return cli_usage(args->command, "--aspect: expected 0 .. 180 degrees, found '%s'",
+                         cli_value(args, "aspect"));
+    }
+    return code;
+}
+
+static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspect)
+{
+    shape->kind = lrcs_shape_find(args->operand);
+    if (shape->kind < 0) {
+        const char *best = NULL;
+        for (int i = 0; i < LRCS_SHAPE_KINDS; i++) {
+            best = cli_nearest(args->operand, best, lrcs_shape_text(i));
+        }
+        return cli_usage(args->command, "unknown KIND '%s'; the nearest is %s", args->operand,
+                         best);
+    }
+    unsigned dimensions = shape_dimensions(shape->kind);
+    int code = size_read(args, dimensions, shape);
+    code =
+        code ? code
+             : dimension_read(args, "radius", (dimensions & DIMENSION_RADIUS) != 0, &shape->radius);
+    code = code ? code
+                : dimension_read(args, "radius2", (dimensions & DIMENSION_RADIUS2) != 0,
+                                 &shape->radius2);
+    code = code ? code : cone_read(args, dimensions, shape);
+    code = code ? code : parts_read(args, dimensions, shape);
+    return code ? code : aspect_read(args, dimensions, aspect);
+}
+
+static void shape_print(const cli_args *args, const lrcs_closed *closed)
+{
+    if (cli_value(args, "json")) {
+        lrcs_host_json json = lrcs_host_json_make(stdout);
+        lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+        lrcs_host_json_number(&json, "sigma_m2", closed->sigma_m2);
+        lrcs_host_json_number(&json, "sigma_glint_m2", closed->sigma_glint_m2);
+        lrcs_host_json_number(&json, "sigma_diffuse_m2", closed->sigma_diffuse_m2);
+        lrcs_host_json_number(&json, "bound_m2", closed->bound_m2);
+        lrcs_host_json_end(&json);
+        return;
+    }
+    printf("sigma      %.15g m2", closed->sigma_m2);
+    if (closed->sigma_m2 > 0.0) {
+        printf("   %.6f dBsm", cli_dbsm(closed->sigma_m2));
+    }
+    printf("\n  glint    %.15g m2\n  diffuse  %.15g m2\nbound      %.3g m2\n",
+           closed->sigma_glint_m2, closed->sigma_diffuse_m2, closed->bound_m2);
+}
+
+static int shape_command(const cli_args *args)
+{
+    lrcs_shape shape = {0};
+    lrcs_aspect aspect = {0};
+    lrcs_brdf brdf = lrcs_brdf_default();
+    lrcs_closed closed;
+    lrcs_where where = {0};
+    const char *material = cli_value(args, "material");
+    int code = shape_read(args, &shape, &aspect);
+    if (code == 0 && material) {
+        code = cli_brdf_read(args->command, material, "--material", &brdf);
+    }
+    if (code != 0) {
+        return code;
+    }
+    int status = lrcs_shape_check(&shape, &where);
+    if (status != LRCS_OK) {
+        return cli_usage(args->command, "%s: %s: %s", args->operand,
+                         where.item ? where.item : "dimensions", lrcs_status_text(status));
+    }
+    status = lrcs_closed_eval(&shape, &brdf, &aspect, &closed);
+    if (status != LRCS_OK) {
+        fprintf(stderr, "lrcs: %s: %s\n", args->operand, lrcs_status_text(status));
+        return CLI_FAILED;
+    }
+    if (!material) {
+        fprintf(stderr, "notice: no --material: A=1, B=0.25, s=0.2, m=0.5\n");
+    }
+    int warnings = lrcs_brdf_check(&brdf);
+    for (int bit = 1; warnings > 0 && bit <= warnings; bit *= 2) {
+        if (warnings & bit) {
+            fprintf(stderr, "notice: material: %s\n", lrcs_brdf_warning_text(bit));
+        }
+    }
+    shape_print(args, &closed);
+    return CLI_DONE;
+}
+
+const cli_command cli_shape_command = {
+    "shape",
+    "KIND",
+    "plate, disc, box, sphere, dome, cylinder, cone, frustum or paraboloid",
+    shape_help,
+    shape_options,
+    shape_command};

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* Holds the built-in scene as the Makefile's bytes. */
+#include "host/demo.h"
+
+static const char demo_text[] = {
+#include "demo.inc"
+};
+
+const char *lrcsi_host_demo(size_t *size)
+{
+    *size = sizeof demo_text;
+    return demo_text;
+}

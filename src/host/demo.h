@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: MIT */
+/* The built-in scene: examples/satellite.toml, byte for byte, put here by the Makefile. */
+#ifndef LRCSI_HOST_DEMO_H
+#define LRCSI_HOST_DEMO_H
+
+#include <stddef.h>
+
+const char *lrcsi_host_demo(size_t *size);
+
+#endif

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* The per-facet table of a run, CSV after RFC 4180 with plain line ends. */
+#include <lrcs/host.h>
+
+#include <string.h>
+
+/* A text field, quoted only where it must be. */
+static void csv_text(FILE *out, const char *text)
+{
+    if (!strpbrk(text, ",\"\r\n")) {
+        fputs(text, out);
+        return;
+    }
+    putc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') {
+            putc('"', out);
+        }
+        putc(*text, out);
+    }
+    putc('"', out);
+}
+
+void lrcs_host_facets_write(FILE *out, const lrcs_scene *scene, const lrcs_facet_record *records)
+{
+    fputs("facet,material,area_m2,cos_theta,visible_area_m2,sigma_m2\n", out);
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        const double value[4] = {records[i].area_m2, records[i].cos_theta,
+                                 records[i].visible_area_m2, records[i].sigma_m2};
+        fprintf(out, "%lu,", (unsigned long)i);
+        csv_text(out, scene->material[scene->facet_material[i]].name);
+        for (int k = 0; k < 4; k++) {
+            char text[LRCS_HOST_NUMBER_SIZE];
+            lrcs_host_number_text(value[k], text);
+            fprintf(out, ",%s", text);
+        }
+        putc('\n', out);
+    }
+}

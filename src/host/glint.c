@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: MIT */
+/* Whether a mesh of curved bodies is fine enough for the glint of what it wears: an estimate,
+   from the angles between neighbours that share a smoothing group. */
+#include "host/fail.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define GLINT_PI 3.14159265358979323846
+
+/* Neighbours that turn by less are taken for halves of one flat polygon, by more (60 deg) for
+   faces of a box that its maker smoothed. */
+#define FLAT_TURN  1e-3
+#define SHARP_TURN (GLINT_PI / 3.0)
+
+/* An edge of a facet, lower vertex first. */
+typedef struct glint_edge {
+    uint32_t low, high, facet;
+} glint_edge;
+
+/* A turn between two neighbours of one part and material. */
+typedef struct glint_turn {
+    uint32_t part, material;
+    double turn;
+} glint_turn;
+
+static int glint_order(uint32_t a, uint32_t b)
+{
+    return (a > b) - (a < b);
+}
+
+static int edge_order(const void *a, const void *b)
+{
+    const glint_edge *x = a;
+    const glint_edge *y = b;
+    int order = glint_order(x->low, y->low);
+    order = order ? order : glint_order(x->high, y->high);
+    return order ? order : glint_order(x->facet, y->facet);
+}
+
+static int turn_order(const void *a, const void *b)
+{
+    const glint_turn *x = a;
+    const glint_turn *y = b;
+    int order = glint_order(x->part, y->part);
+    order = order ? order : glint_order(x->material, y->material);
+    return order ? order : (x->turn > y->turn) - (x->turn < y->turn);
+}
+
+static int glint_wanted(const lrcs_scene *scene, uint32_t facet)
+{
+    const lrcs_material *material = &scene->material[scene->facet_material[facet]];
+    return scene->part[scene->facet_part[facet]].kind < 0 && scene->facet_smooth[facet] != 0 &&
+           material->brdf.A > 0.0 && !material->omitted;
+}
+
+/* A facet's normal, scaled so that nothing overflows; not of unit length. */
+static void glint_normal(const lrcs_scene *scene, uint32_t facet, double n[3])
+{
+    const uint32_t *corner = scene->facet[facet].corner;
+    double u[3];
+    double v[3];
+    double most = 0.0;
+    for (int k = 0; k < 3; k++) {
+        u[k] = scene->vertex[corner[1]].x[k] - scene->vertex[corner[0]].x[k];
+        v[k] = scene->vertex[corner[2]].x[k] - scene->vertex[corner[0]].x[k];
+        most = fmax(most, fmax(fabs(u[k]), fabs(v[k])));
+    }
+    for (int k = 0; k < 3 && most > 0.0; k++) {
+        u[k] /= most;
+        v[k] /= most;
+    }
+    for (int k = 0; k < 3; k++) {
+        n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    }
+}
+
+/* The angle between two facets' normals; 0 where one has none. */
+static double facets_turn(const lrcs_scene *scene, uint32_t a, uint32_t b)
+{
+    double n[3];
+    double p[3];
+    double cross = 0.0;
+    double dot = 0.0;
+    glint_normal(scene, a, n);
+    glint_normal(scene, b, p);
+    for (int k = 0; k < 3; k++) {
+        double c = n[(k + 1) % 3] * p[(k + 2) % 3] - n[(k + 2) % 3] * p[(k + 1) % 3];
+        cross += c * c;
+        dot += n[k] * p[k];
+    }
+    return atan2(sqrt(cross), dot);
+}
+
+static size_t edges_list(const lrcs_scene *scene, glint_edge *edges)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        for (int k = 0; glint_wanted(scene, i) && k < 3; k++) {
+            uint32_t a = scene->facet[i].corner[k];
+            uint32_t b = scene->facet[i].corner[(k + 1) % 3];
+            edges[count++] = (glint_edge){a < b ? a : b, a < b ? b : a, i};
+        }
+    }
+    qsort(edges, count, sizeof *edges, edge_order);
+    return count;
+}
+
+/* Turns over edges that two facets of one part, material and smoothing group share. */
+static size_t turns_list(const lrcs_scene *scene, const glint_edge *edges, size_t edge_count,
+                         glint_turn *turns)
+{
+    size_t count = 0;
+    for (size_t i = 1; i < edge_count; i++) {
+        uint32_t a = edges[i - 1].facet;
+        uint32_t b = edges[i].facet;
+        if (edges[i].low != edges[i - 1].low || edges[i].high != edges[i - 1].high ||
+            scene->facet_part[a] != scene->facet_part[b] ||
+            scene->facet_material[a] != scene->facet_material[b] ||
+            !(scene->facet_smooth[a] & scene->facet_smooth[b])) {
+            continue;
+        }
+        double turn = facets_turn(scene, a, b);
+        if (turn > FLAT_TURN && turn < SHARP_TURN) {
+            turns[count++] = (glint_turn){scene->facet_part[a], scene->facet_material[a], turn};
+        }
+    }
+    qsort(turns, count, sizeof *turns, turn_order);
+    return count;
+}
+
+static double glint_error(double turn, double s)
+{
+    double comb = GLINT_PI * s / turn;
+    return turn * turn / 24.0 + 2.0 * exp(-comb * comb);
+}
+
+/* The fewest facets around a full turn whose error is at most `most`; the error falls with N. */
+static double glint_around(double s, double most)
+{
+    double low = 2.0;
+    double high = 3.0;
+    while (glint_error(2.0 * GLINT_PI / high, s) > most && high < 1e15) {
+        low = high;
+        high *= 2.0;
+    }
+    while (high - low > 1.0) {
+        double middle = floor(0.5 * (low + high));
+        if (glint_error(2.0 * GLINT_PI / middle, s) > most) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
+}
+
+static lrcs_host_glint glint_entry(const lrcs_scene *scene, uint32_t part, uint32_t material,
+                                   double turn)
+{
+    double s = scene->material[material].brdf.s;
+    return (lrcs_host_glint){part,
+                             material,
+                             s,
+                             turn,
+                             glint_error(turn, s),
+                             glint_around(s, 1e-2),
+                             glint_around(s, 1e-3)};
+}
+
+/* One entry a run of equal part and material: the median turn. */
+static uint32_t models_glint(const lrcs_scene *scene, const glint_turn *turns, size_t count,
+                             lrcs_host_glint *list)
+{
+    uint32_t used = 0;
+    size_t from = 0;
+    for (size_t i = 1; i <= count; i++) {
+        if (i == count || turns[i].part != turns[from].part ||
+            turns[i].material != turns[from].material) {
+            const glint_turn *middle = &turns[from + (i - from) / 2];
+            list[used++] = glint_entry(scene, middle->part, middle->material, middle->turn);
+            from = i;
+        }
+    }
+    return used;
+}
+
+/* Shapes wear one material; a plane-faced one has no turn. */
+static uint32_t shapes_glint(const lrcs_scene *scene, lrcs_host_glint *list)
+{
+    uint32_t used = 0;
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        const lrcs_part *part = &scene->part[i];
+        if (part->kind < 0 || part->facet_count == 0 || !(part->curvature.turn > 0.0)) {
+            continue;
+        }
+        uint32_t material = scene->facet_material[part->first_facet];
+        if (scene->material[material].brdf.A > 0.0) {
+            list[used++] = glint_entry(scene, i, material, 2.0 * part->curvature.turn);
+        }
+    }
+    return used;
+}
+
+static int entry_order(const void *a, const void *b)
+{
+    const lrcs_host_glint *x = a;
+    const lrcs_host_glint *y = b;
+    int order = glint_order(x->part, y->part);
+    return order ? order : glint_order(x->material, y->material);
+}
+
+int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint32_t *count,
+                          lrcs_host_error *error)
+{
+    size_t most = 3 * (size_t)scene->facet_count + 1;
+    glint_edge *edges = malloc(most * sizeof *edges);
+    glint_turn *turns = malloc(most * sizeof *turns);
+    size_t turn_count = 0;
+    size_t entries = scene->part_count + (size_t)1;
+    if (edges && turns) {
+        turn_count = turns_list(scene, edges, edges_list(scene, edges), turns);
+    }
+    for (size_t i = 0; i < turn_count; i++) {
+        entries += i == 0 || turns[i].part != turns[i - 1].part ||
+                   turns[i].material != turns[i - 1].material;
+    }
+    lrcs_host_glint *all = edges && turns ? malloc(entries * sizeof *all) : NULL;
+    if (all) {
+        uint32_t used = models_glint(scene, turns, turn_count, all);
+        used += shapes_glint(scene, all + used);
+        qsort(all, used, sizeof *all, entry_order);
+        *list = all;
+        *count = used;
+    }
+    free(edges);
+    free(turns);
+    return all ? LRCS_OK : lrcsi_host_fail_memory(error, most * sizeof *edges);
+}

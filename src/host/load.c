@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: MIT */
+/* From a path to a scene, and on to sigma. It decides what kind of file a path holds, where the
+   files that it names lie, and which notices are due; the geometry is the core's. */
+#include "host/demo.h"
+#include "host/model.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+lrcs_host_options lrcs_host_options_default(void)
+{
+    lrcs_host_options options = {0};
+    options.build = lrcs_build_options_default();
+    return options;
+}
+
+/* ---- the recipe ---- */
+
+typedef struct recipe_step {
+    const char *text;
+    size_t size;
+    lrcs_recipe *recipe;
+    lrcs_where where;
+} recipe_step;
+
+static int recipe_read(void *context, lrcs_work *work)
+{
+    recipe_step *step = context;
+    return lrcs_recipe_read(step->text, step->size, work, step->recipe, &step->where);
+}
+
+static int names_scene_file(const char *path)
+{
+    const char *dot = strrchr(lrcsi_host_basename(path), '.');
+    return dot && strcasecmp(dot, ".toml") == 0;
+}
+
+/* The recipe's texts may point into the file's: the scene keeps those bytes. */
+static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char *text, size_t size,
+                            lrcs_host_error *error)
+{
+    recipe_step step = {.size = size, .recipe = &scene->recipe};
+    step.text = lrcsi_host_copy(scene, text, size);
+    if (!step.text) {
+        return lrcsi_host_fail_memory(error, size);
+    }
+    int status = lrcsi_host_step_run(scene, lrcs_recipe_need(size), recipe_read, &step, error);
+    if (status == LRCS_OK || status == LRCS_E_SYSTEM) {
+        return status;
+    }
+    lrcsi_host_fail_where(error, status, path, &step.where);
+    if (error && strcmp(path, "demo") != 0 && !names_scene_file(path)) {
+        size_t used = strlen(error->text);
+        snprintf(error->text + used, sizeof error->text - used,
+                 "; it is no 3DS, OBJ or STL model and was read as a scene file");
+    }
+    return status;
+}
+
+/* A model file by itself: one part, in metres after the unit. */
+static int recipe_from_model(lrcs_host_scene *scene, const char *path, double unit_m,
+                             lrcs_host_error *error)
+{
+    lrcs_recipe_part *part = lrcsi_host_take(scene, 1, sizeof *part);
+    char *file = lrcsi_host_copy(scene, path, strlen(path));
+    if (!part || !file) {
+        return lrcsi_host_fail_memory(error, sizeof *part);
+    }
+    part->name = lrcsi_host_basename(file);
+    part->file = file;
+    part->place = lrcs_place_default();
+    part->wears = -1;
+    for (int k = 0; k < 3; k++) {
+        part->place.scale[k] = unit_m > 0.0 ? unit_m : 1.0;
+    }
+    scene->recipe.part = part;
+    scene->recipe.part_count = 1;
+    return LRCS_OK;
+}
+
+/* Bindings of the command line before those of the scene file. */
+static int bindings_add(lrcs_host_scene *scene, const lrcs_host_options *options,
+                        lrcs_host_error *error)
+{
+    lrcs_recipe *recipe = &scene->recipe;
+    size_t count = (size_t)options->binding_count + recipe->binding_count;
+    if (options->binding_count == 0) {
+        return LRCS_OK;
+    }
+    lrcs_binding *all = lrcsi_host_take(scene, count, sizeof *all);
+    if (!all) {
+        return lrcsi_host_fail_memory(error, count * sizeof *all);
+    }
+    uint32_t used = 0;
+    for (uint32_t i = 0; i < recipe->binding_count; i++) {
+        all[used++] = recipe->binding[i];
+    }
+    for (uint32_t i = 0; i < options->binding_count; i++) {
+        all[used++] = options->binding[i];
+    }
+    recipe->binding = all;
+    recipe->binding_count = used;
+    return LRCS_OK;
+}
+
+static int recipe_from_file(lrcs_host_scene *scene, const char *path, const lrcs_host_file *file,
+                            const lrcs_host_options *options, lrcs_host_error *error)
+{
+    int toml = names_scene_file(path);
+    if (!toml && lrcs_format_check(file->bytes, file->size, lrcsi_host_basename(path)) !=
+                     LRCS_FORMAT_UNKNOWN) {
+        return recipe_from_model(scene, path, options->unit_m, error);
+    }
+    if (!toml && memchr(file->bytes, 0, file->size)) {
+        return lrcsi_host_fail(error, LRCS_E_SYNTAX,
+                               "%s: not a 3DS, OBJ or STL model, and not a scene file: expected one"
+                               " of these, found binary data",
+                               path);
+    }
+    if (options->unit_m > 0.0) {
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "%s: a scene file states its own units",
+                               path);
+    }
+    return recipe_from_text(scene, path, (const char *)file->bytes, file->size, error);
+}
+
+/* ---- the scene ---- */
+
+typedef struct build_step {
+    lrcs_host_scene *scene;
+    const lrcs_build_options *options;
+    lrcs_where where;
+} build_step;
+
+static int scene_build(void *context, lrcs_work *work)
+{
+    build_step *step = context;
+    return lrcs_scene_build(&step->scene->recipe, step->scene->model, step->options, work,
+                            &step->scene->scene, &step->where);
+}
+
+static int scene_from_recipe(lrcs_host_scene *scene, const char *path,
+                             const lrcs_build_options *options, lrcs_host_error *error)
+{
+    build_step step = {.scene = scene, .options = options};
+    size_t need = lrcs_scene_need(&scene->recipe, scene->model, options);
+    int status = lrcsi_host_step_run(scene, need, scene_build, &step, error);
+    return status == LRCS_OK || status == LRCS_E_SYSTEM
+               ? status
+               : lrcsi_host_fail_where(error, status, path, &step.where);
+}
+
+/* Every part's model; a file named twice is read twice, which is rare and simple. */
+static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host_file *given,
+                       lrcs_host_error *error)
+{
+    lrcs_recipe *recipe = &scene->recipe;
+    scene->model = lrcsi_host_take(scene, recipe->part_count, sizeof *scene->model);
+    if (!scene->model) {
+        return lrcsi_host_fail_memory(error, recipe->part_count * sizeof *scene->model);
+    }
+    int status = LRCS_OK;
+    for (uint32_t i = 0; i < recipe->part_count && status == LRCS_OK; i++) {
+        if (!recipe->part[i].file) {
+            continue;
+        }
+        if (strcmp(recipe->part[i].file, path) == 0) { /* the model that was given is in memory */
+            status = lrcsi_host_model_read(scene, path, given, &scene->model[i], error);
+            continue;
+        }
+        lrcs_host_file file = {NULL, 0};
+        const char *name = lrcsi_host_beside(scene, path, recipe->part[i].file);
+        status = name ? lrcs_host_file_read(name, &file, error) : lrcsi_host_fail_memory(error, 1);
+        if (status == LRCS_OK) {
+            status = lrcsi_host_model_read(scene, name, &file, &scene->model[i], error);
+            lrcs_host_file_free(&file);
+        } else if (error && recipe->part[i].line != 0) {
+            char cause[sizeof error->text];
+            strcpy(cause, error->text);
+            cause[sizeof cause / 2] = '\0';
+            lrcsi_host_fail(error, status, "%s: line %lu: %s", path,
+                            (unsigned long)recipe->part[i].line, cause);
+        }
+    }
+    return status;
+}
+
+/* ---- notices about what the facets wear ---- */
+
+static const char *library_name(const lrcs_brdf *brdf)
+{
+    const lrcs_brdf_entry *entry;
+    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
+        if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
+            entry->brdf.m == brdf->m) {
+            return entry->name;
+        }
+    }
+    return NULL;
+}
+
+static void material_notes(lrcs_host_notices *notices, const lrcs_material *material)
+{
+    const char *library = library_name(&material->brdf);
+    const char *name = material->name[0] ? material->name : "(default)";
+    int warnings = lrcs_brdf_check(&material->brdf);
+    if (library && material->bound) {
+        lrcsi_host_note(notices, "library material '%s': its values are illustrative, not measured",
+                        library);
+    }
+    for (int bit = 1; warnings > 0 && bit <= warnings; bit *= 2) {
+        if (warnings & bit) {
+            lrcsi_host_note(notices, "material '%s': %s", name, lrcs_brdf_warning_text(bit));
+        }
+    }
+}
+
+/* Facets by material: omitted and unbound ones are counted, worn ones checked. */
+static void scene_notes(lrcs_host_scene *host, const uint32_t *worn)
+{
+    const lrcs_scene *scene = &host->scene;
+    uint64_t omitted = 0;
+    uint64_t unbound = 0;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_material *material = &scene->material[i];
+        if (worn[i] == 0) {
+            continue;
+        }
+        if (material->omitted) {
+            omitted += worn[i];
+            continue;
+        }
+        unbound += material->bound ? 0 : worn[i];
+        material_notes(&host->notices, material);
+    }
+    if (omitted > 0) {
+        lrcsi_host_note(
+            &host->notices,
+            "%llu fully transparent facets are left out (--keep-transparent keeps them)",
+            (unsigned long long)omitted);
+    }
+    if (unbound > 0) {
+        lrcsi_host_note(&host->notices,
+                        "%llu of %lu facets have no material bound: they wear A=1, B=0.25, s=0.2, "
+                        "m=0.5 (--material binds one)",
+                        (unsigned long long)unbound, (unsigned long)scene->facet_count);
+    }
+    if (scene->facet_count == 0) {
+        lrcsi_host_note(&host->notices, "the scene holds no facets");
+    }
+}
+
+static void worn_notes(lrcs_host_scene *host)
+{
+    const lrcs_scene *scene = &host->scene;
+    uint32_t *worn = calloc((size_t)scene->material_count + 1, sizeof *worn);
+    for (uint32_t i = 0; worn && i < scene->facet_count; i++) {
+        worn[scene->facet_material[i]]++;
+    }
+    if (worn) {
+        scene_notes(host, worn);
+    }
+    free(worn);
+}
+
+/* ---- in public ---- */
+
+int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrcs_host_scene *scene,
+                         lrcs_host_error *error)
+{
+    double start = lrcsi_host_seconds();
+    lrcs_host_file file = {NULL, 0};
+    memset(scene, 0, sizeof *scene);
+    int status = LRCS_OK;
+    if (strcmp(path, "demo") == 0) {
+        size_t size = 0;
+        const char *text = lrcsi_host_demo(&size);
+        status = options->unit_m > 0.0
+                     ? lrcsi_host_fail(error, LRCS_E_ARGUMENT, "demo states its own units")
+                     : recipe_from_text(scene, path, text, size, error);
+    } else {
+        status = lrcs_host_file_read(path, &file, error);
+        if (status == LRCS_OK) {
+            status = recipe_from_file(scene, path, &file, options, error);
+        }
+    }
+    if (status == LRCS_OK) {
+        scene->recipe.keep_transparent |= options->keep_transparent;
+        status = bindings_add(scene, options, error);
+    }
+    if (status == LRCS_OK) {
+        status = models_read(scene, path, &file, error);
+    }
+    lrcs_host_file_free(&file);
+    if (status == LRCS_OK) {
+        status = scene_from_recipe(scene, path, &options->build, error);
+    }
+    if (status != LRCS_OK) {
+        lrcs_host_scene_free(scene);
+        return status;
+    }
+    worn_notes(scene);
+    scene->seconds_load = lrcsi_host_seconds() - start;
+    return LRCS_OK;
+}
+
+int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
+                         lrcs_host_scene *scene, lrcs_host_error *error)
+{
+    double start = lrcsi_host_seconds();
+    memset(scene, 0, sizeof *scene);
+    scene->recipe = *recipe;
+    scene->model = lrcsi_host_take(scene, (size_t)recipe->part_count + 1, sizeof *scene->model);
+    int status = scene->model ? scene_from_recipe(scene, "scene", build, error)
+                              : lrcsi_host_fail_memory(error, sizeof *scene->model);
+    if (status != LRCS_OK) {
+        lrcs_host_scene_free(scene);
+        return status;
+    }
+    scene->seconds_load = lrcsi_host_seconds() - start;
+    return LRCS_OK;
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+/* Blocks and work areas from the heap. It decides how areas grow (at least doubling, a bounded
+   number of times) and knows nothing of what is kept in them. */
+#include "host/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define STEP_TRIES 12
+
+/* The link before each block; as large as the strictest alignment. */
+typedef union host_block {
+    union host_block *next;
+    unsigned char room[LRCS_WORK_ALIGN];
+} host_block;
+
+/* A block not yet owned, or NULL. */
+static host_block *block_make(size_t bytes)
+{
+    return bytes <= SIZE_MAX - sizeof(host_block) ? malloc(sizeof(host_block) + bytes) : NULL;
+}
+
+static void block_own(lrcs_host_scene *scene, host_block *block)
+{
+    block->next = scene->blocks;
+    scene->blocks = block;
+}
+
+void *lrcsi_host_take(lrcs_host_scene *scene, size_t count, size_t size)
+{
+    size_t bytes = count <= SIZE_MAX / size ? count * size : SIZE_MAX;
+    host_block *block = block_make(bytes);
+    if (!block) {
+        return NULL;
+    }
+    block_own(scene, block);
+    return memset(block + 1, 0, bytes);
+}
+
+char *lrcsi_host_copy(lrcs_host_scene *scene, const char *text, size_t size)
+{
+    char *copy = lrcsi_host_take(scene, size + 1, 1);
+    if (copy) {
+        memcpy(copy, text, size);
+    }
+    return copy;
+}
+
+int lrcsi_host_step_run(lrcs_host_scene *owner, size_t need, lrcsi_host_step *step, void *context,
+                        lrcs_host_error *error)
+{
+    int status = LRCS_E_MEMORY;
+    for (int i = 0; i < STEP_TRIES && status == LRCS_E_MEMORY; i++) {
+        host_block *block = block_make(need);
+        if (!block) {
+            return lrcsi_host_fail_memory(error, need);
+        }
+        lrcs_work work = lrcs_work_make(block + 1, need);
+        status = step(context, &work);
+        if (status == LRCS_OK && owner) {
+            block_own(owner, block);
+        } else {
+            free(block);
+        }
+        size_t twice = need <= SIZE_MAX / 2 ? 2 * need : SIZE_MAX;
+        need = work.peak > twice ? work.peak : twice;
+    }
+    return status;
+}
+
+double lrcsi_host_seconds(void)
+{
+    struct timespec now = {0, 0};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void lrcs_host_scene_free(lrcs_host_scene *scene)
+{
+    host_block *block = scene->blocks;
+    while (block) {
+        host_block *next = block->next;
+        free(block);
+        block = next;
+    }
+    for (uint32_t i = 0; i < scene->notices.count; i++) {
+        free(scene->notices.text[i]);
+    }
+    free(scene->notices.text);
+    memset(scene, 0, sizeof *scene);
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* Numbers to text and back, the same in every locale. */
+#include <lrcs/host.h>
+
+#include "base/decimal.h"
+
+#include <math.h>
+#include <string.h>
+
+/* snprintf takes its decimal separator from the program's locale, whatever it is and however
+   many bytes it has; every other byte of "%.17g" is known. */
+void lrcs_host_number_text(double value, char text[LRCS_HOST_NUMBER_SIZE])
+{
+    char raw[64];
+    snprintf(raw, sizeof raw, "%.17g", value);
+    if (!isfinite(value)) {
+        strcpy(text, isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf");
+        return;
+    }
+    size_t used = 0;
+    for (const char *at = raw; *at && used < LRCS_HOST_NUMBER_SIZE - 1; at++) {
+        if (strchr("0123456789+-e", *at)) {
+            text[used++] = *at;
+        } else if (used == 0 || text[used - 1] != '.') {
+            text[used++] = '.';
+        }
+    }
+    text[used] = '\0';
+}
+
+int lrcs_host_number_read(const char *text, size_t size, double *value)
+{
+    const char *end = text + size;
+    while (text < end && *text == ' ') {
+        text++;
+    }
+    while (end > text && end[-1] == ' ') {
+        end--;
+    }
+    double number = 0.0;
+    if (lrcsi_decimal_read(text, end, &number) != end || text == end) {
+        return LRCS_E_SYNTAX;
+    }
+    if (!isfinite(number)) {
+        return LRCS_E_NUMBER;
+    }
+    *value = number;
+    return LRCS_OK;
+}

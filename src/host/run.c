@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+/* A scene's preparation and runs, with work areas from the heap. It decides how much memory is
+   tried, and measures the time; what a coarser raster costs in bound is the core's. */
+#include "host/memory.h"
+
+#include <stdlib.h>
+
+static int run_prepare(void *context, lrcs_work *work)
+{
+    lrcs_host_scene *scene = context;
+    return lrcs_prepare_run(&scene->scene, work, &scene->prepared);
+}
+
+static int run_fail(lrcs_host_error *error, int status, const char *what)
+{
+    return status == LRCS_OK || status == LRCS_E_SYSTEM
+               ? status
+               : lrcsi_host_fail(error, status, "%s: %s", what, lrcs_status_text(status));
+}
+
+int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error)
+{
+    double start = lrcsi_host_seconds();
+    size_t need = lrcs_prepare_need(&scene->scene);
+    int status = lrcsi_host_step_run(scene, need, run_prepare, scene, error);
+    scene->seconds_prepare = lrcsi_host_seconds() - start;
+    return run_fail(error, status, "preparing the scene");
+}
+
+typedef struct sigma_step {
+    const lrcs_prepared *prepared;
+    const lrcs_pose *pose;
+    const lrcs_run_options *options;
+    lrcs_result *result;
+    lrcs_facet_record *records;
+    lrcs_image *image;
+} sigma_step;
+
+static int run_sigma(void *context, lrcs_work *work)
+{
+    sigma_step *step = context;
+    return lrcs_sigma_run(step->prepared, step->pose, step->options, work, step->result,
+                          step->records, step->image);
+}
+
+int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                        const lrcs_run_options *options, lrcs_result *result,
+                        lrcs_facet_record *records, lrcs_image *image, double *seconds,
+                        lrcs_host_error *error)
+{
+    sigma_step step = {scene->prepared, pose, options, result, records, image};
+    lrcs_run_options ask = *options;
+    if (image && image->size > ask.resolution && options->resolution != 0) {
+        ask.resolution = image->size; /* room for the picture's raster too */
+    }
+    size_t need = lrcs_sigma_need(scene->prepared, &ask);
+    void *probe = malloc(need); /* less than asked is a coarser raster, and a flag */
+    while (!probe && need > ((size_t)1 << 20)) {
+        need /= 2;
+        probe = malloc(need);
+    }
+    free(probe);
+    double start = lrcsi_host_seconds();
+    int status = lrcsi_host_step_run(NULL, need, run_sigma, &step, error);
+    if (seconds) {
+        *seconds = lrcsi_host_seconds() - start;
+    }
+    return run_fail(error, status, "sigma");
+}

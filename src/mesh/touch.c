@@ -1,0 +1,347 @@
+/* SPDX-License-Identifier: MIT */
+/* Contacts in space between facets, by signs of determinants of the given vertices alone: no
+   intersection point is ever computed.
+
+   F, with corners a_0 a_1 a_2, is touched inside; T, with corners p_0 p_1 p_2, touches it.
+   0. Where those p_k that are not corners of F all lie strictly on one side of its plane, T meets
+   that plane in corners of F or between them at most: refused. Rounded, with the bound of
+   mesh/tree.c; what it leaves undecided goes on.
+   1. Seen along any direction in which F is not edge-on: where the line of a side of F has all of
+      T on its outer side or on it, or the line of a side of T has F on the one side and T on the
+      other, T does not meet the inside of F. In one plane this decides (separating axes of convex
+      polygons); else it is a cheap refusal, above all of neighbours.
+   2. Signs s_k of p_k against the plane of F: all positive or all negative means no contact, all
+      zero means one plane.
+   3. Else T cuts the plane of F in a segment or a point, whose ends are where lines u w through
+      corners of T cross that plane: u on the plane or across from w, w off the plane. The end X
+      lies on the inner side of a side a b of F exactly where the sign of
+          det(w - u, a - u, b - u) = (w - u) . ((a - X) x (b - X))
+      is that of w against the plane. The segment misses the inside of F exactly if it is all
+      outside of (or on) one side's line, or if F is on one side of the segment's own line
+      (separating axes again); and that line is the cut of the two planes, so there the signs
+      of a_k against the plane of T tell. */
+#include "mesh/touch.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/exact.h"
+#include "base/work.h"
+#include "mesh/tree.h"
+
+static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+/* A facet's corners; for F also its plane, an axis along which it is not edge-on, and the sign of
+   its turn there. */
+typedef struct touch_facet {
+    const double *x[3];
+    double normal[3], weight[3]; /* computed, and what bounds its error (mesh/tree.c) */
+    const double *axis;
+    int turn;
+} touch_facet;
+
+/* 10 u, as in mesh/tree.c. */
+#define TOUCH_FILTER (10.0 * 0x1p-53)
+
+/* Entries are taken from the work area in blocks that follow one another without gaps. */
+enum { TOUCH_BLOCK = LRCS_WORK_ALIGN / sizeof(lrcsi_touch) };
+
+static touch_facet corners_of(const lrcs_point *vertex, lrcs_facet facet)
+{
+    touch_facet f = {.axis = unit_axis[0]};
+    for (int k = 0; k < 3; k++) {
+        f.x[k] = vertex[facet.corner[k]].x;
+    }
+    return f;
+}
+
+/* Adds the plane, and the axis along which F is seen most broadly, by exact signs where the
+   rounded one sees it edge-on. */
+static void make_inside(touch_facet *f)
+{
+    int best = 0;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        double plus = (f->x[1][i] - f->x[0][i]) * (f->x[2][j] - f->x[0][j]);
+        double minus = (f->x[1][j] - f->x[0][j]) * (f->x[2][i] - f->x[0][i]);
+        f->normal[k] = plus - minus;
+        f->weight[k] = fabs(plus) + fabs(minus);
+        best = fabs(f->normal[k]) > fabs(f->normal[best]) ? k : best;
+    }
+    for (int k = 0; k < 3 && f->turn == 0; k++) {
+        f->axis = unit_axis[(best + k) % 3];
+        f->turn = lrcsi_exact_turn(f->x[0], f->x[1], f->x[2], f->axis);
+    }
+}
+
+static int is_corner_of(const touch_facet *f, const double *p)
+{
+    for (int k = 0; k < 3; k++) {
+        const double *x = f->x[k];
+        if (x == p || (x[0] == p[0] && x[1] == p[1] && x[2] == p[2])) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The side of F's plane on which p is proved to lie, or 0. */
+static int sure_side(const touch_facet *f, const double *p)
+{
+    double height = 0.0;
+    double error = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double d = p[k] - f->x[0][k];
+        height += f->normal[k] * d;
+        error += f->weight[k] * fabs(d);
+    }
+    error *= TOUCH_FILTER;
+    return height > error ? 1 : height < -error ? -1 : 0;
+}
+
+/* Step 0. */
+static int surely_on_one_side(const touch_facet *f, const touch_facet *t)
+{
+    int seen = 0;
+    for (int k = 0; k < 3; k++) {
+        if (is_corner_of(f, t->x[k])) {
+            continue;
+        }
+        int side = sure_side(f, t->x[k]);
+        if (side == 0 || side == -seen) {
+            return 0;
+        }
+        seen = side;
+    }
+    return seen != 0;
+}
+
+/* 1 where, along the axis, some side of f (which turns by `turn`, not 0) has all of g outside or
+   on its line. */
+static int side_line_separates(const touch_facet *f, int turn, const touch_facet *g,
+                               const double *axis)
+{
+    for (int k = 0; k < 3; k++) {
+        const double *a = f->x[k];
+        const double *b = f->x[(k + 1) % 3];
+        int i = 0;
+        while (i < 3 && turn * lrcsi_exact_turn(a, b, g->x[i], axis) <= 0) {
+            i++;
+        }
+        if (i == 3) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Step 1. */
+static int separated_along_axis(const touch_facet *f, const touch_facet *t)
+{
+    if (side_line_separates(f, f->turn, t, f->axis)) {
+        return 1;
+    }
+    int t_turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], f->axis);
+    return t_turn != 0 && side_line_separates(t, t_turn, f, f->axis);
+}
+
+static void plane_sides(const touch_facet *f, const touch_facet *t, int side[3])
+{
+    for (int k = 0; k < 3; k++) {
+        side[k] = lrcsi_exact_side(f->x[0], f->x[1], f->x[2], t->x[k]);
+    }
+}
+
+/* A line through u and w that crosses the plane once; `up` is the sign of w against it. */
+typedef struct cut_line {
+    const double *u, *w;
+    int up;
+} cut_line;
+
+/* The lines whose crossings end the cut of T: one or two, for signs neither all positive, nor all
+   negative, nor all zero. */
+static int cut_ends(const touch_facet *t, const int side[3], cut_line end[2])
+{
+    int n = 0;
+    for (int k = 0; k < 3 && n < 2; k++) {
+        int next = (k + 1) % 3;
+        int off = side[next] != 0 ? next : (k + 2) % 3;
+        if (side[k] == 0) {
+            end[n++] = (cut_line){t->x[k], t->x[off], side[off]};
+        } else if (side[k] == -side[next]) {
+            end[n++] = (cut_line){t->x[k], t->x[next], side[next]};
+        }
+    }
+    return n;
+}
+
+/* Step 3, given the signs of T's corners against the plane of F. */
+static int cut_meets_inside(const touch_facet *f, const touch_facet *t, const int side[3])
+{
+    cut_line end[2];
+    int ends = cut_ends(t, side, end);
+    for (int k = 0; k < 3; k++) {
+        int inner = 0;
+        for (int i = 0; i < ends && !inner; i++) {
+            inner =
+                end[i].up * lrcsi_exact_side(end[i].u, end[i].w, f->x[k], f->x[(k + 1) % 3]) > 0;
+        }
+        if (!inner) {
+            return 0;
+        }
+    }
+    if (ends == 1) {
+        return 1;
+    }
+    int of_f[3];
+    plane_sides(t, f, of_f);
+    int above = of_f[0] > 0 || of_f[1] > 0 || of_f[2] > 0;
+    int below = of_f[0] < 0 || of_f[1] < 0 || of_f[2] < 0;
+    return above && below;
+}
+
+/* How t touches f, which has its plane and axis. */
+static int touch_kind(const touch_facet *f, const touch_facet *t)
+{
+    if (surely_on_one_side(f, t) || separated_along_axis(f, t)) {
+        return LRCSI_TOUCH_NONE;
+    }
+    int side[3];
+    plane_sides(f, t, side);
+    if (side[0] == side[1] && side[1] == side[2]) {
+        return side[0] == 0 ? LRCSI_TOUCH_COPLANAR : LRCSI_TOUCH_NONE;
+    }
+    return cut_meets_inside(f, t, side) ? LRCSI_TOUCH_CROSS : LRCSI_TOUCH_NONE;
+}
+
+int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+{
+    touch_facet f = corners_of(vertex, facet);
+    touch_facet t = corners_of(vertex, other);
+    make_inside(&f);
+    return touch_kind(&f, &t);
+}
+
+int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+{
+    touch_facet f = corners_of(vertex, facet);
+    touch_facet t = corners_of(vertex, other);
+    int side[3];
+    plane_sides(&f, &t, side);
+    return side[0] == 0 && side[1] == 0 && side[2] == 0;
+}
+
+/* Sinks entry `i` of a heap of n, largest on top. */
+static void sink_touch(lrcsi_touch *touch, size_t i, size_t n)
+{
+    for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
+        if (child + 1 < n && touch[child + 1].other > touch[child].other) {
+            child++;
+        }
+        if (touch[i].other >= touch[child].other) {
+            return;
+        }
+        lrcsi_touch t = touch[i];
+        touch[i] = touch[child];
+        touch[child] = t;
+        i = child;
+    }
+}
+
+/* Heap sort by `other`, in place. */
+static void sort_touches(lrcsi_touch *touch, size_t n)
+{
+    for (size_t i = n / 2; i > 0; i--) {
+        sink_touch(touch, i - 1, n);
+    }
+    for (size_t last = n; last > 1; last--) {
+        lrcsi_touch t = touch[0];
+        touch[0] = touch[last - 1];
+        touch[last - 1] = t;
+        sink_touch(touch, 0, last - 1);
+    }
+}
+
+/* Appends the contacts inside one facet to the growing list. */
+static int collect_touches(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t f,
+                           const lrcsi_tree *tree, lrcs_work *work, lrcsi_touches *t)
+{
+    lrcsi_tree_walk walk = lrcsi_tree_around(tree, vertex, facet[f]);
+    touch_facet inside = corners_of(vertex, facet[f]);
+    make_inside(&inside);
+    uint32_t other;
+    while ((other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
+        touch_facet candidate = corners_of(vertex, facet[other]);
+        int kind = other == f ? LRCSI_TOUCH_NONE : touch_kind(&inside, &candidate);
+        if (kind == LRCSI_TOUCH_NONE) {
+            continue;
+        }
+        if (t->count == LRCS_NONE - 1) {
+            return LRCS_E_LIMIT;
+        }
+        if (t->count % TOUCH_BLOCK == 0 &&
+            !lrcsi_work_take(work, TOUCH_BLOCK, sizeof(lrcsi_touch))) {
+            return LRCS_E_MEMORY;
+        }
+        t->touch[t->count++] = (lrcsi_touch){other, (uint32_t)kind};
+    }
+    sort_touches(t->touch + t->first[f], t->count - t->first[f]);
+    return LRCS_OK;
+}
+
+size_t lrcsi_touches_need(uint32_t facet_count, size_t count)
+{
+    size_t need = lrcsi_work_bytes((size_t)facet_count + 1, sizeof(uint32_t));
+    need = lrcsi_work_add(need, lrcsi_tree_need(facet_count));
+    return lrcsi_work_add(
+        need, lrcsi_work_bytes(lrcsi_work_add(count, TOUCH_BLOCK), sizeof(lrcsi_touch)));
+}
+
+/* Everything but the release on failure. The list grows above the tree and moves down at the
+   end. */
+static int touches_build(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
+                         const unsigned char *skip, lrcs_work *work, lrcsi_touches *t)
+{
+    lrcsi_tree tree;
+    t->first = lrcsi_work_take(work, (size_t)facet_count + 1, sizeof *t->first);
+    size_t mark = work->used;
+    if (!t->first || lrcsi_tree_make(vertex, facet, facet_count, skip, work, &tree) != LRCS_OK) {
+        return LRCS_E_MEMORY;
+    }
+    t->touch = lrcsi_work_take(work, TOUCH_BLOCK, sizeof *t->touch);
+    if (!t->touch) {
+        return LRCS_E_MEMORY;
+    }
+    work->used -= LRCS_WORK_ALIGN; /* the first block is taken with the first entry */
+    for (uint32_t f = 0; f < facet_count; f++) {
+        t->first[f] = t->count;
+        int status = skip && skip[f] ? LRCS_OK : collect_touches(vertex, facet, f, &tree, work, t);
+        if (status != LRCS_OK) {
+            return status;
+        }
+    }
+    t->first[facet_count] = t->count;
+    const lrcsi_touch *above = t->touch;
+    work->used = mark;
+    t->touch = lrcsi_work_take(work, t->count, sizeof *t->touch);
+    if (!t->touch) {
+        return LRCS_E_MEMORY;
+    }
+    memmove(t->touch, above, t->count * sizeof *t->touch);
+    return LRCS_OK;
+}
+
+int lrcsi_touches_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
+                       const unsigned char *skip, lrcs_work *work, lrcsi_touches *touches)
+{
+    size_t mark = work->used;
+    lrcsi_touches made = {NULL, NULL, 0};
+    int status = touches_build(vertex, facet, facet_count, skip, work, &made);
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    *touches = made;
+    return LRCS_OK;
+}

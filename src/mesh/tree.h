@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+/* A tree of boxes over facets, for finding the few that can meet a given one. It proposes
+   candidates and decides nothing: it never leaves out a facet that meets the one asked about. */
+#ifndef LRCSI_TREE_H
+#define LRCSI_TREE_H
+
+#include <lrcs/mesh.h>
+
+typedef struct lrcsi_box {
+    double low[3], high[3];
+} lrcsi_box;
+
+/* What bounds all facets below a node: a box, and a slab across their mean normal (long facets
+   at an angle to the axes fill a box badly). Every corner x has low <= direction . x <= high. */
+typedef struct lrcsi_tree_node {
+    lrcsi_box box;
+    double direction[3], low, high;
+} lrcsi_tree_node;
+
+/* A complete binary tree: the children of node i are 2 i and 2 i + 1, the root is node 1. */
+typedef struct lrcsi_tree {
+    uint32_t count;        /* facets in it */
+    uint32_t leaves;       /* a power of two; leaf l is node leaves + l */
+    uint32_t *order;       /* the facets, along a Morton curve */
+    lrcsi_box *box;        /* their boxes, in that order */
+    lrcsi_tree_node *node; /* 2 leaves, the first unused; empty ones have low > high */
+} lrcsi_tree;
+
+/* One walk over the facets whose boxes meet that of a facet and are not proved to lie strictly to
+   one side of its plane or it to one side of their slab. */
+typedef struct lrcsi_tree_walk {
+    const lrcsi_tree *tree;
+    lrcsi_box box;
+    const double *corner[3];
+    double normal[3], weight[3]; /* of its plane; weight bounds the normal's error */
+    uint32_t node;               /* 0: at the end */
+    uint32_t at, end;            /* within a leaf: places in order[] */
+} lrcsi_tree_walk;
+
+/* Upper bound of what lrcsi_tree_make takes; what it returns stays in the work area. */
+size_t lrcsi_tree_need(uint32_t facet_count);
+
+/* Facets marked in `skip` (which may be NULL) are left out. Status: LRCS_OK; LRCS_E_MEMORY.
+   O(n log n). */
+int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
+                    const unsigned char *skip, lrcs_work *work, lrcsi_tree *tree);
+
+/* Starts a walk around a facet, in the tree or not. */
+lrcsi_tree_walk lrcsi_tree_around(const lrcsi_tree *tree, const lrcs_point *vertex,
+                                  lrcs_facet facet);
+
+/* The next candidate, each once, or LRCS_NONE at the end. */
+uint32_t lrcsi_tree_next(lrcsi_tree_walk *walk);
+
+#endif

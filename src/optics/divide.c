@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: MIT */
+/* How many facets a curved body needs for its material: lrcs_shape_count. The choice is a plan made
+   before any mesh exists; the proof is lrcs_curvature and lrcsi_reflect_stray, evaluated pose by
+   pose on the mesh, whatever was planned.
+
+   The proved error of a body is 4 pi sum a_i stray_i. Over fine facets the sum is an integral over
+   the normals, which a fixed midpoint rule estimates:
+     round bodies (sphere, dome, paraboloid): normals all about s_hat, weight sin(theta), against
+   the same integral of F: the glint seen whole, and the body's mean over attitudes; straight walls
+   (cylinder, cone, frustum): normals on a circle of constant elevation, at a fan of aspects,
+   against the wall's own sigma there or its mean over attitudes, whichever is larger. That ratio
+   falls as 1 / around^2, and the least `around` that brings it to the tolerance is found by
+   bisection. */
+#include <lrcs/shape.h>
+
+#include <math.h>
+
+#include "mesh/tessellate.h"
+#include "optics/reflect.h"
+
+#define PLAN_PI      3.14159265358979323846
+#define AROUND_LEAST 8u
+#define AROUND_LIMIT (1u << 24)
+#define PLAN_NODES   48
+#define PLAN_SAMPLE  1e-2 /* the tolerance at which dome and paraboloid are sampled */
+#define FACETS_LEAST 64u
+
+/* A material on a curved wall, and how coarse the wall is. */
+typedef struct facet_plan {
+    const lrcs_brdf *brdf;
+    lrcs_curvature curvature;
+} facet_plan;
+
+/* What one direction gives: F and its stray bound. */
+typedef struct plan_value {
+    double sigma, stray;
+} plan_value;
+
+static plan_value plan_at(const facet_plan *plan, double cosine, double tan2)
+{
+    plan_value value = {0.0, lrcsi_reflect_stray(plan->brdf, cosine, tan2, &plan->curvature)};
+    if (cosine > 0.0) {
+        lrcsi_reflection f = lrcsi_reflect(plan->brdf, tan2, 0.0);
+        value.sigma = f.glint + f.diffuse;
+    }
+    return value;
+}
+
+/* Node k of a rule on [0, end], half its nodes on the first `near`; *weight its width. */
+static double plan_node(int k, double near, double end, double *weight)
+{
+    int half = PLAN_NODES / 2;
+    double from = k < half ? 0.0 : near;
+    double to = k < half ? near : end;
+    *weight = (to - from) / half;
+    return from + ((k % half) + 0.5) * *weight;
+}
+
+/* Where the glint's features end: a few of its widths, or the facets' where those are wider. */
+static double plan_near(const facet_plan *plan, double end)
+{
+    double width = plan->brdf->A > 0.0 ? plan->brdf->s : 1.0;
+    return fmin(4.0 * fmax(width, plan->curvature.turn), 0.5 * end);
+}
+
+/* Mean over all normals of a sphere. */
+static plan_value plan_round(const facet_plan *plan)
+{
+    plan_value sum = {0.0, 0.0};
+    double end = fmin(0.5 * PLAN_PI + plan->curvature.turn, PLAN_PI);
+    double narrow = fmin(4.0 * (plan->brdf->A > 0.0 ? plan->brdf->s : 1.0), 0.25 * PLAN_PI);
+    for (int k = 0; k < PLAN_NODES; k++) {
+        double weight = 0.0;
+        double theta = plan_node(k, plan_near(plan, end), end, &weight);
+        double slope = tan(theta);
+        sum.stray += 0.5 * sin(theta) * weight * plan_at(plan, cos(theta), slope * slope).stray;
+        theta = plan_node(k, narrow, 0.5 * PLAN_PI, &weight);
+        slope = tan(theta);
+        sum.sigma += 0.5 * sin(theta) * weight * plan_at(plan, cos(theta), slope * slope).sigma;
+    }
+    return sum;
+}
+
+/* Mean over the normals of elevation psi, the laser at angle alpha from the axis. */
+static plan_value plan_circle(const facet_plan *plan, double psi, double alpha)
+{
+    plan_value sum = {0.0, 0.0};
+    double near = plan_near(plan, PLAN_PI);
+    for (int k = 0; k < PLAN_NODES; k++) {
+        double weight = 0.0;
+        double phi = plan_node(k, near, PLAN_PI, &weight);
+        double cosine = sin(psi) * cos(alpha) + cos(psi) * sin(alpha) * cos(phi);
+        double x = cos(psi) * sin(phi);
+        double y = sin(psi) * sin(alpha) - cos(psi) * cos(phi) * cos(alpha);
+        double tan2 = cosine == 0.0 ? HUGE_VAL : (x * x + y * y) / (cosine * cosine);
+        plan_value value = plan_at(plan, cosine, tan2);
+        sum.sigma += weight / PLAN_PI * value.sigma;
+        sum.stray += weight / PLAN_PI * value.stray;
+    }
+    return sum;
+}
+
+/* The worst of a fan of aspects for a straight wall: every 15 deg, and about the glint. */
+static double plan_straight(const facet_plan *plan, double psi)
+{
+    double mean = plan_round(plan).sigma;
+    double glint = 0.5 * PLAN_PI - psi;
+    double step = fmin(plan->brdf->s, 0.2);
+    double worst = 0.0;
+    for (int k = 0; k < 21; k++) {
+        double alpha = k < 13 ? k * PLAN_PI / 12.0 : glint + (k - 16) * 0.5 * step;
+        if (alpha >= 0.0 && alpha <= PLAN_PI) {
+            plan_value value = plan_circle(plan, psi, alpha);
+            double base = fmax(value.sigma, mean);
+            worst = fmax(worst, base > 0.0 ? value.stray / base : 0.0);
+        }
+    }
+    return worst;
+}
+
+/* Elevation of a straight wall's normal. */
+static double plan_elevation(const lrcs_shape *shape)
+{
+    if (shape->kind == LRCS_SHAPE_CYLINDER) {
+        return 0.0;
+    }
+    if (shape->kind == LRCS_SHAPE_FRUSTUM) {
+        return atan2(shape->radius2 - shape->radius, shape->length);
+    }
+    return shape->half_angle_deg > 0.0 ? shape->half_angle_deg * (PLAN_PI / 180.0)
+                                       : atan2(shape->radius, shape->length);
+}
+
+/* Area per solid angle of normals on a dome or paraboloid at polar angle theta, up to a factor. */
+static double plan_density(const lrcs_shape *shape, double theta)
+{
+    double c = cos(theta);
+    return shape->kind == LRCS_SHAPE_PARABOLOID ? 1.0 / (c * c * c * c) : 1.0;
+}
+
+/* Polar angle of the normal at the rim. */
+static double plan_rim(const lrcs_shape *shape)
+{
+    return shape->kind == LRCS_SHAPE_PARABOLOID ? atan2(2.0 * shape->length, shape->radius)
+                                                : 0.5 * PLAN_PI;
+}
+
+/* Error and sigma of a cap of normals from aspect alpha, and in *size the cap's area. Nodes crowd
+   about alpha, on both sides of it. */
+static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, double alpha,
+                           double *size)
+{
+    plan_value sum = {0.0, 0.0};
+    double rim = plan_rim(shape);
+    double middle = fmin(alpha, rim);
+    *size = 0.0;
+    for (int k = 0; k < 2 * PLAN_NODES; k++) {
+        double end = k < PLAN_NODES ? middle : rim - middle;
+        double weight = 0.0;
+        double off = plan_node(k % PLAN_NODES, plan_near(plan, end), end, &weight);
+        double theta = k < PLAN_NODES ? middle - off : middle + off;
+        weight *= sin(theta) * plan_density(shape, theta);
+        plan_value value = plan_circle(plan, 0.5 * PLAN_PI - theta, alpha);
+        sum.sigma += weight * value.sigma;
+        sum.stray += weight * value.stray;
+        *size += weight;
+    }
+    return sum;
+}
+
+/* Worst ratio of a cap of normals over aspects: down to the rim, and about it. */
+static double plan_caps(const facet_plan *plan, const lrcs_shape *shape)
+{
+    double mean = plan_round(plan).sigma;
+    double rim = plan_rim(shape);
+    double step = fmin(plan->brdf->s, 0.2);
+    double worst = 0.0;
+    for (int k = 0; k < 8; k++) {
+        double size = 0.0;
+        double alpha = fmax(0.0, k < 4 ? 0.25 * k * rim : rim + (k - 6) * step);
+        plan_value value = plan_cap(plan, shape, alpha, &size);
+        double base = fmax(value.sigma, size * mean);
+        worst = fmax(worst, base > 0.0 ? value.stray / base : 0.0);
+    }
+    return worst;
+}
+
+static int plan_is_round(const lrcs_shape *shape)
+{
+    return shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME ||
+           shape->kind == LRCS_SHAPE_PARABOLOID;
+}
+
+/* Rings as wide as the sectors are at the widest. */
+static lrcs_divisions plan_divisions(const lrcs_shape *shape, uint32_t around)
+{
+    lrcs_divisions divisions = {around, 1};
+    if (shape->kind == LRCS_SHAPE_PARABOLOID) {
+        divisions.along = (uint32_t)fmax(1.0, ceil(plan_rim(shape) / (2.0 * PLAN_PI) * around));
+    } else if (plan_is_round(shape)) {
+        divisions.along = around / 4;
+    }
+    return divisions;
+}
+
+/* Planned relative error. */
+static double plan_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t around)
+{
+    lrcs_divisions divisions = plan_divisions(shape, around);
+    facet_plan plan = {brdf, lrcsi_tessellate_curvature(shape, &divisions)};
+    if (!plan_is_round(shape)) {
+        return plan_straight(&plan, plan_elevation(shape));
+    }
+    plan_value value = plan_round(&plan);
+    return value.sigma > 0.0 ? value.stray / value.sigma : 0.0;
+}
+
+static int plan_affords(const lrcs_shape *shape, uint32_t around, uint32_t max_facets)
+{
+    lrcs_divisions divisions = plan_divisions(shape, around);
+    return lrcsi_tessellate_fits(shape, &divisions) &&
+           lrcsi_tessellate_counts(shape, &divisions).facets <= max_facets;
+}
+
+/* The largest `around` that max_facets affords. */
+static uint32_t plan_most(const lrcs_shape *shape, uint32_t max_facets)
+{
+    uint32_t good = AROUND_LEAST / 4;
+    uint32_t bad = AROUND_LIMIT / 4 + 1;
+    while (bad - good > 1) {
+        uint32_t middle = good + (bad - good) / 2;
+        if (plan_affords(shape, 4 * middle, max_facets)) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    return 4 * good;
+}
+
+/* The least `around` up to `most` that meets the tolerance, or `most`. */
+static uint32_t plan_least(const lrcs_shape *shape, const lrcs_brdf *brdf, double tolerance,
+                           uint32_t most)
+{
+    uint32_t bad = AROUND_LEAST / 4 - 1;
+    uint32_t good = most / 4;
+    while (good - bad > 1) {
+        uint32_t middle = bad + (good - bad) / 2;
+        if (plan_error(shape, brdf, 4 * middle) <= tolerance) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    return 4 * good;
+}
+
+/* A disc's polygon has the disc's area whatever its corners. Between the two outlines lies the part
+   4 h^2 / (9 sqrt 3) = 0.2566 h^2 of it, h = pi/N, the mean of |2 (r/R - 1)| with
+   r = R (1 - h^2/6 + phi^2/2), |phi| <= h: the tolerance bounds that. */
+static uint32_t plan_disc(double tolerance, uint32_t most)
+{
+    double corners = PLAN_PI * sqrt(0.2566 / tolerance);
+    if (!(corners < most)) {
+        return most;
+    }
+    uint32_t around = 4 * (uint32_t)ceil(corners / 4.0);
+    return around < AROUND_LEAST ? AROUND_LEAST : around > most ? most : around;
+}
+
+/* By how much a dome or paraboloid errs more than a sphere of its fineness, at least 1. */
+static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t most)
+{
+    if (shape->kind != LRCS_SHAPE_DOME && shape->kind != LRCS_SHAPE_PARABOLOID) {
+        return 1.0;
+    }
+    uint32_t around = plan_least(shape, brdf, PLAN_SAMPLE, most);
+    lrcs_divisions divisions = plan_divisions(shape, around);
+    facet_plan plan = {brdf, lrcsi_tessellate_curvature(shape, &divisions)};
+    double sphere = plan_error(shape, brdf, around);
+    double factor = sphere > 0.0 ? plan_caps(&plan, shape) / sphere : 1.0;
+    return isfinite(factor) ? fmax(1.0, factor) : 1.0;
+}
+
+/* Where even `most` leaves an error as large as sigma itself, facets buy nothing: the glint is
+   given up, and the diffuse part (or a matt surface, where there is none) sets the count. */
+static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *fineness, uint32_t most)
+{
+    lrcs_brdf brdf = fineness->brdf;
+    if (brdf.A > 0.0 && !(plan_error(shape, &brdf, most) < 1.0)) {
+        brdf.A = 0.0;
+    }
+    if (!(brdf.A > 0.0) && !(brdf.B > 0.0)) {
+        brdf = (lrcs_brdf){0.0, 1.0, 1.0, 0.0};
+    }
+    double factor = plan_factor(shape, &brdf, most);
+    return plan_least(shape, &brdf, fineness->tolerance / factor, most);
+}
+
+lrcs_fineness lrcs_fineness_default(void)
+{
+    return (lrcs_fineness){1e-4, lrcs_brdf_default(), 1u << 20};
+}
+
+int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
+                     lrcs_divisions *divisions, lrcs_mesh_counts *counts)
+{
+    int status = lrcs_shape_check(shape, NULL);
+    int wear = lrcs_brdf_check(&fineness->brdf);
+    if (status != LRCS_OK || wear < 0) {
+        return status != LRCS_OK ? status : wear;
+    }
+    if (!isfinite(fineness->tolerance)) {
+        return LRCS_E_NUMBER;
+    }
+    if (!(fineness->tolerance > 0.0) || fineness->max_facets < FACETS_LEAST) {
+        return LRCS_E_ARGUMENT;
+    }
+    lrcs_divisions chosen = {4, 1};
+    if (shape->kind != LRCS_SHAPE_PLATE && shape->kind != LRCS_SHAPE_BOX) {
+        uint32_t most = plan_most(shape, fineness->max_facets);
+        uint32_t around = shape->kind == LRCS_SHAPE_DISC ? plan_disc(fineness->tolerance, most)
+                                                         : plan_curved(shape, fineness, most);
+        chosen = plan_divisions(shape, around);
+    }
+    *divisions = chosen;
+    *counts = lrcsi_tessellate_counts(shape, &chosen);
+    return LRCS_OK;
+}

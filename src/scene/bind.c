@@ -1,0 +1,274 @@
+/* SPDX-License-Identifier: MIT */
+/* Binding surfaces to BRDFs: precedence, and what matched. Where names come from and which facets
+   wear a surface is the business of others. */
+#include "scene/bind.h"
+
+#include <string.h>
+
+#include "base/work.h"
+
+/* The share of an invisible surface from which on it is left out of the scene. */
+#define TRANSPARENCY_OMITTED 0.995
+/* The tag of the recipe's materials among the kinds of bindings. */
+#define TAG_RECIPE (LRCS_BIND_DEFAULT + 1)
+
+/* What a binding is found by: its name, its colour, or nothing. */
+static const void *key_of(const lrcs_binding *binding, size_t *size)
+{
+    switch (binding->kind) {
+    case LRCS_BIND_NAME:
+    case LRCS_BIND_MAP_NAME:
+        *size = strlen(binding->name);
+        return binding->name;
+    case LRCS_BIND_COLOUR:
+    case LRCS_BIND_MAP_COLOUR:
+        *size = sizeof binding->rgb;
+        return binding->rgb;
+    default:
+        *size = 0;
+        return "";
+    }
+}
+
+size_t lrcsi_binder_need(const lrcs_recipe *recipe)
+{
+    return lrcsi_work_add(lrcsi_index_need((size_t)recipe->binding_count + recipe->material_count),
+                          lrcsi_work_bytes(recipe->binding_count, 1));
+}
+
+lrcsi_binder lrcsi_binder_plain(const lrcs_recipe *recipe)
+{
+    lrcsi_binder binder;
+    memset(&binder, 0, sizeof binder);
+    binder.recipe = recipe;
+    return binder;
+}
+
+/* The index of the last binding of a kind and key, or of the recipe's material of a name. */
+static uint32_t find(const lrcsi_binder *binder, int tag, const void *bytes, size_t size)
+{
+    if (binder->indexed) {
+        return lrcsi_index_find(&binder->names, (uint32_t)tag, bytes, size);
+    }
+    const lrcs_recipe *recipe = binder->recipe;
+    for (uint32_t i = tag == TAG_RECIPE ? recipe->material_count : 0; i-- > 0;) {
+        const char *name = recipe->material[i].name;
+        if (strlen(name) == size && memcmp(name, bytes, size) == 0) {
+            return i;
+        }
+    }
+    for (uint32_t i = recipe->binding_count; i-- > 0;) {
+        size_t own_size;
+        if (recipe->binding[i].kind == tag) {
+            const void *own = key_of(&recipe->binding[i], &own_size);
+            if (own_size == size && memcmp(own, bytes, size) == 0) {
+                return i;
+            }
+        }
+    }
+    return LRCS_NONE;
+}
+
+/* The binding of a kind and key, or NULL; marked as matched. */
+static const lrcs_binding *find_binding(const lrcsi_binder *binder, int kind, const void *bytes,
+                                        size_t size)
+{
+    uint32_t i = find(binder, kind, bytes, size);
+    if (i == LRCS_NONE) {
+        return NULL;
+    }
+    if (binder->matched) {
+        binder->matched[i] = 1;
+    }
+    return &binder->recipe->binding[i];
+}
+
+static const lrcs_binding *find_named(const lrcsi_binder *binder, int kind, const char *name)
+{
+    return find_binding(binder, kind, name, strlen(name));
+}
+
+int lrcsi_binder_make(const lrcs_recipe *recipe, lrcs_work *work, lrcsi_binder *binder)
+{
+    size_t total = (size_t)recipe->binding_count + recipe->material_count;
+    *binder = lrcsi_binder_plain(recipe);
+    binder->matched = lrcsi_work_take_zero(work, recipe->binding_count, 1);
+    if (!binder->matched || total >= LRCS_NONE ||
+        lrcsi_index_make(work, (uint32_t)total, &binder->names) != LRCS_OK) {
+        return LRCS_E_MEMORY;
+    }
+    binder->indexed = 1;
+    for (uint32_t i = 0; i < recipe->binding_count; i++) {
+        size_t size;
+        const void *key = key_of(&recipe->binding[i], &size);
+        lrcsi_index_put(&binder->names, (uint32_t)recipe->binding[i].kind, key, size, i);
+    }
+    for (uint32_t i = 0; i < recipe->material_count; i++) {
+        const char *name = recipe->material[i].name;
+        lrcsi_index_put(&binder->names, TAG_RECIPE, name, strlen(name), i);
+        find_named(binder, LRCS_BIND_NAME, name); /* a defined material counts as a match */
+    }
+    return LRCS_OK;
+}
+
+static uint32_t library_count(void)
+{
+    uint32_t count = 0;
+    while (lrcs_brdf_library(count)) {
+        count++;
+    }
+    return count;
+}
+
+uint32_t lrcsi_binder_wardrobe(const lrcs_recipe *recipe)
+{
+    return recipe->material_count + library_count();
+}
+
+int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, uint32_t *worn)
+{
+    const lrcs_recipe *recipe = binder->recipe;
+    *worn = LRCS_NONE;
+    if (!part->material) {
+        return LRCS_OK;
+    }
+    if (part->wears >= 0 && (uint32_t)part->wears < recipe->material_count) {
+        *worn = (uint32_t)part->wears;
+        return LRCS_OK;
+    }
+    *worn = find(binder, TAG_RECIPE, part->material, strlen(part->material));
+    const lrcs_brdf_entry *entry;
+    for (uint32_t i = 0; *worn == LRCS_NONE && (entry = lrcs_brdf_library(i)) != NULL; i++) {
+        if (strcmp(entry->name, part->material) == 0) {
+            *worn = recipe->material_count + i;
+        }
+    }
+    return *worn == LRCS_NONE ? LRCS_E_NAME : LRCS_OK;
+}
+
+/* Puts on a BRDF; a two_sided below 0 keeps what is there. */
+static void dress(lrcs_material *material, const lrcs_brdf *brdf, int two_sided)
+{
+    material->brdf = *brdf;
+    material->bound = 1;
+    if (two_sided >= 0) {
+        material->two_sided = two_sided != 0;
+    }
+}
+
+/* The command line's word on a material of this name, which a scene file put on. */
+static void override_named(const lrcsi_binder *binder, const char *name, lrcs_material *material)
+{
+    const lrcs_binding *binding = name ? find_named(binder, LRCS_BIND_NAME, name) : NULL;
+    if (binding) {
+        dress(material, &binding->brdf, binding->two_sided);
+    }
+}
+
+static void wear(const lrcsi_binder *binder, uint32_t worn, lrcs_material *material)
+{
+    const lrcs_recipe *recipe = binder->recipe;
+    const char *name;
+    if (worn < recipe->material_count) {
+        name = recipe->material[worn].name;
+        dress(material, &recipe->material[worn].brdf, recipe->material[worn].two_sided);
+    } else {
+        const lrcs_brdf_entry *entry = lrcs_brdf_library(worn - recipe->material_count);
+        name = entry->name;
+        dress(material, &entry->brdf, -1);
+    }
+    override_named(binder, name, material);
+    material->name = material->name ? material->name : name;
+}
+
+/* A scene file's map, or a default. */
+static void apply(const lrcsi_binder *binder, const lrcs_binding *binding, lrcs_material *material)
+{
+    dress(material, &binding->brdf, binding->two_sided);
+    override_named(binder, binding->material, material);
+}
+
+static void apply_default(const lrcsi_binder *binder, lrcs_material *material)
+{
+    const lrcs_binding *binding = find_named(binder, LRCS_BIND_DEFAULT, "");
+    if (binding) {
+        apply(binder, binding, material);
+    } else {
+        material->brdf = lrcs_brdf_default();
+    }
+}
+
+lrcs_material lrcsi_binder_bare(const lrcsi_binder *binder, uint32_t worn)
+{
+    lrcs_material material;
+    memset(&material, 0, sizeof material);
+    material.name = NULL;
+    if (worn != LRCS_NONE) {
+        wear(binder, worn, &material);
+    } else {
+        material.name = "";
+        apply_default(binder, &material);
+    }
+    return material;
+}
+
+/* What the scene file's maps, the library and the default say of a surface. */
+static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
+                      lrcs_material *material)
+{
+    const lrcs_binding *map = find_named(binder, LRCS_BIND_MAP_NAME, surface->name);
+    if (!map && surface->has_colour) {
+        map = find_binding(binder, LRCS_BIND_MAP_COLOUR, surface->rgb, sizeof surface->rgb);
+    }
+    const lrcs_brdf_entry *entry = lrcs_brdf_find(surface->name);
+    if (map) {
+        apply(binder, map, material);
+    } else if (entry) {
+        dress(material, &entry->brdf, -1);
+    } else {
+        apply_default(binder, material);
+    }
+}
+
+lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,
+                                   const lrcs_surface *surface)
+{
+    const lrcs_binding *name = find_named(binder, LRCS_BIND_NAME, surface->name);
+    const lrcs_binding *colour =
+        surface->has_colour
+            ? find_binding(binder, LRCS_BIND_COLOUR, surface->rgb, sizeof surface->rgb)
+            : NULL;
+    lrcs_material material;
+    memset(&material, 0, sizeof material);
+    material.name = surface->name;
+    memcpy(material.rgb, surface->rgb, sizeof material.rgb);
+    material.has_colour = surface->has_colour;
+    material.two_sided = surface->two_sided;
+    material.omitted =
+        !binder->recipe->keep_transparent && surface->transparency >= TRANSPARENCY_OMITTED;
+    if (name || colour) {
+        const lrcs_binding *binding = name ? name : colour;
+        dress(&material, &binding->brdf, binding->two_sided);
+    } else if (worn != LRCS_NONE) {
+        wear(binder, worn, &material);
+    } else {
+        apply_map(binder, surface, &material);
+    }
+    return material;
+}
+
+uint32_t lrcsi_binder_unmatched(const lrcsi_binder *binder)
+{
+    const lrcs_recipe *recipe = binder->recipe;
+    for (uint32_t i = 0; i < recipe->binding_count; i++) {
+        const lrcs_binding *binding = &recipe->binding[i];
+        if (binding->kind == LRCS_BIND_NAME || binding->kind == LRCS_BIND_COLOUR) {
+            size_t size;
+            const void *key = key_of(binding, &size);
+            if (!binder->matched[find(binder, binding->kind, key, size)]) {
+                return i;
+            }
+        }
+    }
+    return LRCS_NONE;
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/* Which BRDF a surface gets: the order of precedence that <lrcs/scene.h> states, and which
+   bindings matched anything. */
+#ifndef LRCSI_BIND_H
+#define LRCSI_BIND_H
+
+#include <lrcs/scene.h>
+
+#include "scene/index.h"
+
+typedef struct lrcsi_binder {
+    const lrcs_recipe *recipe;
+    lrcsi_index names;      /* bindings by kind and name or colour; materials of the recipe */
+    unsigned char *matched; /* by binding, the last of equal ones standing for all */
+    int indexed;            /* 0: search the recipe instead (slow, no work area) */
+} lrcsi_binder;
+
+/* Bytes that lrcsi_binder_make takes (upper bound). */
+size_t lrcsi_binder_need(const lrcs_recipe *recipe);
+
+/* A binder that searches the recipe itself: for a few questions. Nothing is marked as matched. */
+lrcsi_binder lrcsi_binder_plain(const lrcs_recipe *recipe);
+
+/* A binder with an index. Status: LRCS_OK; LRCS_E_MEMORY. */
+int lrcsi_binder_make(const lrcs_recipe *recipe, lrcs_work *work, lrcsi_binder *binder);
+
+/* How many different materials parts can wear: the recipe's, then the library's. */
+uint32_t lrcsi_binder_wardrobe(const lrcs_recipe *recipe);
+
+/* What a part wears as a whole, below lrcsi_binder_wardrobe, or LRCS_NONE. Status: LRCS_OK;
+   LRCS_E_NAME. */
+int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, uint32_t *worn);
+
+/* The material of surfaces without a name of their own, on a part that wears `worn` (or
+   LRCS_NONE). */
+lrcs_material lrcsi_binder_bare(const lrcsi_binder *binder, uint32_t worn);
+
+/* The material of a model's surface on a part that wears `worn` (or LRCS_NONE). */
+lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,
+                                   const lrcs_surface *surface);
+
+/* The first NAME or COLOUR binding that no surface, recipe material or worn material answered
+   to, or LRCS_NONE. After all surfaces were asked for. */
+uint32_t lrcsi_binder_unmatched(const lrcsi_binder *binder);
+
+#endif

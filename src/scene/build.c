@@ -1,0 +1,470 @@
+/* SPDX-License-Identifier: MIT */
+/* From a recipe to a scene: counts first, then one pass over the parts that dresses, copies and
+   places them. Decides the order of everything in the scene; what binds is bind.c, what moves is
+   place.c, what a shape's mesh is like is the mesh layer. */
+#include <math.h>
+#include <string.h>
+
+#include <lrcs/read.h>
+
+#include "base/degrees.h"
+#include "base/where.h"
+#include "base/work.h"
+#include "scene/bind.h"
+#include "scene/place.h"
+
+/* Coordinates beyond this are refused: their squares and cubes must stay doubles. */
+#define COORDINATE_MOST 1e100
+
+typedef struct scene_builder {
+    const lrcs_recipe *recipe;
+    const lrcs_mesh *models;
+    const lrcs_build_options *options;
+    lrcs_where *where;
+    lrcsi_binder binder;
+    uint32_t *entry; /* by worn material: its place among the scene's materials, or LRCS_NONE */
+    uint32_t bare;   /* the place of "", or LRCS_NONE */
+} scene_builder;
+
+/* A part's mesh on its way into the scene. */
+typedef struct scene_piece {
+    const lrcs_recipe_part *part;
+    uint32_t worn;
+    uint32_t surfaces; /* where those of its mesh begin among the scene's materials */
+    lrcsi_placer placer;
+} scene_piece;
+
+lrcs_build_options lrcs_build_options_default(void)
+{
+    lrcs_build_options options = {1e-4, UINT32_C(1) << 20};
+    return options;
+}
+
+/* --- complaints ---------------------------------------------------------------------------- */
+
+static int refuse_part(const scene_builder *builder, int status, const lrcs_recipe_part *part,
+                       const char *expected)
+{
+    const char *name = part->name ? part->name : "";
+    return lrcsi_where_text(builder->where, status, 0, part->line, "part", expected, name,
+                            strlen(name));
+}
+
+static int refuse_memory(const scene_builder *builder)
+{
+    return lrcsi_where_text(builder->where, LRCS_E_MEMORY, 0, 0, "work area",
+                            "lrcs_scene_need bytes", "", 0);
+}
+
+/* --- counting ------------------------------------------------------------------------------ */
+
+static int find_worn(const scene_builder *builder, const lrcs_recipe_part *part, uint32_t *worn)
+{
+    int status = lrcsi_binder_worn(&builder->binder, part, worn);
+    return status == LRCS_OK
+               ? LRCS_OK
+               : lrcsi_where_text(builder->where, status, 0, part->material_line, "material",
+                                  "the name of a material of the recipe or of the library",
+                                  part->material, strlen(part->material));
+}
+
+/* How a shape is divided, for the material it wears. */
+static int count_shape(const scene_builder *builder, const lrcs_recipe_part *part,
+                       lrcs_divisions *divisions, lrcs_mesh_counts *counts)
+{
+    uint32_t worn;
+    int status = find_worn(builder, part, &worn);
+    if (status == LRCS_OK) {
+        status = lrcs_shape_check(&part->shape, builder->where);
+        if (status != LRCS_OK && builder->where) {
+            builder->where->line = part->line;
+        }
+    }
+    if (status != LRCS_OK) {
+        return status;
+    }
+    lrcs_material material = lrcsi_binder_bare(&builder->binder, worn);
+    lrcs_fineness fineness = {builder->options->tolerance, material.brdf,
+                              builder->options->max_facets};
+    status = lrcs_shape_count(&part->shape, &fineness, divisions, counts);
+    return status == LRCS_OK ? LRCS_OK
+                             : refuse_part(builder, status, part,
+                                           "a shape, material and "
+                                           "tolerance in their domains");
+}
+
+static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts *counts)
+{
+    const lrcs_recipe_part *part = &builder->recipe->part[i];
+    lrcs_divisions divisions;
+    if (!part->file) {
+        return count_shape(builder, part, &divisions, counts);
+    }
+    const lrcs_mesh *mesh = &builder->models[i];
+    *counts = (lrcs_mesh_counts){mesh->vertex_count, mesh->facet_count, mesh->material_count,
+                                 mesh->part_count, 0};
+    return LRCS_OK;
+}
+
+typedef struct scene_totals {
+    uint64_t vertices, facets, materials;
+    size_t scratch; /* the largest mesh made on the way */
+} scene_totals;
+
+static int count_scene(const scene_builder *builder, scene_totals *totals)
+{
+    const lrcs_recipe *recipe = builder->recipe;
+    *totals = (scene_totals){0, 0, lrcsi_binder_wardrobe(recipe) + UINT64_C(1), 0};
+    for (uint32_t i = 0; i < recipe->part_count; i++) {
+        lrcs_mesh_counts counts;
+        int status = count_part(builder, i, &counts);
+        if (status != LRCS_OK) {
+            return status;
+        }
+        size_t need = recipe->part[i].file ? 0 : lrcs_mesh_need(&counts);
+        totals->scratch = need > totals->scratch ? need : totals->scratch;
+        totals->vertices += counts.vertices;
+        totals->facets += counts.facets;
+        totals->materials += counts.materials;
+        if (totals->vertices >= LRCS_NONE || totals->facets >= LRCS_NONE ||
+            totals->materials >= LRCS_NONE) {
+            return refuse_part(builder, LRCS_E_LIMIT, &recipe->part[i],
+                               "fewer than 2^32 - 1 vertices, facets and materials up to here");
+        }
+    }
+    return LRCS_OK;
+}
+
+static size_t array_need(const scene_totals *totals, uint32_t parts)
+{
+    const size_t block[] = {
+        lrcsi_work_bytes((size_t)totals->vertices, sizeof(lrcs_point)),
+        lrcsi_work_bytes((size_t)totals->facets, sizeof(lrcs_facet)),
+        lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
+        lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
+        lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
+        lrcsi_work_bytes((size_t)totals->materials, sizeof(lrcs_material)),
+        lrcsi_work_bytes(parts, sizeof(lrcs_part)),
+    };
+    size_t need = 0;
+    for (size_t i = 0; i < sizeof block / sizeof block[0]; i++) {
+        need = lrcsi_work_add(need, block[i]);
+    }
+    return need;
+}
+
+size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
+                       const lrcs_build_options *options)
+{
+    scene_builder builder = {.recipe = recipe,
+                             .models = models,
+                             .options = options,
+                             .binder = lrcsi_binder_plain(recipe)};
+    scene_totals totals;
+    count_scene(&builder, &totals); /* where it fails, so will building: before it needs more */
+    size_t need = array_need(&totals, recipe->part_count);
+    need = lrcsi_work_add(need, lrcsi_binder_need(recipe));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(lrcsi_binder_wardrobe(recipe), sizeof(uint32_t)));
+    return lrcsi_work_add(need, totals.scratch);
+}
+
+/* --- materials ----------------------------------------------------------------------------- */
+
+static int add_material(const scene_builder *builder, const lrcs_material *material,
+                        lrcs_scene *scene)
+{
+    int status = lrcs_brdf_check(&material->brdf);
+    if (status < 0) {
+        return lrcsi_where_text(builder->where, status, 0, 0, "material",
+                                "A, B, m >= 0 and s > 0 (0 only with A = 0)", material->name,
+                                strlen(material->name));
+    }
+    scene->material[scene->material_count++] = *material;
+    return LRCS_OK;
+}
+
+/* Where the material of facets without a surface stands; added where it is new. */
+static int bare_entry(scene_builder *builder, uint32_t worn, lrcs_scene *scene, uint32_t *entry)
+{
+    uint32_t *slot = worn != LRCS_NONE ? &builder->entry[worn] : &builder->bare;
+    int status = LRCS_OK;
+    if (*slot == LRCS_NONE) {
+        lrcs_material material = lrcsi_binder_bare(&builder->binder, worn);
+        *slot = scene->material_count;
+        status = add_material(builder, &material, scene);
+    }
+    *entry = *slot;
+    return status;
+}
+
+static int add_surfaces(scene_builder *builder, const lrcs_mesh *mesh, scene_piece *piece,
+                        lrcs_scene *scene)
+{
+    piece->surfaces = scene->material_count;
+    for (uint32_t i = 0; i < mesh->material_count; i++) {
+        lrcs_material material =
+            lrcsi_binder_surface(&builder->binder, piece->worn, &mesh->material[i]);
+        int status = add_material(builder, &material, scene);
+        if (status != LRCS_OK) {
+            return status;
+        }
+    }
+    return LRCS_OK;
+}
+
+/* --- geometry ------------------------------------------------------------------------------ */
+
+static int add_vertices(const scene_builder *builder, const lrcs_mesh *mesh,
+                        const scene_piece *piece, lrcs_scene *scene)
+{
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        double *placed = scene->vertex[scene->vertex_count + i].x;
+        lrcsi_placer_run(&piece->placer, mesh->vertex[i].x, placed);
+        for (int k = 0; k < 3; k++) {
+            if (!(fabs(placed[k]) <= COORDINATE_MOST)) {
+                return refuse_part(builder, LRCS_E_NUMBER, piece->part,
+                                   "coordinates of at most 1e100 m after placing");
+            }
+        }
+    }
+    return LRCS_OK;
+}
+
+static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene_piece *piece,
+                      lrcs_scene *scene)
+{
+    uint32_t base = scene->vertex_count;
+    for (uint32_t i = 0; i < mesh->facet_count; i++) {
+        uint32_t to = scene->facet_count + i;
+        const uint32_t *corner = mesh->facet[i].corner;
+        uint32_t surface = mesh->facet_material[i];
+        if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count ||
+            corner[2] >= mesh->vertex_count ||
+            (surface != LRCS_NONE && surface >= mesh->material_count)) {
+            return refuse_part(builder, LRCS_E_INDEX, piece->part,
+                               "corners and materials that its mesh has");
+        }
+        int flip = piece->placer.flips;
+        scene->facet[to] = (lrcs_facet){
+            {base + corner[0], base + corner[flip ? 2 : 1], base + corner[flip ? 1 : 2]}};
+        scene->facet_part[to] = scene->part_count;
+        scene->facet_smooth[to] = mesh->facet_smooth[i];
+        scene->facet_material[to] = piece->surfaces + surface;
+        if (surface == LRCS_NONE) {
+            int status = bare_entry(builder, piece->worn, scene, &scene->facet_material[to]);
+            if (status != LRCS_OK) {
+                return status;
+            }
+        }
+    }
+    return LRCS_OK;
+}
+
+/* The least of a shape's extents, in its own units; 0 for what is flat. */
+static double least_extent(const lrcs_shape *shape)
+{
+    double sine;
+    double cosine;
+    double length = shape->length;
+    double across = 2.0 * fmax(shape->radius, shape->radius2);
+    switch (shape->kind) {
+    case LRCS_SHAPE_PLATE:
+    case LRCS_SHAPE_DISC:
+        return 0.0;
+    case LRCS_SHAPE_BOX:
+        return fmin(shape->size[0], fmin(shape->size[1], shape->size[2]));
+    case LRCS_SHAPE_SPHERE:
+        return across;
+    case LRCS_SHAPE_DOME:
+        return shape->radius;
+    default:
+        if (shape->half_angle_deg > 0.0) {
+            lrcsi_degrees_sincos(shape->half_angle_deg, &sine, &cosine);
+            length = shape->radius * cosine / sine;
+        }
+        return fmin(across, length);
+    }
+}
+
+/* 1 where a shape's surface is closed: it has caps or needs none. */
+static int is_closed(const lrcs_shape *shape)
+{
+    return shape->kind == LRCS_SHAPE_BOX || shape->kind == LRCS_SHAPE_SPHERE ||
+           (shape->kind != LRCS_SHAPE_PLATE && shape->kind != LRCS_SHAPE_DISC &&
+            shape->parts == LRCS_SHAPE_ALL);
+}
+
+/* How far a shape's placed vertices may be off. The mesh's own coordinates are good to a relative
+   (16 + rings) u (src/mesh/profile.c), but for what underflows. */
+static double misplacement(const lrcs_mesh *mesh, const lrcs_divisions *divisions,
+                           const lrcsi_placer *placer)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        const double *x = mesh->vertex[i].x;
+        most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
+    }
+    double error = (17.0 + (double)divisions->along) * 0x1p-53 * most + 0x1p-1022;
+    return lrcsi_placer_error(placer, most + error, error);
+}
+
+/* What holds of a placed shape by construction. Curvature outlives uniform scaling only; convexity
+   any affine map, and with the winding flipped the outside stays outside under a mirror. */
+static void describe_shape(const scene_piece *piece, const lrcs_curvature *curvature,
+                           lrcs_part *part)
+{
+    const lrcs_recipe_part *recipe = piece->part;
+    const double *scale = recipe->place.scale;
+    double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->lean == 0.0 &&
+                curvature->spread == 0.0;
+    part->kind = recipe->shape.kind;
+    part->curvature = *curvature;
+    part->curvature_known = plane || least == most;
+    part->convex_patch = 1;
+    part->thinnest = least * least_extent(&recipe->shape);
+    part->solid = is_closed(&recipe->shape) && part->thinnest > 0.0;
+}
+
+/* --- parts --------------------------------------------------------------------------------- */
+
+static int add_piece(scene_builder *builder, const lrcs_mesh *mesh, scene_piece *piece,
+                     lrcs_scene *scene)
+{
+    lrcs_part *part = &scene->part[scene->part_count];
+    part->name = piece->part->name;
+    part->first_facet = scene->facet_count;
+    part->facet_count = mesh->facet_count;
+    part->articulated = piece->part->joint.used;
+    int status = add_surfaces(builder, mesh, piece, scene);
+    if (status == LRCS_OK) {
+        status = add_vertices(builder, mesh, piece, scene);
+    }
+    if (status == LRCS_OK) {
+        status = add_facets(builder, mesh, piece, scene);
+    }
+    scene->vertex_count += mesh->vertex_count;
+    scene->facet_count += mesh->facet_count;
+    scene->part_count++;
+    return status;
+}
+
+static int add_shape(scene_builder *builder, scene_piece *piece, lrcs_work *work, lrcs_scene *scene)
+{
+    size_t mark = work->used;
+    lrcs_divisions divisions;
+    lrcs_mesh_counts counts;
+    lrcs_mesh mesh;
+    lrcs_curvature curvature;
+    int status = count_shape(builder, piece->part, &divisions, &counts);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    status = lrcs_shape_mesh(&piece->part->shape, &divisions, work, &mesh, &curvature);
+    if (status != LRCS_OK) {
+        return status == LRCS_E_MEMORY
+                   ? refuse_memory(builder)
+                   : refuse_part(builder, status, piece->part, "a shape that can be meshed");
+    }
+    lrcs_part *part = &scene->part[scene->part_count];
+    describe_shape(piece, &curvature, part);
+    part->misplaced = misplacement(&mesh, &divisions, &piece->placer);
+    status = add_piece(builder, &mesh, piece, scene);
+    work->used = mark;
+    return status;
+}
+
+static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_scene *scene)
+{
+    scene_piece piece;
+    memset(&piece, 0, sizeof piece);
+    piece.part = &builder->recipe->part[i];
+    int status = find_worn(builder, piece.part, &piece.worn);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    status = lrcsi_placer_make(&piece.part->place, &piece.part->joint, &piece.placer);
+    if (status != LRCS_OK) {
+        return refuse_part(builder, status, piece.part,
+                           "a finite place, no scale of 0, a joint's axis of some length");
+    }
+    if (!piece.part->file) {
+        return add_shape(builder, &piece, work, scene);
+    }
+    lrcs_part *part = &scene->part[scene->part_count];
+    part->kind = -1;
+    part->curvature_known = 1;
+    return add_piece(builder, &builder->models[i], &piece, scene);
+}
+
+static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *work,
+                      lrcs_scene *scene)
+{
+    memset(scene, 0, sizeof *scene);
+    scene->vertex = lrcsi_work_take(work, (size_t)totals->vertices, sizeof *scene->vertex);
+    scene->facet = lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet);
+    scene->facet_material =
+        lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_material);
+    scene->facet_part = lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_part);
+    scene->facet_smooth =
+        lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_smooth);
+    scene->material = lrcsi_work_take(work, (size_t)totals->materials, sizeof *scene->material);
+    scene->part = lrcsi_work_take_zero(work, parts, sizeof *scene->part);
+    return scene->vertex && scene->facet && scene->facet_material && scene->facet_part &&
+                   scene->facet_smooth && scene->material && scene->part
+               ? LRCS_OK
+               : LRCS_E_MEMORY;
+}
+
+/* Everything, in an area whose `used` the caller puts back on failure. */
+static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
+{
+    const lrcs_recipe *recipe = builder->recipe;
+    uint32_t wardrobe = lrcsi_binder_wardrobe(recipe);
+    scene_totals totals;
+    builder->binder = lrcsi_binder_plain(recipe);
+    int status = count_scene(builder, &totals);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    if (take_scene(&totals, recipe->part_count, work, scene) != LRCS_OK) {
+        return refuse_memory(builder);
+    }
+    size_t mark = work->used;
+    builder->entry = lrcsi_work_take(work, wardrobe, sizeof *builder->entry);
+    if (!builder->entry || lrcsi_binder_make(recipe, work, &builder->binder) != LRCS_OK) {
+        return refuse_memory(builder);
+    }
+    memset(builder->entry, 0xff, wardrobe * sizeof *builder->entry); /* LRCS_NONE */
+    for (uint32_t i = 0; i < recipe->part_count; i++) {
+        status = add_part(builder, i, work, scene);
+        if (status != LRCS_OK) {
+            return status;
+        }
+    }
+    scene->unmatched = lrcsi_binder_unmatched(&builder->binder);
+    work->used = mark;
+    return LRCS_OK;
+}
+
+int lrcs_scene_build(const lrcs_recipe *recipe, const lrcs_mesh *models,
+                     const lrcs_build_options *options, lrcs_work *work, lrcs_scene *scene,
+                     lrcs_where *where)
+{
+    scene_builder builder = {
+        .recipe = recipe, .models = models, .options = options, .where = where, .bare = LRCS_NONE};
+    lrcs_scene made;
+    size_t mark = work->used;
+    if (!(options->tolerance > 0.0) || !isfinite(options->tolerance) || options->max_facets < 64) {
+        return lrcsi_where_text(where, LRCS_E_ARGUMENT, 0, 0, "options",
+                                "a tolerance above 0 and at least 64 facets", "", 0);
+    }
+    int status = build(&builder, work, &made);
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    *scene = made;
+    return LRCS_OK;
+}

@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: MIT */
+/* Joint, scale, rotation, translation, in this order. Decides which of them are the identity and
+   are left out, and whether the whole mirrors. */
+#include "scene/place.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/rotate.h"
+
+/* A unit of rounding, u = 2^-53. */
+#define PLACE_UNIT 0x1p-53
+
+lrcs_place lrcs_place_default(void)
+{
+    lrcs_place place = {
+        {0.0, 0.0, 0.0}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {1.0, 1.0, 1.0}};
+    return place;
+}
+
+static int is_finite(const double v[3])
+{
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+static int is_identity(const double R[3][3])
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            if (R[i][j] != (i == j ? 1.0 : 0.0)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* The sign of det(R): for a rotation or reflection, +1 or -1 to rounding. */
+static int handedness(const double R[3][3])
+{
+    double det = R[0][0] * (R[1][1] * R[2][2] - R[1][2] * R[2][1]) -
+                 R[0][1] * (R[1][0] * R[2][2] - R[1][2] * R[2][0]) +
+                 R[0][2] * (R[1][0] * R[2][1] - R[1][1] * R[2][0]);
+    return (det > 0.0) - (det < 0.0);
+}
+
+static int make_joint(const lrcs_joint *joint, lrcsi_placer *placer)
+{
+    if (!joint->used) {
+        return LRCS_OK;
+    }
+    if (!is_finite(joint->origin)) {
+        return LRCS_E_NUMBER;
+    }
+    int status = lrcsi_rotate_axis(joint->axis, joint->angle_deg, placer->joint);
+    placer->turns = status == LRCS_OK && !is_identity((const double(*)[3])placer->joint);
+    memcpy(placer->origin, joint->origin, sizeof placer->origin);
+    return status;
+}
+
+int lrcsi_placer_make(const lrcs_place *place, const lrcs_joint *joint, lrcsi_placer *placer)
+{
+    int finite = is_finite(place->translate) && is_finite(place->scale);
+    for (int i = 0; i < 3; i++) {
+        finite = finite && is_finite(place->rotate[i]);
+    }
+    if (!finite) {
+        return LRCS_E_NUMBER;
+    }
+    int hand = handedness(place->rotate);
+    memset(placer, 0, sizeof *placer);
+    placer->place = *place;
+    placer->rotates = !is_identity(place->rotate);
+    for (int i = 0; i < 3; i++) {
+        hand = place->scale[i] == 0.0 ? 0 : place->scale[i] < 0.0 ? -hand : hand;
+        placer->scales |= place->scale[i] != 1.0;
+        placer->moves |= place->translate[i] != 0.0;
+    }
+    placer->flips = hand < 0;
+    return hand == 0 ? LRCS_E_ARGUMENT : make_joint(joint, placer);
+}
+
+static void turn(const double R[3][3], double v[3])
+{
+    const double x = v[0];
+    const double y = v[1];
+    const double z = v[2];
+    for (int i = 0; i < 3; i++) {
+        v[i] = R[i][0] * x + R[i][1] * y + R[i][2] * z;
+    }
+}
+
+void lrcsi_placer_run(const lrcsi_placer *placer, const double given[3], double placed[3])
+{
+    double v[3] = {given[0], given[1], given[2]};
+    if (placer->turns) {
+        for (int i = 0; i < 3; i++) {
+            v[i] -= placer->origin[i];
+        }
+        turn((const double(*)[3])placer->joint, v);
+        for (int i = 0; i < 3; i++) {
+            v[i] += placer->origin[i];
+        }
+    }
+    for (int i = 0; placer->scales && i < 3; i++) {
+        v[i] *= placer->place.scale[i];
+    }
+    if (placer->rotates) {
+        turn((const double(*)[3])placer->place.rotate, v);
+    }
+    for (int i = 0; placer->moves && i < 3; i++) {
+        v[i] += placer->place.translate[i];
+    }
+    memcpy(placed, v, sizeof v);
+}
+
+/* A bound on magnitudes, and on how far they are off. */
+typedef struct placed_bound {
+    double most, error;
+} placed_bound;
+
+/* x + t rounds once: u (|x| + error + |t|), where 2 u leaves room for the sums here. */
+static placed_bound bound_move(placed_bound x, const double t[3])
+{
+    double step = fmax(fabs(t[0]), fmax(fabs(t[1]), fabs(t[2])));
+    double most = x.most + step;
+    return (placed_bound){most, x.error + 2.0 * PLACE_UNIT * (most + x.error)};
+}
+
+/* s x rounds once; a denormal result, by less than 2^-1074 more. */
+static placed_bound bound_scale(placed_bound x, const double s[3])
+{
+    double factor = fmax(fabs(s[0]), fmax(fabs(s[1]), fabs(s[2])));
+    double most = factor * x.most;
+    double error = factor * x.error;
+    return (placed_bound){most, error + 2.0 * PLACE_UNIT * (most + error) + 0x1p-1074};
+}
+
+/* Three products and two sums: at most 3 u (1 + 3 u) times the sum of their magnitudes, which is
+   at most the largest sum of |R_ij| over a row times |x|. */
+static placed_bound bound_turn(placed_bound x, const double R[3][3])
+{
+    double row = 0.0;
+    for (int i = 0; i < 3; i++) {
+        row = fmax(row, fabs(R[i][0]) + fabs(R[i][1]) + fabs(R[i][2]));
+    }
+    double most = row * x.most;
+    double error = row * x.error;
+    return (placed_bound){most, error + 4.0 * PLACE_UNIT * (most + error) + 0x1p-1072};
+}
+
+double lrcsi_placer_error(const lrcsi_placer *placer, double most, double error)
+{
+    placed_bound x = {most, error};
+    if (placer->turns) {
+        x = bound_move(x, placer->origin);
+        x = bound_turn(x, (const double(*)[3])placer->joint);
+        x = bound_move(x, placer->origin);
+    }
+    if (placer->scales) {
+        x = bound_scale(x, placer->place.scale);
+    }
+    if (placer->rotates) {
+        x = bound_turn(x, (const double(*)[3])placer->place.rotate);
+    }
+    if (placer->moves) {
+        x = bound_move(x, placer->place.translate);
+    }
+    /* sqrt(3) from a coordinate to a distance, and the few roundings of the bound itself. */
+    return 1.7321 * x.error;
+}

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: MIT */
+/* The region of the view plane in which one facet hides another. Which facets can do so, and on
+   which side of the other's plane their corners lie, is decided exactly; only places are computed
+   in doubles, and visibility/occlude.c accounts for that. */
+#include "visibility/occluder.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/dd.h"
+#include "base/exact.h"
+#include "visibility/sample.h"
+
+#define U 0x1p-53
+
+/* An occluder, in the target's frame. */
+typedef struct occlude_caster {
+    double corner[3][2];
+    double height[3]; /* above the target's plane, along its normal, times a positive constant */
+    int above[3];     /* exact signs of those */
+    double off[3];    /* bounds on the errors of the heights */
+    double reach;     /* largest distance of a corner from the target's first */
+} occlude_caster;
+
+/* --- coordinates ------------------------------------------------------------------------------ */
+
+/* A scene point relative to the target's first corner, in the view plane; returns its distance. */
+static double frame_point(const lrcsi_view *view, const double *origin, const double *x,
+                          double out[2])
+{
+    double p[3];
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        p[k] = x[k] - origin[k];
+        square += p[k] * p[k];
+    }
+    for (int k = 0; k < 2; k++) {
+        out[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
+    }
+    return sqrt(square);
+}
+
+/* Corners of a facet in the target's frame, counter-clockwise; returns the farthest distance. */
+static double frame_facet(const lrcsi_view *view, uint32_t target, uint32_t facet,
+                          double corner[3][2])
+{
+    const double *origin = lrcsi_prepared_corner(view->prepared, target, 0);
+    double reach = 0;
+    for (int k = 0; k < 3; k++) {
+        int from = view->facing[facet] > 0 ? k : (3 - k) % 3;
+        const double *x = lrcsi_prepared_corner(view->prepared, facet, from);
+        reach = fmax(reach, frame_point(view, origin, x, corner[k]));
+    }
+    return reach;
+}
+
+void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
+{
+    *t = (lrcsi_target){.view = view, .facet = facet};
+    double reach = frame_facet(view, facet, facet, t->corner);
+    t->diameter = 2 * reach;
+    for (int k = 0; k < 2; k++) {
+        t->low[k] = fmin(t->corner[0][k], fmin(t->corner[1][k], t->corner[2][k]));
+        t->high[k] = fmax(t->corner[0][k], fmax(t->corner[1][k], t->corner[2][k]));
+    }
+}
+
+/* --- candidates ------------------------------------------------------------------------------- */
+
+/* Do all corners of `other` lie on or outside the line of one of `facet`'s sides? Exact. */
+static int sides_part(const lrcsi_view *view, uint32_t facet, uint32_t other)
+{
+    const lrcs_prepared *p = view->prepared;
+    for (int k = 0; k < 3; k++) {
+        const double *a = lrcsi_prepared_corner(p, facet, k);
+        const double *b = lrcsi_prepared_corner(p, facet, (k + 1) % 3);
+        int inside = 0;
+        for (int i = 0; i < 3 && !inside; i++) {
+            inside = view->facing[facet] * lrcsi_exact_turn(a, b, lrcsi_prepared_corner(p, other, i),
+                                                            view->direction) > 0;
+        }
+        if (!inside) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Every corner behind the target's farthest, or beside its box, beyond the view's error: the cheap
+   test that most candidates fail. */
+static int surely_behind(const lrcsi_target *t, uint32_t other)
+{
+    const lrcsi_view *view = t->view;
+    const uint32_t *own = view->prepared->scene->facet[t->facet].corner;
+    const uint32_t *its = view->prepared->scene->facet[other].corner;
+    double off = 4 * view->off;
+    for (int k = 0; k < 3; k++) {
+        double own_low = HUGE_VAL;
+        double own_high = -HUGE_VAL;
+        double its_low = HUGE_VAL;
+        double its_high = -HUGE_VAL;
+        for (int i = 0; i < 3; i++) {
+            own_low = fmin(own_low, view->point[own[i]].x[k]);
+            own_high = fmax(own_high, view->point[own[i]].x[k]);
+            its_low = fmin(its_low, view->point[its[i]].x[k]);
+            its_high = fmax(its_high, view->point[its[i]].x[k]);
+        }
+        if (its_high < own_low - off || (k < 2 && its_low > own_high + off)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* N . (x - a) for the target's plane, in double-double: off by 32 u^2 |N| |x - a| and N's own
+   error. Only its size matters: its sign is asked exactly where that could be wrong. */
+static double plane_height(const lrcsi_view *view, uint32_t facet, const double *x, double *off)
+{
+    const lrcsi_normal *n = &view->prepared->normal[facet];
+    const double *a = lrcsi_prepared_corner(view->prepared, facet, 0);
+    lrcsi_dd sum = {0, 0};
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        lrcsi_dd gap = lrcsi_dd_two_sum(x[k], -a[k]);
+        sum = lrcsi_dd_add(sum, lrcsi_dd_mul((lrcsi_dd){n->high[k], n->low[k]}, gap));
+        square += gap.hi * gap.hi;
+    }
+    *off = (32 * U * U * n->length + n->error) * sqrt(square);
+    return view->facing[facet] * lrcsi_dd_value(sum);
+}
+
+/* Reads an occluder's heights above the target. 1 where it can hide some of it. */
+static int caster_heights(const lrcsi_target *t, uint32_t other, occlude_caster *caster)
+{
+    const lrcsi_view *view = t->view;
+    const lrcs_prepared *p = view->prepared;
+    int any = 0;
+    int flat = 1;
+    for (int k = 0; k < 3; k++) {
+        int from = view->facing[other] > 0 ? k : (3 - k) % 3;
+        const double *x = lrcsi_prepared_corner(p, other, from);
+        double height = plane_height(view, t->facet, x, &caster->off[k]);
+        caster->height[k] = height;
+        caster->above[k] = height > 0 ? 1 : -1;
+        if (!(fabs(height) > 2 * caster->off[k])) {
+            caster->above[k] = view->facing[t->facet] *
+                               lrcsi_exact_side(lrcsi_prepared_corner(p, t->facet, 0),
+                                                lrcsi_prepared_corner(p, t->facet, 1),
+                                                lrcsi_prepared_corner(p, t->facet, 2), x);
+        }
+        any |= caster->above[k] > 0;
+        flat &= caster->above[k] == 0;
+    }
+    if (flat) { /* coincident planes: the rules of precedence decide, and nothing needs cutting */
+        caster->above[0] = caster->above[1] = caster->above[2] = 1;
+        return lrcsi_sample_beats(view, other, t->facet);
+    }
+    return any;
+}
+
+/* --- regions ---------------------------------------------------------------------------------- */
+
+static void region_line(lrcsi_clip_region *region, const double *from, const double *to)
+{
+    lrcsi_clip_line *line = &region->line[region->lines++];
+    for (int k = 0; k < 2; k++) {
+        line->at[k] = from[k];
+        line->to[k] = to[k] - from[k];
+    }
+}
+
+static void region_grow(lrcsi_clip_region *region, const double *p)
+{
+    for (int k = 0; k < 2; k++) {
+        region->low[k] = fmin(region->low[k], p[k]);
+        region->high[k] = fmax(region->high[k], p[k]);
+    }
+}
+
+/* Where the side k of the occluder passes through the target's plane, and how far that may be off:
+   the share t = h / (h - h') moves by at most the heights' errors over |h| + |h'|. */
+static double side_cut(const occlude_caster *c, int k, double at[2])
+{
+    int next = (k + 1) % 3;
+    double span = fabs(c->height[k]) + fabs(c->height[next]);
+    double off = c->off[k] + c->off[next];
+    double t = fmin(1, fabs(c->height[k]) / span);
+    for (int i = 0; i < 2; i++) {
+        at[i] = c->corner[k][i] + t * (c->corner[next][i] - c->corner[k][i]);
+    }
+    return span > 2 * off ? 4 * c->reach * (off / span) : HUGE_VAL;
+}
+
+/* The points where the cut by the target's plane enters and leaves the occluder. */
+typedef struct region_cut {
+    double leave[2], enter[2];
+    int real;    /* some side passes through the plane, not only a corner */
+    double slip; /* how far the points may be off */
+} region_cut;
+
+/* Side k of the occluder, walked counter-clockwise: its part in the cut. */
+static void region_side(const occlude_caster *c, int k, region_cut *cut)
+{
+    int from = c->above[k];
+    int to = c->above[(k + 1) % 3];
+    if (from * to < 0) {
+        cut->slip += side_cut(c, k, from > 0 ? cut->leave : cut->enter);
+        cut->real = 1;
+    } else if (from == 0 && to < 0) {
+        memcpy(cut->leave, c->corner[k], sizeof cut->leave);
+    } else if (from < 0 && to == 0) {
+        memcpy(cut->enter, c->corner[(k + 1) % 3], sizeof cut->enter);
+    }
+}
+
+/* The occluder's triangle, cut where its plane passes behind the target's. The cut leaves one side
+   downwards and enters another upwards; its line runs from the one point to the other. Ends
+   closer than their own error make no line: either what they cut off is no wider, or all that is
+   left, and then there is no region: 0. */
+static int region_make(const occlude_caster *c, lrcsi_clip_region *region, double *slip)
+{
+    region_cut cut = {{0, 0}, {0, 0}, 0, 0};
+    *region = (lrcsi_clip_region){.low = {HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL}};
+    for (int k = 0; k < 3; k++) {
+        int next = (k + 1) % 3;
+        if (c->above[k] >= 0) {
+            region_grow(region, c->corner[k]);
+        }
+        if (c->above[k] > 0 || c->above[next] > 0 || (c->above[k] == 0 && c->above[next] == 0)) {
+            region_line(region, c->corner[k], c->corner[next]);
+        }
+        region_side(c, k, &cut);
+    }
+    *slip = cut.slip;
+    if (!cut.real) {
+        return 1;
+    }
+    region_grow(region, cut.leave);
+    region_grow(region, cut.enter);
+    double length = hypot(cut.enter[0] - cut.leave[0], cut.enter[1] - cut.leave[1]);
+    if (!(length > 64 * U * c->reach)) {
+        return region->lines == 3;
+    }
+    region_line(region, cut.leave, cut.enter);
+    return 1;
+}
+
+/* --- one occluder ------------------------------------------------------------------------------ */
+
+static int box_misses_target(const lrcsi_target *t, const occlude_caster *c)
+{
+    double off = 16 * U * (c->reach + t->diameter);
+    for (int k = 0; k < 2; k++) {
+        double low = fmin(c->corner[0][k], fmin(c->corner[1][k], c->corner[2][k]));
+        double high = fmax(c->corner[0][k], fmax(c->corner[1][k], c->corner[2][k]));
+        if (low > t->high[k] + off || high < t->low[k] - off) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *occluder)
+{
+    const lrcsi_view *view = t->view;
+    occlude_caster caster = {.reach = 0};
+    double slip = 0;
+    if (surely_behind(t, other) || !caster_heights(t, other, &caster)) {
+        return 0;
+    }
+    caster.reach = frame_facet(view, t->facet, other, caster.corner);
+    if (box_misses_target(t, &caster) || sides_part(view, t->facet, other) ||
+        sides_part(view, other, t->facet) || !region_make(&caster, &occluder->region, &slip)) {
+        return 0;
+    }
+    occluder->error = 4 * (slip + 10 * U * (caster.reach + t->diameter));
+    return 1;
+}

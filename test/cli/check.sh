@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+# For the shell tests of the tool: what it is asked, and what its answer must be.
+# Sourced with $1 the tool's path; sets out (stdout), err (stderr), rc and a scratch folder.
+tool=$1
+case $tool in /*) ;; *) tool=$PWD/$tool ;; esac
+root=$(cd "$(dirname "$0")/../.." && pwd)
+models=$root/../shared/models
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+failures=0
+
+ok() { echo "ok $1"; }
+not_ok() {
+    echo "not ok $1: ${2:-}"
+    failures=$((failures + 1))
+}
+
+# run ARGUMENTS...: runs the tool.
+run() {
+    asked="lrcs $*"
+    out=$("$tool" "$@" 2>"$scratch/.err")
+    rc=$?
+    err=$(cat "$scratch/.err")
+}
+
+# same NAME GOT WANT
+same() {
+    if [ "$2" = "$3" ]; then ok "$1"; else not_ok "$1" "got '$2', want '$3'"; fi
+}
+
+# usage_error NAME TEXT ARGUMENTS...: exit 2, nothing on stdout, TEXT in the message.
+usage_error() {
+    name=$1
+    text=$2
+    shift 2
+    run "$@"
+    case $err in
+    *"$text"*) found=1 ;;
+    *) found=0 ;;
+    esac
+    if [ "$rc" -eq 2 ] && [ -z "$out" ] && [ "$found" -eq 1 ]; then
+        ok "$name"
+    else
+        not_ok "$name" "exit $rc, stdout '$out', stderr '$err', wanted '$text'"
+    fi
+}
+
+# failure NAME TEXT ARGUMENTS...: exit 1, nothing on stdout, TEXT in the message.
+failure() {
+    name=$1
+    text=$2
+    shift 2
+    run "$@"
+    case $err in
+    *"$text"*) found=1 ;;
+    *) found=0 ;;
+    esac
+    if [ "$rc" -eq 1 ] && [ -z "$out" ] && [ "$found" -eq 1 ]; then
+        ok "$name"
+    else
+        not_ok "$name" "exit $rc, stdout '$out', stderr '$err', wanted '$text'"
+    fi
+}
+
+# keys: the top-level keys of the JSON in $out, in order, in one line.
+keys() { printf '%s\n' "$out" | sed -n 's/^  "\([a-z0-9_]*\)":.*/\1/p' | tr '\n' ' '; }
+
+# value KEY: what stands after a top-level key of the JSON in $out.
+value() { printf '%s\n' "$out" | sed -n "s/^  \"$1\": \(.*[^,]\),\{0,1\}\$/\1/p"; }
+
+finish() { [ "$failures" -eq 0 ]; }

@@ -1,0 +1,50 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# lrcs info and lrcs shape: keys and some numbers.
+. "$(dirname "$0")/check.sh"
+
+run info demo --json
+same info_exits_0 "$rc" 0
+same info_keys_in_order "$(keys)" "parts vertices facets area_m2 volume_m3 box_min_m box_max_m closed convex materials defects glint notices "
+same defects_keys "$(value defects | grep -cE '^\{"degenerate": [0-9]+, "duplicate": [0-9]+, "opposite_pairs": [0-9]+, "boundary_edges": [0-9]+, "nonmanifold_edges": [0-9]+\}$')" 1
+same library_values_are_called_illustrative "$(printf '%s\n' "$out" | grep -c illustrative | sed 's/[1-9][0-9]*/some/')" some
+run info demo
+same library_values_are_called_illustrative_to_people_too "$(printf '%s\n' "$out" | grep -c illustrative | sed 's/[1-9][0-9]*/some/')" some
+
+cat >"$scratch/box.toml" <<'END'
+[[part]]
+name = "box"
+shape = "box"
+size = [1, 2, 4]
+END
+run info "$scratch/box.toml" --json
+same box_counts "$(value parts) $(value facets)" "1 12"
+same box_area_and_volume "$(value area_m2) $(value volume_m3)" "28 8"
+same box_corners "$(value box_min_m) $(value box_max_m)" "[-0.5, -1, -2] [0.5, 1, 2]"
+same box_is_closed_and_convex "$(value closed) $(value convex)" "true true"
+same box_has_no_glint_entry "$(value glint)" "[]"
+same unbound_facets_are_noticed "$(printf '%s\n' "$out" | grep -c '12 of 12 facets have no material')" 1
+same unbound_facets_wear_the_default "$(printf '%s\n' "$out" | grep -c '"brdf": {"A": 1, "B": 0.25, "s": 0.2[0-9]*, "m": 0.5}')" 1
+
+run shape sphere --radius 1 --material 1,0.25,0.2,0.5 --json
+same shape_keys_in_order "$(keys)" "sigma_m2 sigma_glint_m2 sigma_diffuse_m2 bound_m2 "
+same sphere_spot_value "$(value sigma_m2 | cut -c1-13)" 7.24989628827
+run shape plate --size 1,1 --aspect=60 --material=1,0.25,0.2,0.5 --json
+same plate_spot_value "$(value sigma_m2 | cut -c1-13)" 0.55536036727
+run shape plate --size 1,1 --aspect 90 --json
+same plate_at_exactly_90_is_0 "$(value sigma_m2) $(value bound_m2)" "0 0"
+same missing_material_is_noticed "$(printf '%s\n' "$err" | grep -c '^notice: no --material')" 1
+run shape cone --radius 0.5 --half-angle 15 --parts wall --json --material 1,0.25,0.2,0.5
+same cone_spot_value "$(value sigma_m2 | cut -c1-12)" 0.3248883211
+run shape disc --radius 1 --material solar-cell --aspect 10
+same people_get_dbsm "$(printf '%s\n' "$out" | grep -c dBsm)" 1
+same shape_exits_0 "$rc" 0
+
+if [ -d "$models" ]; then
+    run info "$models/kepler.obj" --json
+    same kepler_counts "$(value parts | sed 's/[0-9]*/n/') $(value facets) $(value closed)" "n 392 true"
+    same kepler_finds_its_material_file "$(printf '%s\n' "$out" | grep -c '"#1100B9"')" 1
+else
+    echo "# $models is not there: its models are not tried"
+fi
+finish

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT */
+/* The z-buffer's bound against exact rational visibility: 210 small scenes full of degenerate
+   contacts (test/vectors/visible.py), at several resolutions, one-sided and two-sided. */
+#include <lrcs/lrcs.h>
+
+#include <string.h>
+
+#include "check.h"
+
+#define MOST 24
+
+typedef struct visible_case {
+    const char *kind;
+    uint32_t vertices, facets;
+    double direction[3];
+    lrcs_point vertex[MOST];
+    lrcs_facet facet[MOST];
+    double share[MOST]; /* of the projected area that is visible; -1: edge-on */
+} visible_case;
+
+static const visible_case cases[] = {
+#include "../vectors/visible.inc"
+};
+#define CASES (sizeof cases / sizeof *cases)
+
+/* The case as a scene of one part, in the buffers of `room`. */
+typedef struct scene_room {
+    visible_case copy;
+    uint32_t zero[MOST];
+    lrcs_material material;
+    lrcs_part part;
+    lrcs_scene scene;
+} scene_room;
+
+static void scene_of(const visible_case *c, int two_sided, scene_room *room)
+{
+    memset(room, 0, sizeof *room);
+    room->copy = *c;
+    room->material = (lrcs_material){"", {1, 0.25, 0.5, 0.5}, {0, 0, 0}, 0, 0, 0, 1};
+    room->material.two_sided = (unsigned char)two_sided;
+    room->part.name = "part";
+    room->part.kind = -1;
+    room->part.curvature_known = 1;
+    room->part.facet_count = c->facets;
+    room->scene = (lrcs_scene){.vertex_count = c->vertices,
+                               .facet_count = c->facets,
+                               .material_count = 1,
+                               .part_count = 1,
+                               .vertex = room->copy.vertex,
+                               .facet = room->copy.facet,
+                               .facet_material = room->zero,
+                               .facet_part = room->zero,
+                               .facet_smooth = room->zero,
+                               .material = &room->material,
+                               .part = &room->part,
+                               .unmatched = LRCS_NONE};
+}
+
+/* Eq. 2 from the exact shares, in long double: N . d and |N|^2 are small integers. */
+static double true_sigma(const visible_case *c, int two_sided, double *silhouette)
+{
+    long double sigma = 0;
+    long double seen = 0;
+    const double *d = c->direction;
+    long double dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    for (uint32_t f = 0; f < c->facets; f++) {
+        const double *a = c->vertex[c->facet[f].corner[0]].x;
+        const double *b = c->vertex[c->facet[f].corner[1]].x;
+        const double *e = c->vertex[c->facet[f].corner[2]].x;
+        double p[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+        double q[3] = {e[0] - a[0], e[1] - a[1], e[2] - a[2]};
+        double n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+                       p[0] * q[1] - p[1] * q[0]};
+        long double nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        long double dot = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+        if (c->share[f] < 0) {
+            continue;
+        }
+        long double cos2 = dot * dot / (nn * dd);
+        long double tan2 = (1 - cos2) / cos2;
+        long double area = 0.5L * sqrtl(nn) * c->share[f];
+        seen += area * sqrtl(cos2);
+        if (dot > 0 || two_sided) {
+            sigma += 4 * 3.14159265358979323846264338L * area *
+                     (expl(-tan2 / 0.25L) / (cos2 * cos2) + 0.25L * powl(cos2, 1.25L));
+        }
+    }
+    *silhouette = (double)seen;
+    return (double)sigma;
+}
+
+static void run_case(const visible_case *c, int two_sided, int method, uint32_t size,
+                     lrcs_result *result, lrcs_facet_record *records)
+{
+    scene_room room;
+    scene_of(c, two_sided, &room);
+    static unsigned char memory[16u << 20];
+    lrcs_work work = lrcs_work_make(memory, sizeof memory);
+    const lrcs_prepared *prepared = NULL;
+    assert_int_equal(lrcs_prepare_run(&room.scene, &work, &prepared), LRCS_OK);
+    lrcs_pose pose;
+    assert_int_equal(lrcs_pose_from_direction(c->direction, &pose), LRCS_OK);
+    lrcs_run_options options = {1e-4, method, size};
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, result, records, NULL),
+                     LRCS_OK);
+}
+
+static void zbuffer_bound_holds_on_every_scene(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[] = {1, 16, 37, 64, 201, 512};
+    for (size_t i = 0; i < CASES; i++) {
+        for (int sided = 0; sided < 2; sided++) {
+            double silhouette = 0;
+            double truth = true_sigma(&cases[i], sided, &silhouette);
+            for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+                lrcs_result r;
+                run_case(&cases[i], sided, LRCS_METHOD_ZBUFFER, sizes[k], &r, NULL);
+                if (!(fabs(r.sigma_m2 - truth) <= r.bound_m2 + 4e-16 * truth)) {
+                    fprintf(stderr, "scene %zu (%s), %u pixels, two-sided %d\n", i, cases[i].kind,
+                            sizes[k], sided);
+                }
+                check_abs(r.sigma_m2, truth, r.bound_m2 + 4e-16 * truth);
+            }
+        }
+    }
+}
+
+/* Extent of the coordinates, for areas: they lie within -8 .. 8. */
+#define EXTENT 16.0
+
+static void exact_areas_agree_with_rational_arithmetic(void **state)
+{
+    (void)state;
+    double worst = 0;
+    for (size_t i = 0; i < CASES; i++) {
+        double silhouette = 0;
+        double truth = true_sigma(&cases[i], 1, &silhouette);
+        lrcs_result r;
+        lrcs_facet_record records[MOST];
+        run_case(&cases[i], 1, LRCS_METHOD_EXACT, 0, &r, records);
+        for (uint32_t f = 0; f < cases[i].facets; f++) {
+            double whole = records[f].area_m2 * fabs(records[f].cos_theta);
+            double want = whole * fmax(0, cases[i].share[f]);
+            if (fabs(records[f].visible_area_m2 - want) > 1e-12 * whole + 1e-15 * EXTENT * EXTENT) {
+                fprintf(stderr, "scene %zu (%s), facet %u\n", i, cases[i].kind, f);
+            }
+            check_abs(records[f].visible_area_m2, want, 1e-12 * whole + 1e-15 * EXTENT * EXTENT);
+        }
+        check_abs(r.sigma_m2, truth, r.bound_m2 + 4e-16 * truth);
+        check_abs(r.projected_area_m2, silhouette, 1e-12 * silhouette);
+        if (truth > 0) {
+            worst = fmax(worst, r.bound_m2 / truth);
+        }
+    }
+    check_most(worst, 1e-9);
+}
+
+static void facet_bound_holds_what_could_be_hidden(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < CASES; i++) {
+        double silhouette = 0;
+        double truth = true_sigma(&cases[i], 0, &silhouette);
+        lrcs_result r;
+        run_case(&cases[i], 0, LRCS_METHOD_FACET, 0, &r, NULL);
+        check_abs(r.sigma_m2, truth, r.bound_m2 + 4e-16 * truth);
+    }
+}
+
+/* No visibility bound is exceeded even where it is exactly 0: facets that the engine calls wholly
+   visible or wholly hidden at one pixel are so. */
+static void uniform_facets_are_exact_at_any_resolution(void **state)
+{
+    (void)state;
+    unsigned uniform = 0;
+    for (size_t i = 0; i < CASES; i++) {
+        lrcs_result r;
+        lrcs_facet_record records[MOST];
+        run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 4096 / 16, &r, records);
+        for (uint32_t f = 0; f < cases[i].facets && r.budget.visibility_m2 == 0; f++) {
+            double whole = records[f].area_m2 * fabs(records[f].cos_theta);
+            check_abs(records[f].visible_area_m2, whole * fmax(0, cases[i].share[f]), 1e-14 * whole);
+            uniform++;
+        }
+    }
+    assert_true(uniform > 50);
+}
+
+static void bound_shrinks_with_resolution(void **state)
+{
+    (void)state;
+    double coarse = 0;
+    double fine = 0;
+    for (size_t i = 0; i < CASES; i++) {
+        lrcs_result r;
+        run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 64, &r, NULL);
+        double at64 = r.budget.visibility_m2 / r.sigma_m2;
+        run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 512, &r, NULL);
+        double at512 = r.budget.visibility_m2 / r.sigma_m2;
+        if (isfinite(at64) && isfinite(at512)) {
+            coarse += at64;
+            fine += at512;
+        }
+    }
+    check_most(fine, coarse / 6); /* 8 times the pixels across: nearly 8 times less */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(zbuffer_bound_holds_on_every_scene),
+        cmocka_unit_test(exact_areas_agree_with_rational_arithmetic),
+        cmocka_unit_test(facet_bound_holds_what_could_be_hidden),
+        cmocka_unit_test(uniform_facets_are_exact_at_any_resolution),
+        cmocka_unit_test(bound_shrinks_with_resolution),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,132 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Proves the order of the rooms: a file includes its own layer or earlier ones, the tool only the
+# public headers, the core nothing of the system but freestanding-like headers; and that every
+# header compiles alone. Prints FILE:LINE and the reason for each breach.
+# usage: layers.sh    (in the root; CC names the compiler)
+core='base mesh optics scene view visibility integrate'
+layers="$core host cli"
+core_headers='float.h limits.h math.h stddef.h stdint.h string.h'
+public_headers='stddef.h stdint.h'
+CC=${CC:-cc}
+log=$(mktemp) || exit 1
+trap 'rm -f "$log"' EXIT
+
+for folder in src/*/; do
+    name=$(basename "$folder")
+    case " $layers " in
+    *" $name "*) ;;
+    *) echo "src/$name: not a layer ($layers)" >>"$log" ;;
+    esac
+done
+
+files=$(find src include -name '*.[ch]' | LC_ALL=C sort)
+awk -v layers="$layers" -v core="$core" -v core_headers="$core_headers" \
+    -v public_headers="$public_headers" '
+function has(list, word) { return index(" " list " ", " " word " ") > 0 }
+function exists(path,   line, status) {
+    status = (getline line < path)
+    close(path)
+    return status >= 0
+}
+function breach(reason) { print FILENAME ":" FNR ": " reason }
+BEGIN { count = split(layers, name, " "); for (i = 1; i <= count; i++) rank[name[i]] = i }
+FNR == 1 {
+    public = FILENAME ~ /^include\//
+    split(FILENAME, part, "/")
+    layer = part[2]
+    in_core = !public && has(core, layer)
+}
+/^[ \t]*#[ \t]*include/ {
+    target = $0
+    sub(/^[ \t]*#[ \t]*include[ \t]*/, "", target)
+    quote = substr(target, 1, 1)
+    sub(/[ \t]*(\/[\/*].*)?$/, "", target)
+    path = substr(target, 2, length(target) - 2)
+    if (quote == "<" && path ~ /^lrcs\//) {
+        if (!exists("include/" path)) breach("no such public header: " path)
+        if (path == "lrcs/host.h" && (in_core || public)) breach("the host is above: <" path ">")
+    } else if (quote == "<") {
+        if (public && !has(public_headers, path) && !(FILENAME ~ /host\.h$/ && path == "stdio.h"))
+            breach("a public header includes <" path ">; it may: " public_headers)
+        if (in_core && !has(core_headers, path))
+            breach("the core includes <" path ">; it may: " core_headers)
+    } else if (quote != "\"") {
+        breach("an include that is neither <...> nor \"...\"")
+    } else if (public) {
+        breach("a public header includes the private \"" path "\"")
+    } else {
+        if (path !~ /\//) path = part[1] "/" part[2] "/" path # beside it
+        sub(/^src\//, "", path)
+        split(path, folder, "/")
+        if (!exists("src/" path) && path !~ /\.inc$/) # .inc: a generated table
+            breach("no such file under src/: \"" path "\"")
+        else if (!(folder[1] in rank) || rank[folder[1]] > rank[layer])
+            breach("layer " layer " includes the later layer " folder[1] ": \"" path "\"")
+        else if (layer == "cli" && folder[1] != "cli")
+            breach("the tool sits on the public headers alone, but includes \"" path "\"")
+    }
+}
+in_core && /\([ \t]*\*[ \t]*(const[ \t]+)?[a-z_0-9]*[ \t]*(\[[^]]*\])?\)[ \t]*\(/ {
+    breach("a function pointer in the core")
+}' $files >>"$log" || exit 1
+
+# One name, one thing, in the whole library: its files can be joined into one.
+awk '
+function claim(kind, word) {
+    if ((kind, word) in owner)
+        print FILENAME ":" FNR ": " kind " " word " is also in " owner[kind, word]
+    else
+        owner[kind, word] = FILENAME
+}
+/^static / && /[a-z_0-9]\(/ && !/;[ \t]*$/ {
+    word = $0
+    sub(/\(.*/, "", word)
+    sub(/.*[ *]/, "", word)
+    claim("static function", word)
+}
+/^static / && /(=|\[)/ && !/\(/ {
+    word = $0
+    sub(/[ \t]*[[=].*/, "", word)
+    sub(/.*[ *]/, "", word)
+    claim("static data", word)
+}
+/^} [a-z_0-9]+;/ { word = $2; sub(/;.*/, "", word); claim("type", word) }
+/^#define / { # the same text twice is legal, and no harm
+    word = $2
+    $1 = $2 = ""
+    if (!(word in body) || body[word] != $0) claim("macro", word)
+    body[word] = $0
+}
+' $(echo "$files" | grep -v '^src/cli/') >>"$log" || exit 1
+
+for header in $(find include src -name '*.h' | LC_ALL=C sort); do
+    name=${header#*/}
+    case $header in
+    src/host/* | src/cli/*) posix=-D_POSIX_C_SOURCE=200809L ;;
+    src/*) posix= ;;
+    *) posix= ;;
+    esac
+    private=-Isrc
+    case $header in include/*) private= ;; esac
+    # twice: its guard works too
+    if ! printf '#include "%s"\n#include "%s"\ntypedef int not_empty;\n' "$name" "$name" |
+        $CC -std=c11 -pedantic -Wall -Wextra -Werror $posix -Iinclude $private \
+            -fsyntax-only -x c - 2>>"$log"; then
+        echo "$header: does not compile alone" >>"$log"
+    fi
+done
+
+# The umbrella holds the core; files and threads are asked for by name.
+for header in include/lrcs/*.h; do
+    base=$(basename "$header")
+    if [ "$base" != lrcs.h ] && [ "$base" != host.h ] && ! grep -q "^#include <lrcs/$base>" include/lrcs/lrcs.h; then
+        echo "include/lrcs/lrcs.h: does not include <lrcs/$base>" >>"$log"
+    fi
+done
+
+if [ -s "$log" ]; then
+    cat "$log" >&2
+    exit 1
+fi
+echo "layers: $(echo "$files" | wc -l) files keep the order ($layers)"

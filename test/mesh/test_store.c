@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* Blocks of a mesh in the work area, and the tables readers look things up in. */
+#include "mesh/store.h"
+
+#include <lrcs/read.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+
+static void a_table_is_a_power_of_two_and_at_most_half_full(void **state)
+{
+    (void)state;
+    for (size_t count = 0; count < 3000; count++) {
+        size_t slots = lrcsi_store_slots(count);
+        assert_int_equal(slots & (slots - 1), 0);
+        assert_true(slots / 2 >= count && slots > count);
+        assert_true(slots <= 4 * count || slots == 2);
+    }
+    assert_int_equal(lrcsi_store_slots(SIZE_MAX), SIZE_MAX);
+    assert_int_equal(lrcsi_store_slots(SIZE_MAX / 2), SIZE_MAX);
+}
+
+static void names_are_found_by_their_bytes_the_first_of_equals(void **state)
+{
+    (void)state;
+    static const unsigned char bytes[] = "gold goldwhite";
+    static const lrcsi_span name[] = {{0, 4}, {0, 5}, {9, 5}, {5, 4}, {0, 0}};
+    unsigned char area[1024];
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcsi_spans names;
+    assert_int_equal(lrcsi_spans_make(bytes, name, 5, &work, &names), LRCS_OK);
+    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"gold", 4), 0);
+    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"gold ", 5), 1);
+    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"white", 5), 2);
+    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"", 0), 4);
+    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"gol", 3), LRCS_NONE);
+    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"Gold", 4), LRCS_NONE);
+}
+
+static void no_names_are_an_empty_table(void **state)
+{
+    (void)state;
+    unsigned char area[64];
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcsi_spans names;
+    assert_int_equal(lrcsi_spans_make(area, NULL, 0, &work, &names), LRCS_OK);
+    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"x", 1), LRCS_NONE);
+}
+
+static void the_need_serves_at_any_alignment_and_the_blocks_are_cleared(void **state)
+{
+    (void)state;
+    const lrcs_mesh_counts counts = {7, 5, 3, 2, 11};
+    size_t need = lrcs_mesh_need(&counts);
+    for (size_t shift = 0; shift < LRCS_WORK_ALIGN; shift++) {
+        unsigned char *area = malloc(need + shift);
+        assert_non_null(area);
+        memset(area, 0xa5, need + shift);
+        lrcs_work work = lrcs_work_make(area + shift, need);
+        lrcs_mesh mesh;
+        char *text;
+        assert_int_equal(lrcsi_store_take(&counts, &work, &mesh, &text), LRCS_OK);
+        memset(text, 'x', counts.text_bytes);
+        for (uint32_t i = 0; i < counts.facets; i++) {
+            assert_int_equal(mesh.facet_material[i], LRCS_NONE);
+            assert_int_equal(mesh.facet_part[i] | mesh.facet_smooth[i], 0);
+        }
+        assert_int_equal(mesh.notices, 0);
+        assert_null(mesh.material_file);
+        assert_ptr_equal(work.bytes + work.used, mesh.vertex + counts.vertices);
+        free(area);
+    }
+}
+
+static void counts_beyond_memory_need_more_than_there_is(void **state)
+{
+    (void)state;
+    const lrcs_mesh_counts counts = {LRCS_NONE - 1, LRCS_NONE - 1, LRCS_NONE - 1, LRCS_NONE - 1,
+                                     SIZE_MAX};
+    assert_int_equal(lrcs_mesh_need(&counts), SIZE_MAX);
+    unsigned char area[256];
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcs_mesh mesh;
+    char *text;
+    assert_int_equal(lrcsi_store_take(&counts, &work, &mesh, &text), LRCS_E_MEMORY);
+    assert_int_equal(work.used, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_table_is_a_power_of_two_and_at_most_half_full),
+        cmocka_unit_test(names_are_found_by_their_bytes_the_first_of_equals),
+        cmocka_unit_test(no_names_are_an_empty_table),
+        cmocka_unit_test(the_need_serves_at_any_alignment_and_the_blocks_are_cleared),
+        cmocka_unit_test(counts_beyond_memory_need_more_than_there_is),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

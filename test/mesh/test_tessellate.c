@@ -1,0 +1,508 @@
+/* SPDX-License-Identifier: MIT */
+/* Facet meshes of shapes: closed, outward, convex, symmetric to the bit; and the curvature numbers
+   against an integration over each patch that shares nothing with their derivation. */
+#include <lrcs/shape.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+
+static const double pi = 3.14159265358979323846;
+static unsigned char area[1u << 21];
+
+static void minus(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = a[k] - b[k];
+    }
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+}
+
+static const double *corner(const lrcs_mesh *mesh, uint32_t i, int k)
+{
+    return mesh->vertex[mesh->facet[i].corner[k % 3]].x;
+}
+
+/* Half the cross product of two sides. */
+static void facet_vector(const lrcs_mesh *mesh, uint32_t i, double out[3])
+{
+    double a[3];
+    double b[3];
+    minus(corner(mesh, i, 1), corner(mesh, i, 0), a);
+    minus(corner(mesh, i, 2), corner(mesh, i, 0), b);
+    cross(a, b, out);
+    for (int k = 0; k < 3; k++) {
+        out[k] *= 0.5;
+    }
+}
+
+static double facet_area(const lrcs_mesh *mesh, uint32_t i)
+{
+    double n[3];
+    facet_vector(mesh, i, n);
+    return sqrt(dot(n, n));
+}
+
+/* Area of the facets of a smoothing group. */
+static double group_area(const lrcs_mesh *mesh, uint32_t smooth)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < mesh->facet_count; i++) {
+        sum += mesh->facet_smooth[i] == smooth ? facet_area(mesh, i) : 0.0;
+    }
+    return sum;
+}
+
+static double volume(const lrcs_mesh *mesh)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < mesh->facet_count; i++) {
+        double n[3];
+        facet_vector(mesh, i, n);
+        sum += dot(n, corner(mesh, i, 0)) / 3.0;
+    }
+    return sum;
+}
+
+static lrcs_mesh make(const lrcs_shape *shape, uint32_t around, uint32_t along,
+                      lrcs_curvature *curvature)
+{
+    lrcs_divisions divisions = {around, along};
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcs_mesh mesh;
+    assert_int_equal(lrcs_shape_mesh(shape, &divisions, &work, &mesh, curvature), LRCS_OK);
+    return mesh;
+}
+
+typedef struct sample {
+    lrcs_shape shape;
+    uint32_t around, along;
+    double wall, flat, inside; /* areas of wall and caps, volume */
+} sample;
+
+static const sample samples[] = {
+    {{.kind = LRCS_SHAPE_BOX, .size = {1, 2, 3}}, 4, 1, 0.0, 22.0, 6.0},
+    {{.kind = LRCS_SHAPE_SPHERE, .radius = 2}, 32, 8, 50.26548245743669, 0.0, 33.51032163829113},
+    {{.kind = LRCS_SHAPE_SPHERE, .radius = 2}, 8, 2, 50.26548245743669, 0.0, 33.51032163829113},
+    {{.kind = LRCS_SHAPE_DOME, .radius = 2},
+     32,
+     8,
+     25.132741228718345,
+     12.566370614359172,
+     16.755160819145562},
+    {{.kind = LRCS_SHAPE_CYLINDER, .radius = 0.5, .length = 2},
+     32,
+     1,
+     6.283185307179586,
+     1.5707963267948966,
+     1.5707963267948966},
+    {{.kind = LRCS_SHAPE_CONE, .radius = 3, .length = 4},
+     36,
+     1,
+     47.12388980384690,
+     28.274333882308138,
+     37.69911184307752},
+    {{.kind = LRCS_SHAPE_FRUSTUM, .radius = 1, .radius2 = 4, .length = 4},
+     32,
+     1,
+     78.53981633974483,
+     53.40707511102649,
+     87.96459430051421},
+    {{.kind = LRCS_SHAPE_FRUSTUM, .radius = 4, .radius2 = 1, .length = 4},
+     32,
+     1,
+     78.53981633974483,
+     53.40707511102649,
+     87.96459430051421},
+    {{.kind = LRCS_SHAPE_FRUSTUM, .radius = 0, .radius2 = 3, .length = 4},
+     32,
+     1,
+     47.12388980384690,
+     28.274333882308138,
+     37.69911184307752},
+    /* pi/6 (5 sqrt 5 - 1) */
+    {{.kind = LRCS_SHAPE_PARABOLOID, .radius = 1, .length = 1},
+     32,
+     6,
+     5.330413500511922,
+     3.141592653589793,
+     1.5707963267948966},
+};
+#define SAMPLES (sizeof samples / sizeof samples[0])
+
+static void areas_and_volumes_tend_to_the_bodys_as_the_square(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < SAMPLES; i++) {
+        const sample *s = &samples[i];
+        lrcs_curvature c;
+        lrcs_mesh mesh = make(&s->shape, s->around, s->along, &c);
+        double h = pi / s->around;
+        double most = s->shape.kind == LRCS_SHAPE_BOX ? 1e-15 : 2.0 * h * h;
+        if (s->wall > 0.0) {
+            double wall = group_area(&mesh, 1);
+            check_abs(wall, s->wall, (c.area_error + 1e-14) * wall);
+            check_most(c.area_error, 0.4 * h * h + 1e-12);
+        }
+        check_rel(group_area(&mesh, 0), s->flat, 1e-14);
+        check_rel(volume(&mesh), s->inside, most);
+    }
+}
+
+/* How often a directed edge, by positions, is used. */
+static int edge_uses(const lrcs_mesh *mesh, const double *a, const double *b)
+{
+    int uses = 0;
+    for (uint32_t i = 0; i < mesh->facet_count; i++) {
+        for (int k = 0; k < 3 && facet_area(mesh, i) > 0.0; k++) {
+            uses += memcmp(corner(mesh, i, k), a, sizeof(lrcs_point)) == 0 &&
+                    memcmp(corner(mesh, i, k + 1), b, sizeof(lrcs_point)) == 0;
+        }
+    }
+    return uses;
+}
+
+static void solids_are_closed_manifolds_that_face_outward(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < SAMPLES; i++) {
+        lrcs_mesh mesh = make(&samples[i].shape, samples[i].around, samples[i].along, NULL);
+        for (uint32_t f = 0; f < mesh.facet_count; f++) {
+            for (int k = 0; k < 3 && facet_area(&mesh, f) > 0.0; k++) {
+                const double *a = corner(&mesh, f, k);
+                const double *b = corner(&mesh, f, k + 1);
+                assert_int_equal(edge_uses(&mesh, a, b), 1);
+                assert_int_equal(edge_uses(&mesh, b, a), 1);
+            }
+        }
+        assert_true(volume(&mesh) > 0.0);
+    }
+}
+
+static void solids_are_convex_up_to_rounding(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < SAMPLES; i++) {
+        lrcs_mesh mesh = make(&samples[i].shape, samples[i].around, samples[i].along, NULL);
+        for (uint32_t f = 0; f < mesh.facet_count; f++) {
+            double n[3];
+            facet_vector(&mesh, f, n);
+            double size = sqrt(dot(n, n));
+            for (uint32_t v = 0; v < mesh.vertex_count && size > 0.0; v++) {
+                double d[3];
+                minus(mesh.vertex[v].x, corner(&mesh, f, 0), d);
+                check_most(dot(d, n) / size, 1e-14 * 8.0);
+            }
+        }
+    }
+}
+
+static void polygons_are_symmetric_to_the_bit_and_start_on_x(void **state)
+{
+    (void)state;
+    const uint32_t arounds[] = {8, 12, 20, 36, 64, 100};
+    lrcs_shape disc = {.kind = LRCS_SHAPE_DISC, .radius = 0.7};
+    for (size_t i = 0; i < sizeof arounds / sizeof arounds[0]; i++) {
+        uint32_t n = arounds[i];
+        lrcs_mesh mesh = make(&disc, n, 1, NULL);
+        double h = pi / n;
+        check_rel(mesh.vertex[0].x[0], 0.7 * sqrt(2.0 * h / sin(2.0 * h)), 1e-15);
+        check_same(mesh.vertex[0].x[1], 0.0);
+        check_rel(group_area(&mesh, 0), pi * 0.49, 1e-14);
+        for (uint32_t k = 0; k < n; k++) {
+            const double *p = mesh.vertex[k].x;
+            const double *flip = mesh.vertex[(n - k) % n].x;
+            const double *swap = mesh.vertex[(n / 4 + n - k) % n].x;
+            const double *turn = mesh.vertex[(k + n / 4) % n].x;
+            check_same(flip[0], p[0]);
+            check_same(flip[1], -p[1]);
+            check_same(swap[0], p[1]);
+            check_same(swap[1], p[0]);
+            check_same(turn[0], -p[1]);
+            check_same(turn[1], p[0]);
+        }
+    }
+}
+
+static void a_sphere_is_symmetric_about_its_equator_which_lies_at_zero(void **state)
+{
+    (void)state;
+    lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE, .radius = 1.3};
+    lrcs_mesh mesh = make(&sphere, 20, 5, NULL);
+    uint32_t level = 0;
+    for (uint32_t v = 0; v < mesh.vertex_count; v++) {
+        const double *x = mesh.vertex[v].x;
+        int mirrored = 0;
+        for (uint32_t w = 0; w < mesh.vertex_count; w++) {
+            const double *y = mesh.vertex[w].x;
+            mirrored += x[0] == y[0] && x[1] == y[1] && x[2] == -y[2];
+        }
+        assert_int_equal(mirrored, 1);
+        level += x[2] == 0.0;
+    }
+    assert_int_equal(level, 20);
+}
+
+static void plane_faced_bodies_and_discs_have_no_curvature(void **state)
+{
+    (void)state;
+    const lrcs_shape shapes[] = {{.kind = LRCS_SHAPE_PLATE, .size = {1, 2}},
+                                 {.kind = LRCS_SHAPE_BOX, .size = {1, 2, 3}},
+                                 {.kind = LRCS_SHAPE_DISC, .radius = 1}};
+    for (int i = 0; i < 3; i++) {
+        lrcs_curvature c = {1.0, 1.0, 1.0, 1.0};
+        lrcs_mesh mesh = make(&shapes[i], i < 2 ? 4 : 16, 1, &c);
+        check_same(c.turn + c.area_error + c.lean + c.spread, 0.0);
+        double n[3];
+        facet_vector(&mesh, 0, n);
+        assert_true(i == 1 || n[2] > 0.0);
+    }
+}
+
+/* The true body near a facet: the point at height z' of its radius, by kind. */
+typedef struct patch {
+    double area, tilt[3], turn, square; /* integrals of 1, turn vector, turn^2; the largest turn */
+} patch;
+
+/* Polar angle of the normal and radius at a fraction t of the way from radius r0 to r1. */
+static void profile_at(const lrcs_shape *shape, double r, double *polar, double *stretch)
+{
+    double slope = 0.0; /* d rho / d z, downward */
+    if (shape->kind == LRCS_SHAPE_PARABOLOID) {
+        slope = 2.0 * shape->length * r / (shape->radius * shape->radius);
+        *polar = atan(slope);
+    } else {
+        *polar = asin(fmin(1.0, r / shape->radius));
+    }
+    *stretch = 1.0 / cos(*polar);
+}
+
+/* Adds one point of a patch, weight dA, normal n, to the integrals about the facet normal f. */
+static void patch_add(patch *p, double weight, const double n[3], const double f[3])
+{
+    double x[3];
+    cross(n, f, x);
+    double turn = atan2(sqrt(dot(x, x)), dot(n, f));
+    p->area += weight;
+    p->turn = fmax(p->turn, turn);
+    p->square += weight * turn * turn;
+    double off[3];
+    for (int k = 0; k < 3; k++) {
+        off[k] = n[k] - dot(n, f) * f[k];
+    }
+    double size = sqrt(dot(off, off));
+    for (int k = 0; k < 3 && size > 0.0; k++) {
+        p->tilt[k] += weight * turn * off[k] / size;
+    }
+}
+
+/* Integrates over the sector [-h, h] about +x between two radii (r = R sin on a sphere, so that
+   the equator is no pole of the integrand), or up a straight wall. */
+static patch patch_integrate(const lrcs_shape *shape, double r0, double r1, double h,
+                             const double f[3])
+{
+    enum { NODES = 60 };
+    patch p = {0.0, {0.0, 0.0, 0.0}, 0.0, 0.0};
+    int straight = shape->kind == LRCS_SHAPE_FRUSTUM;
+    int round = !straight && shape->kind != LRCS_SHAPE_PARABOLOID;
+    double a0 = round ? asin(fmin(1.0, r0 / shape->radius)) : r0;
+    double a1 = round ? asin(fmin(1.0, r1 / shape->radius)) : r1;
+    for (int i = 0; i < NODES; i++) {
+        double a = a0 + (a1 - a0) * (i + 0.5) / NODES;
+        double polar = a;
+        double stretch = shape->radius;
+        double r = round ? shape->radius * sin(a) : a;
+        if (straight) {
+            polar = atan2(shape->length, r0 - r1);
+            stretch = 1.0 / cos(polar);
+        } else if (!round) {
+            profile_at(shape, r, &polar, &stretch);
+        }
+        for (int j = 0; j < NODES; j++) {
+            double phi = h * ((j + 0.5) / (NODES / 2) - 1.0);
+            double n[3] = {sin(polar) * cos(phi), sin(polar) * sin(phi), cos(polar)};
+            double weight = r * fabs(stretch * (a1 - a0)) / NODES * (2.0 * h / NODES);
+            patch_add(&p, weight, n, f);
+        }
+    }
+    return p;
+}
+
+/* Checks the numbers on every strip of a body's wall; `upper` strips, by the radii of its rows. */
+static void check_strips(const lrcs_shape *shape, uint32_t around, uint32_t along)
+{
+    lrcs_curvature c;
+    lrcs_mesh mesh = make(shape, around, along, &c);
+    double h = pi / around;
+    double swell = sqrt(2.0 * h / sin(2.0 * h));
+    lrcs_curvature seen = {0.0, 0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < along; i++) {
+        const double *low = mesh.vertex[i * around].x;
+        const double *high = mesh.vertex[(i + 1) * around].x;
+        int apex = i + 1 == along && shape->kind != LRCS_SHAPE_FRUSTUM;
+        double top = apex ? 0.0 : high[0];
+        double slant[2] = {(low[0] - top) * cos(h), high[2] - low[2]};
+        double length = hypot(slant[0], slant[1]);
+        double f[3] = {slant[1] / length, 0.0, slant[0] / length};
+        double facet = sin(h) * (low[0] + top) * length;
+        patch p = patch_integrate(shape, low[0] / swell, top / swell, h, f);
+        seen.turn = fmax(seen.turn, p.turn);
+        seen.area_error = fmax(seen.area_error, fabs(p.area - facet) / facet);
+        seen.lean = fmax(seen.lean, sqrt(dot(p.tilt, p.tilt)) / facet);
+        seen.spread = fmax(seen.spread, sqrt(p.square / facet));
+    }
+    check_most(seen.turn, c.turn);
+    check_most(seen.area_error, c.area_error * 1.002);
+    check_most(seen.lean, c.lean * 1.002 + 1e-4 * h * h);
+    check_most(seen.spread, c.spread * 1.0005);
+    check_most(c.turn, seen.turn * 1.1); /* and they are not idle */
+    check_most(c.area_error, seen.area_error * 1.1 + 1e-3 * h * h);
+    check_most(c.spread, seen.spread * 1.1);
+}
+
+static void curvature_bounds_every_patch_and_is_nearly_reached(void **state)
+{
+    (void)state;
+    const lrcs_shape sphere = {.kind = LRCS_SHAPE_DOME, .radius = 2, .parts = LRCS_SHAPE_WALL};
+    const lrcs_shape bowl = {
+        .kind = LRCS_SHAPE_PARABOLOID, .radius = 1, .length = 1.5, .parts = LRCS_SHAPE_WALL};
+    const lrcs_shape flat = {
+        .kind = LRCS_SHAPE_PARABOLOID, .radius = 1, .length = 0.05, .parts = LRCS_SHAPE_WALL};
+    const lrcs_shape needle = {
+        .kind = LRCS_SHAPE_PARABOLOID, .radius = 0.1, .length = 2, .parts = LRCS_SHAPE_WALL};
+    const lrcs_shape ring = {.kind = LRCS_SHAPE_FRUSTUM,
+                             .radius = 0.5,
+                             .radius2 = 1,
+                             .length = 0.7,
+                             .parts = LRCS_SHAPE_WALL};
+    const lrcs_shape funnel = {.kind = LRCS_SHAPE_FRUSTUM,
+                               .radius = 3,
+                               .radius2 = 1,
+                               .length = 0.7,
+                               .parts = LRCS_SHAPE_WALL};
+    check_strips(&sphere, 8, 1);
+    check_strips(&sphere, 24, 6);
+    check_strips(&sphere, 100, 25);
+    check_strips(&bowl, 24, 6);
+    check_strips(&bowl, 64, 13);
+    check_strips(&flat, 24, 1);
+    check_strips(&flat, 24, 3);
+    check_strips(&needle, 48, 12);
+    check_strips(&ring, 8, 1);
+    check_strips(&ring, 64, 1);
+    check_strips(&funnel, 16, 1);
+}
+
+static void no_dimension_at_all_makes_a_mesh_of_no_area(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < LRCS_SHAPE_KINDS; kind++) {
+        lrcs_shape shape = {.kind = kind};
+        shape.half_angle_deg = kind == LRCS_SHAPE_CONE ? 15.0 : 0.0;
+        int plane = kind == LRCS_SHAPE_PLATE || kind == LRCS_SHAPE_BOX;
+        lrcs_curvature c;
+        lrcs_mesh mesh = make(&shape, plane ? 4 : 8, 1, &c);
+        check_same(group_area(&mesh, 0) + group_area(&mesh, 1), 0.0);
+        assert_true(isfinite(c.turn + c.area_error + c.lean + c.spread));
+    }
+}
+
+static void extreme_dimensions_stay_finite(void **state)
+{
+    (void)state;
+    const double length[] = {0.0, 5e-324, 1e-300, 1e-150, 1.0, 1e50, 1e100};
+    for (int i = 0; i < 7 * 7 * 4; i++) {
+        const int kinds[] = {LRCS_SHAPE_CYLINDER, LRCS_SHAPE_FRUSTUM, LRCS_SHAPE_PARABOLOID,
+                             LRCS_SHAPE_DOME};
+        lrcs_shape shape = {.kind = kinds[i % 4], .radius = length[i / 4 % 7]};
+        shape.length = shape.kind == LRCS_SHAPE_DOME ? 0.0 : length[i / 28];
+        shape.radius2 = shape.kind == LRCS_SHAPE_FRUSTUM ? 1.0 : 0.0;
+        uint32_t along = i % 4 < 2 ? 1 : 3;
+        lrcs_curvature c;
+        lrcs_mesh mesh = make(&shape, 8, along, &c);
+        assert_true(isfinite(c.turn + c.area_error + c.lean + c.spread));
+        for (uint32_t v = 0; v < mesh.vertex_count; v++) {
+            const double *x = mesh.vertex[v].x;
+            assert_true(isfinite(x[0] + x[1] + x[2]));
+        }
+    }
+}
+
+static void a_cone_by_half_angle_is_the_cone_by_length(void **state)
+{
+    (void)state;
+    lrcs_shape cone = {.kind = LRCS_SHAPE_CONE, .radius = 2, .half_angle_deg = 45};
+    lrcs_mesh mesh = make(&cone, 8, 1, NULL);
+    check_rel(mesh.vertex[mesh.vertex_count - 1].x[2], 2.0, 4e-16);
+}
+
+static void divisions_that_do_not_suit_are_refused(void **state)
+{
+    (void)state;
+    const lrcs_divisions bad[] = {{0, 1}, {4, 1}, {10, 1}, {8, 0}, {8, 2}, {1u << 25, 1}};
+    lrcs_shape cylinder = {.kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 1};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        lrcs_work work = lrcs_work_make(area, sizeof area);
+        lrcs_mesh mesh;
+        assert_int_equal(lrcs_shape_mesh(&cylinder, &bad[i], &work, &mesh, NULL), LRCS_E_ARGUMENT);
+        assert_int_equal(work.used, 0);
+    }
+    lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE, .radius = 1};
+    lrcs_divisions huge = {1u << 24, 1u << 24};
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcs_mesh mesh;
+    assert_int_equal(lrcs_shape_mesh(&sphere, &huge, &work, &mesh, NULL), LRCS_E_ARGUMENT);
+}
+
+static void a_starved_work_area_is_left_as_it_was(void **state)
+{
+    (void)state;
+    lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 1};
+    lrcs_divisions divisions = {8, 2};
+    int status = LRCS_E_MEMORY;
+    size_t size = 0;
+    for (; status == LRCS_E_MEMORY && size < 8192; size++) {
+        lrcs_work work = lrcs_work_make(area, size);
+        lrcs_mesh mesh = {.vertex_count = 77};
+        status = lrcs_shape_mesh(&dome, &divisions, &work, &mesh, NULL);
+        if (status == LRCS_E_MEMORY) {
+            assert_int_equal(work.used, 0);
+            assert_int_equal(mesh.vertex_count, 77);
+            assert_true(work.peak > size);
+        }
+    }
+    assert_int_equal(status, LRCS_OK);
+    assert_true(size > 40 * sizeof(lrcs_facet));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(areas_and_volumes_tend_to_the_bodys_as_the_square),
+        cmocka_unit_test(solids_are_closed_manifolds_that_face_outward),
+        cmocka_unit_test(solids_are_convex_up_to_rounding),
+        cmocka_unit_test(polygons_are_symmetric_to_the_bit_and_start_on_x),
+        cmocka_unit_test(a_sphere_is_symmetric_about_its_equator_which_lies_at_zero),
+        cmocka_unit_test(plane_faced_bodies_and_discs_have_no_curvature),
+        cmocka_unit_test(curvature_bounds_every_patch_and_is_nearly_reached),
+        cmocka_unit_test(no_dimension_at_all_makes_a_mesh_of_no_area),
+        cmocka_unit_test(extreme_dimensions_stay_finite),
+        cmocka_unit_test(a_cone_by_half_angle_is_the_cone_by_length),
+        cmocka_unit_test(divisions_that_do_not_suit_are_refused),
+        cmocka_unit_test(a_starved_work_area_is_left_as_it_was),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,307 @@
+/* SPDX-License-Identifier: MIT */
+/* Contacts between facets: against clipping in rational arithmetic (vectors/touch_pairs.py), the
+   tree against all pairs, and cases named. */
+#include "mesh/touch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/exact.h"
+#include "base/work.h"
+#include "check.h"
+#include "mesh/tree.h"
+
+typedef struct pair_case {
+    signed char b_in_a, a_in_b;
+    signed char x[18]; /* corners of a, then of b */
+} pair_case;
+
+static const pair_case pair_cases[] = {
+#define PAIR(ab, ba, ...)                                                                          \
+    {                                                                                              \
+        ab, ba,                                                                                    \
+        {                                                                                          \
+            __VA_ARGS__                                                                            \
+        }                                                                                          \
+    }
+#include "vectors/touch_pairs.inc"
+};
+
+enum { PAIRS = sizeof pair_cases / sizeof *pair_cases, ROOM = 8 << 20, MOST = 3000 };
+
+static unsigned char room[ROOM];
+static lrcs_point vertex[3 * MOST];
+static lrcs_facet facet[MOST];
+
+static const lrcs_facet first_three = {{0, 1, 2}};
+static const lrcs_facet last_three = {{3, 4, 5}};
+
+static void check_kinds(const lrcs_point *v, const pair_case *c)
+{
+    for (uint32_t turn = 0; turn < 6; turn++) {
+        uint32_t i = turn % 3;
+        uint32_t j = turn < 3 ? (i + 1) % 3 : (i + 2) % 3; /* both windings */
+        const lrcs_facet b = {{3 + i, 3 + j, 3 + (3 - i - j)}};
+        assert_int_equal(lrcsi_touch_pair(v, first_three, b), c->b_in_a);
+        assert_int_equal(lrcsi_touch_pair(v, b, first_three), c->a_in_b);
+    }
+}
+
+static void pairs_agree_with_rational_clipping(void **state)
+{
+    (void)state;
+    for (int n = 0; n < PAIRS; n++) {
+        lrcs_point v[6];
+        for (int i = 0; i < 18; i++) {
+            v[i / 3].x[i % 3] = pair_cases[n].x[i];
+        }
+        check_kinds(v, &pair_cases[n]);
+    }
+    assert_true(PAIRS >= 4000);
+}
+
+/* The same under an integer map that tilts and shears, far from the origin, times a power of
+   two: exact in doubles, so that nothing may change. */
+static void affine_images_keep_their_contacts(void **state)
+{
+    (void)state;
+    static const double map[3][3] = {{1, 200, 2}, {2, 1, -2}, {-2, 2, 10001}};
+    for (int n = 0; n < PAIRS; n++) {
+        lrcs_point v[6];
+        for (int i = 0; i < 6; i++) {
+            const signed char *x = pair_cases[n].x + 3 * i;
+            for (int k = 0; k < 3; k++) {
+                v[i].x[k] =
+                    (map[k][0] * x[0] + map[k][1] * x[1] + map[k][2] * x[2] + 0x1p33) * 0x1p-70;
+            }
+        }
+        check_kinds(v, &pair_cases[n]);
+    }
+}
+
+/* The list of contacts by trying all pairs. */
+static void check_against_all_pairs(uint32_t facets, const unsigned char *skip)
+{
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_touches t;
+    assert_int_equal(lrcsi_touches_make(vertex, facet, facets, skip, &work, &t), LRCS_OK);
+    assert_true(work.peak <= lrcsi_touches_need(facets, t.count));
+    uint32_t at = 0;
+    for (uint32_t f = 0; f < facets; f++) {
+        assert_int_equal(t.first[f], at);
+        for (uint32_t g = 0; g < facets; g++) {
+            int kind = f == g || skip[f] || skip[g] ? LRCSI_TOUCH_NONE
+                                                    : lrcsi_touch_pair(vertex, facet[f], facet[g]);
+            if (kind != LRCSI_TOUCH_NONE) {
+                assert_true(at < t.count);
+                assert_int_equal(t.touch[at].other, g);
+                assert_int_equal(t.touch[at].kind, kind);
+                at++;
+            }
+        }
+    }
+    assert_int_equal(t.first[facets], at);
+    assert_int_equal(t.count, at);
+}
+
+static uint32_t seed = 1;
+
+static double next_number(void)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return (double)(seed >> 8) * 0x1p-24;
+}
+
+/* Facets of sizes over three decades, on a lattice of `cells` (0: none). */
+static void make_soup(uint32_t facets, double cells, unsigned char *skip)
+{
+    for (uint32_t f = 0; f < facets; f++) {
+        double size = f % 50 == 0 ? 1.0 : f % 7 == 0 ? 0.1 : 0.02;
+        double centre[3] = {next_number(), next_number(), next_number()};
+        for (uint32_t c = 0; c < 3; c++) {
+            for (int k = 0; k < 3; k++) {
+                double x = centre[k] + size * (next_number() - 0.5);
+                vertex[3 * f + c].x[k] = cells > 0.0 ? floor(x * cells) : x;
+            }
+            facet[f].corner[c] = 3 * f + c;
+        }
+        skip[f] = (unsigned char)lrcsi_exact_collinear(vertex[3 * f].x, vertex[3 * f + 1].x,
+                                                       vertex[3 * f + 2].x);
+    }
+}
+
+static void the_tree_misses_no_contact(void **state)
+{
+    (void)state;
+    static unsigned char skip[MOST];
+    make_soup(600, 0.0, skip);
+    check_against_all_pairs(600, skip);
+    make_soup(600, 30.0, skip);
+    check_against_all_pairs(600, skip);
+    make_soup(600, 5.0, skip);
+    check_against_all_pairs(600, skip);
+    make_soup(600, 0.0, skip);
+    for (uint32_t i = 0; i < 1800; i++) { /* slivers along one slanted line */
+        double along = 30.0 * vertex[i].x[0] - 50.0 * vertex[i].x[1] + 40.0 * vertex[i].x[2];
+        for (int k = 0; k < 3; k++) {
+            vertex[i].x[k] += (1.0 + k) * along;
+        }
+    }
+    check_against_all_pairs(600, skip);
+    for (uint32_t n = 1; n < 20; n++) {
+        make_soup(n, 3.0, skip);
+        check_against_all_pairs(n, skip);
+    }
+}
+
+static void candidates_come_once_each(void **state)
+{
+    (void)state;
+    static unsigned char skip[MOST];
+    static unsigned char met[MOST];
+    make_soup(500, 0.0, skip);
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_tree tree;
+    assert_int_equal(lrcsi_tree_make(vertex, facet, 500, NULL, &work, &tree), LRCS_OK);
+    for (uint32_t f = 0; f < 500; f += 17) {
+        memset(met, 0, sizeof met);
+        lrcsi_tree_walk walk = lrcsi_tree_around(&tree, vertex, facet[f]);
+        for (uint32_t g = lrcsi_tree_next(&walk); g != LRCS_NONE; g = lrcsi_tree_next(&walk)) {
+            assert_true(g < 500 && !met[g]);
+            met[g] = 1;
+        }
+        assert_true(met[f]);
+    }
+}
+
+/* A closed surface without self-contact, its top gridded: neighbours share edges and corners. */
+static void neighbours_on_a_closed_surface_do_not_touch(void **state)
+{
+    (void)state;
+    enum { N = 12 };
+    static unsigned char skip[MOST];
+    uint32_t facets = 0;
+    for (uint32_t i = 0; i <= N; i++) { /* a torus of doubles that round */
+        for (uint32_t j = 0; j <= N; j++) {
+            double a = 0.5236 * (i % N);
+            double b = 0.5236 * (j % N);
+            vertex[i * (N + 1) + j] =
+                (lrcs_point){{(3 + cos(b)) * cos(a), (3 + cos(b)) * sin(a), sin(b)}};
+        }
+    }
+    for (uint32_t i = 0; i < N; i++) {
+        for (uint32_t j = 0; j < N; j++) {
+            uint32_t at = i * (N + 1) + j;
+            facet[facets++] = (lrcs_facet){{at, at + N + 1, at + N + 2}};
+            facet[facets++] = (lrcs_facet){{at, at + N + 2, at + 1}};
+        }
+    }
+    memset(skip, 0, sizeof skip);
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_touches t;
+    assert_int_equal(lrcsi_touches_make(vertex, facet, facets, skip, &work, &t), LRCS_OK);
+    assert_int_equal(t.count, 0);
+}
+
+static void a_strut_touches_the_plate_and_not_the_other_way(void **state)
+{
+    (void)state;
+    const lrcs_point v[6] = {{{0, 0, 0}}, {{9, 0, 0}}, {{0, 9, 0}},
+                             {{2, 2, 0}}, {{3, 2, 0}}, {{2, 2, 5}}};
+    assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_TOUCH_CROSS);
+    assert_int_equal(lrcsi_touch_pair(v, last_three, first_three), LRCSI_TOUCH_NONE);
+    assert_int_equal(lrcsi_touch_coplanar(v, first_three, last_three), 0);
+}
+
+static void a_plate_one_ulp_above_another_does_not_touch(void **state)
+{
+    (void)state;
+    lrcs_point v[6] = {{{0, 0, 0.1}}, {{9, 0, 0.1}}, {{0, 9, 0.1}},
+                       {{1, 1, 0.1}}, {{3, 1, 0.1}}, {{1, 3, 0.1}}};
+    assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_TOUCH_COPLANAR);
+    assert_int_equal(lrcsi_touch_pair(v, last_three, first_three), LRCSI_TOUCH_COPLANAR);
+    assert_int_equal(lrcsi_touch_coplanar(v, first_three, last_three), 1);
+    v[3].x[2] = nextafter(0.1, 1.0);
+    assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_TOUCH_CROSS);
+    v[4].x[2] = v[5].x[2] = nextafter(0.1, 1.0);
+    assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_TOUCH_NONE);
+    assert_int_equal(lrcsi_touch_coplanar(v, first_three, last_three), 0);
+}
+
+static void folded_neighbours_in_one_plane_touch(void **state)
+{
+    (void)state;
+    const lrcs_point v[4] = {{{0, 0, 0}}, {{4, 0, 0}}, {{1, 3, 0}}, {{2, 2, 0}}};
+    const lrcs_facet a = {{0, 1, 2}};
+    const lrcs_facet b = {{1, 0, 3}};
+    const lrcs_facet c = {{0, 2, 1}};
+    assert_int_equal(lrcsi_touch_pair(v, a, b), LRCSI_TOUCH_COPLANAR);
+    assert_int_equal(lrcsi_touch_pair(v, a, c), LRCSI_TOUCH_COPLANAR);
+}
+
+static void an_empty_list_and_a_skipped_one_have_no_contacts(void **state)
+{
+    (void)state;
+    unsigned char skip[2] = {1, 0};
+    lrcs_point v[3] = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}};
+    lrcs_facet f[2] = {{{0, 1, 2}}, {{0, 1, 2}}};
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_touches t;
+    assert_int_equal(lrcsi_touches_make(v, f, 0, NULL, &work, &t), LRCS_OK);
+    assert_int_equal(t.count + t.first[0], 0);
+    assert_int_equal(lrcsi_touches_make(v, f, 2, skip, &work, &t), LRCS_OK);
+    assert_int_equal(t.count, 0);
+    assert_int_equal(lrcsi_touches_make(v, f, 2, NULL, &work, &t), LRCS_OK);
+    assert_int_equal(t.count, 2);
+    assert_int_equal(t.first[1], 1);
+    assert_int_equal(t.touch[1].other, 0);
+}
+
+static void starved_searches_fail_clean(void **state)
+{
+    (void)state;
+    static unsigned char skip[MOST];
+    make_soup(20, 0.0, skip);
+    for (uint32_t f = 0; f < 20; f++) { /* large ones, which cross */
+        for (int k = 0; k < 9; k++) {
+            vertex[3 * f + (uint32_t)k / 3].x[k % 3] = next_number() - 0.5;
+        }
+    }
+    lrcs_work whole = lrcs_work_make(room, ROOM);
+    lrcsi_touches t;
+    assert_int_equal(lrcsi_touches_make(vertex, facet, 20, skip, &whole, &t), LRCS_OK);
+    uint32_t count = t.count;
+    assert_true(count > 10);
+    size_t need = lrcsi_touches_need(20, count);
+    int status = LRCS_E_MEMORY;
+    for (size_t size = 0; size <= need; size++) {
+        unsigned char *bytes = malloc(size + 1);
+        assert_non_null(bytes);
+        lrcs_work work = lrcs_work_make(bytes, size);
+        t.count = 99;
+        status = lrcsi_touches_make(vertex, facet, 20, skip, &work, &t);
+        if (status != LRCS_OK) {
+            assert_int_equal(work.used, 0);
+        }
+        assert_int_equal(t.count, status == LRCS_OK ? count : 99);
+        free(bytes);
+    }
+    assert_int_equal(status, LRCS_OK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pairs_agree_with_rational_clipping),
+        cmocka_unit_test(affine_images_keep_their_contacts),
+        cmocka_unit_test(the_tree_misses_no_contact),
+        cmocka_unit_test(candidates_come_once_each),
+        cmocka_unit_test(neighbours_on_a_closed_surface_do_not_touch),
+        cmocka_unit_test(a_strut_touches_the_plate_and_not_the_other_way),
+        cmocka_unit_test(a_plate_one_ulp_above_another_does_not_touch),
+        cmocka_unit_test(folded_neighbours_in_one_plane_touch),
+        cmocka_unit_test(an_empty_list_and_a_skipped_one_have_no_contacts),
+        cmocka_unit_test(starved_searches_fail_clean),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT */
+/* Placing points: what is exact, what the order of steps is, and how far rounding may go. */
+#include "scene/place.h"
+
+#include <string.h>
+
+#include "check.h"
+
+static const lrcs_joint no_joint = {0, {0}, {0}, 0.0};
+
+static void the_default_place_keeps_every_bit(void **state)
+{
+    (void)state;
+    const lrcs_place place = lrcs_place_default();
+    const double given[3] = {-0.0, 1e-310, 0.1};
+    const lrcs_joint still = {1, {1.0, 2.0, 3.0}, {0.1, 0.2, 0.3}, 720.0};
+    lrcsi_placer placer;
+    double placed[3];
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+    lrcsi_placer_run(&placer, given, placed);
+    assert_memory_equal(placed, given, sizeof given);
+    assert_int_equal(lrcsi_placer_make(&place, &still, &placer), LRCS_OK);
+    lrcsi_placer_run(&placer, given, placed);
+    assert_memory_equal(placed, given, sizeof given);
+    check_same(lrcsi_placer_error(&placer, 1.0, 0.0), 0.0);
+}
+
+static void scaling_by_powers_of_two_is_exact(void **state)
+{
+    (void)state;
+    lrcs_place place = lrcs_place_default();
+    const double given[3] = {0.1, -1.0 / 3.0, 7e77};
+    lrcsi_placer placer;
+    double placed[3];
+    place.scale[0] = place.scale[1] = place.scale[2] = 0x1p-20;
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+    lrcsi_placer_run(&placer, given, placed);
+    for (int i = 0; i < 3; i++) {
+        check_same(placed[i] * 0x1p20, given[i]);
+    }
+}
+
+/* joint: a quarter turn about z through (1, 0, 0): (2, 0, 0) -> (1, 1, 0). scale (2, 3, 4):
+   (2, 3, 0). rotate a quarter turn about x, (x, y, z) -> (x, -z, y): (2, 0, 3). translate. */
+static void joint_then_scale_then_rotation_then_translation(void **state)
+{
+    (void)state;
+    const lrcs_place place = {
+        {10.0, 20.0, 30.0}, {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {2.0, 3.0, 4.0}};
+    const lrcs_joint joint = {1, {0.0, 0.0, 5.0}, {1.0, 0.0, 0.0}, 90.0};
+    const double given[3] = {2.0, 0.0, 0.0};
+    lrcsi_placer placer;
+    double placed[3];
+    assert_int_equal(lrcsi_placer_make(&place, &joint, &placer), LRCS_OK);
+    lrcsi_placer_run(&placer, given, placed);
+    check_same(placed[0], 12.0);
+    check_same(placed[1], 20.0);
+    check_same(placed[2], 33.0);
+    assert_int_equal(placer.flips, 0);
+}
+
+static void an_odd_number_of_mirrors_flips(void **state)
+{
+    (void)state;
+    for (int signs = 0; signs < 16; signs++) {
+        lrcs_place place = lrcs_place_default();
+        int odd = 0;
+        for (int i = 0; i < 3; i++) {
+            place.scale[i] = signs >> i & 1 ? -2.0 : 2.0;
+            odd ^= signs >> i & 1;
+        }
+        if (signs & 8) { /* an improper rotation, from a caller of the library */
+            place.rotate[0][0] = -1.0;
+            odd ^= 1;
+        }
+        lrcsi_placer placer;
+        assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+        assert_int_equal(placer.flips, odd);
+    }
+}
+
+/* Long double has 64 bits here or equals double: then the bound is only met more easily. */
+static void rounding_stays_within_its_bound(void **state)
+{
+    (void)state;
+    uint32_t seed = 7;
+    for (int n = 0; n < 2000; n++) {
+        double r[12];
+        for (int i = 0; i < 12; i++) {
+            seed = seed * 1664525u + 1013904223u;
+            r[i] = (double)(seed >> 8) / 0x1p23 - 1.0;
+        }
+        lrcs_place place = {{100.0 * r[0], r[1], 1e-3 * r[2]},
+                            {{0.6, -0.8, 0.0}, {0.64, 0.48, -0.6}, {0.48, 0.36, 0.8}},
+                            {3.0 * r[3] + 4.0, 0.3, r[4] + 2.0}};
+        const lrcs_joint joint = {1, {r[5], r[6], 1.0}, {r[7], r[8], 10.0}, 180.0 * r[11]};
+        lrcsi_placer placer;
+        const double given[3] = {r[9], r[10], r[11]};
+        double placed[3];
+        assert_int_equal(lrcsi_placer_make(&place, &joint, &placer), LRCS_OK);
+        lrcsi_placer_run(&placer, given, placed);
+        long double v[3] = {given[0], given[1], given[2]};
+        long double w[3];
+        for (int i = 0; i < 3; i++) {
+            w[i] = joint.origin[i];
+            for (int k = 0; k < 3; k++) {
+                w[i] += (long double)placer.joint[i][k] * (v[k] - (long double)joint.origin[k]);
+            }
+            w[i] *= (long double)place.scale[i];
+        }
+        long double off = 0.0L;
+        for (int i = 0; i < 3; i++) {
+            long double x = place.translate[i];
+            for (int k = 0; k < 3; k++) {
+                x += (long double)place.rotate[i][k] * w[k];
+            }
+            off += (x - (long double)placed[i]) * (x - (long double)placed[i]);
+        }
+        check_most(sqrt((double)off), lrcsi_placer_error(&placer, 1.0, 0.0));
+    }
+}
+
+static void unfit_places_are_refused(void **state)
+{
+    (void)state;
+    const lrcs_place good = lrcs_place_default();
+    lrcsi_placer placer;
+    lrcs_place place = good;
+    place.scale[1] = 0.0;
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_E_ARGUMENT);
+    place = good;
+    place.translate[2] = (double)NAN;
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_E_NUMBER);
+    place = good;
+    place.scale[0] = (double)INFINITY;
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_E_NUMBER);
+    place = good;
+    place.rotate[2][2] = (double)NAN;
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_E_NUMBER);
+    place = good;
+    memset(place.rotate, 0, sizeof place.rotate);
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_E_ARGUMENT);
+    lrcs_joint joint = {1, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1.0};
+    assert_int_equal(lrcsi_placer_make(&good, &joint, &placer), LRCS_E_ARGUMENT);
+    joint.axis[0] = 1.0;
+    joint.angle_deg = (double)NAN;
+    assert_int_equal(lrcsi_placer_make(&good, &joint, &placer), LRCS_E_NUMBER);
+    joint.angle_deg = 1.0;
+    joint.origin[1] = (double)INFINITY;
+    assert_int_equal(lrcsi_placer_make(&good, &joint, &placer), LRCS_E_NUMBER);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_default_place_keeps_every_bit),
+        cmocka_unit_test(scaling_by_powers_of_two_is_exact),
+        cmocka_unit_test(joint_then_scale_then_rotation_then_translation),
+        cmocka_unit_test(an_odd_number_of_mirrors_flips),
+        cmocka_unit_test(rounding_stays_within_its_bound),
+        cmocka_unit_test(unfit_places_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
