@@ -60,9 +60,13 @@ typedef struct lrcs_closed {
    known).
    Given: shape (lrcs_shape_check), brdf (lrcs_brdf_check), aspect. A box or plate whose aspect
    is an angle is turned about its y axis: s_hat = (sin, 0, cos).
-   Returned: closed, m^2.
-   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_NUMBER.
-   Work: O(1), bounded; no work area.
+   Returned: closed, m^2. Where exp, pow and their kin are within 2 ulp, bound_m2 is at most
+   2e-14 sigma_m2, but for what underflows.
+   Status: LRCS_OK; LRCS_E_ARGUMENT: no such shape, an angle outside 0 .. 180, a direction of no
+   length; LRCS_E_NUMBER: not finite, outside its range or that of note 1, or sigma overflows.
+   Work: O(1), bounded: 1 to 80 us for most shapes, up to 2 ms for a paraboloid; no work area.
+   Notes: 1. Lengths are 0 or at least 1e-150 m; s is within 2^-333 .. 2^333 where A > 0.
+   2. A component of a direction below 2^-480 of the largest counts as 0.
    Source: see src/optics. */
 int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_aspect *aspect,
                      lrcs_closed *closed);

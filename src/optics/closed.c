@@ -1,21 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* sigma of a shape alone. It decides what each shape is made of (plane faces, caps, one curved
-   wall), scales its lengths by a power of two to about 1, which sigma then takes back exactly, and
-   checks; the curved walls are closed_ring.c and closed_cap.c. The bodies are convex, so what faces
-   the light is lit. */
+   wall) and checks; the curved walls are closed_ring.c and closed_cap.c. The bodies are convex, so
+   what faces the light is lit. */
 #include <math.h>
 
 #include "base/degrees.h"
 #include "optics/closed.h"
 
-/* Slopes for which s^2 and s^4 stay doubles whatever else they meet. */
-#define CLOSED_SLOPE_LEAST 0x1p-333
-#define CLOSED_SLOPE_MOST  0x1p333
-
-static lrcsi_dd dd_hypot(lrcsi_dd a, lrcsi_dd b)
-{
-    return lrcsi_closed_root(lrcsi_dd_add(lrcsi_dd_mul(a, a), lrcsi_dd_mul(b, b)));
-}
+/* Slopes for which s^2 and s^4, and lengths of which the products, stay normal doubles. */
+#define CLOSED_SLOPE_LEAST  0x1p-333
+#define CLOSED_SLOPE_MOST   0x1p333
+#define CLOSED_LENGTH_LEAST 1e-150
 
 static int light_by_degrees(double deg, lrcsi_light *light)
 {
@@ -52,8 +47,8 @@ static int light_by_direction(const double direction[3], lrcsi_light *light)
     for (int i = 0; i < 3; i++) {
         d[i] = (lrcsi_dd){scalbn(direction[i], shift), 0.0};
     }
-    lrcsi_dd side = dd_hypot(d[0], d[1]);
-    lrcsi_dd length = dd_hypot(side, d[2]);
+    lrcsi_dd side = lrcsi_closed_hypot(d[0], d[1]);
+    lrcsi_dd length = lrcsi_closed_hypot(side, d[2]);
     for (int i = 0; i < 3; i++) {
         light->s_hat[i] = lrcsi_closed_divide(d[i], length);
     }
@@ -67,8 +62,9 @@ static int light_by_direction(const double direction[3], lrcsi_light *light)
 static void closed_add_face(const lrcs_brdf *brdf, const lrcsi_light *light, int axis, int sign,
                             double area, lrcsi_amount *sum)
 {
-    lrcsi_angle theta = {dd_hypot(light->s_hat[(axis + 1) % 3], light->s_hat[(axis + 2) % 3]),
-                         light->s_hat[axis]};
+    lrcsi_angle theta = {
+        lrcsi_closed_hypot(light->s_hat[(axis + 1) % 3], light->s_hat[(axis + 2) % 3]),
+        light->s_hat[axis]};
     if (sign < 0) {
         theta.cosine = lrcsi_dd_negate(theta.cosine);
     }
@@ -156,27 +152,18 @@ static void closed_add_wall(const lrcs_shape *shape, const lrcs_brdf *brdf,
     lrcsi_closed_add(sum, &wall);
 }
 
-/* The largest dimension's binary exponent, taken out of all. */
-static int closed_normalise(lrcs_shape *shape)
-{
-    double *length[] = {&shape->size[0], &shape->size[1], &shape->size[2],
-                        &shape->radius,  &shape->radius2, &shape->length};
-    double most = 0.0;
-    for (int i = 0; i < 6; i++) {
-        most = fmax(most, *length[i]);
-    }
-    int shift = most > 0.0 ? ilogb(most) : 0;
-    for (int i = 0; i < 6; i++) {
-        *length[i] = scalbn(*length[i], -shift);
-    }
-    return shift;
-}
-
 static int closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf)
 {
+    const double length[] = {shape->size[0], shape->size[1], shape->size[2],
+                             shape->radius,  shape->radius2, shape->length};
     int status = lrcs_shape_check(shape, NULL);
     if (status != LRCS_OK) {
         return status;
+    }
+    for (int i = 0; i < 6; i++) {
+        if (length[i] > 0.0 && length[i] < CLOSED_LENGTH_LEAST) {
+            return LRCS_E_NUMBER;
+        }
     }
     status = lrcs_brdf_check(brdf);
     if (status < 0) {
@@ -186,7 +173,6 @@ static int closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf)
     return brdf->A > 0.0 && !slope_fits ? LRCS_E_NUMBER : LRCS_OK;
 }
 
-/* The last rounding of each part may be to a subnormal: 2^-1074 each, and again in their sum. */
 int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_aspect *aspect,
                      lrcs_closed *closed)
 {
@@ -200,19 +186,15 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
     if (status != LRCS_OK) {
         return status;
     }
-    lrcs_shape unit = *shape;
-    int shift = closed_normalise(&unit);
     lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
-    closed_add_planes(&unit, brdf, &light, &sum);
-    closed_add_wall(&unit, brdf, &light, &sum);
+    closed_add_planes(shape, brdf, &light, &sum);
+    closed_add_wall(shape, brdf, &light, &sum);
     lrcsi_closed_scale(&sum, 4.0 * LRCSI_PI, 1.0);
-    lrcs_closed out;
-    out.sigma_glint_m2 = scalbn(sum.value[LRCSI_GLINT], 2 * shift);
-    out.sigma_diffuse_m2 = scalbn(sum.value[LRCSI_DIFFUSE], 2 * shift);
+    lrcs_closed out = {0.0, sum.value[LRCSI_GLINT], sum.value[LRCSI_DIFFUSE], 0.0};
     out.sigma_m2 = out.sigma_glint_m2 + out.sigma_diffuse_m2;
-    double error = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE];
-    out.bound_m2 = scalbn(error, 2 * shift) + LRCSI_CLOSED_UNIT * out.sigma_m2;
-    out.bound_m2 += error > 0.0 ? 0x1p-1072 : 0.0;
+    out.bound_m2 = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE];
+    /* the sums themselves, and products that are subnormal: 2^-1074 each */
+    out.bound_m2 += out.bound_m2 > 0.0 ? 2.0 * LRCSI_CLOSED_UNIT * out.sigma_m2 + 0x1p-1070 : 0.0;
     if (!isfinite(out.sigma_m2) || !isfinite(out.bound_m2)) {
         return LRCS_E_NUMBER;
     }

@@ -41,8 +41,8 @@ static inline lrcsi_dd lrcsi_closed_divide(lrcsi_dd a, lrcsi_dd b)
     return lrcsi_dd_quick_sum(q, rest.hi / b.hi);
 }
 
-/* Square root, one Newton step: the same. */
-lrcsi_dd lrcsi_closed_root(lrcsi_dd a);
+/* Length of (a, b): the same, but that a component below 2^-480 of the other counts as 0. */
+lrcsi_dd lrcsi_closed_hypot(lrcsi_dd a, lrcsi_dd b);
 
 /* sine and cosine of a + b and a - b: relative error 2^-94 times the cancellation. */
 lrcsi_angle lrcsi_closed_angle_sum(lrcsi_angle a, lrcsi_angle b);
@@ -54,7 +54,8 @@ double lrcsi_closed_radians(lrcsi_angle a);
 /* F per unit of surface at that angle to its normal; 0 where the cosine is not positive. */
 lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta);
 
-/* amount *= factor, by part; the factors' relative error is `units` of 2^-53. */
+/* amount *= factor, by part; the factors' relative error is `units` of 2^-53, or they are off by
+   2^-1070 where they are subnormal. A factor of 0 is exact: no area. */
 void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units);
 
 /* The same factor for both parts. */

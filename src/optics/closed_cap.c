@@ -40,30 +40,39 @@ lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
     return amount;
 }
 
-/* The integral over y = 0 .. stretch/sqrt(|kappa|) of (g + 2 g r S)^3 dy, times g; r = Q/(P+Q),
-   g = n_0/(P+Q). From the far end, where it is largest, in stretches. */
-static double cap_stretch_integral(double kappa, double stretch, double g, double r)
+/* The integral over y sqrt(|kappa|) = low .. high of (g + 2 g r S)^3; r = Q/(P+Q), g = n_0/(P+Q).
+ */
+static double cap_stretch_panel(double kappa, double low, double high, double g, double r)
 {
     double root = sqrt(fabs(kappa));
+    double half = 0.5 * (high - low);
     double sum = 0.0;
-    for (double high = stretch; high > 0.0; high -= CAP_STRETCH) {
-        double low = fmax(high - CAP_STRETCH, 0.0);
-        double half = kappa < 0.0 ? 0.5 * (high - low) : 0.5 * high;
-        double middle = high - half;
-        double panel = 0.0;
-        for (int i = 0; i < 2 * LRCSI_GAUSS_PAIRS; i++) {
-            const double *rule = lrcsi_gauss_rule[i / 2];
-            double at = middle + (i % 2 ? half : -half) * rule[0];
-            double sine = kappa < 0.0 ? sinh(0.5 * at) : sin(0.5 * at);
-            double n = g * (1.0 + 2.0 * r * (sine / root) * (sine / root));
-            panel += rule[1] * n * n * n;
-        }
-        sum += half * panel;
-        if (kappa > 0.0 || half * panel <= 0x1p-60 * sum) {
+    for (int i = 0; i < 2 * LRCSI_GAUSS_PAIRS; i++) {
+        const double *rule = lrcsi_gauss_rule[i / 2];
+        double at = 0.5 * (low + half + (i % 2 ? half : -half) * rule[0]);
+        double sine = (kappa < 0.0 ? sinh(at) : sin(at)) / root;
+        double n = g * (1.0 + 2.0 * r * sine * sine);
+        sum += rule[1] * n * n * n;
+    }
+    return half * sum;
+}
+
+/* The integral over all of y, times g. Where it grows exponentially, from its far end, until what
+   is left is less than 2^-60. */
+static double cap_stretch_integral(double kappa, double stretch, double g, double r)
+{
+    double sum = 0.0;
+    int count = kappa < 0.0 ? 1 + (int)(stretch / CAP_STRETCH) : 1;
+    for (int i = 0; i < count; i++) {
+        double high = stretch - i * CAP_STRETCH;
+        double low = i + 1 < count ? high - CAP_STRETCH : 0.0;
+        double panel = cap_stretch_panel(kappa, low, high, g, r);
+        sum += panel;
+        if (panel <= 0x1p-60 * sum) {
             break;
         }
     }
-    return sum / root * g;
+    return sum / sqrt(fabs(kappa)) * g;
 }
 
 /* Phi, weighted with (n_0/n_z)^4, over the arc |phi| < phi_1 with w2 = tan^2(phi_1/2); near and far
@@ -84,9 +93,10 @@ static double cap_weight_arc(double near, double far, double q, double n_0, doub
 /* The same over the whole circle, where kappa > 0: (a - b cos E)^3 integrated over a half turn. */
 static double cap_weight_circle(double near, double far, double q, double n_0)
 {
-    double a = 0.5 * n_0 * (near + far) / near / far;
-    double b = n_0 * q / near / far;
-    return 2.0 * LRCSI_PI * (n_0 / sqrt(near * far)) * (a * a * a + 1.5 * a * b * b);
+    double g = n_0 / near;
+    double a = 0.5 * g * ((near + far) / far);
+    double b = g * (q / far);
+    return 2.0 * LRCSI_PI * sqrt(g) * sqrt(n_0 / far) * (a * a * a + 1.5 * a * b * b);
 }
 
 /* Phi at theta = start + delta = end - h (outer), sine and cosine of theta given. */
@@ -144,100 +154,115 @@ lrcsi_arc_sample lrcsi_cap_sample(const lrcsi_arc *arc, int right, double d)
     return sample;
 }
 
-/* sum += the integral over one piece of theta that starts at theta_r, nearest to the light.
-   Units: the piece's ends 10, its weight 20, the arc. */
-static void cap_add_piece(const lrcs_brdf *brdf, lrcsi_arc *arc, lrcsi_angle theta_r,
-                          lrcsi_amount *sum)
+/* What the caps of dome and paraboloid differ in: the normals' radius tau, and the surface they
+   stand for, `scale`^2 times the weight of a direction, `area` in all. */
+typedef struct cap_body {
+    lrcsi_angle tau;
+    int paraboloid;
+    double scale, area;
+} cap_body;
+
+/* sum += the integral over one piece of theta that starts at theta_r, nearest to the light. What
+   has underflowed there falls further, over no more than the whole area. Units: the piece's ends
+   10, its weight 20, scale 10, the arc. */
+static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc *arc,
+                          lrcsi_angle theta_r, lrcsi_amount *sum)
 {
     lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta_r);
-    double factor[LRCSI_PARTS] = {10.0, 10.0}; /* pi/2 2 pi at most, for what has underflowed */
+    double factor[LRCSI_PARTS] = {body->area, body->area};
     for (int part = 0; part < LRCSI_PARTS; part++) {
         if (amount.value[part] > 0.0) {
             arc->law = lrcsi_arc_law_make(brdf, part, theta_r.cosine.hi);
-            factor[part] = lrcsi_arc_integral(arc);
+            factor[part] = lrcsi_arc_integral(arc) * body->scale * body->scale;
         }
     }
-    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 30.0);
+    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 40.0);
     lrcsi_closed_add(sum, &amount);
 }
 
-/* Both pieces: whole circles up to |tau - alpha|, then arcs up to tau + alpha or the horizon.
-   n_z is regular within pi/2 - tau (`grain`) of what is lit. */
-static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light, lrcsi_angle tau,
-                                 int paraboloid)
+/* The geometry of theta for both pieces; start and end are |tau - alpha| and tau + alpha. */
+static lrcsi_cap cap_make(const cap_body *body, const lrcsi_light *light, lrcsi_angle *start,
+                          lrcsi_angle *end)
 {
-    lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
-    lrcsi_angle start = lrcsi_closed_angle_difference(tau, light->aspect);
-    lrcsi_angle end = lrcsi_closed_angle_sum(tau, light->aspect);
-    const lrcsi_angle nose = {{0.0, 0.0}, {1.0, 0.0}};
-    lrcsi_cap cap = {.nearer = start.sine.hi > 0.0,
-                     .horizon = !(end.cosine.hi > 0.0),
-                     .paraboloid = paraboloid,
+    *start = lrcsi_closed_angle_difference(body->tau, light->aspect);
+    *end = lrcsi_closed_angle_sum(body->tau, light->aspect);
+    lrcsi_cap cap = {.nearer = start->sine.hi > 0.0,
+                     .horizon = !(end->cosine.hi > 0.0),
+                     .paraboloid = body->paraboloid,
                      .sin_alpha = light->aspect.sine.hi,
                      .cos_alpha = light->aspect.cosine.hi,
-                     .sin_tau = tau.sine.hi,
-                     .n_0 = tau.cosine.hi};
+                     .sin_tau = body->tau.sine.hi,
+                     .n_0 = body->tau.cosine.hi};
     if (!cap.nearer) {
-        start.sine = lrcsi_dd_negate(start.sine);
+        start->sine = lrcsi_dd_negate(start->sine);
     }
-    cap.sin_start = start.sine.hi;
-    cap.cos_start = start.cosine.hi;
-    cap.start = lrcsi_closed_radians(start);
-    cap.gap = atan2(-end.cosine.hi, end.sine.hi);
-    cap.slack = atan2(-end.cosine.hi, -end.sine.hi);
-    cap.end = lrcsi_closed_radians(end);
-    lrcsi_arc arc = {.is_cap = 1, .cap = cap};
-    arc.grain = paraboloid ? atan2(cap.n_0, cap.sin_tau) : LRCSI_PI;
-    if (cap.nearer) {
-        arc.length = arc.left_clear = cap.start;
-        arc.right_clear = 0.25 * fmin(cap.cos_start, arc.grain);
-        arc.cap.inner = 1;
-        arc.cap.sin_end = cap.sin_start;
-        arc.cap.cos_end = cap.cos_start;
-        cap_add_piece(brdf, &arc, nose, &sum);
+    cap.sin_start = start->sine.hi;
+    cap.cos_start = start->cosine.hi;
+    cap.start = lrcsi_closed_radians(*start);
+    cap.gap = atan2(-end->cosine.hi, end->sine.hi);
+    cap.slack = atan2(-end->cosine.hi, -end->sine.hi);
+    cap.end = lrcsi_closed_radians(*end);
+    return cap;
+}
+
+/* Whole circles up to |tau - alpha|, where the light is inside the cap of normals; then arcs up to
+   tau + alpha or the horizon. n_z is regular within pi/2 - tau (`grain`) of what is lit. */
+static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light,
+                                 const cap_body *body)
+{
+    const lrcsi_angle nose = {{0.0, 0.0}, {1.0, 0.0}};
+    lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
+    lrcsi_angle start, end;
+    lrcsi_arc arc = {.is_cap = 1, .cap = cap_make(body, light, &start, &end)};
+    lrcsi_cap *cap = &arc.cap;
+    arc.grain = body->paraboloid ? atan2(cap->n_0, cap->sin_tau) : LRCSI_PI;
+    if (cap->nearer) {
+        cap->inner = 1;
+        cap->sin_end = cap->sin_start;
+        cap->cos_end = cap->cos_start;
+        arc.length = arc.left_clear = cap->start;
+        arc.right_clear = 0.25 * fmin(cap->cos_start, arc.grain);
+        cap_add_piece(brdf, body, &arc, nose, &sum);
     }
-    arc.cap.inner = 0;
-    arc.cap.sin_end = end.sine.hi;
-    arc.cap.cos_end = end.cosine.hi;
+    cap->inner = 0;
+    cap->sin_end = end.sine.hi;
+    cap->cos_end = end.cosine.hi;
     arc.left_clear = arc.right_clear = 0.0;
-    arc.length = cap.horizon
-                     ? atan2(cap.cos_start, cap.sin_start)
-                     : 2.0 * fmin(lrcsi_closed_radians(light->aspect), lrcsi_closed_radians(tau));
-    cap_add_piece(brdf, &arc, start, &sum);
+    arc.length = 2.0 * fmin(lrcsi_closed_radians(light->aspect), lrcsi_closed_radians(body->tau));
+    if (cap->horizon) {
+        arc.length = atan2(cap->cos_start, cap->sin_start); /* pi/2 - start */
+    }
+    cap_add_piece(brdf, body, &arc, start, &sum);
     return sum;
 }
 
 lrcsi_amount lrcsi_closed_dome(const lrcs_shape *shape, const lrcs_brdf *brdf,
                                const lrcsi_light *light)
 {
-    const lrcsi_angle tau = {{1.0, 0.0}, {0.0, 0.0}};
-    lrcsi_amount amount = cap_integral(brdf, light, tau, 0);
-    lrcsi_closed_scale(&amount, shape->radius * shape->radius, 1.0);
-    return amount;
+    double radius = shape->radius;
+    cap_body body = {{{1.0, 0.0}, {0.0, 0.0}}, 0, radius, 2.0 * LRCSI_PI * radius * radius};
+    return cap_integral(brdf, light, &body);
 }
 
 /* K n_0^-4 = ((R^2 + 4 H^2)/(2 H))^2. A paraboloid flatter than 2^-480 is its disc: its normals
-   turn by less than 2^-478, which moves F by less than a unit for s > 2^-333. */
+   turn by less than 2^-478, which moves F by less than a unit for s > 2^-333. Its area is at most
+   pi R^2 sqrt(1 + T^2), T = 2 H / R. */
 lrcsi_amount lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs_brdf *brdf,
                                      const lrcsi_light *light)
 {
     double radius = shape->radius;
     double height = shape->length;
-    if (height <= 0x1p-480 * radius) {
+    if (height <= 0x1p-480 * radius || radius == 0.0) {
         lrcsi_amount flat = lrcsi_closed_reflect(brdf, light->aspect);
         lrcsi_closed_scale(&flat, LRCSI_PI * radius * radius, 4.0);
         return flat;
     }
     lrcsi_dd r = {radius, 0.0};
     lrcsi_dd h = {2.0 * height, 0.0};
-    lrcsi_dd hyp = lrcsi_closed_root(lrcsi_dd_add(lrcsi_dd_mul(r, r), lrcsi_dd_mul(h, h)));
-    lrcsi_angle tau = {lrcsi_closed_divide(h, hyp), lrcsi_closed_divide(r, hyp)};
-    lrcsi_amount amount = {{0.0, 0.0}, {0.0, 0.0}};
-    if (radius > 0.0) {
-        amount = cap_integral(brdf, light, tau, 1);
-        double scale = hyp.hi * (hyp.hi / h.hi);
-        lrcsi_closed_scale(&amount, scale, 4.0);
-        lrcsi_closed_scale(&amount, scale, 4.0);
-    }
-    return amount;
+    lrcsi_dd hyp = lrcsi_closed_hypot(r, h);
+    cap_body body = {{lrcsi_closed_divide(h, hyp), lrcsi_closed_divide(r, hyp)},
+                     1,
+                     hyp.hi * (hyp.hi / h.hi),
+                     LRCSI_PI * radius * hyp.hi};
+    return cap_integral(brdf, light, &body);
 }

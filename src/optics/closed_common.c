@@ -5,7 +5,8 @@
 
 #include "optics/closed.h"
 
-lrcsi_dd lrcsi_closed_root(lrcsi_dd a)
+/* Square root with one Newton step. */
+static lrcsi_dd closed_root(lrcsi_dd a)
 {
     if (!(a.hi > 0.0)) {
         return (lrcsi_dd){0.0, 0.0};
@@ -13,6 +14,20 @@ lrcsi_dd lrcsi_closed_root(lrcsi_dd a)
     double r = sqrt(a.hi);
     lrcsi_dd rest = lrcsi_dd_sub(a, lrcsi_dd_two_product(r, r));
     return lrcsi_dd_quick_sum(r, rest.hi / (2.0 * r));
+}
+
+static lrcsi_dd closed_shift(lrcsi_dd a, int shift)
+{
+    return (lrcsi_dd){scalbn(a.hi, shift), scalbn(a.lo, shift)};
+}
+
+lrcsi_dd lrcsi_closed_hypot(lrcsi_dd a, lrcsi_dd b)
+{
+    double most = fmax(fabs(a.hi), fabs(b.hi));
+    int shift = most > 0.0 ? -ilogb(most) : 0;
+    a = closed_shift(a, shift);
+    b = closed_shift(b, shift);
+    return closed_shift(closed_root(lrcsi_dd_add(lrcsi_dd_mul(a, a), lrcsi_dd_mul(b, b))), -shift);
 }
 
 lrcsi_angle lrcsi_closed_angle_sum(lrcsi_angle a, lrcsi_angle b)
@@ -74,9 +89,12 @@ void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], 
     for (int part = 0; part < LRCSI_PARTS; part++) {
         /* a part that is exactly nothing stays so, whatever its factor */
         if (amount->error[part] > 0.0) {
-            amount->value[part] *= factor[part];
+            double before = amount->value[part];
+            double after = before * factor[part];
+            amount->value[part] = after;
             amount->error[part] = amount->error[part] * factor[part] * (1.0 + 0x1p-40) +
-                                  (units + 1.0) * LRCSI_CLOSED_UNIT * amount->value[part];
+                                  (units + 1.0) * LRCSI_CLOSED_UNIT * after;
+            amount->error[part] += factor[part] > 0.0 ? 0x1p-1070 * before : 0.0;
         }
     }
 }

@@ -26,8 +26,7 @@ static ring_wall ring_wall_make(double top, double base, double length)
 {
     lrcsi_dd rise = lrcsi_dd_two_sum(base, -top);
     lrcsi_dd height = {length, 0.0};
-    lrcsi_dd slant =
-        lrcsi_closed_root(lrcsi_dd_add(lrcsi_dd_mul(rise, rise), lrcsi_dd_mul(height, height)));
+    lrcsi_dd slant = lrcsi_closed_hypot(rise, height);
     ring_wall wall = {{{0.0, 0.0}, {1.0, 0.0}}, -1.0, 0.0};
     if (slant.hi > 0.0) {
         wall.beta.sine = lrcsi_closed_divide(rise, slant);
@@ -61,7 +60,7 @@ static void ring_extremes(const ring_wall *wall, const lrcsi_light *light, lrcsi
 }
 
 /* sin^2(phi/2) counts from the left end, and its complement from phi = pi or from phi_1:
-   1 - k sin^2(phi/2) = k sin(d/2) sin(psi_1 + d/2) at phi = phi_1 - d. */
+   1 - k sin^2(phi/2) = k sin(d/2) sin(phi_1 - d/2) at phi = phi_1 - d, phi_1 = pi - psi_1. */
 lrcsi_arc_sample lrcsi_ring_sample(const lrcsi_arc *arc, int right, double d)
 {
     const lrcsi_ring *ring = &arc->ring;
@@ -73,7 +72,9 @@ lrcsi_arc_sample lrcsi_ring_sample(const lrcsi_arc *arc, int right, double d)
         q = ring->rest + y;
         y = ring->k * cosine * cosine;
     } else if (right) {
-        q = ring->k * sine * sin(ring->psi_1 + 0.5 * d);
+        double phi_1 = arc->length;
+        double far = phi_1 < ring->psi_1 ? phi_1 - 0.5 * d : ring->psi_1 + 0.5 * d;
+        q = ring->k * sine * sin(far);
         y = 1.0 - q;
     }
     return lrcsi_arc_law_sample(&arc->law, y, q);
