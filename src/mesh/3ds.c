@@ -136,10 +136,9 @@ static int tds_fill(lrcsi_tds_walk *walk, lrcsi_tds_chunk root, lrcs_work *work)
 {
     size_t mark = work->used;
     uint32_t materials = walk->mesh->material_count;
-    walk->name = lrcsi_work_take(work, materials, sizeof *walk->name);
-    int status = walk->name ? tds_read_all(walk, root, LRCSI_TDS_MATERIAL) : LRCS_E_MEMORY;
+    int status = lrcsi_index_make(work, materials, &walk->names);
     if (status == LRCS_OK) {
-        status = lrcsi_spans_make(walk->bytes, walk->name, materials, work, &walk->names);
+        status = tds_read_all(walk, root, LRCSI_TDS_MATERIAL);
     }
     if (status == LRCS_OK) {
         status = tds_read_all(walk, root, LRCSI_TDS_OBJECT);

@@ -9,6 +9,7 @@
 
 #include <lrcs/mesh.h>
 
+#include "base/index.h"
 #include "mesh/store.h"
 
 enum lrcsi_tds_id {
@@ -55,8 +56,7 @@ typedef struct lrcsi_tds_walk {
     /* NULL while counting: */
     lrcs_mesh *mesh;
     char *text;        /* where the next name goes */
-    lrcsi_span *name;  /* of each material, as in the file */
-    lrcsi_spans names; /* the same, once all are known */
+    lrcsi_index names; /* materials by their bytes in the file; of equal names the first */
 } lrcsi_tds_walk;
 
 /* Says where the walk stopped; returns `status`. */

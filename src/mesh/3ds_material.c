@@ -125,7 +125,10 @@ int lrcsi_tds_read_material(lrcsi_tds_walk *walk, lrcsi_tds_chunk material)
     surface.name = lrcsi_tds_store_name(walk, name);
     if (walk->mesh) {
         walk->mesh->material[index] = surface;
-        walk->name[index] = name;
+        const unsigned char *bytes = walk->bytes + name.at;
+        if (lrcsi_index_find(&walk->names, 0, bytes, name.size) == LRCS_NONE) {
+            lrcsi_index_put(&walk->names, 0, bytes, name.size, index);
+        }
     }
     return lrcsi_tds_add(walk, &walk->counts.materials, 1, start, "material");
 }

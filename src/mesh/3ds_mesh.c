@@ -103,7 +103,7 @@ static int tds_read_group(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const tds
     }
     uint32_t material = LRCS_NONE;
     if (walk->mesh) {
-        material = lrcsi_spans_find(&walk->names, walk->bytes + name.at, name.size);
+        material = lrcsi_index_find(&walk->names, 0, walk->bytes + name.at, name.size);
         material = material == LRCS_NONE ? TDS_UNDEFINED : material;
     }
     for (size_t i = 0; i < count; i++) {

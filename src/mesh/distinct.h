@@ -3,16 +3,14 @@
 #ifndef LRCSI_DISTINCT_H
 #define LRCSI_DISTINCT_H
 
-#include <lrcs/mesh.h>
+#include "base/index.h"
 
 typedef struct lrcsi_distinct {
     const char **name; /* the caller's list, by number */
-    uint32_t count;
-    uint32_t *slot; /* index into name, or LRCS_NONE */
-    size_t slots;
+    lrcsi_index index;
 } lrcsi_distinct;
 
-/* An empty table for up to `most` names, lrcsi_store_slots(most) words of the work area.
+/* An empty table for up to `most` names, lrcsi_index_need(most) bytes of the work area.
    Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_distinct_make(const char **name, uint32_t most, lrcs_work *work,
                         lrcsi_distinct *distinct);

@@ -342,11 +342,11 @@ static int obj_take(obj_walk *w, const lrcs_mesh_counts *counts, lrcs_work *work
 static void obj_finish(obj_walk *w)
 {
     lrcs_mesh *mesh = w->mesh;
-    for (uint32_t i = 0; i < w->materials.count; i++) {
+    for (uint32_t i = 0; i < w->materials.index.count; i++) {
         mesh->material[i].name = w->materials.name[i];
     }
-    mesh->material_count = w->materials.count;
-    mesh->part_count = w->parts.count;
+    mesh->material_count = w->materials.index.count;
+    mesh->part_count = w->parts.index.count;
     mesh->notices = w->notices;
     if (w->library.size > 0) {
         mesh->material_file = w->text;

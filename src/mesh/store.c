@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "base/index.h"
 #include "base/work.h"
 
 size_t lrcsi_store_slots(size_t count)
@@ -27,54 +28,6 @@ uint64_t lrcsi_store_mix(uint64_t key)
     key = (key ^ key >> 30) * 0xbf58476d1ce4e5b9u;
     key = (key ^ key >> 27) * 0x94d049bb133111ebu;
     return key ^ key >> 31;
-}
-
-uint64_t lrcsi_store_key(const void *bytes, size_t size)
-{
-    const unsigned char *at = bytes;
-    uint64_t key = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < size; i++) {
-        key = (key ^ at[i]) * 0x100000001b3u;
-    }
-    return key;
-}
-
-/* The slot where a name stands, or the empty one where it would. */
-static size_t name_slot(const lrcsi_spans *names, const unsigned char *name, size_t size)
-{
-    size_t slot = (size_t)lrcsi_store_mix(lrcsi_store_key(name, size)) & (names->slots - 1);
-    while (names->slot[slot] != LRCS_NONE) {
-        lrcsi_span there = names->name[names->slot[slot]];
-        if (there.size == size && memcmp(names->bytes + there.at, name, size) == 0) {
-            break;
-        }
-        slot = (slot + 1) & (names->slots - 1);
-    }
-    return slot;
-}
-
-int lrcsi_spans_make(const unsigned char *bytes, const lrcsi_span *name, uint32_t count,
-                     lrcs_work *work, lrcsi_spans *names)
-{
-    lrcsi_spans made = {bytes, name, NULL, lrcsi_store_slots(count)};
-    made.slot = lrcsi_work_take(work, made.slots, sizeof *made.slot);
-    if (!made.slot) {
-        return LRCS_E_MEMORY;
-    }
-    memset(made.slot, 0xff, made.slots * sizeof *made.slot); /* LRCS_NONE */
-    for (uint32_t i = 0; i < count; i++) {
-        size_t slot = name_slot(&made, bytes + name[i].at, name[i].size);
-        if (made.slot[slot] == LRCS_NONE) {
-            made.slot[slot] = i;
-        }
-    }
-    *names = made;
-    return LRCS_OK;
-}
-
-uint32_t lrcsi_spans_find(const lrcsi_spans *names, const unsigned char *name, size_t size)
-{
-    return names->slot[name_slot(names, name, size)];
 }
 
 int lrcsi_store_take(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh, char **text)
@@ -113,11 +66,9 @@ size_t lrcs_mesh_need(const lrcs_mesh_counts *counts)
         2 * (size_t)LRCS_WORK_ALIGN, /* those three are separate blocks */
         lrcsi_work_bytes(counts->text_bytes, 1),
         lrcsi_work_bytes(counts->vertices, sizeof(lrcs_point)),
-        /* scratch: names of materials or parts, or welded vertices, in a table */
-        lrcsi_work_bytes(counts->materials, sizeof(lrcsi_span)),
-        lrcsi_work_bytes(lrcsi_store_slots(counts->materials), sizeof(uint32_t)),
-        lrcsi_work_bytes(counts->parts, sizeof(lrcsi_span)),
-        lrcsi_work_bytes(lrcsi_store_slots(counts->parts), sizeof(uint32_t)),
+        /* scratch: names of materials and parts, or welded vertices, in a table */
+        lrcsi_index_need(counts->materials),
+        lrcsi_index_need(counts->parts),
         lrcsi_work_bytes(lrcsi_store_slots(counts->vertices), sizeof(uint32_t)),
     };
     size_t bytes = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A mesh's blocks in the work area, and the hash tables that readers use on the way. */
+/* A mesh's blocks in the work area, and the slots of the table by which STL vertices are welded. */
 #ifndef LRCSI_STORE_H
 #define LRCSI_STORE_H
 
@@ -18,28 +18,9 @@ size_t lrcsi_store_slots(size_t count);
 /* Spreads 64 bits over all of them: an entry's first slot is lrcsi_store_mix(key) & (slots - 1). */
 uint64_t lrcsi_store_mix(uint64_t key);
 
-/* A key for bytes, to be mixed (Fowler, Noll, Vo 1991: FNV-1a). */
-uint64_t lrcsi_store_key(const void *bytes, size_t size);
-
 /* Where a name's bytes lie in the input. */
 typedef struct lrcsi_span {
     size_t at, size;
 } lrcsi_span;
-
-/* Names by their bytes, for the material lookups of a reader. */
-typedef struct lrcsi_spans {
-    const unsigned char *bytes; /* the input */
-    const lrcsi_span *name;
-    uint32_t *slot; /* index into name, or LRCS_NONE */
-    size_t slots;
-} lrcsi_spans;
-
-/* Makes the table in the work area, it then refers to `name` and `bytes`. Of equal names the
-   first is found. Status: LRCS_OK; LRCS_E_MEMORY. */
-int lrcsi_spans_make(const unsigned char *bytes, const lrcsi_span *name, uint32_t count,
-                     lrcs_work *work, lrcsi_spans *names);
-
-/* The index of the first name with these bytes, or LRCS_NONE. */
-uint32_t lrcsi_spans_find(const lrcsi_spans *names, const unsigned char *name, size_t size);
 
 #endif

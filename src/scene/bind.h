@@ -6,7 +6,7 @@
 
 #include <lrcs/scene.h>
 
-#include "scene/index.h"
+#include "base/index.h"
 
 typedef struct lrcsi_binder {
     const lrcs_recipe *recipe;

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "scene/fnv.h"
+#include "base/fnv.h"
 
 /* The IEEE bits of a double, those of +0 for either zero. */
 static uint64_t hash_double(uint64_t hash, double x)

@@ -5,7 +5,7 @@
 
 #include "base/where.h"
 #include "base/work.h"
-#include "scene/index.h"
+#include "base/index.h"
 #include "scene/recipe.h"
 
 /* Tags of names that must differ among themselves. */

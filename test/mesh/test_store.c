@@ -22,33 +22,6 @@ static void a_table_is_a_power_of_two_and_at_most_half_full(void **state)
     assert_int_equal(lrcsi_store_slots(SIZE_MAX / 2), SIZE_MAX);
 }
 
-static void names_are_found_by_their_bytes_the_first_of_equals(void **state)
-{
-    (void)state;
-    static const unsigned char bytes[] = "gold goldwhite";
-    static const lrcsi_span name[] = {{0, 4}, {0, 5}, {9, 5}, {5, 4}, {0, 0}};
-    unsigned char area[1024];
-    lrcs_work work = lrcs_work_make(area, sizeof area);
-    lrcsi_spans names;
-    assert_int_equal(lrcsi_spans_make(bytes, name, 5, &work, &names), LRCS_OK);
-    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"gold", 4), 0);
-    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"gold ", 5), 1);
-    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"white", 5), 2);
-    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"", 0), 4);
-    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"gol", 3), LRCS_NONE);
-    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"Gold", 4), LRCS_NONE);
-}
-
-static void no_names_are_an_empty_table(void **state)
-{
-    (void)state;
-    unsigned char area[64];
-    lrcs_work work = lrcs_work_make(area, sizeof area);
-    lrcsi_spans names;
-    assert_int_equal(lrcsi_spans_make(area, NULL, 0, &work, &names), LRCS_OK);
-    assert_int_equal(lrcsi_spans_find(&names, (const unsigned char *)"x", 1), LRCS_NONE);
-}
-
 static void the_need_serves_at_any_alignment_and_the_blocks_are_cleared(void **state)
 {
     (void)state;
@@ -92,8 +65,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_table_is_a_power_of_two_and_at_most_half_full),
-        cmocka_unit_test(names_are_found_by_their_bytes_the_first_of_equals),
-        cmocka_unit_test(no_names_are_an_empty_table),
         cmocka_unit_test(the_need_serves_at_any_alignment_and_the_blocks_are_cleared),
         cmocka_unit_test(counts_beyond_memory_need_more_than_there_is),
     };

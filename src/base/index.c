@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* The index from names to numbers. Decides where a name sits; what its number means is the
    caller's business. */
-#include "scene/index.h"
+#include "base/index.h"
 
 #include <string.h>
 
 #include "base/work.h"
-#include "scene/fnv.h"
+#include "base/fnv.h"
 
 /* At least two slots a name, so that probes stay short and always meet an empty slot. */
 static size_t slot_count(size_t count)

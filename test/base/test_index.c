@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT */
+/* The index from names to numbers. */
+#include "base/index.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "check.h"
+
+static void names_are_told_apart_by_bytes_and_tag(void **state)
+{
+    (void)state;
+    unsigned char area[1024];
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcsi_index names;
+    assert_int_equal(lrcsi_index_make(&work, 4, &names), LRCS_OK);
+    lrcsi_index_put(&names, 0, "gold", 4, 10);
+    lrcsi_index_put(&names, 0, "gold ", 5, 11);
+    lrcsi_index_put(&names, 1, "gold", 4, 12);
+    lrcsi_index_put(&names, 0, "", 0, 13);
+    assert_int_equal(lrcsi_index_find(&names, 0, "gold", 4), 10);
+    assert_int_equal(lrcsi_index_find(&names, 0, "gold ", 5), 11);
+    assert_int_equal(lrcsi_index_find(&names, 1, "gold", 4), 12);
+    assert_int_equal(lrcsi_index_find(&names, 0, "", 0), 13);
+    assert_int_equal(lrcsi_index_find(&names, 0, "gol", 3), LRCS_NONE);
+    assert_int_equal(lrcsi_index_find(&names, 0, "Gold", 4), LRCS_NONE);
+    assert_int_equal(lrcsi_index_find(&names, 2, "gold", 4), LRCS_NONE);
+}
+
+static void a_second_put_replaces_the_value(void **state)
+{
+    (void)state;
+    unsigned char area[256];
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcsi_index names;
+    assert_int_equal(lrcsi_index_make(&work, 1, &names), LRCS_OK);
+    lrcsi_index_put(&names, 0, "a", 1, 1);
+    lrcsi_index_put(&names, 0, "a", 1, 2);
+    assert_int_equal(lrcsi_index_find(&names, 0, "a", 1), 2);
+    assert_int_equal(names.count, 1);
+}
+
+static void an_index_of_nothing_finds_nothing(void **state)
+{
+    (void)state;
+    unsigned char area[128];
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcsi_index names;
+    assert_int_equal(lrcsi_index_make(&work, 0, &names), LRCS_OK);
+    assert_int_equal(lrcsi_index_find(&names, 0, "x", 1), LRCS_NONE);
+}
+
+/* Full to its promised count, every name is still found, and the need was enough. */
+static void a_full_index_finds_every_name(void **state)
+{
+    (void)state;
+    enum { COUNT = 1000 };
+    static char text[COUNT][8];
+    static unsigned char area[65536];
+    assert_true(lrcsi_index_need(COUNT) <= sizeof area);
+    lrcs_work work = lrcs_work_make(area, lrcsi_index_need(COUNT));
+    lrcsi_index names;
+    assert_int_equal(lrcsi_index_make(&work, COUNT, &names), LRCS_OK);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        snprintf(text[i], sizeof text[i], "n%u", i);
+        lrcsi_index_put(&names, i % 3, text[i], strlen(text[i]), i);
+    }
+    for (uint32_t i = 0; i < COUNT; i++) {
+        assert_int_equal(lrcsi_index_find(&names, i % 3, text[i], strlen(text[i])), i);
+        assert_int_equal(lrcsi_index_find(&names, (i + 1) % 3, text[i], strlen(text[i])), LRCS_NONE);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_are_told_apart_by_bytes_and_tag),
+        cmocka_unit_test(a_second_put_replaces_the_value),
+        cmocka_unit_test(an_index_of_nothing_finds_nothing),
+        cmocka_unit_test(a_full_index_finds_every_name),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
