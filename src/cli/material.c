@@ -50,10 +50,9 @@ static int colour_read(const char *text, size_t size, unsigned char rgb[3])
         return -1;
     }
     for (int i = 0; i < 6; i++) {
-        char c = text[1 + i];
-        c = c >= 'A' && c <= 'F' ? (char)(c - 'A' + 'a') : c;
-        const char *at = c ? strchr(digit, c) : NULL;
-        if (!at) {
+        int c = (unsigned char)text[1 + i];
+        const char *at = strchr(digit, c >= 'A' && c <= 'F' ? c - 'A' + 'a' : c);
+        if (!at || !*at) {
             return -1;
         }
         rgb[i / 2] = (unsigned char)(i % 2 ? rgb[i / 2] + (at - digit) : 16 * (at - digit));

@@ -109,7 +109,7 @@ static int case_run(const lrcs_host_scene *scene, const lrcs_shape *shape, verif
     lrcs_run_options options = lrcs_run_options_default();
     lrcs_aspect aspect = {.deg = one->aspect_deg};
     lrcs_pose pose;
-    lrcs_result result;
+    lrcs_result result = {0};
     lrcs_closed closed;
     options.method = LRCS_METHOD_FACET;
     options.tolerance = VERIFY_TOLERANCE;

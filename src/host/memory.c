@@ -9,10 +9,9 @@
 
 #define STEP_TRIES 12
 
-/* The link before each block; as large as the strictest alignment. */
-typedef union host_block {
-    union host_block *next;
-    unsigned char room[LRCS_WORK_ALIGN];
+/* The link before each block; what follows it is aligned for anything. */
+typedef struct host_block {
+    _Alignas(max_align_t) struct host_block *next;
 } host_block;
 
 /* A block not yet owned, or NULL. */

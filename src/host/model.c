@@ -39,7 +39,7 @@ static int match_case(char *path)
     const struct dirent *entry;
     while (folder && !found && (entry = readdir(folder)) != NULL) {
         if (strcasecmp(entry->d_name, name) == 0) {
-            memcpy(name, entry->d_name, strlen(name));
+            strcpy(name, entry->d_name); /* of the same length */
             found = 1;
         }
     }

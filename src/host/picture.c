@@ -79,7 +79,7 @@ static double histogram_at(const uint32_t count[SCALE_BINS], double share)
     while (bin < SCALE_BINS - 1 && seen + count[bin] <= share * total) {
         seen += count[bin++];
     }
-    return bin - SCALE_BINS / 2;
+    return bin - SCALE_BINS / 2.0;
 }
 
 /* The scale covers all returns seen but the weakest and strongest half percent of the area, in
@@ -188,7 +188,10 @@ static void legend_make(uint32_t size, const picture_layout *at, const double ra
         }
     }
     double step = range[1] - range[0] > 20.0 ? 10.0 : 5.0;
-    for (double db = step * ceil(range[0] / step); db <= range[1]; db += step) {
+    double first = step * ceil(range[0] / step);
+    int ticks = (int)((range[1] - first) / step) + 1;
+    for (int i = 0; i < ticks; i++) {
+        double db = first + i * step;
         char text[16];
         snprintf(text, sizeof text, "%.0f", db);
         uint32_t half = (uint32_t)strlen(text) * LRCSI_FONT_ADVANCE * at->scale / 2;

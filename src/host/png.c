@@ -81,9 +81,12 @@ static void put_match(bit_writer *out, size_t length, size_t distance)
 static size_t match_length(const unsigned char *bytes, size_t at, size_t size, size_t distance)
 {
     size_t length = 0;
-    size_t most = size - at < MATCH_MOST ? size - at : MATCH_MOST;
+    size_t most = size - at;
     if (distance > at || distance > WINDOW) {
         return 0;
+    }
+    if (most > MATCH_MOST) {
+        most = MATCH_MOST;
     }
     while (length < most && bytes[at + length] == bytes[at + length - distance]) {
         length++;

@@ -68,7 +68,8 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t 
 }
 
 /* What the flat facets of an engine-made shape may be off, whichever way they face: part of the
-   patch behind a facet that faces away may still see the light. */
+   patch behind a facet that faces away may still see the light. Caps and bases, which no smoothing
+   group marks as curved, are exact. */
 static void add_tessellation(total_sums *sums, const lrcsi_view *view, uint32_t facet,
                              const lrcsi_tilt *tilt)
 {
@@ -148,7 +149,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visibl
             }
             count_facet(&total, &sums, reflects, &tilt, &visible[f]);
         }
-        if (p->curved && unshadowed && !p->skip[f]) {
+        if (p->curved && unshadowed && !p->skip[f] && p->scene->facet_smooth[f] != 0) {
             add_tessellation(&sums, view, f, &tilt);
         }
         if (records) {

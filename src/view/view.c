@@ -7,6 +7,7 @@
 
 #include "base/dd.h"
 #include "base/exact.h"
+#include "base/range.h"
 #include "base/work.h"
 
 #define U 0x1p-53
@@ -92,7 +93,7 @@ lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
         tilt.stretch = HUGE_VAL;
     }
     tilt.tan2 = (cross / dot) * (cross / dot);
-    tilt.cos_theta = facing * fmin(1, dot / (n->length * view->length));
+    tilt.cos_theta = facing * lrcsi_least(1, dot / (n->length * view->length));
     tilt.projected = dot / (2 * view->length);
     return tilt;
 }
@@ -135,13 +136,13 @@ static void view_window(lrcsi_view *view)
         for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
             const double *x = view->point[p->scene->facet[f].corner[corner]].x;
             for (int k = 0; k < 2; k++) {
-                low[k] = fmin(low[k], x[k]);
-                high[k] = fmax(high[k], x[k]);
+                low[k] = lrcsi_least(low[k], x[k]);
+                high[k] = lrcsi_most(high[k], x[k]);
             }
         }
     }
     if (p->live > 0) {
-        view->side = fmax(high[0] - low[0], high[1] - low[1]);
+        view->side = lrcsi_most(high[0] - low[0], high[1] - low[1]);
         for (int k = 0; k < 2; k++) {
             view->low[k] = 0.5 * (low[k] + high[k]) - 0.5 * view->side;
         }
@@ -178,7 +179,7 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
        and R's own rows are off by a few u; a lifted point adds u of the centre. */
     double reach = 0;
     for (int k = 0; k < 3; k++) {
-        reach = fmax(reach, fabs(prepared->centre[k]));
+        reach = lrcsi_most(reach, fabs(prepared->centre[k]));
     }
     v.off = 32 * U * (prepared->radius + reach);
     view_facings(&v);

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/range.h"
 #include "base/work.h"
 
 /* The cell of a view coordinate, kept within 0 .. size - 1. */
@@ -31,8 +32,8 @@ void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex, int count, d
     for (int k = 0; k < 2; k++) {
         low[k] = high[k] = view->point[vertex[0]].x[k];
         for (int i = 1; i < count; i++) {
-            low[k] = fmin(low[k], view->point[vertex[i]].x[k]);
-            high[k] = fmax(high[k], view->point[vertex[i]].x[k]);
+            low[k] = lrcsi_least(low[k], view->point[vertex[i]].x[k]);
+            high[k] = lrcsi_most(high[k], view->point[vertex[i]].x[k]);
         }
     }
 }
@@ -44,7 +45,7 @@ int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
 
 static int grid_start(const lrcsi_view *view, uint32_t items, lrcs_work *work, lrcsi_grid *grid)
 {
-    double size = fmin(2048, fmax(1, sqrt((double)items)));
+    double size = lrcsi_least(2048, lrcsi_most(1, sqrt((double)items)));
     grid->view = view;
     grid->size = (uint32_t)size;
     grid->scale = view->side > 0 ? grid->size / view->side : 0;
@@ -105,13 +106,13 @@ static void segment_row(const lrcsi_grid *grid, const double *a, const double *b
     if (fabs(rise) > margin) {
         double u = (bottom - a[1]) / rise;
         double v = (top - a[1]) / rise;
-        t0 = fmin(1, fmax(0, fmin(u, v)));
-        t1 = fmin(1, fmax(0, fmax(u, v)));
+        t0 = lrcsi_least(1, lrcsi_most(0, lrcsi_least(u, v)));
+        t1 = lrcsi_least(1, lrcsi_most(0, lrcsi_most(u, v)));
     }
     double x0 = a[0] + t0 * (b[0] - a[0]);
     double x1 = a[0] + t1 * (b[0] - a[0]);
-    range[0] = fmin(x0, x1);
-    range[1] = fmax(x0, x1);
+    range[0] = lrcsi_least(x0, x1);
+    range[1] = lrcsi_most(x0, x1);
 }
 
 static void grid_put_edge(lrcsi_grid *grid, const lrcsi_edge *edge, uint32_t item)

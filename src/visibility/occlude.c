@@ -16,6 +16,7 @@
 
 #include <math.h>
 
+#include "base/range.h"
 #include "base/work.h"
 #include "visibility/occluder.h"
 #include "visibility/query.h"
@@ -161,7 +162,7 @@ static uint32_t occlude_candidates(const lrcsi_target *target, occlude_scratch *
     return count;
 }
 
-/* The regions that they hide. */
+/* The regions that they hide. The count is LRCS_NONE where one of them hides all of the target. */
 static int occlude_regions(occlude_job *job, const uint32_t *candidate, uint32_t count,
                            lrcs_work *work, double *error)
 {
@@ -169,10 +170,20 @@ static int occlude_regions(occlude_job *job, const uint32_t *candidate, uint32_t
     if (!job->occluder) {
         return LRCS_E_MEMORY;
     }
+    lrcsi_clip_polygon whole;
+    lrcsi_clip_triangle((const double(*)[2])job->target.corner, &whole);
     for (uint32_t i = 0; i < count; i++) {
-        if (lrcsi_occluder_make(&job->target, candidate[i], &job->occluder[job->count])) {
-            *error += job->occluder[job->count++].error;
+        lrcsi_occluder *occluder = &job->occluder[job->count];
+        if (!lrcsi_occluder_make(&job->target, candidate[i], occluder)) {
+            continue;
         }
+        *error += occluder->error;
+        if (lrcsi_clip_overlap(&whole, &occluder->region) == LRCSI_CLIP_COVERED) {
+            *error = occluder->error;
+            job->count = LRCS_NONE;
+            return LRCS_OK;
+        }
+        job->count++;
     }
     job->room = 8 * (size_t)job->count + 1024;
     job->list = lrcsi_work_take(work, job->room, sizeof *job->list);
@@ -192,14 +203,16 @@ static int occlude_contested(const lrcsi_view *view, uint32_t facet, occlude_scr
     double rims = 0;
     int status = occlude_regions(&job, scratch->candidate, candidates, work, &rims);
     if (status == LRCS_OK) {
-        occlude_cells(&job);
+        if (job.count != LRCS_NONE) {
+            occlude_cells(&job);
+        }
         double whole = lrcsi_view_tilt(view, facet).projected;
         double d = job.target.diameter;
         double error = (rims + 8 * U * d * (job.splits + 4)) * 3 * d;
-        double left = fmin(whole, job.area);
+        double left = lrcsi_least(whole, job.area);
         visible->area = left;
-        visible->low = fmax(0, left - error);
-        visible->high = fmin(whole, left + job.doubt + error);
+        visible->low = lrcsi_most(0, left - error);
+        visible->high = lrcsi_least(whole, left + job.doubt + error);
         if (!isfinite(error)) {
             *visible = (lrcsi_visible){left, 0, whole, 0};
         }

@@ -9,6 +9,7 @@
 
 #include "base/dd.h"
 #include "base/exact.h"
+#include "base/range.h"
 #include "visibility/sample.h"
 
 #define U 0x1p-53
@@ -40,6 +41,12 @@ static double frame_point(const lrcsi_view *view, const double *origin, const do
     return sqrt(square);
 }
 
+/* Corner k of a facet, counted so that they run counter-clockwise in the view. */
+static const double *caster_corner(const lrcsi_view *view, uint32_t facet, int k)
+{
+    return lrcsi_prepared_corner(view->prepared, facet, view->facing[facet] > 0 ? k : (3 - k) % 3);
+}
+
 /* Corners of a facet in the target's frame, counter-clockwise; returns the farthest distance. */
 static double frame_facet(const lrcsi_view *view, uint32_t target, uint32_t facet,
                           double corner[3][2])
@@ -47,9 +54,8 @@ static double frame_facet(const lrcsi_view *view, uint32_t target, uint32_t face
     const double *origin = lrcsi_prepared_corner(view->prepared, target, 0);
     double reach = 0;
     for (int k = 0; k < 3; k++) {
-        int from = view->facing[facet] > 0 ? k : (3 - k) % 3;
-        const double *x = lrcsi_prepared_corner(view->prepared, facet, from);
-        reach = fmax(reach, frame_point(view, origin, x, corner[k]));
+        const double *x = caster_corner(view, facet, k);
+        reach = lrcsi_most(reach, frame_point(view, origin, x, corner[k]));
     }
     return reach;
 }
@@ -59,10 +65,6 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
     *t = (lrcsi_target){.view = view, .facet = facet};
     double reach = frame_facet(view, facet, facet, t->corner);
     t->diameter = 2 * reach;
-    for (int k = 0; k < 2; k++) {
-        t->low[k] = fmin(t->corner[0][k], fmin(t->corner[1][k], t->corner[2][k]));
-        t->high[k] = fmax(t->corner[0][k], fmax(t->corner[1][k], t->corner[2][k]));
-    }
 }
 
 /* --- candidates ------------------------------------------------------------------------------- */
@@ -100,10 +102,10 @@ static int surely_behind(const lrcsi_target *t, uint32_t other)
         double its_low = HUGE_VAL;
         double its_high = -HUGE_VAL;
         for (int i = 0; i < 3; i++) {
-            own_low = fmin(own_low, view->point[own[i]].x[k]);
-            own_high = fmax(own_high, view->point[own[i]].x[k]);
-            its_low = fmin(its_low, view->point[its[i]].x[k]);
-            its_high = fmax(its_high, view->point[its[i]].x[k]);
+            own_low = lrcsi_least(own_low, view->point[own[i]].x[k]);
+            own_high = lrcsi_most(own_high, view->point[own[i]].x[k]);
+            its_low = lrcsi_least(its_low, view->point[its[i]].x[k]);
+            its_high = lrcsi_most(its_high, view->point[its[i]].x[k]);
         }
         if (its_high < own_low - off || (k < 2 && its_low > own_high + off)) {
             return 1;
@@ -112,12 +114,27 @@ static int surely_behind(const lrcsi_target *t, uint32_t other)
     return 0;
 }
 
-/* N . (x - a) for the target's plane, in double-double: off by 32 u^2 |N| |x - a| and N's own
-   error. Only its size matters: its sign is asked exactly where that could be wrong. */
-static double plane_height(const lrcsi_view *view, uint32_t facet, const double *x, double *off)
+/* N . (x - a) for the target's plane, in doubles: off by 8 u |N| |x - a| and N's own error. */
+static double height_roughly(const lrcsi_target *t, const double *x, double *off)
 {
-    const lrcsi_normal *n = &view->prepared->normal[facet];
-    const double *a = lrcsi_prepared_corner(view->prepared, facet, 0);
+    const lrcsi_normal *n = &t->view->prepared->normal[t->facet];
+    const double *a = lrcsi_prepared_corner(t->view->prepared, t->facet, 0);
+    double sum = 0;
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        double gap = x[k] - a[k];
+        sum += n->high[k] * gap;
+        square += gap * gap;
+    }
+    *off = (8 * U * n->length + n->error) * sqrt(square);
+    return t->view->facing[t->facet] * sum;
+}
+
+/* The same in double-double: off by 32 u^2 |N| |x - a| and N's own error. */
+static double height_finely(const lrcsi_target *t, const double *x, double *off)
+{
+    const lrcsi_normal *n = &t->view->prepared->normal[t->facet];
+    const double *a = lrcsi_prepared_corner(t->view->prepared, t->facet, 0);
     lrcsi_dd sum = {0, 0};
     double square = 0;
     for (int k = 0; k < 3; k++) {
@@ -126,24 +143,37 @@ static double plane_height(const lrcsi_view *view, uint32_t facet, const double 
         square += gap.hi * gap.hi;
     }
     *off = (32 * U * U * n->length + n->error) * sqrt(square);
-    return view->facing[facet] * lrcsi_dd_value(sum);
+    return t->view->facing[t->facet] * lrcsi_dd_value(sum);
 }
 
-/* Reads an occluder's heights above the target. 1 where it can hide some of it. */
+/* 1 all corners surely in front of the target's plane, -1 all behind, 0 neither or not sure. */
+static int caster_in_front(const lrcsi_target *t, uint32_t other)
+{
+    int front = 0;
+    int behind = 0;
+    for (int k = 0; k < 3; k++) {
+        double off = 0;
+        double height = height_roughly(t, caster_corner(t->view, other, k), &off);
+        front += height > off;
+        behind += height < -off;
+    }
+    return front == 3 ? 1 : behind == 3 ? -1 : 0;
+}
+
+/* Reads an occluder's heights above the target, their signs exactly. 1 where it can hide some of
+   it. In one plane the rules of precedence decide, and nothing needs cutting. */
 static int caster_heights(const lrcsi_target *t, uint32_t other, occlude_caster *caster)
 {
-    const lrcsi_view *view = t->view;
-    const lrcs_prepared *p = view->prepared;
+    const lrcs_prepared *p = t->view->prepared;
     int any = 0;
     int flat = 1;
     for (int k = 0; k < 3; k++) {
-        int from = view->facing[other] > 0 ? k : (3 - k) % 3;
-        const double *x = lrcsi_prepared_corner(p, other, from);
-        double height = plane_height(view, t->facet, x, &caster->off[k]);
+        const double *x = caster_corner(t->view, other, k);
+        double height = height_finely(t, x, &caster->off[k]);
         caster->height[k] = height;
         caster->above[k] = height > 0 ? 1 : -1;
-        if (!(fabs(height) > 2 * caster->off[k])) {
-            caster->above[k] = view->facing[t->facet] *
+        if (!(fabs(height) > caster->off[k])) {
+            caster->above[k] = t->view->facing[t->facet] *
                                lrcsi_exact_side(lrcsi_prepared_corner(p, t->facet, 0),
                                                 lrcsi_prepared_corner(p, t->facet, 1),
                                                 lrcsi_prepared_corner(p, t->facet, 2), x);
@@ -151,9 +181,9 @@ static int caster_heights(const lrcsi_target *t, uint32_t other, occlude_caster 
         any |= caster->above[k] > 0;
         flat &= caster->above[k] == 0;
     }
-    if (flat) { /* coincident planes: the rules of precedence decide, and nothing needs cutting */
+    if (flat) {
         caster->above[0] = caster->above[1] = caster->above[2] = 1;
-        return lrcsi_sample_beats(view, other, t->facet);
+        return lrcsi_sample_beats(t->view, other, t->facet);
     }
     return any;
 }
@@ -172,8 +202,8 @@ static void region_line(lrcsi_clip_region *region, const double *from, const dou
 static void region_grow(lrcsi_clip_region *region, const double *p)
 {
     for (int k = 0; k < 2; k++) {
-        region->low[k] = fmin(region->low[k], p[k]);
-        region->high[k] = fmax(region->high[k], p[k]);
+        region->low[k] = lrcsi_least(region->low[k], p[k]);
+        region->high[k] = lrcsi_most(region->high[k], p[k]);
     }
 }
 
@@ -184,7 +214,7 @@ static double side_cut(const occlude_caster *c, int k, double at[2])
     int next = (k + 1) % 3;
     double span = fabs(c->height[k]) + fabs(c->height[next]);
     double off = c->off[k] + c->off[next];
-    double t = fmin(1, fabs(c->height[k]) / span);
+    double t = lrcsi_least(1, fabs(c->height[k]) / span);
     for (int i = 0; i < 2; i++) {
         at[i] = c->corner[k][i] + t * (c->corner[next][i] - c->corner[k][i]);
     }
@@ -247,30 +277,21 @@ static int region_make(const occlude_caster *c, lrcsi_clip_region *region, doubl
 
 /* --- one occluder ------------------------------------------------------------------------------ */
 
-static int box_misses_target(const lrcsi_target *t, const occlude_caster *c)
-{
-    double off = 16 * U * (c->reach + t->diameter);
-    for (int k = 0; k < 2; k++) {
-        double low = fmin(c->corner[0][k], fmin(c->corner[1][k], c->corner[2][k]));
-        double high = fmax(c->corner[0][k], fmax(c->corner[1][k], c->corner[2][k]));
-        if (low > t->high[k] + off || high < t->low[k] - off) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
 int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *occluder)
 {
     const lrcsi_view *view = t->view;
-    occlude_caster caster = {.reach = 0};
+    occlude_caster caster = {.above = {1, 1, 1}};
     double slip = 0;
-    if (surely_behind(t, other) || !caster_heights(t, other, &caster)) {
+    if (surely_behind(t, other)) {
+        return 0;
+    }
+    int front = caster_in_front(t, other);
+    if (front < 0 || (front == 0 && !caster_heights(t, other, &caster)) ||
+        sides_part(view, t->facet, other) || sides_part(view, other, t->facet)) {
         return 0;
     }
     caster.reach = frame_facet(view, t->facet, other, caster.corner);
-    if (box_misses_target(t, &caster) || sides_part(view, t->facet, other) ||
-        sides_part(view, other, t->facet) || !region_make(&caster, &occluder->region, &slip)) {
+    if (!region_make(&caster, &occluder->region, &slip)) {
         return 0;
     }
     occluder->error = 4 * (slip + 10 * U * (caster.reach + t->diameter));

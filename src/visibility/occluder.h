@@ -13,7 +13,6 @@ typedef struct lrcsi_target {
     uint32_t facet;
     double corner[3][2]; /* counter-clockwise in the view */
     double diameter;     /* upper bound */
-    double low[2], high[2];
 } lrcsi_target;
 
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *target);

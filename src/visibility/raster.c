@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/range.h"
 #include "base/work.h"
 #include "visibility/sample.h"
 
@@ -43,10 +44,10 @@ lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(raster, corner[k], p[k]);
     }
-    double x0 = fmin(p[0][0], fmin(p[1][0], p[2][0]));
-    double x1 = fmax(p[0][0], fmax(p[1][0], p[2][0]));
-    double y0 = fmin(p[0][1], fmin(p[1][1], p[2][1]));
-    double y1 = fmax(p[0][1], fmax(p[1][1], p[2][1]));
+    double x0 = lrcsi_least(p[0][0], lrcsi_least(p[1][0], p[2][0]));
+    double x1 = lrcsi_most(p[0][0], lrcsi_most(p[1][0], p[2][0]));
+    double y0 = lrcsi_least(p[0][1], lrcsi_least(p[1][1], p[2][1]));
+    double y1 = lrcsi_most(p[0][1], lrcsi_most(p[1][1], p[2][1]));
     for (int k = 0; k < 3; k++) {
         const double *a = p[k];
         const double *b = p[(k + 1) % 3];
@@ -145,9 +146,9 @@ static void row_narrow(const lrcsi_edges *e, const double *row, uint32_t *x0, ui
     double to = *x1;
     for (int k = 0; k < 3; k++) {
         if (e->along[k] > 0) {
-            from = fmax(from, floor((-e->off - row[k]) / e->along[k] - 0.5));
+            from = lrcsi_most(from, floor((-e->off - row[k]) / e->along[k] - 0.5));
         } else if (e->along[k] < 0) {
-            to = fmin(to, ceil((-e->off - row[k]) / e->along[k] + 0.5));
+            to = lrcsi_least(to, ceil((-e->off - row[k]) / e->along[k] + 0.5));
         }
     }
     if (to > from) {
@@ -172,8 +173,8 @@ static void raster_row(lrcsi_raster *r, uint32_t facet, const lrcsi_edges *e,
     double xy[2] = {0, r->view->low[1] + cy * r->pixel};
     for (uint32_t x = x0; x < x1; x++) {
         double cx = x + 0.5;
-        double least = fmin(row[0] + e->along[0] * cx,
-                            fmin(row[1] + e->along[1] * cx, row[2] + e->along[2] * cx));
+        double least = lrcsi_least(row[0] + e->along[0] * cx,
+                            lrcsi_least(row[1] + e->along[1] * cx, row[2] + e->along[2] * cx));
         xy[0] = r->view->low[0] + cx * r->pixel;
         if (raster_covers(r, facet, least, e->off, xy)) {
             r->covered[facet]++;

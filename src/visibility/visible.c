@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "base/range.h"
 #include "base/work.h"
 #include "visibility/query.h"
 #include "visibility/sample.h"
@@ -36,8 +37,8 @@ typedef struct pixel_marks {
 
 static void mark_row(pixel_marks *m, uint32_t y, double from, double to)
 {
-    double x0 = fmax(floor(from), m->edges.x0);
-    double x1 = fmin(floor(to) + 1, m->edges.x1);
+    double x0 = lrcsi_most(floor(from), m->edges.x0);
+    double x1 = lrcsi_least(floor(to) + 1, m->edges.x1);
     size_t row = (size_t)(y - m->edges.y0) * (m->edges.x1 - m->edges.x0);
     for (double x = x0; x < x1; x++) {
         m->mixed[row + (uint32_t)x - m->edges.x0] = 1;
@@ -50,20 +51,20 @@ static void mark_segment(pixel_marks *m, const double a[2], const double b[2])
 {
     double margin = 4 * m->raster->off;
     double rise = b[1] - a[1];
-    double first = fmax(floor(fmin(a[1], b[1]) - margin), m->edges.y0);
-    double last = fmin(floor(fmax(a[1], b[1]) + margin) + 1, m->edges.y1);
+    double first = lrcsi_most(floor(lrcsi_least(a[1], b[1]) - margin), m->edges.y0);
+    double last = lrcsi_least(floor(lrcsi_most(a[1], b[1]) + margin) + 1, m->edges.y1);
     for (double y = first; y < last; y++) {
         double t0 = 0;
         double t1 = 1;
         if (fabs(rise) > margin) {
             double u = (y - margin - a[1]) / rise;
             double v = (y + 1 + margin - a[1]) / rise;
-            t0 = fmin(1, fmax(0, fmin(u, v)));
-            t1 = fmin(1, fmax(0, fmax(u, v)));
+            t0 = lrcsi_least(1, lrcsi_most(0, lrcsi_least(u, v)));
+            t1 = lrcsi_least(1, lrcsi_most(0, lrcsi_most(u, v)));
         }
         double x0 = a[0] + t0 * (b[0] - a[0]);
         double x1 = a[0] + t1 * (b[0] - a[0]);
-        mark_row(m, (uint32_t)y, fmin(x0, x1) - margin, fmax(x0, x1) + margin);
+        mark_row(m, (uint32_t)y, lrcsi_least(x0, x1) - margin, lrcsi_most(x0, x1) + margin);
     }
 }
 
@@ -179,10 +180,10 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *
     }
     double pixel = raster->pixel * raster->pixel;
     lrcsi_visible v;
-    v.low = fmin(area, shown * pixel * (1 - 1e-12));
-    v.high = fmax(v.low, area - hidden * pixel * (1 - 1e-12));
-    v.area = fmin(v.high, fmax(v.low, area * sampled_share(raster, facets, facet)));
-    v.likely = 0.5 * sqrt((v.high - v.low) * fmin(pixel, v.high - v.low));
+    v.low = lrcsi_least(area, shown * pixel * (1 - 1e-12));
+    v.high = lrcsi_most(v.low, area - hidden * pixel * (1 - 1e-12));
+    v.area = lrcsi_least(v.high, lrcsi_most(v.low, area * sampled_share(raster, facets, facet)));
+    v.likely = 0.5 * sqrt((v.high - v.low) * lrcsi_least(pixel, v.high - v.low));
     return v;
 }
 

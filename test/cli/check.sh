@@ -3,6 +3,7 @@
 # Sourced with $1 the tool's path; sets out (stdout), err (stderr), rc and a scratch folder.
 tool=$1
 case $tool in /*) ;; *) tool=$PWD/$tool ;; esac
+[ -x "$tool" ] || { echo "not ok the_tool_is_there: $tool"; exit 1; }
 root=$(cd "$(dirname "$0")/../.." && pwd)
 models=$root/../shared/models
 scratch=$(mktemp -d) || exit 1
@@ -59,6 +60,15 @@ failure() {
         ok "$name"
     else
         not_ok "$name" "exit $rc, stdout '$out', stderr '$err', wanted '$text'"
+    fi
+}
+
+# near NAME GOT WANT: equal to 1e-11 of it, for values that DESIGN.md gives with 12 digits.
+near() {
+    if awk -v a="$2" -v b="$3" 'BEGIN { d = a - b; exit !(a != "" && d * d <= 1e-22 * b * b) }'; then
+        ok "$1"
+    else
+        not_ok "$1" "got '$2', want '$3'"
     fi
 }
 

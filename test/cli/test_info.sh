@@ -28,14 +28,14 @@ same unbound_facets_wear_the_default "$(printf '%s\n' "$out" | grep -c '"brdf": 
 
 run shape sphere --radius 1 --material 1,0.25,0.2,0.5 --json
 same shape_keys_in_order "$(keys)" "sigma_m2 sigma_glint_m2 sigma_diffuse_m2 bound_m2 "
-same sphere_spot_value "$(value sigma_m2 | cut -c1-13)" 7.24989628827
+near sphere_spot_value "$(value sigma_m2)" 7.24989628827
 run shape plate --size 1,1 --aspect=60 --material=1,0.25,0.2,0.5 --json
-same plate_spot_value "$(value sigma_m2 | cut -c1-13)" 0.55536036727
+near plate_spot_value "$(value sigma_m2)" 0.55536036727
 run shape plate --size 1,1 --aspect 90 --json
 same plate_at_exactly_90_is_0 "$(value sigma_m2) $(value bound_m2)" "0 0"
 same missing_material_is_noticed "$(printf '%s\n' "$err" | grep -c '^notice: no --material')" 1
 run shape cone --radius 0.5 --half-angle 15 --parts wall --json --material 1,0.25,0.2,0.5
-same cone_spot_value "$(value sigma_m2 | cut -c1-12)" 0.3248883211
+near cone_spot_value "$(value sigma_m2)" 0.324888321144
 run shape disc --radius 1 --material solar-cell --aspect 10
 same people_get_dbsm "$(printf '%s\n' "$out" | grep -c dBsm)" 1
 same shape_exits_0 "$rc" 0

@@ -99,10 +99,10 @@ static void rounding_stays_within_its_bound(void **state)
         double placed[3];
         assert_int_equal(lrcsi_placer_make(&place, &joint, &placer), LRCS_OK);
         lrcsi_placer_run(&placer, given, placed);
-        long double v[3] = {given[0], given[1], given[2]};
+        long double v[3] = {(long double)given[0], (long double)given[1], (long double)given[2]};
         long double w[3];
         for (int i = 0; i < 3; i++) {
-            w[i] = joint.origin[i];
+            w[i] = (long double)joint.origin[i];
             for (int k = 0; k < 3; k++) {
                 w[i] += (long double)placer.joint[i][k] * (v[k] - (long double)joint.origin[k]);
             }
@@ -110,7 +110,7 @@ static void rounding_stays_within_its_bound(void **state)
         }
         long double off = 0.0L;
         for (int i = 0; i < 3; i++) {
-            long double x = place.translate[i];
+            long double x = (long double)place.translate[i];
             for (int k = 0; k < 3; k++) {
                 x += (long double)place.rotate[i][k] * w[k];
             }

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* The smaller and the larger of two numbers, neither a NaN: what fmin and fmax are without a call
+   into libm in the innermost loops. */
+#ifndef LRCSI_RANGE_H
+#define LRCSI_RANGE_H
+
+static inline double lrcsi_least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double lrcsi_most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+#endif
