@@ -64,7 +64,8 @@ typedef struct lrcs_closed {
    2e-14 sigma_m2, but for what underflows.
    Status: LRCS_OK; LRCS_E_ARGUMENT: no such shape, an angle outside 0 .. 180, a direction of no
    length; LRCS_E_NUMBER: not finite, outside its range or that of note 1, or sigma overflows.
-   Work: O(1), bounded: 1 to 80 us for most shapes, up to 2 ms for a paraboloid; no work area.
+   Work: O(1), bounded: some 1 to 100 us, for a dome or paraboloid 0.3 to 3 ms, and tens of ms
+   where its height and radius differ by 1e100; no work area.
    Notes: 1. Lengths are 0 or at least 1e-150 m; s is within 2^-333 .. 2^333 where A > 0.
    2. A component of a direction below 2^-480 of the largest counts as 0.
    Source: see src/optics. */

@@ -42,7 +42,7 @@ lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int part, double cos_ref
 
 lrcsi_arc_sample lrcsi_arc_law_sample(const lrcsi_arc_law *law, double y, double q)
 {
-    lrcsi_arc_sample sample = {0.0, HUGE_VAL, 1};
+    lrcsi_arc_sample sample = {0.0, q, HUGE_VAL, 1};
     if (!(q > 0.0)) {
         return sample;
     }
@@ -83,17 +83,23 @@ static void arc_add_panel(const lrcsi_arc *arc, int right, double low, double hi
     }
 }
 
-/* Is [0, h] at an end fit to be the last panel, `sum` having been gathered outside it? */
+/* Is [0, h] at an end fit to be the last panel, `sum` having been gathered outside it? Towards the
+   left end F grows, so it must have come within a factor e; towards the right it may fall for good,
+   or hardly change. */
 static int arc_ends(const lrcsi_arc *arc, int right, double h, double sum)
 {
     double clear = right ? arc->right_clear : arc->left_clear;
     lrcsi_arc_sample at = arc_sample(arc, right, h);
-    double change = right ? arc_sample(arc, right, 0.0).decay - at.decay : at.decay;
-    if (h <= clear) {
-        return change <= 1.0 || (right && at.falling && h * at.value <= 0x1p-60 * sum);
+    if (!right) {
+        return at.decay <= 1.0 &&
+               (h <= clear || (h <= arc->grain && h * at.value <= ARC_SMALL * sum));
     }
-    return h <= arc->grain && (right ? at.falling : change <= 1.0) &&
-           h * at.value <= ARC_SMALL * sum;
+    lrcsi_arc_sample end = arc_sample(arc, right, 0.0);
+    int level = end.decay - at.decay <= 1.0 && end.q >= 0.5 * at.q;
+    if (h <= clear) {
+        return level || (at.falling && h * at.value <= 0x1p-60 * sum);
+    }
+    return h <= arc->grain && (level || at.falling) && h * at.value <= ARC_SMALL * sum;
 }
 
 static void arc_add_half(const lrcsi_arc *arc, int right, lrcsi_dd *sum)

@@ -19,10 +19,10 @@ typedef struct lrcsi_arc_law {
     double gain, nu;
 } lrcsi_arc_law;
 
-/* What an integrand is at a point: its value; the exponent by which F has fallen from its reference
-   (infinity where it is 0); and whether F falls for good with q from here on. */
+/* What an integrand is at a point: its value; q, and the exponent by which F has fallen from its
+   reference (infinity where F is 0); and whether F falls for good with q from here on. */
 typedef struct lrcsi_arc_sample {
-    double value, decay;
+    double value, q, decay;
     int falling;
 } lrcsi_arc_sample;
 

@@ -9,6 +9,7 @@
 # 1 / Gaussian curvature = K n_z^-4, whose antiderivative in the eccentric anomaly is elementary.
 # Each integral is a 24-point Gauss rule on panels that halve towards both ends, 56 times: the cosine
 # spans 17 decades to the terminator, and the panels' truncation is below 1e-25 of the integral.
+# About 8 minutes on one core.
 # check() repeats a sample of them by mpmath's adaptive tanh-sinh rule and, for the dome and the
 # paraboloid, by a double integral over the surface itself.
 import random
