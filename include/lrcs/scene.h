@@ -135,7 +135,7 @@ typedef struct lrcs_scene {
 
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
-    double tolerance;    /* relative, > 0 */
+    double tolerance;    /* relative, > 0, of a shape alone; ten times this among other parts */
     uint32_t max_facets; /* a shape's most */
 } lrcs_build_options;
 

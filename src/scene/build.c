@@ -9,6 +9,7 @@
 
 #include "base/degrees.h"
 #include "base/where.h"
+#include "base/range.h"
 #include "base/work.h"
 #include "scene/bind.h"
 #include "scene/place.h"
@@ -68,6 +69,15 @@ static int find_worn(const scene_builder *builder, const lrcs_recipe_part *part,
                                   part->material, strlen(part->material));
 }
 
+/* The tolerance that a shape is divided for. Among other parts its tessellation error is not
+   bounded (they may hide some of it), and facet-by-facet bounds are tens of times the error that
+   they hold: a tenth of the fineness then serves. */
+static double shape_tolerance(const scene_builder *builder)
+{
+    double tolerance = builder->options->tolerance;
+    return builder->recipe->part_count > 1 ? lrcsi_least(10 * tolerance, 1) : tolerance;
+}
+
 /* How a shape is divided, for the material it wears. */
 static int count_shape(const scene_builder *builder, const lrcs_recipe_part *part,
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
@@ -84,7 +94,7 @@ static int count_shape(const scene_builder *builder, const lrcs_recipe_part *par
         return status;
     }
     lrcs_material material = lrcsi_binder_bare(&builder->binder, worn);
-    lrcs_fineness fineness = {builder->options->tolerance, material.brdf,
+    lrcs_fineness fineness = {shape_tolerance(builder), material.brdf,
                               builder->options->max_facets};
     status = lrcs_shape_count(&part->shape, &fineness, divisions, counts);
     return status == LRCS_OK ? LRCS_OK

@@ -71,7 +71,7 @@ static void prepare_vertices(lrcs_prepared *p)
 
 /* p x q - component of a cross product of exact differences, in double-double. Each product has
    relative error 7 u^2, the difference 3 u^2: together at most 10 u^2 (|p1 q2| + |p2 q1|). */
-static lrcsi_dd cross_component(lrcsi_dd p1, lrcsi_dd q2, lrcsi_dd p2, lrcsi_dd q1)
+static lrcsi_dd normal_component(lrcsi_dd p1, lrcsi_dd q2, lrcsi_dd p2, lrcsi_dd q1)
 {
     return lrcsi_dd_sub(lrcsi_dd_mul(p1, q2), lrcsi_dd_mul(p2, q1));
 }
@@ -94,7 +94,7 @@ static void normal_make(const double *a, const double *b, const double *c, lrcsi
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
-        lrcsi_dd component = cross_component(p[i], q[j], p[j], q[i]);
+        lrcsi_dd component = normal_component(p[i], q[j], p[j], q[i]);
         n->high[k] = component.hi;
         n->low[k] = component.lo;
         nn += component.hi * component.hi;
