@@ -17,8 +17,8 @@
 /* |got - want| <= most. A NaN never passes. */
 #define check_abs(got, want, most) check_abs_at((got), (want), (most), #got, __FILE__, __LINE__)
 /* |got - want| <= most * |want|. */
-#define check_rel(got, want, most) \
-    check_abs_at((got), (want), (most) * fabs(want), #got, __FILE__, __LINE__)
+#define check_rel(got, want, most)                                                                 \
+    check_abs_at((got), (want), (most)*fabs(want), #got, __FILE__, __LINE__)
 /* Equal to the bit but for the sign of zero. */
 #define check_same(got, want) check_abs_at((got), (want), 0.0, #got, __FILE__, __LINE__)
 /* got <= most. */

@@ -79,8 +79,8 @@ int lrcsi_where_text(lrcs_where *where, int status, uint64_t offset, uint32_t li
     where_set(where, status, offset, line, item, expected);
     size_t used = 0;
     for (size_t i = 0; where && i < size; i++) {
-        size_t next = append_printable(where->found, used, sizeof where->found,
-                                       (unsigned char)found[i]);
+        size_t next =
+            append_printable(where->found, used, sizeof where->found, (unsigned char)found[i]);
         if (next == used) {
             break;
         }

@@ -39,8 +39,8 @@ void *lrcsi_work_take(lrcs_work *work, size_t count, size_t size)
     }
     size_t pad = work->bytes ? padding(work->bytes + work->used) : 0;
     size_t end = lrcsi_work_bytes(count, size);
-    end = end == SIZE_MAX ? SIZE_MAX
-                          : lrcsi_work_add(lrcsi_work_add(work->used, pad), count * size);
+    end =
+        end == SIZE_MAX ? SIZE_MAX : lrcsi_work_add(lrcsi_work_add(work->used, pad), count * size);
     if (end > work->peak) {
         work->peak = end;
     }

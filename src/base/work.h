@@ -18,6 +18,7 @@ size_t lrcsi_work_bytes(size_t count, size_t size);
 /* a + b, saturating at SIZE_MAX. */
 size_t lrcsi_work_add(size_t a, size_t b);
 
-/* Release is setting `used` back to what it was: size_t mark = work->used; ... work->used = mark. */
+/* Release is setting `used` back to what it was: size_t mark = work->used; ... work->used = mark.
+ */
 
 #endif

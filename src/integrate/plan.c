@@ -11,9 +11,9 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *optio
     plan.method = options->method;
     if (options->method == LRCS_METHOD_AUTO) { /* clipping the few contested facets costs less
                                                   than a raster fine enough for its bound */
-        plan.method = plan.alone                  ? LRCS_METHOD_FACET
+        plan.method = plan.alone                 ? LRCS_METHOD_FACET
                       : options->resolution != 0 ? LRCS_METHOD_ZBUFFER
-                                                  : LRCS_METHOD_EXACT;
+                                                 : LRCS_METHOD_EXACT;
     }
     return plan;
 }
@@ -48,19 +48,17 @@ void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, lrcs_eff
     const lrcs_prepared *p = view->prepared;
     effect[LRCS_EFFECT_SELF_SHADOWING] = shadowing_effect(plan);
     effect[LRCS_EFFECT_BACK_FACE_CASTERS] = caster_effect(p, plan);
-    effect[LRCS_EFFECT_GLINT] =
-        p->glint ? (lrcs_effect){1, "a material has A > 0"}
-                 : (lrcs_effect){0, "A = 0 for every material"};
-    effect[LRCS_EFFECT_DIFFUSE] =
-        p->diffuse ? (lrcs_effect){1, "a material has B > 0"}
-                   : (lrcs_effect){0, "B = 0 for every material"};
+    effect[LRCS_EFFECT_GLINT] = p->glint ? (lrcs_effect){1, "a material has A > 0"}
+                                         : (lrcs_effect){0, "A = 0 for every material"};
+    effect[LRCS_EFFECT_DIFFUSE] = p->diffuse ? (lrcs_effect){1, "a material has B > 0"}
+                                             : (lrcs_effect){0, "B = 0 for every material"};
     effect[LRCS_EFFECT_CURVED_NORMALS] =
         (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
     effect[LRCS_EFFECT_TWO_SIDED] =
         !p->two_sided ? (lrcs_effect){0, "no material is two-sided"}
         : p->solid    ? (lrcs_effect){0, "closed and outward: back sides are never seen"}
                       : (lrcs_effect){1, "a material is two-sided"};
-    effect[LRCS_EFFECT_ARTICULATION] =
-        p->articulated ? (lrcs_effect){1, "a part stands on a joint"}
-                       : (lrcs_effect){0, "no part stands on a joint"};
+    effect[LRCS_EFFECT_ARTICULATION] = p->articulated
+                                           ? (lrcs_effect){1, "a part stands on a joint"}
+                                           : (lrcs_effect){0, "no part stands on a joint"};
 }

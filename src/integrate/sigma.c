@@ -194,8 +194,7 @@ static int run_other(sigma_run *run, const lrcs_run_options *options)
         return LRCS_OK;
     }
     *run = first;
-    return first.plan.method == LRCS_METHOD_EXACT ? run_exact(run)
-                                                  : run_raster(run, first.size);
+    return first.plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_raster(run, first.size);
 }
 
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
@@ -256,14 +255,15 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     if (status == LRCS_OK) {
         run.plan = lrcsi_plan_make(&run.view, options);
-        status = run.plan.method == LRCS_METHOD_FACET ? run_facet(&run)
-                                                      : run_shadowed(&run, options);
+        status =
+            run.plan.method == LRCS_METHOD_FACET ? run_facet(&run) : run_shadowed(&run, options);
     }
     if (status == LRCS_OK && image && image->size != 0) {
         status = run_image(&run);
     }
     work->used = mark;
-    if (status == LRCS_OK && !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse)) {
+    if (status == LRCS_OK &&
+        !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse)) {
         status = LRCS_E_NUMBER;
     }
     if (status == LRCS_OK) {

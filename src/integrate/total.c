@@ -10,7 +10,7 @@
 #include "base/sum.h"
 #include "optics/reflect.h"
 
-#define U 0x1p-53
+#define U       0x1p-53
 #define FOUR_PI 12.566370614359172954
 
 /* Running sums, in scaled units. */
@@ -83,8 +83,8 @@ static void add_tessellation(total_sums *sums, const lrcsi_view *view, uint32_t 
     }
 }
 
-static void count_facet(lrcsi_total *total, total_sums *sums, int reflects,
-                        const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+static void count_facet(lrcsi_total *total, total_sums *sums, int reflects, const lrcsi_tilt *tilt,
+                        const lrcsi_visible *visible)
 {
     lrcsi_sum_add(&sums->projected, visible->area);
     if (reflects) {
@@ -143,7 +143,8 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visibl
         lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
         double sigma = 0;
         if (view->facing[f] != 0) {
-            int reflects = view->facing[f] > 0 || (lrcsi_prepared_material(p, f)->two_sided && !p->solid);
+            int reflects =
+                view->facing[f] > 0 || (lrcsi_prepared_material(p, f)->two_sided && !p->solid);
             if (reflects && visible[f].high > 0) {
                 sigma = add_reflecting(&sums, view, f, &tilt, &visible[f]);
             }

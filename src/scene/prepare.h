@@ -28,14 +28,14 @@ struct lrcs_prepared {
     double centre[3];        /* of the box around the live facets */
     double radius;           /* no live vertex is farther from the centre in any coordinate */
     uint32_t live;           /* facets not skipped */
-    int convex;      /* live facets lie on one convex surface, outward and one-sided: exactly, or
-                        by construction; then only facets that graze the light can be hidden */
-    double graze;    /* where convex: a facet with cos(theta) above this is wholly visible */
-    int solid;       /* winding number >= 0 everywhere, proved: back sides are never seen */
-    int two_sided;   /* some live facet is */
+    int convex;         /* live facets lie on one convex surface, outward and one-sided: exactly, or
+                           by construction; then only facets that graze the light can be hidden */
+    double graze;       /* where convex: a facet with cos(theta) above this is wholly visible */
+    int solid;          /* winding number >= 0 everywhere, proved: back sides are never seen */
+    int two_sided;      /* some live facet is */
     int glint, diffuse; /* some live facet's A, B is not 0 */
-    int curved;      /* some live part was tessellated from a curved shape */
-    int articulated; /* some part stands on a joint */
+    int curved;         /* some live part was tessellated from a curved shape */
+    int articulated;    /* some part stands on a joint */
 };
 
 /* The material of a facet. */

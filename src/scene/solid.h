@@ -7,8 +7,8 @@
 
 /* Proves that the winding number of the live facets is nowhere negative: every connected piece is
    a closed two-manifold that nowhere touches itself, with positive volume; such a piece has
-   winding number 0 outside and 1 inside (Jordan-Brouwer), and winding numbers add. 1: proved, 0: not; scratch from work.
-   Status: LRCS_OK; LRCS_E_MEMORY. */
+   winding number 0 outside and 1 inside (Jordan-Brouwer), and winding numbers add. 1: proved, 0:
+   not; scratch from work. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_solid_check(const lrcs_prepared *prepared, lrcs_work *work, int *proved);
 
 /* Proves that all live facets lie on one convex surface, outward and one-sided. Exactly so

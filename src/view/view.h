@@ -10,12 +10,12 @@
 /* The part of a facet's geometry that depends on direction. Lengths are scaled, as in
    lrcs_prepared. */
 typedef struct lrcsi_tilt {
-    double cos_theta;  /* signed; its sign agrees with facing */
-    double tan2;       /* tan^2(theta), infinity where edge-on */
-    double stretch;    /* relative error of tan2; 1: it lies in 0 .. tan2; infinity: it is at
-                          least tan2, the facet being edge-on to within the arithmetic */
-    double projected;  /* projected area, >= 0 */
-    double error;      /* relative error of projected and of the area */
+    double cos_theta; /* signed; its sign agrees with facing */
+    double tan2;      /* tan^2(theta), infinity where edge-on */
+    double stretch;   /* relative error of tan2; 1: it lies in 0 .. tan2; infinity: it is at
+                         least tan2, the facet being edge-on to within the arithmetic */
+    double projected; /* projected area, >= 0 */
+    double error;     /* relative error of projected and of the area */
 } lrcsi_tilt;
 
 typedef struct lrcsi_view {
@@ -27,7 +27,7 @@ typedef struct lrcsi_view {
     lrcs_point *point;   /* vertex, view coordinates about the scene's centre: x right, y up,
                             z to the laser; each off by at most `off` */
     double off;
-    double low[2], side; /* the square window around the projection of the live facets */
+    double low[2], side;  /* the square window around the projection of the live facets */
     uint32_t front, back; /* live facets facing either way */
 } lrcsi_view;
 

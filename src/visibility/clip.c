@@ -28,9 +28,8 @@ static int clip_list_make(lrcs_work *work, lrcsi_clip_list *list)
 int lrcsi_clip_make(lrcs_work *work, lrcsi_clip *clip)
 {
     clip->splits = 0;
-    return clip_list_make(work, &clip->list) && clip_list_make(work, &clip->spare)
-               ? LRCS_OK
-               : LRCS_E_MEMORY;
+    return clip_list_make(work, &clip->list) && clip_list_make(work, &clip->spare) ? LRCS_OK
+                                                                                   : LRCS_E_MEMORY;
 }
 
 static uint32_t piece_first(const lrcsi_clip_list *list, uint32_t piece)

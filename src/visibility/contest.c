@@ -67,8 +67,7 @@ static int boxes_apart(const lrcsi_view *view, const lrcsi_edge *edge, const dou
 
 /* Does the segment p q cross the open inside of the facet, in projection? Two convex figures of
    the plane are apart just if some line along a side of either parts them. */
-static int segment_crosses(const lrcsi_view *view, uint32_t facet, const double *p,
-                           const double *q)
+static int segment_crosses(const lrcsi_view *view, uint32_t facet, const double *p, const double *q)
 {
     const double *corner[3];
     const double *d = view->direction;
@@ -155,8 +154,8 @@ uint32_t lrcsi_contest_crossings(lrcsi_contest *contest, uint32_t facet)
 
 int lrcsi_contest_touch_hides(const lrcsi_view *view, uint32_t facet, const lrcsi_touch *touch)
 {
-    return lrcsi_grid_casts(view, touch->other) && !(touch->kind == LRCSI_TOUCH_COPLANAR &&
-                                                     lrcsi_sample_beats(view, facet, touch->other));
+    return lrcsi_grid_casts(view, touch->other) &&
+           !(touch->kind == LRCSI_TOUCH_COPLANAR && lrcsi_sample_beats(view, facet, touch->other));
 }
 
 static int touch_contests(const lrcsi_view *view, uint32_t facet)

@@ -49,8 +49,8 @@ static int grid_start(const lrcsi_view *view, uint32_t items, lrcs_work *work, l
     grid->view = view;
     grid->size = (uint32_t)size;
     grid->scale = view->side > 0 ? grid->size / view->side : 0;
-    grid->first = lrcsi_work_take_zero(work, (size_t)grid->size * grid->size + 1,
-                                       sizeof *grid->first);
+    grid->first =
+        lrcsi_work_take_zero(work, (size_t)grid->size * grid->size + 1, sizeof *grid->first);
     return grid->first ? LRCS_OK : LRCS_E_MEMORY;
 }
 

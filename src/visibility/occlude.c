@@ -9,9 +9,9 @@
    by exactly the lines through its own computed corners, so it differs from the true one by a rim
    no wider than e along each of at most four sides, none longer within the facet than its
    perimeter p: 4 e p. The cut by the facet's plane ends on the occluder's sides; how far those ends
-   may slip is computed with the region and added to e. A split of a piece puts one corner on a line to within 8 u d, d
-   the facet's diameter, and both parts share it: 8 u d p. A cell that could not be finished counts
-   whole. */
+   may slip is computed with the region and added to e. A split of a piece puts one corner on a line
+   to within 8 u d, d the facet's diameter, and both parts share it: 8 u d p. A cell that could not
+   be finished counts whole. */
 #include "visibility/occlude.h"
 
 #include <math.h>
@@ -45,8 +45,8 @@ typedef struct occlude_job {
     uint32_t *list; /* occluders by cell, one behind the other */
     size_t room;    /* of list */
     lrcsi_clip *clip;
-    double area;    /* visible so far */
-    double doubt;   /* area of cells that could not be finished */
+    double area;  /* visible so far */
+    double doubt; /* area of cells that could not be finished */
     double splits;
 } occlude_job;
 

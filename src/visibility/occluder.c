@@ -78,8 +78,10 @@ static int sides_part(const lrcsi_view *view, uint32_t facet, uint32_t other)
         const double *b = lrcsi_prepared_corner(p, facet, (k + 1) % 3);
         int inside = 0;
         for (int i = 0; i < 3 && !inside; i++) {
-            inside = view->facing[facet] * lrcsi_exact_turn(a, b, lrcsi_prepared_corner(p, other, i),
-                                                            view->direction) > 0;
+            inside =
+                view->facing[facet] *
+                    lrcsi_exact_turn(a, b, lrcsi_prepared_corner(p, other, i), view->direction) >
+                0;
         }
         if (!inside) {
             return 1;
@@ -275,7 +277,8 @@ static int region_make(const occlude_caster *c, lrcsi_clip_region *region, doubl
     return 1;
 }
 
-/* --- one occluder ------------------------------------------------------------------------------ */
+/* --- one occluder ------------------------------------------------------------------------------
+ */
 
 int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *occluder)
 {

@@ -15,7 +15,8 @@ static int inside_point(const lrcsi_view *view, uint32_t facet, double point[3])
         for (int k = 0; k < 3; k++) {
             point[k] = 0;
             for (int corner = 0; corner < 3; corner++) {
-                point[k] += weight[i][corner] * lrcsi_prepared_corner(view->prepared, facet, corner)[k];
+                point[k] +=
+                    weight[i][corner] * lrcsi_prepared_corner(view->prepared, facet, corner)[k];
             }
         }
         if (lrcsi_sample_covers(view, facet, point)) {

@@ -173,8 +173,9 @@ static void raster_row(lrcsi_raster *r, uint32_t facet, const lrcsi_edges *e,
     double xy[2] = {0, r->view->low[1] + cy * r->pixel};
     for (uint32_t x = x0; x < x1; x++) {
         double cx = x + 0.5;
-        double least = lrcsi_least(row[0] + e->along[0] * cx,
-                            lrcsi_least(row[1] + e->along[1] * cx, row[2] + e->along[2] * cx));
+        double least =
+            lrcsi_least(row[0] + e->along[0] * cx,
+                        lrcsi_least(row[1] + e->along[1] * cx, row[2] + e->along[2] * cx));
         xy[0] = r->view->low[0] + cx * r->pixel;
         if (raster_covers(r, facet, least, e->off, xy)) {
             r->covered[facet]++;

@@ -10,14 +10,14 @@
 typedef struct lrcsi_raster {
     const lrcsi_view *view;
     uint32_t size;
-    double pixel;       /* side of a pixel, scaled units */
-    double scale;       /* pixels per scaled unit */
-    double off;         /* bound on the error of a pixel coordinate */
-    uint32_t *owner;    /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
-    double *depth;      /* N * N: height of the owner's plane */
-    double *slack;      /* facet: error bound of such a height */
-    uint32_t *covered;  /* facet: samples it would own if alone */
-    uint32_t *owned;    /* facet: samples it owns */
+    double pixel;             /* side of a pixel, scaled units */
+    double scale;             /* pixels per scaled unit */
+    double off;               /* bound on the error of a pixel coordinate */
+    uint32_t *owner;          /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
+    double *depth;            /* N * N: height of the owner's plane */
+    double *slack;            /* facet: error bound of such a height */
+    uint32_t *covered;        /* facet: samples it would own if alone */
+    uint32_t *owned;          /* facet: samples it owns */
     unsigned char *undecided; /* facet: 1 where a depth could not be told */
 } lrcsi_raster;
 

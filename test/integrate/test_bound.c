@@ -180,7 +180,8 @@ static void uniform_facets_are_exact_at_any_resolution(void **state)
         run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 4096 / 16, &r, records);
         for (uint32_t f = 0; f < cases[i].facets && r.budget.visibility_m2 == 0; f++) {
             double whole = records[f].area_m2 * fabs(records[f].cos_theta);
-            check_abs(records[f].visible_area_m2, whole * fmax(0, cases[i].share[f]), 1e-14 * whole);
+            check_abs(records[f].visible_area_m2, whole * fmax(0, cases[i].share[f]),
+                      1e-14 * whole);
             uniform++;
         }
     }
