@@ -96,8 +96,8 @@ typedef struct lrcs_host_scene {
 int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrcs_host_scene *scene,
                          lrcs_host_error *error);
 
-/* Builds a scene from a recipe of shapes alone; the recipe is copied but for its texts.
-   Status: as above. */
+/* Builds a scene from a recipe of shapes alone. Of the recipe, only its texts must outlive the
+   scene; scene->recipe stays empty. Status: as above. */
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
 

@@ -118,7 +118,11 @@ int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
     int code = unit_read(args, &options->unit_m);
     lrcs_binding *all = calloc((size_t)args->given_count + 1, sizeof *all);
     options->binding = all;
-    for (int i = 0; i < args->given_count && code == 0 && all; i++) {
+    if (!all) {
+        fprintf(stderr, "lrcs: out of memory\n");
+        return CLI_FAILED;
+    }
+    for (int i = 0; i < args->given_count && code == 0; i++) {
         if (strcmp(args->given[i].name, "material") == 0) {
             code =
                 binding_read(args->command, args->given[i].value, &all[options->binding_count++]);

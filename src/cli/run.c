@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define IMAGE_LEAST   16.0
-#define IMAGE_MOST    8192.0
+#define IMAGE_MOST    4096.0
 #define IMAGE_DEFAULT 512u
 #define RASTER_MOST   32768.0
 

@@ -319,6 +319,7 @@ int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *bu
         lrcs_host_scene_free(scene);
         return status;
     }
+    memset(&scene->recipe, 0, sizeof scene->recipe); /* the caller's */
     scene->seconds_load = lrcsi_host_seconds() - start;
     return LRCS_OK;
 }

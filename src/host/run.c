@@ -49,11 +49,12 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         lrcs_host_error *error)
 {
     sigma_step step = {scene->prepared, pose, options, result, records, image};
-    lrcs_run_options ask = *options;
-    if (image && image->size > ask.resolution && options->resolution != 0) {
-        ask.resolution = image->size; /* room for the picture's raster too */
+    size_t need = lrcs_sigma_need(scene->prepared, options);
+    if (image) { /* its raster comes after the run's own */
+        lrcs_run_options draw = {options->tolerance, LRCS_METHOD_ZBUFFER, image->size};
+        size_t more = lrcs_sigma_need(scene->prepared, &draw);
+        need = more > need ? more : need;
     }
-    size_t need = lrcs_sigma_need(scene->prepared, &ask);
     void *probe = malloc(need); /* less than asked is a coarser raster, and a flag */
     while (!probe && need > ((size_t)1 << 20)) {
         need /= 2;
