@@ -224,12 +224,14 @@ int lrcsi_visible_sampled(lrcsi_contest *contest, const lrcsi_raster *raster, lr
     marks.mixed = lrcsi_work_take(work, (size_t)raster->size * raster->size, 1);
     int status = marks.mixed ? lrcsi_grid_facets(view, work, &facets) : LRCS_E_MEMORY;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
+        visible[f] = (lrcsi_visible){0, 0, 0, 0};
         if (!lrcsi_grid_casts(view, f)) {
-            visible[f] = (lrcsi_visible){0, 0, 0, 0};
-        } else if (contest->contested[f]) {
-            visible[f] = contested_area(contest, raster, &facets, &marks, f);
-        } else {
+            continue;
+        }
+        if (!contest->contested[f]) {
             visible[f] = uniform_area(view, raster, &facets, f);
+        } else if (!lrcsi_query_screened(contest, &facets, f)) {
+            visible[f] = contested_area(contest, raster, &facets, &marks, f);
         }
     }
     work->used = mark;
