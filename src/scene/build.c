@@ -8,8 +8,8 @@
 #include <lrcs/read.h>
 
 #include "base/degrees.h"
-#include "base/where.h"
 #include "base/range.h"
+#include "base/where.h"
 #include "base/work.h"
 #include "scene/bind.h"
 #include "scene/place.h"
