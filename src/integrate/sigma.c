@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/range.h"
 #include "base/work.h"
 #include "integrate/plan.h"
 #include "integrate/total.h"
@@ -197,16 +198,24 @@ static int run_other(sigma_run *run, const lrcs_run_options *options)
     return first.plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_raster(run, first.size);
 }
 
+/* Is the other method worth a try? Only where shadowing is what misses the tolerance; and a raster
+   of LAST_SIZE cannot know a contested facet closer than to a pixel. */
+static int run_may_gain(const sigma_run *run, double tolerance)
+{
+    double sigma = run->total.glint + run->total.diffuse;
+    double pixel = sigma / ((double)LAST_SIZE * LAST_SIZE);
+    return !run_meets(&run->total, tolerance) &&
+           run->total.visibility > lrcsi_most(0.5 * tolerance * sigma, pixel);
+}
+
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
     if (status == LRCS_OK) {
         status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
     }
-    double missing = run->total.visibility;
     if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
-        !run_meets(&run->total, options->tolerance) &&
-        missing > 0.5 * options->tolerance * (run->total.glint + run->total.diffuse)) {
+        run_may_gain(run, options->tolerance)) {
         status = run_other(run, options);
     }
     return status;
