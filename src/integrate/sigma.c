@@ -5,7 +5,6 @@
 
 #include <math.h>
 
-#include "base/range.h"
 #include "base/work.h"
 #include "integrate/plan.h"
 #include "integrate/total.h"
@@ -183,42 +182,21 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
     return status;
 }
 
-/* Under auto, the other of the two methods that shadow, where the first missed the tolerance; the
-   better bound stays. */
-static int run_other(sigma_run *run, const lrcs_run_options *options)
-{
-    sigma_run first = *run;
-    run->plan.method =
-        first.plan.method == LRCS_METHOD_EXACT ? LRCS_METHOD_ZBUFFER : LRCS_METHOD_EXACT;
-    int status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
-    if (status == LRCS_OK && run_bound(&run->total) <= run_bound(&first.total)) {
-        return LRCS_OK;
-    }
-    *run = first;
-    return first.plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_raster(run, first.size);
-}
-
-/* Is the other method worth a try? Only where shadowing is what misses the tolerance; and a raster
-   of LAST_SIZE cannot know a contested facet closer than to a pixel. */
-static int run_may_gain(const sigma_run *run, double tolerance)
-{
-    double sigma = run->total.glint + run->total.diffuse;
-    double pixel = sigma / ((double)LAST_SIZE * LAST_SIZE);
-    return !run_meets(&run->total, tolerance) &&
-           run->total.visibility > lrcsi_most(0.5 * tolerance * sigma, pixel);
-}
-
+/* Under auto a raster of a size asked for goes first; where its bound misses the tolerance,
+   clipping follows. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
-    if (status == LRCS_OK) {
-        status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
+    if (status == LRCS_OK && run->plan.method == LRCS_METHOD_ZBUFFER) {
+        status = run_zbuffer(run, options);
+        if (status != LRCS_OK || options->method != LRCS_METHOD_AUTO ||
+            run_meets(&run->total, options->tolerance)) {
+            return status;
+        }
+        run->plan.method = LRCS_METHOD_EXACT;
+        run->flags = 0;
     }
-    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
-        run_may_gain(run, options->tolerance)) {
-        status = run_other(run, options);
-    }
-    return status;
+    return status == LRCS_OK ? run_exact(run) : status;
 }
 
 static void result_fill(const sigma_run *run, const lrcs_run_options *options, lrcs_result *result)
