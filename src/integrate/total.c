@@ -53,6 +53,7 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t 
     lrcsi_reflection at = lrcsi_reflect(brdf, tilt->tan2, 0);
     double whole = FOUR_PI * 0.5 * view->prepared->normal[facet].length;
     double share = visible->area / tilt->projected;
+    double most = visible->high / tilt->projected;
     double doubt = fmax(visible->area - visible->low, visible->high - visible->area);
     double per_area = whole * (at.glint + at.diffuse) / tilt->projected;
     double glint = whole * at.glint * share;
@@ -63,7 +64,7 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t 
     sums->likely += (per_area * visible->likely) * (per_area * visible->likely);
     /* S, 4 pi, two products and the share: 8 u, with the relative error of areas */
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
-                      whole * share * (at.error + reflection_vague(brdf, tilt, &at));
+                      whole * most * (at.error + reflection_vague(brdf, tilt, &at));
     return glint + diffuse;
 }
 

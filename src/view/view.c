@@ -7,6 +7,7 @@
 
 #include "base/dd.h"
 #include "base/exact.h"
+#include "base/length.h"
 #include "base/range.h"
 #include "base/work.h"
 
@@ -27,16 +28,15 @@ static lrcsi_dd normal_dot(const lrcsi_normal *n, const double *d)
    error, together with the norm's rounding at most 16 u^2 |N| |d| + 3 u |N x d|. */
 static double normal_cross(const lrcsi_normal *n, const double *d)
 {
-    double square = 0;
+    double component[3];
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
         lrcsi_dd a = lrcsi_dd_scale((lrcsi_dd){n->high[i], n->low[i]}, d[j]);
         lrcsi_dd b = lrcsi_dd_scale((lrcsi_dd){n->high[j], n->low[j]}, d[i]);
-        double component = lrcsi_dd_value(lrcsi_dd_sub(a, b));
-        square += component * component;
+        component[k] = lrcsi_dd_value(lrcsi_dd_sub(a, b));
     }
-    return sqrt(square);
+    return lrcsi_length(component);
 }
 
 /* The absolute error of both, per unit of |d|. */

@@ -60,17 +60,38 @@ int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser)
     return winner < loser;
 }
 
-static int sample_coplanar(const lrcsi_view *view, uint32_t i, uint32_t j)
+/* On which side of facet i's plane facet j lies, seen from the laser: exact. */
+enum sample_place { SAMPLE_ABOVE, SAMPLE_BELOW, SAMPLE_WITHIN, SAMPLE_ACROSS };
+
+static enum sample_place sample_place_of(const lrcsi_view *view, uint32_t i, uint32_t j)
 {
     const double *a = lrcsi_prepared_corner(view->prepared, i, 0);
     const double *b = lrcsi_prepared_corner(view->prepared, i, 1);
     const double *c = lrcsi_prepared_corner(view->prepared, i, 2);
+    int above = 0;
+    int below = 0;
     for (int k = 0; k < 3; k++) {
-        if (lrcsi_exact_side(a, b, c, lrcsi_prepared_corner(view->prepared, j, k)) != 0) {
-            return 0;
+        int side = view->facing[i] *
+                   lrcsi_exact_side(a, b, c, lrcsi_prepared_corner(view->prepared, j, k));
+        above |= side > 0;
+        below |= side < 0;
+    }
+    return above && below ? SAMPLE_ACROSS
+           : above        ? SAMPLE_ABOVE
+           : below        ? SAMPLE_BELOW
+                          : SAMPLE_WITHIN;
+}
+
+/* Does the inside of `facet` touch `other`? */
+static int sample_touches(const lrcsi_view *view, uint32_t facet, uint32_t other)
+{
+    const lrcsi_touches *t = &view->prepared->touches;
+    for (uint32_t i = t->first[facet]; i < t->first[facet + 1]; i++) {
+        if (t->touch[i].other == other) {
+            return 1;
         }
     }
-    return 1;
+    return 0;
 }
 
 /* Height of the facet's plane over `point` along the direction, as a fraction: numerator
@@ -101,7 +122,7 @@ static sample_height sample_height_of(const lrcsi_view *view, uint32_t facet, co
     return h;
 }
 
-/* Two planes that meet on the line, as front and back do on a contour: which is nearer just beside
+/* Two planes that meet on the line, where two facets pierce each other: which is nearer just beside
    it, on the side to which the line counts as moved. Heights fall by N_k / (N . d) there. */
 static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t second,
                           lrcsi_dd first_bottom, lrcsi_dd second_bottom)
@@ -122,6 +143,32 @@ static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t secon
     return 0;
 }
 
+/* The planes meet on the line, or nearly so. The line, as it counts as moved, meets the open inside
+   of both facets; so where no corner of one lies below the other's plane and some lie above, it is
+   the nearer, exactly: on a contour, and however close two skins may be. Facets that reach across
+   each other's planes without touching stay undecided; where they pierce each other, a wrong answer
+   within the arithmetic's error of the line where they meet does no harm, for visibility changes
+   there. */
+static int sample_closely(const lrcsi_view *view, uint32_t first, uint32_t second,
+                          lrcsi_dd first_bottom, lrcsi_dd second_bottom)
+{
+    enum sample_place place = sample_place_of(view, first, second);
+    if (place == SAMPLE_WITHIN) {
+        return lrcsi_sample_beats(view, first, second) ? 1 : -1;
+    }
+    if (place != SAMPLE_ACROSS) {
+        return place == SAMPLE_BELOW ? 1 : -1;
+    }
+    place = sample_place_of(view, second, first);
+    if (place != SAMPLE_ACROSS) {
+        return place == SAMPLE_ABOVE ? 1 : -1;
+    }
+    if (!sample_touches(view, first, second) || !sample_touches(view, second, first)) {
+        return 0;
+    }
+    return sample_steeper(view, first, second, first_bottom, second_bottom);
+}
+
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
                         const double point[3])
 {
@@ -137,8 +184,5 @@ int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
     if (fabs(difference) > 1.01 * off) {
         return difference > 0 ? 1 : -1;
     }
-    if (sample_coplanar(view, first, second)) {
-        return lrcsi_sample_beats(view, first, second) ? 1 : -1;
-    }
-    return sample_steeper(view, first, second, f.bottom, s.bottom);
+    return sample_closely(view, first, second, f.bottom, s.bottom);
 }
