@@ -101,8 +101,30 @@ static sample_height sample_height_of(const lrcsi_view *view, uint32_t facet, co
     return h;
 }
 
-/* Two planes that meet on the line, as front and back do on a contour: which is nearer just beside
-   it, on the side to which the line counts as moved. Heights fall by N_k / (N . d) there. */
+/* Where all corners of `first` lie on one side of the other's plane, or on it, so does what the
+   line meets of it, strictly inside as it counts: 1 first is nearer, -1 second; 0 where corners
+   lie on both sides. Exact, and enough wherever two facets do not pierce each other: along
+   contours, folds, and the rims on which one stands on the other. */
+static int sample_side(const lrcsi_view *view, uint32_t first, uint32_t second)
+{
+    int most = 0;
+    int least = 0;
+    for (int k = 0; k < 3; k++) {
+        int side = view->facing[second] *
+                   lrcsi_exact_side(lrcsi_prepared_corner(view->prepared, second, 0),
+                                    lrcsi_prepared_corner(view->prepared, second, 1),
+                                    lrcsi_prepared_corner(view->prepared, second, 2),
+                                    lrcsi_prepared_corner(view->prepared, first, k));
+        most = side > most ? side : most;
+        least = side < least ? side : least;
+    }
+    return most + least;
+}
+
+/* Two facets that pierce each other, on a line where they meet as far as can be told: which is
+   nearer just beside it, on the side to which the line counts as moved. Heights fall by
+   N_k / (N . d) there. Where they meet elsewhere it may be wrong; but both are then contested, and
+   so mixed is the pixel (visibility/visible.c), so that no bound rests on it. */
 static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t second,
                           lrcsi_dd first_bottom, lrcsi_dd second_bottom)
 {
@@ -140,5 +162,16 @@ int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
     if (sample_coplanar(view, first, second)) {
         return lrcsi_sample_beats(view, first, second) ? 1 : -1;
     }
-    return sample_steeper(view, first, second, f.bottom, s.bottom);
+    int side = sample_side(view, first, second);
+    if (side == 0) {
+        side = -sample_side(view, second, first);
+    }
+    if (side != 0) {
+        return side;
+    }
+    const lrcs_scene *scene = view->prepared->scene;
+    return lrcsi_touch_pair(view->prepared->vertex, scene->facet[first], scene->facet[second]) ==
+                   LRCSI_TOUCH_CROSS
+               ? sample_steeper(view, first, second, f.bottom, s.bottom)
+               : 0;
 }

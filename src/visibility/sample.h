@@ -16,7 +16,8 @@ int lrcsi_sample_covers(const lrcsi_view *view, uint32_t facet, const double poi
 int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser);
 
 /* Which of two facets that the line meets hides the other: 1 the first, -1 the second, 0
-   undecided (nearer to each other there than double-double tells, yet not in one plane). */
+   undecided: nearer to each other there than double-double tells, each with corners on both sides
+   of the other's plane, yet not touching. Where they pierce each other that near, a guess. */
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
                         const double point[3]);
 
