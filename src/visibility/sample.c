@@ -21,24 +21,31 @@ static int sample_axis(const double *d)
    parallel to the direction. On the edge itself the first axis, then the second, decides: the
    sign of det(q - p, e, d), taken exactly with e as p moved by 2 along that axis (coordinates are
    below 1, so the move is a positive multiple of the axis, exactly). */
-static int sample_edge_side(const double *p, const double *q, const double *point, const double *d)
+static int sample_edge_side(const double *p, const double *q, const double *point, int sense,
+                            const double *d)
 {
     int side = lrcsi_exact_turn(p, q, point, d);
     int axis = sample_axis(d);
     for (int k = 1; k <= 2 && side == 0; k++) {
         double moved[3] = {p[0], p[1], p[2]};
         moved[(axis + k) % 3] += 2;
-        side = lrcsi_exact_turn(p, q, moved, d);
+        side = sense * lrcsi_exact_turn(p, q, moved, d);
     }
     return side;
 }
 
 int lrcsi_sample_covers(const lrcsi_view *view, uint32_t facet, const double point[3])
 {
+    return lrcsi_sample_covers_towards(view, facet, point, 1);
+}
+
+int lrcsi_sample_covers_towards(const lrcsi_view *view, uint32_t facet, const double point[3],
+                                int sense)
+{
     for (int k = 0; k < 3; k++) {
         const double *p = lrcsi_prepared_corner(view->prepared, facet, k);
         const double *q = lrcsi_prepared_corner(view->prepared, facet, (k + 1) % 3);
-        if (sample_edge_side(p, q, point, view->direction) != view->facing[facet]) {
+        if (sample_edge_side(p, q, point, sense, view->direction) != view->facing[facet]) {
             return 0;
         }
     }

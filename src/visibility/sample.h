@@ -11,6 +11,11 @@
 /* Does the line through `point` meet the facet? Facing must not be 0. */
 int lrcsi_sample_covers(const lrcsi_view *view, uint32_t facet, const double point[3]);
 
+/* The same, the line counting as moved along the two axes where `sense` is 1, against them where it
+   is -1. */
+int lrcsi_sample_covers_towards(const lrcsi_view *view, uint32_t facet, const double point[3],
+                                int sense);
+
 /* Does `winner` come first where both lie exactly in one plane? A front face beats a back face, a
    reflecting back a dead one, then the lower index. */
 int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser);
