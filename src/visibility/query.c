@@ -6,7 +6,10 @@
 
 #include "visibility/sample.h"
 
-/* A point that the facet covers, on the facet but for rounding: 1 where one was found. */
+/* A point that the facet covers, on the facet but for rounding. Where the facet is so thin that
+   such points round outside, a corner: moved by an infinitesimal one way or the other, the line
+   through one of them enters the facet, whatever its shape (of the lines through the corners of a
+   triangle that are parallel to a given one, the middle one passes inside). Returns that sense. */
 static int inside_point(const lrcsi_view *view, uint32_t facet, double point[3])
 {
     static const double weight[4][3] = {
@@ -21,6 +24,16 @@ static int inside_point(const lrcsi_view *view, uint32_t facet, double point[3])
         }
         if (lrcsi_sample_covers(view, facet, point)) {
             return 1;
+        }
+    }
+    for (int i = 0; i < 6; i++) {
+        const double *corner = lrcsi_prepared_corner(view->prepared, facet, i % 3);
+        int sense = i < 3 ? 1 : -1;
+        for (int k = 0; k < 3; k++) {
+            point[k] = corner[k];
+        }
+        if (lrcsi_sample_covers_towards(view, facet, point, sense)) {
+            return sense;
         }
     }
     return 0;
@@ -51,7 +64,8 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
 {
     const lrcsi_view *view = facets->view;
     double point[3];
-    if (!inside_point(view, facet, point)) {
+    int sense = inside_point(view, facet, point);
+    if (sense == 0) {
         return LRCSI_QUERY_UNDECIDED;
     }
     double xy[2];
@@ -64,7 +78,7 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
         for (; i < end; i++) {
             uint32_t other = facets->item[i];
             if (other == facet || box_misses(view, other, xy) ||
-                !lrcsi_sample_covers(view, other, point)) {
+                !lrcsi_sample_covers_towards(view, other, point, sense)) {
                 continue;
             }
             int nearer = lrcsi_sample_nearer(view, other, facet, point);
