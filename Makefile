@@ -15,7 +15,6 @@ WARN     = -Wall -Wextra -Werror -Wshadow -Wconversion -Wsign-conversion -Wstric
            -Wpointer-arith -Wformat=2 -Wundef -Wvla -Wswitch-enum -Wdouble-promotion
 CFLAGS   =
 LDLIBS   = -lm
-PREFIX   = /usr/local
 
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
@@ -28,6 +27,7 @@ CORE_OBJ = $(CORE_SRC:%.c=$(BUILD)/%.o)
 HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
+EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
 LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
 
@@ -36,9 +36,9 @@ all: $(TOOL) $(LIB)
 
 # Exit 3 says that the tolerance was not met, and is not a failure here.
 demo: $(TOOL)
-	$(TOOL) run demo --image $(BUILD)/demo.png || [ $$? -eq 3 ]
+	$(TOOL) run demo --azel 50,40 --image $(BUILD)/demo.png || [ $$? -eq 3 ]
 
-test: cmocka $(TOOL) $(TESTS)
+test: cmocka $(TOOL) $(TESTS) $(EXAMPLES)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
 
 asan: cmocka
@@ -101,6 +101,10 @@ $(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
 $(BUILD)/src/%.o: src/%.c
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -Isrc -MMD -MP -c -o $@ $<
+
+$(BUILD)/examples/%: examples/%.c $(LIB)
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -o $@ $< $(LIB) $(LDLIBS)
 
 $(BUILD)/test/%.o: test/%.c
 	@mkdir -p $(@D)

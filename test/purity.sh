@@ -6,7 +6,7 @@
 # usage: purity.sh OBJ...
 allowed='
 memchr memcmp memcpy memmove memset strchr strcmp strcspn strlen strncmp strspn
-acos asin atan atan2 cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs floor fma fmax fmin
+acos asin atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs floor fma fmax fmin
 fmod frexp hypot ilogb ldexp lgamma llround log log10 log1p log2 logb lrint lround modf nearbyint
 nextafter pow remainder remquo rint round scalbln scalbn sin sincos sinh sqrt tan tanh tgamma trunc
 _GLOBAL_OFFSET_TABLE_ __stack_chk_fail

@@ -20,11 +20,11 @@ lrcs_brdf lrcs_brdf_default(void);
 
 /* Values that the formula accepts but the model does not mean: bits of lrcs_brdf_check. */
 enum lrcs_brdf_warning {
-    LRCS_BRDF_SLOPE_LARGE = 1 << 0,   /* s > 0.7: a plate's glint peaks off its normal */
-    LRCS_BRDF_DIFFUSE_GAIN = 1 << 1,  /* pi B > 1: reflects more than it receives when m = 0 */
-    LRCS_BRDF_GLINT_GAIN = 1 << 2,    /* 4 pi A s^2 > 1: mirrors that reflect more than they receive
-                                         (A = R / (4 pi s^2) on a Beckmann surface) */
-    LRCS_BRDF_DARK = 1 << 3           /* A = 0 and B = 0 */
+    LRCS_BRDF_SLOPE_LARGE = 1 << 0,  /* s > 0.7: a plate's glint peaks off its normal */
+    LRCS_BRDF_DIFFUSE_GAIN = 1 << 1, /* pi B > 1: reflects more than it receives when m = 0 */
+    LRCS_BRDF_GLINT_GAIN = 1 << 2,   /* 4 pi A s^2 > 1: mirrors that reflect more than they receive
+                                        (A = R / (4 pi s^2) on a Beckmann surface) */
+    LRCS_BRDF_DARK = 1 << 3          /* A = 0 and B = 0 */
 };
 
 /* Checks the four numbers: negative status where they are not finite or outside the domain

@@ -28,7 +28,7 @@ typedef struct lrcs_surface {
 enum lrcs_mesh_notice {
     LRCS_MESH_KEYFRAMER = 1 << 0,          /* animation nodes present, ignored */
     LRCS_MESH_LOCAL_MATRIX = 1 << 1,       /* mesh matrices other than the identity, ignored */
-    LRCS_MESH_UNDEFINED_MATERIAL = 1 << 2, /* facets name a material that the file does not define */
+    LRCS_MESH_UNDEFINED_MATERIAL = 1 << 2, /* facets name a material that is not defined */
     LRCS_MESH_TRAILING_BYTES = 1 << 3,     /* bytes after the end, or a length that disagrees */
     LRCS_MESH_OVERLAPPING_GROUPS = 1 << 4, /* a facet in two material groups: the last won */
     LRCS_MESH_LATIN1_NAMES = 1 << 5,       /* names that were not UTF-8 */
@@ -51,24 +51,24 @@ typedef struct lrcs_mesh {
     uint32_t *facet_part;     /* index into part */
     uint32_t *facet_smooth;   /* smoothing groups as a mask; 0 is hard */
     lrcs_surface *material;
-    const char **part; /* names, UTF-8 */
-    uint32_t notices;  /* lrcs_mesh_notice bits */
+    const char **part;         /* names, UTF-8 */
+    uint32_t notices;          /* lrcs_mesh_notice bits */
     const char *material_file; /* OBJ: the file named by mtllib, or NULL */
 } lrcs_mesh;
 
 /* What is wrong or remarkable in a mesh. Edges match by bitwise equal positions (-0 equals 0).
    Facets that are degenerate (zero area in exact arithmetic) take part in no other count. */
 typedef struct lrcs_mesh_report {
-    uint32_t vertices;          /* distinct positions that facets use */
-    uint32_t edges;             /* distinct edges between those */
-    uint32_t degenerate;        /* facets of exactly no area */
-    uint32_t duplicate;         /* facets on the same three points as an earlier one */
-    uint32_t opposite_pairs;    /* of those, the ones that face the other way */
-    uint32_t boundary_edges;    /* used by one facet */
-    uint32_t nonmanifold_edges; /* used by three or more */
-    uint32_t misoriented_edges; /* used by two facets in the same direction */
-    int closed;                 /* directed edges balance (as many one way as the other) */
-    int convex;                 /* closed, one piece, and exactly convex: no self-shadowing */
+    uint32_t vertices;             /* distinct positions that facets use */
+    uint32_t edges;                /* distinct edges between those */
+    uint32_t degenerate;           /* facets of exactly no area */
+    uint32_t duplicate;            /* facets on the same three points as an earlier one */
+    uint32_t opposite_pairs;       /* of those, the ones that face the other way */
+    uint32_t boundary_edges;       /* used by one facet */
+    uint32_t nonmanifold_edges;    /* used by three or more */
+    uint32_t misoriented_edges;    /* used by two facets in the same direction */
+    int closed;                    /* directed edges balance (as many one way as the other) */
+    int convex;                    /* closed, one piece, and exactly convex: no self-shadowing */
     double box_min[3], box_max[3]; /* of the vertices that facets use */
     double area;
     double volume; /* signed, about the box centre; a volume only where closed */

@@ -6,7 +6,12 @@
 #include <lrcs/pose.h>
 #include <lrcs/scene.h>
 
-enum lrcs_method { LRCS_METHOD_AUTO = 0, LRCS_METHOD_FACET, LRCS_METHOD_ZBUFFER, LRCS_METHOD_EXACT };
+enum lrcs_method {
+    LRCS_METHOD_AUTO = 0,
+    LRCS_METHOD_FACET,
+    LRCS_METHOD_ZBUFFER,
+    LRCS_METHOD_EXACT
+};
 
 /* The method's name ("auto", ...), or NULL. And back: LRCS_E_NAME for none. */
 const char *lrcs_method_text(int method);
@@ -57,14 +62,14 @@ const char *lrcs_effect_text(int effect); /* "self_shadowing", ... or NULL */
 enum lrcs_flag {
     LRCS_FLAG_TOLERANCE_NOT_MET = 1 << 0,
     LRCS_FLAG_MEMORY_FALLBACK = 1 << 1, /* coarser raster than asked, for want of memory */
-    LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2  /* two facets closer at a sample than the arithmetic tells apart */
+    LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2  /* two facets too close at a sample to tell apart */
 };
 const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 
 /* Notices: true and worth knowing, not a degradation. */
 enum lrcs_notice {
-    LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,    /* open or inverted mesh */
-    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1   /* curved shapes under shadowing */
+    LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,  /* open or inverted mesh */
+    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* curved shapes under shadowing */
 };
 const char *lrcs_notice_text(int bit);
 
@@ -84,10 +89,10 @@ typedef struct lrcs_facet_record {
 
 typedef struct lrcs_result {
     double sigma_m2, sigma_glint_m2, sigma_diffuse_m2;
-    double bound_m2;    /* proved: |sigma - truth| <= bound, truth being Eq. 2 over the placed
-                           facets (over the true shapes where the tessellation is known) */
+    double bound_m2; /* proved: |sigma - truth| <= bound, truth being Eq. 2 over the placed
+                        facets (over the true shapes where the tessellation is known) */
     lrcs_budget budget;
-    double estimate_m2; /* likely error of a raster's answer; negative: none */
+    double estimate_m2;       /* likely error of a raster's answer; negative: none */
     double projected_area_m2; /* the whole silhouette */
     double back_side_area_m2; /* visible projected area of one-sided back sides */
     uint32_t back_side_facets;

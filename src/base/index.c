@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-#include "base/work.h"
 #include "base/fnv.h"
+#include "base/work.h"
 
 /* At least two slots a name, so that probes stay short and always meet an empty slot. */
 static size_t slot_count(size_t count)

@@ -181,39 +181,32 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
     return status;
 }
 
-/* Under auto, the other of the two methods that shadow, where the first missed the tolerance; the
-   better bound stays. */
-static int run_other(sigma_run *run, const lrcs_run_options *options)
+static int run_method(sigma_run *run, const lrcs_run_options *options)
 {
-    sigma_run first = *run;
-    run->plan.method =
-        first.plan.method == LRCS_METHOD_EXACT ? LRCS_METHOD_ZBUFFER : LRCS_METHOD_EXACT;
-    int status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
-    if (status == LRCS_OK && run_bound(&run->total) <= run_bound(&first.total)) {
-        return LRCS_OK;
-    }
-    *run = first;
-    return first.plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_raster(run, first.size);
+    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
 }
 
+/* Under auto a raster of a size asked for goes first; where its bound misses the tolerance,
+   clipping follows. Clipping that finds no memory yields to a raster, which needs less. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
-    if (status != LRCS_OK) {
+    if (status == LRCS_OK) {
+        status = run_method(run, options);
+    }
+    if (options->method != LRCS_METHOD_AUTO) {
         return status;
     }
-    status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
-    if (status == LRCS_E_MEMORY && options->method == LRCS_METHOD_AUTO &&
-        run->plan.method == LRCS_METHOD_EXACT) { /* a coarse raster needs less */
-        run->plan.method = LRCS_METHOD_ZBUFFER;
-        run->flags |= LRCS_FLAG_MEMORY_FALLBACK;
-        status = run_zbuffer(run, options);
+    if (status == LRCS_OK && run->plan.method == LRCS_METHOD_ZBUFFER &&
+        !run_meets(&run->total, options->tolerance)) {
+        run->plan.method = LRCS_METHOD_EXACT;
+        run->flags = 0;
+        status = run_exact(run);
     }
-    double missing = run->total.visibility;
-    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
-        !run_meets(&run->total, options->tolerance) &&
-        missing > 0.5 * options->tolerance * (run->total.glint + run->total.diffuse)) {
-        status = run_other(run, options);
+    if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
+        run->plan.method = LRCS_METHOD_ZBUFFER;
+        run->flags = LRCS_FLAG_MEMORY_FALLBACK;
+        status = run_zbuffer(run, options);
     }
     return status;
 }

@@ -67,6 +67,7 @@ size_t lrcs_mesh_need(const lrcs_mesh_counts *counts)
         lrcsi_work_bytes(counts->text_bytes, 1),
         lrcsi_work_bytes(counts->vertices, sizeof(lrcs_point)),
         /* scratch: names of materials and parts, or welded vertices, in a table */
+        lrcsi_work_bytes(counts->materials, sizeof(const char *)),
         lrcsi_index_need(counts->materials),
         lrcsi_index_need(counts->parts),
         lrcsi_work_bytes(lrcsi_store_slots(counts->vertices), sizeof(uint32_t)),

@@ -8,9 +8,9 @@
 
 /* An undirected edge between two welded points, low < high, and the facets on it. */
 typedef struct lrcsi_edge {
-    uint32_t low, high;       /* indices of representative vertices: positions are theirs */
-    uint32_t first_use;       /* into use[] */
-    uint32_t uses;            /* how many facets stand on it */
+    uint32_t low, high; /* indices of representative vertices: positions are theirs */
+    uint32_t first_use; /* into use[] */
+    uint32_t uses;      /* how many facets stand on it */
 } lrcsi_edge;
 
 /* One facet's side on an edge. */
@@ -20,11 +20,12 @@ typedef struct lrcsi_edge_use {
 } lrcsi_edge_use;
 
 typedef struct lrcsi_topology {
-    uint32_t *weld;      /* vertex -> representative: the lowest vertex index at that position */
+    uint32_t *weld; /* vertex -> representative: the lowest vertex index at that position */
     unsigned char *degenerate; /* facet -> 1 where it has exactly no area */
-    lrcsi_edge *edge;    /* sorted by (low, high) */
-    lrcsi_edge_use *use; /* grouped by edge; within one, by facet */
-    lrcs_facet *facet_edge; /* facet -> its edges (corner[k]: side from corner k to k+1), LRCS_NONE if degenerate */
+    lrcsi_edge *edge;          /* sorted by (low, high) */
+    lrcsi_edge_use *use;       /* grouped by edge; within one, by facet */
+    lrcs_facet *facet_edge;    /* facet -> its edges (corner[k]: the side from corner k to k + 1);
+                                  LRCS_NONE where it is degenerate */
     uint32_t edge_count;
 } lrcsi_topology;
 
@@ -32,8 +33,7 @@ typedef struct lrcsi_topology {
 size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count);
 
 /* Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (3 facet_count above 2^32 - 2). Linear time. */
-int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count,
-                        const lrcs_facet *facet, uint32_t facet_count, lrcs_work *work,
-                        lrcsi_topology *topology);
+int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
+                        uint32_t facet_count, lrcs_work *work, lrcsi_topology *topology);
 
 #endif

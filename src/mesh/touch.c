@@ -232,6 +232,32 @@ int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet 
     return side[0] == 0 && side[1] == 0 && side[2] == 0;
 }
 
+/* Is p on the segment a b, which is longer than 0, and not at its ends? */
+static int is_inside_segment(const double *a, const double *b, const double *p)
+{
+    int within = 1;
+    int at_end = 0;
+    for (int k = 0; k < 3; k++) {
+        within &= fmin(a[k], b[k]) <= p[k] && p[k] <= fmax(a[k], b[k]);
+        at_end |= a[k] != b[k] && (p[k] == a[k] || p[k] == b[k]);
+    }
+    return within && !at_end && lrcsi_exact_collinear(a, b, p);
+}
+
+int lrcsi_touch_side(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+{
+    touch_facet f = corners_of(vertex, facet);
+    touch_facet t = corners_of(vertex, other);
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            if (is_inside_segment(f.x[k], f.x[(k + 1) % 3], t.x[i])) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
 /* Sinks entry `i` of a heap of n, largest on top. */
 static void sink_touch(lrcsi_touch *touch, size_t i, size_t n)
 {

@@ -34,6 +34,10 @@ int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet othe
 /* 1 where two facets lie exactly in one plane. Neither may be degenerate. */
 int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);
 
+/* 1 where a corner of `other` lies inside a side of `facet`, ends excluded. No contact in the sense
+   above need come of it. */
+int lrcsi_touch_side(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);
+
 /* Finds all of them. Facets marked in `skip` (degenerate, omitted) neither touch nor are touched.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 entries).
    Work: near linear on ordinary meshes, quadratic where everything overlaps everything. The

@@ -9,6 +9,7 @@
 #include "base/exact.h"
 #include "base/length.h"
 #include "base/work.h"
+#include "mesh/tree.h"
 #include "scene/solid.h"
 
 #define U 0x1p-53
@@ -196,6 +197,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
     size_t proof = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
+    proof = lrcsi_work_add(proof, lrcsi_tree_need(scene->facet_count));
     return lrcsi_work_add(need, proof);
 }
 

@@ -3,9 +3,9 @@
    them; then names are resolved, so that a file may use a material before it defines it. */
 #include <string.h>
 
+#include "base/index.h"
 #include "base/where.h"
 #include "base/work.h"
-#include "base/index.h"
 #include "scene/recipe.h"
 
 /* Tags of names that must differ among themselves. */
@@ -303,8 +303,8 @@ static int resolve_name(const recipe_reader *reader, const lrcsi_index *names, c
 static int resolve_materials(recipe_reader *reader, const lrcsi_index *names)
 {
     lrcs_recipe *recipe = &reader->recipe;
-    lrcs_recipe_material material;
-    uint32_t own;
+    lrcs_recipe_material material = {0};
+    uint32_t own = LRCS_NONE;
     int status = LRCS_OK;
     for (uint32_t i = 0; status == LRCS_OK && i < recipe->binding_count; i++) {
         lrcs_binding *binding = &recipe->binding[i];

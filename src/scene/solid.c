@@ -7,6 +7,7 @@
 
 #include "base/join.h"
 #include "base/work.h"
+#include "mesh/tree.h"
 
 #define U 0x1p-53
 
@@ -52,6 +53,27 @@ static int pieces_untouched(const lrcs_prepared *p, uint32_t *parent)
         }
     }
     return 1;
+}
+
+/* No corner of a piece lies inside a side of the same piece. */
+static int pieces_sides_clear(const lrcs_prepared *p, uint32_t *parent, lrcs_work *work, int *clear)
+{
+    lrcsi_tree tree;
+    const lrcs_scene *scene = p->scene;
+    int status = lrcsi_tree_make(p->vertex, scene->facet, scene->facet_count, p->skip, work, &tree);
+    *clear = 1;
+    for (uint32_t f = 0; f < scene->facet_count && status == LRCS_OK && *clear; f++) {
+        if (p->skip[f]) {
+            continue;
+        }
+        lrcsi_tree_walk walk = lrcsi_tree_around(&tree, p->vertex, scene->facet[f]);
+        uint32_t other;
+        while (*clear && (other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
+            *clear = lrcsi_join_root(parent, f) != lrcsi_join_root(parent, other) ||
+                     !lrcsi_touch_side(p->vertex, scene->facet[f], scene->facet[other]);
+        }
+    }
+    return status;
 }
 
 /* Six times the signed volume of a facet's tetrahedron about `o`, and a bound on its rounding:
@@ -112,7 +134,7 @@ int lrcsi_solid_check(const lrcs_prepared *p, lrcs_work *work, int *proved)
         }
         *proved = pieces_closed(p, parent) && pieces_untouched(p, parent) &&
                   pieces_outward(p, parent, volume, error);
-        status = LRCS_OK;
+        status = *proved ? pieces_sides_clear(p, parent, work, proved) : LRCS_OK;
     }
     work->used = mark;
     return status;

@@ -213,10 +213,8 @@ static int touch_contests(const lrcsi_view *view, uint32_t facet)
 size_t lrcsi_contest_need(const lrcs_prepared *prepared)
 {
     size_t edges = prepared->topology.edge_count;
-    size_t cells = edges < 2048u * 2048u ? edges : 2048u * 2048u;
     size_t need = lrcsi_work_bytes(3 * edges, sizeof(uint32_t));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(cells + 1, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(8 * edges + 8192, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
     need = lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->facet_count, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->facet_count, 1));
 }

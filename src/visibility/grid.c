@@ -8,6 +8,9 @@
 #include "base/range.h"
 #include "base/work.h"
 
+/* Cells along a side at most; otherwise as many cells as items. */
+#define MOST_CELLS 2048
+
 /* The cell of a view coordinate, kept within 0 .. size - 1. */
 static uint32_t cell_of(const lrcsi_grid *grid, double x, int axis)
 {
@@ -43,9 +46,23 @@ int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
     return view->facing[facet] > 0 || (view->facing[facet] < 0 && !view->prepared->solid);
 }
 
+size_t lrcsi_grid_need(size_t items, size_t entries)
+{
+    const size_t most = (size_t)MOST_CELLS * MOST_CELLS;
+    size_t cells = items < most ? items : most;
+    return lrcsi_work_add(lrcsi_work_bytes(cells + 1, sizeof(uint32_t)),
+                          lrcsi_work_bytes(entries, sizeof(uint32_t)));
+}
+
+size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
+{
+    size_t facets = prepared->scene->facet_count;
+    return lrcsi_grid_need(facets, 16 * facets + 65536);
+}
+
 static int grid_start(const lrcsi_view *view, uint32_t items, lrcs_work *work, lrcsi_grid *grid)
 {
-    double size = lrcsi_least(2048, lrcsi_most(1, sqrt((double)items)));
+    double size = lrcsi_least(MOST_CELLS, lrcsi_most(1, sqrt((double)items)));
     grid->view = view;
     grid->size = (uint32_t)size;
     grid->scale = view->side > 0 ? grid->size / view->side : 0;
@@ -150,14 +167,6 @@ int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t coun
         *grid = g;
     }
     return status;
-}
-
-size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
-{
-    size_t facets = prepared->scene->facet_count;
-    size_t cells = facets < 2048u * 2048u ? facets : 2048u * 2048u;
-    return lrcsi_work_add(lrcsi_work_bytes(cells + 1, sizeof(uint32_t)),
-                          lrcsi_work_bytes(16 * facets + 65536, sizeof(uint32_t)));
 }
 
 static void grid_put_facet(lrcsi_grid *grid, uint32_t facet)

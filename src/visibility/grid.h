@@ -31,6 +31,9 @@ void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex, int count, d
 int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, lrcs_work *work,
                      lrcsi_grid *grid);
 
+/* Bytes for a grid of so many items that stand in so many cells together. */
+size_t lrcsi_grid_need(size_t items, size_t entries);
+
 /* Bytes for a grid of facets, an upper bound for ordinary scenes. */
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 

@@ -209,7 +209,7 @@ static int occlude_contested(const lrcsi_view *view, uint32_t facet, occlude_scr
         double whole = lrcsi_view_tilt(view, facet).projected;
         double d = job.target.diameter;
         double error = (rims + 8 * U * d * (job.splits + 4)) * 3 * d;
-        double left = lrcsi_least(whole, job.area);
+        double left = lrcsi_most(0, lrcsi_least(whole, job.area));
         visible->area = left;
         visible->low = lrcsi_most(0, left - error);
         visible->high = lrcsi_least(whole, left + job.doubt + error);

@@ -6,7 +6,10 @@
 
 #include "visibility/sample.h"
 
-/* A point that the facet covers, on the facet but for rounding: 1 where one was found. */
+/* A point that the facet covers, on the facet but for rounding. Where the facet is so thin that
+   such points round outside, a corner: moved by an infinitesimal one way or the other, the line
+   through one of them enters the facet, whatever its shape (of the lines through the corners of a
+   triangle that are parallel to a given one, the middle one passes inside). Returns that sense. */
 static int inside_point(const lrcsi_view *view, uint32_t facet, double point[3])
 {
     static const double weight[4][3] = {
@@ -21,6 +24,16 @@ static int inside_point(const lrcsi_view *view, uint32_t facet, double point[3])
         }
         if (lrcsi_sample_covers(view, facet, point)) {
             return 1;
+        }
+    }
+    for (int i = 0; i < 6; i++) {
+        const double *corner = lrcsi_prepared_corner(view->prepared, facet, i % 3);
+        int sense = i < 3 ? 1 : -1;
+        for (int k = 0; k < 3; k++) {
+            point[k] = corner[k];
+        }
+        if (lrcsi_sample_covers_towards(view, facet, point, sense)) {
+            return sense;
         }
     }
     return 0;
@@ -52,6 +65,7 @@ typedef struct query_line {
     const lrcsi_grid *grid;
     uint32_t facet;
     double point[3], xy[2];
+    int sense; /* of the infinitesimal by which it counts as moved */
     lrcsi_cells cells;
     uint32_t y, item, end; /* the row of cells at hand, and its items yet to be looked at */
 } query_line;
@@ -60,7 +74,8 @@ typedef struct query_line {
 static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet)
 {
     *line = (query_line){.grid = facets, .facet = facet};
-    if (!inside_point(facets->view, facet, line->point)) {
+    line->sense = inside_point(facets->view, facet, line->point);
+    if (line->sense == 0) {
         return 0;
     }
     view_of(facets->view, line->point, line->xy);
@@ -84,7 +99,7 @@ static uint32_t line_next(query_line *line)
         }
         uint32_t other = grid->item[line->item++];
         if (other != line->facet && !box_misses(grid->view, other, line->xy) &&
-            lrcsi_sample_covers(grid->view, other, line->point)) {
+            lrcsi_sample_covers_towards(grid->view, other, line->point, line->sense)) {
             return other;
         }
     }
@@ -106,6 +121,17 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
         answer = nearer == 0 ? LRCSI_QUERY_UNDECIDED : answer;
     }
     return answer;
+}
+
+/* Does `other` touch the inside of the facet? */
+static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other)
+{
+    for (uint32_t i = p->touches.first[facet]; i < p->touches.first[facet + 1]; i++) {
+        if (p->touches.touch[i].other == other) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 /* Does none of the sheet's edges cross the facet, and none of its facets touch its inside? */
@@ -140,6 +166,7 @@ int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint3
     uint32_t other;
     while ((other = line_next(&line)) != LRCS_NONE) {
         if (contest->sheet[other] == broken ||
+            touched_by(facets->view->prepared, other, facet) || /* order perhaps a guess */
             lrcsi_sample_nearer(facets->view, other, facet, line.point) <= 0) {
             continue;
         }

@@ -21,24 +21,31 @@ static int sample_axis(const double *d)
    parallel to the direction. On the edge itself the first axis, then the second, decides: the
    sign of det(q - p, e, d), taken exactly with e as p moved by 2 along that axis (coordinates are
    below 1, so the move is a positive multiple of the axis, exactly). */
-static int sample_edge_side(const double *p, const double *q, const double *point, const double *d)
+static int sample_edge_side(const double *p, const double *q, const double *point, int sense,
+                            const double *d)
 {
     int side = lrcsi_exact_turn(p, q, point, d);
     int axis = sample_axis(d);
     for (int k = 1; k <= 2 && side == 0; k++) {
         double moved[3] = {p[0], p[1], p[2]};
         moved[(axis + k) % 3] += 2;
-        side = lrcsi_exact_turn(p, q, moved, d);
+        side = sense * lrcsi_exact_turn(p, q, moved, d);
     }
     return side;
 }
 
 int lrcsi_sample_covers(const lrcsi_view *view, uint32_t facet, const double point[3])
 {
+    return lrcsi_sample_covers_towards(view, facet, point, 1);
+}
+
+int lrcsi_sample_covers_towards(const lrcsi_view *view, uint32_t facet, const double point[3],
+                                int sense)
+{
     for (int k = 0; k < 3; k++) {
         const double *p = lrcsi_prepared_corner(view->prepared, facet, k);
         const double *q = lrcsi_prepared_corner(view->prepared, facet, (k + 1) % 3);
-        if (sample_edge_side(p, q, point, view->direction) != view->facing[facet]) {
+        if (sample_edge_side(p, q, point, sense, view->direction) != view->facing[facet]) {
             return 0;
         }
     }
@@ -60,38 +67,17 @@ int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser)
     return winner < loser;
 }
 
-/* On which side of facet i's plane facet j lies, seen from the laser: exact. */
-enum sample_place { SAMPLE_ABOVE, SAMPLE_BELOW, SAMPLE_WITHIN, SAMPLE_ACROSS };
-
-static enum sample_place sample_place_of(const lrcsi_view *view, uint32_t i, uint32_t j)
+static int sample_coplanar(const lrcsi_view *view, uint32_t i, uint32_t j)
 {
     const double *a = lrcsi_prepared_corner(view->prepared, i, 0);
     const double *b = lrcsi_prepared_corner(view->prepared, i, 1);
     const double *c = lrcsi_prepared_corner(view->prepared, i, 2);
-    int above = 0;
-    int below = 0;
     for (int k = 0; k < 3; k++) {
-        int side = view->facing[i] *
-                   lrcsi_exact_side(a, b, c, lrcsi_prepared_corner(view->prepared, j, k));
-        above |= side > 0;
-        below |= side < 0;
-    }
-    return above && below ? SAMPLE_ACROSS
-           : above        ? SAMPLE_ABOVE
-           : below        ? SAMPLE_BELOW
-                          : SAMPLE_WITHIN;
-}
-
-/* Does the inside of `facet` touch `other`? */
-static int sample_touches(const lrcsi_view *view, uint32_t facet, uint32_t other)
-{
-    const lrcsi_touches *t = &view->prepared->touches;
-    for (uint32_t i = t->first[facet]; i < t->first[facet + 1]; i++) {
-        if (t->touch[i].other == other) {
-            return 1;
+        if (lrcsi_exact_side(a, b, c, lrcsi_prepared_corner(view->prepared, j, k)) != 0) {
+            return 0;
         }
     }
-    return 0;
+    return 1;
 }
 
 /* Height of the facet's plane over `point` along the direction, as a fraction: numerator
@@ -122,8 +108,30 @@ static sample_height sample_height_of(const lrcsi_view *view, uint32_t facet, co
     return h;
 }
 
-/* Two planes that meet on the line, where two facets pierce each other: which is nearer just beside
-   it, on the side to which the line counts as moved. Heights fall by N_k / (N . d) there. */
+/* Where all corners of `first` lie on one side of the other's plane, or on it, so does what the
+   line meets of it, strictly inside as it counts: 1 first is nearer, -1 second; 0 where corners
+   lie on both sides. Exact, and enough wherever two facets do not pierce each other: along
+   contours, folds, and the rims on which one stands on the other. */
+static int sample_side(const lrcsi_view *view, uint32_t first, uint32_t second)
+{
+    int most = 0;
+    int least = 0;
+    for (int k = 0; k < 3; k++) {
+        int side = view->facing[second] *
+                   lrcsi_exact_side(lrcsi_prepared_corner(view->prepared, second, 0),
+                                    lrcsi_prepared_corner(view->prepared, second, 1),
+                                    lrcsi_prepared_corner(view->prepared, second, 2),
+                                    lrcsi_prepared_corner(view->prepared, first, k));
+        most = side > most ? side : most;
+        least = side < least ? side : least;
+    }
+    return most + least;
+}
+
+/* Two facets that pierce each other, on a line where they meet as far as can be told: which is
+   nearer just beside it, on the side to which the line counts as moved. Heights fall by
+   N_k / (N . d) there. Where they meet elsewhere it may be wrong; but both are then contested, and
+   so mixed is the pixel (visibility/visible.c), so that no bound rests on it. */
 static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t second,
                           lrcsi_dd first_bottom, lrcsi_dd second_bottom)
 {
@@ -143,32 +151,6 @@ static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t secon
     return 0;
 }
 
-/* The planes meet on the line, or nearly so. The line, as it counts as moved, meets the open inside
-   of both facets; so where no corner of one lies below the other's plane and some lie above, it is
-   the nearer, exactly: on a contour, and however close two skins may be. Facets that reach across
-   each other's planes without touching stay undecided; where they pierce each other, a wrong answer
-   within the arithmetic's error of the line where they meet does no harm, for visibility changes
-   there. */
-static int sample_closely(const lrcsi_view *view, uint32_t first, uint32_t second,
-                          lrcsi_dd first_bottom, lrcsi_dd second_bottom)
-{
-    enum sample_place place = sample_place_of(view, first, second);
-    if (place == SAMPLE_WITHIN) {
-        return lrcsi_sample_beats(view, first, second) ? 1 : -1;
-    }
-    if (place != SAMPLE_ACROSS) {
-        return place == SAMPLE_BELOW ? 1 : -1;
-    }
-    place = sample_place_of(view, second, first);
-    if (place != SAMPLE_ACROSS) {
-        return place == SAMPLE_ABOVE ? 1 : -1;
-    }
-    if (!sample_touches(view, first, second) || !sample_touches(view, second, first)) {
-        return 0;
-    }
-    return sample_steeper(view, first, second, first_bottom, second_bottom);
-}
-
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
                         const double point[3])
 {
@@ -184,5 +166,19 @@ int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
     if (fabs(difference) > 1.01 * off) {
         return difference > 0 ? 1 : -1;
     }
-    return sample_closely(view, first, second, f.bottom, s.bottom);
+    if (sample_coplanar(view, first, second)) {
+        return lrcsi_sample_beats(view, first, second) ? 1 : -1;
+    }
+    int side = sample_side(view, first, second);
+    if (side == 0) {
+        side = -sample_side(view, second, first);
+    }
+    if (side != 0) {
+        return side;
+    }
+    const lrcs_scene *scene = view->prepared->scene;
+    return lrcsi_touch_pair(view->prepared->vertex, scene->facet[first], scene->facet[second]) ==
+                   LRCSI_TOUCH_CROSS
+               ? sample_steeper(view, first, second, f.bottom, s.bottom)
+               : 0;
 }

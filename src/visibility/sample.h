@@ -11,13 +11,18 @@
 /* Does the line through `point` meet the facet? Facing must not be 0. */
 int lrcsi_sample_covers(const lrcsi_view *view, uint32_t facet, const double point[3]);
 
+/* The same, the line counting as moved along the two axes where `sense` is 1, against them where it
+   is -1. */
+int lrcsi_sample_covers_towards(const lrcsi_view *view, uint32_t facet, const double point[3],
+                                int sense);
+
 /* Does `winner` come first where both lie exactly in one plane? A front face beats a back face, a
    reflecting back a dead one, then the lower index. */
 int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser);
 
 /* Which of two facets that the line meets hides the other: 1 the first, -1 the second, 0
-   undecided (nearer to each other there than double-double tells, each with corners on both sides
-   of the other's plane). */
+   undecided: nearer to each other there than double-double tells, each with corners on both sides
+   of the other's plane, yet not touching. Where they pierce each other that near, a guess. */
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
                         const double point[3]);
 

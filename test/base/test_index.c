@@ -67,7 +67,8 @@ static void a_full_index_finds_every_name(void **state)
     }
     for (uint32_t i = 0; i < COUNT; i++) {
         assert_int_equal(lrcsi_index_find(&names, i % 3, text[i], strlen(text[i])), i);
-        assert_int_equal(lrcsi_index_find(&names, (i + 1) % 3, text[i], strlen(text[i])), LRCS_NONE);
+        assert_int_equal(lrcsi_index_find(&names, (i + 1) % 3, text[i], strlen(text[i])),
+                         LRCS_NONE);
     }
 }
 

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: MIT */
+/* Every bound that the engine proves, against exact answers (bounds.py): each method, rasters of
+   several sizes, one-sided and two-sided. Prints what is violated, and how loose the bounds are. */
+#include <lrcs/lrcs.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST 256
+
+typedef struct hostile_case {
+    char kind[32], name[32];
+    lrcs_point vertex[3 * MOST];
+    lrcs_facet facet[MOST];
+    uint32_t material_of[MOST], zero[MOST];
+    long double share[MOST];
+    long double sigma[2], silhouette;
+    double direction[3];
+    lrcs_material material[2];
+    lrcs_part part;
+    lrcs_scene scene;
+} hostile_case;
+
+/* One way to run the engine, and what came of it. */
+typedef struct hostile_way {
+    const char *name;
+    int method;
+    uint32_t size;
+    unsigned runs, violations, refused, ratios, guesses, low_guesses;
+    double *ratio, *guess;
+} hostile_way;
+
+static hostile_way ways[] = {{.name = "facet", .method = LRCS_METHOD_FACET},
+                             {.name = "zbuffer 1", .method = LRCS_METHOD_ZBUFFER, .size = 1},
+                             {.name = "zbuffer 2", .method = LRCS_METHOD_ZBUFFER, .size = 2},
+                             {.name = "zbuffer 7", .method = LRCS_METHOD_ZBUFFER, .size = 7},
+                             {.name = "zbuffer 64", .method = LRCS_METHOD_ZBUFFER, .size = 64},
+                             {.name = "zbuffer 255", .method = LRCS_METHOD_ZBUFFER, .size = 255},
+                             {.name = "exact", .method = LRCS_METHOD_EXACT},
+                             {.name = "auto", .method = LRCS_METHOD_AUTO}};
+#define WAYS (sizeof ways / sizeof *ways)
+
+static double worst_area;
+static char worst_area_name[64];
+static unsigned area_violations;
+
+static int read_numbers(FILE *in, double *x, int count)
+{
+    for (int k = 0; k < count; k++) {
+        if (fscanf(in, "%lf", &x[k]) != 1) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int read_facets(FILE *in, hostile_case *c)
+{
+    for (uint32_t f = 0; f < c->scene.facet_count; f++) {
+        uint32_t *corner = c->facet[f].corner;
+        if (fscanf(in, "%u %u %u %u %Lf", &corner[0], &corner[1], &corner[2], &c->material_of[f],
+                   &c->share[f]) != 5) {
+            return 0;
+        }
+    }
+    return fscanf(in, "%Lf %Lf %Lf", &c->sigma[0], &c->sigma[1], &c->silhouette) == 3;
+}
+
+static int read_case(FILE *in, hostile_case *c)
+{
+    memset(c, 0, sizeof *c);
+    uint32_t vertices = 0;
+    uint32_t facets = 0;
+    if (fscanf(in, " case %31s %31s %u %u", c->kind, c->name, &vertices, &facets) != 4 ||
+        vertices > 3 * MOST || facets > MOST || !read_numbers(in, c->direction, 3)) {
+        return 0;
+    }
+    for (int i = 0; i < 2; i++) {
+        double x[4];
+        if (!read_numbers(in, x, 4)) {
+            return 0;
+        }
+        c->material[i] = (lrcs_material){.name = "", .brdf = {x[0], x[1], x[2], x[3]}, .bound = 1};
+    }
+    c->part = (lrcs_part){
+        .name = "part", .kind = -1, .curvature_known = 1, .facet_count = facets};
+    c->scene = (lrcs_scene){.vertex_count = vertices,
+                            .facet_count = facets,
+                            .material_count = 2,
+                            .part_count = 1,
+                            .vertex = c->vertex,
+                            .facet = c->facet,
+                            .facet_material = c->material_of,
+                            .facet_part = c->zero,
+                            .facet_smooth = c->zero,
+                            .material = c->material,
+                            .part = &c->part,
+                            .unmatched = LRCS_NONE};
+    return read_numbers(in, c->vertex[0].x, (int)(3 * vertices)) && read_facets(in, c);
+}
+
+/* Areas of the exact method: 1e-12 of the facet's projection and 1e-15 of the extent squared. */
+static void check_areas(const hostile_case *c, const lrcs_facet_record *records)
+{
+    double low[3];
+    double high[3];
+    memcpy(low, c->vertex[0].x, sizeof low);
+    memcpy(high, low, sizeof high);
+    for (uint32_t v = 0; v < c->scene.vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], c->vertex[v].x[k]);
+            high[k] = fmax(high[k], c->vertex[v].x[k]);
+        }
+    }
+    double extent = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2]));
+    for (uint32_t f = 0; f < c->scene.facet_count; f++) {
+        double whole = records[f].area_m2 * fabs(records[f].cos_theta);
+        double off = (double)fabsl(records[f].visible_area_m2 - c->share[f] * whole);
+        double part = off / (1e-12 * whole + 1e-15 * extent * extent);
+        if (part > worst_area) {
+            worst_area = part;
+            snprintf(worst_area_name, sizeof worst_area_name, "%s %s", c->kind, c->name);
+        }
+        if (!(part <= 1)) {
+            area_violations++;
+            printf("AREA %s %s facet %u: off by %.3g of %.3g (extent %.3g)\n", c->kind, c->name, f,
+                   off, whole, extent);
+        }
+    }
+}
+
+static void note(hostile_way *way, const hostile_case *c, int sided, const lrcs_result *r)
+{
+    long double truth = c->sigma[sided];
+    double off = (double)fabsl(r->sigma_m2 - truth);
+    way->runs++;
+    if (!(off <= r->bound_m2)) {
+        way->violations++;
+        printf("VIOLATION %s %s, %s, two-sided %d: sigma %.17g, truth %.17Lg, off by %.3g, bound %.3g\n",
+               c->kind, c->name, way->name, sided, r->sigma_m2, truth, off, r->bound_m2);
+    }
+    if (off > 0) {
+        way->ratio[way->ratios++] = r->bound_m2 / off;
+    }
+    if (r->estimate_m2 >= 0 && off > 1e-14 * (double)truth) {
+        way->guess[way->guesses++] = r->estimate_m2 / off;
+        way->low_guesses += r->estimate_m2 < off;
+    }
+}
+
+static void run_case(hostile_case *c, void *memory, size_t bytes)
+{
+    static lrcs_facet_record records[MOST];
+    for (int sided = 0; sided < 2; sided++) {
+        c->material[0].two_sided = c->material[1].two_sided = (unsigned char)sided;
+        lrcs_work work = lrcs_work_make(memory, bytes);
+        const lrcs_prepared *prepared = NULL;
+        lrcs_pose pose;
+        if (lrcs_prepare_run(&c->scene, &work, &prepared) != LRCS_OK ||
+            lrcs_pose_from_direction(c->direction, &pose) != LRCS_OK) {
+            printf("REFUSED %s %s\n", c->kind, c->name);
+            ways[0].refused++;
+            return;
+        }
+        for (size_t w = 0; w < WAYS; w++) {
+            lrcs_run_options options = {1e-4, ways[w].method, ways[w].size};
+            lrcs_result r;
+            int status = lrcs_sigma_run(prepared, &pose, &options, &work, &r, records, NULL);
+            if (status != LRCS_OK) {
+                printf("REFUSED %s %s, %s: %d\n", c->kind, c->name, ways[w].name, status);
+                ways[w].refused++;
+                continue;
+            }
+            note(&ways[w], c, sided, &r);
+            if (ways[w].method == LRCS_METHOD_EXACT && sided == 1) {
+                check_areas(c, records);
+            }
+        }
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a;
+    double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double middle(double *x, unsigned count)
+{
+    qsort(x, count, sizeof *x, ascending);
+    return count > 0 ? x[count / 2] : (double)NAN;
+}
+
+int main(int argc, char **argv)
+{
+    FILE *in = argc > 1 ? fopen(argv[1], "r") : stdin;
+    size_t bytes = 256u << 20;
+    void *memory = malloc(bytes);
+    static hostile_case c;
+    unsigned cases = 0;
+    unsigned bad = 0;
+    if (!in || !memory) {
+        return 2;
+    }
+    for (size_t w = 0; w < WAYS; w++) {
+        ways[w].ratio = malloc(sizeof(double) * 2000000);
+        ways[w].guess = malloc(sizeof(double) * 2000000);
+        if (!ways[w].ratio || !ways[w].guess) {
+            return 2;
+        }
+    }
+    for (; cases < 1000000 && read_case(in, &c); cases++) {
+        run_case(&c, memory, bytes);
+    }
+    printf("%u scenes\n%-12s %8s %10s %8s %22s %24s\n", cases, "method", "runs", "violations",
+           "refused", "bound/error (median)", "estimate/error, below 1");
+    for (size_t w = 0; w < WAYS; w++) {
+        hostile_way *y = &ways[w];
+        printf("%-12s %8u %10u %8u %22.3g", y->name, y->runs, y->violations, y->refused,
+               middle(y->ratio, y->ratios));
+        if (y->guesses > 0) {
+            printf(" %13.3g %9.2f%%", middle(y->guess, y->guesses),
+                   100.0 * y->low_guesses / y->guesses);
+        }
+        printf("\n");
+        bad += y->violations + y->refused;
+    }
+    printf("exact areas: worst %.3g of what is allowed (%s), %u beyond it\n", worst_area,
+           worst_area_name, area_violations);
+    return bad + area_violations != 0 || cases == 0;
+}

@@ -1,0 +1,414 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Hostile scenes with their exact visibility, for bounds.c.
+
+Coordinates and directions are arbitrary doubles, taken as exact. Everything is scaled to integers;
+points of the view plane are intersections of input lines in homogeneous integers, so that nothing
+is ever rounded and nothing grows. The visible part of a facet is what is left after each nearer
+facet, cut by the plane where both have one height, is taken away. Eq. 2 is summed at 40 digits.
+usage: bounds.py SCENES SEED > FILE
+"""
+import math
+import random
+import sys
+from fractions import Fraction as F
+
+from mpmath import mp, mpf
+
+mp.dps = 40
+
+
+def sub(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def sign(x):
+    return (x > 0) - (x < 0)
+
+
+# --- exact polygons: a list of (point, line to the next point), homogeneous ----------------------
+
+def clip(poly, line):
+    """The part of a convex polygon where the line is positive or zero, and the part where it is
+    negative or zero."""
+    sides = [dot(line, p) for p, _ in poly]
+    left, right = [], []
+    for i, (p, edge) in enumerate(poly):
+        a, b = sides[i], sides[(i + 1) % len(poly)]
+        cuts = (a > 0 > b) or (a < 0 < b)
+        x = cross(edge, line) if cuts else None
+        if x and x[2] < 0:
+            x = tuple(-c for c in x)
+        if a >= 0:
+            left.append((p, edge if b >= 0 and (a > 0 or b > 0) or cuts else line))
+        if a <= 0:
+            right.append((p, edge if b <= 0 and (a < 0 or b < 0) or cuts else line))
+        if cuts:
+            left.append((x, line if a > 0 else edge))
+            right.append((x, line if a < 0 else edge))
+    return [q if len(q) > 2 and any(s * dot(line, p) > 0 for p, _ in q) else []
+            for q, s in ((left, 1), (right, -1))]
+
+
+def area(poly):
+    """Twice the area."""
+    pts = [(F(p[0], p[2]), F(p[1], p[2])) for p, _ in poly]
+    return abs(sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(pts, pts[1:] + pts[:1])))
+
+
+def polygon(corners):
+    out = []
+    for p, q in zip(corners, corners[1:] + corners[:1]):
+        out.append((p, cross(p, q)))
+    return out
+
+
+def shares(verts, facets, d):
+    """Facing, normal and visible share of each facet. All integers."""
+    axis = max(range(3), key=lambda k: abs(d[k]))
+    e, g = (axis + 1) % 3, (axis + 2) % 3
+    flat = [(p[e] * d[axis] - p[axis] * d[e], p[g] * d[axis] - p[axis] * d[g], 1) for p in verts]
+    info = []
+    for f in facets:
+        a, b, c = (verts[i] for i in f)
+        n = cross(sub(b, a), sub(c, a))
+        tri = [flat[i] for i in f]
+        turn = dot(cross(tri[0], tri[1]), tri[2])
+        if turn < 0:
+            tri.reverse()
+        info.append((n, a, dot(n, d), polygon(tri), n and dot(n, a) * d[axis]))
+    out = []
+    for i, (n, a, nd, poly, na) in enumerate(info):
+        facing = sign(nd)
+        if facing == 0:
+            out.append((n, 0, F(0)))
+            continue
+        whole = area(poly)
+        pieces = [poly]
+        box = [min(p[k] for p, _ in poly) for k in (0, 1)], [max(p[k] for p, _ in poly) for k in (0, 1)]
+        for j, (m, b, md, other, mb) in enumerate(info):
+            if j == i or md == 0 or not pieces:
+                continue
+            if any(all(p[k] <= box[0][k] for p, _ in other) or all(p[k] >= box[1][k] for p, _ in other)
+                   for k in (0, 1)):
+                continue
+            lines = [edge for _, edge in other]
+            s = sign(d[axis]) * sign(md) * facing
+            above = tuple(s * x for x in (n[e] * md - m[e] * nd, n[g] * md - m[g] * nd, mb * nd - na * md))
+            if above == (0, 0, 0):
+                if not (sign(md) > facing or (sign(md) == facing and j < i)):
+                    continue
+            elif above[:2] == (0, 0):
+                if above[2] < 0:
+                    continue
+            else:
+                lines.append(above)
+            left = []
+            for piece in pieces:
+                kept, rest = [], piece
+                for line in lines:
+                    rest, out_part = clip(rest, line)
+                    if out_part:
+                        kept.append(out_part)
+                    if not rest:
+                        break
+                left += kept if rest else [piece]
+            pieces = left
+        out.append((n, facing, sum((area(p) for p in pieces), F(0)) / whole))
+    return out
+
+
+# --- scenes ----------------------------------------------------------------------------------------
+
+BOX = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3),
+       (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
+
+
+class Scene:
+    def __init__(self):
+        self.v, self.f = [], []
+
+    def add(self, verts, facets):
+        base = len(self.v)
+        self.v += [tuple(map(float, p)) for p in verts]
+        self.f += [tuple(base + i for i in t) for t in facets]
+
+    def tri(self, a, b, c):
+        self.add([a, b, c], [(0, 1, 2)])
+
+    def quad(self, a, b, c, d):
+        self.add([a, b, c, d], [(0, 1, 2), (0, 2, 3)])
+
+    def box(self, lo, hi):
+        self.add([tuple(hi[k] if i >> k & 1 else lo[k] for k in range(3)) for i in range(8)], BOX)
+
+
+def some(r, span=4.0, grid=0.3):
+    """A number: on a small grid, or anything."""
+    return float(r.randint(-4, 4)) if r.random() < grid else r.uniform(-span, span)
+
+
+def point(r, span=4.0, grid=0.3):
+    return (some(r, span, grid), some(r, span, grid), some(r, span, grid))
+
+
+def mix(a, b, t):
+    return tuple(x + t * (y - x) for x, y in zip(a, b))
+
+
+def soup(r, s):
+    for _ in range(r.randint(2, 9)):
+        s.tri(point(r), point(r), point(r))
+
+
+def sheet(r, s):  # shared vertices: folds, fans, edges of many facets
+    v = [point(r, 3) for _ in range(r.randint(4, 8))]
+    s.add(v, [tuple(r.sample(range(len(v)), 3)) for _ in range(r.randint(4, 9))])
+
+
+def sliver(r, s):
+    for _ in range(r.randint(1, 4)):
+        a, b = point(r), point(r)
+        w = 10.0 ** -r.uniform(3, 15)
+        s.tri(a, b, tuple(x + w * r.uniform(-1, 1) for x in mix(a, b, r.uniform(-0.2, 1.2))))
+    for _ in range(r.randint(1, 4)):
+        s.tri(point(r), point(r), point(r))
+
+
+def tiny(r, s):  # small facets over and in a huge one
+    big = [point(r, 4) for _ in range(3)]
+    s.tri(*big)
+    for _ in range(r.randint(1, 6)):
+        u, v = sorted((r.random(), r.random()))
+        at = tuple(u * a + (v - u) * b + (1 - v) * c for a, b, c in zip(*big))
+        w = 10.0 ** -r.uniform(1, 13)
+        s.tri(*[tuple(x + w * r.uniform(-1, 1) for x in at) for _ in range(3)])
+
+
+def skins(r, s):  # a sheet and its copy some ulps away
+    v = [point(r, 3) for _ in range(4)]
+    f = [(0, 1, 2), (0, 2, 3)][:r.randint(1, 2)]
+    s.add(v, f)
+    for _ in range(r.randint(1, 2)):
+        w = [tuple(math.nextafter(x, r.choice((-9, 9))) if r.random() < 0.4 else x for x in p) for p in v]
+        s.add(w, [t if r.random() < 0.5 else t[::-1] for t in f])
+    s.tri(point(r), point(r), point(r))
+
+
+def stack(r, s):  # coincident plates
+    x, y = r.uniform(1, 3), r.uniform(1, 3)
+    for _ in range(r.randint(2, 5)):
+        a, b = r.uniform(-2, 1), r.uniform(-2, 1)
+        q = [(a, b, 0), (a + x, b, 0), (a + x, b + y, 0), (a, b + y, 0)]
+        s.quad(*(q if r.random() < 0.6 else q[::-1]))
+    if r.random() < 0.5:
+        s.tri(point(r), point(r), point(r))
+
+
+def tjunction(r, s):
+    a, b, c = point(r), point(r), point(r)
+    s.tri(a, b, c)
+    for _ in range(r.randint(1, 4)):
+        p, q = r.choice([(a, b), (b, c), (c, a)])
+        t, u = sorted((r.random(), r.random()))
+        s.tri(mix(p, q, t), mix(p, q, u), point(r))
+
+
+def comb(r, s):  # fins that pierce a plate
+    s.quad((-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0))
+    n = r.randint(2, 6)
+    for i in range(n):
+        x = -2.5 + 5.0 * i / n + r.choice((0, 0, 1e-12, 0.1))
+        lean = r.choice((0, 0, 1e-9, 0.3))
+        s.quad((x, -2, -1), (x, 2, -1), (x + lean, 2, 1), (x + lean, -2, 1))
+
+
+def fan(r, s):  # many facets around one point
+    n = r.randint(5, 16)
+    top = (0.0, 0.0, r.choice((0.0, 1.0, 1e-9, -0.5)))
+    wave = r.choice((0.0, 1e-10, 0.3))
+    rim = [(2 * math.cos(2 * math.pi * i / n), 2 * math.sin(2 * math.pi * i / n), wave * r.uniform(-1, 1))
+           for i in range(n)]
+    s.add([top] + rim, [(0, 1 + i, 1 + (i + 1) % n) for i in range(n)])
+    if r.random() < 0.7:
+        s.tri(point(r), point(r), point(r))
+
+
+def boxes(r, s):
+    for _ in range(r.randint(1, 3)):
+        lo = point(r, 2, 0.5)
+        s.box(lo, tuple(x + r.choice((1.0, 0.5, r.uniform(0.01, 3))) for x in lo))
+
+
+def satellite(r, s):
+    s.box((-1, -1, -1), (1, 1, r.choice((1, 1.5))))
+    t = r.uniform(-1, 1)
+    for side in (-1, 1):
+        y0, y1 = 1.3 * side, r.uniform(3, 5) * side
+        s.quad((-math.cos(t), y0, -math.sin(t)), (math.cos(t), y0, math.sin(t)),
+               (math.cos(t), y1, math.sin(t)), (-math.cos(t), y1, -math.sin(t)))
+    n = r.randint(5, 8)
+    h = r.uniform(0.2, 1)
+    rim = [(0.8 * math.cos(2 * math.pi * i / n), 0.8 * math.sin(2 * math.pi * i / n), 1.5 + h) for i in range(n)]
+    s.add([(0, 0, 1.5)] + rim, [(0, 1 + i, 1 + (i + 1) % n) for i in range(n)])
+    s.quad((-0.05, 0, 1), (0.05, 0, 1), (0.05, 0, 1.5), (-0.05, 0, 1.5))
+
+
+def spikes(r, s):  # long sharp points through a small facet's plane
+    for _ in range(r.randint(1, 4)):
+        w = 10.0 ** -r.uniform(6, 15)
+        far = 10.0 ** r.uniform(0, 3)
+        tip = (r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(0.1, 1) * far)
+        end = (-far * r.uniform(0.3, 1), far * r.uniform(-1, 1), -far * r.uniform(0.1, 1))
+        s.tri(tip, end, tuple(x + w * r.uniform(-1, 1) for x in end))
+    s.tri((-1, -1, 0), (1, -1, 0), (0, 1, 0))
+
+
+def roof(r, s):  # a fold that passes a sample by less than double-double tells
+    w = r.choice((0.0, 1.0)) * 10.0 ** -r.uniform(28, 60) * r.choice((-1, 1))
+    y = r.choice((-1.0, 1.0))
+    v = [(-1, w, 0), (1, w, 0), (1, -y, r.uniform(-1, 1)), (-1, -y, 0.3), (1, y, r.uniform(-1, 1)), (-1, -y, -0.5)]
+    s.add(v, [r.choice((t, t[::-1])) for t in ((0, 1, 2), (0, 1, 3), (0, 1, 4), (0, 1, 5))])
+
+
+def turned(r, s):  # a sphere whose pole was pushed through the other: closed, crosses at edges only
+    def ring(radius, z):
+        return [(radius, radius, z), (-radius, radius, z), (-radius, -radius, z), (radius, -radius, z)]
+
+    o, up, lo, waist = ring(2, 0), ring(1.5, 1), ring(1.5, -1), ring(1, 0)
+    mid = [mix(waist[i], waist[(i + 1) % 4], r.choice((0.5, 0.25))) for i in range(4)]
+    v = o + up + lo + waist + mid + [(0, 0, -1), (0, 0, 1)]
+    f = []
+    for i in range(4):
+        j = (i + 1) % 4
+        f += [(i, j, 4 + j), (i, 4 + j, 4 + i), (4 + i, 4 + j, 12 + j), (4 + i, 12 + j, 12 + i), (12 + i, 12 + j, 20)]
+        f += [(j, i, 8 + j), (i, 8 + i, 8 + j), (8 + j, 8 + i, 16 + i), (8 + i, 12 + i, 16 + i),
+              (12 + j, 8 + j, 16 + i), (16 + i, 12 + i, 21), (12 + j, 16 + i, 21)]
+    s.add(v, f)
+
+
+KINDS = [soup, sheet, sliver, tiny, skins, stack, tjunction, comb, fan, boxes, satellite, spikes, roof, turned]
+
+
+def direction(r, s):
+    pick = r.random()
+    if pick < 0.2:
+        d = tuple(float(r.randint(-3, 3)) for _ in range(3))
+    elif pick < 0.3:
+        d = (1.0, r.choice((1e-9, 1e-12, 1e-17)), r.choice((0.0, 1e-17, -1e-17)))
+        k = r.randint(0, 2)
+        d = d[k:] + d[:k]
+    elif pick < 0.55:  # nearly in the plane of a facet, or along an edge
+        a, b, c = (s.v[i] for i in r.choice(s.f))
+        w = r.choice((0, 1e-16, 1e-12, 1e-9, 1e-6, 1e-3))
+        d = mix(sub(b, a), sub(c, a), r.choice((0, 0.5, r.random())))
+        d = tuple(x + w * r.uniform(-1, 1) for x in d)
+    elif pick < 0.65:  # along a normal
+        a, b, c = (s.v[i] for i in r.choice(s.f))
+        d = cross(sub(b, a), sub(c, a))
+    elif pick < 0.72:
+        d = (0.0, 0.0, 1.0)
+    else:
+        d = tuple(r.gauss(0, 1) for _ in range(3))
+    return d if max(map(abs, d)) > 1e-200 else (0.0, 0.0, 1.0)
+
+
+def make(r):
+    kind = KINDS[r.randrange(len(KINDS))] if r.random() < 0.9 else KINDS[0]
+    s = Scene()
+    kind(r, s)
+    if kind is not roof and r.random() < 0.3:  # nearly what it was
+        s.v = [tuple(math.nextafter(x, r.choice((-99, 99))) if x and r.random() < 0.2 else x for x in p) for p in s.v]
+    scale = r.choice((1, 1, 1, 1, 1e-6, 1e6))
+    if kind is not roof and r.random() < 0.25:
+        move = r.choice((1e6, 1e3, -1e6))
+        s.v = [tuple(x + move for x in p) for p in s.v]
+    s.v = [tuple(x * scale for x in p) for p in s.v]
+    if r.random() < 0.2:
+        r.shuffle(s.f)
+    good = []
+    for t in s.f:
+        a, b, c = (tuple(map(F, s.v[i])) for i in t)
+        if cross(sub(b, a), sub(c, a)) != (0, 0, 0):
+            good.append(t)
+    s.f = good
+    return kind.__name__, s
+
+
+# --- Eq. 2 -------------------------------------------------------------------------------------------
+
+def integers(values):
+    """Doubles times the power of two that makes them integers."""
+    pairs = [x.as_integer_ratio() for x in values]
+    den = max(q for _, q in pairs)
+    return [p * (den // q) for p, q in pairs], den
+
+
+def reflect(brdf, u):
+    A, B, s, m = (mpf(x) for x in brdf)
+    w = 1 + u
+    return (A * w * w * mp.exp(-u / (s * s)) if A else 0) + (B * w ** (-m / 2 - 1) if B else 0)
+
+
+def sigma(brdfs, which, verts, den, facets, d, seen, sided):
+    total = mpf(0)
+    dd = dot(d, d)
+    for f, (n, facing, share) in enumerate(seen):
+        if share == 0 or (facing < 0 and not sided):
+            continue
+        nd = dot(n, d)
+        nn = dot(n, n)
+        u = (mpf(nn) * mpf(dd) - mpf(nd) * mpf(nd)) / (mpf(nd) * mpf(nd))
+        c = cross(n, d)
+        u = mpf(dot(c, c)) / mpf(nd * nd)
+        total += mp.sqrt(mpf(nn)) * reflect(brdfs[which[f]], u) * mpf(share.numerator) / mpf(share.denominator)
+    return 2 * mp.pi * total / mpf(den) ** 2
+
+
+def silhouette(den, d, seen):
+    total = mpf(0)
+    for n, facing, share in seen:
+        total += mpf(abs(dot(n, d))) * mpf(share.numerator) / mpf(share.denominator)
+    return total / 2 / mp.sqrt(mpf(dot(d, d))) / mpf(den) ** 2
+
+
+def text(x):
+    return mp.nstr(x, 24, min_fixed=0, max_fixed=0)
+
+
+def main():
+    count, seed = int(sys.argv[1]), int(sys.argv[2])
+    for number in range(count):
+        r = random.Random("%d %d" % (seed, number))
+        name, s = make(r)
+        if not s.f:
+            continue
+        d = direction(r, s)
+        which = [r.randint(0, 1) for _ in s.f]
+        brdfs = [(r.choice((0, 1)), r.choice((0.25, 0.1)), 10.0 ** r.uniform(-3, -0.155), r.choice((0.5, 0, 3.7, 40))),
+                 (r.choice((0, 3, 10)), r.choice((0, 0.3)), 10.0 ** r.uniform(-3, -0.155), 1.0)]
+        flat, den = integers([x for p in s.v for x in p])
+        verts = [tuple(flat[3 * i:3 * i + 3]) for i in range(len(s.v))]
+        di, _ = integers(d)
+        seen = shares(verts, s.f, tuple(di))
+        print("case %s %d:%d %d %d" % (name, seed, number, len(s.v), len(s.f)))
+        print(*[x.hex() for x in d])
+        for b in brdfs:
+            print(*[float(x).hex() for x in b])
+        for p in s.v:
+            print(*[x.hex() for x in p])
+        for t, w, (n, facing, share) in zip(s.f, which, seen):
+            print(*t, w, text(mpf(share.numerator) / mpf(share.denominator)))
+        print(*[text(sigma(brdfs, which, verts, den, s.f, di, seen, sided)) for sided in (0, 1)],
+              text(silhouette(den, di, seen)))
+
+
+main()
