@@ -104,8 +104,8 @@ static void count_facet(lrcsi_total *total, total_sums *sums, int reflects, cons
 {
     lrcsi_sum_add(&sums->projected, visible->area);
     if (reflects) {
-        total->hidden += nothing_visible(tilt, visible);
-        total->partial += partly_visible(tilt, visible);
+        total->hidden += nothing_visible(tilt, visible) ? 1 : 0;
+        total->partial += partly_visible(tilt, visible) ? 1 : 0;
     } else if (!nothing_visible(tilt, visible)) {
         lrcsi_sum_add(&sums->back_side, visible->area);
         total->back_sides++;
