@@ -84,14 +84,29 @@ static void add_tessellation(total_sums *sums, const lrcsi_view *view, uint32_t 
     }
 }
 
+/* Is only a part of the facet visible? An area computed by clipping that cannot be told from none,
+   or from all, counts as that. Likewise nothing_visible. */
+static int partly_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+{
+    int some = visible->area > 0 && visible->area < tilt->projected;
+    int clipped = visible->likely == 0 && visible->high - visible->low < tilt->projected;
+    return some && !(clipped && (visible->low <= 0 || visible->high >= tilt->projected));
+}
+
+static int nothing_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+{
+    return visible->area == 0 || (visible->area < tilt->projected && visible->low <= 0 &&
+                                  !partly_visible(tilt, visible));
+}
+
 static void count_facet(lrcsi_total *total, total_sums *sums, int reflects, const lrcsi_tilt *tilt,
                         const lrcsi_visible *visible)
 {
     lrcsi_sum_add(&sums->projected, visible->area);
     if (reflects) {
-        total->hidden += visible->area == 0;
-        total->partial += visible->area > 0 && visible->area < tilt->projected;
-    } else if (visible->area > 0) {
+        total->hidden += nothing_visible(tilt, visible) ? 1 : 0;
+        total->partial += partly_visible(tilt, visible) ? 1 : 0;
+    } else if (!nothing_visible(tilt, visible)) {
         lrcsi_sum_add(&sums->back_side, visible->area);
         total->back_sides++;
     }
