@@ -191,9 +191,10 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
-    if (status == LRCS_OK) {
-        status = run_method(run, options);
+    if (status != LRCS_OK) {
+        return status;
     }
+    status = run_method(run, options);
     if (options->method != LRCS_METHOD_AUTO) {
         return status;
     }

@@ -106,7 +106,7 @@ static void count_facet(lrcsi_total *total, total_sums *sums, int reflects, cons
     if (reflects) {
         total->hidden += nothing_visible(tilt, visible) ? 1 : 0;
         total->partial += partly_visible(tilt, visible) ? 1 : 0;
-    } else if (!nothing_visible(tilt, visible)) {
+    } else if (visible->area > 0) {
         lrcsi_sum_add(&sums->back_side, visible->area);
         total->back_sides++;
     }

@@ -258,7 +258,7 @@ static int occlude_start(const lrcsi_view *view, lrcs_work *work, occlude_scratc
     return lrcsi_grid_facets(view, work, &scratch->facets);
 }
 
-int lrcsi_occlude_all(const lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible)
+int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible)
 {
     const lrcsi_view *view = contest->view;
     size_t mark = work->used;
@@ -269,9 +269,9 @@ int lrcsi_occlude_all(const lrcsi_contest *contest, lrcs_work *work, lrcsi_visib
         if (!lrcsi_grid_casts(view, f)) {
             continue;
         }
-        if (contest->contested[f]) {
+        if (contest->contested[f] && !lrcsi_query_screened(contest, &scratch.facets, f)) {
             status = occlude_contested(view, f, &scratch, work, &visible[f]);
-        } else {
+        } else if (!contest->contested[f]) {
             visible[f] = occlude_uniform(view, f, &scratch.facets);
         }
     }

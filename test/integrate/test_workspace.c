@@ -126,6 +126,32 @@ static void running_grows_until_it_fits(void **state)
                      least[2]); /* auto falls back to the coarsest raster before it gives up */
 }
 
+/* Symptom: auto went on to a raster when the search for contested facets had found no memory. */
+static void every_size_is_survived(void **state)
+{
+    (void)state;
+    scene_start(&scene); /* few facets, many edges that cross many cells */
+    for (int i = 0; i < 60; i++) {
+        scene_triangle(&scene, (const double[3]){0, 0.01 * i, 0.1 * i},
+                       (const double[3]){1, 0.3 + 0.01 * i, 0.1 * i},
+                       (const double[3]){0.01 * i, 1, 0.1 * i});
+    }
+    lrcs_work work = lrcs_work_make(little, sizeof little);
+    const lrcs_prepared *prepared = NULL;
+    assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
+    for (int i = 0; i < 4; i++) {
+        lrcs_run_options options = {1e-4, methods[i], 0};
+        int before = LRCS_E_MEMORY;
+        for (size_t size = 0; size < 20000; size += 16) {
+            lrcs_result r;
+            int status = run_in(prepared, &work, size, &options, &r);
+            assert_true(status == LRCS_OK || before != LRCS_OK);
+            before = status;
+        }
+        assert_int_equal(before, methods[i] == LRCS_METHOD_EXACT ? LRCS_E_MEMORY : LRCS_OK);
+    }
+}
+
 static void less_memory_means_a_coarser_raster_and_a_wider_bound(void **state)
 {
     (void)state;
@@ -182,6 +208,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(preparing_grows_until_it_fits),
         cmocka_unit_test(running_grows_until_it_fits),
+        cmocka_unit_test(every_size_is_survived),
         cmocka_unit_test(less_memory_means_a_coarser_raster_and_a_wider_bound),
         cmocka_unit_test(ordinary_scenes_fit_into_what_is_asked_for),
     };
