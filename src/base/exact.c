@@ -224,6 +224,30 @@ int lrcsi_exact_side(const double a[3], const double b[3], const double c[3], co
     return exact_det_sign(bb, cc, pp);
 }
 
+/* Terms are added smallest first in double-double, each sum off by 3 u^2 of itself; 4 u^2 cover the
+   rounding of the bound. */
+double lrcsi_exact_normal(const double a[3], const double b[3], const double c[3], double high[3],
+                          double low[3])
+{
+    double lost = 0.0;
+    lrcsi_dd p[3];
+    lrcsi_dd q[3];
+    exact_difference(a, b, p);
+    exact_difference(a, c, q);
+    for (int k = 0; k < 3; k++) {
+        double minor[EXACT_MINOR];
+        int n = expansion_cross(p, q, k, minor);
+        lrcsi_dd sum = {0.0, 0.0};
+        for (int i = 0; i < n; i++) {
+            sum = lrcsi_dd_add(sum, (lrcsi_dd){minor[i], 0.0});
+            lost += fabs(sum.hi);
+        }
+        high[k] = sum.hi;
+        low[k] = sum.lo;
+    }
+    return 4.0 * 0x1p-106 * lost;
+}
+
 /* 1 where the filter proves some component of p x q to differ from zero. */
 static int surely_not_parallel(const double p[3], const double q[3])
 {

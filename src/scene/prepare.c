@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/dd.h"
+#include "base/exact.h"
 #include "base/work.h"
 #include "mesh/tree.h"
 #include "scene/solid.h"
@@ -65,7 +66,8 @@ static void prepare_vertices(lrcs_prepared *p)
 {
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
-            p->vertex[v].x[k] = ldexp(p->scene->vertex[v].x[k], -p->exponent);
+            double x = ldexp(p->scene->vertex[v].x[k], -p->exponent);
+            p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_LEAST ? 0 : x;
         }
     }
 }
@@ -75,6 +77,12 @@ static void prepare_vertices(lrcs_prepared *p)
 static lrcsi_dd normal_component(lrcsi_dd p1, lrcsi_dd q2, lrcsi_dd p2, lrcsi_dd q1)
 {
     return lrcsi_dd_sub(lrcsi_dd_mul(p1, q2), lrcsi_dd_mul(p2, q1));
+}
+
+/* sqrt(square), or the norm of n where the squares have underflowed. */
+static double normal_length(const double n[3], double square)
+{
+    return square > 0x1p-900 ? sqrt(square) : hypot(hypot(n[0], n[1]), n[2]);
 }
 
 /* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| comes out
@@ -100,8 +108,12 @@ static void normal_make(const double *a, const double *b, const double *c, lrcsi
         n->low[k] = component.lo;
         nn += component.hi * component.hi;
     }
-    n->length = sqrt(nn);
+    n->length = normal_length(n->high, nn);
     n->error = 21 * U * U * sqrt(pp) * sqrt(qq);
+    if (!(n->error < 0x1p-20 * n->length)) { /* a sliver: no digit may be left */
+        n->error = lrcsi_exact_normal(a, b, c, n->high, n->low);
+        n->length = normal_length(n->high, 0);
+    }
 }
 
 static void prepare_normals(lrcs_prepared *p)
