@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The sum of Eq. 2 over visible areas, in facet order, compensated. A facet of area S at incidence
    theta, of which a share is visible, adds 4 pi (f_r cos^2)(theta) S share. What each facet adds to
-   the bounds stands beside each step; the bounds themselves are widened by 1e-9 for their own
-   rounding. */
+   the bounds stands beside each step; the bounds themselves are widened by 1e-9 and 2 u a facet
+   for their own rounding. */
 #include "integrate/total.h"
 
 #include <math.h>
@@ -29,18 +29,19 @@ static double glint_peak(double s)
 /* How far f_r cos^2 may be off for want of knowing tan^2. With u = tan^2 known to a relative r,
    log of the glint moves by at most r (2 min(u, 1) + u / s^2), of the diffuse part by at most
    r (m + 2)/2 min(u, 1); where that is no small number the glint's peak and B bound both. Near
-   edge-on (r infinite) u is at least this, and both parts only fall from here. */
+   edge-on (r infinite) u is at least this, and beyond the glint's peak both parts only fall. */
 static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
                                const lrcsi_reflection *at)
 {
+    double most = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
     if (isinf(tilt->stretch)) {
-        return at->glint + at->diffuse;
+        return tilt->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : most;
     }
     double bent = fmin(tilt->tan2, 1);
     double glint = brdf->A > 0 ? tilt->stretch * (2 * bent + tilt->tan2 / brdf->s / brdf->s) : 0;
     double diffuse = tilt->stretch * (0.5 * brdf->m + 1) * bent;
     if (!(glint < 1 && diffuse < 1)) {
-        return (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
+        return most;
     }
     return at->glint * expm1(glint) + at->diffuse * expm1(diffuse);
 }
@@ -95,8 +96,8 @@ static int partly_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
 
 static int nothing_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
 {
-    return visible->area == 0 || (visible->area < tilt->projected && visible->low <= 0 &&
-                                  !partly_visible(tilt, visible));
+    return visible->area == 0 ||
+           (visible->area < tilt->projected && visible->low <= 0 && !partly_visible(tilt, visible));
 }
 
 static void count_facet(lrcsi_total *total, total_sums *sums, int reflects, const lrcsi_tilt *tilt,
@@ -106,7 +107,7 @@ static void count_facet(lrcsi_total *total, total_sums *sums, int reflects, cons
     if (reflects) {
         total->hidden += nothing_visible(tilt, visible) ? 1 : 0;
         total->partial += partly_visible(tilt, visible) ? 1 : 0;
-    } else if (!nothing_visible(tilt, visible)) {
+    } else if (visible->area > 0) {
         lrcsi_sum_add(&sums->back_side, visible->area);
         total->back_sides++;
     }
@@ -133,7 +134,7 @@ static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total
     double glint = lrcsi_sum_value(&sums->glint);
     double diffuse = lrcsi_sum_value(&sums->diffuse);
     double count = p->scene->facet_count;
-    double outward = 1 + 1e-9;
+    double outward = 1 + 1e-9 + 2 * count * U;
     total->glint = lrcsi_prepared_area(p, glint);
     total->diffuse = lrcsi_prepared_area(p, diffuse);
     total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));

@@ -173,6 +173,9 @@ static int piece_subtract(lrcsi_clip *clip, const double (*corner)[2], uint32_t 
     uint32_t filed = clip->spare.pieces;
     for (int k = 0; k < region->lines; k++) {
         polygon_split(&inside, &region->line[k], &left, &right);
+        if (left.count > LRCSI_CLIP_SIDES || right.count > LRCSI_CLIP_SIDES) {
+            return 0; /* rounding has dented the piece: a line may cross it more than twice */
+        }
         if (left.count < 3) {
             clip->spare.pieces = filed;
             return clip_append(&clip->spare, corner, count);

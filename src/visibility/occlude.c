@@ -6,10 +6,12 @@
    Error. In the facet's frame (visibility/occluder.c) corners are off by at most e = 10 u r, r the
    largest distance of the corners at hand from the facet's first one: R's rows are orthonormal to
    4 u; a rounded difference, three products and two sums. The region that an occluder hides is cut
-   by exactly the lines through its own computed corners, so it differs from the true one by a rim
-   no wider than e along each of at most four sides, none longer within the facet than its
-   perimeter p: 4 e p. The cut by the facet's plane ends on the occluder's sides; how far those ends
-   may slip is computed with the region and added to e. A split of a piece puts one corner on a line
+   by the lines through its own computed corners: the hull of these differs from the true one by a
+   rim no wider than e, which within the facet is no longer than its perimeter p; deciding in
+   doubles on which side of a line a point lies, wrong within 4 u r of it, adds 4 u r p for each of
+   four sides; a cut left out for want of a direction (visibility/occluder.c) adds 64 u r times the
+   facet's diameter, at most 32 u r p. Together 58 u r p, and 64 are charged. The cut by the facet's
+   plane ends on the occluder's sides; how far those ends may slip is added to e. A split of a piece puts one corner on a line
    to within 8 u d, d the facet's diameter, and both parts share it: 8 u d p. A cell that could not
    be finished counts whole. */
 #include "visibility/occlude.h"
@@ -174,10 +176,11 @@ static int occlude_regions(occlude_job *job, const uint32_t *candidate, uint32_t
     lrcsi_clip_triangle((const double(*)[2])job->target.corner, &whole);
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_occluder *occluder = &job->occluder[job->count];
-        if (!lrcsi_occluder_make(&job->target, candidate[i], occluder)) {
+        int hides = lrcsi_occluder_make(&job->target, candidate[i], occluder);
+        *error += occluder->error;
+        if (!hides) {
             continue;
         }
-        *error += occluder->error;
         if (lrcsi_clip_overlap(&whole, &occluder->region) == LRCSI_CLIP_COVERED) {
             *error = occluder->error;
             job->count = LRCS_NONE;

@@ -209,6 +209,8 @@ static void region_grow(lrcsi_clip_region *region, const double *p)
     }
 }
 
+#define CUT_MARGIN (64 * U)
+
 /* Where the side k of the occluder passes through the target's plane, and how far that may be off:
    the share t = h / (h - h') moves by at most the heights' errors over |h| + |h'|. */
 static double side_cut(const occlude_caster *c, int k, double at[2])
@@ -245,10 +247,24 @@ static void region_side(const occlude_caster *c, int k, region_cut *cut)
     }
 }
 
+/* How far the corner that the cut parts from the other two lies beyond it. */
+static double cut_height(const occlude_caster *c, const region_cut *cut)
+{
+    int up = (c->above[0] > 0) + (c->above[1] > 0) + (c->above[2] > 0);
+    int lone = up == 1 ? 1 : -1; /* the sign of its height */
+    const double *p = c->corner[c->above[0] == lone ? 0 : c->above[1] == lone ? 1 : 2];
+    double x = cut->enter[0] - cut->leave[0];
+    double y = cut->enter[1] - cut->leave[1];
+    double side = x * (p[1] - cut->leave[1]) - y * (p[0] - cut->leave[0]);
+    return lone * side / hypot(x, y);
+}
+
 /* The occluder's triangle, cut where its plane passes behind the target's. The cut leaves one side
-   downwards and enters another upwards; its line runs from the one point to the other. Ends
-   closer than their own error make no line: either what they cut off is no wider, or all that is
-   left, and then there is no region: 0. */
+   downwards and enters another upwards; its line runs from the one point to the other. It parts one
+   corner from the other two. Where that one lies within CUT_MARGIN of it (the points are off by
+   less than 6 u reach, the corner by 10 u reach), the line's direction means nothing; then either
+   what it cuts off is no wider, and it is left out, or what is left is, and there is no region: 0.
+   Elsewhere it crosses both sides within a fifth of the corner's distance beyond the points. */
 static int region_make(const occlude_caster *c, lrcsi_clip_region *region, double *slip)
 {
     region_cut cut = {{0, 0}, {0, 0}, 0, 0};
@@ -269,8 +285,7 @@ static int region_make(const occlude_caster *c, lrcsi_clip_region *region, doubl
     }
     region_grow(region, cut.leave);
     region_grow(region, cut.enter);
-    double length = hypot(cut.enter[0] - cut.leave[0], cut.enter[1] - cut.leave[1]);
-    if (!(length > 64 * U * c->reach)) {
+    if (!(cut_height(c, &cut) > CUT_MARGIN * c->reach)) {
         return region->lines == 3;
     }
     region_line(region, cut.leave, cut.enter);
@@ -285,6 +300,7 @@ int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *o
     const lrcsi_view *view = t->view;
     occlude_caster caster = {.above = {1, 1, 1}};
     double slip = 0;
+    occluder->error = 0;
     if (surely_behind(t, other)) {
         return 0;
     }
@@ -294,9 +310,7 @@ int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *o
         return 0;
     }
     caster.reach = frame_facet(view, t->facet, other, caster.corner);
-    if (!region_make(&caster, &occluder->region, &slip)) {
-        return 0;
-    }
-    occluder->error = 4 * (slip + 10 * U * (caster.reach + t->diameter));
-    return 1;
+    int hides = region_make(&caster, &occluder->region, &slip);
+    occluder->error = 4 * (slip + 16 * U * (caster.reach + t->diameter));
+    return hides;
 }

@@ -23,8 +23,8 @@ typedef struct lrcsi_occluder {
                      two planes lie too close to tell where they meet */
 } lrcsi_occluder;
 
-/* 1 and the region, where `other` hides some of the target; 0 where it hides nothing (exactly, or
-   no more than its error allows). */
+/* 1 and the region, where `other` hides some of the target; 0 where it hides nothing, or no more
+   than the error, which is set either way. */
 int lrcsi_occluder_make(const lrcsi_target *target, uint32_t other, lrcsi_occluder *occluder);
 
 #endif

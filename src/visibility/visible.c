@@ -226,17 +226,30 @@ static void count_certain(pixel_marks *m, uint32_t facet, double *shown, double 
     }
 }
 
-/* Pixels that a wholly visible facet covers. */
-static void mark_pure(pixel_marks *m, uint32_t facet)
+/* The pixels that a facet covers and is visible in: all that it covers where it is uniform. */
+static void mark_pure(pixel_marks *m, uint32_t facet, int uniform)
 {
-    m->edges = lrcsi_raster_edges(m->raster, facet);
+    const lrcsi_raster *r = m->raster;
     for (uint32_t y = m->edges.y0; y < m->edges.y1; y++) {
         for (uint32_t x = m->edges.x0; x < m->edges.x1; x++) {
-            if (pixel_inside(m, x, y)) {
-                m->pure[(size_t)y * m->raster->size + x] = 1;
+            size_t at = (size_t)y * r->size + x;
+            if (r->owner[at] == facet && pixel_inside(m, x, y) &&
+                (uniform || m->mixed[marks_at(m, x, y)] == 0)) {
+                m->pure[at] = 1;
             }
         }
     }
+}
+
+/* Marks where the visibility of a contested facet may change. */
+static void mark_changes(pixel_marks *m, lrcsi_contest *contest, uint32_t facet)
+{
+    marks_start(m, facet);
+    uint32_t crossings = lrcsi_contest_crossings(contest, facet);
+    for (uint32_t i = 0; i < crossings; i++) {
+        mark_edge(m, contest->crossing[i]);
+    }
+    mark_touches(m, facet);
 }
 
 /* The share of its samples that a facet owns; one query where it has none. */
@@ -257,12 +270,7 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *
     double shown = 0;
     double hidden = 0;
     if (!raster->undecided[facet]) {
-        marks_start(marks, facet);
-        uint32_t crossings = lrcsi_contest_crossings(contest, facet);
-        for (uint32_t i = 0; i < crossings; i++) {
-            mark_edge(marks, contest->crossing[i]);
-        }
-        mark_touches(marks, facet);
+        mark_changes(marks, contest, facet);
         count_certain(marks, facet, &shown, &hidden);
     }
     double pixel = raster->pixel * raster->pixel;
@@ -301,8 +309,24 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
                           lrcsi_grid_facets_need(prepared));
 }
 
-/* Uniform facets first: what they cover for certain bounds the others. What contested ones do cover
-   does not, lest sigma depend on their order. */
+/* The pixels of which one facet is known to hold all. */
+static void mark_all_pure(lrcsi_contest *contest, pixel_marks *marks, const lrcsi_visible *visible)
+{
+    const lrcsi_raster *raster = marks->raster;
+    for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count; f++) {
+        if (raster->owned[f] == 0 || raster->undecided[f]) {
+            continue;
+        }
+        if (contest->contested[f]) {
+            mark_changes(marks, contest, f);
+            mark_pure(marks, f, 0);
+        } else if (visible[f].low > 0) {
+            marks->edges = lrcsi_raster_edges(raster, f);
+            mark_pure(marks, f, 1);
+        }
+    }
+}
+
 static void visible_fill(lrcsi_contest *contest, const lrcsi_grid *facets, pixel_marks *marks,
                          lrcsi_visible *visible)
 {
@@ -312,11 +336,12 @@ static void visible_fill(lrcsi_contest *contest, const lrcsi_grid *facets, pixel
         visible[f] = (lrcsi_visible){0, 0, 0, 0};
         if (lrcsi_grid_casts(view, f) && !contest->contested[f]) {
             visible[f] = uniform_area(view, marks->raster, facets, f);
-            if (visible[f].low > 0 && contest->contested_count > 0) {
-                mark_pure(marks, f);
-            }
         }
     }
+    if (contest->contested_count == 0) {
+        return;
+    }
+    mark_all_pure(contest, marks, visible);
     for (uint32_t f = 0; f < count; f++) {
         if (contest->contested[f] && !lrcsi_query_screened(contest, facets, f)) {
             visible[f] = contested_area(contest, marks->raster, facets, marks, f);
