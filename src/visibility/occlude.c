@@ -11,9 +11,9 @@
    doubles on which side of a line a point lies, wrong within 4 u r of it, adds 4 u r p for each of
    four sides; a cut left out for want of a direction (visibility/occluder.c) adds 64 u r times the
    facet's diameter, at most 32 u r p. Together 58 u r p, and 64 are charged. The cut by the facet's
-   plane ends on the occluder's sides; how far those ends may slip is added to e. A split of a piece puts one corner on a line
-   to within 8 u d, d the facet's diameter, and both parts share it: 8 u d p. A cell that could not
-   be finished counts whole. */
+   plane ends on the occluder's sides; how far those ends may slip is added to e. A split of a piece
+   puts one corner on a line to within 8 u d, d the facet's diameter, and both parts share it: 8 u d
+   p. A cell that could not be finished counts whole. */
 #include "visibility/occlude.h"
 
 #include <math.h>
@@ -211,7 +211,7 @@ static int occlude_contested(const lrcsi_view *view, uint32_t facet, occlude_scr
         }
         double whole = lrcsi_view_tilt(view, facet).projected;
         double d = job.target.diameter;
-        double error = (rims + 8 * U * d * (job.splits + 4)) * 3 * d;
+        double error = (rims + 8 * U * d * (job.splits + 4)) * job.target.perimeter;
         double left = lrcsi_most(0, lrcsi_least(whole, job.area));
         visible->area = left;
         visible->low = lrcsi_most(0, left - error);

@@ -12,7 +12,8 @@ typedef struct lrcsi_target {
     const lrcsi_view *view;
     uint32_t facet;
     double corner[3][2]; /* counter-clockwise in the view */
-    double diameter;     /* upper bound */
+    double diameter;     /* its longest side, upper bound; so is */
+    double perimeter;
 } lrcsi_target;
 
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *target);
