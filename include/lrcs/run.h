@@ -26,7 +26,8 @@ typedef struct lrcs_prepared lrcs_prepared;
    it got; a larger area then serves. */
 size_t lrcs_prepare_need(const lrcs_scene *scene);
 
-/* Prepares a scene, which must outlive the result. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_INDEX,
+/* Prepares a scene, which must outlive the result. Coordinates below 2^-300 of the largest one
+   count as zero. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_INDEX,
    LRCS_E_NUMBER (a scene not made by lrcs_scene_build). */
 int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared);
 

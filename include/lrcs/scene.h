@@ -135,7 +135,8 @@ typedef struct lrcs_scene {
 
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
-    double tolerance;    /* relative, > 0, of a shape alone; ten times this among other parts */
+    double tolerance;    /* relative, > 0, of a shape alone; among other parts ten times this,
+                            at least 1e-4 */
     uint32_t max_facets; /* a shape's most */
 } lrcs_build_options;
 

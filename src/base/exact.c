@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Signs of 3 x 3 determinants of differences of points. This file decides signs and nothing else:
-   no tolerance, no construction. A floating-point value with a proved error bound settles almost
-   every call; what it leaves is evaluated without error in expansion arithmetic (Priest 1991;
-   Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric
-   predicates"): sums of doubles that do not overlap, smallest first, zeros left out, so that the
-   sign of the whole is that of the last term.
+/* Signs of 3 x 3 determinants of differences of points, and the normals of slivers. No tolerance. A
+   floating-point value with a proved error bound settles almost every call; what it leaves is
+   evaluated without error in expansion arithmetic (Priest 1991; Shewchuk 1997, "Adaptive precision
+   floating-point arithmetic and fast robust geometric predicates"): sums of doubles that do not
+   overlap, smallest first, zeros left out, so that the sign of the whole is that of the last term.
 
    Filter. Let u = 2^-53 and let each rounding multiply by (1 + e), |e| <= u. The three vectors are
    differences of doubles (one rounding each) or given. A term d_k (u_i v_j - u_j v_i) then carries
@@ -224,30 +223,6 @@ int lrcsi_exact_side(const double a[3], const double b[3], const double c[3], co
     return exact_det_sign(bb, cc, pp);
 }
 
-/* Terms are added smallest first in double-double, each sum off by 3 u^2 of itself; 4 u^2 cover the
-   rounding of the bound. */
-double lrcsi_exact_normal(const double a[3], const double b[3], const double c[3], double high[3],
-                          double low[3])
-{
-    double lost = 0.0;
-    lrcsi_dd p[3];
-    lrcsi_dd q[3];
-    exact_difference(a, b, p);
-    exact_difference(a, c, q);
-    for (int k = 0; k < 3; k++) {
-        double minor[EXACT_MINOR];
-        int n = expansion_cross(p, q, k, minor);
-        lrcsi_dd sum = {0.0, 0.0};
-        for (int i = 0; i < n; i++) {
-            sum = lrcsi_dd_add(sum, (lrcsi_dd){minor[i], 0.0});
-            lost += fabs(sum.hi);
-        }
-        high[k] = sum.hi;
-        low[k] = sum.lo;
-    }
-    return 4.0 * 0x1p-106 * lost;
-}
-
 /* 1 where the filter proves some component of p x q to differ from zero. */
 static int surely_not_parallel(const double p[3], const double q[3])
 {
@@ -286,4 +261,25 @@ int lrcsi_exact_collinear(const double a[3], const double b[3], const double c[3
         }
     }
     return 1;
+}
+
+/* The terms do not overlap: each is below the unit of the next that is not zero. So the partial
+   sums of 16 terms are at most twice the last, and 16 additions of 3 u^2 each make 96 u^2. */
+void lrcsi_exact_normal(const double a[3], const double b[3], const double c[3], double high[3],
+                        double low[3])
+{
+    lrcsi_dd pp[3];
+    lrcsi_dd qq[3];
+    exact_difference(a, b, pp);
+    exact_difference(a, c, qq);
+    for (int k = 0; k < 3; k++) {
+        double minor[EXACT_MINOR];
+        int n = expansion_cross(pp, qq, k, minor);
+        lrcsi_dd sum = {0.0, 0.0};
+        for (int i = 0; i < n; i++) {
+            sum = lrcsi_dd_add(sum, (lrcsi_dd){minor[i], 0.0});
+        }
+        high[k] = sum.hi;
+        low[k] = sum.lo;
+    }
 }

@@ -14,11 +14,12 @@ int lrcsi_exact_turn(const double a[3], const double b[3], const double c[3], co
    (b-a) x (c-a) points, 0 on the plane. */
 int lrcsi_exact_side(const double a[3], const double b[3], const double c[3], const double p[3]);
 
-/* (b-a) x (c-a) as high + low, from exact terms. Returned: a bound on its error, in norm. */
-double lrcsi_exact_normal(const double a[3], const double b[3], const double c[3], double high[3],
-                          double low[3]);
-
 /* 1 where a, b, c are exactly collinear or coincide (a facet of no area), else 0. */
 int lrcsi_exact_collinear(const double a[3], const double b[3], const double c[3]);
+
+/* (b - a) x (c - a) in double-double, each component within 100 u^2 of itself, u = 2^-53: for
+   slivers, whose normals drown in rounding. */
+void lrcsi_exact_normal(const double a[3], const double b[3], const double c[3], double high[3],
+                        double low[3]);
 
 #endif

@@ -25,7 +25,6 @@ typedef struct sigma_run {
     lrcsi_total total;
     lrcs_work *work;
     lrcs_image *image;
-    lrcs_facet_record *records;
     uint32_t size; /* of the raster used, 0: none */
     uint32_t flags;
 } sigma_run;
@@ -98,7 +97,7 @@ static int run_facet(sigma_run *run)
 {
     double graze = run->plan.unshadowed ? run->view.prepared->graze : 1;
     lrcsi_visible_unshadowed(&run->view, graze, run->visible);
-    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->records);
+    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, NULL);
     return LRCS_OK;
 }
 
@@ -120,7 +119,7 @@ static void run_sum(sigma_run *run)
     if (run->plan.unshadowed) {
         fronts_are_known(&run->view, run->visible);
     }
-    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->records);
+    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, NULL);
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
@@ -182,32 +181,33 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
     return status;
 }
 
-/* Under auto, the other of the two methods that shadow, where the first missed the tolerance; the
-   better bound stays. */
-static int run_other(sigma_run *run, const lrcs_run_options *options)
+static int run_method(sigma_run *run, const lrcs_run_options *options)
 {
-    sigma_run first = *run;
-    run->plan.method =
-        first.plan.method == LRCS_METHOD_EXACT ? LRCS_METHOD_ZBUFFER : LRCS_METHOD_EXACT;
-    int status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
-    if (status == LRCS_OK && run_bound(&run->total) <= run_bound(&first.total)) {
-        return LRCS_OK;
-    }
-    *run = first;
-    return first.plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_raster(run, first.size);
+    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
 }
 
+/* Under auto a raster of a size asked for goes first; where its bound misses the tolerance,
+   clipping follows. Clipping that finds no memory yields to a raster, which needs less. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
-    if (status == LRCS_OK) {
-        status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
+    if (status != LRCS_OK) {
+        return status;
     }
-    double missing = run->total.visibility;
-    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
-        !run_meets(&run->total, options->tolerance) &&
-        missing > 0.5 * options->tolerance * (run->total.glint + run->total.diffuse)) {
-        status = run_other(run, options);
+    status = run_method(run, options);
+    if (options->method != LRCS_METHOD_AUTO) {
+        return status;
+    }
+    if (status == LRCS_OK && run->plan.method == LRCS_METHOD_ZBUFFER &&
+        !run_meets(&run->total, options->tolerance)) {
+        run->plan.method = LRCS_METHOD_EXACT;
+        run->flags = 0;
+        status = run_exact(run);
+    }
+    if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
+        run->plan.method = LRCS_METHOD_ZBUFFER;
+        run->flags = LRCS_FLAG_MEMORY_FALLBACK;
+        status = run_zbuffer(run, options);
     }
     return status;
 }
@@ -247,7 +247,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         return status;
     }
     size_t mark = work->used;
-    sigma_run run = {.work = work, .records = records, .image = image};
+    sigma_run run = {.work = work, .image = image};
     status = lrcsi_view_make(prepared, pose, work, &run.view);
     if (status == LRCS_OK) {
         run.visible = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *run.visible);
@@ -258,16 +258,19 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         status =
             run.plan.method == LRCS_METHOD_FACET ? run_facet(&run) : run_shadowed(&run, options);
     }
-    if (status == LRCS_OK && image && image->size != 0) {
-        status = run_image(&run);
-    }
-    work->used = mark;
     if (status == LRCS_OK &&
         !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse)) {
         status = LRCS_E_NUMBER;
     }
-    if (status == LRCS_OK) {
+    if (status == LRCS_OK && image && image->size != 0) {
+        status = run_image(&run);
+    }
+    if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
+        if (records) {
+            lrcsi_total_make(&run.view, run.visible, run.plan.unshadowed, records);
+        }
         result_fill(&run, options, result);
     }
+    work->used = mark;
     return status;
 }

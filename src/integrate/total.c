@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The sum of Eq. 2 over visible areas, in facet order, compensated. A facet of area S at incidence
    theta, of which a share is visible, adds 4 pi (f_r cos^2)(theta) S share. What each facet adds to
-   the bounds stands beside each step; the bounds themselves are widened by 1e-9 and 2 u a facet
-   for their own rounding. */
+   the bounds stands beside each step; the bounds themselves are widened by 1e-9 for their own
+   rounding. */
 #include "integrate/total.h"
 
 #include <math.h>
@@ -54,6 +54,7 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t 
     lrcsi_reflection at = lrcsi_reflect(brdf, tilt->tan2, 0);
     double whole = FOUR_PI * 0.5 * view->prepared->normal[facet].length;
     double share = visible->area / tilt->projected;
+    double most = visible->high / tilt->projected;
     double doubt = fmax(visible->area - visible->low, visible->high - visible->area);
     double per_area = whole * (at.glint + at.diffuse) / tilt->projected;
     double glint = whole * at.glint * share;
@@ -64,8 +65,7 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t 
     sums->likely += (per_area * visible->likely) * (per_area * visible->likely);
     /* S, 4 pi, two products and the share: 8 u, with the relative error of areas */
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
-                      whole * (share + doubt / tilt->projected) *
-                          (at.error + reflection_vague(brdf, tilt, &at));
+                      whole * most * (at.error + reflection_vague(brdf, tilt, &at));
     return glint + diffuse;
 }
 
@@ -85,13 +85,28 @@ static void add_tessellation(total_sums *sums, const lrcsi_view *view, uint32_t 
     }
 }
 
+/* Is only a part of the facet visible? An area computed by clipping that cannot be told from none,
+   or from all, counts as that. Likewise nothing_visible. */
+static int partly_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+{
+    int some = visible->area > 0 && visible->area < tilt->projected;
+    int clipped = visible->likely == 0 && visible->high - visible->low < tilt->projected;
+    return some && !(clipped && (visible->low <= 0 || visible->high >= tilt->projected));
+}
+
+static int nothing_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+{
+    return visible->area == 0 || (visible->area < tilt->projected && visible->low <= 0 &&
+                                  !partly_visible(tilt, visible));
+}
+
 static void count_facet(lrcsi_total *total, total_sums *sums, int reflects, const lrcsi_tilt *tilt,
                         const lrcsi_visible *visible)
 {
     lrcsi_sum_add(&sums->projected, visible->area);
     if (reflects) {
-        total->hidden += visible->area == 0;
-        total->partial += visible->area > 0 && visible->area < tilt->projected;
+        total->hidden += nothing_visible(tilt, visible) ? 1 : 0;
+        total->partial += partly_visible(tilt, visible) ? 1 : 0;
     } else if (visible->area > 0) {
         lrcsi_sum_add(&sums->back_side, visible->area);
         total->back_sides++;

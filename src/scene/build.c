@@ -71,11 +71,13 @@ static int find_worn(const scene_builder *builder, const lrcs_recipe_part *part,
 
 /* The tolerance that a shape is divided for. Among other parts its tessellation error is not
    bounded (they may hide some of it), and facet-by-facet bounds are tens of times the error that
-   they hold: a tenth of the fineness then serves. */
+   they hold: a tenth of the fineness then serves, and beyond 1e-4 nothing is gained that could be
+   vouched for. */
 static double shape_tolerance(const scene_builder *builder)
 {
     double tolerance = builder->options->tolerance;
-    return builder->recipe->part_count > 1 ? lrcsi_least(10 * tolerance, 1) : tolerance;
+    return builder->recipe->part_count > 1 ? lrcsi_most(lrcsi_least(10 * tolerance, 1), 1e-4)
+                                           : tolerance;
 }
 
 /* How a shape is divided, for the material it wears. */

@@ -7,6 +7,7 @@
 
 #include "base/dd.h"
 #include "base/exact.h"
+#include "base/length.h"
 #include "base/work.h"
 #include "mesh/tree.h"
 #include "scene/solid.h"
@@ -62,12 +63,13 @@ static int prepare_exponent(const lrcs_scene *scene)
     return exponent;
 }
 
+/* Coordinates below 2^-300 become 0: the exact predicates (base/exact.h) ask for that. */
 static void prepare_vertices(lrcs_prepared *p)
 {
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
             double x = ldexp(p->scene->vertex[v].x[k], -p->exponent);
-            p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_LEAST ? 0 : x;
+            p->vertex[v].x[k] = fabs(x) < 0x1p-300 ? 0 : x;
         }
     }
 }
@@ -79,26 +81,18 @@ static lrcsi_dd normal_component(lrcsi_dd p1, lrcsi_dd q2, lrcsi_dd p2, lrcsi_dd
     return lrcsi_dd_sub(lrcsi_dd_mul(p1, q2), lrcsi_dd_mul(p2, q1));
 }
 
-/* sqrt(square), or the norm of n where the squares have underflowed. */
-static double normal_length(const double n[3], double square)
-{
-    return square > 0x1p-900 ? sqrt(square) : hypot(hypot(n[0], n[1]), n[2]);
-}
+/* Where |N| falls below this share of |p| |q|, the products cancel and N is taken exactly. */
+#define NORMAL_SLIVER 0x1p-10
 
 /* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| comes out
-   of doubles within 10 u: 21 u^2 |p| |q| covers both. */
+   of doubles within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
 static void normal_make(const double *a, const double *b, const double *c, lrcsi_normal *n)
 {
     lrcsi_dd p[3];
     lrcsi_dd q[3];
-    double pp = 0;
-    double qq = 0;
-    double nn = 0;
     for (int k = 0; k < 3; k++) {
         p[k] = lrcsi_dd_two_sum(b[k], -a[k]);
         q[k] = lrcsi_dd_two_sum(c[k], -a[k]);
-        pp += p[k].hi * p[k].hi;
-        qq += q[k].hi * q[k].hi;
     }
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
@@ -106,13 +100,15 @@ static void normal_make(const double *a, const double *b, const double *c, lrcsi
         lrcsi_dd component = normal_component(p[i], q[j], p[j], q[i]);
         n->high[k] = component.hi;
         n->low[k] = component.lo;
-        nn += component.hi * component.hi;
     }
-    n->length = normal_length(n->high, nn);
-    n->error = 21 * U * U * sqrt(pp) * sqrt(qq);
-    if (!(n->error < 0x1p-20 * n->length)) { /* a sliver: no digit may be left */
-        n->error = lrcsi_exact_normal(a, b, c, n->high, n->low);
-        n->length = normal_length(n->high, 0);
+    double size = lrcsi_length((const double[3]){p[0].hi, p[1].hi, p[2].hi}) *
+                  lrcsi_length((const double[3]){q[0].hi, q[1].hi, q[2].hi});
+    n->length = lrcsi_length(n->high);
+    n->error = 21 * U * U * size;
+    if (n->length < NORMAL_SLIVER * size) {
+        lrcsi_exact_normal(a, b, c, n->high, n->low);
+        n->length = lrcsi_length(n->high);
+        n->error = 100 * U * U * n->length;
     }
 }
 

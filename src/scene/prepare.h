@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A prepared scene: everything that does not depend on direction. Coordinates here are the
-   scene's times a power of two, so that the largest magnitude lies in [0.5, 1): exact but for
-   those that count as zero, and far from overflow. Areas computed from them are scaled back by lrcsi_prepared_area. */
+   scene's times a power of two, so that the largest magnitude lies in [0.5, 1): exact, and far
+   from overflow; those that come out below 2^-300 count as 0. Areas computed from them are scaled
+   back by lrcsi_prepared_area. */
 #ifndef LRCSI_PREPARE_H
 #define LRCSI_PREPARE_H
 
@@ -10,15 +11,11 @@
 #include "mesh/topology.h"
 #include "mesh/touch.h"
 
-/* Scaled coordinates below this count as zero, so that signs stay exact (base/exact.h); so do the
-   components of a direction. */
-#define LRCSI_COORDINATE_LEAST 0x1p-300
-
 /* (b - a) x (c - a) in double-double. Its true value differs by at most `error` in norm. */
 typedef struct lrcsi_normal {
     double high[3], low[3];
     double length; /* |N|, relative error at most 4 u beyond error / length */
-    double error;
+    double error;  /* at most 2^-90 of the length */
 } lrcsi_normal;
 
 struct lrcs_prepared {

@@ -5,28 +5,13 @@
 
 #include <math.h>
 
+#include "base/join.h"
 #include "base/work.h"
 #include "mesh/tree.h"
 
 #define U 0x1p-53
 
 /* --- pieces: facets joined by edges ----------------------------------------------------------- */
-
-static uint32_t piece_root(uint32_t *parent, uint32_t i)
-{
-    while (parent[i] != i) { /* halving the path: every step shortens it */
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-static void piece_join(uint32_t *parent, uint32_t i, uint32_t j)
-{
-    i = piece_root(parent, i);
-    j = piece_root(parent, j);
-    parent[i > j ? i : j] = i > j ? j : i;
-}
 
 /* Joins facets over every edge; 0 where a live facet's edge is not used by exactly two live
    facets in opposite directions. */
@@ -52,7 +37,7 @@ static int pieces_closed(const lrcs_prepared *p, uint32_t *parent)
             return 0;
         }
         if (live == 2) {
-            piece_join(parent, pair[0], pair[1]);
+            lrcsi_join(parent, pair[0], pair[1]);
         }
     }
     return 1;
@@ -62,7 +47,7 @@ static int pieces_untouched(const lrcs_prepared *p, uint32_t *parent)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         for (uint32_t i = p->touches.first[f]; i < p->touches.first[f + 1]; i++) {
-            if (piece_root(parent, f) == piece_root(parent, p->touches.touch[i].other)) {
+            if (lrcsi_join_root(parent, f) == lrcsi_join_root(parent, p->touches.touch[i].other)) {
                 return 0;
             }
         }
@@ -84,7 +69,7 @@ static int pieces_sides_clear(const lrcs_prepared *p, uint32_t *parent, lrcs_wor
         lrcsi_tree_walk walk = lrcsi_tree_around(&tree, p->vertex, scene->facet[f]);
         uint32_t other;
         while (*clear && (other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
-            *clear = piece_root(parent, f) != piece_root(parent, other) ||
+            *clear = lrcsi_join_root(parent, f) != lrcsi_join_root(parent, other) ||
                      !lrcsi_touch_side(p->vertex, scene->facet[f], scene->facet[other]);
         }
     }
@@ -121,7 +106,7 @@ static int pieces_outward(const lrcs_prepared *p, uint32_t *parent, double *volu
         if (p->skip[f]) {
             continue;
         }
-        uint32_t root = piece_root(parent, f);
+        uint32_t root = lrcsi_join_root(parent, f);
         double off = 0;
         double six = tetrahedron(p, f, lrcsi_prepared_corner(p, root, 0), &off);
         volume[root] += six;

@@ -7,6 +7,7 @@
 
 #include "base/dd.h"
 #include "base/exact.h"
+#include "base/length.h"
 #include "base/range.h"
 #include "base/work.h"
 
@@ -28,17 +29,14 @@ static lrcsi_dd normal_dot(const lrcsi_normal *n, const double *d)
 static double normal_cross(const lrcsi_normal *n, const double *d)
 {
     double component[3];
-    double square = 0;
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
         lrcsi_dd a = lrcsi_dd_scale((lrcsi_dd){n->high[i], n->low[i]}, d[j]);
         lrcsi_dd b = lrcsi_dd_scale((lrcsi_dd){n->high[j], n->low[j]}, d[i]);
         component[k] = lrcsi_dd_value(lrcsi_dd_sub(a, b));
-        square += component[k] * component[k];
     }
-    return square > 0x1p-900 ? sqrt(square)
-                             : hypot(hypot(component[0], component[1]), component[2]);
+    return lrcsi_length(component);
 }
 
 /* The absolute error of both, per unit of |d|. */
@@ -170,8 +168,7 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
     }
     double square = 0;
     for (int k = 0; k < 3; k++) {
-        v.direction[k] =
-            fabs(pose->direction[k]) < LRCSI_COORDINATE_LEAST ? 0 : pose->direction[k];
+        v.direction[k] = fabs(pose->direction[k]) < 0x1p-300 ? 0 : pose->direction[k]; /* exact.h */
         square += v.direction[k] * v.direction[k];
         for (int j = 0; j < 3; j++) {
             v.R[k][j] = pose->R[k][j];

@@ -222,6 +222,26 @@ double lrcsi_clip_polygon_area(const lrcsi_clip_polygon *polygon)
     return corners_area((const double(*)[2])polygon->corner, polygon->count);
 }
 
+double lrcsi_clip_box_area(const double corner[3][2], const double low[2])
+{
+    const lrcsi_clip_line side[4] = {{{low[0], low[1]}, {1, 0}},
+                                     {{low[0] + 1, low[1]}, {0, 1}},
+                                     {{low[0] + 1, low[1] + 1}, {-1, 0}},
+                                     {{low[0], low[1] + 1}, {0, -1}}};
+    lrcsi_clip_polygon inside;
+    lrcsi_clip_polygon left;
+    lrcsi_clip_polygon right;
+    lrcsi_clip_triangle(corner, &inside);
+    for (int k = 0; k < 4; k++) {
+        polygon_split(&inside, &side[k], &left, &right);
+        if (left.count < 3) {
+            return 0;
+        }
+        inside = left;
+    }
+    return lrcsi_clip_polygon_area(&inside);
+}
+
 double lrcsi_clip_area(const lrcsi_clip *clip)
 {
     double area = 0;

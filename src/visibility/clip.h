@@ -54,6 +54,9 @@ double lrcsi_clip_polygon_area(const lrcsi_clip_polygon *polygon);
 void lrcsi_clip_halve(const lrcsi_clip_polygon *polygon, lrcsi_clip_polygon *left,
                       lrcsi_clip_polygon *right);
 
+/* The area that a counter-clockwise triangle has in the unit square at `low`. */
+double lrcsi_clip_box_area(const double corner[3][2], const double low[2]);
+
 enum lrcsi_clip_overlap_kind { LRCSI_CLIP_NONE, LRCSI_CLIP_SOME, LRCSI_CLIP_COVERED };
 
 /* How a region stands to a piece: some line parts them, it covers the piece, or neither is seen. */

@@ -4,6 +4,7 @@
 #include "visibility/contest.h"
 
 #include "base/exact.h"
+#include "base/join.h"
 #include "base/work.h"
 #include "visibility/sample.h"
 
@@ -24,6 +25,44 @@ static int edge_is_event(const lrcsi_view *view, const lrcsi_edge *edge)
         }
     }
     return count != 0 && !(count == 2 && forward == 1 && facing != 0);
+}
+
+/* Joins the facets of an edge that is no event: two that continue each other. */
+static void edge_join(const lrcsi_contest *contest, const lrcsi_edge *edge)
+{
+    const lrcsi_edge_use *use = contest->view->prepared->topology.use + edge->first_use;
+    uint32_t first = LRCS_NONE;
+    for (uint32_t i = 0; i < edge->uses; i++) {
+        if (!lrcsi_grid_casts(contest->view, use[i].facet)) {
+            continue;
+        }
+        if (first != LRCS_NONE) {
+            lrcsi_join(contest->sheet, first, use[i].facet);
+        }
+        first = use[i].facet;
+    }
+}
+
+static int contest_sheets(lrcsi_contest *contest, lrcs_work *work)
+{
+    uint32_t facets = contest->view->prepared->scene->facet_count;
+    const lrcsi_topology *topology = &contest->view->prepared->topology;
+    contest->sheet = lrcsi_work_take(work, facets, sizeof *contest->sheet);
+    if (!contest->sheet) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t f = 0; f < facets; f++) {
+        contest->sheet[f] = f;
+    }
+    for (uint32_t e = 0; e < topology->edge_count; e++) {
+        if (!edge_is_event(contest->view, &topology->edge[e])) {
+            edge_join(contest, &topology->edge[e]);
+        }
+    }
+    for (uint32_t f = 0; f < facets; f++) {
+        contest->sheet[f] = lrcsi_join_root(contest->sheet, f);
+    }
+    return LRCS_OK;
 }
 
 static int contest_events(lrcsi_contest *contest, lrcs_work *work)
@@ -176,6 +215,7 @@ size_t lrcsi_contest_need(const lrcs_prepared *prepared)
     size_t edges = prepared->topology.edge_count;
     size_t need = lrcsi_work_bytes(3 * edges, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->facet_count, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->facet_count, 1));
 }
 
@@ -185,7 +225,10 @@ int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *c
     uint32_t count = view->prepared->scene->facet_count;
     lrcsi_contest c = {.view = view};
     c.contested = lrcsi_work_take_zero(work, count, 1);
-    int status = c.contested ? contest_events(&c, work) : LRCS_E_MEMORY;
+    int status = c.contested ? contest_sheets(&c, work) : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        status = contest_events(&c, work);
+    }
     if (status != LRCS_OK) {
         work->used = mark;
         return status;

@@ -9,7 +9,11 @@
      (2) a point where another facet touches the inside of i itself (mesh/touch.h); a coplanar
          facet that i beats hides nothing.
    A facet that meets neither is uniform: one exact sample tells whether all of it is visible. The
-   others are contested. All decisions are exact, so a uniform facet is certain. */
+   others are contested. All decisions are exact, so a uniform facet is certain.
+
+   Edges that are no event edges join facets into sheets, which end at event edges only. A sheet in
+   front of one point of facet i, none of whose edges crosses i and none of whose facets touches its
+   inside, is in front of all of it: then i is hidden, however contested (visibility/query.h). */
 #ifndef LRCSI_CONTEST_H
 #define LRCSI_CONTEST_H
 
@@ -19,6 +23,8 @@ typedef struct lrcsi_contest {
     const lrcsi_view *view;
     uint32_t *event; /* topology edges that are event edges in this view */
     uint32_t event_count;
+    uint32_t
+        *sheet; /* facet -> its sheet, named by one of its facets; itself if it casts nothing */
     lrcsi_grid grid;          /* of events */
     uint32_t *seen;           /* scratch: event -> the search that last met it */
     uint32_t asked;           /* scratch: searches so far */

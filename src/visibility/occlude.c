@@ -3,17 +3,18 @@
    a cell that one of them covers is hidden, one that none overlaps is visible, and from the others
    the few are cut out. So the work grows with the occluders near by, not with their square.
 
-   Error. In the facet's frame (visibility/occluder.c) corners are off by at most e = 10 u r, r the
-   largest distance of the corners at hand from the facet's first one: R's rows are orthonormal to
-   4 u; a rounded difference, three products and two sums. The region that an occluder hides is cut
-   by the lines through its own computed corners: the hull of these differs from the true one by a
-   rim no wider than e, which within the facet is no longer than its perimeter p; deciding in
-   doubles on which side of a line a point lies, wrong within 4 u r of it, adds 4 u r p for each of
-   four sides; a cut left out for want of a direction (visibility/occluder.c) adds 64 u r times the
-   facet's diameter, at most 32 u r p. Together 58 u r p, and 64 are charged. The cut by the facet's
-   plane ends on the occluder's sides; how far those ends may slip is added to e. A split of a piece puts one corner on a line
-   to within 8 u d, d the facet's diameter, and both parts share it: 8 u d p. A cell that could not
-   be finished counts whole. */
+   Error. In the facet's frame (visibility/occluder.c) corners are off by at most e = 10 u r, r
+   the largest distance of the corners at hand from the facet's first one: R's rows are
+   orthonormal to 4 u; a rounded difference, three products and two sums. The region that an
+   occluder hides is cut by the lines through its own computed corners: the hull of these differs
+   from the true one by a rim no wider than e, which within the facet is no longer than its
+   perimeter p; deciding in doubles on which side of a line a point lies, wrong within 4 u r of
+   it, adds 4 u r p for each of four sides; a cut left out for want of a direction
+   (visibility/occluder.c) adds 64 u r times the facet's diameter, at most 32 u r p. Together 58
+   u r p, and 64 are charged. The cut by the facet's plane ends on the occluder's sides; how far
+   those ends may slip is added to e. A split of a piece puts one corner on a line to within 8 u
+   d, d the facet's diameter, and both parts share it: 8 u d p. A cell that could not be finished
+   counts whole. */
 #include "visibility/occlude.h"
 
 #include <math.h>
@@ -261,7 +262,7 @@ static int occlude_start(const lrcsi_view *view, lrcs_work *work, occlude_scratc
     return lrcsi_grid_facets(view, work, &scratch->facets);
 }
 
-int lrcsi_occlude_all(const lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible)
+int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible)
 {
     const lrcsi_view *view = contest->view;
     size_t mark = work->used;
@@ -272,9 +273,9 @@ int lrcsi_occlude_all(const lrcsi_contest *contest, lrcs_work *work, lrcsi_visib
         if (!lrcsi_grid_casts(view, f)) {
             continue;
         }
-        if (contest->contested[f]) {
+        if (contest->contested[f] && !lrcsi_query_screened(contest, &scratch.facets, f)) {
             status = occlude_contested(view, f, &scratch, work, &visible[f]);
-        } else {
+        } else if (!contest->contested[f]) {
             visible[f] = occlude_uniform(view, f, &scratch.facets);
         }
     }

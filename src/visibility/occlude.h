@@ -9,9 +9,10 @@
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 
-/* Every facet: uniform ones by one exact sample, contested ones by clipping.
+/* Every facet: uniform ones by one exact sample, contested ones by clipping unless one sheet hides
+   all of them.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. A facet that falls
    into more pieces than the lists hold keeps the area reached as an upper bound. */
-int lrcsi_occlude_all(const lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible);
+int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible);
 
 #endif

@@ -60,33 +60,123 @@ static int box_misses(const lrcsi_view *view, uint32_t facet, const double xy[2]
            xy[1] > high[1] + off;
 }
 
-int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
+/* A line of sight through the inside of a facet, and how far the search along it has come. */
+typedef struct query_line {
+    const lrcsi_grid *grid;
+    uint32_t facet;
+    double point[3], xy[2];
+    int sense; /* of the infinitesimal by which it counts as moved */
+    lrcsi_cells cells;
+    uint32_t y, item, end; /* the row of cells at hand, and its items yet to be looked at */
+} query_line;
+
+/* 0 where no point inside the facet was found. */
+static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet)
 {
-    const lrcsi_view *view = facets->view;
-    double point[3];
-    int sense = inside_point(view, facet, point);
-    if (sense == 0) {
-        return LRCSI_QUERY_UNDECIDED;
+    *line = (query_line){.grid = facets, .facet = facet};
+    line->sense = inside_point(facets->view, facet, line->point);
+    if (line->sense == 0) {
+        return 0;
     }
-    double xy[2];
-    view_of(view, point, xy);
-    lrcsi_cells cells = lrcsi_grid_cells(facets, xy, xy);
-    int answer = LRCSI_QUERY_VISIBLE;
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        uint32_t i = facets->first[(size_t)y * facets->size + cells.x0];
-        uint32_t end = facets->first[(size_t)y * facets->size + cells.x1];
-        for (; i < end; i++) {
-            uint32_t other = facets->item[i];
-            if (other == facet || box_misses(view, other, xy) ||
-                !lrcsi_sample_covers_towards(view, other, point, sense)) {
-                continue;
+    view_of(facets->view, line->point, line->xy);
+    line->cells = lrcsi_grid_cells(facets, line->xy, line->xy);
+    line->y = line->cells.y0;
+    return 1;
+}
+
+/* The next other facet that the line meets, or LRCS_NONE; some come more than once. */
+static uint32_t line_next(query_line *line)
+{
+    const lrcsi_grid *grid = line->grid;
+    for (;;) {
+        while (line->item == line->end) {
+            if (line->y == line->cells.y1) {
+                return LRCS_NONE;
             }
-            int nearer = lrcsi_sample_nearer(view, other, facet, point);
-            if (nearer > 0) {
-                return LRCSI_QUERY_HIDDEN;
-            }
-            answer = nearer == 0 ? LRCSI_QUERY_UNDECIDED : answer;
+            size_t row = (size_t)line->y++ * grid->size;
+            line->item = grid->first[row + line->cells.x0];
+            line->end = grid->first[row + line->cells.x1];
+        }
+        uint32_t other = grid->item[line->item++];
+        if (other != line->facet && !box_misses(grid->view, other, line->xy) &&
+            lrcsi_sample_covers_towards(grid->view, other, line->point, line->sense)) {
+            return other;
         }
     }
+}
+
+int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
+{
+    query_line line;
+    if (!line_start(&line, facets, facet)) {
+        return LRCSI_QUERY_UNDECIDED;
+    }
+    int answer = LRCSI_QUERY_VISIBLE;
+    uint32_t other;
+    while ((other = line_next(&line)) != LRCS_NONE) {
+        int nearer = lrcsi_sample_nearer(facets->view, other, facet, line.point);
+        if (nearer > 0) {
+            return LRCSI_QUERY_HIDDEN;
+        }
+        answer = nearer == 0 ? LRCSI_QUERY_UNDECIDED : answer;
+    }
     return answer;
+}
+
+/* Does `other` touch the inside of the facet? */
+static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other)
+{
+    for (uint32_t i = p->touches.first[facet]; i < p->touches.first[facet + 1]; i++) {
+        if (p->touches.touch[i].other == other) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Does none of the sheet's edges cross the facet, and none of its facets touch its inside? */
+static int sheet_unbroken(const lrcsi_contest *contest, uint32_t sheet, uint32_t facet,
+                          uint32_t crossings)
+{
+    const lrcs_prepared *p = contest->view->prepared;
+    for (uint32_t i = 0; i < crossings; i++) {
+        const lrcsi_edge *edge = &p->topology.edge[contest->crossing[i]];
+        for (uint32_t k = 0; k < edge->uses; k++) {
+            if (contest->sheet[p->topology.use[edge->first_use + k].facet] == sheet) {
+                return 0;
+            }
+        }
+    }
+    for (uint32_t i = p->touches.first[facet]; i < p->touches.first[facet + 1]; i++) {
+        if (contest->sheet[p->touches.touch[i].other] == sheet) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint32_t facet)
+{
+    query_line line;
+    if (!line_start(&line, facets, facet)) {
+        return 0;
+    }
+    uint32_t crossings = LRCS_NONE; /* not asked for yet */
+    uint32_t broken = LRCS_NONE;    /* the sheet last found so */
+    uint32_t other;
+    while ((other = line_next(&line)) != LRCS_NONE) {
+        if (contest->sheet[other] == broken ||
+            touched_by(facets->view->prepared, other, facet) || /* order perhaps a guess */
+            lrcsi_sample_nearer(facets->view, other, facet, line.point) <= 0) {
+            continue;
+        }
+        if (crossings == LRCS_NONE) {
+            crossings = lrcsi_contest_crossings(contest, facet);
+        }
+        if (sheet_unbroken(contest, contest->sheet[other], facet, crossings)) {
+            return 1;
+        }
+        broken = contest->sheet[other];
+    }
+    return 0;
 }

@@ -3,7 +3,7 @@
 #ifndef LRCSI_QUERY_H
 #define LRCSI_QUERY_H
 
-#include "visibility/grid.h"
+#include "visibility/contest.h"
 
 enum lrcsi_query_answer {
     LRCSI_QUERY_HIDDEN = 0,
@@ -13,5 +13,8 @@ enum lrcsi_query_answer {
 
 /* Asks at the facet's centroid, or at another inside point where that one rounds outside. */
 int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet);
+
+/* 1 where a contested facet is proved to be hidden, all of it behind one sheet; else 0. */
+int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint32_t facet);
 
 #endif

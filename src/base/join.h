@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* Joining items into groups (union-find): parent[i] = i at first; the root names the group. */
+#ifndef LRCSI_JOIN_H
+#define LRCSI_JOIN_H
+
+#include <stdint.h>
+
+static inline uint32_t lrcsi_join_root(uint32_t *parent, uint32_t i)
+{
+    while (parent[i] != i) { /* halving the path: every step shortens it */
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+static inline void lrcsi_join(uint32_t *parent, uint32_t i, uint32_t j)
+{
+    i = lrcsi_join_root(parent, i);
+    j = lrcsi_join_root(parent, j);
+    parent[i > j ? i : j] = i > j ? j : i;
+}
+
+#endif

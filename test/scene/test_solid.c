@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: MIT */
+/* What the planner proves of a shape, and what it must refuse to prove. */
+#include "scene/solid.h"
+
+#include "scenes.h"
+
+static test_scene scene;
+static lrcs_work work;
+
+static void box(double x, double y, double z, double size)
+{
+    scene_box(&scene, (const double[3]){x, y, z}, (const double[3]){x + size, y + size, z + size});
+}
+
+static int is_solid(void)
+{
+    return scene_prepare(&scene, &work)->solid;
+}
+
+static int is_convex(void)
+{
+    return scene_prepare(&scene, &work)->convex;
+}
+
+static void closed_outward_pieces_are_solid(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    assert_true(is_solid());
+    box(3, 0, 0, 1); /* apart */
+    assert_true(is_solid());
+    box(0.5, 0.5, 0.5, 1); /* through the first: winding numbers add */
+    assert_true(is_solid());
+    box(0.25, 0.25, 0.25, 0.125); /* within it */
+    assert_true(is_solid());
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 16);
+    assert_true(is_solid());
+    scene_shuffle(&scene, 3);
+    assert_true(is_solid());
+    scene_move(&scene, 0x1p-60, (const double[3]){1e-10, 3, 0});
+    assert_false(is_solid()); /* the move has rounded all volume away */
+}
+
+static void open_inverted_and_odd_shapes_are_not_proved_solid(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    scene.scene.facet_count--; /* a facet is missing */
+    assert_false(is_solid());
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    scene_invert(&scene, 0);
+    assert_false(is_solid());
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    scene_invert(&scene, 11); /* one facet */
+    assert_false(is_solid());
+    scene_start(&scene);
+    box(0, 0, 0, 4);
+    box(1, 1, 1, 1);
+    scene_invert(&scene, 12); /* a cavity: sound, but its piece has no positive volume */
+    assert_false(is_solid());
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    scene_plate(&scene, (const double[3]){3, 0, 0}, (const double[3]){1, 0, 0},
+                (const double[3]){0, 1, 0});
+    assert_false(is_solid());
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    box(1, 1, 0, 1); /* they share an edge: four facets on it */
+    assert_false(is_solid());
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    box(0, 0, 0, 1); /* the same box twice */
+    assert_false(is_solid());
+}
+
+/* A box whose top is drawn down through its bottom: closed, volume positive, winding -1 below. */
+static void piece_that_passes_through_itself_is_not_proved_solid(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    scene.scene.facet_count -= 2;
+    uint32_t tip = scene_vertex(&scene, 0.5, 0.5, -0.5);
+    static const uint32_t ring[5] = {4, 5, 7, 6, 4};
+    for (int i = 0; i < 4; i++) {
+        scene_facet(&scene, ring[i], ring[i + 1], tip);
+    }
+    assert_false(is_solid());
+    scene.vertex[tip].x[2] = 0.5; /* within: a dent */
+    assert_true(is_solid());
+}
+
+/* Where winding is negative, a back side is seen: what the proof must never allow. */
+static void facets_seen_from_behind_are_never_in_a_solid(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    int solid = 0;
+    for (int n = 0; n < 300; n++) {
+        scene_start(&scene);
+        for (int i = 0; i < 3; i++) {
+            uint32_t first = scene.scene.facet_count;
+            box(scene_random(&seed, 5), scene_random(&seed, 5), scene_random(&seed, 5),
+                1 + scene_random(&seed, 3));
+            if (scene_random(&seed, 6) == 0) {
+                scene_invert(&scene, first);
+            }
+            if (scene_random(&seed, 6) ==
+                0) { /* a corner displaced, perhaps through the far side */
+                scene.vertex[8 * (uint32_t)i].x[2] += scene_random(&seed, 9);
+            }
+        }
+        lrcs_prepared prepared = *scene_prepare(&scene, &work);
+        solid += prepared.solid;
+        if (prepared.solid) {
+            prepared.solid = 0; /* draw back sides, too: none may show */
+            prepared.convex = 0;
+            const double d[3] = {1 + scene_random(&seed, 3), scene_random(&seed, 4),
+                                 scene_random(&seed, 5)};
+            lrcs_result r = scene_pose(&scene, &prepared, &work, d, LRCS_METHOD_EXACT, 0);
+            check_most(r.back_side_area_m2, 1e-12);
+        }
+    }
+    assert_true(solid > 20 && solid < 280);
+}
+
+static void convex_meshes_are_proved_convex(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    assert_true(is_convex());
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){0, 1, 0},
+                   (const double[3]){1, 0, 0});
+    uint32_t tip = scene_vertex(&scene, 0, 0, 1);
+    scene_facet(&scene, 0, 2, tip);
+    scene_facet(&scene, 2, 1, tip);
+    scene_facet(&scene, 1, 0, tip);
+    assert_true(is_convex());
+}
+
+static void shapes_with_a_hollow_are_not_proved_convex(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    scene.vertex[7].x[0] -= 0x1p-50; /* no longer planar: one of the diagonals is a valley */
+    uint32_t convex = (uint32_t)is_convex();
+    scene.vertex[7].x[0] += 0x1p-49;
+    convex += (uint32_t)is_convex();
+    assert_true(convex < 2);
+    scene_start(&scene); /* an L */
+    static const double l[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+    for (int z = 0; z < 2; z++) {
+        for (int i = 0; i < 6; i++) {
+            scene_vertex(&scene, l[i][0], l[i][1], z);
+        }
+    }
+    for (uint32_t i = 0; i < 6; i++) {
+        uint32_t j = (i + 1) % 6;
+        scene_facet(&scene, i, j, 6 + j);
+        scene_facet(&scene, i, 6 + j, 6 + i);
+    }
+    static const uint32_t top[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
+    for (int i = 0; i < 4; i++) {
+        scene_facet(&scene, 6 + top[i][0], 6 + top[i][1], 6 + top[i][2]);
+        scene_facet(&scene, top[i][0], top[i][2], top[i][1]);
+    }
+    assert_true(is_solid());
+    assert_false(is_convex());
+    scene_start(&scene); /* a dented sphere */
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 16);
+    scene.vertex[40].x[0] *= 0.99;
+    scene.vertex[40].x[1] *= 0.99;
+    assert_true(is_solid());
+    assert_false(is_convex());
+    scene_start(&scene); /* two boxes */
+    box(0, 0, 0, 1);
+    box(2, 0, 0, 1);
+    assert_false(is_convex());
+    scene_start(&scene); /* the inside of a box */
+    box(0, 0, 0, 1);
+    scene_invert(&scene, 0);
+    assert_false(is_convex());
+    scene_start(&scene); /* a plate from a file: open */
+    scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                (const double[3]){0, 1, 0});
+    assert_false(is_convex());
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_outward_pieces_are_solid),
+        cmocka_unit_test(open_inverted_and_odd_shapes_are_not_proved_solid),
+        cmocka_unit_test(piece_that_passes_through_itself_is_not_proved_solid),
+        cmocka_unit_test(facets_seen_from_behind_are_never_in_a_solid),
+        cmocka_unit_test(convex_meshes_are_proved_convex),
+        cmocka_unit_test(shapes_with_a_hollow_are_not_proved_convex),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT */
+/* Facing to the last bit, incidence against long double, and the window. */
+#include "view/view.h"
+
+#include "scenes.h"
+
+static test_scene scene;
+static lrcs_work work;
+
+static lrcsi_view view_along(const double d[3])
+{
+    lrcs_pose pose;
+    lrcsi_view view;
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    return view;
+}
+
+/* The facet (0,0,0) (3,1,2) (1,4,-1) has the normal (-9, 5, 11); u, v span its plane. */
+static void facing_is_exact_at_edge_on_and_one_ulp_off(void **state)
+{
+    (void)state;
+    static const double in_plane[][3] = {{3, 1, 2}, {1, 4, -1}, {4, 5, 1}, {5, 9, 0}, {-2, 3, -3}};
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){3, 1, 2},
+                   (const double[3]){1, 4, -1});
+    for (int i = 0; i < 5; i++) {
+        lrcsi_view view = view_along(in_plane[i]);
+        assert_int_equal(view.facing[0], 0);
+        lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
+        check_same(tilt.projected, 0);
+        check_same(tilt.cos_theta, 0);
+        for (int k = 0; k < 3; k++) {
+            static const int sign[3] = {-1, 1, 1};
+            for (int side = -1; side <= 1; side += 2) {
+                double d[3] = {in_plane[i][0], in_plane[i][1], in_plane[i][2]};
+                d[k] = d[k] == 0 ? side * 0x1p-300 : nextafter(d[k], side * HUGE_VAL);
+                view = view_along(d);
+                assert_int_equal(view.facing[0], side * sign[k]);
+                tilt = lrcsi_view_tilt(&view, 0);
+                assert_true(tilt.cos_theta * side * sign[k] > 0);
+                assert_true(tilt.projected > 0);
+            }
+        }
+    }
+}
+
+static void facing_holds_where_doubles_cancel(void **state)
+{
+    (void)state;
+    /* N = (0, 0, 1) lifted by one ulp over a span of one: (-2^-52, 0, 1) and the like */
+    const double ulp = 0x1p-52;
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){0, 0, 1}, (const double[3]){1, 0, 1 + ulp},
+                   (const double[3]){0, 1, 1});
+    static const double steep[][4] = {{1, 0, 0x1p-52, 0},
+                                      {1, 0, 0x1.0000000000001p-52, 1},
+                                      {1, 0, 0x1.fffffffffffffp-53, -1},
+                                      {0, 1, 0, 0},
+                                      {0, 1, 0x1p-300, 1},
+                                      {0, -1, -0x1p-300, -1}};
+    for (size_t i = 0; i < sizeof steep / sizeof *steep; i++) {
+        lrcsi_view view = view_along(steep[i]);
+        assert_int_equal(view.facing[0], (int)steep[i][3]);
+    }
+}
+
+/* tan^2 within its own claim of long double, for directions not normalised. */
+static void tilt_agrees_from_normal_to_grazing(void **state)
+{
+    (void)state;
+    static const double tangent[] = {1e-300, 1e-150, 1e-15, 1e-9, 1e-3, 0.3,
+                                     1,      1e3,    1e9,   1e12, 1e15, 1e20};
+    static const double length[] = {1, 3e-7, 1e200};
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){2, 0, 0},
+                   (const double[3]){0, 3, 0});
+    for (int i = 0; i < 12; i++) {
+        for (int j = 0; j < 3; j++) {
+            double t = tangent[i];
+            double d[3] = {0.6 * t * length[j], 0.8 * t * length[j], length[j]};
+            long double want2 =
+                ((long double)d[0] * d[0] / d[2] / d[2] + (long double)d[1] * d[1] / d[2] / d[2]);
+            lrcsi_view view = view_along(d);
+            lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
+            if (tilt.stretch < 1) {
+                check_rel(tilt.tan2, (double)want2, tilt.stretch);
+                assert_true(t > 1e12 || tilt.stretch < 1e-14);
+            } else if (isfinite(tilt.stretch)) { /* it lies in 0 .. tan2 */
+                check_most((double)want2, tilt.tan2);
+                check_most(tilt.tan2, 1e-50);
+            }
+            long double cosine = 1 / sqrtl(1 + want2);
+            check_rel(tilt.cos_theta, (double)cosine, 1e-15);
+            check_abs(lrcsi_prepared_area(view.prepared, tilt.projected), (double)(3 * cosine),
+                      tilt.error * 3 * (double)cosine);
+            assert_true(t > 1e12 || tilt.error < 1e-15);
+        }
+    }
+}
+
+static void normal_incidence_is_exact(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){1, 2, 3}, (const double[3]){2, 4, 3},
+                   (const double[3]){1, 5, 1}); /* (1,2,0) x (0,3,-2) = (-4, 2, 3) */
+    for (int sign = -1; sign <= 1; sign += 2) {
+        lrcsi_view view = view_along((const double[3]){-4 * sign, 2 * sign, 3 * sign});
+        lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
+        assert_int_equal(view.facing[0], sign);
+        check_rel(tilt.cos_theta, (double)sign, 4e-16);
+        check_most(tilt.tan2, 1e-60);
+        check_rel(lrcsi_prepared_area(view.prepared, tilt.projected), 0.5 * sqrt(29), 1e-15);
+    }
+}
+
+static void window_is_the_square_around_the_projection(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_box(&scene, (const double[3]){1, 2, 3}, (const double[3]){2, 6, 5});
+    scene_vertex(&scene, 100, 100, 100); /* no facet uses it */
+    lrcsi_view view = view_along((const double[3]){0, 0, 1});
+    double unit = ldexp(1, -view.prepared->exponent);
+    check_same(view.side, 4 * unit);
+    check_same(view.low[0], -2 * unit); /* about the box's centre (1.5, 4, 4) */
+    check_same(view.low[1], -2 * unit);
+    for (uint32_t v = 0; v < 8; v++) {
+        check_same(view.point[v].x[0], (scene.vertex[v].x[0] - 1.5) * unit);
+        check_same(view.point[v].x[1], (scene.vertex[v].x[1] - 4) * unit);
+        check_same(view.point[v].x[2], (scene.vertex[v].x[2] - 4) * unit);
+    }
+    assert_int_equal(view.front, 2);
+    assert_int_equal(view.back, 2);
+}
+
+/* View coordinates against long double with the rows of R. */
+static void points_lie_within_their_error(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){1000, -300, 7}, 3, 12);
+    lrcsi_view view = view_along((const double[3]){0.3, -0.8, 0.55});
+    const lrcs_prepared *p = view.prepared;
+    for (uint32_t v = 0; v < scene.scene.vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            long double want = 0;
+            for (int i = 0; i < 3; i++) {
+                want += view.R[k][i] * ((long double)p->vertex[v].x[i] - p->centre[i]);
+            }
+            check_abs(view.point[v].x[k], (double)want, view.off);
+        }
+    }
+    check_most(view.off, 1e-13 * p->radius * 1000 / 3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(facing_is_exact_at_edge_on_and_one_ulp_off),
+        cmocka_unit_test(facing_holds_where_doubles_cancel),
+        cmocka_unit_test(tilt_agrees_from_normal_to_grazing),
+        cmocka_unit_test(normal_incidence_is_exact),
+        cmocka_unit_test(window_is_the_square_around_the_projection),
+        cmocka_unit_test(points_lie_within_their_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
