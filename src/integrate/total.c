@@ -96,8 +96,8 @@ static int partly_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
 
 static int nothing_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
 {
-    return visible->area == 0 || (visible->area < tilt->projected && visible->low <= 0 &&
-                                  !partly_visible(tilt, visible));
+    return visible->area == 0 ||
+           (visible->area < tilt->projected && visible->low <= 0 && !partly_visible(tilt, visible));
 }
 
 static void count_facet(lrcsi_total *total, total_sums *sums, int reflects, const lrcsi_tilt *tilt,
