@@ -63,6 +63,15 @@ fuzz:
 	    -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus test/fuzz/seeds
 FUZZ_SECONDS = 120
 
+# Every proved bound on BOUNDS_SCENES hostile scenes with exact answers (needs python3, mpmath).
+bounds: $(LIB)
+	@mkdir -p $(BUILD)/test/hostile
+	python3 test/hostile/bounds.py $(BOUNDS_SCENES) $(BOUNDS_SEED) >$(BUILD)/test/hostile/scenes
+	$(CC) $(STD) $(OPT) -Wall -Wextra -Iinclude -o $(BUILD)/test/hostile/bounds test/hostile/bounds.c $(LIB) $(LDLIBS)
+	$(BUILD)/test/hostile/bounds $(BUILD)/test/hostile/scenes
+BOUNDS_SCENES = 1000
+BOUNDS_SEED   = 1
+
 clean:
 	rm -rf $(BUILD)
 
@@ -70,7 +79,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo test asan lint purity layers fuzz clean cmocka
+.PHONY: all demo test asan lint purity layers fuzz bounds clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------

@@ -10,7 +10,8 @@
 /* The certificate takes `direction` as exact: s_hat = direction / |direction|. R only carries
    areas and pictures; its third row equals s_hat to rounding. */
 typedef struct lrcs_pose {
-    double direction[3]; /* body frame, to the laser; finite, not zero, |largest| in [0.5, 1] */
+    double direction[3]; /* body frame, to the laser; finite, not zero, |largest| in [0.5, 1];
+                            what is below 2^-317 counts as 0 */
     double R[3][3];      /* rows: observation x, y, z axes in the body frame */
 } lrcs_pose;
 

@@ -5,15 +5,15 @@
 
    Error. In the facet's frame (visibility/occluder.c) corners are off by at most e = 10 u r, r the
    largest distance of the corners at hand from the facet's first one: R's rows are orthonormal to
-   4 u; a rounded difference, three products and two sums. The region that an occluder hides is cut
-   by the lines through its own computed corners: the hull of these differs from the true one by a
-   rim no wider than e, which within the facet is no longer than its perimeter p; deciding in
-   doubles on which side of a line a point lies, wrong within 4 u r of it, adds 4 u r p for each of
-   four sides; a cut left out for want of a direction (visibility/occluder.c) adds 64 u r times the
-   facet's diameter, at most 32 u r p. Together 58 u r p, and 64 are charged. The cut by the facet's
-   plane ends on the occluder's sides; how far those ends may slip is added to e. A split of a piece
-   puts one corner on a line to within 8 u d, d the facet's diameter, and both parts share it: 8 u d
-   p. A cell that could not be finished counts whole. */
+   4 u; a rounded difference, three products and two sums. Let d be the facet's longest side and p
+   its perimeter. The region that an occluder hides is cut by the lines through its own computed
+   corners: their hull and the true one lie within e of each other, and differ by 2 e p at most;
+   deciding in doubles on which side of a line a point lies, wrong within 4 u r of it, adds 4 u r p
+   for each of four sides; a cut left out for want of a direction (visibility/occluder.c) adds
+   32 u r d, below 16 u r p. Together 52 u r p. The cut by the facet's plane ends on the occluder's
+   sides; how far those ends may slip is added to the rim. A split of a piece puts one corner on a
+   line to within 8 u d, and both parts share it: 8 u d p. A cell that could not be finished counts
+   whole. */
 #include "visibility/occlude.h"
 
 #include <math.h>

@@ -215,7 +215,7 @@ static void region_grow(lrcsi_clip_region *region, const double *p)
     }
 }
 
-#define CUT_MARGIN (64 * U)
+#define CUT_MARGIN (32 * U)
 
 /* Where the side k of the occluder passes through the target's plane, and how far that may be off:
    the share t = h / (h - h') moves by at most the heights' errors over |h| + |h'|. */
@@ -270,7 +270,7 @@ static double cut_height(const occlude_caster *c, const region_cut *cut)
    corner from the other two. Where that one lies within CUT_MARGIN of it (the points are off by
    less than 6 u reach, the corner by 10 u reach), the line's direction means nothing; then either
    what it cuts off is no wider, and it is left out, or what is left is, and there is no region: 0.
-   Elsewhere it crosses both sides within a fifth of the corner's distance beyond the points. */
+   Elsewhere it crosses both sides within a quarter of the corner's distance beyond the points. */
 static int region_make(const occlude_caster *c, lrcsi_clip_region *region, double *slip)
 {
     region_cut cut = {{0, 0}, {0, 0}, 0, 0};
@@ -317,6 +317,6 @@ int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *o
     }
     caster.reach = frame_facet(view, t->facet, other, caster.corner);
     int hides = region_make(&caster, &occluder->region, &slip);
-    occluder->error = 4 * (slip + 16 * U * (caster.reach + t->diameter));
+    occluder->error = 4 * (slip + 13 * U * (caster.reach + t->diameter));
     return hides;
 }

@@ -84,8 +84,7 @@ static int read_case(FILE *in, hostile_case *c)
         }
         c->material[i] = (lrcs_material){.name = "", .brdf = {x[0], x[1], x[2], x[3]}, .bound = 1};
     }
-    c->part = (lrcs_part){
-        .name = "part", .kind = -1, .curvature_known = 1, .facet_count = facets};
+    c->part = (lrcs_part){.name = "part", .kind = -1, .curvature_known = 1, .facet_count = facets};
     c->scene = (lrcs_scene){.vertex_count = vertices,
                             .facet_count = facets,
                             .material_count = 2,
@@ -138,7 +137,8 @@ static void note(hostile_way *way, const hostile_case *c, int sided, const lrcs_
     way->runs++;
     if (!(off <= r->bound_m2)) {
         way->violations++;
-        printf("VIOLATION %s %s, %s, two-sided %d: sigma %.17g, truth %.17Lg, off by %.3g, bound %.3g\n",
+        printf("VIOLATION %s %s, %s, two-sided %d: sigma %.17g, truth %.17Lg, off by %.3g, bound "
+               "%.3g\n",
                c->kind, c->name, way->name, sided, r->sigma_m2, truth, off, r->bound_m2);
     }
     if (off > 0) {

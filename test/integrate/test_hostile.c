@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: MIT */
+/* Scenes that once broke a bound, with their exact answers (test/hostile/bounds.py, which has as
+   many more as one likes). What each of them showed stands at its test. */
+#include <lrcs/lrcs.h>
+
+#include <string.h>
+
+#include "check.h"
+
+#define MOST 64
+
+typedef struct hostile_case {
+    const char *name;
+    uint32_t vertices, facets;
+    double direction[3];
+    lrcs_brdf brdf[2];
+    lrcs_point vertex[MOST];
+    lrcs_facet facet[MOST];
+    uint32_t material[MOST];
+    double share[MOST]; /* of the projected area that is visible */
+    double truth[3];    /* sigma one-sided and two-sided, the silhouette; m^2 */
+} hostile_case;
+
+static const hostile_case cases[] = {
+#include "../vectors/hostile.inc"
+};
+#define CASES (sizeof cases / sizeof *cases)
+
+/* Runs one case and checks its bound; with the exact method also the visible areas: to 1e-12 of the
+   facet's projected area and 1e-15 of the extent squared. */
+static void check_run(const hostile_case *c, int sided, int method, uint32_t size)
+{
+    static unsigned char memory[32u << 20];
+    static const uint32_t zero[MOST];
+    hostile_case copy = *c;
+    uint32_t part_of[MOST];
+    uint32_t smooth[MOST];
+    memcpy(part_of, zero, sizeof zero);
+    memcpy(smooth, zero, sizeof zero);
+    lrcs_material material[2] = {{.name = "", .brdf = c->brdf[0], .bound = 1},
+                                 {.name = "", .brdf = c->brdf[1], .bound = 1}};
+    material[0].two_sided = material[1].two_sided = (unsigned char)sided;
+    lrcs_part part = {.name = "", .kind = -1, .curvature_known = 1, .facet_count = c->facets};
+    lrcs_scene scene = {.vertex_count = c->vertices,
+                        .facet_count = c->facets,
+                        .material_count = 2,
+                        .part_count = 1,
+                        .vertex = copy.vertex,
+                        .facet = copy.facet,
+                        .facet_material = copy.material,
+                        .facet_part = part_of,
+                        .facet_smooth = smooth,
+                        .material = material,
+                        .part = &part,
+                        .unmatched = LRCS_NONE};
+    lrcs_work work = lrcs_work_make(memory, sizeof memory);
+    const lrcs_prepared *prepared = NULL;
+    lrcs_pose pose;
+    lrcs_result r;
+    lrcs_facet_record records[MOST];
+    assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
+    assert_int_equal(lrcs_pose_from_direction(c->direction, &pose), LRCS_OK);
+    lrcs_run_options options = {1e-4, method, size};
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, records, NULL), LRCS_OK);
+    assert_true(r.bound_m2 >= 0);
+    check_abs(r.sigma_m2, c->truth[sided], r.bound_m2 + 2e-16 * c->truth[sided]);
+    double extent = 0;
+    for (uint32_t v = 0; v < c->vertices; v++) {
+        for (int k = 0; k < 3; k++) {
+            extent = fmax(extent, fabs(c->vertex[v].x[k] - c->vertex[0].x[k]));
+        }
+    }
+    for (uint32_t f = 0; f < c->facets && method == LRCS_METHOD_EXACT; f++) {
+        double whole = records[f].area_m2 * fabs(records[f].cos_theta);
+        check_abs(records[f].visible_area_m2, c->share[f] * whole,
+                  1e-12 * whole + 1e-15 * extent * extent);
+    }
+}
+
+static void check_case(const char *name)
+{
+    static const uint32_t sizes[] = {1, 2, 7, 64, 255};
+    size_t i = 0;
+    while (i < CASES && strcmp(cases[i].name, name) != 0) {
+        i++;
+    }
+    assert_true(i < CASES);
+    for (int sided = 0; sided < 2; sided++) {
+        check_run(&cases[i], sided, LRCS_METHOD_FACET, 0);
+        check_run(&cases[i], sided, LRCS_METHOD_EXACT, 0);
+        check_run(&cases[i], sided, LRCS_METHOD_AUTO, 0);
+        for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+            check_run(&cases[i], sided, LRCS_METHOD_ZBUFFER, sizes[k]);
+        }
+    }
+}
+
+/* Closed, of positive volume, no facet inside another: a sphere whose pole went through the other
+   crosses itself along overlapping sides only, and has winding number -1 within. */
+static void sheets_that_cross_along_their_sides_are_no_solid(void **state)
+{
+    (void)state;
+    check_case("turned 21:0");
+}
+
+/* A sample 1e-33 beside a fold: the slopes there tell the wrong side of it. */
+static void fold_beside_a_sample_is_decided_by_its_corners(void **state)
+{
+    (void)state;
+    check_case("roof 21:257");
+    check_case("roof 21:846");
+}
+
+/* The cut of an occluder narrower than its rounding ran backwards, and its region without end. */
+static void cut_of_a_sliver_keeps_its_sense(void **state)
+{
+    (void)state;
+    check_case("tiny 21:2257");
+    check_case("tiny 7:144");
+}
+
+/* The area of a facet nearly edge-on came out below zero, and with it the bound. */
+static void visible_area_is_never_negative(void **state)
+{
+    (void)state;
+    check_case("soup 21:9");
+}
+
+/* No point with coordinates in doubles projects inside it. */
+static void facet_thinner_than_its_rounding_is_asked_at_a_corner(void **state)
+{
+    (void)state;
+    check_case("soup 7:1171");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sheets_that_cross_along_their_sides_are_no_solid),
+        cmocka_unit_test(fold_beside_a_sample_is_decided_by_its_corners),
+        cmocka_unit_test(cut_of_a_sliver_keeps_its_sense),
+        cmocka_unit_test(visible_area_is_never_negative),
+        cmocka_unit_test(facet_thinner_than_its_rounding_is_asked_at_a_corner),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
