@@ -63,13 +63,12 @@ static int prepare_exponent(const lrcs_scene *scene)
     return exponent;
 }
 
-/* Coordinates below 2^-300 become 0: the exact predicates (base/exact.h) ask for that. */
 static void prepare_vertices(lrcs_prepared *p)
 {
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
             double x = ldexp(p->scene->vertex[v].x[k], -p->exponent);
-            p->vertex[v].x[k] = fabs(x) < 0x1p-300 ? 0 : x;
+            p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_LEAST ? 0 : x;
         }
     }
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A prepared scene: everything that does not depend on direction. Coordinates here are the
    scene's times a power of two, so that the largest magnitude lies in [0.5, 1): exact, and far
-   from overflow; those that come out below 2^-300 count as 0. Areas computed from them are scaled
-   back by lrcsi_prepared_area. */
+   from overflow; those that come out below LRCSI_COORDINATE_LEAST count as 0. Areas computed from
+   them are scaled back by lrcsi_prepared_area. */
 #ifndef LRCSI_PREPARE_H
 #define LRCSI_PREPARE_H
 
@@ -10,6 +10,10 @@
 
 #include "mesh/topology.h"
 #include "mesh/touch.h"
+
+/* Scaled coordinates and components of a direction below this count as 0: the exact predicates
+   (base/exact.h) ask for that. */
+#define LRCSI_COORDINATE_LEAST 0x1p-300
 
 /* (b - a) x (c - a) in double-double. Its true value differs by at most `error` in norm. */
 typedef struct lrcsi_normal {
