@@ -34,11 +34,9 @@ static unsigned char scene_memory[40u << 20];
 /* An empty scene; material 0 is the default one. */
 static inline void scene_start(test_scene *s)
 {
-    memset(s, 0, sizeof *s);
+    s->wears = 0;
     s->material[0] = (lrcs_material){"", {1, 0.25, 0.2, 0.5}, {0, 0, 0}, 0, 0, 0, 1};
-    s->part.name = "part";
-    s->part.kind = -1;
-    s->part.curvature_known = 1;
+    s->part = (lrcs_part){.name = "part", .kind = -1, .curvature_known = 1};
     s->scene = (lrcs_scene){.material_count = 1,
                             .part_count = 1,
                             .vertex = s->vertex,
@@ -74,6 +72,8 @@ static inline uint32_t scene_facet(test_scene *s, uint32_t a, uint32_t b, uint32
     assert_true(s->scene.facet_count < SCENE_FACETS);
     s->facet[s->scene.facet_count] = (lrcs_facet){{a, b, c}};
     s->material_of[s->scene.facet_count] = s->wears;
+    s->part_of[s->scene.facet_count] = 0;
+    s->smooth_of[s->scene.facet_count] = 0;
     s->part.facet_count = s->scene.facet_count + 1;
     return s->scene.facet_count++;
 }

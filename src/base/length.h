@@ -13,7 +13,7 @@ static inline double lrcsi_length(const double v[3])
     if (square > 0x1p-900) {
         return sqrt(square);
     }
-    double w[3] = {v[0] * 0x1p500, v[1] * 0x1p500, v[2] * 0x1p500};
+    const double w[3] = {v[0] * 0x1p500, v[1] * 0x1p500, v[2] * 0x1p500};
     return sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * 0x1p-500;
 }
 

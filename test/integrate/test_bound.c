@@ -1,11 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The z-buffer's bound against exact rational visibility: 210 small scenes full of degenerate
    contacts (test/vectors/visible.py), at several resolutions, one-sided and two-sided. */
-#include <lrcs/lrcs.h>
-
-#include <string.h>
-
-#include "check.h"
+#include "scenes.h"
 
 #define MOST 24
 
@@ -23,37 +19,19 @@ static const visible_case cases[] = {
 };
 #define CASES (sizeof cases / sizeof *cases)
 
-/* The case as a scene of one part, in the buffers of `room`. */
-typedef struct scene_room {
-    visible_case copy;
-    uint32_t zero[MOST];
-    lrcs_material material;
-    lrcs_part part;
-    lrcs_scene scene;
-} scene_room;
+static test_scene scene;
 
-static void scene_of(const visible_case *c, int two_sided, scene_room *room)
+static void scene_of(const visible_case *c, int two_sided)
 {
-    memset(room, 0, sizeof *room);
-    room->copy = *c;
-    room->material = (lrcs_material){"", {1, 0.25, 0.5, 0.5}, {0, 0, 0}, 0, 0, 0, 1};
-    room->material.two_sided = (unsigned char)two_sided;
-    room->part.name = "part";
-    room->part.kind = -1;
-    room->part.curvature_known = 1;
-    room->part.facet_count = c->facets;
-    room->scene = (lrcs_scene){.vertex_count = c->vertices,
-                               .facet_count = c->facets,
-                               .material_count = 1,
-                               .part_count = 1,
-                               .vertex = room->copy.vertex,
-                               .facet = room->copy.facet,
-                               .facet_material = room->zero,
-                               .facet_part = room->zero,
-                               .facet_smooth = room->zero,
-                               .material = &room->material,
-                               .part = &room->part,
-                               .unmatched = LRCS_NONE};
+    scene_start(&scene);
+    scene.material[0].brdf.s = 0.5;
+    scene.material[0].two_sided = (unsigned char)two_sided;
+    for (uint32_t v = 0; v < c->vertices; v++) {
+        scene_vertex(&scene, c->vertex[v].x[0], c->vertex[v].x[1], c->vertex[v].x[2]);
+    }
+    for (uint32_t f = 0; f < c->facets; f++) {
+        scene_facet(&scene, c->facet[f].corner[0], c->facet[f].corner[1], c->facet[f].corner[2]);
+    }
 }
 
 /* Eq. 2 from the exact shares, in long double: N . d and |N|^2 are small integers. */
@@ -89,20 +67,11 @@ static double true_sigma(const visible_case *c, int two_sided, double *silhouett
     return (double)sigma;
 }
 
-static void run_case(const visible_case *c, int two_sided, int method, uint32_t size,
-                     lrcs_result *result, lrcs_facet_record *records)
+/* The records of the run are scene.record. */
+static lrcs_result run_case(const visible_case *c, int two_sided, int method, uint32_t size)
 {
-    scene_room room;
-    scene_of(c, two_sided, &room);
-    static unsigned char memory[16u << 20];
-    lrcs_work work = lrcs_work_make(memory, sizeof memory);
-    const lrcs_prepared *prepared = NULL;
-    assert_int_equal(lrcs_prepare_run(&room.scene, &work, &prepared), LRCS_OK);
-    lrcs_pose pose;
-    assert_int_equal(lrcs_pose_from_direction(c->direction, &pose), LRCS_OK);
-    lrcs_run_options options = {1e-4, method, size};
-    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, result, records, NULL),
-                     LRCS_OK);
+    scene_of(c, two_sided);
+    return scene_run(&scene, c->direction, method, size);
 }
 
 static void zbuffer_bound_holds_on_every_scene(void **state)
@@ -114,8 +83,7 @@ static void zbuffer_bound_holds_on_every_scene(void **state)
             double silhouette = 0;
             double truth = true_sigma(&cases[i], sided, &silhouette);
             for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
-                lrcs_result r;
-                run_case(&cases[i], sided, LRCS_METHOD_ZBUFFER, sizes[k], &r, NULL);
+                lrcs_result r = run_case(&cases[i], sided, LRCS_METHOD_ZBUFFER, sizes[k]);
                 if (!(fabs(r.sigma_m2 - truth) <= r.bound_m2 + 4e-16 * truth)) {
                     fprintf(stderr, "scene %zu (%s), %u pixels, two-sided %d\n", i, cases[i].kind,
                             sizes[k], sided);
@@ -136,16 +104,16 @@ static void exact_areas_agree_with_rational_arithmetic(void **state)
     for (size_t i = 0; i < CASES; i++) {
         double silhouette = 0;
         double truth = true_sigma(&cases[i], 1, &silhouette);
-        lrcs_result r;
-        lrcs_facet_record records[MOST];
-        run_case(&cases[i], 1, LRCS_METHOD_EXACT, 0, &r, records);
+        lrcs_result r = run_case(&cases[i], 1, LRCS_METHOD_EXACT, 0);
         for (uint32_t f = 0; f < cases[i].facets; f++) {
-            double whole = records[f].area_m2 * fabs(records[f].cos_theta);
+            double whole = scene.record[f].area_m2 * fabs(scene.record[f].cos_theta);
             double want = whole * fmax(0, cases[i].share[f]);
-            if (fabs(records[f].visible_area_m2 - want) > 1e-12 * whole + 1e-15 * EXTENT * EXTENT) {
+            if (fabs(scene.record[f].visible_area_m2 - want) >
+                1e-12 * whole + 1e-15 * EXTENT * EXTENT) {
                 fprintf(stderr, "scene %zu (%s), facet %u\n", i, cases[i].kind, f);
             }
-            check_abs(records[f].visible_area_m2, want, 1e-12 * whole + 1e-15 * EXTENT * EXTENT);
+            check_abs(scene.record[f].visible_area_m2, want,
+                      1e-12 * whole + 1e-15 * EXTENT * EXTENT);
         }
         check_abs(r.sigma_m2, truth, r.bound_m2 + 4e-16 * truth);
         check_abs(r.projected_area_m2, silhouette, 1e-12 * silhouette);
@@ -162,8 +130,7 @@ static void facet_bound_holds_what_could_be_hidden(void **state)
     for (size_t i = 0; i < CASES; i++) {
         double silhouette = 0;
         double truth = true_sigma(&cases[i], 0, &silhouette);
-        lrcs_result r;
-        run_case(&cases[i], 0, LRCS_METHOD_FACET, 0, &r, NULL);
+        lrcs_result r = run_case(&cases[i], 0, LRCS_METHOD_FACET, 0);
         check_abs(r.sigma_m2, truth, r.bound_m2 + 4e-16 * truth);
     }
 }
@@ -175,12 +142,10 @@ static void uniform_facets_are_exact_at_any_resolution(void **state)
     (void)state;
     unsigned uniform = 0;
     for (size_t i = 0; i < CASES; i++) {
-        lrcs_result r;
-        lrcs_facet_record records[MOST];
-        run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 4096 / 16, &r, records);
+        lrcs_result r = run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 4096 / 16);
         for (uint32_t f = 0; f < cases[i].facets && r.budget.visibility_m2 == 0; f++) {
-            double whole = records[f].area_m2 * fabs(records[f].cos_theta);
-            check_abs(records[f].visible_area_m2, whole * fmax(0, cases[i].share[f]),
+            double whole = scene.record[f].area_m2 * fabs(scene.record[f].cos_theta);
+            check_abs(scene.record[f].visible_area_m2, whole * fmax(0, cases[i].share[f]),
                       1e-14 * whole);
             uniform++;
         }
@@ -194,10 +159,9 @@ static void bound_shrinks_with_resolution(void **state)
     double coarse = 0;
     double fine = 0;
     for (size_t i = 0; i < CASES; i++) {
-        lrcs_result r;
-        run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 64, &r, NULL);
+        lrcs_result r = run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 64);
         double at64 = r.budget.visibility_m2 / r.sigma_m2;
-        run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 512, &r, NULL);
+        r = run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 512);
         double at512 = r.budget.visibility_m2 / r.sigma_m2;
         if (isfinite(at64) && isfinite(at512)) {
             coarse += at64;

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: MIT */
+/* Which facets are contested, by what, and which of those a sheet hides all the same; and the grids
+   that find them. Scenes are small enough to count by hand. */
+#include "visibility/contest.h"
+
+#include "scenes.h"
+#include "visibility/query.h"
+
+static test_scene scene;
+static lrcs_work work;
+static lrcsi_view view;
+static lrcsi_contest contest;
+static lrcsi_grid facets;
+
+static void look_from(double x, double y, double z)
+{
+    lrcs_pose pose;
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){x, y, z}, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+    assert_int_equal(lrcsi_grid_facets(&view, &work, &facets), LRCS_OK);
+}
+
+/* A level square, front up: corner at (x, y, z). */
+static uint32_t square(double x, double y, double z, double size)
+{
+    return scene_plate(&scene, (const double[3]){x, y, z}, (const double[3]){size, 0, 0},
+                       (const double[3]){0, size, 0});
+}
+
+static void body_alone_is_uncontested(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+    look_from(1, 2, 3);
+    assert_int_equal(contest.contested_count, 0);
+    assert_int_equal(contest.event_count, 6); /* the contour of a box is a hexagon */
+    for (uint32_t f = 0; f < 12; f++) {
+        assert_true(view.facing[f] <= 0 || lrcsi_query_facet(&facets, f) == LRCSI_QUERY_VISIBLE);
+    }
+}
+
+/* A square of side 1 over the lower right half of a square of side 4, whose diagonal runs from
+   (0, 0) to (4, 4): its four rims cross facet 0 and none crosses facet 1. */
+static void rims_in_front_contest_what_they_cross(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    square(0, 0, 0, 4);
+    square(2.5, 0.5, 1, 1);
+    look_from(0, 0, 1);
+    assert_int_equal(contest.event_count, 8);
+    assert_true(contest.contested[0]);
+    assert_false(contest.contested[1]);
+    assert_int_equal(lrcsi_contest_crossings(&contest, 0), 4);
+    assert_int_equal(lrcsi_contest_crossings(&contest, 1), 0);
+    assert_int_equal(contest.contested[2] + contest.contested[3], 0); /* the nearer */
+    assert_int_equal(lrcsi_query_facet(&facets, 1), LRCSI_QUERY_VISIBLE);
+    look_from(0, 0, -1); /* from behind the large one hides the small one whole */
+    assert_int_equal(contest.contested_count, 0);
+    assert_int_equal(lrcsi_query_facet(&facets, 2), LRCSI_QUERY_HIDDEN);
+    assert_int_equal(lrcsi_query_facet(&facets, 3), LRCSI_QUERY_HIDDEN);
+}
+
+/* A rim that projects exactly onto another plate's rim, or only touches it, crosses nothing. */
+static void rims_along_rims_contest_nothing(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    square(0, 0, 0, 2);
+    square(2, 0, 1, 2); /* beside */
+    square(0, 2, 1, 2);
+    square(-1, -1, 1, 1); /* corner to corner */
+    square(0, 0, -1, 2);  /* right below */
+    look_from(0, 0, 1);
+    assert_int_equal(contest.contested_count, 0);
+    assert_int_equal(lrcsi_query_facet(&facets, 0), LRCSI_QUERY_VISIBLE);
+    assert_int_equal(lrcsi_query_facet(&facets, 8), LRCSI_QUERY_HIDDEN);
+}
+
+static void piercing_and_overlapping_facets_contest_each_other(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    square(0, 0, 0, 4);
+    scene_triangle(&scene, (const double[3]){1, 0.5, -1}, (const double[3]){3.5, 0.5, -1},
+                   (const double[3]){2, 0.75, 1}); /* pierces facet 0 */
+    look_from(0, 0, 1);
+    assert_true(contest.contested[0]);
+    assert_true(contest.contested[2]);
+    scene_start(&scene);
+    square(0, 0, 0, 4);
+    square(2.5, 0.5, 0, 1); /* in the same plane: the lower index wins */
+    look_from(0, 0, 1);
+    assert_false(contest.contested[0]);
+    assert_true(contest.contested[2] && contest.contested[3]);
+    assert_true(lrcsi_query_screened(&contest, &facets, 2) == 0);
+}
+
+/* Sheets end at contours: from (1, 2, 3) a box has one of its six front facets and one behind; one
+   facet without a neighbour is a sheet of its own. */
+static void sheets_end_at_contours(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+    square(3, 3, 0, 1);
+    look_from(1, 2, 3);
+    uint32_t front = LRCS_NONE;
+    for (uint32_t f = 0; f < 12; f++) {
+        if (view.facing[f] > 0) {
+            front = front == LRCS_NONE ? contest.sheet[f] : front;
+            assert_int_equal(contest.sheet[f], front);
+        } else {
+            assert_true(contest.sheet[f] != front);
+        }
+    }
+    assert_int_equal(contest.sheet[12], contest.sheet[13]);
+    assert_true(contest.sheet[12] != front);
+}
+
+/* What a sheet hides is contested, and yet hidden for certain; two sheets together, or one that the
+   facet pierces, prove nothing. */
+static void whole_sheets_screen_and_others_do_not(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    uint32_t low = square(0, 0, 0, 4);
+    square(2.5, 0.5, 1, 1);
+    uint32_t screen = square(-1, -1, 2, 6);
+    look_from(0.125, 0, 1);
+    assert_true(contest.contested[low]);
+    assert_true(lrcsi_query_screened(&contest, &facets, low));
+    assert_false(lrcsi_query_screened(&contest, &facets, screen));
+
+    scene_start(&scene);
+    low = square(0, 0, 0, 4);
+    scene_plate(&scene, (const double[3]){-1, -1, 1}, (const double[3]){3.5, 0, 0},
+                (const double[3]){0, 6, 0});
+    scene_plate(&scene, (const double[3]){2, -1, 2}, (const double[3]){3.5, 0, 0},
+                (const double[3]){0, 6, 0});
+    look_from(0, 0, 1);
+    assert_true(contest.contested[low]);
+    assert_false(lrcsi_query_screened(&contest, &facets, low));
+
+    scene_start(&scene);
+    low = scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
+                         (const double[3]){2, 1, 4});
+    square(-1, -1, 2, 6); /* the tip looks out of it */
+    look_from(0, -1, 3);
+    assert_true(contest.contested[low]);
+    assert_false(lrcsi_query_screened(&contest, &facets, low));
+}
+
+static int listed(const lrcsi_grid *grid, const double xy[2], uint32_t item)
+{
+    lrcsi_cells cells = lrcsi_grid_cells(grid, xy, xy);
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        for (uint32_t x = cells.x0; x < cells.x1; x++) {
+            size_t cell = (size_t)y * grid->size + x;
+            int found = 0;
+            for (uint32_t i = grid->first[cell]; i < grid->first[cell + 1]; i++) {
+                found |= grid->item[i] == item;
+            }
+            if (!found) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* Every cell that a point of an item may lie in lists the item. */
+static void grids_list_every_item_wherever_it_stands(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 20);
+    scene_box(&scene, (const double[3]){-3, -0.1, -0.1}, (const double[3]){3, 0.1, 0.2});
+    look_from(0.3, 0.2, 1);
+    for (uint32_t e = 0; e < contest.event_count; e++) {
+        const lrcsi_edge *edge = &view.prepared->topology.edge[contest.event[e]];
+        const double *a = view.point[edge->low].x;
+        const double *b = view.point[edge->high].x;
+        for (int i = 0; i <= 32; i++) {
+            const double xy[2] = {a[0] + (b[0] - a[0]) * i / 32, a[1] + (b[1] - a[1]) * i / 32};
+            assert_true(listed(&contest.grid, xy, e));
+        }
+    }
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        const double *c[3];
+        for (int k = 0; k < 3; k++) {
+            c[k] = view.point[scene.facet[f].corner[k]].x;
+        }
+        for (int i = 0; i <= 8 && lrcsi_grid_casts(&view, f); i++) {
+            for (int j = 0; i + j <= 8; j++) {
+                double xy[2];
+                for (int k = 0; k < 2; k++) {
+                    xy[k] = (c[0][k] * i + c[1][k] * j + c[2][k] * (8 - i - j)) / 8;
+                }
+                assert_true(listed(&facets, xy, f));
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(body_alone_is_uncontested),
+        cmocka_unit_test(rims_in_front_contest_what_they_cross),
+        cmocka_unit_test(rims_along_rims_contest_nothing),
+        cmocka_unit_test(piercing_and_overlapping_facets_contest_each_other),
+        cmocka_unit_test(sheets_end_at_contours),
+        cmocka_unit_test(whole_sheets_screen_and_others_do_not),
+        cmocka_unit_test(grids_list_every_item_wherever_it_stands),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
