@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The sum of Eq. 2 over visible areas, in facet order, compensated. A facet of area S at incidence
    theta, of which a share is visible, adds 4 pi (f_r cos^2)(theta) S share. What each facet adds to
-   the bounds stands beside each step; the bounds themselves are widened by 1e-9 for their own
-   rounding. */
+   the bounds stands beside each step; the bounds themselves are widened by 1e-9 and 2 u a facet
+   for their own rounding. */
 #include "integrate/total.h"
 
 #include <math.h>

@@ -3,6 +3,7 @@
    a cell that one of them covers is hidden, one that none overlaps is visible, and from the others
    the few are cut out. So the work grows with the occluders near by, not with their square.
 
+<<<<<<< HEAD
    Error. In the facet's frame (visibility/occluder.c) corners are off by at most e = 10 u r, r the
    largest distance of the corners at hand from the facet's first one: R's rows are orthonormal to
    4 u; a rounded difference, three products and two sums. Let d be the facet's longest side and p
@@ -14,6 +15,20 @@
    sides; how far those ends may slip is added to the rim. A split of a piece puts one corner on a
    line to within 8 u d, and both parts share it: 8 u d p. A cell that could not be finished counts
    whole. */
+=======
+   Error. In the facet's frame (visibility/occluder.c) corners are off by at most e = 10 u r, r
+   the largest distance in space of the corners at hand from the facet's first one: R's rows are
+   orthonormal to 4 u; a rounded difference, three products and two sums. Let p be the perimeter
+   of the facet's projection, d its diameter, 2 d <= p. The facet's own corners move its rim by
+   e: 2 e p, charged once. The region that an occluder hides is cut by the lines through its own
+   computed corners: their hull and the true one lie within e of each other, and differ by 2 e p
+   at most; deciding in doubles on which side of a line a point lies, wrong within 4 u (r + d) of
+   it, adds 4 u (r + d) p for each of four sides; a cut left out for want of a direction
+   (visibility/occluder.c) adds 32 u r d, at most 16 u r p. Together 52 u (r + d) p. The cut by
+   the facet's plane ends on the occluder's sides; how far those ends may slip is added to the
+   rim. A split of a piece puts one corner on a line to within 8 u d, and both parts share it: 8
+   u d p. A cell that could not be finished counts whole. */
+>>>>>>> attack
 #include "visibility/occlude.h"
 
 #include <math.h>
@@ -211,7 +226,12 @@ static int occlude_contested(const lrcsi_view *view, uint32_t facet, occlude_scr
         }
         double whole = lrcsi_view_tilt(view, facet).projected;
         double d = job.target.diameter;
+<<<<<<< HEAD
         double error = (rims + 8 * U * d * (job.splits + 4)) * job.target.perimeter;
+=======
+        double own = 20 * U * job.target.reach;
+        double error = (rims + own + 8 * U * d * (job.splits + 4)) * job.target.perimeter;
+>>>>>>> attack
         double left = lrcsi_most(0, lrcsi_least(whole, job.area));
         visible->area = left;
         visible->low = lrcsi_most(0, left - error);

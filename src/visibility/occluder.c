@@ -63,11 +63,11 @@ static double frame_facet(const lrcsi_view *view, uint32_t target, uint32_t face
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
 {
     *t = (lrcsi_target){.view = view, .facet = facet};
-    double reach = frame_facet(view, facet, facet, t->corner);
+    t->reach = frame_facet(view, facet, facet, t->corner);
     for (int k = 0; k < 3; k++) {
         const double *p = t->corner[k];
         const double *q = t->corner[(k + 1) % 3];
-        double side = hypot(q[0] - p[0], q[1] - p[1]) + 32 * U * reach;
+        double side = hypot(q[0] - p[0], q[1] - p[1]) + 32 * U * t->reach;
         t->diameter = lrcsi_most(t->diameter, side);
         t->perimeter += side;
     }

@@ -12,8 +12,9 @@ typedef struct lrcsi_target {
     const lrcsi_view *view;
     uint32_t facet;
     double corner[3][2]; /* counter-clockwise in the view */
-    double diameter;     /* its longest side, upper bound; so is */
-    double perimeter;
+    double reach;        /* largest distance, in space, of a corner from the first */
+    double diameter;     /* its longest side in the view, upper bound */
+    double perimeter;    /* in the view, upper bound */
 } lrcsi_target;
 
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *target);
