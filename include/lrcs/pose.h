@@ -11,7 +11,7 @@
    areas and pictures; its third row equals s_hat to rounding. */
 typedef struct lrcs_pose {
     double direction[3]; /* body frame, to the laser; finite, not zero, |largest| in [0.5, 1];
-                            what is below 2^-317 counts as 0 */
+                            what is below 2^-300 counts as 0 */
     double R[3][3];      /* rows: observation x, y, z axes in the body frame */
 } lrcs_pose;
 

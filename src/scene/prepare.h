@@ -11,7 +11,8 @@
 #include "mesh/topology.h"
 #include "mesh/touch.h"
 
-/* Scaled coordinates below this count as 0: the exact predicates (base/exact.h) ask for that. */
+/* Scaled coordinates and components of a direction below this count as 0: the exact predicates
+   (base/exact.h) ask for that. */
 #define LRCSI_COORDINATE_LEAST 0x1p-300
 
 /* (b - a) x (c - a) in double-double. Its true value differs by at most `error` in norm. */

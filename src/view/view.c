@@ -168,7 +168,7 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
     }
     double square = 0;
     for (int k = 0; k < 3; k++) {
-        v.direction[k] = fabs(pose->direction[k]) < 0x1p-317 ? 0 : pose->direction[k]; /* exact.h */
+        v.direction[k] = fabs(pose->direction[k]) < LRCSI_COORDINATE_LEAST ? 0 : pose->direction[k];
         square += v.direction[k] * v.direction[k];
         for (int j = 0; j < 3; j++) {
             v.R[k][j] = pose->R[k][j];
