@@ -140,7 +140,7 @@ typedef struct lrcs_build_options {
     uint32_t max_facets; /* a shape's most */
 } lrcs_build_options;
 
-lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^20 */
+lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21 */
 
 /* Builds the scene: vertex = translate + rotate (scale (joint (vertex))), where steps that do
    nothing are exact, and so is a scale by powers of two; mirroring flips the winding.

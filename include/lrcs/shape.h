@@ -96,7 +96,7 @@ typedef struct lrcs_fineness {
     uint32_t max_facets; /* never more than this; >= 64 */
 } lrcs_fineness;
 
-/* Fineness for tolerance 1e-4, the default brdf, at most 2^20 facets. */
+/* Fineness for tolerance 1e-4, the default brdf, at most 2^21 facets. */
 lrcs_fineness lrcs_fineness_default(void);
 
 /* Divisions of a shape's mesh, chosen by lrcs_shape_count, obeyed by lrcs_shape_mesh. */

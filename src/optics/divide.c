@@ -299,7 +299,7 @@ static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *finene
 
 lrcs_fineness lrcs_fineness_default(void)
 {
-    return (lrcs_fineness){1e-4, lrcs_brdf_default(), 1u << 20};
+    return (lrcs_fineness){1e-4, lrcs_brdf_default(), 1u << 21};
 }
 
 int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,

@@ -172,15 +172,30 @@ static int prepare_arrays(const lrcs_scene *scene, lrcs_work *work, lrcs_prepare
                                work, &p->topology);
 }
 
+/* A body convex by construction needs no search for contacts: its facets meet on their rims only, up
+   to the rounding for which graze allows. */
+static int prepare_made(lrcs_prepared *p, lrcs_work *work)
+{
+    p->convex = 1;
+    p->touches.first =
+        lrcsi_work_take_zero(work, (size_t)p->scene->facet_count + 1, sizeof *p->touches.first);
+    return p->touches.first ? LRCS_OK : LRCS_E_MEMORY;
+}
+
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
+    if (lrcsi_convex_made(p, &p->solid, &p->graze)) {
+        return prepare_made(p, work);
+    }
+    p->graze = 0;
+    p->convex = p->live == 0;
     int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, p->skip,
                                     work, &p->touches);
     if (status == LRCS_OK) {
         status = lrcsi_solid_check(p, work, &p->solid);
     }
-    if (status == LRCS_OK) {
-        status = lrcsi_convex_check(p, work, &p->convex, &p->graze);
+    if (status == LRCS_OK && p->solid && p->live > 0) {
+        status = lrcsi_convex_exact(p, work, &p->convex);
     }
     return status;
 }

@@ -204,7 +204,7 @@ static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude
    Without dents beyond rounding (plane-faced and singly curved bodies, Delaunay diagonals) the
    exact mesh is itself convex and only the rounding's tilt counts, at most 2 off / altitude for
    either facet; 16 covers both and the margin. A body thinner than 1e6 roundings is refused. */
-static int convex_by_construction(const lrcs_prepared *p, const lrcs_part *part, double *graze)
+static int part_is_convex(const lrcs_prepared *p, const lrcs_part *part, double *graze)
 {
     double off = ldexp(part->misplaced, -p->exponent) + 4 * U;
     double thin = ldexp(part->thinnest, -p->exponent);
@@ -222,8 +222,18 @@ static int convex_by_construction(const lrcs_prepared *p, const lrcs_part *part,
     return 1;
 }
 
-/* Exact convexity of a mesh from a file. */
-static int convex_exactly(const lrcs_prepared *p, lrcs_work *work, int *proved)
+int lrcsi_convex_made(const lrcs_prepared *p, int *solid, double *graze)
+{
+    uint32_t index = lone_part(p);
+    if (index == LRCS_NONE) {
+        return 0;
+    }
+    const lrcs_part *part = &p->scene->part[index];
+    *solid = part->solid != 0;
+    return (part->solid || !p->two_sided) && part_is_convex(p, part, graze);
+}
+
+int lrcsi_convex_exact(const lrcs_prepared *p, lrcs_work *work, int *proved)
 {
     size_t mark = work->used;
     lrcs_facet *facet = lrcsi_work_take(work, p->live, sizeof *facet);
@@ -243,23 +253,4 @@ static int convex_exactly(const lrcs_prepared *p, lrcs_work *work, int *proved)
     }
     work->used = mark;
     return status;
-}
-
-int lrcsi_convex_check(const lrcs_prepared *p, lrcs_work *work, int *proved, double *graze)
-{
-    *proved = 0;
-    *graze = 0;
-    if (p->live == 0) {
-        *proved = 1;
-        return LRCS_OK;
-    }
-    if (p->two_sided && !p->solid) { /* the inside of an open surface would reflect too */
-        return LRCS_OK;
-    }
-    uint32_t part = lone_part(p);
-    if (part != LRCS_NONE && convex_by_construction(p, &p->scene->part[part], graze)) {
-        *proved = 1;
-        return LRCS_OK;
-    }
-    return p->solid ? convex_exactly(p, work, proved) : LRCS_OK;
 }

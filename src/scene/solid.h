@@ -16,10 +16,14 @@
    Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_solid_check(const lrcs_prepared *prepared, lrcs_work *work, int *proved);
 
-/* Proves that all live facets lie on one convex surface, outward and one-sided. Exactly so
-   (lrcs_mesh_check): *graze is 0. Or by construction (one engine-made part): then rounding, and
-   on doubly curved bodies the choice of diagonals, may have left dents; a front facet with
-   cos(theta) > *graze is wholly visible all the same. Status: LRCS_OK; LRCS_E_MEMORY. */
-int lrcsi_convex_check(const lrcs_prepared *prepared, lrcs_work *work, int *proved, double *graze);
+/* 1 where the live facets are all of one engine-made part that lies on a convex surface, outward,
+   and one-sided or closed (*solid): convex by construction. Rounding, and on doubly curved bodies
+   the choice of diagonals, may have left dents; a front facet with cos(theta) > *graze is wholly
+   visible all the same. */
+int lrcsi_convex_made(const lrcs_prepared *prepared, int *solid, double *graze);
+
+/* Proves that the live facets of a solid scene are one convex body, exactly (lrcs_mesh_check).
+   Status: LRCS_OK; LRCS_E_MEMORY. */
+int lrcsi_convex_exact(const lrcs_prepared *prepared, lrcs_work *work, int *proved);
 
 #endif
