@@ -37,7 +37,7 @@ typedef struct scene_piece {
 
 lrcs_build_options lrcs_build_options_default(void)
 {
-    lrcs_build_options options = {1e-4, UINT32_C(1) << 20};
+    lrcs_build_options options = {1e-4, UINT32_C(1) << 21};
     return options;
 }
 

@@ -195,12 +195,18 @@ def tiny(r, s):  # small facets over and in a huge one
         s.tri(*[tuple(x + w * r.uniform(-1, 1) for x in at) for _ in range(3)])
 
 
+def nudge(r, x):
+    """x one ulp off, towards either side; a zero by 2^-200, since what lies below 2^-300 of a scene's
+    largest coordinate counts as zero (run.h)."""
+    return math.nextafter(x, r.choice((-9, 9))) if x else math.ldexp(r.choice((-1, 1)), -200)
+
+
 def skins(r, s):  # a sheet and its copy some ulps away
     v = [point(r, 3) for _ in range(4)]
     f = [(0, 1, 2), (0, 2, 3)][:r.randint(1, 2)]
     s.add(v, f)
     for _ in range(r.randint(1, 2)):
-        w = [tuple(math.nextafter(x, r.choice((-9, 9))) if r.random() < 0.4 else x for x in p) for p in v]
+        w = [tuple(nudge(r, x) if r.random() < 0.4 else x for x in p) for p in v]
         s.add(w, [t if r.random() < 0.5 else t[::-1] for t in f])
     s.tri(point(r), point(r), point(r))
 
