@@ -22,6 +22,7 @@
 #define AROUND_LEAST 8u
 #define AROUND_LIMIT (1u << 24)
 #define PLAN_NODES   48
+#define PLAN_AIM     0.8  /* of the tolerance: aspects between the sampled ones may err more */
 #define PLAN_SAMPLE  1e-2 /* the tolerance at which dome and paraboloid are sampled */
 #define FACETS_LEAST 64u
 
@@ -294,7 +295,7 @@ static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *finene
         brdf = (lrcs_brdf){0.0, 1.0, 1.0, 0.0};
     }
     double factor = plan_factor(shape, &brdf, most);
-    return plan_least(shape, &brdf, fineness->tolerance / factor, most);
+    return plan_least(shape, &brdf, PLAN_AIM * fineness->tolerance / factor, most);
 }
 
 lrcs_fineness lrcs_fineness_default(void)
