@@ -172,8 +172,8 @@ static int prepare_arrays(const lrcs_scene *scene, lrcs_work *work, lrcs_prepare
                                work, &p->topology);
 }
 
-/* A body convex by construction needs no search for contacts: its facets meet on their rims only, up
-   to the rounding for which graze allows. */
+/* A body convex by construction needs no search for contacts: its facets meet on their rims only,
+   up to the rounding for which graze allows. */
 static int prepare_made(lrcs_prepared *p, lrcs_work *work)
 {
     p->convex = 1;
