@@ -34,7 +34,7 @@ int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepar
 typedef struct lrcs_run_options {
     double tolerance;    /* relative, > 0: bound <= tolerance * sigma is asked for */
     int method;          /* lrcs_method */
-    uint32_t resolution; /* raster N x N; 0: chosen from the tolerance */
+    uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
 } lrcs_run_options;
 
 lrcs_run_options lrcs_run_options_default(void); /* 1e-4, auto, 0 */

@@ -9,7 +9,7 @@
 #define IMAGE_LEAST   16.0
 #define IMAGE_MOST    4096.0
 #define IMAGE_DEFAULT 512u
-#define RASTER_MOST   32768.0
+#define RASTER_MOST   16384.0
 
 static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"
