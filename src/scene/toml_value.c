@@ -127,7 +127,7 @@ int lrcsi_toml_quoted(lrcsi_toml *toml, char *out, size_t room, size_t *size)
 static int read_string(lrcsi_toml *toml, lrcsi_toml_event *event)
 {
     const char *begin = toml->at;
-    size_t size;
+    size_t size = 0;
     int status = lrcsi_toml_quoted(toml, NULL, 0, &size);
     event->type = LRCSI_TOML_STRING;
     if (status != LRCS_OK || !toml->work) {
