@@ -175,4 +175,52 @@ uint32_t lrcs_host_picture_need(uint32_t size);
 void lrcs_host_picture_make(const lrcs_scene *scene, const lrcs_facet_record *records,
                             const lrcs_image *image, uint32_t size, unsigned char *rgb);
 
+/* ---- charts ---- */
+
+/* Colours that eyes of every kind tell apart (M. Okabe and K. Ito, 2008). */
+enum lrcs_host_colour {
+    LRCS_HOST_BLACK,
+    LRCS_HOST_ORANGE,
+    LRCS_HOST_SKY_BLUE,
+    LRCS_HOST_GREEN,
+    LRCS_HOST_YELLOW,
+    LRCS_HOST_BLUE,
+    LRCS_HOST_VERMILION,
+    LRCS_HOST_PURPLE
+};
+enum lrcs_host_marker {
+    LRCS_HOST_DISC,
+    LRCS_HOST_SQUARE,
+    LRCS_HOST_TRIANGLE,
+    LRCS_HOST_DIAMOND,
+    LRCS_HOST_CROSS
+};
+enum lrcs_host_dash { LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED };
+
+/* Points joined in their order. Those that an axis cannot show (not finite; log: not above 0) are
+   left out. */
+typedef struct lrcs_host_series {
+    const char *name; /* in the legend */
+    uint32_t count;
+    const double *x, *y;
+    const char *const *label; /* beside its point where there is room, NULL for none; or NULL */
+    int colour, marker, dash; /* lrcs_host_colour, ... */
+    int hollow;               /* markers are outlines */
+} lrcs_host_series;
+
+typedef struct lrcs_host_chart {
+    const char *title, *note; /* note: a smaller line below the title, or NULL */
+    const char *x_name, *y_name;
+    int x_log, y_log;
+    double floor; /* log y: what lies at or below it, 0 as well, is drawn on it with an arrow
+                     down; 0: none */
+    const char *floor_name; /* in the legend */
+    const lrcs_host_series *series;
+    uint32_t series_count;
+} lrcs_host_chart;
+
+/* The same chart as SVG 1.1, and as PNG with twice the pixels. Status: LRCS_OK; LRCS_E_SYSTEM. */
+void lrcs_host_chart_svg(FILE *out, const lrcs_host_chart *chart);
+int lrcs_host_chart_png(FILE *out, const lrcs_host_chart *chart, lrcs_host_error *error);
+
 #endif

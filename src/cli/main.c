@@ -6,7 +6,8 @@
 #include <string.h>
 
 static const cli_command *const main_commands[] = {&cli_run_command, &cli_info_command,
-                                                   &cli_shape_command, &cli_verify_command};
+                                                   &cli_shape_command, &cli_verify_command,
+                                                   &cli_converge_command};
 
 #define MAIN_COMMANDS (sizeof main_commands / sizeof main_commands[0])
 
@@ -15,11 +16,12 @@ static const char main_help[] =
     "\n"
     "usage: lrcs COMMAND [operand] [options]\n"
     "\n"
-    "  run SCENE     sigma from a pose, its bound, what was simulated\n"
-    "  info SCENE    what a model holds: parts, materials, area, volume, defects\n"
-    "  shape KIND    sigma of a simple body from its closed form\n"
-    "  verify        the engine against closed forms on this machine\n"
-    "  help COMMAND  options, units and examples of one command\n"
+    "  run SCENE       sigma from a pose, its bound, what was simulated\n"
+    "  info SCENE      what a model holds: parts, materials, area, volume, defects\n"
+    "  shape KIND      sigma of a simple body from its closed form\n"
+    "  verify          the engine against closed forms on this machine\n"
+    "  converge SCENE  what accuracy costs in time: every method against the truth\n"
+    "  help COMMAND    options, units and examples of one command\n"
     "\n"
     "SCENE is a .3ds, .obj or .stl model, a scene file (.toml), or 'demo', which is built in.\n"
     "Options take '--name value' or '--name=value'. --version prints the version.\n"

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs converge as a chart: for each dial what it costs and how true it is, on logarithmic axes.
+   It decides which curves there are and how they look; the host draws them. */
+#include "cli/converge.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CHART_SERIES (3 * CONVERGE_DIALS)
+
+/* What is known of a setting, each a curve. */
+enum chart_quantity { CHART_ERROR, CHART_BOUND, CHART_ESTIMATE };
+
+typedef struct chart_curve {
+    char name[48];
+    double x[CONVERGE_MOST], y[CONVERGE_MOST];
+    const char *label[CONVERGE_MOST];
+} chart_curve;
+
+typedef struct chart_curves {
+    chart_curve curve[CHART_SERIES];
+    lrcs_host_series series[CHART_SERIES];
+    uint32_t count;
+    char short_name[CONVERGE_MOST][16];
+} chart_curves;
+
+static const struct {
+    const char *name;
+    int colour, marker;
+} chart_dials[CONVERGE_DIALS] = {
+    [CONVERGE_MESH] = {"mesh", LRCS_HOST_GREEN, LRCS_HOST_TRIANGLE},
+    [CONVERGE_FACET] = {"facet", LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
+    [CONVERGE_EXACT] = {"exact", LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
+    [CONVERGE_ZBUFFER] = {"zbuffer", LRCS_HOST_BLUE, LRCS_HOST_DISC}};
+
+static double setting_quantity(const converge_setting *setting, int quantity)
+{
+    return quantity == CHART_ERROR   ? setting->error_m2
+           : quantity == CHART_BOUND ? setting->bound_m2
+                                     : setting->estimate_m2;
+}
+
+/* One curve, where there is anything to show; the upper one of a dial has the settings' names. */
+static void curve_add(const converge_job *job, chart_curves *all, int dial, int quantity, int named)
+{
+    static const char *const what[] = {"error", "bound", "estimate"};
+    static const int dash[] = {LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED};
+    chart_curve *curve = &all->curve[all->count];
+    lrcs_host_series *series = &all->series[all->count];
+    *series = (lrcs_host_series){.name = curve->name,
+                                 .x = curve->x,
+                                 .y = curve->y,
+                                 .label = curve->label,
+                                 .colour = chart_dials[dial].colour,
+                                 .marker = quantity == CHART_ESTIMATE ? LRCS_HOST_CROSS
+                                                                      : chart_dials[dial].marker,
+                                 .dash = dash[quantity],
+                                 .hollow = quantity == CHART_BOUND};
+    for (uint32_t i = 0; i < job->count; i++) {
+        double value = setting_quantity(&job->setting[i], quantity);
+        if (job->setting[i].dial == dial && value >= 0.0) {
+            curve->x[series->count] = 1e3 * job->setting[i].pose_s;
+            curve->y[series->count] = cli_converge_relative(job, value);
+            curve->label[series->count++] =
+                named && all->short_name[i][0] ? all->short_name[i] : NULL;
+        }
+    }
+    snprintf(curve->name, sizeof curve->name, "%s: %s", chart_dials[dial].name, what[quantity]);
+    all->count += series->count > 0;
+}
+
+/* "256" for a raster, "1e-3" for a mesh. */
+static void short_names(const converge_job *job, chart_curves *all)
+{
+    for (uint32_t i = 0; i < job->count; i++) {
+        const converge_setting *one = &job->setting[i];
+        char *name = all->short_name[i];
+        name[0] = '\0';
+        if (one->dial == CONVERGE_ZBUFFER) {
+            snprintf(name, 16, "%lu", (unsigned long)one->resolution);
+        } else if (one->dial == CONVERGE_MESH) {
+            snprintf(name, 16, "%.0e", one->mesh);
+        }
+    }
+}
+
+static int bounds_known(const converge_job *job, int dial)
+{
+    for (uint32_t i = 0; i < job->count; i++) {
+        if (job->setting[i].dial == dial && job->setting[i].bound_m2 >= 0.0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* What the truth itself is not known better than; never 0, for the axis has no 0. */
+static double chart_floor(const converge_job *job)
+{
+    double floor = cli_converge_relative(job, job->truth.bound_m2);
+    double least = job->truth.sigma_m2 > 0.0 ? 0x1p-53 : HUGE_VAL;
+    for (uint32_t i = 0; i < job->count && !(least < HUGE_VAL); i++) {
+        double bound = job->setting[i].bound_m2;
+        least = bound > 0.0 && bound < least ? bound : least;
+    }
+    least = least < HUGE_VAL ? least : 1e-16;
+    return floor > least ? floor : least;
+}
+
+int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_error *error)
+{
+    chart_curves all = {.count = 0};
+    char title[256];
+    char note[256];
+    char floor_name[64];
+    const double *d = job->pose.direction;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    short_names(job, &all);
+    for (int dial = 0; dial < CONVERGE_DIALS; dial++) {
+        int bounds = bounds_known(job, dial);
+        curve_add(job, &all, dial, CHART_BOUND, bounds);
+        curve_add(job, &all, dial, CHART_ESTIMATE, 0);
+        curve_add(job, &all, dial, CHART_ERROR, !bounds);
+    }
+    double floor = chart_floor(job);
+    const char *slash = strrchr(job->args->operand, '/');
+    snprintf(title, sizeof title, "What accuracy costs in time: %s",
+             slash && slash[1] ? slash + 1 : job->args->operand);
+    snprintf(note, sizeof note, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)",
+             job->truth.text, job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
+    snprintf(floor_name, sizeof floor_name, "truth's own bound");
+    const lrcs_host_chart chart = {.title = title,
+                                   .note = note,
+                                   .x_name = "time of one pose, median (ms)",
+                                   .y_name = job->truth.sigma_m2 > 0.0
+                                                 ? "error of sigma (relative to the truth)"
+                                                 : "error of sigma (m2)",
+                                   .x_log = 1,
+                                   .y_log = 1,
+                                   .floor = floor,
+                                   .floor_name = floor_name,
+                                   .series = all.series,
+                                   .series_count = all.count};
+    if (png) {
+        return lrcs_host_chart_png(out, &chart, error);
+    }
+    lrcs_host_chart_svg(out, &chart);
+    return LRCS_OK;
+}

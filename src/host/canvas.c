@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+/* Lines, convex areas and words as pixels. It decides how much of each pixel a stroke covers; a
+   whole stroke is collected before it is coloured, so that it does not darken where it meets
+   itself. */
+#include "host/canvas.h"
+
+#include "host/fail.h"
+#include "host/letters.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CANVAS_SLICES 4 /* of a pixel's height, in areas */
+
+static uint32_t canvas_clamp(double value, uint32_t most)
+{
+    return value <= 0.0 ? 0 : value >= most ? most : (uint32_t)value;
+}
+
+/* Widens the box by x0 .. x1, y0 .. y1 in pixels, and gives the part of it on the canvas. */
+static void canvas_touch(lrcsi_canvas *canvas, const double reach[4], uint32_t part[4])
+{
+    uint32_t *box = canvas->box;
+    part[0] = canvas_clamp(floor(reach[0]), canvas->width);
+    part[1] = canvas_clamp(floor(reach[1]), canvas->height);
+    part[2] = canvas_clamp(ceil(reach[2]), canvas->width);
+    part[3] = canvas_clamp(ceil(reach[3]), canvas->height);
+    for (int k = 0; k < 2; k++) {
+        box[k] = part[k] < box[k] ? part[k] : box[k];
+        box[k + 2] = part[k + 2] > box[k + 2] ? part[k + 2] : box[k + 2];
+    }
+}
+
+/* Colours what the stroke covers, and forgets it. */
+static void canvas_settle(lrcsi_canvas *canvas, uint32_t colour)
+{
+    const double ink[3] = {(double)(colour >> 16 & 255u), (double)(colour >> 8 & 255u),
+                           (double)(colour & 255u)};
+    uint32_t *box = canvas->box;
+    for (uint32_t y = box[1]; y < box[3]; y++) {
+        for (uint32_t x = box[0]; x < box[2]; x++) {
+            size_t at = (size_t)y * canvas->width + x;
+            double part = fmin((double)canvas->cover[at], 1.0);
+            unsigned char *pixel = canvas->rgb + 3 * at;
+            for (int k = 0; part > 0.0 && k < 3; k++) {
+                pixel[k] = (unsigned char)(pixel[k] + part * (ink[k] - pixel[k]) + 0.5);
+            }
+            canvas->cover[at] = 0.0f;
+        }
+    }
+    box[0] = canvas->width;
+    box[1] = canvas->height;
+    box[2] = box[3] = 0;
+}
+
+/* A piece of a line, in pixels, with round ends: a pixel is covered as far as its centre lies
+   inside. */
+static void canvas_piece(lrcsi_canvas *canvas, lrcsi_spot a, lrcsi_spot b, double half)
+{
+    const double reach[4] = {fmin(a.x, b.x) - half - 1.0, fmin(a.y, b.y) - half - 1.0,
+                             fmax(a.x, b.x) + half + 1.0, fmax(a.y, b.y) + half + 1.0};
+    double dx = b.x - a.x;
+    double dy = b.y - a.y;
+    double square = dx * dx + dy * dy;
+    uint32_t part[4];
+    canvas_touch(canvas, reach, part);
+    for (uint32_t y = part[1]; y < part[3]; y++) {
+        for (uint32_t x = part[0]; x < part[2]; x++) {
+            double px = x + 0.5 - a.x;
+            double py = y + 0.5 - a.y;
+            double along = square > 0.0 ? (px * dx + py * dy) / square : 0.0;
+            along = fmin(fmax(along, 0.0), 1.0);
+            double away = hypot(px - along * dx, py - along * dy);
+            float *cover = &canvas->cover[(size_t)y * canvas->width + x];
+            *cover = fmaxf(*cover, (float)fmin(fmax(half + 0.5 - away, 0.0), 2.0 * half));
+        }
+    }
+}
+
+/* A straight stretch, dashed: `gone` is the length since the line began. */
+static void canvas_stretch(lrcsi_canvas *canvas, lrcsi_spot a, lrcsi_spot b, const lrcsi_ink *ink,
+                           double gone)
+{
+    double half = 0.5 * ink->width * canvas->scale;
+    double length = hypot(b.x - a.x, b.y - a.y);
+    double on = ink->dash[0] * canvas->scale;
+    double period = on + ink->dash[1] * canvas->scale;
+    if (!(on > 0.0) || !(length > 0.0)) {
+        canvas_piece(canvas, a, b, half);
+        return;
+    }
+    for (double from = -fmod(gone, period); from < length; from += period) {
+        double begin = fmax(from, 0.0) / length;
+        double end = fmin(from + on, length) / length;
+        if (end > begin) {
+            canvas_piece(canvas, (lrcsi_spot){a.x + begin * (b.x - a.x), a.y + begin * (b.y - a.y)},
+                         (lrcsi_spot){a.x + end * (b.x - a.x), a.y + end * (b.y - a.y)}, half);
+        }
+    }
+}
+
+static void canvas_line(lrcsi_pen *pen, const lrcsi_spot *spot, uint32_t count,
+                        const lrcsi_ink *ink)
+{
+    lrcsi_canvas *canvas = (lrcsi_canvas *)pen;
+    double gone = 0.0;
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        lrcsi_spot a = {spot[i].x * canvas->scale, spot[i].y * canvas->scale};
+        lrcsi_spot b = {spot[i + 1].x * canvas->scale, spot[i + 1].y * canvas->scale};
+        canvas_stretch(canvas, a, b, ink, gone);
+        gone += hypot(b.x - a.x, b.y - a.y);
+    }
+    canvas_settle(canvas, ink->colour);
+}
+
+/* Where the horizontal at y, in pixels, runs inside a convex polygon: from span[0] to span[1]. */
+static void area_span(const lrcsi_spot *spot, uint32_t count, double scale, double y,
+                      double span[2])
+{
+    span[0] = HUGE_VAL;
+    span[1] = -HUGE_VAL;
+    for (uint32_t i = 0; i < count; i++) {
+        const lrcsi_spot *a = &spot[i];
+        const lrcsi_spot *b = &spot[(i + 1) % count];
+        double ay = a->y * scale - y;
+        double by = b->y * scale - y;
+        if ((ay < 0.0) != (by < 0.0)) {
+            double x = scale * (a->x + (b->x - a->x) * ay / (ay - by));
+            span[0] = fmin(span[0], x);
+            span[1] = fmax(span[1], x);
+        }
+    }
+}
+
+static void canvas_area(lrcsi_pen *pen, const lrcsi_spot *spot, uint32_t count, uint32_t colour)
+{
+    lrcsi_canvas *canvas = (lrcsi_canvas *)pen;
+    double reach[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    uint32_t part[4];
+    for (uint32_t i = 0; i < count; i++) {
+        reach[0] = fmin(reach[0], spot[i].x * canvas->scale);
+        reach[1] = fmin(reach[1], spot[i].y * canvas->scale);
+        reach[2] = fmax(reach[2], spot[i].x * canvas->scale);
+        reach[3] = fmax(reach[3], spot[i].y * canvas->scale);
+    }
+    canvas_touch(canvas, reach, part);
+    for (uint32_t i = part[1] * CANVAS_SLICES; i < part[3] * CANVAS_SLICES; i++) {
+        double span[2];
+        float *row = canvas->cover + (size_t)(i / CANVAS_SLICES) * canvas->width;
+        area_span(spot, count, canvas->scale, (i + 0.5) / CANVAS_SLICES, span);
+        for (uint32_t x = part[0]; x < part[2]; x++) {
+            double in = fmin(span[1], x + 1.0) - fmax(span[0], x);
+            row[x] += (float)(fmax(in, 0.0) / CANVAS_SLICES);
+        }
+    }
+    canvas_settle(canvas, colour);
+}
+
+/* One text from a spot on the base line, in pixels. */
+static void canvas_letters(lrcsi_canvas *canvas, const char *text, lrcsi_spot from, double size,
+                           int upwards, double half)
+{
+    lrcsi_letters letters = {text, NULL, 0.0};
+    lrcsi_spot last = from;
+    lrcsi_spot at;
+    for (int move; (move = lrcsi_letters_next(&letters, &at)) != LRCSI_LETTERS_END;) {
+        lrcsi_spot next = {from.x + size * (upwards ? -at.y : at.x),
+                           from.y - size * (upwards ? at.x : at.y)};
+        if (move == LRCSI_LETTERS_DRAW) {
+            canvas_piece(canvas, last, next, half);
+        }
+        last = next;
+    }
+}
+
+static void canvas_text(lrcsi_pen *pen, const lrcsi_words *words)
+{
+    lrcsi_canvas *canvas = (lrcsi_canvas *)pen;
+    double size = words->size * canvas->scale;
+    double half = size * (words->bold ? 0.056 : 0.036);
+    double width = size * lrcsi_letters_width(words->text);
+    double raised = words->raised ? 0.75 * size * lrcsi_letters_width(words->raised) : 0.0;
+    double back = 0.5 * words->anchor * (width + raised);
+    lrcsi_spot from = {words->at.x * canvas->scale, words->at.y * canvas->scale};
+    from.x -= words->upwards ? 0.0 : back;
+    from.y += words->upwards ? back : 0.0;
+    canvas_letters(canvas, words->text, from, size, words->upwards, half);
+    if (words->raised) {
+        from.x += words->upwards ? -0.4 * size : width;
+        from.y -= words->upwards ? width : 0.4 * size;
+        canvas_letters(canvas, words->raised, from, 0.75 * size, words->upwards, half);
+    }
+    canvas_settle(canvas, words->colour);
+}
+
+int lrcsi_canvas_make(double width, double height, double scale, lrcsi_canvas *canvas,
+                      lrcs_host_error *error)
+{
+    lrcsi_canvas made = {.pen = {canvas_line, canvas_area, canvas_text}, .scale = scale};
+    made.width = (uint32_t)lround(width * scale);
+    made.height = (uint32_t)lround(height * scale);
+    made.box[0] = made.width;
+    made.box[1] = made.height;
+    size_t pixels = (size_t)made.width * made.height;
+    made.rgb = malloc(3 * pixels);
+    made.cover = calloc(pixels, sizeof *made.cover);
+    if (!made.rgb || !made.cover) {
+        lrcsi_canvas_free(&made);
+        return lrcsi_host_fail_memory(error, 7 * pixels);
+    }
+    memset(made.rgb, 0xff, 3 * pixels);
+    *canvas = made;
+    return LRCS_OK;
+}
+
+void lrcsi_canvas_free(lrcsi_canvas *canvas)
+{
+    free(canvas->rgb);
+    free(canvas->cover);
+    canvas->rgb = NULL;
+    canvas->cover = NULL;
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* A pen that colours pixels, with smooth edges. */
+#ifndef LRCSI_HOST_CANVAS_H
+#define LRCSI_HOST_CANVAS_H
+
+#include "host/pen.h"
+
+typedef struct lrcsi_canvas {
+    lrcsi_pen pen; /* first: a pen is a canvas */
+    uint32_t width, height;
+    double scale;       /* pixels a unit of the paper */
+    unsigned char *rgb; /* width x height */
+    float *cover;       /* of the stroke at hand; all zero between strokes */
+    uint32_t box[4];    /* what it touches: x and y from, x and y to (not included) */
+} lrcsi_canvas;
+
+/* White paper of width x height units. Status: LRCS_OK; LRCS_E_SYSTEM (memory). */
+int lrcsi_canvas_make(double width, double height, double scale, lrcsi_canvas *canvas,
+                      lrcs_host_error *error);
+void lrcsi_canvas_free(lrcsi_canvas *canvas);
+
+#endif

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT */
+/* Places texts one after another, each at the first free one of eight places round its point; what
+   finds none is left out, for a missing number misleads nobody. */
+#include "host/label.h"
+
+#include "host/letters.h"
+
+#include <math.h>
+
+#define LABEL_STEP 4.0 /* between the spots that stand for a line */
+
+static void board_take(lrcsi_board *board, lrcsi_box box)
+{
+    if (board->count < LRCSI_LABEL_BOXES) {
+        board->box[board->count++] = box;
+    }
+}
+
+static lrcsi_box box_about(double x, double y, double half_x, double half_y)
+{
+    return (lrcsi_box){(float)(x - half_x), (float)(y - half_y), (float)(x + half_x),
+                       (float)(y + half_y)};
+}
+
+void lrcsi_board_spot(lrcsi_board *board, lrcsi_spot spot, double half)
+{
+    board_take(board, box_about(spot.x, spot.y, half, half));
+}
+
+void lrcsi_board_line(lrcsi_board *board, lrcsi_spot a, lrcsi_spot b)
+{
+    int steps = 1 + (int)(hypot(b.x - a.x, b.y - a.y) / LABEL_STEP);
+    for (int i = 0; i <= steps; i++) {
+        double part = (double)i / steps;
+        lrcsi_spot at = {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+        lrcsi_board_spot(board, at, 1.0);
+    }
+}
+
+static int board_free(const lrcsi_board *board, const lrcsi_box *want)
+{
+    const lrcsi_box *frame = &board->frame;
+    if (want->x0 < frame->x0 || want->y0 < frame->y0 || want->x1 > frame->x1 ||
+        want->y1 > frame->y1) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < board->count; i++) {
+        const lrcsi_box *box = &board->box[i];
+        if (want->x0 < box->x1 && box->x0 < want->x1 && want->y0 < box->y1 && box->y0 < want->y1) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int lrcsi_board_text(lrcsi_board *board, lrcsi_spot spot, double clear, const char *text,
+                     double size, lrcsi_spot *at)
+{
+    static const double place[8][2] = {{0, -1}, {1, -1}, {1, 0},  {-1, -1},
+                                       {0, 1},  {1, 1},  {-1, 0}, {-1, 1}};
+    double half_x = 0.5 * size * lrcsi_letters_width(text);
+    double half_y = 0.38 * size;
+    for (int i = 0; i < 8; i++) {
+        double x = spot.x + place[i][0] * (half_x + clear);
+        double y = spot.y + place[i][1] * (half_y + clear);
+        lrcsi_box want = box_about(x, y, half_x + 1.0, half_y + 1.0);
+        if (board_free(board, &want)) {
+            board_take(board, want);
+            *at = (lrcsi_spot){x - half_x, y + half_y};
+            return 1;
+        }
+    }
+    return 0;
+}

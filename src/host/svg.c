@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT */
+/* SVG 1.1 as text. It decides how a pen's strokes are written; words stay words, in whatever sans
+   serif the reader has. Bytes that are not UTF-8 and control characters become '?', so that every
+   XML parser takes it. */
+#include "host/svg.h"
+
+#include "base/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Hundredths, with a point whatever the locale. */
+static void svg_number(FILE *out, double value)
+{
+    long hundredths = lround(value * 100.0);
+    fprintf(out, "%s%ld", hundredths < 0 ? "-" : "", labs(hundredths) / 100);
+    if (hundredths % 100 != 0) {
+        fprintf(out, ".%02ld", labs(hundredths) % 100);
+    }
+}
+
+static void svg_attribute(FILE *out, const char *name, double value)
+{
+    fprintf(out, " %s=\"", name);
+    svg_number(out, value);
+    putc('"', out);
+}
+
+static void svg_escape(FILE *out, const char *text)
+{
+    int utf8 = lrcsi_text_is_utf8(text, strlen(text));
+    for (; *text; text++) {
+        unsigned char byte = (unsigned char)*text;
+        if (byte == '<' || byte == '>' || byte == '&') {
+            fputs(byte == '<' ? "&lt;" : byte == '>' ? "&gt;" : "&amp;", out);
+        } else {
+            putc(byte < 0x20 || byte == 0x7f || (byte >= 0x80 && !utf8) ? '?' : byte, out);
+        }
+    }
+}
+
+static void svg_spots(FILE *out, const lrcsi_spot *spot, uint32_t count)
+{
+    fputs(" points=\"", out);
+    for (uint32_t i = 0; i < count; i++) {
+        fputs(i == 0 ? "" : " ", out);
+        svg_number(out, spot[i].x);
+        putc(',', out);
+        svg_number(out, spot[i].y);
+    }
+    putc('"', out);
+}
+
+static void svg_line(lrcsi_pen *pen, const lrcsi_spot *spot, uint32_t count, const lrcsi_ink *ink)
+{
+    FILE *out = ((lrcsi_svg *)pen)->out;
+    fprintf(out, "<polyline fill=\"none\" stroke=\"#%06lx\"", (unsigned long)ink->colour);
+    svg_attribute(out, "stroke-width", ink->width);
+    if (ink->dash[0] > 0.0) {
+        fputs(" stroke-dasharray=\"", out);
+        svg_number(out, ink->dash[0]);
+        putc(' ', out);
+        svg_number(out, ink->dash[1]);
+        putc('"', out);
+    }
+    svg_spots(out, spot, count);
+    fputs("/>\n", out);
+}
+
+static void svg_area(lrcsi_pen *pen, const lrcsi_spot *spot, uint32_t count, uint32_t colour)
+{
+    FILE *out = ((lrcsi_svg *)pen)->out;
+    fprintf(out, "<polygon fill=\"#%06lx\"", (unsigned long)colour);
+    svg_spots(out, spot, count);
+    fputs("/>\n", out);
+}
+
+static void svg_text(lrcsi_pen *pen, const lrcsi_words *words)
+{
+    static const char *const anchor[] = {"start", "middle", "end"};
+    FILE *out = ((lrcsi_svg *)pen)->out;
+    fprintf(out, "<text text-anchor=\"%s\" fill=\"#%06lx\"", anchor[words->anchor],
+            (unsigned long)words->colour);
+    svg_attribute(out, "font-size", words->size);
+    svg_attribute(out, "x", words->at.x);
+    svg_attribute(out, "y", words->at.y);
+    fputs(words->bold ? " font-weight=\"bold\"" : "", out);
+    if (words->upwards) {
+        fputs(" transform=\"rotate(-90 ", out);
+        svg_number(out, words->at.x);
+        putc(' ', out);
+        svg_number(out, words->at.y);
+        fputs(")\"", out);
+    }
+    putc('>', out);
+    svg_escape(out, words->text);
+    if (words->raised) {
+        fputs("<tspan dy=\"-0.45em\" font-size=\"75%\">", out);
+        svg_escape(out, words->raised);
+        fputs("</tspan>", out);
+    }
+    fputs("</text>\n", out);
+}
+
+lrcsi_svg lrcsi_svg_begin(FILE *out, double width, double height, const char *title)
+{
+    lrcsi_svg svg = {{svg_line, svg_area, svg_text}, out};
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\"",
+          out);
+    svg_attribute(out, "width", width);
+    svg_attribute(out, "height", height);
+    fputs(" viewBox=\"0 0 ", out);
+    svg_number(out, width);
+    putc(' ', out);
+    svg_number(out, height);
+    fputs("\" font-family=\"Helvetica, Arial, sans-serif\" stroke-linecap=\"round\""
+          " stroke-linejoin=\"round\">\n<title>",
+          out);
+    svg_escape(out, title);
+    fputs("</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n", out);
+    return svg;
+}
+
+void lrcsi_svg_end(lrcsi_svg *svg)
+{
+    fputs("</svg>\n", svg->out);
+}

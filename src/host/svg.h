@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* A pen that writes SVG 1.1. */
+#ifndef LRCSI_HOST_SVG_H
+#define LRCSI_HOST_SVG_H
+
+#include "host/pen.h"
+
+typedef struct lrcsi_svg {
+    lrcsi_pen pen; /* first: a pen is an svg */
+    FILE *out;
+} lrcsi_svg;
+
+/* Begins a drawing of a size on white paper, and ends it. */
+lrcsi_svg lrcsi_svg_begin(FILE *out, double width, double height, const char *title);
+void lrcsi_svg_end(lrcsi_svg *svg);
+
+#endif
