@@ -212,8 +212,8 @@ typedef struct lrcs_host_chart {
     const char *title, *note; /* note: a smaller line below the title, or NULL */
     const char *x_name, *y_name;
     int x_log, y_log;
-    double floor; /* log y: what lies at or below it, 0 as well, is drawn on it with an arrow
-                     down; 0: none */
+    double floor; /* log y: what lies below it, 0 as well, is drawn on it with an arrow down;
+                     0: none */
     const char *floor_name; /* in the legend */
     const lrcs_host_series *series;
     uint32_t series_count;

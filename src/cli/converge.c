@@ -131,7 +131,7 @@ static int files_write(const converge_job *job)
 static int settings_check(const converge_job *job)
 {
     int code = CLI_DONE;
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         if (one->bound_m2 >= 0.0 && one->error_m2 > one->bound_m2 + job->truth.bound_m2) {
             fprintf(stderr, "lrcs: %s: the error, %.3g m2, exceeds its bound, %.3g m2\n", one->name,
@@ -153,7 +153,7 @@ static int converge_report(const converge_job *job)
         cli_converge_json(job);
         return settings_check(job);
     }
-    cli_notices_print(stderr, &job->scene.notices);
+    cli_notices_print(stderr, &cli_converge_finest(job)->scene.notices);
     if (job->left_out[0]) {
         fprintf(stderr, "notice: left out: %s\n", job->left_out);
     }
@@ -171,7 +171,9 @@ static int converge_command(const cli_args *args)
     int code = converge_read(&job);
     code = code ? code : cli_converge_measure(&job);
     code = code ? code : converge_report(&job);
-    lrcs_host_scene_free(&job.scene);
+    for (uint32_t i = 0; i < job.meshes; i++) {
+        lrcs_host_scene_free(&job.mesh[i].scene);
+    }
     cli_scene_options_free(&job.load);
     return code;
 }

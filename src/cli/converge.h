@@ -5,17 +5,26 @@
 
 #include "cli/cli.h"
 
-#define CONVERGE_MOST 64 /* settings */
+#define CONVERGE_SETTINGS 32
+#define CONVERGE_MESHES   6
+#define CONVERGE_REPEATS  25
 
 /* The dials that can be turned. One more way to run (other normals, say) is one more dial: a row
-   here, its measuring in converge_measure.c, its look in converge_chart.c. */
+   here, its settings in converge_measure.c, its look in converge_chart.c. */
 enum converge_dial {
-    CONVERGE_MESH,  /* how finely shapes are tessellated */
-    CONVERGE_FACET, /* no self-shadowing */
-    CONVERGE_EXACT,
     CONVERGE_ZBUFFER, /* its resolution */
+    CONVERGE_MESH,    /* how finely shapes are tessellated */
+    CONVERGE_FACET,   /* no self-shadowing */
+    CONVERGE_EXACT,
     CONVERGE_DIALS
 };
+
+/* The scene with its shapes tessellated for a tolerance of 10^-digits; digits 0: a mesh that does
+   not depend on it. */
+typedef struct converge_mesh {
+    int digits;
+    lrcs_host_scene scene;
+} converge_mesh;
 
 /* One setting, measured. */
 typedef struct converge_setting {
@@ -23,21 +32,22 @@ typedef struct converge_setting {
     char name[48];
     int method;
     uint32_t resolution; /* 0: no raster */
-    double mesh;         /* tolerance that its mesh was built for; 0: a mesh as it is */
-    uint32_t facets, repetitions;
-    double prepare_s, pose_s; /* pose: the median of the repetitions */
+    uint32_t mesh;       /* index */
+    uint32_t runs;
+    double seconds[CONVERGE_REPEATS]; /* of each run */
+    double pose_s;                    /* their median */
     double sigma_m2;
     double error_m2;     /* |sigma - truth| */
     double estimate_m2;  /* negative: none */
     double bound_m2;     /* of |sigma - truth| but for the truth's own; negative: not known */
-    int whole;           /* its bound is against the true shapes, not against its facets */
+    int whole;           /* the bound is against the true shapes, not against the facets */
     int short_of_memory; /* a coarser raster than asked */
 } converge_setting;
 
 typedef struct converge_truth {
-    int closed; /* from the closed form, else from exact */
     double sigma_m2, bound_m2;
-    char text[80]; /* where it comes from */
+    int whole;     /* the bound is against the true shapes, not against the facets */
+    char text[96]; /* where it comes from */
 } converge_truth;
 
 typedef struct converge_job {
@@ -46,17 +56,19 @@ typedef struct converge_job {
     lrcs_host_options load;
     const char *csv;
     double seconds, spent; /* to spend in all, and spent */
-    lrcs_host_scene scene; /* with the finest mesh so far */
-    double mesh;           /* what that was built for; 0: a mesh as it is */
-    uint64_t hash;
-    converge_setting setting[CONVERGE_MOST];
-    uint32_t count;
+    converge_mesh mesh[CONVERGE_MESHES];
+    uint32_t meshes; /* coarse to fine: the last one is the finest */
+    converge_setting setting[CONVERGE_SETTINGS];
+    uint32_t settings;
     converge_truth truth;
     char left_out[160]; /* what time or size did not allow, or "" */
 } converge_job;
 
 /* Measures all settings and finds the truth. 0, or an exit code with the message printed. */
 int cli_converge_measure(converge_job *job);
+
+/* The finest mesh. */
+const converge_mesh *cli_converge_finest(const converge_job *job);
 
 /* A value relative to the true sigma; as it is (m2) where that is 0. */
 double cli_converge_relative(const converge_job *job, double value_m2);

@@ -13,25 +13,23 @@ enum chart_quantity { CHART_ERROR, CHART_BOUND, CHART_ESTIMATE };
 
 typedef struct chart_curve {
     char name[48];
-    double x[CONVERGE_MOST], y[CONVERGE_MOST];
-    const char *label[CONVERGE_MOST];
+    double x[CONVERGE_SETTINGS], y[CONVERGE_SETTINGS];
+    const char *label[CONVERGE_SETTINGS];
 } chart_curve;
 
 typedef struct chart_curves {
     chart_curve curve[CHART_SERIES];
     lrcs_host_series series[CHART_SERIES];
     uint32_t count;
-    char short_name[CONVERGE_MOST][16];
+    char short_name[CONVERGE_SETTINGS][16];
 } chart_curves;
 
 static const struct {
-    const char *name;
     int colour, marker;
-} chart_dials[CONVERGE_DIALS] = {
-    [CONVERGE_MESH] = {"mesh", LRCS_HOST_GREEN, LRCS_HOST_TRIANGLE},
-    [CONVERGE_FACET] = {"facet", LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
-    [CONVERGE_EXACT] = {"exact", LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
-    [CONVERGE_ZBUFFER] = {"zbuffer", LRCS_HOST_BLUE, LRCS_HOST_DISC}};
+} chart_dials[CONVERGE_DIALS] = {[CONVERGE_MESH] = {LRCS_HOST_GREEN, LRCS_HOST_TRIANGLE},
+                                 [CONVERGE_FACET] = {LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
+                                 [CONVERGE_EXACT] = {LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
+                                 [CONVERGE_ZBUFFER] = {LRCS_HOST_BLUE, LRCS_HOST_DISC}};
 
 static double setting_quantity(const converge_setting *setting, int quantity)
 {
@@ -40,13 +38,40 @@ static double setting_quantity(const converge_setting *setting, int quantity)
                                      : setting->estimate_m2;
 }
 
-/* One curve, where there is anything to show; the upper one of a dial has the settings' names. */
-static void curve_add(const converge_job *job, chart_curves *all, int dial, int quantity, int named)
+/* Whether a dial has a curve: some value known; an estimate of 0 all along says only that nothing
+   was sampled. */
+static int curve_known(const converge_job *job, int dial, int quantity)
+{
+    for (uint32_t i = 0; i < job->settings; i++) {
+        double value = setting_quantity(&job->setting[i], quantity);
+        if (job->setting[i].dial == dial &&
+            (value > 0.0 || (value == 0.0 && quantity != CHART_ESTIMATE))) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* "zbuffer N: bound", "exact, mesh 1e-k: error" */
+static void curve_name(const converge_job *job, int dial, int quantity, chart_curve *curve)
 {
     static const char *const what[] = {"error", "bound", "estimate"};
+    int method = 0;
+    for (uint32_t i = 0; i < job->settings; i++) {
+        method = job->setting[i].dial == dial ? job->setting[i].method : method;
+    }
+    const char *position = dial == CONVERGE_MESH      ? ", mesh 1e-k"
+                           : dial == CONVERGE_ZBUFFER ? " N"
+                                                      : "";
+    snprintf(curve->name, sizeof curve->name, "%s%s: %s", lrcs_method_text(method), position,
+             what[quantity]);
+}
+
+static void curve_add(const converge_job *job, chart_curves *all, int dial, int quantity, int named)
+{
     static const int dash[] = {LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED};
     chart_curve *curve = &all->curve[all->count];
-    lrcs_host_series *series = &all->series[all->count];
+    lrcs_host_series *series = &all->series[all->count++];
     *series = (lrcs_host_series){.name = curve->name,
                                  .x = curve->x,
                                  .y = curve->y,
@@ -56,42 +81,46 @@ static void curve_add(const converge_job *job, chart_curves *all, int dial, int 
                                                                       : chart_dials[dial].marker,
                                  .dash = dash[quantity],
                                  .hollow = quantity == CHART_BOUND};
-    for (uint32_t i = 0; i < job->count; i++) {
+    curve_name(job, dial, quantity, curve);
+    for (uint32_t i = 0; i < job->settings; i++) {
         double value = setting_quantity(&job->setting[i], quantity);
         if (job->setting[i].dial == dial && value >= 0.0) {
+            int has_name = named && all->short_name[i][0];
             curve->x[series->count] = 1e3 * job->setting[i].pose_s;
             curve->y[series->count] = cli_converge_relative(job, value);
-            curve->label[series->count++] =
-                named && all->short_name[i][0] ? all->short_name[i] : NULL;
+            curve->label[series->count++] = has_name ? all->short_name[i] : NULL;
         }
     }
-    snprintf(curve->name, sizeof curve->name, "%s: %s", chart_dials[dial].name, what[quantity]);
-    all->count += series->count > 0;
+}
+
+/* The curves of a dial; the upper one has the settings' names. */
+static void dial_add(const converge_job *job, chart_curves *all, int dial)
+{
+    int bounds = curve_known(job, dial, CHART_BOUND);
+    if (bounds) {
+        curve_add(job, all, dial, CHART_BOUND, 1);
+    }
+    if (curve_known(job, dial, CHART_ESTIMATE)) {
+        curve_add(job, all, dial, CHART_ESTIMATE, 0);
+    }
+    if (curve_known(job, dial, CHART_ERROR)) {
+        curve_add(job, all, dial, CHART_ERROR, !bounds);
+    }
 }
 
 /* "256" for a raster, "1e-3" for a mesh. */
 static void short_names(const converge_job *job, chart_curves *all)
 {
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         char *name = all->short_name[i];
         name[0] = '\0';
         if (one->dial == CONVERGE_ZBUFFER) {
             snprintf(name, 16, "%lu", (unsigned long)one->resolution);
         } else if (one->dial == CONVERGE_MESH) {
-            snprintf(name, 16, "%.0e", one->mesh);
+            snprintf(name, 16, "1e-%d", job->mesh[one->mesh].digits);
         }
     }
-}
-
-static int bounds_known(const converge_job *job, int dial)
-{
-    for (uint32_t i = 0; i < job->count; i++) {
-        if (job->setting[i].dial == dial && job->setting[i].bound_m2 >= 0.0) {
-            return 1;
-        }
-    }
-    return 0;
 }
 
 /* What the truth itself is not known better than; never 0, for the axis has no 0. */
@@ -99,7 +128,7 @@ static double chart_floor(const converge_job *job)
 {
     double floor = cli_converge_relative(job, job->truth.bound_m2);
     double least = job->truth.sigma_m2 > 0.0 ? 0x1p-53 : HUGE_VAL;
-    for (uint32_t i = 0; i < job->count && !(least < HUGE_VAL); i++) {
+    for (uint32_t i = 0; i < job->settings && !(least < HUGE_VAL); i++) {
         double bound = job->setting[i].bound_m2;
         least = bound > 0.0 && bound < least ? bound : least;
     }
@@ -112,15 +141,11 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
     chart_curves all = {.count = 0};
     char title[256];
     char note[256];
-    char floor_name[64];
     const double *d = job->pose.direction;
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     short_names(job, &all);
     for (int dial = 0; dial < CONVERGE_DIALS; dial++) {
-        int bounds = bounds_known(job, dial);
-        curve_add(job, &all, dial, CHART_BOUND, bounds);
-        curve_add(job, &all, dial, CHART_ESTIMATE, 0);
-        curve_add(job, &all, dial, CHART_ERROR, !bounds);
+        dial_add(job, &all, dial);
     }
     double floor = chart_floor(job);
     const char *slash = strrchr(job->args->operand, '/');
@@ -128,7 +153,6 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
              slash && slash[1] ? slash + 1 : job->args->operand);
     snprintf(note, sizeof note, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)",
              job->truth.text, job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
-    snprintf(floor_name, sizeof floor_name, "truth's own bound");
     const lrcs_host_chart chart = {.title = title,
                                    .note = note,
                                    .x_name = "time of one pose, median (ms)",
@@ -138,7 +162,7 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
                                    .x_log = 1,
                                    .y_log = 1,
                                    .floor = floor,
-                                   .floor_name = floor_name,
+                                   .floor_name = "truth's bound; arrow: below",
                                    .series = all.series,
                                    .series_count = all.count};
     if (png) {

@@ -8,15 +8,14 @@
 #include <string.h>
 #include <unistd.h>
 
-#define REPEATS_MOST  25
-#define RASTER_LEAST  16u
-#define RASTER_MOST   4096u
-#define RASTERS       9u
-#define FACETS_MOST   250000u /* no finer mesh of shapes is built */
-#define MESH_COARSEST 1e-1
-#define MESH_LEVELS   6
+#define RASTER_LEAST 16u
+#define RASTER_MOST  4096u
+#define FACETS_MOST  250000u /* no finer mesh of shapes is kept */
 
-/* ---- one setting ---- */
+const converge_mesh *cli_converge_finest(const converge_job *job)
+{
+    return &job->mesh[job->meshes - 1];
+}
 
 static void progress_say(const char *what)
 {
@@ -26,112 +25,43 @@ static void progress_say(const char *what)
     }
 }
 
-static int seconds_compare(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double seconds_median(double *seconds, uint32_t count)
-{
-    qsort(seconds, count, sizeof *seconds, seconds_compare);
-    return 0.5 * (seconds[(count - 1) / 2] + seconds[count / 2]);
-}
-
-/* Runs a setting at least once, then again while its share of the time lasts. */
-static int setting_run(converge_job *job, converge_setting *setting, double share,
-                       lrcs_result *result)
-{
-    lrcs_host_error error;
-    lrcs_run_options options = lrcs_run_options_default();
-    double seconds[REPEATS_MOST];
-    double used = 0.0;
-    options.method = setting->method;
-    options.resolution = setting->resolution;
-    progress_say(setting->name);
-    for (uint32_t i = 0; i < REPEATS_MOST; i++) {
-        int status = lrcs_host_scene_run(&job->scene, &job->pose, &options, result, NULL, NULL,
-                                         &seconds[i], &error);
-        if (status != LRCS_OK) {
-            progress_say("");
-            return cli_failed(&error);
-        }
-        used += seconds[i];
-        setting->repetitions = i + 1;
-        if (used + seconds[i] > share) {
-            break;
-        }
-    }
-    job->spent += used;
-    setting->pose_s = seconds_median(seconds, setting->repetitions);
-    return 0;
-}
-
-/* Measures a setting on the mesh at hand and keeps it. */
-static int setting_measure(converge_job *job, converge_setting setting, double share)
-{
-    lrcs_result result = {0};
-    if (job->count == CONVERGE_MOST) {
-        return 0;
-    }
-    setting.mesh = job->mesh;
-    setting.facets = job->scene.scene.facet_count;
-    setting.prepare_s = job->scene.seconds_prepare;
-    int code = setting_run(job, &setting, share, &result);
-    if (code == 0) {
-        setting.sigma_m2 = result.sigma_m2;
-        setting.estimate_m2 = result.estimate_m2;
-        setting.bound_m2 = result.bound_m2;
-        setting.whole = result.budget.tessellation_m2 >= 0.0;
-        setting.short_of_memory = (result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
-        job->setting[job->count++] = setting;
-    }
-    return code;
-}
-
 /* ---- meshes ---- */
 
-/* A mesh of the scene for a tolerance, prepared; the one before it is freed only where the new
-   one is another, and not too large. *better says whether it was kept. */
-static int mesh_read(converge_job *job, double tolerance, int *better)
+/* Reads the scene with its shapes built for a tolerance, and keeps and prepares it where that is
+   another mesh than the last one and not too large. */
+static int mesh_read(converge_job *job, int digits)
 {
     lrcs_host_error error;
-    lrcs_host_scene scene;
-    memset(&scene, 0, sizeof scene);
-    *better = 0;
-    job->load.build.tolerance = tolerance;
-    int code = cli_scene_read(job->args, &job->load, &scene);
+    converge_mesh *mesh = &job->mesh[job->meshes];
+    mesh->digits = digits;
+    job->load.build.tolerance = pow(10.0, -digits);
+    int code = cli_scene_read(job->args, &job->load, &mesh->scene);
     if (code != 0) {
-        lrcs_host_scene_free(&scene);
+        lrcs_host_scene_free(&mesh->scene);
         return code;
     }
-    uint64_t hash = lrcs_scene_hash(&scene.scene);
-    int first = !job->scene.prepared;
-    int same = !first && hash == job->hash;
-    int large = !first && scene.scene.facet_count > FACETS_MOST;
-    job->spent += scene.seconds_load;
-    if (same || large) {
-        if (large) {
-            snprintf(job->left_out, sizeof job->left_out,
-                     "meshes of more than %lu facets: %g and finer", (unsigned long)FACETS_MOST,
-                     tolerance);
-        }
-        lrcs_host_scene_free(&scene);
+    const lrcs_scene *scene = &mesh->scene.scene;
+    job->spent += mesh->scene.seconds_load;
+    if (job->meshes > 0 && scene->facet_count > FACETS_MOST) {
+        snprintf(job->left_out, sizeof job->left_out, "mesh 1e-%d, of %lu facets", digits,
+                 (unsigned long)scene->facet_count);
+        lrcs_host_scene_free(&mesh->scene);
         return 0;
     }
-    lrcs_host_scene_free(&job->scene);
-    job->scene = scene; /* and only then prepared: that refers to where the scene is */
-    if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
+    if (job->meshes > 0 &&
+        lrcs_scene_hash(scene) == lrcs_scene_hash(&cli_converge_finest(job)->scene.scene)) {
+        lrcs_host_scene_free(&mesh->scene);
+        return 0;
+    }
+    job->meshes++;
+    if (lrcs_host_scene_prepare(&mesh->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    job->hash = hash;
-    job->spent += job->scene.seconds_prepare;
-    *better = 1;
+    job->spent += mesh->scene.seconds_prepare;
     return 0;
 }
 
-static int has_shapes(const lrcs_scene *scene)
+static int has_curved_shapes(const lrcs_scene *scene)
 {
     for (uint32_t i = 0; i < scene->part_count; i++) {
         if (scene->part[i].kind >= 0 && scene->part[i].curvature.turn > 0.0) {
@@ -141,71 +71,148 @@ static int has_shapes(const lrcs_scene *scene)
     return 0;
 }
 
-/* What is enough for this scene and pose: facet where the planner proves it, else exact. */
-static int enough_method(const converge_job *job)
+static int meshes_read(converge_job *job)
 {
+    progress_say("meshes");
+    int code = mesh_read(job, 1);
+    if (code == 0 && !has_curved_shapes(&job->mesh[0].scene.scene)) {
+        job->mesh[0].digits = 0;
+        return 0;
+    }
+    for (int digits = 2; digits <= CONVERGE_MESHES && code == 0 && !job->left_out[0]; digits++) {
+        code = mesh_read(job, digits);
+    }
+    return code;
+}
+
+/* ---- settings ---- */
+
+static int setting_run(converge_job *job, converge_setting *setting)
+{
+    lrcs_host_error error;
+    lrcs_result result = {0};
+    lrcs_run_options options = lrcs_run_options_default();
+    double *seconds = &setting->seconds[setting->runs];
+    options.method = setting->method;
+    options.resolution = setting->resolution;
+    progress_say(setting->name);
+    int status = lrcs_host_scene_run(&job->mesh[setting->mesh].scene, &job->pose, &options, &result,
+                                     NULL, NULL, seconds, &error);
+    if (status != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    setting->runs++;
+    setting->sigma_m2 = result.sigma_m2;
+    setting->bound_m2 = result.bound_m2;
+    setting->estimate_m2 = result.estimate_m2;
+    setting->whole = result.budget.tessellation_m2 >= 0.0;
+    setting->short_of_memory = (result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
+    job->spent += *seconds;
+    return 0;
+}
+
+/* Adds a setting and runs it for the first time. */
+static int setting_add(converge_job *job, int dial, int method, uint32_t resolution, uint32_t mesh)
+{
+    converge_setting *setting = &job->setting[job->settings++];
+    int used = snprintf(setting->name, sizeof setting->name, "%s", lrcs_method_text(method));
+    setting->dial = dial;
+    setting->method = method;
+    setting->resolution = resolution;
+    setting->mesh = mesh;
+    if (dial == CONVERGE_ZBUFFER) {
+        snprintf(setting->name + used, sizeof setting->name - (size_t)used, " %lu",
+                 (unsigned long)resolution);
+    } else if (dial == CONVERGE_MESH) {
+        snprintf(setting->name + used, sizeof setting->name - (size_t)used, " on mesh 1e-%d",
+                 job->mesh[mesh].digits);
+    }
+    return setting_run(job, setting);
+}
+
+/* What is enough for a mesh in this pose: facet where the planner proves it, else exact. */
+static int method_enough(converge_job *job, uint32_t mesh, int *method)
+{
+    lrcs_host_error error;
     lrcs_run_options options = lrcs_run_options_default();
     lrcs_result result = {0};
-    int status =
-        lrcs_host_scene_run(&job->scene, &job->pose, &options, &result, NULL, NULL, NULL, NULL);
-    return status == LRCS_OK && result.method == LRCS_METHOD_FACET ? LRCS_METHOD_FACET
-                                                                   : LRCS_METHOD_EXACT;
+    double seconds = 0.0;
+    int status = lrcs_host_scene_run(&job->mesh[mesh].scene, &job->pose, &options, &result, NULL,
+                                     NULL, &seconds, &error);
+    job->spent += seconds;
+    *method = result.method == LRCS_METHOD_FACET ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
+    return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
-/* Every fineness of mesh that makes a difference, coarse to fine; the finest one stays. */
-static int meshes_measure(converge_job *job)
+/* Every mesh, by the method that is enough for it; the others on the finest mesh. */
+static int settings_add(converge_job *job)
 {
-    int better = 0;
-    int code = mesh_read(job, MESH_COARSEST, &better);
-    if (code != 0 || !has_shapes(&job->scene.scene)) {
-        return code;
-    }
-    double share = 0.3 * job->seconds / MESH_LEVELS;
-    double tolerance = MESH_COARSEST;
-    for (int i = 0; i < MESH_LEVELS && code == 0; i++) {
-        if (better) {
-            converge_setting setting = {.dial = CONVERGE_MESH, .method = enough_method(job)};
-            job->mesh = tolerance;
-            snprintf(setting.name, sizeof setting.name, "%s on mesh %.0e",
-                     lrcs_method_text(setting.method), tolerance);
-            code = setting_measure(job, setting, share);
-        }
-        tolerance /= 10.0;
-        if (code == 0 && i + 1 < MESH_LEVELS && job->left_out[0] == '\0') {
-            code = mesh_read(job, tolerance, &better);
-        }
-    }
-    return code;
-}
-
-/* ---- methods ---- */
-
-static int methods_measure(converge_job *job)
-{
-    static const converge_setting plain[] = {
-        {.dial = CONVERGE_EXACT, .name = "exact", .method = LRCS_METHOD_EXACT},
-        {.dial = CONVERGE_FACET, .name = "facet", .method = LRCS_METHOD_FACET}};
+    uint32_t finest = job->meshes - 1;
+    int method = LRCS_METHOD_EXACT;
     int code = 0;
-    uint32_t left = RASTERS + 2;
-    for (int i = 0; i < 2 && code == 0; i++) {
-        code = setting_measure(job, plain[i], (job->seconds - job->spent) / left--);
+    for (uint32_t i = 0; i <= finest && job->mesh[0].digits > 0 && code == 0; i++) {
+        code = method_enough(job, i, &method);
+        code = code ? code : setting_add(job, CONVERGE_MESH, method, 0, i);
     }
+    if (code == 0 && method != LRCS_METHOD_FACET) { /* else it is there already */
+        code = setting_add(job, CONVERGE_FACET, LRCS_METHOD_FACET, 0, finest);
+    }
+    code = code ? code : setting_add(job, CONVERGE_EXACT, LRCS_METHOD_EXACT, 0, finest);
     double last = 0.0;
     for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && code == 0; n *= 2) {
-        double rest = job->seconds - job->spent;
-        if (last > rest) { /* the next one takes longer still */
+        if (job->spent + last > job->seconds) { /* nor would this one be faster */
             size_t used = strlen(job->left_out);
             snprintf(job->left_out + used, sizeof job->left_out - used,
-                     "%szbuffer %lu and finer: time is up", used ? "; " : "", (unsigned long)n);
+                     "%szbuffer %lu and finer, for time", used ? "; " : "", (unsigned long)n);
             break;
         }
-        converge_setting setting = {
-            .dial = CONVERGE_ZBUFFER, .method = LRCS_METHOD_ZBUFFER, .resolution = n};
-        snprintf(setting.name, sizeof setting.name, "zbuffer %lu", (unsigned long)n);
-        code = setting_measure(job, setting, rest / left--);
-        last = code == 0 ? job->setting[job->count - 1].pose_s : 0.0;
+        code = setting_add(job, CONVERGE_ZBUFFER, LRCS_METHOD_ZBUFFER, n, finest);
+        last = job->setting[job->settings - 1].seconds[0];
     }
     return code;
+}
+
+/* Runs settings again in turn, so that what else the machine does falls on all of them alike,
+   while none has had more than its share of the time, or a hundredth of it all. */
+static int settings_repeat(converge_job *job)
+{
+    double used[CONVERGE_SETTINGS];
+    double share = fmax((job->seconds - job->spent) / job->settings, 0.01 * job->seconds);
+    int ran = 1;
+    for (uint32_t i = 0; i < job->settings; i++) {
+        used[i] = 0.0;
+    }
+    while (ran) {
+        ran = 0;
+        for (uint32_t i = 0; i < job->settings; i++) {
+            converge_setting *setting = &job->setting[i];
+            double last = setting->seconds[setting->runs - 1];
+            if (setting->runs == CONVERGE_REPEATS || used[i] + last > share) {
+                continue;
+            }
+            int code = setting_run(job, setting);
+            if (code != 0) {
+                return code;
+            }
+            used[i] += setting->seconds[setting->runs - 1];
+            ran = 1;
+        }
+    }
+    return 0;
+}
+
+static int seconds_compare(const void *a, const void *b)
+{
+    double x = *(const double *)a;
+    double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void setting_median(converge_setting *setting)
+{
+    double *seconds = setting->seconds;
+    qsort(seconds, setting->runs, sizeof *seconds, seconds_compare);
+    setting->pose_s = 0.5 * (seconds[(setting->runs - 1) / 2] + seconds[setting->runs / 2]);
 }
 
 /* ---- the truth ---- */
@@ -214,15 +221,24 @@ static int methods_measure(converge_job *job)
 static int stands_plain(const lrcs_recipe_part *part)
 {
     const lrcs_place plain = lrcs_place_default();
-    return !part->joint.used &&
-           memcmp(part->place.rotate, plain.rotate, sizeof plain.rotate) == 0 &&
-           memcmp(part->place.scale, plain.scale, sizeof plain.scale) == 0;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            if (part->place.rotate[i][k] != plain.rotate[i][k]) {
+                return 0;
+            }
+        }
+        if (part->place.scale[i] != plain.scale[i]) {
+            return 0;
+        }
+    }
+    return !part->joint.used;
 }
 
-static int truth_closed(const converge_job *job, converge_truth *truth)
+/* The closed form of a single shape in a material that reflects from outside only. */
+static int truth_closed(converge_job *job)
 {
-    const lrcs_recipe *recipe = &job->scene.recipe;
-    const lrcs_scene *scene = &job->scene.scene;
+    const lrcs_recipe *recipe = &job->mesh[0].scene.recipe;
+    const lrcs_scene *scene = &job->mesh[0].scene.scene;
     if (recipe->part_count != 1 || recipe->part[0].file || !stands_plain(&recipe->part[0]) ||
         scene->facet_count == 0) {
         return 0;
@@ -235,49 +251,61 @@ static int truth_closed(const converge_job *job, converge_truth *truth)
         lrcs_closed_eval(&recipe->part[0].shape, &material->brdf, &aspect, &closed) != LRCS_OK) {
         return 0;
     }
-    *truth =
-        (converge_truth){.closed = 1, .sigma_m2 = closed.sigma_m2, .bound_m2 = closed.bound_m2};
-    snprintf(truth->text, sizeof truth->text, "the closed form of the %s",
+    job->truth.sigma_m2 = closed.sigma_m2;
+    job->truth.bound_m2 = closed.bound_m2;
+    job->truth.whole = 1;
+    snprintf(job->truth.text, sizeof job->truth.text, "the closed form of the %s",
              lrcs_shape_text(recipe->part[0].shape.kind));
     return 1;
 }
 
-static void truth_exact(const converge_job *job, converge_truth *truth)
+static void truth_exact(converge_job *job)
 {
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *setting = &job->setting[i];
         if (setting->dial == CONVERGE_EXACT) {
-            *truth = (converge_truth){.sigma_m2 = setting->sigma_m2, .bound_m2 = setting->bound_m2};
-            snprintf(truth->text, sizeof truth->text, "exact on %s%lu facets",
-                     job->mesh > 0.0 ? "the finest mesh, " : "the mesh, ",
-                     (unsigned long)setting->facets);
+            job->truth.sigma_m2 = setting->sigma_m2;
+            job->truth.bound_m2 = setting->bound_m2;
+            job->truth.whole = setting->whole;
         }
     }
+    snprintf(job->truth.text, sizeof job->truth.text, "exact on the %s, %lu facets",
+             job->meshes > 1 ? "finest mesh" : "mesh",
+             (unsigned long)cli_converge_finest(job)->scene.scene.facet_count);
 }
 
-/* A bound against facets holds for the truth only where the truth is of the same facets. */
-static void settings_judge(converge_job *job)
+/* Holds each setting to the truth. A bound against facets counts only where the truth is of the
+   same facets; and such a truth cannot judge its own mesh, which is therefore not listed. */
+static void settings_judge(converge_job *job, int closed)
 {
-    for (uint32_t i = 0; i < job->count; i++) {
-        converge_setting *setting = &job->setting[i];
-        setting->error_m2 = fabs(setting->sigma_m2 - job->truth.sigma_m2);
-        if (!setting->whole && (job->truth.closed || setting->mesh != job->mesh)) {
-            setting->bound_m2 = -1.0;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < job->settings; i++) {
+        converge_setting setting = job->setting[i];
+        int finest = setting.mesh == job->meshes - 1;
+        setting.error_m2 = fabs(setting.sigma_m2 - job->truth.sigma_m2);
+        if (!setting.whole && (closed || !finest)) {
+            setting.bound_m2 = -1.0;
+        }
+        if (closed || setting.dial != CONVERGE_MESH || !finest) {
+            setting_median(&setting);
+            job->setting[kept++] = setting;
         }
     }
+    job->settings = kept;
 }
 
 int cli_converge_measure(converge_job *job)
 {
-    int code = meshes_measure(job);
-    code = code ? code : methods_measure(job);
+    int code = meshes_read(job);
+    code = code ? code : settings_add(job);
+    code = code ? code : settings_repeat(job);
     progress_say("");
-    if (code != 0) {
-        return code;
+    if (code == 0) {
+        int closed = truth_closed(job);
+        if (!closed) {
+            truth_exact(job);
+        }
+        settings_judge(job, closed);
     }
-    if (!truth_closed(job, &job->truth)) {
-        truth_exact(job, &job->truth);
-    }
-    settings_judge(job);
-    return 0;
+    return code;
 }

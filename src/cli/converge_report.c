@@ -7,9 +7,17 @@
 #include <stdarg.h>
 #include <string.h>
 
-static const double report_tolerances[] = {1e-2, 1e-3, 1e-4, 1e-6};
+static const struct {
+    double value;
+    const char *text;
+} report_tolerance[] = {{1e-2, "1e-2"}, {1e-3, "1e-3"}, {1e-4, "1e-4"}, {1e-6, "1e-6"}};
 
-#define REPORT_TOLERANCES (sizeof report_tolerances / sizeof report_tolerances[0])
+#define REPORT_TOLERANCES (sizeof report_tolerance / sizeof report_tolerance[0])
+
+static const lrcs_host_scene *setting_scene(const converge_job *job, const converge_setting *one)
+{
+    return &job->mesh[one->mesh].scene;
+}
 
 double cli_converge_relative(const converge_job *job, double value_m2)
 {
@@ -29,7 +37,7 @@ static double known(double value)
 static const converge_setting *setting_cheapest(const converge_job *job, double tolerance)
 {
     const converge_setting *best = NULL;
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         int meets = one->bound_m2 >= 0.0 && one->bound_m2 <= tolerance * one->sigma_m2;
         if (meets && (!best || one->pose_s < best->pose_s)) {
@@ -42,7 +50,7 @@ static const converge_setting *setting_cheapest(const converge_job *job, double 
 static const converge_setting *setting_best(const converge_job *job)
 {
     const converge_setting *best = NULL;
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         int better = !best || one->bound_m2 < best->bound_m2 ||
                      (one->bound_m2 == best->bound_m2 && one->pose_s < best->pose_s);
@@ -71,26 +79,29 @@ static report_sentence sentence_make(const converge_job *job)
 {
     report_sentence sentence = {"The cheapest setting by pose time for a bound of "};
     const converge_setting *best = setting_best(job);
+    const char *verb = " is";
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
-        const converge_setting *one = setting_cheapest(job, report_tolerances[i]);
-        const converge_setting *next =
-            i + 1 < REPORT_TOLERANCES ? setting_cheapest(job, report_tolerances[i + 1]) : best;
-        sentence_add(&sentence, "%.0e", report_tolerances[i]);
-        if (i + 1 < REPORT_TOLERANCES && one == next) {
+        const converge_setting *one = setting_cheapest(job, report_tolerance[i].value);
+        sentence_add(&sentence, "%s", report_tolerance[i].text);
+        if (i + 1 < REPORT_TOLERANCES &&
+            one == setting_cheapest(job, report_tolerance[i + 1].value)) {
             sentence_add(&sentence, ", ");
-        } else if (one) {
-            sentence_add(&sentence, " is %s (%.3g ms), for ", one->name, 1e3 * one->pose_s);
-        } else {
-            sentence_add(&sentence, " is none, for ");
+            continue;
         }
+        sentence_add(&sentence, "%s %s", verb, one ? one->name : "none of these");
+        if (one) {
+            sentence_add(&sentence, " (%.3g ms)", 1e3 * one->pose_s);
+        }
+        sentence_add(&sentence, i + 1 < REPORT_TOLERANCES ? ", for " : "; ");
+        verb = "";
     }
     if (best) {
-        sentence_add(&sentence, "the best, %.2g%s, it is %s (%.3g ms).",
+        sentence_add(&sentence, "the best bound, %.2g%s, is that of %s (%.3g ms).",
                      cli_converge_relative(job, best->bound_m2),
                      job->truth.sigma_m2 > 0.0 ? " of sigma" : " m2", best->name,
                      1e3 * best->pose_s);
     } else {
-        sentence_add(&sentence, "the best none: no bound is known.");
+        sentence_add(&sentence, "no bound is known.");
     }
     return sentence;
 }
@@ -110,18 +121,19 @@ void cli_converge_table(const converge_job *job)
 {
     report_sentence sentence = sentence_make(job);
     const char *unit = job->truth.sigma_m2 > 0.0 ? "relative" : "m2";
-    printf("scene  %s, hash %016llx\n", job->args->operand, (unsigned long long)job->hash);
-    printf("truth  %.15g m2, known to %.2g m2: %s\n\n", job->truth.sigma_m2, job->truth.bound_m2,
-           job->truth.text);
+    printf("scene  %s, hash %016llx\n", job->args->operand,
+           (unsigned long long)lrcs_scene_hash(&cli_converge_finest(job)->scene.scene));
+    printf("truth  %.15g m2, known to %.2g m2%s: %s\n\n", job->truth.sigma_m2, job->truth.bound_m2,
+           job->truth.whole ? "" : " for its facets", job->truth.text);
     printf("%-22s %8s %4s %10s %10s %16s %10s %10s %10s\n", "", "", "", "prepare", "pose", "sigma",
            "error", "bound", "estimate");
     printf("%-22s %8s %4s %10s %10s %16s %10s %10s %10s\n", "setting", "facets", "runs", "ms",
            "median ms", "m2", unit, unit, unit);
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
-        printf("%-22s %8lu %4lu %10.4g %10.4g %16.12g", one->name, (unsigned long)one->facets,
-               (unsigned long)one->repetitions, 1e3 * one->prepare_s, 1e3 * one->pose_s,
-               one->sigma_m2);
+        printf("%-22s %8lu %4lu %10.4g %10.4g %16.12g", one->name,
+               (unsigned long)setting_scene(job, one)->scene.facet_count, (unsigned long)one->runs,
+               1e3 * setting_scene(job, one)->seconds_prepare, 1e3 * one->pose_s, one->sigma_m2);
         number_cell(10, cli_converge_relative(job, one->error_m2));
         number_cell(10, cli_converge_relative(job, one->bound_m2));
         number_cell(10, cli_converge_relative(job, one->estimate_m2));
@@ -138,9 +150,9 @@ void cli_converge_csv(const converge_job *job, FILE *out)
           "sigma_m2,error_m2,bound_m2,estimate_m2,relative_error,relative_bound,"
           "relative_estimate\n",
           out);
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
-        const double value[] = {1e3 * one->prepare_s,
+        const double value[] = {1e3 * setting_scene(job, one)->seconds_prepare,
                                 1e3 * one->pose_s,
                                 one->sigma_m2,
                                 one->error_m2,
@@ -152,11 +164,11 @@ void cli_converge_csv(const converge_job *job, FILE *out)
         char text[LRCS_HOST_NUMBER_SIZE] = "";
         fprintf(out, "%s,%s,", one->name, lrcs_method_text(one->method));
         fprintf(out, one->resolution ? "%lu," : ",", (unsigned long)one->resolution);
-        if (one->mesh > 0.0) {
-            lrcs_host_number_text(one->mesh, text);
+        if (job->mesh[one->mesh].digits > 0) {
+            snprintf(text, sizeof text, "1e-%d", job->mesh[one->mesh].digits);
         }
-        fprintf(out, "%s,%lu,%lu", text, (unsigned long)one->facets,
-                (unsigned long)one->repetitions);
+        fprintf(out, "%s,%lu,%lu", text, (unsigned long)setting_scene(job, one)->scene.facet_count,
+                (unsigned long)one->runs);
         for (size_t k = 0; k < sizeof value / sizeof value[0]; k++) {
             lrcs_host_number_text(value[k], text);
             fprintf(out, ",%s", value[k] >= 0.0 ? text : "");
@@ -169,14 +181,15 @@ void cli_converge_csv(const converge_job *job, FILE *out)
 
 static void setting_json(const converge_job *job, const converge_setting *one, lrcs_host_json *json)
 {
+    int digits = job->mesh[one->mesh].digits;
     lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(json, "setting", one->name);
     lrcs_host_json_text(json, "method", lrcs_method_text(one->method));
     lrcs_host_json_number(json, "resolution", one->resolution ? one->resolution : (double)NAN);
-    lrcs_host_json_number(json, "mesh_tolerance", one->mesh > 0.0 ? one->mesh : (double)NAN);
-    lrcs_host_json_count(json, "facets", one->facets);
-    lrcs_host_json_count(json, "repetitions", one->repetitions);
-    lrcs_host_json_number(json, "prepare_ms", 1e3 * one->prepare_s);
+    lrcs_host_json_number(json, "mesh_tolerance", digits > 0 ? pow(10.0, -digits) : (double)NAN);
+    lrcs_host_json_count(json, "facets", setting_scene(job, one)->scene.facet_count);
+    lrcs_host_json_count(json, "repetitions", one->runs);
+    lrcs_host_json_number(json, "prepare_ms", 1e3 * setting_scene(job, one)->seconds_prepare);
     lrcs_host_json_number(json, "pose_ms", 1e3 * one->pose_s);
     lrcs_host_json_number(json, "sigma_m2", one->sigma_m2);
     lrcs_host_json_number(json, "error_m2", one->error_m2);
@@ -205,8 +218,9 @@ static void cheapest_json(const char *key, double tolerance, const converge_sett
 static void notices_json(const converge_job *job, lrcs_host_json *json)
 {
     lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < job->scene.notices.count; i++) {
-        lrcs_host_json_text(json, NULL, job->scene.notices.text[i]);
+    const lrcs_host_notices *notices = &cli_converge_finest(job)->scene.notices;
+    for (uint32_t i = 0; i < notices->count; i++) {
+        lrcs_host_json_text(json, NULL, notices->text[i]);
     }
     if (job->left_out[0]) {
         lrcs_host_json_text(json, NULL, job->left_out);
@@ -219,7 +233,8 @@ void cli_converge_json(const converge_job *job)
     lrcs_host_json json = lrcs_host_json_make(stdout);
     report_sentence sentence = sentence_make(job);
     char hash[17];
-    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)job->hash);
+    snprintf(hash, sizeof hash, "%016llx",
+             (unsigned long long)lrcs_scene_hash(&cli_converge_finest(job)->scene.scene));
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
     lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
     lrcs_host_json_text(&json, "version", lrcs_version());
@@ -228,16 +243,17 @@ void cli_converge_json(const converge_job *job)
     lrcs_host_json_text(&json, "from", job->truth.text);
     lrcs_host_json_number(&json, "sigma_m2", job->truth.sigma_m2);
     lrcs_host_json_number(&json, "bound_m2", job->truth.bound_m2);
+    lrcs_host_json_bool(&json, "of_facets", !job->truth.whole);
     lrcs_host_json_end(&json);
     lrcs_host_json_begin(&json, "settings", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < job->settings; i++) {
         setting_json(job, &job->setting[i], &json);
     }
     lrcs_host_json_end(&json);
     lrcs_host_json_begin(&json, "cheapest", LRCS_HOST_ARRAY);
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
-        cheapest_json(NULL, report_tolerances[i], setting_cheapest(job, report_tolerances[i]),
-                      &json);
+        cheapest_json(NULL, report_tolerance[i].value,
+                      setting_cheapest(job, report_tolerance[i].value), &json);
     }
     lrcs_host_json_end(&json);
     cheapest_json("best", 0.0, setting_best(job), &json);

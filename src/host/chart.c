@@ -19,7 +19,8 @@
 #define CHART_BOTTOM  (CHART_HEIGHT - 58.0)
 #define CHART_MARGIN  16.0
 #define CHART_SMALL   12.0 /* type: ticks and legend */
-#define CHART_MARK    4.2  /* half a marker's width */
+#define CHART_MARK    4.2  /* half a marker's width; outlines stand about full ones */
+#define CHART_OUTLINE 5.6
 #define LEGEND_SAMPLE 30.0
 #define LEGEND_LINE   19.0
 
@@ -92,13 +93,13 @@ static void chart_range(const lrcs_host_chart *chart, int vertical, double range
             }
         }
     }
-    if (floor > 0.0) {
-        range[0] = floor / 5.0; /* room for the arrows */
-        range[1] = fmax(range[1], floor);
+    if (floor > 0.0) { /* room for the arrows; less than three decades would exaggerate */
+        range[0] = floor / 5.0;
+        range[1] = fmax(range[1], 1000.0 * range[0]);
     }
     if (log) {
         range[0] /= 1.1;
-        range[1] *= 1.1;
+        range[1] *= vertical ? 2.0 : 1.1;
     }
 }
 
@@ -272,9 +273,10 @@ static void marker_draw(const chart_plan *plan, const lrcs_host_series *series, 
         return;
     }
     uint32_t count = marker_corners(series->marker, corner);
+    double half = series->hollow ? CHART_OUTLINE : CHART_MARK;
     for (uint32_t i = 0; i < count; i++) {
-        corner[i].x = at.x + CHART_MARK * corner[i].x;
-        corner[i].y = at.y + CHART_MARK * corner[i].y;
+        corner[i].x = at.x + half * corner[i].x;
+        corner[i].y = at.y + half * corner[i].y;
     }
     corner[count] = corner[0];
     plan->pen->area(plan->pen, corner, count, series->hollow ? COLOUR_PAPER : colour);
@@ -312,7 +314,7 @@ static void series_line(const chart_plan *plan, const lrcs_host_series *series)
     run_draw(plan, series, run, count);
 }
 
-/* Below a point that lies at or under the floor. */
+/* Below a point that lies under the floor. */
 static void series_arrow(const chart_plan *plan, const lrcs_host_series *series, lrcsi_spot at)
 {
     uint32_t colour = chart_colours[series->colour & 7];
@@ -330,7 +332,7 @@ static void series_marks(const chart_plan *plan, const lrcs_host_series *series)
         if (!chart_point(plan, series, i, &at)) {
             continue;
         }
-        if (plan->chart->y_log && series->y[i] <= plan->chart->floor) {
+        if (plan->chart->y_log && series->y[i] < plan->chart->floor) {
             series_arrow(plan, series, at);
         }
         marker_draw(plan, series, at);
