@@ -197,8 +197,8 @@ enum lrcs_host_marker {
 };
 enum lrcs_host_dash { LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED };
 
-/* Points joined in their order. Those that an axis cannot show (not finite; log: not above 0) are
-   left out. */
+/* Points joined in their order. Those that an axis cannot show (not finite, beyond 1e288; log: not
+   above 1e-288) are left out. */
 typedef struct lrcs_host_series {
     const char *name; /* in the legend */
     uint32_t count;

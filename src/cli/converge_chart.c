@@ -162,7 +162,7 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
                                    .x_log = 1,
                                    .y_log = 1,
                                    .floor = floor,
-                                   .floor_name = "truth's bound; arrow: below",
+                                   .floor_name = "truth's own bound",
                                    .series = all.series,
                                    .series_count = all.count};
     if (png) {

@@ -5,18 +5,15 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-
-#define DECADE_LEAST (-300)
-#define DECADE_MOST  300
 
 /* The multiples of a power of ten that a range may end at. */
 static const double axis_round[] = {1.0, 2.0, 5.0, 10.0};
 
 static int axis_decade(double value)
 {
-    double decade = floor(log10(value) + 1e-9); /* 999.9999999 counts as a thousand */
-    return decade < DECADE_LEAST ? DECADE_LEAST : decade > DECADE_MOST ? DECADE_MOST : (int)decade;
+    return (int)floor(log10(value) + 1e-9); /* 999.9999999 counts as a thousand */
 }
 
 /* The round number nearest to a value from below (up = 0) or from above. */
@@ -39,19 +36,26 @@ static lrcsi_tick *tick_add(lrcsi_axis *axis, double value, int major)
     return tick;
 }
 
-/* mantissa x 10^decade as digits, without the printf that asks the locale for its point. */
-static void decimal_text(char text[24], unsigned mantissa, int decade)
+/* mantissa x 10^decade, without the printf that asks the locale for its point. */
+static void decimal_text(char text[48], long mantissa, int decade)
 {
-    if (decade >= 0) {
-        snprintf(text, 24, "%u%.*s", mantissa, decade, "0000000000");
+    static const long power[] = {1, 10, 100, 1000, 10000, 100000, 1000000};
+    if (mantissa == 0) {
+        strcpy(text, "0");
+    } else if (decade > 6 || decade < -6) {
+        snprintf(text, 48, "%lde%d", mantissa, decade);
+    } else if (decade >= 0) {
+        snprintf(text, 48, "%ld%.*s", mantissa, decade, "000000");
     } else {
-        snprintf(text, 24, "0.%.*s%u", -decade - 1, "0000000000", mantissa);
+        long unit = power[-decade];
+        snprintf(text, 48, "%s%ld.%0*ld", mantissa < 0 ? "-" : "", labs(mantissa) / unit, -decade,
+                 labs(mantissa) % unit);
     }
 }
 
-static void log_tick_name(lrcsi_tick *tick, unsigned mantissa, int decade, int plain)
+static void log_tick_name(lrcsi_tick *tick, long mantissa, int decade, int plain)
 {
-    if (plain) {
+    if (plain || mantissa != 1) {
         decimal_text(tick->text, mantissa, decade);
         return;
     }
@@ -69,9 +73,9 @@ static void log_ticks(lrcsi_axis *axis, double texts)
     int plain = first >= -3 && last <= 5;
     step = step > 1 ? step : 1;
     for (int decade = first; decade <= last; decade++) {
-        for (unsigned k = 1; k < 10; k++) {
-            double value = k * pow(10.0, decade);
-            int major = k == 1 ? decade % step == 0 : between && plain && (k == 2 || k == 5);
+        for (long k = 1; k < 10; k++) {
+            double value = (double)k * pow(10.0, decade);
+            int major = k == 1 ? decade % step == 0 : between && (k == 2 || k == 5);
             int shown = k == 1 ? major || step < 6 : step == 1;
             if (shown && value > axis->least * (1.0 - 1e-9) && value < axis->most * (1.0 + 1e-9)) {
                 lrcsi_tick *tick = tick_add(axis, value, major);
@@ -86,43 +90,56 @@ static void log_ticks(lrcsi_axis *axis, double texts)
 static void linear_ticks(lrcsi_axis *axis, double step)
 {
     int decade = axis_decade(step);
-    double mantissa = step / pow(10.0, decade);
-    int parts = mantissa > 1.5 && mantissa < 3.0 ? 4 : 5;
+    long mantissa = lround(step / pow(10.0, decade)); /* 1, 2 or 5 */
+    int parts = mantissa == 2 ? 4 : 5;
     long first = lround(axis->least / step) * parts;
     long last = lround(axis->most / step) * parts;
     for (long i = first; i <= last; i++) {
         double value = (double)i * step / parts;
         lrcsi_tick *tick = tick_add(axis, value, i % parts == 0);
         if (tick->major) {
-            snprintf(tick->text, sizeof tick->text, "%.*f", decade < 0 ? -decade : 0, value);
+            decimal_text(tick->text, i / parts * mantissa, decade);
         }
     }
+}
+
+static void log_range(lrcsi_axis *axis, double least, double most, double texts)
+{
+    int some = least >= LRCSI_AXIS_LEAST && most <= LRCSI_AXIS_MOST && least <= most;
+    axis->least = axis_snap(some ? least : 0.1, 0);
+    axis->most = axis_snap(some ? most : 1.0, 1);
+    if (!(axis->most > axis->least)) {
+        axis->least = axis_snap(0.5 * axis->least, 0);
+        axis->most = axis_snap(2.0 * axis->most, 1);
+    }
+    log_ticks(axis, texts);
+}
+
+static void linear_range(lrcsi_axis *axis, double least, double most, double texts)
+{
+    int some = least >= -LRCSI_AXIS_MOST && most <= LRCSI_AXIS_MOST && least <= most;
+    double low = some ? least : 0.0;
+    double high = some ? most : 1.0;
+    double large = fmax(fabs(low), fabs(high));
+    if (!(high - low > 1e-6 * large)) { /* one value, or nearly */
+        double pad = large > LRCSI_AXIS_LEAST ? 0.1 * large : 1.0;
+        low -= pad;
+        high += pad;
+    }
+    double step = axis_snap((high - low) / fmax(texts, 2.0), 1);
+    axis->least = step * floor(low / step + 1e-9);
+    axis->most = step * ceil(high / step - 1e-9);
+    linear_ticks(axis, step);
 }
 
 lrcsi_axis lrcsi_axis_make(int log, double least, double most, double texts)
 {
     lrcsi_axis axis = {.log = log};
     if (log) {
-        int some = most > 0.0 && most < HUGE_VAL && least > 0.0 && least <= most;
-        axis.least = axis_snap(some ? least : 0.1, 0);
-        axis.most = axis_snap(some ? most : 1.0, 1);
-        if (!(axis.most > axis.least)) {
-            axis.least /= 2.0;
-            axis.most *= 2.0;
-            axis.least = axis_snap(axis.least, 0);
-            axis.most = axis_snap(axis.most, 1);
-        }
-        log_ticks(&axis, texts);
-        return axis;
+        log_range(&axis, least, most, texts);
+    } else {
+        linear_range(&axis, least, most, texts);
     }
-    int some = least > -HUGE_VAL && most < HUGE_VAL && least <= most;
-    double low = some ? least : 0.0;
-    double high = some ? most : 1.0;
-    double step = axis_snap(high > low ? (high - low) / fmax(texts, 2.0) : fmax(fabs(low), 1.0), 1);
-    axis.least = step * floor(low / step + 1e-9);
-    axis.most = step * ceil(high / step - 1e-9);
-    axis.most += axis.most > axis.least ? 0.0 : step;
-    linear_ticks(&axis, step);
     return axis;
 }
 

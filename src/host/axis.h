@@ -7,10 +7,14 @@
 
 #define LRCSI_AXIS_TICKS 256u
 
+/* What an axis can show: a logarithmic one from LEAST on, a linear one from -MOST on. */
+#define LRCSI_AXIS_LEAST 1e-290
+#define LRCSI_AXIS_MOST  1e290
+
 typedef struct lrcsi_tick {
     double value;
     int major;      /* has a text */
-    char text[24];  /* "0.5"; "10" where `raised` is its exponent */
+    char text[48];  /* "0.5"; "10" where `raised` is its exponent */
     char raised[8]; /* "-6", or "" */
 } lrcsi_tick;
 
@@ -21,8 +25,8 @@ typedef struct lrcsi_axis {
     lrcsi_tick tick[LRCSI_AXIS_TICKS]; /* ascending, least and most among them */
 } lrcsi_axis;
 
-/* The axis that covers least .. most in round numbers, with at most about `texts` of them
-   labelled. Where there is no such range (log: nothing above 0) it covers 0 .. 1 or 0.1 .. 1. */
+/* The axis that covers least .. most in round numbers, with about `texts` of them named at most.
+   Where there is no such range it covers 0 .. 1, or 0.1 .. 1. */
 lrcsi_axis lrcsi_axis_make(int log, double least, double most, double texts);
 
 /* Where a value lies: 0 at least, 1 at most, outside beyond; -HUGE_VAL for what a logarithm

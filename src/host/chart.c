@@ -14,13 +14,14 @@
 #define CHART_HEIGHT 520.0
 #define CHART_PIXELS 2.0
 
-#define CHART_LEFT    76.0
+#define CHART_LEFT    82.0
 #define CHART_TOP     60.0
 #define CHART_BOTTOM  (CHART_HEIGHT - 58.0)
 #define CHART_MARGIN  16.0
 #define CHART_SMALL   12.0 /* type: ticks and legend */
-#define CHART_MARK    4.2  /* half a marker's width; outlines stand about full ones */
-#define CHART_OUTLINE 5.6
+#define CHART_MARK    3.8  /* half a marker's width; outlines stand about full ones */
+#define CHART_OUTLINE 5.8
+#define GRID_MOST     60u /* ticks */
 #define LEGEND_SAMPLE 30.0
 #define LEGEND_LINE   19.0
 
@@ -60,7 +61,7 @@ static int chart_shows(int log, double floor, double *value)
     if (log && floor > 0.0 && *value <= floor) {
         *value = floor;
     }
-    return fabs(*value) < HUGE_VAL && (!log || *value > 0.0);
+    return fabs(*value) <= 0.1 * LRCSI_AXIS_MOST && (!log || *value >= 10.0 * LRCSI_AXIS_LEAST);
 }
 
 static int chart_point(const chart_plan *plan, const lrcs_host_series *series, uint32_t i,
@@ -98,8 +99,8 @@ static void chart_range(const lrcs_host_chart *chart, int vertical, double range
         range[1] = fmax(range[1], 1000.0 * range[0]);
     }
     if (log) {
-        range[0] /= 1.1;
-        range[1] *= vertical ? 2.0 : 1.1;
+        range[0] /= 1.2;
+        range[1] *= vertical ? 4.0 : 1.2; /* labels stand above */
     }
 }
 
@@ -131,19 +132,20 @@ static void chart_floor(const chart_plan *plan)
     plan->pen->area(plan->pen, corner, 4, COLOUR_FLOOR);
 }
 
+/* Lines at the major ticks, or the minor ones where they are not a hatching. */
 static void chart_grid(const chart_plan *plan, int major)
 {
     uint32_t colour = major ? COLOUR_GRID : COLOUR_MINOR;
     double width = major ? 0.9 : 0.7;
     for (uint32_t i = 0; i < plan->x.count; i++) {
         double x = chart_x(plan, plan->x.tick[i].value);
-        if (plan->x.tick[i].major == major) {
+        if (plan->x.tick[i].major == major && (major || plan->x.count <= GRID_MOST)) {
             chart_stroke(plan, x, CHART_TOP, x, CHART_BOTTOM, colour, width);
         }
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
         double y = chart_y(plan, plan->y.tick[i].value);
-        if (plan->y.tick[i].major == major) {
+        if (plan->y.tick[i].major == major && (major || plan->y.count <= GRID_MOST)) {
             chart_stroke(plan, CHART_LEFT, y, plan->right, y, colour, width);
         }
     }
@@ -162,7 +164,9 @@ static void chart_ticks(const chart_plan *plan)
                                    .size = CHART_SMALL,
                                    .anchor = LRCSI_ANCHOR_MIDDLE,
                                    .colour = COLOUR_TEXT};
-        plan->pen->text(plan->pen, &words);
+        if (tick->major) {
+            plan->pen->text(plan->pen, &words);
+        }
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
         const lrcsi_tick *tick = &plan->y.tick[i];
@@ -175,7 +179,9 @@ static void chart_ticks(const chart_plan *plan)
                                    .size = CHART_SMALL,
                                    .anchor = LRCSI_ANCHOR_RIGHT,
                                    .colour = COLOUR_TEXT};
-        plan->pen->text(plan->pen, &words);
+        if (tick->major) {
+            plan->pen->text(plan->pen, &words);
+        }
     }
 }
 
@@ -206,7 +212,7 @@ static void chart_names(const chart_plan *plan)
                                .anchor = LRCSI_ANCHOR_MIDDLE,
                                .colour = COLOUR_TEXT};
     const lrcsi_words beside = {.text = chart->y_name,
-                                .at = {24.0, 0.5 * (CHART_TOP + CHART_BOTTOM)},
+                                .at = {22.0, 0.5 * (CHART_TOP + CHART_BOTTOM)},
                                 .size = 13.0,
                                 .anchor = LRCSI_ANCHOR_MIDDLE,
                                 .upwards = 1,
@@ -264,7 +270,7 @@ static void marker_draw(const chart_plan *plan, const lrcs_host_series *series, 
 {
     lrcsi_spot corner[25];
     uint32_t colour = chart_colours[series->colour & 7];
-    const lrcsi_ink ink = {colour, 1.5, {0.0, 0.0}};
+    const lrcsi_ink ink = {colour, 1.4, {0.0, 0.0}};
     if (series->marker == LRCS_HOST_CROSS) {
         chart_stroke(plan, at.x - CHART_MARK, at.y - CHART_MARK, at.x + CHART_MARK,
                      at.y + CHART_MARK, colour, 1.7);
@@ -291,7 +297,7 @@ static void run_draw(const chart_plan *plan, const lrcs_host_series *series, con
         plan->pen->line(plan->pen, spot, count, &ink);
     }
     for (uint32_t i = 0; i < count; i++) {
-        lrcsi_board_spot(plan->board, spot[i], CHART_MARK);
+        lrcsi_board_spot(plan->board, spot[i], CHART_OUTLINE);
         lrcsi_board_line(plan->board, spot[i > 0 ? i - 1 : 0], spot[i]);
     }
 }
@@ -315,9 +321,8 @@ static void series_line(const chart_plan *plan, const lrcs_host_series *series)
 }
 
 /* Below a point that lies under the floor. */
-static void series_arrow(const chart_plan *plan, const lrcs_host_series *series, lrcsi_spot at)
+static void arrow_draw(const chart_plan *plan, uint32_t colour, lrcsi_spot at)
 {
-    uint32_t colour = chart_colours[series->colour & 7];
     const lrcsi_spot head[3] = {
         {at.x - 3.2, at.y + 9.5}, {at.x + 3.2, at.y + 9.5}, {at.x, at.y + 14.5}};
     chart_stroke(plan, at.x, at.y + CHART_MARK, at.x, at.y + 10.0, colour, 1.4);
@@ -333,7 +338,7 @@ static void series_marks(const chart_plan *plan, const lrcs_host_series *series)
             continue;
         }
         if (plan->chart->y_log && series->y[i] < plan->chart->floor) {
-            series_arrow(plan, series, at);
+            arrow_draw(plan, chart_colours[series->colour & 7], at);
         }
         marker_draw(plan, series, at);
     }
@@ -346,7 +351,7 @@ static void series_labels(const chart_plan *plan, const lrcs_host_series *series
         lrcsi_words words = {
             .text = series->label[i], .size = 10.5, .colour = chart_colours[series->colour & 7]};
         if (words.text && chart_point(plan, series, i, &at) &&
-            lrcsi_board_text(plan->board, at, 6.0, words.text, words.size, &words.at)) {
+            lrcsi_board_text(plan->board, at, 8.0, words.text, words.size, &words.at)) {
             plan->pen->text(plan->pen, &words);
         }
     }
@@ -373,6 +378,7 @@ static void chart_legend(const chart_plan *plan)
             {x, y - 5.0}, {x + LEGEND_SAMPLE, y - 5.0}, {x + LEGEND_SAMPLE, y + 6.0}, {x, y + 6.0}};
         plan->pen->area(plan->pen, corner, 4, COLOUR_FLOOR);
         chart_stroke(plan, x, y - 5.0, x + LEGEND_SAMPLE, y - 5.0, COLOUR_FAINT, 1.2);
+        arrow_draw(plan, COLOUR_FAINT, (lrcsi_spot){x + 0.5 * LEGEND_SAMPLE, y - 8.5});
         words.text = chart->floor_name;
         words.at = (lrcsi_spot){x + LEGEND_SAMPLE + 8.0, y + 0.36 * CHART_SMALL};
         plan->pen->text(plan->pen, &words);
@@ -391,7 +397,7 @@ static void chart_draw(const lrcs_host_chart *chart, lrcsi_pen *pen)
     chart_range(chart, 1, range);
     plan.y = lrcsi_axis_make(chart->y_log, range[0], range[1], (CHART_BOTTOM - CHART_TOP) / 26.0);
     board.frame =
-        (lrcsi_box){(float)CHART_LEFT, (float)CHART_TOP, (float)plan.right, (float)CHART_BOTTOM};
+        (lrcsi_room){(float)CHART_LEFT, (float)CHART_TOP, (float)plan.right, (float)CHART_BOTTOM};
     if (floor) {
         chart_floor(&plan);
     }

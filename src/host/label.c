@@ -9,17 +9,17 @@
 
 #define LABEL_STEP 4.0 /* between the spots that stand for a line */
 
-static void board_take(lrcsi_board *board, lrcsi_box box)
+static void board_take(lrcsi_board *board, lrcsi_room room)
 {
-    if (board->count < LRCSI_LABEL_BOXES) {
-        board->box[board->count++] = box;
+    if (board->count < LRCSI_LABEL_ROOMS) {
+        board->room[board->count++] = room;
     }
 }
 
-static lrcsi_box box_about(double x, double y, double half_x, double half_y)
+static lrcsi_room box_about(double x, double y, double half_x, double half_y)
 {
-    return (lrcsi_box){(float)(x - half_x), (float)(y - half_y), (float)(x + half_x),
-                       (float)(y + half_y)};
+    return (lrcsi_room){(float)(x - half_x), (float)(y - half_y), (float)(x + half_x),
+                        (float)(y + half_y)};
 }
 
 void lrcsi_board_spot(lrcsi_board *board, lrcsi_spot spot, double half)
@@ -37,15 +37,15 @@ void lrcsi_board_line(lrcsi_board *board, lrcsi_spot a, lrcsi_spot b)
     }
 }
 
-static int board_free(const lrcsi_board *board, const lrcsi_box *want)
+static int board_free(const lrcsi_board *board, const lrcsi_room *want)
 {
-    const lrcsi_box *frame = &board->frame;
+    const lrcsi_room *frame = &board->frame;
     if (want->x0 < frame->x0 || want->y0 < frame->y0 || want->x1 > frame->x1 ||
         want->y1 > frame->y1) {
         return 0;
     }
     for (uint32_t i = 0; i < board->count; i++) {
-        const lrcsi_box *box = &board->box[i];
+        const lrcsi_room *box = &board->room[i];
         if (want->x0 < box->x1 && box->x0 < want->x1 && want->y0 < box->y1 && box->y0 < want->y1) {
             return 0;
         }
@@ -63,7 +63,7 @@ int lrcsi_board_text(lrcsi_board *board, lrcsi_spot spot, double clear, const ch
     for (int i = 0; i < 8; i++) {
         double x = spot.x + place[i][0] * (half_x + clear);
         double y = spot.y + place[i][1] * (half_y + clear);
-        lrcsi_box want = box_about(x, y, half_x + 1.0, half_y + 1.0);
+        lrcsi_room want = box_about(x, y, half_x + 1.0, half_y + 1.0);
         if (board_free(board, &want)) {
             board_take(board, want);
             *at = (lrcsi_spot){x - half_x, y + half_y};

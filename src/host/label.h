@@ -5,17 +5,17 @@
 
 #include "host/pen.h"
 
-#define LRCSI_LABEL_BOXES 4096u
+#define LRCSI_LABEL_ROOMS 4096u
 
-typedef struct lrcsi_box {
+typedef struct lrcsi_room {
     float x0, y0, x1, y1;
-} lrcsi_box;
+} lrcsi_room;
 
 /* What is taken, within a frame. */
 typedef struct lrcsi_board {
-    lrcsi_box frame;
+    lrcsi_room frame;
     uint32_t count;
-    lrcsi_box box[LRCSI_LABEL_BOXES]; /* what comes after that many is not kept clear */
+    lrcsi_room room[LRCSI_LABEL_ROOMS]; /* what comes after that many is not kept clear */
 } lrcsi_board;
 
 /* Takes a square about a spot, and all along a line. */
