@@ -1,6 +1,7 @@
 # lrcs: settings, targets, rules. Everything built goes under $(BUILD).
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
+#   make charts     accuracy against time, for the README
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan lint purity layers fuzz    further checks
 
@@ -37,6 +38,13 @@ all: $(TOOL) $(LIB)
 # Exit 3 says that the tolerance was not met, and is not a failure here.
 demo: $(TOOL)
 	$(TOOL) run demo --azel 50,40 --image $(BUILD)/demo.png || [ $$? -eq 3 ]
+
+# The README's charts of accuracy against time, with the times of this machine.
+charts: $(TOOL)
+	$(TOOL) converge demo --azel 50,40 --plot examples/converge_demo.svg
+	$(TOOL) converge examples/plate.toml --azel 0,70 --plot examples/converge_plate.svg
+	$(TOOL) converge examples/cylinder.toml --azel 0,30 --plot examples/converge_cylinder.svg
+	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
 
 test: cmocka $(TOOL) $(TESTS) $(EXAMPLES)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
@@ -79,7 +87,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo test asan lint purity layers fuzz bounds clean cmocka
+.PHONY: all demo charts test asan lint purity layers fuzz bounds clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------

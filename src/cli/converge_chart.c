@@ -123,17 +123,14 @@ static void short_names(const converge_job *job, chart_curves *all)
     }
 }
 
-/* What the truth itself is not known better than; never 0, for the axis has no 0. */
+/* What the truth itself is not known better than, nor a double: never 0, which the axis lacks. */
 static double chart_floor(const converge_job *job)
 {
     double floor = cli_converge_relative(job, job->truth.bound_m2);
-    double least = job->truth.sigma_m2 > 0.0 ? 0x1p-53 : HUGE_VAL;
-    for (uint32_t i = 0; i < job->settings && !(least < HUGE_VAL); i++) {
-        double bound = job->setting[i].bound_m2;
-        least = bound > 0.0 && bound < least ? bound : least;
+    if (job->truth.sigma_m2 > 0.0) {
+        return floor > 0x1p-53 ? floor : 0x1p-53;
     }
-    least = least < HUGE_VAL ? least : 1e-16;
-    return floor > least ? floor : least;
+    return floor > 0.0 ? floor : 1e-16; /* m2 */
 }
 
 int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_error *error)

@@ -64,24 +64,24 @@ static int mesh_read(converge_job *job, int digits)
 static int has_curved_shapes(const lrcs_scene *scene)
 {
     for (uint32_t i = 0; i < scene->part_count; i++) {
-        if (scene->part[i].kind >= 0 && scene->part[i].curvature.turn > 0.0) {
+        const lrcs_part *part = &scene->part[i];
+        if (part->kind >= 0 && (part->curvature.turn > 0.0 || !part->curvature_known)) {
             return 1;
         }
     }
     return 0;
 }
 
+/* Every mesh that differs; where there is but one, no tolerance made it. */
 static int meshes_read(converge_job *job)
 {
-    progress_say("meshes");
     int code = mesh_read(job, 1);
-    if (code == 0 && !has_curved_shapes(&job->mesh[0].scene.scene)) {
-        job->mesh[0].digits = 0;
-        return 0;
-    }
-    for (int digits = 2; digits <= CONVERGE_MESHES && code == 0 && !job->left_out[0]; digits++) {
+    int finest = code == 0 && has_curved_shapes(&job->mesh[0].scene.scene) ? CONVERGE_MESHES : 1;
+    for (int digits = 2; digits <= finest && code == 0 && !job->left_out[0]; digits++) {
+        progress_say("meshes");
         code = mesh_read(job, digits);
     }
+    job->mesh[0].digits = job->meshes > 1 ? 1 : 0;
     return code;
 }
 
@@ -99,6 +99,7 @@ static int setting_run(converge_job *job, converge_setting *setting)
     int status = lrcs_host_scene_run(&job->mesh[setting->mesh].scene, &job->pose, &options, &result,
                                      NULL, NULL, seconds, &error);
     if (status != LRCS_OK) {
+        progress_say("");
         return cli_failed(&error);
     }
     setting->runs++;
