@@ -133,35 +133,40 @@ static double chart_floor(const converge_job *job)
     return floor > 0.0 ? floor : 1e-16; /* m2 */
 }
 
+/* The scene without its folders; where the truth is from, and the laser. */
+static void chart_words(const converge_job *job, char title[256], char note[256])
+{
+    const char *slash = strrchr(job->args->operand, '/');
+    const double *d = job->pose.direction;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    snprintf(title, 256, "What accuracy costs in time: %s",
+             slash && slash[1] ? slash + 1 : job->args->operand);
+    snprintf(note, 256, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)", job->truth.text,
+             job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
+}
+
 int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_error *error)
 {
     chart_curves all = {.count = 0};
     char title[256];
     char note[256];
-    const double *d = job->pose.direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    chart_words(job, title, note);
     short_names(job, &all);
     for (int dial = 0; dial < CONVERGE_DIALS; dial++) {
         dial_add(job, &all, dial);
     }
-    double floor = chart_floor(job);
-    const char *slash = strrchr(job->args->operand, '/');
-    snprintf(title, sizeof title, "What accuracy costs in time: %s",
-             slash && slash[1] ? slash + 1 : job->args->operand);
-    snprintf(note, sizeof note, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)",
-             job->truth.text, job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
-    const lrcs_host_chart chart = {.title = title,
-                                   .note = note,
-                                   .x_name = "time of one pose, median (ms)",
-                                   .y_name = job->truth.sigma_m2 > 0.0
-                                                 ? "error of sigma (relative to the truth)"
-                                                 : "error of sigma (m2)",
-                                   .x_log = 1,
-                                   .y_log = 1,
-                                   .floor = floor,
-                                   .floor_name = "truth's own bound",
-                                   .series = all.series,
-                                   .series_count = all.count};
+    const lrcs_host_chart chart = {
+        .title = title,
+        .note = note,
+        .x_name = "time of one pose, median (ms)",
+        .y_name = job->truth.sigma_m2 > 0.0 ? "error of sigma (relative to the truth)"
+                                            : "error of sigma (m2)",
+        .x_log = 1,
+        .y_log = 1,
+        .floor = chart_floor(job),
+        .floor_name = job->truth.whole ? "truth's own bound" : "truth's bound (facets)",
+        .series = all.series,
+        .series_count = all.count};
     if (png) {
         return lrcs_host_chart_png(out, &chart, error);
     }

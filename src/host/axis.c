@@ -69,8 +69,8 @@ static void log_ticks(lrcsi_axis *axis, double texts)
     int last = axis_decade(axis->most);
     double span = log10(axis->most / axis->least);
     int step = (int)ceil(span / fmax(texts, 1.0));
-    int between = 3.0 * span <= texts; /* room to name 2 and 5 as well */
     int plain = first >= -3 && last <= 5;
+    int between = 3.0 * span <= texts && (plain || span < 2.0); /* 2 and 5 are named as well */
     step = step > 1 ? step : 1;
     for (int decade = first; decade <= last; decade++) {
         for (long k = 1; k < 10; k++) {
