@@ -55,12 +55,13 @@ static int plot_check(const converge_job *job, int index)
     if (!has_extension(path, ".svg") && !has_extension(path, ".png")) {
         return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'", path);
     }
-    if (job->csv && strcmp(job->csv, path) == 0) {
-        return cli_usage(args->command, "--csv and --plot name the same file '%s'", path);
-    }
-    for (int i = 0; i < index; i++) {
-        if (strcmp(args->given[i].name, "plot") == 0 && strcmp(args->given[i].value, path) == 0) {
-            return cli_usage(args->command, "--plot names '%s' twice", path);
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *other = &args->given[i];
+        int clashes =
+            strcmp(other->name, "csv") == 0 || (strcmp(other->name, "plot") == 0 && i < index);
+        if (clashes && lrcs_host_output_same(other->value, path)) {
+            return cli_usage(args->command, "--%s and --plot name the same file: '%s', '%s'",
+                             other->name, other->value, path);
         }
     }
     return 0;
@@ -111,6 +112,21 @@ static int csv_write(const converge_job *job)
     }
     cli_converge_csv(job, out.stream);
     return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+/* No output may replace a file that the scene was read from. */
+static int files_check(const converge_job *job)
+{
+    const cli_args *args = job->args;
+    lrcs_host_error error;
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *one = &args->given[i];
+        int output = strcmp(one->name, "csv") == 0 || strcmp(one->name, "plot") == 0;
+        if (output && lrcs_host_output_check(one->value, &job->mesh[0].scene, &error) != LRCS_OK) {
+            return cli_usage(args->command, "--%s %s", one->name, error.text);
+        }
+    }
+    return 0;
 }
 
 static int files_write(const converge_job *job)
@@ -169,6 +185,8 @@ static int converge_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     int code = converge_read(&job);
+    code = code ? code : cli_converge_meshes(&job);
+    code = code ? code : files_check(&job);
     code = code ? code : cli_converge_measure(&job);
     code = code ? code : converge_report(&job);
     for (uint32_t i = 0; i < job.meshes; i++) {

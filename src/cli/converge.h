@@ -64,7 +64,10 @@ typedef struct converge_job {
     char left_out[160]; /* what time or size did not allow, or "" */
 } converge_job;
 
-/* Measures all settings and finds the truth. 0, or an exit code with the message printed. */
+/* Reads the scene with every mesh. 0, or an exit code with the message printed. */
+int cli_converge_meshes(converge_job *job);
+
+/* Measures all settings and finds the truth. As above. */
 int cli_converge_measure(converge_job *job);
 
 /* The finest mesh. */

@@ -72,8 +72,8 @@ static int has_curved_shapes(const lrcs_scene *scene)
     return 0;
 }
 
-/* Every mesh that differs; where there is but one, no tolerance made it. */
-static int meshes_read(converge_job *job)
+/* Keeps every mesh that differs; where there is but one, no tolerance made it. */
+int cli_converge_meshes(converge_job *job)
 {
     int code = mesh_read(job, 1);
     int finest = code == 0 && has_curved_shapes(&job->mesh[0].scene.scene) ? CONVERGE_MESHES : 1;
@@ -81,6 +81,7 @@ static int meshes_read(converge_job *job)
         progress_say("meshes");
         code = mesh_read(job, digits);
     }
+    progress_say("");
     job->mesh[0].digits = job->meshes > 1 ? 1 : 0;
     return code;
 }
@@ -297,8 +298,7 @@ static void settings_judge(converge_job *job, int closed)
 
 int cli_converge_measure(converge_job *job)
 {
-    int code = meshes_read(job);
-    code = code ? code : settings_add(job);
+    int code = settings_add(job);
     code = code ? code : settings_repeat(job);
     progress_say("");
     if (code == 0) {

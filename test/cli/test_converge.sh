@@ -112,8 +112,11 @@ usage_error plot_of_another_kind "expected FILE.svg or FILE.png, found 'p.pdf'" 
 usage_error plot_without_an_extension "found 'svg'" converge demo --plot svg
 usage_error plot_that_is_all_extension "found '.svg'" converge demo --plot .svg
 usage_error plot_to_stdout "found '-'" converge demo --plot -
-usage_error one_plot_twice "twice" converge demo --plot a.svg --plot a.svg
-usage_error csv_and_plot_in_one_file "the same file" converge demo --csv a.svg --plot a.svg
+usage_error one_plot_twice "--plot and --plot name the same file" converge demo --plot a.svg --plot ./a.svg
+usage_error csv_and_plot_in_one_file "--csv and --plot name the same file" converge demo --csv a.svg --plot a.svg
+cp turned.toml scene.svg
+usage_error plot_over_the_scene "--plot scene.svg: would overwrite scene.svg" converge scene.svg --plot scene.svg
+usage_error csv_over_the_scene "--csv ./turned.toml: would overwrite turned.toml" converge turned.toml --csv ./turned.toml
 usage_error csv_and_json_on_stdout "both want standard output" converge demo --csv - --json
 usage_error no_time "found '0'" converge demo --seconds 0
 usage_error time_that_is_no_number "found 'soon'" converge demo --seconds soon
