@@ -35,7 +35,7 @@ typedef struct converge_setting {
     uint32_t mesh;       /* index */
     uint32_t runs;
     double seconds[CONVERGE_REPEATS]; /* of each run */
-    double pose_s;                    /* their median */
+    double spent_s, pose_s;           /* their sum and their median */
     double sigma_m2;
     double error_m2;     /* |sigma - truth| */
     double estimate_m2;  /* negative: none */

@@ -109,6 +109,7 @@ static int setting_run(converge_job *job, converge_setting *setting)
     setting->estimate_m2 = result.estimate_m2;
     setting->whole = result.budget.tessellation_m2 >= 0.0;
     setting->short_of_memory = (result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
+    setting->spent_s += *seconds;
     job->spent += *seconds;
     return 0;
 }
@@ -169,7 +170,7 @@ static int settings_add(converge_job *job)
             break;
         }
         code = setting_add(job, CONVERGE_ZBUFFER, LRCS_METHOD_ZBUFFER, n, finest);
-        last = job->setting[job->settings - 1].seconds[0];
+        last = job->setting[job->settings - 1].spent_s;
     }
     return code;
 }
@@ -178,25 +179,20 @@ static int settings_add(converge_job *job)
    while none has had more than its share of the time, or a hundredth of it all. */
 static int settings_repeat(converge_job *job)
 {
-    double used[CONVERGE_SETTINGS];
     double share = fmax((job->seconds - job->spent) / job->settings, 0.01 * job->seconds);
     int ran = 1;
-    for (uint32_t i = 0; i < job->settings; i++) {
-        used[i] = 0.0;
-    }
     while (ran) {
         ran = 0;
         for (uint32_t i = 0; i < job->settings; i++) {
             converge_setting *setting = &job->setting[i];
-            double last = setting->seconds[setting->runs - 1];
-            if (setting->runs == CONVERGE_REPEATS || used[i] + last > share) {
+            double mean = setting->spent_s / setting->runs;
+            if (setting->runs == CONVERGE_REPEATS || setting->spent_s + mean > share) {
                 continue;
             }
             int code = setting_run(job, setting);
             if (code != 0) {
                 return code;
             }
-            used[i] += setting->seconds[setting->runs - 1];
             ran = 1;
         }
     }

@@ -19,6 +19,7 @@
 #define CHART_BOTTOM  (CHART_HEIGHT - 58.0)
 #define CHART_MARGIN  16.0
 #define CHART_SMALL   12.0 /* type: ticks and legend */
+#define TEXT_DROP     0.36 /* of the size: from a text's middle to its base line */
 #define CHART_MARK    3.8  /* half a marker's width; outlines stand about full ones */
 #define CHART_OUTLINE 5.8
 #define GRID_MOST     60u /* ticks */
@@ -151,37 +152,35 @@ static void chart_grid(const chart_plan *plan, int major)
     }
 }
 
+static void tick_draw(const chart_plan *plan, const lrcsi_tick *tick, int vertical)
+{
+    double length = tick->major ? 5.0 : 3.0;
+    double x = vertical ? CHART_LEFT : chart_x(plan, tick->value);
+    double y = vertical ? chart_y(plan, tick->value) : CHART_BOTTOM;
+    lrcsi_words words = {.text = tick->text,
+                         .raised = tick->raised[0] ? tick->raised : NULL,
+                         .at = {x, y + 19.0},
+                         .size = CHART_SMALL,
+                         .anchor = LRCSI_ANCHOR_MIDDLE,
+                         .colour = COLOUR_TEXT};
+    if (vertical) {
+        words.at = (lrcsi_spot){x - 9.0, y + TEXT_DROP * CHART_SMALL};
+        words.anchor = LRCSI_ANCHOR_RIGHT;
+    }
+    chart_stroke(plan, x - (vertical ? length : 0.0), y, x, y + (vertical ? 0.0 : length),
+                 COLOUR_TEXT, 0.9);
+    if (tick->major) {
+        plan->pen->text(plan->pen, &words);
+    }
+}
+
 static void chart_ticks(const chart_plan *plan)
 {
     for (uint32_t i = 0; i < plan->x.count; i++) {
-        const lrcsi_tick *tick = &plan->x.tick[i];
-        double x = chart_x(plan, tick->value);
-        chart_stroke(plan, x, CHART_BOTTOM, x, CHART_BOTTOM + (tick->major ? 5.0 : 3.0),
-                     COLOUR_TEXT, 0.9);
-        const lrcsi_words words = {.text = tick->text,
-                                   .raised = tick->raised[0] ? tick->raised : NULL,
-                                   .at = {x, CHART_BOTTOM + 19.0},
-                                   .size = CHART_SMALL,
-                                   .anchor = LRCSI_ANCHOR_MIDDLE,
-                                   .colour = COLOUR_TEXT};
-        if (tick->major) {
-            plan->pen->text(plan->pen, &words);
-        }
+        tick_draw(plan, &plan->x.tick[i], 0);
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
-        const lrcsi_tick *tick = &plan->y.tick[i];
-        double y = chart_y(plan, tick->value);
-        chart_stroke(plan, CHART_LEFT - (tick->major ? 5.0 : 3.0), y, CHART_LEFT, y, COLOUR_TEXT,
-                     0.9);
-        const lrcsi_words words = {.text = tick->text,
-                                   .raised = tick->raised[0] ? tick->raised : NULL,
-                                   .at = {CHART_LEFT - 9.0, y + 0.36 * CHART_SMALL},
-                                   .size = CHART_SMALL,
-                                   .anchor = LRCSI_ANCHOR_RIGHT,
-                                   .colour = COLOUR_TEXT};
-        if (tick->major) {
-            plan->pen->text(plan->pen, &words);
-        }
+        tick_draw(plan, &plan->y.tick[i], 1);
     }
 }
 
@@ -370,7 +369,7 @@ static void chart_legend(const chart_plan *plan)
         plan->pen->line(plan->pen, sample, 2, &ink);
         marker_draw(plan, series, (lrcsi_spot){x + 0.5 * LEGEND_SAMPLE, y});
         words.text = series->name;
-        words.at = (lrcsi_spot){x + LEGEND_SAMPLE + 8.0, y + 0.36 * CHART_SMALL};
+        words.at = (lrcsi_spot){x + LEGEND_SAMPLE + 8.0, y + TEXT_DROP * CHART_SMALL};
         plan->pen->text(plan->pen, &words);
     }
     if (chart->y_log && chart->floor > 0.0 && chart->floor_name) {
@@ -380,42 +379,55 @@ static void chart_legend(const chart_plan *plan)
         chart_stroke(plan, x, y - 5.0, x + LEGEND_SAMPLE, y - 5.0, COLOUR_FAINT, 1.2);
         arrow_draw(plan, COLOUR_FAINT, (lrcsi_spot){x + 0.5 * LEGEND_SAMPLE, y - 8.5});
         words.text = chart->floor_name;
-        words.at = (lrcsi_spot){x + LEGEND_SAMPLE + 8.0, y + 0.36 * CHART_SMALL};
+        words.at = (lrcsi_spot){x + LEGEND_SAMPLE + 8.0, y + TEXT_DROP * CHART_SMALL};
         plan->pen->text(plan->pen, &words);
+    }
+}
+
+/* The paper that the data are drawn on. */
+static void chart_ground(const chart_plan *plan)
+{
+    int floor = plan->chart->y_log && plan->chart->floor > 0.0;
+    if (floor) {
+        chart_floor(plan);
+    }
+    chart_grid(plan, 0);
+    chart_grid(plan, 1);
+    if (floor) {
+        double y = chart_y(plan, plan->chart->floor);
+        chart_stroke(plan, CHART_LEFT, y, plan->right, y, COLOUR_FAINT, 1.2);
+    }
+}
+
+/* All lines first: none crosses out a marker. */
+static void chart_data(const chart_plan *plan)
+{
+    const lrcs_host_chart *chart = plan->chart;
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        series_line(plan, &chart->series[i]);
+    }
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        series_marks(plan, &chart->series[i]);
+    }
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        series_labels(plan, &chart->series[i]);
     }
 }
 
 static void chart_draw(const lrcs_host_chart *chart, lrcsi_pen *pen)
 {
-    lrcsi_board board = {.count = 0};
-    chart_plan plan = {.chart = chart, .pen = pen, .board = &board};
+    double right = CHART_WIDTH - 2.0 * CHART_MARGIN - legend_width(chart);
+    right = fmax(right, 0.5 * CHART_WIDTH); /* a longer legend is cut */
+    lrcsi_board board = {
+        .frame = {(float)CHART_LEFT, (float)CHART_TOP, (float)right, (float)CHART_BOTTOM}};
+    chart_plan plan = {.chart = chart, .pen = pen, .right = right, .board = &board};
     double range[2];
-    int floor = chart->y_log && chart->floor > 0.0;
-    plan.right = CHART_WIDTH - 2.0 * CHART_MARGIN - legend_width(chart);
     chart_range(chart, 0, range);
-    plan.x = lrcsi_axis_make(chart->x_log, range[0], range[1], (plan.right - CHART_LEFT) / 55.0);
+    plan.x = lrcsi_axis_make(chart->x_log, range[0], range[1], (right - CHART_LEFT) / 55.0);
     chart_range(chart, 1, range);
     plan.y = lrcsi_axis_make(chart->y_log, range[0], range[1], (CHART_BOTTOM - CHART_TOP) / 26.0);
-    board.frame =
-        (lrcsi_room){(float)CHART_LEFT, (float)CHART_TOP, (float)plan.right, (float)CHART_BOTTOM};
-    if (floor) {
-        chart_floor(&plan);
-    }
-    chart_grid(&plan, 0);
-    chart_grid(&plan, 1);
-    if (floor) {
-        double y = chart_y(&plan, chart->floor);
-        chart_stroke(&plan, CHART_LEFT, y, plan.right, y, COLOUR_FAINT, 1.2);
-    }
-    for (uint32_t i = 0; i < chart->series_count; i++) { /* no line crosses out a marker */
-        series_line(&plan, &chart->series[i]);
-    }
-    for (uint32_t i = 0; i < chart->series_count; i++) {
-        series_marks(&plan, &chart->series[i]);
-    }
-    for (uint32_t i = 0; i < chart->series_count; i++) {
-        series_labels(&plan, &chart->series[i]);
-    }
+    chart_ground(&plan);
+    chart_data(&plan);
     chart_frame(&plan);
     chart_ticks(&plan);
     chart_names(&plan);
