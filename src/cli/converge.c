@@ -21,7 +21,7 @@ static const char converge_help[] =
     "options\n"
     "  --csv FILE.csv        one row for every setting ('-': instead of the table)\n"
     "  --plot FILE           error against time; FILE.svg or FILE.png; repeatable\n"
-    "  --seconds S           time to spend, about (20); more of it, more repetitions\n"
+    "  --seconds S           time for the runs, about (20); loading and preparing come on top\n"
     "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
     "  --material [WHAT=]BRDF  repeatable, as in lrcs run\n"
     "  --keep-transparent    keep facets that the file calls fully transparent\n"

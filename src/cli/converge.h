@@ -55,7 +55,7 @@ typedef struct converge_job {
     lrcs_pose pose;
     lrcs_host_options load;
     const char *csv;
-    double seconds, spent; /* to spend in all, and spent */
+    double seconds, spent; /* for all runs, and spent on them */
     converge_mesh mesh[CONVERGE_MESHES];
     uint32_t meshes; /* coarse to fine: the last one is the finest */
     converge_setting setting[CONVERGE_SETTINGS];

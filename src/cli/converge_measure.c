@@ -41,7 +41,6 @@ static int mesh_read(converge_job *job, int digits)
         return code;
     }
     const lrcs_scene *scene = &mesh->scene.scene;
-    job->spent += mesh->scene.seconds_load;
     if (job->meshes > 0 && scene->facet_count > FACETS_MOST) {
         snprintf(job->left_out, sizeof job->left_out, "mesh 1e-%d, of %lu facets", digits,
                  (unsigned long)scene->facet_count);
@@ -57,7 +56,6 @@ static int mesh_read(converge_job *job, int digits)
     if (lrcs_host_scene_prepare(&mesh->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    job->spent += mesh->scene.seconds_prepare;
     return 0;
 }
 
@@ -147,6 +145,24 @@ static int method_enough(converge_job *job, uint32_t mesh, int *method)
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
+/* Ever finer rasters, until half of the time is gone. */
+static int rasters_add(converge_job *job, uint32_t mesh)
+{
+    int code = 0;
+    double last = 0.0;
+    for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && code == 0; n *= 2) {
+        if (job->spent + last > 0.5 * job->seconds) { /* nor would this one be faster */
+            size_t used = strlen(job->left_out);
+            snprintf(job->left_out + used, sizeof job->left_out - used,
+                     "%szbuffer %lu and finer, for time", used ? "; " : "", (unsigned long)n);
+            break;
+        }
+        code = setting_add(job, CONVERGE_ZBUFFER, LRCS_METHOD_ZBUFFER, n, mesh);
+        last = job->setting[job->settings - 1].spent_s;
+    }
+    return code;
+}
+
 /* Every mesh, by the method that is enough for it; the others on the finest mesh. */
 static int settings_add(converge_job *job)
 {
@@ -160,19 +176,8 @@ static int settings_add(converge_job *job)
     if (code == 0 && method != LRCS_METHOD_FACET) { /* else it is there already */
         code = setting_add(job, CONVERGE_FACET, LRCS_METHOD_FACET, 0, finest);
     }
-    code = code ? code : setting_add(job, CONVERGE_EXACT, LRCS_METHOD_EXACT, 0, finest);
-    double last = 0.0;
-    for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && code == 0; n *= 2) {
-        if (job->spent + last > job->seconds) { /* nor would this one be faster */
-            size_t used = strlen(job->left_out);
-            snprintf(job->left_out + used, sizeof job->left_out - used,
-                     "%szbuffer %lu and finer, for time", used ? "; " : "", (unsigned long)n);
-            break;
-        }
-        code = setting_add(job, CONVERGE_ZBUFFER, LRCS_METHOD_ZBUFFER, n, finest);
-        last = job->setting[job->settings - 1].spent_s;
-    }
-    return code;
+    code = code ? code : rasters_add(job, finest);
+    return code ? code : setting_add(job, CONVERGE_EXACT, LRCS_METHOD_EXACT, 0, finest);
 }
 
 /* Runs settings again in turn, so that what else the machine does falls on all of them alike,
