@@ -165,7 +165,8 @@ static void run_case(hostile_case *c, void *memory, size_t bytes)
             return;
         }
         for (size_t w = 0; w < WAYS; w++) {
-            lrcs_run_options options = {1e-4, ways[w].method, ways[w].size};
+            lrcs_run_options options = {
+                .tolerance = 1e-4, .method = ways[w].method, .resolution = ways[w].size};
             lrcs_result r;
             int status = lrcs_sigma_run(prepared, &pose, &options, &work, &r, records, NULL);
             if (status != LRCS_OK) {
