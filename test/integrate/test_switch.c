@@ -4,7 +4,7 @@
    with closed forms; what is left out on request is what a scene without it gives. */
 #include "scenes.h"
 
-#define SCENES      500
+#define SCENES      300
 #define BIT(effect) (1u << (effect))
 
 static test_scene scene;
