@@ -28,7 +28,7 @@ static const char run_help[] =
     "                        material\n"
     "  --keep-transparent    keep facets that the file calls fully transparent\n"
     "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
-    "                        where it is off; runs the pose some more times, for about 2 s\n"
+    "                        where it is off; runs the pose for some 2 s more, or once for each\n"
     "  --json                the result as JSON, notices included\n"
     "  --facets FILE.csv     one row for every facet ('-': instead of the table)\n"
     "  --image FILE.png      what the laser sees, coloured by sigma per projected area\n"

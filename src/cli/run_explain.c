@@ -118,13 +118,18 @@ int cli_run_explain(run_job *job)
     return code;
 }
 
+/* A value of an effect, or none where a run cannot switch it. */
+static double where_switched(int effect, double value)
+{
+    return 1u << effect & LRCS_EFFECTS_SWITCHED ? value : (double)NAN;
+}
+
 void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json)
 {
     const run_explained_effect *e = &job->explained.effect[effect];
-    double none = 1u << effect & LRCS_EFFECTS_SWITCHED ? 1.0 : (double)NAN;
-    lrcs_host_json_number(json, "seconds", none * e->seconds);
-    lrcs_host_json_number(json, "share", none * e->seconds / job->explained.pose);
-    lrcs_host_json_number(json, "sigma_m2_flipped", none * e->sigma_m2);
+    lrcs_host_json_number(json, "seconds", where_switched(effect, e->seconds));
+    lrcs_host_json_number(json, "share", where_switched(effect, e->seconds / job->explained.pose));
+    lrcs_host_json_number(json, "sigma_m2_flipped", where_switched(effect, e->sigma_m2));
 }
 
 /* ---- the table ---- */
@@ -159,7 +164,7 @@ static void sigma_column(const run_job *job, double flipped)
     cli_column(text, 14);
 }
 
-/* Decimals that leave two significant digits, three below 1. */
+/* Decimals: two significant digits, below 0.1 down to 1e-4. */
 static int decimals(double value)
 {
     return value >= 9.95 ? 0 : value >= 0.995 ? 1 : value >= 0.0995 ? 2 : 4;
