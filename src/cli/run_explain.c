@@ -22,6 +22,11 @@ typedef struct explain_times {
     double flipped[LRCS_EFFECTS][ROUNDS_MOST];
 } explain_times;
 
+static int is_switched(int effect)
+{
+    return (1u << effect & LRCS_EFFECTS_SWITCHED) != 0;
+}
+
 static double median(double *value, uint32_t count)
 {
     for (uint32_t i = 1; i < count; i++) {
@@ -62,17 +67,18 @@ static int explain_round(run_job *job, explain_times *times, uint32_t round, dou
     int code = explain_pose(job, &job->options, &result, &times->first[round]);
     for (int i = 0; i < LRCS_EFFECTS && code == 0; i++) {
         lrcs_run_options options = job->options;
-        uint32_t bit = 1u << i;
-        if (!(bit & LRCS_EFFECTS_SWITCHED)) {
+        if (!is_switched(i)) {
             continue;
         }
-        *(job->result.effect[i].on ? &options.without : &options.with) = bit;
+        *(job->result.effect[i].on ? &options.without : &options.with) = 1u << i;
         code = explain_pose(job, &options, &result, &times->flipped[i][round]);
         *spent += times->flipped[i][round];
         job->explained.effect[i].sigma_m2 = result.sigma_m2;
     }
-    code = code ? code : explain_pose(job, &job->options, &result, &times->last[round]);
-    *spent += times->first[round] + times->last[round];
+    if (code == 0) {
+        code = explain_pose(job, &job->options, &result, &times->last[round]);
+        *spent += times->first[round] + times->last[round];
+    }
     return code;
 }
 
@@ -109,7 +115,7 @@ int cli_run_explain(run_job *job)
         code = explain_round(job, &times, rounds++, &spent);
     }
     for (int i = 0; i < LRCS_EFFECTS && code == 0; i++) {
-        if (1u << i & LRCS_EFFECTS_SWITCHED) {
+        if (is_switched(i)) {
             explain_effect(job, &times, rounds, i, &job->explained.effect[i]);
         }
     }
@@ -121,7 +127,7 @@ int cli_run_explain(run_job *job)
 /* A value of an effect, or none where a run cannot switch it. */
 static double where_switched(int effect, double value)
 {
-    return 1u << effect & LRCS_EFFECTS_SWITCHED ? value : (double)NAN;
+    return is_switched(effect) ? value : (double)NAN;
 }
 
 void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json)
@@ -220,7 +226,7 @@ void cli_run_explain_table(const run_job *job)
     for (int i = 0; i < LRCS_EFFECTS; i++) {
         const lrcs_effect *effect = &job->result.effect[i];
         printf("  %-18s %-4s", lrcs_effect_text(i), effect->on ? "on" : "off");
-        if (1u << i & LRCS_EFFECTS_SWITCHED) {
+        if (is_switched(i)) {
             time_columns(job, effect->on, &job->explained.effect[i]);
             sigma_column(job, job->explained.effect[i].sigma_m2);
         } else {
