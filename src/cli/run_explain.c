@@ -63,7 +63,7 @@ static int explain_pose(const run_job *job, const lrcs_run_options *options, lrc
    was spent. */
 static int explain_round(run_job *job, explain_times *times, uint32_t round, double *spent)
 {
-    lrcs_result result;
+    lrcs_result result = {0};
     int code = explain_pose(job, &job->options, &result, &times->first[round]);
     for (int i = 0; i < LRCS_EFFECTS && code == 0; i++) {
         lrcs_run_options options = job->options;
