@@ -26,24 +26,35 @@ static double glint_peak(double s)
     return q <= 1 ? 1 : q * q * exp(2 / q - 2);
 }
 
+/* How far the glint may be off where tan^2 is too vague for its flank: truth and value both lie
+   between 0 and the glint at the least tan^2, which beyond the peak (2 s^2 - 1) is the most. */
+static double glint_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt)
+{
+    double least = tilt->tan2 * (1 - 2 * tilt->stretch);
+    if (!(least >= 2 * brdf->s * brdf->s)) {
+        return brdf->A * glint_peak(brdf->s);
+    }
+    const lrcs_brdf alone = {brdf->A, 0, brdf->s, 0};
+    lrcsi_reflection most = lrcsi_reflect(&alone, least, 0);
+    return most.glint + most.error;
+}
+
 /* How far f_r cos^2 may be off for want of knowing tan^2. With u = tan^2 known to a relative r,
    log of the glint moves by at most r (2 min(u, 1) + u / s^2), of the diffuse part by at most
-   r (m + 2)/2 min(u, 1); where that is no small number the glint's peak and B bound both. Near
+   r (m + 2)/2 min(u, 1); where these are no small numbers, each part is bounded itself. Near
    edge-on (r infinite) u is at least this, and beyond the glint's peak both parts only fall. */
 static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
                                const lrcsi_reflection *at)
 {
-    double most = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
     if (isinf(tilt->stretch)) {
+        double most = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
         return tilt->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : most;
     }
     double bent = fmin(tilt->tan2, 1);
     double glint = brdf->A > 0 ? tilt->stretch * (2 * bent + tilt->tan2 / brdf->s / brdf->s) : 0;
     double diffuse = tilt->stretch * (0.5 * brdf->m + 1) * bent;
-    if (!(glint < 1 && diffuse < 1)) {
-        return most;
-    }
-    return at->glint * expm1(glint) + at->diffuse * expm1(diffuse);
+    return (glint < 1 ? at->glint * expm1(glint) : glint_vague(brdf, tilt)) +
+           (diffuse < 1 ? at->diffuse * expm1(diffuse) : brdf->B);
 }
 
 /* One facet that reflects towards the laser. Returns its sigma. */

@@ -71,7 +71,7 @@ static void tilt_agrees_from_normal_to_grazing(void **state)
 {
     (void)state;
     static const double tangent[] = {1e-300, 1e-150, 1e-15, 1e-9, 1e-3, 0.3,
-                                     1,      1e3,    1e9,   1e12, 1e15, 1e20};
+                                     1,      1e3,    1e9,   1e12, 1e20, 1e60};
     static const double length[] = {1, 3e-7, 1e200};
     scene_start(&scene);
     scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){2, 0, 0},
@@ -86,7 +86,7 @@ static void tilt_agrees_from_normal_to_grazing(void **state)
             lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
             if (tilt.stretch < 1) {
                 check_rel(tilt.tan2, (double)want2, tilt.stretch);
-                assert_true(t > 1e12 || tilt.stretch < 1e-14);
+                assert_true(tilt.stretch < 1e-14);
             } else if (isfinite(tilt.stretch)) { /* it lies in 0 .. tan2 */
                 check_most((double)want2, tilt.tan2);
                 check_most(tilt.tan2, 1e-50);
@@ -95,7 +95,7 @@ static void tilt_agrees_from_normal_to_grazing(void **state)
             check_rel(tilt.cos_theta, (double)cosine, 1e-15);
             check_abs(lrcsi_prepared_area(view.prepared, tilt.projected), (double)(3 * cosine),
                       tilt.error * 3 * (double)cosine);
-            assert_true(t > 1e12 || tilt.error < 1e-15);
+            assert_true(tilt.error < 4e-15);
         }
     }
 }
