@@ -181,28 +181,6 @@ static void splitting_facets_changes_nothing(void **state)
     }
 }
 
-/* Splitting one side of an edge only: a T-junction. */
-static void t_junctions_leave_no_crack(void **state)
-{
-    (void)state;
-    scene_start(&scene);
-    scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){3, 2, 1});
-    uint32_t m = scene_vertex(&scene, 1.5, 1, 1); /* on the diagonal of the top */
-    lrcs_facet old = scene.facet[10];             /* 4 5 7, the diagonal from 7 to 4 */
-    scene.facet[10] = (lrcs_facet){{old.corner[0], old.corner[1], m}};
-    scene_facet(&scene, old.corner[1], old.corner[2], m);
-    for (size_t i = 0; i < DIRECTIONS; i++) {
-        const double *d = directions[i];
-        double silhouette = (2 * fabs(d[0]) + 3 * fabs(d[1]) + 6 * fabs(d[2])) /
-                            sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        for (int k = 1; k < 4; k++) {
-            lrcs_result r = seen(i, methods[k]);
-            check_rel(r.projected_area_m2, silhouette, 1e-13);
-            check_most(r.back_side_area_m2, 1e-14);
-        }
-    }
-}
-
 static void doubling_a_caster_changes_nothing(void **state)
 {
     (void)state;
@@ -343,7 +321,6 @@ int main(void)
         cmocka_unit_test(shuffled_facets_give_the_same_sum),
         cmocka_unit_test(turning_scene_and_laser_together_changes_nothing),
         cmocka_unit_test(splitting_facets_changes_nothing),
-        cmocka_unit_test(t_junctions_leave_no_crack),
         cmocka_unit_test(doubling_a_caster_changes_nothing),
         cmocka_unit_test(visible_areas_add_up_to_the_silhouette),
         cmocka_unit_test(methods_agree_at_ten_resolutions),
