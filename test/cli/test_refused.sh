@@ -20,7 +20,7 @@ done
 obj 1e100
 run run "$scratch/m.obj" --json
 same largest_coordinate_is_served "$rc" 0
-failure largest_coordinate_in_feet_is_not "at most 1e100 m after placing" run "$scratch/m.obj" --unit 1.5
+failure largest_coordinate_times_1.5_is_not "at most 1e100 m after placing" run "$scratch/m.obj" --unit 1.5
 
 printf 'solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex nan 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n' >"$scratch/m.stl"
 failure stl_nan "line 5: vertex coordinate: found 'nan', expected a finite number" run "$scratch/m.stl"
