@@ -8,60 +8,60 @@
 
 /* --- facets by hand --------------------------------------------------------------------------- */
 
-static uint32_t mesh_vertex(hard_mesh *mesh, double x, double y, double z)
+static uint32_t hand_vertex(hard_mesh *mesh, double x, double y, double z)
 {
     mesh->vertex[mesh->vertices] = (lrcs_point){{x, y, z}};
     return mesh->vertices++;
 }
 
-static void mesh_facet(hard_mesh *mesh, uint32_t a, uint32_t b, uint32_t c)
+static void hand_facet(hard_mesh *mesh, uint32_t a, uint32_t b, uint32_t c)
 {
     mesh->facet[mesh->facets] = (lrcs_facet){{a, b, c}};
     mesh->material[mesh->facets++] = mesh->wears;
 }
 
 /* The parallelogram corner, + u, + u + v, + v; front along u x v. */
-static void mesh_plate(hard_mesh *mesh, const double corner[3], const double u[3],
+static void hand_plate(hard_mesh *mesh, const double corner[3], const double u[3],
                        const double v[3])
 {
     const double *c = corner;
-    uint32_t i = mesh_vertex(mesh, c[0], c[1], c[2]);
-    mesh_vertex(mesh, c[0] + u[0], c[1] + u[1], c[2] + u[2]);
-    mesh_vertex(mesh, c[0] + u[0] + v[0], c[1] + u[1] + v[1], c[2] + u[2] + v[2]);
-    mesh_vertex(mesh, c[0] + v[0], c[1] + v[1], c[2] + v[2]);
-    mesh_facet(mesh, i, i + 1, i + 2);
-    mesh_facet(mesh, i, i + 2, i + 3);
+    uint32_t i = hand_vertex(mesh, c[0], c[1], c[2]);
+    hand_vertex(mesh, c[0] + u[0], c[1] + u[1], c[2] + u[2]);
+    hand_vertex(mesh, c[0] + u[0] + v[0], c[1] + u[1] + v[1], c[2] + u[2] + v[2]);
+    hand_vertex(mesh, c[0] + v[0], c[1] + v[1], c[2] + v[2]);
+    hand_facet(mesh, i, i + 1, i + 2);
+    hand_facet(mesh, i, i + 2, i + 3);
 }
 
 /* side x side at a corner, front on +z. */
-static void mesh_square(hard_mesh *mesh, double x, double y, double z, double side)
+static void hand_square(hard_mesh *mesh, double x, double y, double z, double side)
 {
-    mesh_plate(mesh, (const double[3]){x, y, z}, (const double[3]){side, 0.0, 0.0},
+    hand_plate(mesh, (const double[3]){x, y, z}, (const double[3]){side, 0.0, 0.0},
                (const double[3]){0.0, side, 0.0});
 }
 
 /* From the origin to (a, b, c), closed, outward. */
-static void mesh_box(hard_mesh *mesh, double a, double b, double c)
+static void hand_box(hard_mesh *mesh, double a, double b, double c)
 {
     static const uint32_t quad[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                         {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (int i = 0; i < 8; i++) {
-        mesh_vertex(mesh, i & 1 ? a : 0.0, i & 2 ? b : 0.0, i & 4 ? c : 0.0);
+        hand_vertex(mesh, i & 1 ? a : 0.0, i & 2 ? b : 0.0, i & 4 ? c : 0.0);
     }
     for (int i = 0; i < 6; i++) {
-        mesh_facet(mesh, quad[i][0], quad[i][1], quad[i][2]);
-        mesh_facet(mesh, quad[i][0], quad[i][2], quad[i][3]);
+        hand_facet(mesh, quad[i][0], quad[i][1], quad[i][2]);
+        hand_facet(mesh, quad[i][0], quad[i][2], quad[i][3]);
     }
 }
 
 static void build_plate(hard_mesh *mesh)
 {
-    mesh_square(mesh, 0.0, 0.0, 0.0, 1.0);
+    hand_square(mesh, 0.0, 0.0, 0.0, 1.0);
 }
 
 static void build_tilted_plate(hard_mesh *mesh)
 {
-    mesh_plate(mesh, (const double[3]){0.25, -0.75, 0.5}, (const double[3]){1.0, 2.0, 3.0},
+    hand_plate(mesh, (const double[3]){0.25, -0.75, 0.5}, (const double[3]){1.0, 2.0, 3.0},
                (const double[3]){-2.0, 1.0, 0.5});
 }
 
@@ -69,76 +69,76 @@ static void build_tilted_plate(hard_mesh *mesh)
 static void build_needle(hard_mesh *mesh)
 {
     const double third = 1.0 / 3.0;
-    mesh_vertex(mesh, 0.0, 0.0, 0.0);
-    mesh_vertex(mesh, 1.0, third, 0.25);
-    mesh_vertex(mesh, 0.5 + 0x1p-40, 0.5 * third, 0.125);
-    mesh_facet(mesh, 0, 1, 2);
+    hand_vertex(mesh, 0.0, 0.0, 0.0);
+    hand_vertex(mesh, 1.0, third, 0.25);
+    hand_vertex(mesh, 0.5 + 0x1p-40, 0.5 * third, 0.125);
+    hand_facet(mesh, 0, 1, 2);
 }
 
 static void build_sliver(hard_mesh *mesh)
 {
-    mesh_vertex(mesh, 0.0, 0.0, 0.0);
-    mesh_vertex(mesh, 1.0, 0.0, 0.0);
-    mesh_vertex(mesh, 0.5, 0x1p-27, 0.0);
-    mesh_facet(mesh, 0, 1, 2);
+    hand_vertex(mesh, 0.0, 0.0, 0.0);
+    hand_vertex(mesh, 1.0, 0.0, 0.0);
+    hand_vertex(mesh, 0.5, 0x1p-27, 0.0);
+    hand_facet(mesh, 0, 1, 2);
 }
 
 static void build_plate_with_a_facet_of_no_area(hard_mesh *mesh)
 {
     build_plate(mesh);
-    mesh_vertex(mesh, 0.5, 0.5, 0.0);
-    mesh_facet(mesh, 0, 4, 2);
+    hand_vertex(mesh, 0.5, 0.5, 0.0);
+    hand_facet(mesh, 0, 4, 2);
 }
 
 static void build_small_box(hard_mesh *mesh)
 {
-    mesh_box(mesh, 0x1p-500, 0x1p-500, 0x1p-500);
+    hand_box(mesh, 0x1p-500, 0x1p-500, 0x1p-500);
 }
 
 static void build_large_box(hard_mesh *mesh)
 {
-    mesh_box(mesh, 0x1p300, 0x1p300, 0x1p300);
+    hand_box(mesh, 0x1p300, 0x1p300, 0x1p300);
 }
 
 /* A plate, and a black wall on its edge that shades it. */
-static void mesh_bracket(hard_mesh *mesh, double at, double side)
+static void hand_bracket(hard_mesh *mesh, double at, double side)
 {
-    mesh_square(mesh, at, at, at, side);
+    hand_square(mesh, at, at, at, side);
     mesh->wears = 1;
-    mesh_plate(mesh, (const double[3]){at + side, at, at}, (const double[3]){0.0, side, 0.0},
+    hand_plate(mesh, (const double[3]){at + side, at, at}, (const double[3]){0.0, side, 0.0},
                (const double[3]){0.0, 0.0, side});
 }
 
 static void build_bracket(hard_mesh *mesh)
 {
-    mesh_bracket(mesh, 0.0, 1.0);
+    hand_bracket(mesh, 0.0, 1.0);
 }
 
 static void build_small_bracket(hard_mesh *mesh)
 {
-    mesh_bracket(mesh, 0.0, 0x1p-20);
+    hand_bracket(mesh, 0.0, 0x1p-20);
 }
 
 static void build_far_bracket(hard_mesh *mesh)
 {
-    mesh_bracket(mesh, 0x1p20, 1.0);
+    hand_bracket(mesh, 0x1p20, 1.0);
 }
 
 static void build_comb(hard_mesh *mesh)
 {
-    mesh_plate(mesh, (const double[3]){0.0, 0.0, 0.0}, (const double[3]){5.0, 0.0, 0.0},
+    hand_plate(mesh, (const double[3]){0.0, 0.0, 0.0}, (const double[3]){5.0, 0.0, 0.0},
                (const double[3]){0.0, 1.0, 0.0});
     for (int i = 1; i <= 40; i++) {
-        mesh_plate(mesh, (const double[3]){0.125 * i, 0.0, 0.0}, (const double[3]){0.0, 1.0, 0.0},
+        hand_plate(mesh, (const double[3]){0.125 * i, 0.0, 0.0}, (const double[3]){0.0, 1.0, 0.0},
                    (const double[3]){0.0, 0.0, 1.0});
     }
 }
 
 static void build_crossing_plates(hard_mesh *mesh)
 {
-    mesh_plate(mesh, (const double[3]){-1.0, 0.0, -1.0}, (const double[3]){2.0, 0.0, 2.0},
+    hand_plate(mesh, (const double[3]){-1.0, 0.0, -1.0}, (const double[3]){2.0, 0.0, 2.0},
                (const double[3]){0.0, 1.0, 0.0});
-    mesh_plate(mesh, (const double[3]){-1.0, 0.0, 1.0}, (const double[3]){2.0, 0.0, -2.0},
+    hand_plate(mesh, (const double[3]){-1.0, 0.0, 1.0}, (const double[3]){2.0, 0.0, -2.0},
                (const double[3]){0.0, 1.0, 0.0});
 }
 
@@ -150,19 +150,19 @@ static void build_doubled_plate(hard_mesh *mesh)
 
 static void build_overlapping_plates(hard_mesh *mesh)
 {
-    mesh_square(mesh, 0.0, 0.0, 0.0, 2.0);
-    mesh_square(mesh, 1.0, 1.0, 0.0, 2.0);
+    hand_square(mesh, 0.0, 0.0, 0.0, 2.0);
+    hand_square(mesh, 1.0, 1.0, 0.0, 2.0);
 }
 
 static void build_skins(hard_mesh *mesh)
 {
-    mesh_square(mesh, 0.0, 0.0, 1.0, 1.0);
-    mesh_square(mesh, 0.0, 0.0, 1.0 + 0x1p-52, 1.0);
+    hand_square(mesh, 0.0, 0.0, 1.0, 1.0);
+    hand_square(mesh, 0.0, 0.0, 1.0 + 0x1p-52, 1.0);
 }
 
 static void build_inverted_box(hard_mesh *mesh)
 {
-    mesh_box(mesh, 1.0, 1.0, 1.0);
+    hand_box(mesh, 1.0, 1.0, 1.0);
     for (uint32_t f = 0; f < mesh->facets; f++) {
         uint32_t other = mesh->facet[f].corner[1];
         mesh->facet[f].corner[1] = mesh->facet[f].corner[2];
@@ -173,20 +173,20 @@ static void build_inverted_box(hard_mesh *mesh)
 /* The ray from the facet's centroid to the laser meets the screen on its diagonal. */
 static void build_screened_facet(hard_mesh *mesh)
 {
-    mesh_vertex(mesh, -1.5, -3.0, 3.0);
-    mesh_vertex(mesh, -2.0, -2.5, 3.0);
-    mesh_vertex(mesh, -2.5, -3.5, 3.0);
-    mesh_facet(mesh, 0, 1, 2);
+    hand_vertex(mesh, -1.5, -3.0, 3.0);
+    hand_vertex(mesh, -2.0, -2.5, 3.0);
+    hand_vertex(mesh, -2.5, -3.5, 3.0);
+    hand_facet(mesh, 0, 1, 2);
     mesh->wears = 1;
-    mesh_square(mesh, -5.0, -5.0, 8.0, 10.0);
+    hand_square(mesh, -5.0, -5.0, 8.0, 10.0);
 }
 
 static void build_t_junction(hard_mesh *mesh)
 {
-    mesh_box(mesh, 3.0, 2.0, 1.0);
-    uint32_t middle = mesh_vertex(mesh, 1.5, 1.0, 1.0); /* on the top's diagonal, from 7 to 4 */
+    hand_box(mesh, 3.0, 2.0, 1.0);
+    uint32_t middle = hand_vertex(mesh, 1.5, 1.0, 1.0); /* on the top's diagonal, from 7 to 4 */
     mesh->facet[10] = (lrcs_facet){{4, 5, middle}};
-    mesh_facet(mesh, 5, 7, middle);
+    hand_facet(mesh, 5, 7, middle);
 }
 
 static void build_nothing(hard_mesh *mesh)
@@ -209,7 +209,7 @@ static void build_1e308(hard_mesh *mesh)
 
 static void build_beyond_1e100(hard_mesh *mesh)
 {
-    mesh_square(mesh, 0.0, 0.0, 0.0, 1.01e100);
+    hand_square(mesh, 0.0, 0.0, 0.0, 1.01e100);
 }
 
 /* --- the cases -------------------------------------------------------------------------------- */
