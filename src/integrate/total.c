@@ -53,36 +53,34 @@ static double glint_peak(double s)
     return q <= 1 ? 1 : q * q * exp(2 / q - 2);
 }
 
-/* The most that a glint and its neighbours can be where u is at least `low`: beyond the peak, at
-   1 + u = 2 s^2, they only fall. There, with x = low / s^2 >= 4, shaving 1e-9 off low raises the
-   exponent by at least 1e-9 x / 2, more than its rounding of 6 u (x + 2 log(1 + u)) and exp's. */
-static double glint_beyond(const lrcs_brdf *brdf, double low)
+/* How far the glint may be off where tan^2 is too vague for its flank: truth and value both lie
+   between 0 and the glint at the least tan^2, which beyond the peak (2 s^2 - 1) is the most. */
+static double glint_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt)
 {
-    double shaved = low * (1 - 1e-9);
-    if (!(shaved >= 4 * brdf->s * brdf->s)) {
+    double least = tilt->tan2 * (1 - 2 * tilt->stretch);
+    if (!(least >= 2 * brdf->s * brdf->s)) {
         return brdf->A * glint_peak(brdf->s);
     }
-    return brdf->A * exp(2 * log1p(shaved) - shaved / brdf->s / brdf->s) + 0x1p-1000;
+    const lrcs_brdf alone = {brdf->A, 0, brdf->s, 0};
+    lrcsi_reflection most = lrcsi_reflect(&alone, least, 0);
+    return most.glint + most.error;
 }
 
 /* How far f_r cos^2 may be off for want of knowing tan^2. With u = tan^2 known to a relative r,
    log of the glint moves by at most r (2 min(u, 1) + u / s^2), of the diffuse part by at most
-   r (m + 2)/2 min(u, 1). Where that is no small number both the glint computed and the true one lie
-   between 0 and the most at u (1 - r) or beyond, and the diffuse part between 0 and B. Near edge-on
-   (r infinite) u is at least this, and beyond the glint's peak both parts only fall. */
+   r (m + 2)/2 min(u, 1); where these are no small numbers, each part is bounded itself. Near
+   edge-on (r infinite) u is at least this, and beyond the glint's peak both parts only fall. */
 static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
                                const lrcsi_reflection *at)
 {
     if (isinf(tilt->stretch)) {
-        return tilt->tan2 >= 2 * brdf->s * brdf->s
-                   ? at->glint + at->diffuse
-                   : (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
+        double most = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
+        return tilt->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : most;
     }
     double bent = fmin(tilt->tan2, 1);
     double glint = brdf->A > 0 ? tilt->stretch * (2 * bent + tilt->tan2 / brdf->s / brdf->s) : 0;
     double diffuse = tilt->stretch * (0.5 * brdf->m + 1) * bent;
-    double low = tilt->tan2 * fmax(0, 1 - tilt->stretch);
-    return (glint < 1 ? at->glint * expm1(glint) : glint_beyond(brdf, low)) +
+    return (glint < 1 ? at->glint * expm1(glint) : glint_vague(brdf, tilt)) +
            (diffuse < 1 ? at->diffuse * expm1(diffuse) : brdf->B);
 }
 
