@@ -78,7 +78,7 @@ static void comb_free(comb *c)
 static lrcs_result comb_run(const comb *c, const double direction[3])
 {
     const lrcs_prepared *prepared = NULL;
-    lrcs_run_options options = {1e-9, LRCS_METHOD_EXACT, 0};
+    lrcs_run_options options = {.tolerance = 1e-9, .method = LRCS_METHOD_EXACT};
     lrcs_pose pose;
     lrcs_result result;
     size_t need = lrcs_prepare_need(&c->scene);
