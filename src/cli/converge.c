@@ -171,7 +171,10 @@ static int converge_report(const converge_job *job)
     }
     cli_notices_print(stderr, &cli_converge_finest(job)->scene.notices);
     if (job->left_out[0]) {
-        fprintf(stderr, "notice: left out: %s\n", job->left_out);
+        fprintf(stderr, "notice: %s\n", job->left_out);
+    }
+    if (job->busy[0]) {
+        fprintf(stderr, "notice: %s\n", job->busy);
     }
     if (!job->csv || strcmp(job->csv, "-") != 0) {
         cli_converge_table(job);

@@ -56,12 +56,14 @@ typedef struct converge_job {
     lrcs_host_options load;
     const char *csv;
     double seconds, spent; /* for all runs, and spent on them */
+    double processor;      /* s of a processor's time that they had */
     converge_mesh mesh[CONVERGE_MESHES];
     uint32_t meshes; /* coarse to fine: the last one is the finest */
     converge_setting setting[CONVERGE_SETTINGS];
     uint32_t settings;
     converge_truth truth;
     char left_out[160]; /* what time or size did not allow, or "" */
+    char busy[120];     /* how little of a processor the runs had, or "" */
 } converge_job;
 
 /* Reads the scene with every mesh. 0, or an exit code with the message printed. */

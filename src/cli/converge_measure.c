@@ -6,10 +6,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #define RASTER_LEAST 16u
 #define RASTER_MOST  4096u
+#define BUSY_SHARE   0.8
 #define FACETS_MOST  250000u /* no finer mesh of shapes is kept */
 
 const converge_mesh *cli_converge_finest(const converge_job *job)
@@ -42,7 +44,7 @@ static int mesh_read(converge_job *job, int digits)
     }
     const lrcs_scene *scene = &mesh->scene.scene;
     if (job->meshes > 0 && scene->facet_count > FACETS_MOST) {
-        snprintf(job->left_out, sizeof job->left_out, "mesh 1e-%d, of %lu facets", digits,
+        snprintf(job->left_out, sizeof job->left_out, "left out: mesh 1e-%d, of %lu facets", digits,
                  (unsigned long)scene->facet_count);
         lrcs_host_scene_free(&mesh->scene);
         return 0;
@@ -95,8 +97,10 @@ static int setting_run(converge_job *job, converge_setting *setting)
     options.method = setting->method;
     options.resolution = setting->resolution;
     progress_say(setting->name);
+    clock_t begun = clock();
     int status = lrcs_host_scene_run(&job->mesh[setting->mesh].scene, &job->pose, &options, &result,
                                      NULL, NULL, seconds, &error);
+    job->processor += (double)(clock() - begun) / CLOCKS_PER_SEC;
     if (status != LRCS_OK) {
         progress_say("");
         return cli_failed(&error);
@@ -154,7 +158,8 @@ static int rasters_add(converge_job *job, uint32_t mesh)
         if (job->spent + last > 0.5 * job->seconds) { /* nor would this one be faster */
             size_t used = strlen(job->left_out);
             snprintf(job->left_out + used, sizeof job->left_out - used,
-                     "%szbuffer %lu and finer, for time", used ? "; " : "", (unsigned long)n);
+                     "%szbuffer %lu and finer, for time",
+                     used ? "; " : "left out: ", (unsigned long)n);
             break;
         }
         code = setting_add(job, CONVERGE_ZBUFFER, LRCS_METHOD_ZBUFFER, n, mesh);
@@ -297,12 +302,27 @@ static void settings_judge(converge_job *job, int closed)
     job->settings = kept;
 }
 
+/* Says so where the runs waited for the processor, for then their times are too long. */
+static void busy_note(converge_job *job)
+{
+    double waited = 0.0;
+    for (uint32_t i = 0; i < job->settings; i++) {
+        waited += job->setting[i].spent_s;
+    }
+    if (job->processor < BUSY_SHARE * waited) {
+        snprintf(job->busy, sizeof job->busy,
+                 "the machine is busy: the runs had %.0f %% of a processor; times are too long",
+                 100.0 * job->processor / waited);
+    }
+}
+
 int cli_converge_measure(converge_job *job)
 {
     int code = settings_add(job);
     code = code ? code : settings_repeat(job);
     progress_say("");
     if (code == 0) {
+        busy_note(job);
         int closed = truth_closed(job);
         if (!closed) {
             truth_exact(job);

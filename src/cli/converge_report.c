@@ -225,6 +225,9 @@ static void notices_json(const converge_job *job, lrcs_host_json *json)
     if (job->left_out[0]) {
         lrcs_host_json_text(json, NULL, job->left_out);
     }
+    if (job->busy[0]) {
+        lrcs_host_json_text(json, NULL, job->busy);
+    }
     lrcs_host_json_end(json);
 }
 

@@ -45,7 +45,7 @@ within cylinder_errors_are_within_their_bounds 1e-13
 same json_keys_in_order "$(keys)" "schema version scene_hash truth settings cheapest best notices sentence "
 same json_has_every_setting "$(printf '%s\n' "$out" | grep -c '^    {"setting": ')" "$(sed 1d t.csv | wc -l | tr -d ' ')"
 same json_has_four_tolerances "$(printf '%s\n' "$out" | grep -cE '^    \{"tolerance": [0-9.e-]+, "setting": "')" 4
-same json_says_what_time_left_out "$(printf '%s\n' "$out" | grep -c '"zbuffer 16 and finer, for time"')" 1
+same json_says_what_time_left_out "$(printf '%s\n' "$out" | grep -c '"left out: zbuffer 16 and finer, for time"')" 1
 run shape cylinder --radius 0.5 --length 2 --aspect 60 --material 1,0.25,0.2,0.5 --json
 same example_files_are_what_they_say "$(value sigma_m2 | cut -c1-12)" 3.5904267333
 
