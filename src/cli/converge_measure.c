@@ -282,8 +282,9 @@ static void truth_exact(converge_job *job)
              (unsigned long)cli_converge_finest(job)->scene.scene.facet_count);
 }
 
-/* Holds each setting to the truth. A bound against facets counts only where the truth is of the
-   same facets; and such a truth cannot judge its own mesh, which is therefore not listed. */
+/* Holds each setting to the truth. A bound counts where both are against the true shapes, or
+   where the truth is exact on the same mesh; and such a truth cannot judge its own mesh, which is
+   therefore not listed. */
 static void settings_judge(converge_job *job, int closed)
 {
     uint32_t kept = 0;
@@ -291,9 +292,9 @@ static void settings_judge(converge_job *job, int closed)
         converge_setting setting = job->setting[i];
         int finest = setting.mesh == job->meshes - 1;
         setting.error_m2 = fabs(setting.sigma_m2 - job->truth.sigma_m2);
-        if (!setting.whole && (closed || !finest)) {
-            setting.bound_m2 = -1.0;
-        }
+        int shapes = setting.whole && job->truth.whole;
+        int facets = finest && !closed;
+        setting.bound_m2 = shapes || facets ? setting.bound_m2 : -1.0;
         if (closed || setting.dial != CONVERGE_MESH || !finest) {
             setting_median(&setting);
             job->setting[kept++] = setting;
