@@ -108,7 +108,7 @@ static void fronts_are_known(const lrcsi_view *view, lrcsi_visible *visible)
         if (view->facing[f] > 0) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
             double low = tilt.cos_theta > view->prepared->graze ? tilt.projected : 0;
-            visible[f] = (lrcsi_visible){tilt.projected, low, tilt.projected, 0};
+            visible[f] = (lrcsi_visible){tilt.projected, low, tilt.projected, 0, 0};
         }
     }
 }

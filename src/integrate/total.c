@@ -16,7 +16,8 @@
 /* Running sums, in scaled units. */
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
-    double visibility, tessellation, rounding, likely;
+    double visibility, tessellation, rounding;
+    double likely, lean; /* squares; a signed sum */
 } total_sums;
 
 /* The largest value of (1 + u)^2 exp(-u / s^2) over u >= 0. */
@@ -63,6 +64,7 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t 
     lrcsi_sum_add(&sums->diffuse, diffuse);
     sums->visibility += per_area * doubt;
     sums->likely += (per_area * visible->likely) * (per_area * visible->likely);
+    sums->lean += per_area * visible->lean;
     /* S, 4 pi, two products and the share: 8 u, with the relative error of areas */
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
                       whole * most * (at.error + reflection_vague(brdf, tilt, &at));
@@ -144,7 +146,7 @@ static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total
         sums->tessellation < 0 ? -1 : lrcsi_prepared_area(p, sums->tessellation * outward);
     double adding = (glint + diffuse) * (4 * U + 3 * (count * U) * (count * U));
     total->rounding = lrcsi_prepared_area(p, (sums->rounding + adding) * outward);
-    total->likely = lrcsi_prepared_area(p, 2 * sqrt(sums->likely));
+    total->likely = lrcsi_prepared_area(p, sqrt(sums->likely + sums->lean * sums->lean));
 }
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible, int unshadowed,
@@ -152,7 +154,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visibl
 {
     const lrcs_prepared *p = view->prepared;
     lrcsi_total total = {0};
-    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0};
+    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0, 0};
     if (p->curved && !unshadowed) {
         sums.tessellation = -HUGE_VAL;
     }

@@ -219,7 +219,7 @@ static int occlude_contested(const lrcsi_view *view, uint32_t facet, occlude_scr
         visible->low = lrcsi_most(0, left - error);
         visible->high = lrcsi_least(whole, left + job.doubt + error);
         if (!isfinite(error)) {
-            *visible = (lrcsi_visible){left, 0, whole, 0};
+            *visible = (lrcsi_visible){left, 0, whole, 0, 0};
         }
     }
     work->used = mark;
@@ -232,11 +232,11 @@ static lrcsi_visible occlude_uniform(const lrcsi_view *view, uint32_t facet,
     double whole = lrcsi_view_tilt(view, facet).projected;
     switch (lrcsi_query_facet(facets, facet)) {
     case LRCSI_QUERY_HIDDEN:
-        return (lrcsi_visible){0, 0, 0, 0};
+        return (lrcsi_visible){0, 0, 0, 0, 0};
     case LRCSI_QUERY_VISIBLE:
-        return (lrcsi_visible){whole, whole, whole, 0};
+        return (lrcsi_visible){whole, whole, whole, 0, 0};
     default:
-        return (lrcsi_visible){0.5 * whole, 0, whole, 0};
+        return (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
     }
 }
 
@@ -270,7 +270,7 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
     occlude_scratch scratch;
     int status = occlude_start(view, work, &scratch);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        visible[f] = (lrcsi_visible){0, 0, 0, 0};
+        visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
         if (!lrcsi_grid_casts(view, f)) {
             continue;
         }
