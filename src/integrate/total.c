@@ -146,7 +146,7 @@ static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total
         sums->tessellation < 0 ? -1 : lrcsi_prepared_area(p, sums->tessellation * outward);
     double adding = (glint + diffuse) * (4 * U + 3 * (count * U) * (count * U));
     total->rounding = lrcsi_prepared_area(p, (sums->rounding + adding) * outward);
-    total->likely = lrcsi_prepared_area(p, sqrt(sums->likely + sums->lean * sums->lean));
+    total->likely = lrcsi_prepared_area(p, sqrt(sums->likely + 2.25 * sums->lean * sums->lean));
 }
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible, int unshadowed,

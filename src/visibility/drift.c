@@ -21,6 +21,7 @@
 typedef struct drift_facet {
     const lrcsi_raster *raster;
     lrcsi_edges edges;
+    const uint32_t *sheet; /* of each facet */
     uint32_t facet;
 } drift_facet;
 
@@ -32,13 +33,17 @@ typedef struct drift_sum {
     int seen;                 /* 0: not yet; at the last step: 1 seen above the line, -1 below */
 } drift_sum;
 
-static int drift_owns(const drift_facet *d, int axis, double along, double across)
+/* Does the sample show the facet, or one that continues it? */
+static int drift_shows(const drift_facet *d, int axis, double along, double across)
 {
     const lrcsi_raster *r = d->raster;
     double x = axis == 0 ? along : across;
     double y = axis == 0 ? across : along;
-    return x >= 0 && y >= 0 && x < r->size && y < r->size &&
-           r->owner[(size_t)y * r->size + (size_t)x] == d->facet;
+    if (!(x >= 0 && y >= 0 && x < r->size && y < r->size)) {
+        return 0;
+    }
+    uint32_t owner = r->owner[(size_t)y * r->size + (size_t)x];
+    return owner != LRCS_NONE && d->sheet[owner] == d->sheet[d->facet];
 }
 
 /* One step, at which the line passes at `across`. The facet is seen on one side of it, or `side` is
@@ -95,8 +100,8 @@ static drift_sum drift_walk(const drift_facet *d, const double a[2], const doubl
     for (double step = lrcsi_most(ceil(from - 0.5), 0); step <= last; step++) {
         double across = a[!axis] + slope * (step + 0.5 - a[axis]);
         double limit = floor(across + 0.5); /* midway between the samples about the line */
-        drift_step(&s, across - limit, drift_owns(d, axis, step, limit),
-                   drift_owns(d, axis, step, limit - 1), side);
+        drift_step(&s, across - limit, drift_shows(d, axis, step, limit),
+                   drift_shows(d, axis, step, limit - 1), side);
     }
     return s;
 }
@@ -180,13 +185,13 @@ static void drift_add_sides(const drift_facet *d, double share, lrcsi_drift *dri
 lrcsi_drift lrcsi_drift_facet(const lrcsi_contest *contest, uint32_t crossings,
                               const lrcsi_raster *raster, uint32_t facet)
 {
-    drift_facet d = {raster, lrcsi_raster_edges(raster, facet), facet};
+    drift_facet d = {raster, lrcsi_raster_edges(raster, facet), contest->sheet, facet};
     lrcsi_drift drift = {0, 0};
     if (raster->owned[facet] == 0) {
-        drift.square = 1;
-        return drift;
+        drift.square = raster->covered[facet] == 0 ? 1 : 0.5;
+    } else {
+        drift_add_sides(&d, (double)raster->owned[facet] / raster->covered[facet], &drift);
     }
-    drift_add_sides(&d, (double)raster->owned[facet] / raster->covered[facet], &drift);
     for (uint32_t i = 0; i < crossings; i++) {
         drift_add_edge(&d, contest->crossing[i], &drift);
     }

@@ -16,6 +16,9 @@
 #include "visibility/query.h"
 #include "visibility/sample.h"
 
+/* Samples whose share is no longer biased to speak of: by about one in so many. */
+#define FEW 16u
+
 /* --- nothing hides anything ------------------------------------------------------------------- */
 
 void lrcsi_visible_unshadowed(const lrcsi_view *view, double graze, lrcsi_visible *visible)
@@ -284,7 +287,10 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *
     v.high = lrcsi_most(v.low, area - hidden * pixel * (1 - 1e-12));
     v.area = lrcsi_least(v.high, lrcsi_most(v.low, area * sampled_share(raster, facets, facet)));
     v.likely = lrcsi_least(v.high - v.low, sqrt(drift.square) * pixel);
-    v.lean = lrcsi_least(v.high - v.low, lrcsi_most(v.low - v.high, drift.lean * pixel));
+    v.lean = drift.lean * pixel;
+    if (raster->covered[facet] < FEW) {
+        v.lean += v.area - raster->owned[facet] * pixel;
+    }
     return v;
 }
 
