@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /* The likely error of a sampled area. A straight line that parts what is seen from what is not is
    met between two samples at every step along its longer axis, and the samples put it midway
-   between them. The sum of these offsets over the steps is the error of the area: it stays small
-   where the offsets go round all values, and grows with every step where the line runs along the
-   rows or at a simple slope to them. Which stretch of the line is seen is known only to a step or
-   two, so the guess takes how far the sum strays over the stretch, and a fifth of a square pixel
-   for its ends. The facet's own sides misjudge its covered and its owned samples alike, and their
-   share by as little as it is close to none or all: they count times share (1 - share). It does
-   not prove anything, and what is smaller than a pixel may escape it. */
+   between them. The sum of these offsets is the error of the area: it stays small where they go
+   round all values, and grows with every step where the line runs along the rows or at a simple
+   slope to them. It counts from the first to the last step where just one of the two samples shows
+   the facet's sheet; since that stretch is known to a step or two only, what counts is how far the
+   sum strays over it. The facet's own sides miscount its covered and its owned samples alike, so
+   that they count times share (1 - share). All this is a guess, and strips thinner than a pixel
+   that hide from all samples escape it. */
 #include "visibility/drift.h"
 
 #include <math.h>
 
 #include "base/range.h"
 
-/* Square pixels, squared, for the ends of a stretch. */
-#define ENDS 0.2
+/* Squared errors in pixels, calibrated (integrate/total.c): at the ends of a stretch; of a facet
+   that owns none of its samples; of one that has none. */
+#define ENDS      0.2
+#define UNSEEN    0.5
+#define UNSAMPLED 1.0
 
 /* A facet on the raster. */
 typedef struct drift_facet {
@@ -46,8 +49,22 @@ static int drift_shows(const drift_facet *d, int axis, double along, double acro
     return owner != LRCS_NONE && d->sheet[owner] == d->sheet[d->facet];
 }
 
-/* One step, at which the line passes at `across`. The facet is seen on one side of it, or `side` is
-   one of its own. */
+/* Where samples put a line that passes at `across`: midway between the two about it. Through a
+   sample itself it may count as passing on either side. */
+static double drift_limit(const drift_facet *d, int axis, double along, double across)
+{
+    double limit = floor(across + 0.5);
+    double sample = floor(across);
+    if (fabs(across - sample - 0.5) > 4 * d->raster->off) {
+        return limit;
+    }
+    int at = drift_shows(d, axis, along, sample);
+    return at != drift_shows(d, axis, along, sample - 1)   ? sample
+           : at != drift_shows(d, axis, along, sample + 1) ? sample + 1
+                                                           : limit;
+}
+
+/* One step. Of a facet's own side every one belongs to the stretch. */
 static void drift_step(drift_sum *s, double offset, int above, int below, int side)
 {
     if (s->seen == 0) {
@@ -99,7 +116,7 @@ static drift_sum drift_walk(const drift_facet *d, const double a[2], const doubl
     double last = lrcsi_least(to - 0.5, d->raster->size - 1.0);
     for (double step = lrcsi_most(ceil(from - 0.5), 0); step <= last; step++) {
         double across = a[!axis] + slope * (step + 0.5 - a[axis]);
-        double limit = floor(across + 0.5); /* midway between the samples about the line */
+        double limit = drift_limit(d, axis, step, across);
         drift_step(&s, across - limit, drift_shows(d, axis, step, limit),
                    drift_shows(d, axis, step, limit - 1), side);
     }
@@ -188,7 +205,7 @@ lrcsi_drift lrcsi_drift_facet(const lrcsi_contest *contest, uint32_t crossings,
     drift_facet d = {raster, lrcsi_raster_edges(raster, facet), contest->sheet, facet};
     lrcsi_drift drift = {0, 0};
     if (raster->owned[facet] == 0) {
-        drift.square = raster->covered[facet] == 0 ? 1 : 0.5;
+        drift.square = raster->covered[facet] == 0 ? UNSAMPLED : UNSEEN;
     } else {
         drift_add_sides(&d, (double)raster->owned[facet] / raster->covered[facet], &drift);
     }

@@ -16,7 +16,8 @@
 #include "visibility/query.h"
 #include "visibility/sample.h"
 
-/* Samples whose share is no longer biased to speak of: by about one in so many. */
+/* The share of fewer samples than this is biased: a row of facets thinner than a pixel then leans
+   one way, which the plain count of their samples does not. */
 #define FEW 16u
 
 /* --- nothing hides anything ------------------------------------------------------------------- */
@@ -286,11 +287,13 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *
     v.low = lrcsi_least(area, shown * pixel * (1 - 1e-12));
     v.high = lrcsi_most(v.low, area - hidden * pixel * (1 - 1e-12));
     v.area = lrcsi_least(v.high, lrcsi_most(v.low, area * sampled_share(raster, facets, facet)));
-    v.likely = lrcsi_least(v.high - v.low, sqrt(drift.square) * pixel);
+    double gap = v.high - v.low;
+    v.likely = lrcsi_least(gap, sqrt(drift.square) * pixel);
     v.lean = drift.lean * pixel;
     if (raster->covered[facet] < FEW) {
         v.lean += v.area - raster->owned[facet] * pixel;
     }
+    v.lean = lrcsi_least(gap, lrcsi_most(-gap, v.lean));
     return v;
 }
 

@@ -6,7 +6,7 @@ Coordinates and directions are arbitrary doubles, taken as exact. Everything is 
 points of the view plane are intersections of input lines in homogeneous integers, so that nothing
 is ever rounded and nothing grows. The visible part of a facet is what is left after each nearer
 facet, cut by the plane where both have one height, is taken away. Eq. 2 is summed at 40 digits.
-usage: bounds.py SCENES SEED > FILE           hostile scenes: degenerate, aligned, nearly so
+usage: bounds.py SCENES SEED hostile > FILE   degenerate, aligned, nearly so
        bounds.py SCENES SEED plain > FILE     soups, piercing plates, spacecraft, slivers at large
        bounds.py table SEED:NUMBER... > hostile.inc     hostile scenes as rows of C
 """
