@@ -202,7 +202,7 @@ int lrcsi_clip_subtract(lrcsi_clip *clip, const lrcsi_clip_region *region)
     return 1;
 }
 
-static double corners_area(const double (*c)[2], uint32_t count)
+double lrcsi_clip_corners_area(const double (*c)[2], uint32_t count)
 {
     double area = 0;
     for (uint32_t j = 2; j < count; j++) {
@@ -214,7 +214,7 @@ static double corners_area(const double (*c)[2], uint32_t count)
 
 double lrcsi_clip_polygon_area(const lrcsi_clip_polygon *polygon)
 {
-    return corners_area((const double(*)[2])polygon->corner, polygon->count);
+    return lrcsi_clip_corners_area((const double(*)[2])polygon->corner, polygon->count);
 }
 
 double lrcsi_clip_box_area(const double corner[3][2], const double low[2])
@@ -242,8 +242,8 @@ double lrcsi_clip_area(const lrcsi_clip *clip)
     double area = 0;
     for (uint32_t i = 0; i < clip->list.pieces; i++) {
         uint32_t first = lrcsi_clip_first(&clip->list, i);
-        area += corners_area((const double(*)[2])(clip->list.corner + first),
-                             clip->list.end[i] - first);
+        area += lrcsi_clip_corners_area((const double(*)[2])(clip->list.corner + first),
+                                        clip->list.end[i] - first);
     }
     return area;
 }

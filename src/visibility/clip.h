@@ -53,6 +53,7 @@ size_t lrcsi_clip_need(void);
 int lrcsi_clip_make(lrcs_work *work, lrcsi_clip *clip);
 
 void lrcsi_clip_triangle(const double corner[3][2], lrcsi_clip_polygon *polygon);
+double lrcsi_clip_corners_area(const double (*corner)[2], uint32_t count);
 double lrcsi_clip_polygon_area(const lrcsi_clip_polygon *polygon);
 
 /* Halves a piece across the longer side of its box. Either half may come out with less than three

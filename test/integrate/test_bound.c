@@ -1,38 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The z-buffer's bound against exact rational visibility: 210 small scenes full of degenerate
    contacts (test/vectors/visible.py), at several resolutions, one-sided and two-sided. */
-#include "scenes.h"
-
-#define MOST 24
-
-typedef struct visible_case {
-    const char *kind;
-    uint32_t vertices, facets;
-    double direction[3];
-    lrcs_point vertex[MOST];
-    lrcs_facet facet[MOST];
-    double share[MOST]; /* of the projected area that is visible; -1: edge-on */
-} visible_case;
-
-static const visible_case cases[] = {
-#include "../vectors/visible.inc"
-};
-#define CASES (sizeof cases / sizeof *cases)
+#include "visible.h"
 
 static test_scene scene;
-
-static void scene_of(const visible_case *c, int two_sided)
-{
-    scene_start(&scene);
-    scene.material[0].brdf.s = 0.5;
-    scene.material[0].two_sided = (unsigned char)two_sided;
-    for (uint32_t v = 0; v < c->vertices; v++) {
-        scene_vertex(&scene, c->vertex[v].x[0], c->vertex[v].x[1], c->vertex[v].x[2]);
-    }
-    for (uint32_t f = 0; f < c->facets; f++) {
-        scene_facet(&scene, c->facet[f].corner[0], c->facet[f].corner[1], c->facet[f].corner[2]);
-    }
-}
 
 /* Eq. 2 from the exact shares, in long double: N . d and |N|^2 are small integers. */
 static double true_sigma(const visible_case *c, int two_sided, double *silhouette)
@@ -70,7 +41,7 @@ static double true_sigma(const visible_case *c, int two_sided, double *silhouett
 /* The records of the run are scene.record. */
 static lrcs_result run_case(const visible_case *c, int two_sided, int method, uint32_t size)
 {
-    scene_of(c, two_sided);
+    visible_scene(&scene, c, two_sided);
     return scene_run(&scene, c->direction, method, size);
 }
 
