@@ -11,12 +11,13 @@ typedef struct run_job {
     lrcs_pose pose;
     lrcs_run_options options;
     lrcs_host_options load;
-    const char *facets, *image_path;
+    const char *facets, *polygons_path, *image_path;
     uint32_t image_size;
     lrcs_host_scene scene;
     lrcs_result result;
     lrcs_facet_record *records;
     lrcs_image image;
+    lrcs_host_polygons polygons;
     double seconds;
     int met;
 } run_job;
@@ -26,6 +27,9 @@ typedef struct run_job {
 int cli_run_outputs_read(run_job *job);
 int cli_run_outputs_check(const run_job *job);
 int cli_run_outputs_write(const run_job *job);
+
+/* Does a file's table take the place of the one for people? */
+int cli_run_outputs_stdout(const run_job *job);
 
 /* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
    for people. */

@@ -22,7 +22,7 @@ int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error)
 {
     double start = lrcsi_host_seconds();
     size_t need = lrcs_prepare_need(&scene->scene);
-    int status = lrcsi_host_step_run(scene, need, run_prepare, scene, error);
+    int status = lrcsi_host_step_run(&scene->blocks, need, run_prepare, scene, error);
     scene->seconds_prepare = lrcsi_host_seconds() - start;
     return run_fail(error, status, "preparing the scene");
 }
