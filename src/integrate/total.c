@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "base/range.h"
 #include "base/sum.h"
 #include "optics/reflect.h"
 
@@ -41,7 +42,9 @@ static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
     double glint = brdf->A > 0 ? tilt->stretch * (2 * bent + tilt->tan2 / brdf->s / brdf->s) : 0;
     double diffuse = tilt->stretch * (0.5 * brdf->m + 1) * bent;
     if (!(glint < 1 && diffuse < 1)) {
-        return most;
+        double least = tilt->tan2 * (1 - tilt->stretch) * (1 - 4 * U);
+        lrcsi_reflection r = lrcsi_reflect(brdf, lrcsi_most(0, least), 0);
+        return least >= 2 * brdf->s * brdf->s ? r.glint + r.diffuse + r.error : most;
     }
     return at->glint * expm1(glint) + at->diffuse * expm1(diffuse);
 }
