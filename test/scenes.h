@@ -206,7 +206,7 @@ static inline lrcs_result scene_pose(test_scene *s, const lrcs_prepared *prepare
 {
     lrcs_pose pose;
     lrcs_result result;
-    lrcs_run_options options = {1e-4, method, size};
+    lrcs_run_options options = {.tolerance = 1e-4, .method = method, .resolution = size};
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, work, &result, s->record, NULL),
                      LRCS_OK);

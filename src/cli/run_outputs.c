@@ -35,9 +35,12 @@ static int files_apart(const run_job *job)
     run_file file[FILES];
     files_list(job, file);
     for (int i = 0; i < FILES; i++) {
-        if (to_stdout(file[i].path) && cli_value(job->args, "json")) {
-            return cli_usage(command, "--%s - and --json both want standard output",
-                             file[i].option);
+        const char *table = cli_value(job->args, "json")      ? "json"
+                            : cli_value(job->args, "explain") ? "explain"
+                                                              : NULL;
+        if (to_stdout(file[i].path) && table) {
+            return cli_usage(command, "--%s - and --%s both want standard output", file[i].option,
+                             table);
         }
         for (int k = i + 1; k < FILES; k++) {
             if (file[i].path && file[k].path && lrcs_host_output_same(file[i].path, file[k].path)) {

@@ -98,6 +98,12 @@ lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
     return tilt;
 }
 
+int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
+{
+    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_reflect &&
+                                       lrcsi_prepared_material(view->prepared, facet)->two_sided);
+}
+
 static void view_point(const lrcsi_view *view, const double *x, double *out)
 {
     double p[3];
@@ -159,6 +165,7 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
                     lrcsi_view *view)
 {
     lrcsi_view v = {.prepared = prepared};
+    v.backs_cast = v.backs_reflect = !prepared->solid;
     size_t mark = work->used;
     v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
     v.point = lrcsi_work_take(work, prepared->scene->vertex_count, sizeof *v.point);
