@@ -170,11 +170,17 @@ static int run_raster(sigma_run *run, uint32_t size)
     return status;
 }
 
-static int run_exact(sigma_run *run)
+/* Facets that find no memory to be clipped in widen the bound; under auto a raster does better. */
+static int run_exact(sigma_run *run, int method)
 {
-    int status = lrcsi_occlude_all(&run->contest, run->work, run->visible);
+    uint32_t starved = 0;
+    int status = lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
+    if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
+        return LRCS_E_MEMORY;
+    }
     if (status == LRCS_OK) {
         run->size = 0;
+        run->flags |= starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         run_sum(run);
     }
     return status;
@@ -206,11 +212,13 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 
 static int run_method(sigma_run *run, const lrcs_run_options *options)
 {
-    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
+    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run, options->method)
+                                                 : run_zbuffer(run, options);
 }
 
 /* Under auto a raster of a size asked for goes first; where its bound misses the tolerance,
-   clipping follows. Clipping that finds no memory yields to a raster, which needs less. */
+   clipping follows. Clipping that finds no memory yields to a raster, which needs less, whether it
+   was asked for or not. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
@@ -218,15 +226,12 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
         return status;
     }
     status = run_method(run, options);
-    if (options->method != LRCS_METHOD_AUTO) {
-        return status;
-    }
-    if (status == LRCS_OK && run->plan.method == LRCS_METHOD_ZBUFFER &&
-        !run_meets(&run->total, options->tolerance)) {
+    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
+        run->plan.method == LRCS_METHOD_ZBUFFER && !run_meets(&run->total, options->tolerance)) {
         run->plan.method = LRCS_METHOD_EXACT;
         run->plan.reason = "the raster asked for misses the tolerance";
         run->flags = 0;
-        status = run_exact(run);
+        status = run_exact(run, options->method);
     }
     if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
         run->plan.method = LRCS_METHOD_ZBUFFER;
