@@ -36,7 +36,7 @@ typedef struct quantiles {
 typedef struct hostile_way {
     const char *name;
     int method;
-    uint32_t size, every;
+    uint32_t size, every, with;
     unsigned runs, violations, refused, ties, low_guesses;
     quantiles loose, relative, guess;
 } hostile_way;
@@ -51,7 +51,8 @@ static hostile_way ways[] = {
     {"zbuffer 1024", .method = LRCS_METHOD_ZBUFFER, .size = 1024, .every = 16},
     {"zbuffer 4096", .method = LRCS_METHOD_ZBUFFER, .size = 4096, .every = 128},
     {"exact", .method = LRCS_METHOD_EXACT, .every = 1},
-    {"auto", .method = LRCS_METHOD_AUTO, .every = 1}};
+    {"auto", .method = LRCS_METHOD_AUTO, .every = 1},
+    {"all effects", .every = 1, .with = LRCS_EFFECTS_SWITCHED}};
 #define WAYS (sizeof ways / sizeof *ways)
 
 static void quantiles_add(quantiles *q, double x)
@@ -214,7 +215,10 @@ static void run_case(hostile_case *c, unsigned number, void *memory, size_t byte
             if (number % ways[w].every != 0) {
                 continue;
             }
-            lrcs_run_options options = {1e-4, ways[w].method, ways[w].size};
+            lrcs_run_options options = {.tolerance = 1e-4,
+                                        .method = ways[w].method,
+                                        .resolution = ways[w].size,
+                                        .with = ways[w].with};
             lrcs_result r;
             int status = lrcs_sigma_run(prepared, &pose, &options, &work, &r, records, NULL);
             if (status != LRCS_OK) {
