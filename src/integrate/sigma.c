@@ -113,11 +113,12 @@ static void fronts_are_known(const lrcsi_view *view, int searched, lrcsi_visible
         if (view->facing[f] > 0) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
             double low = tilt.cos_theta > view->prepared->graze ? tilt.projected : 0;
-            lrcsi_visible known = {tilt.projected, low, tilt.projected, 0};
+            lrcsi_visible known = {tilt.projected, low, tilt.projected, 0, 0};
             if (searched) {
                 known.area = visible[f].area;
                 known.low = lrcsi_least(known.low, visible[f].low);
                 known.likely = visible[f].likely;
+                known.lean = visible[f].lean;
             }
             visible[f] = known;
         }
@@ -170,11 +171,17 @@ static int run_raster(sigma_run *run, uint32_t size)
     return status;
 }
 
-static int run_exact(sigma_run *run)
+/* Facets that find no memory to be clipped in widen the bound; under auto a raster does better. */
+static int run_exact(sigma_run *run, int method)
 {
-    int status = lrcsi_occlude_all(&run->contest, run->work, run->visible);
+    uint32_t starved = 0;
+    int status = lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
+    if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
+        return LRCS_E_MEMORY;
+    }
     if (status == LRCS_OK) {
         run->size = 0;
+        run->flags |= starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         run_sum(run);
     }
     return status;
@@ -206,11 +213,13 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 
 static int run_method(sigma_run *run, const lrcs_run_options *options)
 {
-    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
+    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run, options->method)
+                                                 : run_zbuffer(run, options);
 }
 
 /* Under auto a raster of a size asked for goes first; where its bound misses the tolerance,
-   clipping follows. Clipping that finds no memory yields to a raster, which needs less. */
+   clipping follows. Clipping that finds no memory yields to a raster, which needs less, whether it
+   was asked for or not. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
@@ -218,15 +227,12 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
         return status;
     }
     status = run_method(run, options);
-    if (options->method != LRCS_METHOD_AUTO) {
-        return status;
-    }
-    if (status == LRCS_OK && run->plan.method == LRCS_METHOD_ZBUFFER &&
-        !run_meets(&run->total, options->tolerance)) {
+    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
+        run->plan.method == LRCS_METHOD_ZBUFFER && !run_meets(&run->total, options->tolerance)) {
         run->plan.method = LRCS_METHOD_EXACT;
         run->plan.reason = "the raster asked for misses the tolerance";
         run->flags = 0;
-        status = run_exact(run);
+        status = run_exact(run, options->method);
     }
     if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
         run->plan.method = LRCS_METHOD_ZBUFFER;
