@@ -116,6 +116,8 @@ typedef struct lrcs_part {
     int solid;           /* a closed outward solid by construction, up to rounding */
     double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
     double misplaced;    /* m, bound on the rounding of its placed vertices */
+    double reach;        /* m, no point of the true surface is farther from its place on the
+                            facets; 0 where the facets are the truth */
     int articulated;     /* stands on a joint */
 } lrcs_part;
 

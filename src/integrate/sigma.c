@@ -21,6 +21,8 @@ typedef struct sigma_run {
     lrcsi_view view;
     lrcsi_plan plan;
     lrcsi_contest contest;
+    lrcsi_margin margin;
+    const lrcsi_margin *doubt; /* margin, or NULL where none was made */
     lrcsi_visible *visible;
     lrcsi_total total;
     lrcs_work *work;
@@ -53,6 +55,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
         return need;
     }
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
     if (options->method == LRCS_METHOD_EXACT) {
         return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
     }
@@ -97,7 +100,7 @@ static int run_facet(sigma_run *run)
 {
     double graze = run->plan.unshadowed ? run->view.prepared->graze : 1;
     lrcsi_visible_unshadowed(&run->view, graze, run->visible);
-    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, NULL);
+    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->doubt, NULL);
     return LRCS_OK;
 }
 
@@ -119,7 +122,7 @@ static void run_sum(sigma_run *run)
     if (run->plan.unshadowed) {
         fronts_are_known(&run->view, run->visible);
     }
-    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, NULL);
+    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->doubt, NULL);
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
@@ -191,6 +194,10 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    if (status == LRCS_OK && run->view.prepared->nears.reach) {
+        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
+        run->doubt = &run->margin;
+    }
     if (status != LRCS_OK) {
         return status;
     }
@@ -267,7 +274,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {
-            lrcsi_total_make(&run.view, run.visible, run.plan.unshadowed, records);
+            lrcsi_total_make(&run.view, run.visible, run.plan.unshadowed, run.doubt, records);
         }
         result_fill(&run, options, result);
     }

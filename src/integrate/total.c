@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "base/sum.h"
+#include "integrate/curved.h"
 #include "optics/reflect.h"
 
 #define U       0x1p-53
@@ -67,22 +68,6 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t 
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
                       whole * most * (at.error + reflection_vague(brdf, tilt, &at));
     return glint + diffuse;
-}
-
-/* What the flat facets of an engine-made shape may be off, whichever way they face: part of the
-   patch behind a facet that faces away may still see the light. Caps and bases, which no smoothing
-   group marks as curved, are exact. */
-static void add_tessellation(total_sums *sums, const lrcsi_view *view, uint32_t facet,
-                             const lrcsi_tilt *tilt)
-{
-    const lrcs_prepared *p = view->prepared;
-    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
-    const lrcs_brdf *brdf = &lrcsi_prepared_material(p, facet)->brdf;
-    double stray = lrcsi_reflect_stray(brdf, tilt->cos_theta, tilt->tan2, &part->curvature);
-    sums->tessellation += FOUR_PI * 0.5 * p->normal[facet].length * stray;
-    if (!part->curvature_known) {
-        sums->tessellation = -HUGE_VAL;
-    }
 }
 
 /* Is only a part of the facet visible? An area computed by clipping that cannot be told from none,
@@ -148,12 +133,12 @@ static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total
 }
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible, int unshadowed,
-                             lrcs_facet_record *records)
+                             const lrcsi_margin *margin, lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
     lrcsi_total total = {0};
     total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0};
-    if (p->curved && !unshadowed) {
+    if (p->curved && !lrcsi_curved_known(p, unshadowed)) {
         sums.tessellation = -HUGE_VAL;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -167,8 +152,8 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visibl
             }
             count_facet(&total, &sums, reflects, &tilt, &visible[f]);
         }
-        if (p->curved && unshadowed && !p->skip[f] && p->scene->facet_smooth[f] != 0) {
-            add_tessellation(&sums, view, f, &tilt);
+        if (p->curved && !p->skip[f]) {
+            sums.tessellation += FOUR_PI * lrcsi_curved_error(view, f, &tilt, visible, margin);
         }
         if (records) {
             records[f] = record_of(view, f, &tilt, visible[f].area, sigma);

@@ -3,6 +3,7 @@
 #ifndef LRCSI_TOTAL_H
 #define LRCSI_TOTAL_H
 
+#include "visibility/margin.h"
 #include "visibility/visible.h"
 
 /* All in square metres. */
@@ -15,9 +16,10 @@ typedef struct lrcsi_total {
 } lrcsi_total;
 
 /* Given: the view, and the visible area of each of its facets; whether every front facet is known
-   to be wholly visible, on the true shapes as on their meshes (then tessellation can be bounded).
+   to be wholly visible, on the true shapes as on their meshes; where not, the margin of doubt about
+   the true shapes (NULL: none was made, areas being bounded by all that could be hidden).
    Returned: total, summed in facet order; records[facet_count] unless NULL. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible, int unshadowed,
-                             lrcs_facet_record *records);
+                             const lrcsi_margin *margin, lrcs_facet_record *records);
 
 #endif

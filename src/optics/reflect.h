@@ -28,4 +28,17 @@ lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_e
 double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
                            const lrcs_curvature *curvature);
 
+/* How F varies over a patch, for patches that are seen in part only. All are upper bounds. */
+typedef struct lrcsi_stray {
+    double whole; /* lrcsi_reflect_stray; also where F counts on both sides, by |cos(theta)| */
+    double apart; /* |F - F(facet normal)| at any point of the patch */
+    double here;  /* F(facet normal) */
+    double most;  /* F at any point of the patch */
+} lrcsi_stray;
+
+/* The same bounds for any curvature; of a flat one `whole` and `apart` may be of the size of
+   rounding. */
+lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
+                             const lrcs_curvature *curvature);
+
 #endif

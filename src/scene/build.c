@@ -11,6 +11,7 @@
 #include "base/range.h"
 #include "base/where.h"
 #include "base/work.h"
+#include "mesh/tessellate.h"
 #include "scene/bind.h"
 #include "scene/place.h"
 
@@ -322,7 +323,7 @@ static double misplacement(const lrcs_mesh *mesh, const lrcs_divisions *division
 
 /* What holds of a placed shape by construction. Curvature outlives uniform scaling only; convexity
    any affine map, and with the winding flipped the outside stays outside under a mirror. */
-static void describe_shape(const scene_piece *piece, const lrcs_curvature *curvature,
+static void describe_shape(const scene_piece *piece, const lrcs_curvature *curvature, double reach,
                            lrcs_part *part)
 {
     const lrcs_recipe_part *recipe = piece->part;
@@ -334,6 +335,7 @@ static void describe_shape(const scene_piece *piece, const lrcs_curvature *curva
     part->kind = recipe->shape.kind;
     part->curvature = *curvature;
     part->curvature_known = plane || least == most;
+    part->reach = reach > 0.0 ? 1.000001 * most * reach + 2.0 * part->misplaced : 0.0;
     part->convex_patch = 1;
     part->thinnest = least * least_extent(&recipe->shape);
     part->solid = is_closed(&recipe->shape) && part->thinnest > 0.0;
@@ -380,8 +382,9 @@ static int add_shape(scene_builder *builder, scene_piece *piece, lrcs_work *work
                    : refuse_part(builder, status, piece->part, "a shape that can be meshed");
     }
     lrcs_part *part = &scene->part[scene->part_count];
-    describe_shape(piece, &curvature, part);
     part->misplaced = misplacement(&mesh, &divisions, &piece->placer);
+    describe_shape(piece, &curvature, lrcsi_tessellate_reach(&piece->part->shape, &divisions),
+                   part);
     status = add_piece(builder, &mesh, piece, scene);
     work->used = mark;
     return status;
