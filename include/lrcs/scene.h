@@ -137,8 +137,9 @@ typedef struct lrcs_scene {
 
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
-    double tolerance;    /* relative, > 0, of a shape alone; among other parts ten times this,
-                            at least 1e-4 */
+    double tolerance;    /* relative, > 0, of a shape alone; among other parts small ones may be
+                            coarser, and a sphere, dome or paraboloid is divided for ten times
+                            this, at least 1e-4 */
     uint32_t max_facets; /* a shape's most */
 } lrcs_build_options;
 

@@ -8,8 +8,10 @@
      seen all over, b = 0: T - M is the whole patch's stray; its numbers hold for the two facets of a
          sector together, so both must be seen;
      hidden all over: M = 0, T <= (1 + a) S b sup F;
-     else |T - M| <= Int_U |F - F_i| v + F_i |Int_U v - Int_f w|
-                  <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b), and <= (1 + a) S sup F.
+     else |T - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
+                  <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b), and <= (1 + a) S sup F;
+         where neither facet of the sector is hidden or dark, the first term together is at most what
+         (F - F_i) integrates to over any part of both.
    Patches of facets that face away from the laser may see it in part: T is at most their stray. On
    flat facets a = 0 and F = F_i. Without a margin the facets count as seen: what of it may be hidden
    is then in the visible area's bounds, for truth and facets alike. */
@@ -63,17 +65,33 @@ static int curved_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visi
     return visible[facet].high > 0 ? CURVED_MIXED : CURVED_HIDDEN;
 }
 
-/* Does the other facet of the sector share the state? The two lie side by side in a part's list,
-   which every strip of a wall begins at an even place (mesh/tessellate.c); where a strip ends in an
-   apex, its facets have sectors of their own and a neighbour stands in. */
-static int partner_alike(const lrcsi_view *view, uint32_t facet, int state,
-                         const lrcsi_visible *visible, const lrcsi_margin *margin)
+/* The state of the other facet of the sector. The two lie side by side in a part's list, which every
+   strip of a wall begins at an even place (mesh/tessellate.c); where a strip ends in an apex, its
+   facets have sectors of their own and a neighbour stands in. */
+static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                         const lrcsi_margin *margin)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t first = curved_part(p, facet)->first_facet;
     uint32_t other = first + ((facet - first) ^ 1);
-    return !margin ||
-           (!p->skip[other] && curved_state(view, other, visible, margin) == state);
+    return p->skip[other] ? CURVED_HIDDEN : curved_state(view, other, visible, margin);
+}
+
+/* The error of a facet on a curved wall, per unit of its area. */
+static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner)
+{
+    double lit = partner == CURVED_SEEN || partner == CURVED_MIXED ? stray->part
+                                                                   : (1 + a) * stray->apart;
+    if (state == CURVED_HIDDEN) {
+        return (1 + a) * share * stray->most;
+    }
+    if (state == partner && state != CURVED_MIXED) {
+        return stray->whole;
+    }
+    if (state == CURVED_DARK) {
+        return (1 + a) * stray->most;
+    }
+    return fmin(lit + stray->here * (a + (1 + a) * share), (1 + a) * stray->most);
 }
 
 /* What the facets may show of a closed part's inside, by rounding. */
@@ -117,15 +135,10 @@ double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcsi_ti
     double cosine = state == CURVED_DARK ? tilt->cos_theta : fabs(tilt->cos_theta);
     const lrcs_brdf *brdf = &lrcsi_prepared_material(p, facet)->brdf;
     lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, c);
-    double patch = 1 + c->area_error;
-    double mixed = patch * stray.apart + stray.here * (c->area_error + patch * share);
-    double error = fmin(mixed, patch * stray.most);
-    if (state == CURVED_HIDDEN) {
-        error = patch * share * stray.most;
-    } else if (!curve) {
-        error = state == CURVED_DARK ? 0 : share * stray.most;
-    } else if (partner_alike(view, facet, state, visible, margin) && state != CURVED_MIXED) {
-        error = stray.whole;
+    double error = state == CURVED_DARK ? 0 : share * stray.most;
+    if (curve) {
+        int partner = margin ? partner_state(view, facet, visible, margin) : state;
+        error = wall_error(&stray, c->area_error, share, state, partner);
     }
     if (state == CURVED_DARK) {
         error += inside_shown(view, facet, tilt, visible, margin);

@@ -39,8 +39,8 @@
      derivative, (w0^3 - w1^3)^2 / (36 w1^4).
    With b that `bulge`, rho - r <= min(sqrt(b), b / (2 rho1), rho0 - rho1). In height the trapezoid
    stands at a share beta = (r - rho1)/(rho0 - rho1) from the top, which exceeds a by at most
-   (rho0 - rho1) / (4 (rho0 + rho1)); the sphere at a, the paraboloid at a + b/(rho0^2 - rho1^2) at
-   most; and the rows themselves stand off the true circles' heights. Across, with v in -1 .. 1,
+   (rho0 - rho1) / (4 (rho0 + rho1)); the sphere stands at a, the paraboloid between a and
+   a + b/(rho0^2 - rho1^2); and the rows themselves stand off the true circles' heights. Across, with v in -1 .. 1,
    (cos vh, sin vh) goes to kappa (1, v tan h): off by at most max(1 - kappa, kappa - cos h) inward or
    outward and max(h^3/6, (mu - 1) sin h) sideways, times r. A disc is the last alone. */
 #include "mesh/profile.h"
@@ -379,8 +379,9 @@ static double strip_reach(const lrcsi_profile *profile, uint32_t i, double off)
     }
     if (!profile_straight(profile) && below > above) {
         share = 0.25 * (below - above) / (below + above);
-        share += profile->kind == LRCS_SHAPE_PARABOLOID ? bulge / (below - above) / (below + above)
-                                                        : 0.0;
+        if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+            share = fmax(share, bulge / (below - above) / (below + above));
+        }
     }
     double rise = profile_height(profile, i + 1) - profile_height(profile, i);
     return hypot(across, off + fmin(1.0, share) * rise);

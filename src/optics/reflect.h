@@ -32,12 +32,13 @@ double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
 typedef struct lrcsi_stray {
     double whole; /* lrcsi_reflect_stray; also where F counts on both sides, by |cos(theta)| */
     double apart; /* |F - F(facet normal)| at any point of the patch */
+    double part;  /* | integral of F - F(facet normal) over any part of the patch | / facet area */
     double here;  /* F(facet normal) */
     double most;  /* F at any point of the patch */
 } lrcsi_stray;
 
-/* The same bounds for any curvature; of a flat one `whole` and `apart` may be of the size of
-   rounding. */
+/* The same bounds for any curvature; of a flat one all but `here` and `most` may be of the size
+   of rounding. */
 lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
                              const lrcs_curvature *curvature);
 

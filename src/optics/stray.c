@@ -13,7 +13,10 @@
        first    a F_i + sqrt(1 + a) spread sup |G'|        (Cauchy-Schwarz on the integral of |t|)
        range    a F_i + (1 + a) max(sup G - F_i, F_i)      (inf G >= 0)
    and the least of the three holds. At single points |F - F_i| is at most turn sup |G'|, and at most
-   max(sup G - F_i, F_i). Where both sides of a surface reflect, F continues as G(180 deg - theta)
+   max(sup G - F_i, F_i). Over any part of the patch h = F - F_i integrates to at most the integral
+   of its positive part, or of its negative one: with h = g . t + R, either is within
+   (Int |g . t| + |Int g . t|)/2 + Int |R|, that is |G'_i| (sqrt(1 + a) spread + lean)/2 + spread^2/2
+   sup of the bend. Where both sides of a surface reflect, F continues as G(180 deg - theta)
    beyond 90 deg: once continuously differentiable there too, with the same suprema, so that each
    bound holds also where some points beyond 90 deg count and others do not.
 
@@ -172,6 +175,8 @@ static lrcsi_stray stray_of(const stray_size *all, const lrcs_curvature *c)
     double first = times(c->spread * sqrt(1.0 + c->area_error), all->slope_most);
     double range = fmax(all->value_most - all->value, all->value);
     double slope = times(c->turn, all->slope_most);
+    double half = 0.5 * times(c->spread * sqrt(1.0 + c->area_error) + c->lean, all->slope) +
+                  times(0.5 * c->spread * c->spread, all->bend);
     double least = fmin(second, first);
     double apart = slope;
     if (isfinite(all->value_most)) {
@@ -179,7 +184,9 @@ static lrcsi_stray stray_of(const stray_size *all, const lrcs_curvature *c)
         apart = fmin(slope, range);
     }
     return (lrcsi_stray){(times(c->area_error, all->value) + least) * STRAY_MARGIN,
-                         apart * STRAY_MARGIN, all->value * STRAY_MARGIN,
+                         apart * STRAY_MARGIN,
+                         fmin(half, times(1.0 + c->area_error, apart)) * STRAY_MARGIN,
+                         all->value * STRAY_MARGIN,
                          all->value_most * STRAY_MARGIN};
 }
 
@@ -190,7 +197,7 @@ lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan
     double angle = atan(sqrt(tan2));
     tan2_range range;
     if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, curvature->turn, &range)) {
-        return (lrcsi_stray){0.0, 0.0, 0.0, 0.0};
+        return (lrcsi_stray){0.0, 0.0, 0.0, 0.0, 0.0};
     }
     stray_size all = {0.0, 0.0, 0.0, 0.0, 0.0};
     if (brdf->A > 0.0) {
