@@ -18,12 +18,12 @@ enum cast_kind { CAST_RECT, CAST_DISC, CAST_WALL, CAST_BALL, CAST_BOWL };
 
 typedef struct cast_surface {
     int kind;
-    int axis;              /* RECT: the normal's axis */
-    double sign;           /* RECT, DISC: of the normal */
-    double at;             /* RECT, DISC: its place on the axis */
-    double a, b;           /* RECT: half sides; DISC, BALL, BOWL: radius a; WALL: radii at 0, top */
-    double height;         /* WALL, BOWL */
-    double low;            /* BALL: least z */
+    int axis;      /* RECT: the normal's axis */
+    double sign;   /* RECT, DISC: of the normal */
+    double at;     /* RECT, DISC: its place on the axis */
+    double a, b;   /* RECT: half sides; DISC, BALL, BOWL: radius a; WALL: radii at 0, top */
+    double height; /* WALL, BOWL */
+    double low;    /* BALL: least z */
     const lrcs_recipe_part *part;
     const lrcs_brdf *brdf;
     int two_sided;
@@ -49,7 +49,8 @@ static inline double cast_random(cast_scene *s)
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-static inline void cast_disc(cast_scene *s, cast_surface like, double radius, double at, double sign)
+static inline void cast_disc(cast_scene *s, cast_surface like, double radius, double at,
+                             double sign)
 {
     like.kind = CAST_DISC;
     like.a = radius;
@@ -215,7 +216,8 @@ static inline int cast_meets(const cast_surface *f, const double from[3], const 
     return 0;
 }
 
-/* The point at u, v in 0 .. 1, its outward normal, and area per unit of u v, in the part's frame. */
+/* The point at u, v in 0 .. 1, its outward normal, and area per unit of u v, in the part's frame.
+ */
 static inline double cast_point(const cast_surface *f, double u, double v, double x[3], double n[3])
 {
     double angle = 2 * CAST_PI * v;
@@ -311,7 +313,8 @@ static inline double cast_sample(const cast_scene *s, const cast_surface *f, dou
 /* Eq. 2 from the unit direction d: `side` squared samples of each surface, CAST_REPEAT times. */
 static inline cast_answer cast_run(cast_scene *s, const double d[3], int side)
 {
-    double sum = 0;
+    double got[CAST_REPEAT];
+    double mean = 0;
     double squares = 0;
     for (int repeat = 0; repeat < CAST_REPEAT; repeat++) {
         double sigma = 0;
@@ -320,12 +323,13 @@ static inline cast_answer cast_run(cast_scene *s, const double d[3], int side)
             double v = (i / s->count / side + cast_random(s)) / side;
             sigma += cast_sample(s, &s->surface[i % s->count], u, v, d) / side / side;
         }
-        sum += sigma;
-        squares += sigma * sigma;
+        got[repeat] = sigma;
+        mean += sigma / CAST_REPEAT;
     }
-    double mean = sum / CAST_REPEAT;
-    double spread = fmax(0, squares / CAST_REPEAT - mean * mean);
-    return (cast_answer){mean, sqrt(spread / (CAST_REPEAT - 1))};
+    for (int repeat = 0; repeat < CAST_REPEAT; repeat++) {
+        squares += (got[repeat] - mean) * (got[repeat] - mean);
+    }
+    return (cast_answer){mean, sqrt(squares / CAST_REPEAT / (CAST_REPEAT - 1))};
 }
 
 #endif

@@ -5,16 +5,15 @@
 
    Let U be the facet's patch and f the facet, of area S, |U| within a S of it; v and w say what is
    seen of them, off a share b of both alike. Truth T = Int_U F v, the facets' M = F_i Int_f w.
-     seen all over, b = 0: T - M is the whole patch's stray; its numbers hold for the two facets of a
-         sector together, so both must be seen;
-     hidden all over: M = 0, T <= (1 + a) S b sup F;
-     else |T - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
+     seen all over, b = 0: T - M is the whole patch's stray; its numbers hold for the two facets of
+   a sector together, so both must be seen; hidden all over: M = 0, T <= (1 + a) S b sup F; else |T
+   - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
                   <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b), and <= (1 + a) S sup F;
-         where neither facet of the sector is hidden or dark, the first term together is at most what
-         (F - F_i) integrates to over any part of both.
-   Patches of facets that face away from the laser may see it in part: T is at most their stray. On
-   flat facets a = 0 and F = F_i. Without a margin the facets count as seen: what of it may be hidden
-   is then in the visible area's bounds, for truth and facets alike. */
+         where neither facet of the sector is hidden or dark, the first term together is at most
+   what (F - F_i) integrates to over any part of both. Patches of facets that face away from the
+   laser may see it in part: T is at most their stray. On flat facets a = 0 and F = F_i. Without a
+   margin the facets count as seen: what of it may be hidden is then in the visible area's bounds,
+   for truth and facets alike. */
 #include "integrate/curved.h"
 
 #include <math.h>
@@ -65,9 +64,9 @@ static int curved_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visi
     return visible[facet].high > 0 ? CURVED_MIXED : CURVED_HIDDEN;
 }
 
-/* The state of the other facet of the sector. The two lie side by side in a part's list, which every
-   strip of a wall begins at an even place (mesh/tessellate.c); where a strip ends in an apex, its
-   facets have sectors of their own and a neighbour stands in. */
+/* The state of the other facet of the sector. The two lie side by side in a part's list, which
+   every strip of a wall begins at an even place (mesh/tessellate.c); where a strip ends in an apex,
+   its facets have sectors of their own and a neighbour stands in. */
 static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
                          const lrcsi_margin *margin)
 {
@@ -80,8 +79,8 @@ static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_vis
 /* The error of a facet on a curved wall, per unit of its area. */
 static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner)
 {
-    double lit = partner == CURVED_SEEN || partner == CURVED_MIXED ? stray->part
-                                                                   : (1 + a) * stray->apart;
+    double lit =
+        partner == CURVED_SEEN || partner == CURVED_MIXED ? stray->part : (1 + a) * stray->apart;
     if (state == CURVED_HIDDEN) {
         return (1 + a) * share * stray->most;
     }
@@ -104,8 +103,7 @@ static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcsi_t
         !(visible[facet].high > 0)) {
         return 0;
     }
-    double most =
-        lrcsi_stray_make(&material->brdf, -tilt->cos_theta, tilt->tan2, &flat).most;
+    double most = lrcsi_stray_make(&material->brdf, -tilt->cos_theta, tilt->tan2, &flat).most;
     return most * fmin(1, visible[facet].high / tilt->projected);
 }
 

@@ -35,14 +35,14 @@
    at kappa r) grows evenly with that share, from rho1^2 at the top row to rho0^2:
      straight walls: so does rho^2 on the patch: r = rho, and heights agree;
      sphere: cos theta does, and rho^2 - r^2 = R^2 a (1 - a) (cos theta1 - cos theta0)^2 at share a;
-     paraboloid: w^3, w^2 = 1 + y^2, does: w^2 exceeds its chord by at most 1/8 of the largest second
-     derivative, (w0^3 - w1^3)^2 / (36 w1^4).
-   With b that `bulge`, rho - r <= min(sqrt(b), b / (2 rho1), rho0 - rho1). In height the trapezoid
-   stands at a share beta = (r - rho1)/(rho0 - rho1) from the top, which exceeds a by at most
-   (rho0 - rho1) / (4 (rho0 + rho1)); the sphere stands at a, the paraboloid between a and
-   a + b/(rho0^2 - rho1^2); and the rows themselves stand off the true circles' heights. Across, with v in -1 .. 1,
-   (cos vh, sin vh) goes to kappa (1, v tan h): off by at most max(1 - kappa, kappa - cos h) inward or
-   outward and max(h^3/6, (mu - 1) sin h) sideways, times r. A disc is the last alone. */
+     paraboloid: w^3, w^2 = 1 + y^2, does: w^2 exceeds its chord by at most 1/8 of the largest
+   second derivative, (w0^3 - w1^3)^2 / (36 w1^4). With b that `bulge`, rho - r <= min(sqrt(b), b /
+   (2 rho1), rho0 - rho1). In height the trapezoid stands at a share beta = (r - rho1)/(rho0 - rho1)
+   from the top, which exceeds a by at most (rho0 - rho1) / (4 (rho0 + rho1)); the sphere stands at
+   a, the paraboloid between a and a + b/(rho0^2 - rho1^2); and the rows themselves stand off the
+   true circles' heights. Across, with v in -1 .. 1, (cos vh, sin vh) goes to kappa (1, v tan h):
+   off by at most max(1 - kappa, kappa - cos h) inward or outward and max(h^3/6, (mu - 1) sin h)
+   sideways, times r. A disc is the last alone. */
 #include "mesh/profile.h"
 
 #include <math.h>

@@ -15,8 +15,8 @@ typedef struct lrcsi_slice {
 /* The triangle a b c. */
 lrcsi_slice lrcsi_slice_start(const double a[3], const double b[3], const double c[3]);
 
-/* Keeps where n . (x - origin) <= most, but for rounding: the caller widens `most` by what it cannot
-   afford to lose. */
+/* Keeps where n . (x - origin) <= most, but for rounding: the caller widens `most` by what it
+   cannot afford to lose. */
 void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[3], double most);
 
 /* The polygon's share of the triangle whose longest side is `longest` and whose area is `whole`,

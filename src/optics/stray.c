@@ -12,13 +12,13 @@
        second   a F_i + lean |G'_i| + spread^2/2 sup max(|G''|, |cot G'|)
        first    a F_i + sqrt(1 + a) spread sup |G'|        (Cauchy-Schwarz on the integral of |t|)
        range    a F_i + (1 + a) max(sup G - F_i, F_i)      (inf G >= 0)
-   and the least of the three holds. At single points |F - F_i| is at most turn sup |G'|, and at most
-   max(sup G - F_i, F_i). Over any part of the patch h = F - F_i integrates to at most the integral
-   of its positive part, or of its negative one: with h = g . t + R, either is within
-   (Int |g . t| + |Int g . t|)/2 + Int |R|, that is |G'_i| (sqrt(1 + a) spread + lean)/2 + spread^2/2
-   sup of the bend. Where both sides of a surface reflect, F continues as G(180 deg - theta)
-   beyond 90 deg: once continuously differentiable there too, with the same suprema, so that each
-   bound holds also where some points beyond 90 deg count and others do not.
+   and the least of the three holds. At single points |F - F_i| is at most turn sup |G'|, and at
+   most max(sup G - F_i, F_i). Over any part of the patch h = F - F_i integrates to at most the
+   integral of its positive part, or of its negative one: with h = g . t + R, either is within (Int
+   |g . t| + |Int g . t|)/2 + Int |R|, that is |G'_i| (sqrt(1 + a) spread + lean)/2 + spread^2/2 sup
+   of the bend. Where both sides of a surface reflect, F continues as G(180 deg - theta) beyond 90
+   deg: once continuously differentiable there too, with the same suprema, so that each bound holds
+   also where some points beyond 90 deg count and others do not.
 
    With u = tan^2 theta, w = 1 + u, E = exp(-u/s^2), nu = m + 2:
        glint/A    G = w^2 E                              G' = 2 sqrt(u) (2 w^2 - w^3/s^2) E
@@ -186,8 +186,7 @@ static lrcsi_stray stray_of(const stray_size *all, const lrcs_curvature *c)
     return (lrcsi_stray){(times(c->area_error, all->value) + least) * STRAY_MARGIN,
                          apart * STRAY_MARGIN,
                          fmin(half, times(1.0 + c->area_error, apart)) * STRAY_MARGIN,
-                         all->value * STRAY_MARGIN,
-                         all->value_most * STRAY_MARGIN};
+                         all->value * STRAY_MARGIN, all->value_most * STRAY_MARGIN};
 }
 
 lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,

@@ -121,9 +121,9 @@ static double part_leave(const scene_builder *builder, const lrcs_recipe_part *p
     return leave > 1.0 ? fmin(leave, LEAVE_MOST) : 1.0;
 }
 
-/* The tolerance that a shape is divided for: as asked where it is alone. Among other parts its leave
-   counts; and of round bodies, whose facets cost 1/tolerance (those of straight walls its root),
-   ten times as much must do, at least 1e-4. */
+/* The tolerance that a shape is divided for: as asked where it is alone. Among other parts its
+   leave counts; and of round bodies, whose facets cost 1/tolerance (those of straight walls its
+   root), ten times as much must do, at least 1e-4. */
 static double shape_tolerance(const scene_builder *builder, const lrcs_recipe_part *part)
 {
     double tolerance = builder->options->tolerance;
@@ -132,8 +132,8 @@ static double shape_tolerance(const scene_builder *builder, const lrcs_recipe_pa
     }
     tolerance = fmin(tolerance * part_leave(builder, part), fmax(1.0, tolerance));
     int kind = part->shape.kind;
-    int is_round = kind == LRCS_SHAPE_SPHERE || kind == LRCS_SHAPE_DOME ||
-                   kind == LRCS_SHAPE_PARABOLOID;
+    int is_round =
+        kind == LRCS_SHAPE_SPHERE || kind == LRCS_SHAPE_DOME || kind == LRCS_SHAPE_PARABOLOID;
     return is_round ? fmax(fmin(10.0 * tolerance, 1.0), 1e-4) : tolerance;
 }
 
@@ -207,7 +207,8 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
     const lrcs_recipe *recipe = builder->recipe;
     builder->area = 0.0;
     for (uint32_t i = 0; i < recipe->part_count; i++) {
-        builder->area += part_area(&recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
+        builder->area +=
+            part_area(&recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
     }
     *totals = (scene_totals){0, 0, lrcsi_binder_wardrobe(recipe) + UINT64_C(1), 0};
     for (uint32_t i = 0; i < recipe->part_count; i++) {

@@ -60,9 +60,9 @@ double lrcsi_nears_longest(const lrcs_prepared *p, uint32_t facet)
 static double near_share(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
     const lrcsi_normal *normal = &p->normal[other];
-    lrcsi_slice slice = lrcsi_slice_start(lrcsi_prepared_corner(p, facet, 0),
-                                          lrcsi_prepared_corner(p, facet, 1),
-                                          lrcsi_prepared_corner(p, facet, 2));
+    lrcsi_slice slice =
+        lrcsi_slice_start(lrcsi_prepared_corner(p, facet, 0), lrcsi_prepared_corner(p, facet, 1),
+                          lrcsi_prepared_corner(p, facet, 2));
     double n[3];
     double down[3];
     for (int k = 0; k < 3; k++) {
@@ -138,8 +138,7 @@ static int nears_find(lrcs_prepared *p, lrcs_work *work)
     const lrcs_scene *scene = p->scene;
     lrcsi_tree tree;
     size_t mark = work->used;
-    int status =
-        lrcsi_tree_make(p->vertex, scene->facet, scene->facet_count, p->skip, work, &tree);
+    int status = lrcsi_tree_make(p->vertex, scene->facet, scene->facet_count, p->skip, work, &tree);
     for (uint32_t f = 0; f < scene->facet_count && status == LRCS_OK; f++) {
         if (!p->skip[f] && p->nears.reach[scene->facet_part[f]] > 0) {
             status = near_around(p, f, &tree, work);

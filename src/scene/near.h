@@ -14,10 +14,10 @@ typedef struct lrcsi_near {
 } lrcsi_near;
 
 typedef struct lrcsi_nears {
-    double *reach;    /* part: lrcs_part.reach, scaled; NULL where this was not asked for, or some
-                         part's curvature is not known */
-    double *graze;    /* part: a facet with |cos(theta)| above this keeps its side of its own part */
-    double most;      /* of reach */
+    double *reach; /* part: lrcs_part.reach, scaled; NULL where this was not asked for, or some
+                      part's curvature is not known */
+    double *graze; /* part: a facet with |cos(theta)| above this keeps its side of its own part */
+    double most;   /* of reach */
     lrcsi_near *near; /* in no order */
     size_t count;
 } lrcsi_nears;

@@ -32,7 +32,8 @@ static uint32_t margin_part(const margin_job *job, uint32_t facet)
     return job->view->prepared->scene->facet_part[facet];
 }
 
-/* --- events of one part ------------------------------------------------------------------------ */
+/* --- events of one part ------------------------------------------------------------------------
+ */
 
 /* Is an edge an event of a part: do not exactly two of its facets continue each other there? */
 static int part_event(const margin_job *job, const lrcsi_edge *edge, uint32_t part)
@@ -91,7 +92,8 @@ static int margin_events(margin_job *job, lrcs_work *work)
     return lrcsi_grid_edges(job->view, job->edge, job->count, work, &job->grid);
 }
 
-/* --- one facet and one edge -------------------------------------------------------------------- */
+/* --- one facet and one edge --------------------------------------------------------------------
+ */
 
 /* The share of a facet within `slack` of an edge in projection: in the rectangle about it. */
 static double edge_share(const margin_job *job, uint32_t facet, const lrcsi_edge *edge,
@@ -116,9 +118,8 @@ static double edge_share(const margin_job *job, uint32_t facet, const lrcsi_edge
     const double aside[3] = {-along[1], along[0], 0};
     const double back[3] = {-along[0], -along[1], 0};
     const double other[3] = {along[1], -along[0], 0};
-    lrcsi_slice slice =
-        lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
-                          view->point[corner[2]].x);
+    lrcsi_slice slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
+                                          view->point[corner[2]].x);
     lrcsi_slice_cut(&slice, aside, a, wide);
     lrcsi_slice_cut(&slice, other, a, wide);
     lrcsi_slice_cut(&slice, along, b, wide);
@@ -205,9 +206,8 @@ static double event_shares(margin_job *job, uint32_t facet, const double low[2],
 static int facet_matters(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_prepared *p = view->prepared;
-    int reflects =
-        view->facing[facet] > 0 ||
-        (view->facing[facet] < 0 && !p->solid && lrcsi_prepared_material(p, facet)->two_sided);
+    int reflects = view->facing[facet] > 0 || (view->facing[facet] < 0 && !p->solid &&
+                                               lrcsi_prepared_material(p, facet)->two_sided);
     return reflects && !p->skip[facet];
 }
 
