@@ -21,7 +21,7 @@
 #include "optics/reflect.h"
 
 /* Of a flat facet: wider than the error of its angle. */
-#define FLAT_TURN 1e-12
+#define FLAT_TILT 1e-12
 
 /* What is known of a facet and its patch. */
 enum curved_state {
@@ -98,7 +98,7 @@ static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcsi_t
                            const lrcsi_visible *visible, const lrcsi_margin *margin)
 {
     const lrcs_material *material = lrcsi_prepared_material(view->prepared, facet);
-    const lrcs_curvature flat = {FLAT_TURN, 0, 0, 0};
+    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
     if (!margin || view->facing[facet] >= 0 || !material->two_sided || view->prepared->solid ||
         !(visible[facet].high > 0)) {
         return 0;
@@ -121,7 +121,7 @@ double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcsi_ti
                           const lrcsi_visible *visible, const lrcsi_margin *margin)
 {
     const lrcs_prepared *p = view->prepared;
-    const lrcs_curvature flat = {FLAT_TURN, 0, 0, 0};
+    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
     int curve = on_curve(p, facet);
     int state = curved_state(view, facet, visible, margin);
     double share = margin ? margin->share[facet] : 0;

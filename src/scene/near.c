@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Slack between parts and the facets within it. Why these distances suffice stands in
    visibility/margin.h. Shares are rounded outward: coordinates here are below 1 and doubles good to
-   2^-48 of that, so every distance is widened by NEAR_OFF. */
+   2^-48 of that, so every distance is widened by LRCSI_NEAR_OFF. */
 #include "scene/near.h"
 
 #include <math.h>
@@ -12,7 +12,6 @@
 #include "mesh/tree.h"
 #include "scene/prepare.h"
 
-#define NEAR_OFF 0x1p-44
 /* See scene/solid.c: beyond this the rounding of vertices cannot turn a facet over. */
 #define NEAR_GRAZE 16.0
 
@@ -35,7 +34,7 @@ double lrcsi_nears_slack(const lrcs_prepared *p, uint32_t part, uint32_t other)
     if (own == 0 && theirs == 0) {
         return 0;
     }
-    return theirs + (part_is_open(p, other) ? lrcsi_most(own, theirs) : own) + NEAR_OFF;
+    return theirs + (part_is_open(p, other) ? lrcsi_most(own, theirs) : own) + LRCSI_NEAR_OFF;
 }
 
 /* --- one pair --------------------------------------------------------------------------------- */
@@ -115,7 +114,7 @@ static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree,
 {
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
-    double within = 2 * (p->nears.reach[part] + p->nears.most) + NEAR_OFF;
+    double within = 2 * (p->nears.reach[part] + p->nears.most) + LRCSI_NEAR_OFF;
     lrcsi_tree_walk walk = lrcsi_tree_within(tree, p->vertex, scene->facet[facet], within);
     int status = LRCS_OK;
     uint32_t other;

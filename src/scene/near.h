@@ -7,6 +7,9 @@
 
 #include <lrcs/run.h>
 
+/* Every slack is widened by this: coordinates are below 1, and doubles good to 2^-48 of that. */
+#define LRCSI_NEAR_OFF 0x1p-44
+
 /* At most this share of the facet's area is as near to `other` as their parts' slack. */
 typedef struct lrcsi_near {
     uint32_t facet, other;

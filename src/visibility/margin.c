@@ -216,7 +216,7 @@ static void facet_share(margin_job *job, uint32_t facet)
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     double reach = p->nears.reach[margin_part(job, facet)];
-    double wide = 2 * (reach + p->nears.most) + job->off;
+    double wide = 2 * (reach + p->nears.most) + job->off + LRCSI_NEAR_OFF;
     double low[2];
     double high[2];
     lrcsi_grid_box(view, p->scene->facet[facet].corner, 3, low, high);
