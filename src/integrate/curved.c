@@ -54,6 +54,9 @@ static int back_reflects(const lrcsi_view *view, uint32_t facet)
 static int curved_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
                         const lrcsi_margin *margin)
 {
+    if (margin && margin->hidden[margin->region[facet]]) {
+        return CURVED_HIDDEN;
+    }
     if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
         return CURVED_DARK;
     }

@@ -122,6 +122,9 @@ static void run_sum(sigma_run *run)
     if (run->plan.unshadowed) {
         fronts_are_known(&run->view, run->visible);
     }
+    if (run->doubt) {
+        lrcsi_margin_settle(run->doubt, run->visible);
+    }
     run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->doubt, NULL);
 }
 

@@ -143,7 +143,7 @@ static void refine_rim(const scene_builder *builder, const lrcs_recipe_part *par
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     const lrcs_shape *shape = &part->shape;
-    double corners = 3.1416 * sqrt(4.0 / shape_tolerance(builder, part));
+    double corners = 3.1416 * sqrt(5.0 / shape_tolerance(builder, part));
     if (builder->recipe->part_count == 1 || divisions->along > 1 ||
         shape->kind == LRCS_SHAPE_PLATE || shape->kind == LRCS_SHAPE_BOX || !(corners < 1e6)) {
         return;

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/join.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/slice.h"
@@ -208,7 +209,8 @@ static int facet_matters(const lrcsi_view *view, uint32_t facet)
     const lrcs_prepared *p = view->prepared;
     int reflects = view->facing[facet] > 0 || (view->facing[facet] < 0 && !p->solid &&
                                                lrcsi_prepared_material(p, facet)->two_sided);
-    return reflects && !p->skip[facet];
+    int curved = p->nears.reach[p->scene->facet_part[facet]] > 0;
+    return (reflects || curved) && !p->skip[facet];
 }
 
 static void facet_share(margin_job *job, uint32_t facet)
@@ -274,6 +276,47 @@ static void margin_box(margin_job *job)
     }
 }
 
+/* --- regions ---------------------------------------------------------------------------------- */
+
+static void margin_regions(const lrcsi_margin *margin)
+{
+    const lrcs_prepared *p = margin->contest->view->prepared;
+    const uint32_t *part = p->scene->facet_part;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        margin->region[f] = f;
+    }
+    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
+        const lrcsi_edge *edge = &p->topology.edge[e];
+        const lrcsi_edge_use *use = p->topology.use + edge->first_use;
+        for (uint32_t i = 1; i < edge->uses; i++) {
+            uint32_t a = use[i - 1].facet;
+            uint32_t b = use[i].facet;
+            if (part[a] == part[b] && p->nears.reach[part[a]] > 0 && margin->share[a] == 0 &&
+                margin->share[b] == 0) {
+                lrcsi_join(margin->region, a, b);
+            }
+        }
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        margin->region[f] = lrcsi_join_root(margin->region, f);
+    }
+}
+
+void lrcsi_margin_settle(const lrcsi_margin *margin, const lrcsi_visible *visible)
+{
+    const lrcsi_view *view = margin->contest->view;
+    const lrcs_prepared *p = view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        margin->hidden[f] = 0;
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (view->facing[f] > 0 && p->nears.reach[p->scene->facet_part[f]] > 0 &&
+            margin->share[f] == 0 && visible[f].high == 0) {
+            margin->hidden[margin->region[f]] = 1;
+        }
+    }
+}
+
 size_t lrcsi_margin_need(const lrcs_prepared *p)
 {
     size_t edges = p->topology.edge_count;
@@ -281,32 +324,47 @@ size_t lrcsi_margin_need(const lrcs_prepared *p)
         return 0;
     }
     size_t need = lrcsi_work_bytes(p->scene->facet_count, sizeof(double));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
+}
+
+/* Scratch goes as the shares are done. */
+static int margin_shares(margin_job *job, lrcs_work *work)
+{
+    size_t mark = work->used;
+    int status = margin_events(job, work);
+    if (status == LRCS_OK) {
+        margin_contacts(job);
+        margin_box(job);
+        for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
+            if (facet_matters(job->view, f)) {
+                facet_share(job, f);
+            }
+            job->share[f] = lrcsi_least(1, job->share[f]);
+        }
+    }
+    work->used = mark;
+    return status;
 }
 
 int lrcsi_margin_make(const lrcsi_contest *contest, lrcs_work *work, lrcsi_margin *margin)
 {
     const lrcsi_view *view = contest->view;
     uint32_t facets = view->prepared->scene->facet_count;
-    size_t start = work->used;
-    margin_job job = {.view = view, .off = OFF_MARGIN * view->off};
-    job.share = lrcsi_work_take_zero(work, facets, sizeof *job.share);
     size_t mark = work->used;
-    int status = job.share ? margin_events(&job, work) : LRCS_E_MEMORY;
+    lrcsi_margin m = {.contest = contest};
+    m.share = lrcsi_work_take_zero(work, facets, sizeof *m.share);
+    m.region = lrcsi_work_take(work, facets, sizeof *m.region);
+    m.hidden = lrcsi_work_take_zero(work, facets, 1);
+    margin_job job = {.view = view, .share = m.share, .off = OFF_MARGIN * view->off};
+    int status = m.share && m.region && m.hidden ? margin_shares(&job, work) : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
-        work->used = start;
+        work->used = mark;
         return status;
     }
-    margin_contacts(&job);
-    margin_box(&job);
-    for (uint32_t f = 0; f < facets; f++) {
-        if (facet_matters(view, f)) {
-            facet_share(&job, f);
-        }
-        job.share[f] = lrcsi_least(1, job.share[f]);
-    }
-    work->used = mark;
-    *margin = (lrcsi_margin){contest, job.share};
+    margin_regions(&m);
+    *margin = m;
     return LRCS_OK;
 }

@@ -36,6 +36,9 @@
    Facets within the rounding of edge-on (lrcsi_nears.graze) count as doubtful, all of them:
    rounding may have folded a facet mesh over there.
 
+   Facets of a curved part without doubt, joined over edges, make regions, all of which other parts
+   hide or none: one front that is not seen tells which.
+
    So the shares of a facet within such bands, rectangles about edges and prisms about facets, add
    up to an upper bound of its share where truth and facets may differ. Its area carries over to its
    patch: the map stretches area evenly (mesh/profile.c). */
@@ -43,18 +46,24 @@
 #define LRCSI_MARGIN_H
 
 #include "visibility/contest.h"
+#include "visibility/visible.h"
 
 typedef struct lrcsi_margin {
     const lrcsi_contest *contest;
-    double *share; /* facet: of its area, 0 .. 1 */
+    double *share;         /* facet: of its area, 0 .. 1 */
+    uint32_t *region;      /* facet of a curved part: its region, named by one of its facets */
+    unsigned char *hidden; /* region: 1 where other parts hide all of it, in truth too */
 } lrcsi_margin;
 
 /* Upper bound for ordinary scenes; 0 where prepared->nears was not asked for. */
 size_t lrcsi_margin_need(const lrcs_prepared *prepared);
 
-/* For a scene with prepared->nears.reach. Facets that neither reflect nor belong to a curved part
-   are left out: share 0. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The shares stay in the work
-   area, scratch does not. */
+/* For a scene with prepared->nears.reach; nothing is known to be hidden yet. Facets that neither
+   reflect nor belong to a curved part are left out: share 0. Status: LRCS_OK; LRCS_E_MEMORY;
+   LRCS_E_LIMIT. The shares stay in the work area, scratch does not. */
 int lrcsi_margin_make(const lrcsi_contest *contest, lrcs_work *work, lrcsi_margin *margin);
+
+/* Finds the hidden regions, once visible areas are known. */
+void lrcsi_margin_settle(const lrcsi_margin *margin, const lrcsi_visible *visible);
 
 #endif

@@ -30,6 +30,8 @@
    row have not relieved of a quarter of them. */
 #define LEAF_OCCLUDERS 8u
 #define LEAF_STALE     6u
+/* Occluders that may all meet in a point. */
+#define FAN_MOST ((size_t)1 << 16)
 /* Halvings at most: a cell is then below 2^-48 of its facet. */
 #define MOST_DEPTH 48u
 
@@ -165,6 +167,13 @@ static uint32_t occlude_candidates(const lrcsi_target *target, occlude_scratch *
     return count;
 }
 
+/* Room for the cells' lists. Many slivers that meet in a point, as a cap's do, are kept by cell
+   after cell around it, down to the last halving. */
+static size_t list_room(size_t occluders)
+{
+    return 8 * occluders + 56 * (occluders < FAN_MOST ? occluders : FAN_MOST) + 1024;
+}
+
 /* The regions that they hide. The count is LRCS_NONE where one of them hides all of the target. */
 static int occlude_regions(occlude_job *job, const uint32_t *candidate, uint32_t count,
                            lrcs_work *work, double *error)
@@ -189,7 +198,7 @@ static int occlude_regions(occlude_job *job, const uint32_t *candidate, uint32_t
         }
         job->count++;
     }
-    job->room = 8 * (size_t)job->count + 1024;
+    job->room = list_room(job->count);
     job->list = lrcsi_work_take(work, job->room, sizeof *job->list);
     for (uint32_t i = 0; i < job->count && job->list; i++) {
         job->list[i] = i;
@@ -248,7 +257,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
     size_t need = lrcsi_work_add(lrcsi_clip_need(), lrcsi_grid_facets_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 2 * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_occluder)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(8 * facets + 2048, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(list_room(facets) + 1024, sizeof(uint32_t)));
 }
 
 static int occlude_start(const lrcsi_view *view, lrcs_work *work, occlude_scratch *scratch)

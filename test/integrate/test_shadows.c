@@ -244,6 +244,20 @@ static void parts_far_apart_cost_no_more_than_alone(void **state)
     check_rel(shadow_run(&s, 1000, d, LRCS_METHOD_EXACT).budget.tessellation_m2, alone, 1e-9);
 }
 
+static void what_is_wholly_hidden_is_exactly_nothing(void **state)
+{
+    (void)state;
+    shadow_scene s = scene_of(glossy, 0);
+    const double d[3] = {0.1, 0.2, 1};
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5}, 0, 0, -1);
+    turn_over(add(&s, (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {3, 3}}, 0, 0, 0));
+    for (int method = LRCS_METHOD_ZBUFFER; method <= LRCS_METHOD_EXACT; method++) {
+        lrcs_result r = shadow_run(&s, 1000, d, method);
+        check_same(r.sigma_m2, 0);
+        check_same(r.bound_m2, 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +269,7 @@ int main(void)
         cmocka_unit_test(eclipsed_and_nested_spheres),
         cmocka_unit_test(a_tube_pierced_by_a_box),
         cmocka_unit_test(scenes_of_flat_parts_have_no_tessellation_error),
+        cmocka_unit_test(what_is_wholly_hidden_is_exactly_nothing),
         cmocka_unit_test(parts_far_apart_cost_no_more_than_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
