@@ -31,14 +31,6 @@ size_t lrcs_prepare_need(const lrcs_scene *scene);
    LRCS_E_NUMBER (a scene not made by lrcs_scene_build). */
 int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared);
 
-typedef struct lrcs_run_options {
-    double tolerance;    /* relative, > 0: bound <= tolerance * sigma is asked for */
-    int method;          /* lrcs_method */
-    uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
-} lrcs_run_options;
-
-lrcs_run_options lrcs_run_options_default(void); /* 1e-4, auto, 0 */
-
 /* What the engine can leave out. */
 enum lrcs_effect_name {
     LRCS_EFFECT_SELF_SHADOWING,
@@ -51,6 +43,34 @@ enum lrcs_effect_name {
     LRCS_EFFECTS
 };
 
+/* Effects that a run may switch: not curved normals and articulation, which its scene decides. */
+#define LRCS_EFFECTS_SWITCHED                                                                      \
+    (1u << LRCS_EFFECT_SELF_SHADOWING | 1u << LRCS_EFFECT_BACK_FACE_CASTERS |                      \
+     1u << LRCS_EFFECT_GLINT | 1u << LRCS_EFFECT_DIFFUSE | 1u << LRCS_EFFECT_TWO_SIDED)
+
+typedef struct lrcs_run_options {
+    double tolerance;    /* relative, > 0: bound <= tolerance * sigma is asked for */
+    int method;          /* lrcs_method */
+    uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
+    uint32_t without;    /* effects to leave out, bits 1u << LRCS_EFFECT_...: note 1 */
+    uint32_t with;       /* effects to simulate, none of them in `without`: note 2 */
+} lrcs_run_options;
+
+/* 1e-4, auto, 0, 0, 0.
+
+   Notes: 1. `without` shows what an effect does and costs; leaving out one that is off changes
+   nothing. Without self-shadowing a run is one by method facet, whatever the method: the bound
+   still refers to the shadowed truth, and holds all that could be hidden. Otherwise the bound
+   refers to a truth without the effect. Back-face casters: facets that face away are taken from
+   the scene (back-face culling), two-sided ones too. Glint, diffuse: A or B is 0 everywhere.
+   Two-sided: every material reflects from its front only.
+   2. `with` shows that what the planner leaves out does not matter: sigma and the truth stay, to
+   within the bounds. Self-shadowing is computed though proved absent (where the method is facet,
+   as auto would do it), back sides are looked for and cast shadows though proved never seen, a
+   term of amplitude 0 is evaluated. Where self-shadowing is left out, back sides are not looked
+   for: nothing could hide them. */
+lrcs_run_options lrcs_run_options_default(void);
+
 typedef struct lrcs_effect {
     int on;
     const char *reason; /* constant text */
@@ -61,8 +81,10 @@ const char *lrcs_effect_text(int effect); /* "self_shadowing", ... or NULL */
 /* Flags: the answer is degraded, the bound widened accordingly. */
 enum lrcs_flag {
     LRCS_FLAG_TOLERANCE_NOT_MET = 1 << 0,
-    LRCS_FLAG_MEMORY_FALLBACK = 1 << 1, /* coarser raster than asked, for want of memory */
-    LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2  /* two facets too close at a sample to tell apart */
+    LRCS_FLAG_MEMORY_FALLBACK =
+        1 << 1,                        /* for want of memory, a raster in place of clipping, or a
+                                          coarser one than asked; or facets that were not clipped */
+    LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2 /* two facets too close at a sample to tell apart */
 };
 const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 
@@ -96,8 +118,9 @@ typedef struct lrcs_result {
     double projected_area_m2; /* the whole silhouette */
     double back_side_area_m2; /* visible projected area of one-sided back sides */
     uint32_t back_side_facets;
-    int method;          /* the one used, never AUTO */
-    uint32_t resolution; /* 0: no raster */
+    int method;                /* the one used, never AUTO */
+    const char *method_reason; /* why that one: constant text, "as asked" unless auto chose */
+    uint32_t resolution;       /* 0: no raster */
     uint32_t facets_total, facets_front, facets_hidden, facets_partial;
     lrcs_effect effect[LRCS_EFFECTS];
     uint32_t flags, notices;
@@ -110,8 +133,8 @@ typedef struct lrcs_image {
 } lrcs_image;
 
 /* Bytes of work area that lrcs_sigma_run takes, an upper bound for ordinary scenes; with less
-   it uses a coarser raster (LRCS_FLAG_MEMORY_FALLBACK), or says LRCS_E_MEMORY when even the
-   coarsest does not fit. */
+   it leaves facets unclipped, or uses a raster, or a coarser one (LRCS_FLAG_MEMORY_FALLBACK; the
+   result names the method used), or says LRCS_E_MEMORY when even the coarsest does not fit. */
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options);
 
 /* sigma from a pose.

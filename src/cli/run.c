@@ -2,14 +2,10 @@
 /* lrcs run: sigma of a scene from a pose. */
 #include "cli/run.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define IMAGE_LEAST   16.0
-#define IMAGE_MOST    4096.0
-#define IMAGE_DEFAULT 512u
-#define RASTER_MOST   16384.0
+#define RASTER_MOST 16384.0
 
 static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"
@@ -31,62 +27,30 @@ static const char run_help[] =
     "                        missing; BRDF is A,B,s,m (1/sr, 1/sr, slope, exponent) or a library\n"
     "                        material\n"
     "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
+    "                        where it is off; runs the pose for some 2 s more, or once for each\n"
     "  --json                the result as JSON, notices included\n"
     "  --facets FILE.csv     one row for every facet ('-': instead of the table)\n"
+    "  --polygons FILE.csv   what is visible, as convex rings on each facet, one row a point; by\n"
+    "                        exact visibility, whichever method auto took ('-' as for --facets)\n"
     "  --image FILE.png      what the laser sees, coloured by sigma per projected area\n"
     "  --image-size N        its side in pixels (512)\n"
     "\n"
     "examples\n"
     "  lrcs run demo --image demo.png\n"
     "  lrcs run demo --azel 30,-20 --json\n"
+    "  lrcs run demo --azel 30,-20 --explain\n"
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
 static const cli_option run_options[] = {
-    {"direction", 1, 0}, {"azel", 1, 0},       {"euler", 1, 0},  {"quaternion", 1, 0},
-    {"tolerance", 1, 0}, {"method", 1, 0},     {"unit", 1, 0},   {"resolution", 1, 0},
-    {"material", 1, 1},  {"json", 0, 0},       {"facets", 1, 0}, {"keep-transparent", 0, 0},
-    {"image", 1, 0},     {"image-size", 1, 0}, {"help", 0, 0},   {NULL, 0, 0}};
+    {"direction", 1, 0}, {"azel", 1, 0},   {"euler", 1, 0},      {"quaternion", 1, 0},
+    {"tolerance", 1, 0}, {"method", 1, 0}, {"unit", 1, 0},       {"resolution", 1, 0},
+    {"material", 1, 1},  {"json", 0, 0},   {"facets", 1, 0},     {"keep-transparent", 0, 0},
+    {"polygons", 1, 0},  {"image", 1, 0},  {"image-size", 1, 0}, {"explain", 0, 0},
+    {"help", 0, 0},      {NULL, 0, 0}};
 
 /* ---- options ---- */
-
-static int whole_read(const cli_args *args, const char *name, double least, double most,
-                      uint32_t *value)
-{
-    double number = *value;
-    int code = cli_number(args, name, &number);
-    if (code == 0 && cli_value(args, name)) {
-        if (!(number >= least && number <= most) || number != floor(number)) {
-            return cli_usage(args->command,
-                             "--%s: expected a whole number %.0f .. %.0f, found '%s'", name, least,
-                             most, cli_value(args, name));
-        }
-        *value = (uint32_t)number;
-    }
-    return code;
-}
-
-static int outputs_read(run_job *job)
-{
-    const cli_args *args = job->args;
-    job->facets = cli_value(args, "facets");
-    job->image_path = cli_value(args, "image");
-    if (job->facets && job->image_path && strcmp(job->facets, job->image_path) == 0) {
-        return cli_usage(args->command, "--facets and --image name the same file '%s'",
-                         job->facets);
-    }
-    if (job->image_path && strcmp(job->image_path, "-") == 0) {
-        return cli_usage(args->command, "--image: a picture does not go to standard output");
-    }
-    if (job->facets && strcmp(job->facets, "-") == 0 && cli_value(args, "json")) {
-        return cli_usage(args->command, "--facets - and --json both want standard output");
-    }
-    if (cli_value(args, "image-size") && !job->image_path) {
-        return cli_usage(args->command, "--image-size needs --image FILE.png");
-    }
-    job->image_size = IMAGE_DEFAULT;
-    return whole_read(args, "image-size", IMAGE_LEAST, IMAGE_MOST, &job->image_size);
-}
 
 static int options_read(run_job *job)
 {
@@ -107,25 +71,21 @@ static int options_read(run_job *job)
                              method);
         }
     }
-    code = code ? code : whole_read(args, "resolution", 1.0, RASTER_MOST, &job->options.resolution);
-    code = code ? code : outputs_read(job);
+    code = code ? code : cli_whole(args, "resolution", 1.0, RASTER_MOST, &job->options.resolution);
+    code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->options.tolerance;
+    job->explain = cli_value(args, "explain") != NULL;
     return code;
 }
 
 /* ---- the run ---- */
 
-static int run_scene(run_job *job)
+/* Room for what the outputs show. */
+static int run_room(run_job *job)
 {
-    lrcs_host_error error;
-    lrcs_host_scene *scene = &job->scene;
-    int code = cli_scene_read(job->args, &job->load, scene);
-    if (code != 0) {
-        return code;
-    }
     if (job->facets || job->image_path) {
-        job->records = calloc((size_t)scene->scene.facet_count + 1, sizeof *job->records);
+        job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
     }
     if (job->image_path) {
         job->image.size = lrcs_host_picture_need(job->image_size);
@@ -136,14 +96,24 @@ static int run_scene(run_job *job)
         fprintf(stderr, "lrcs: out of memory\n");
         return CLI_FAILED;
     }
-    if (lrcs_host_scene_prepare(scene, &error) != LRCS_OK) {
+    return 0;
+}
+
+static int run_pose(run_job *job)
+{
+    lrcs_host_error error;
+    if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    int status = lrcs_host_scene_run(scene, &job->pose, &job->options, &job->result, job->records,
-                                     job->image_path ? &job->image : NULL, &job->seconds, &error);
+    int status =
+        lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
+                            job->image_path ? &job->image : NULL, &job->seconds, &error);
     if (status == LRCS_E_UNSUPPORTED) {
         return cli_usage(job->args->command, "--method %s is not in this version",
                          lrcs_method_text(job->options.method));
+    }
+    if (status == LRCS_OK && job->polygons_path) {
+        status = lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error);
     }
     if (status != LRCS_OK) {
         return cli_failed(&error);
@@ -152,39 +122,12 @@ static int run_scene(run_job *job)
     return 0;
 }
 
-/* ---- files ---- */
-
-static int facets_write(const run_job *job)
+static int run_scene(run_job *job)
 {
-    lrcs_host_error error;
-    lrcs_host_output out;
-    if (lrcs_host_output_open(job->facets, &out, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    lrcs_host_facets_write(out.stream, &job->scene.scene, job->records);
-    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? 0 : cli_failed(&error);
-}
-
-static int image_write(const run_job *job)
-{
-    lrcs_host_error error;
-    lrcs_host_output out;
-    size_t side = job->image_size;
-    unsigned char *rgb = malloc(3 * side * side);
-    if (!rgb) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
-    }
-    lrcs_host_picture_make(&job->scene.scene, job->records, &job->image, job->image_size, rgb);
-    int status = lrcs_host_output_open(job->image_path, &out, &error);
-    if (status == LRCS_OK) {
-        status = lrcs_host_png_write(out.stream, rgb, job->image_size, job->image_size, 3, &error);
-        int good = status == LRCS_OK;
-        int closed = lrcs_host_output_close(&out, good, good ? &error : NULL);
-        status = good ? closed : status;
-    }
-    free(rgb);
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    int code = cli_scene_read(job->args, &job->load, &job->scene);
+    code = code ? code : cli_run_outputs_check(job);
+    code = code ? code : run_room(job);
+    return code ? code : run_pose(job);
 }
 
 /* ---- the command ---- */
@@ -192,9 +135,8 @@ static int image_write(const run_job *job)
 /* Files first: a table on stdout that says "picture" must be true. */
 static int run_outputs(run_job *job)
 {
-    int to_stdout = job->facets && strcmp(job->facets, "-") == 0;
-    int code = job->image_path ? image_write(job) : 0;
-    code = code == 0 && job->facets ? facets_write(job) : code;
+    int code = cli_run_outputs_write(job);
+    code = code == 0 && job->explain ? cli_run_explain(job) : code;
     if (code != 0) {
         return code;
     }
@@ -202,7 +144,7 @@ static int run_outputs(run_job *job)
         cli_run_json(job);
     } else {
         cli_run_notices(job);
-        if (!to_stdout) {
+        if (!cli_run_outputs_stdout(job)) {
             cli_run_table(job);
         }
     }
@@ -221,6 +163,7 @@ static int run_command(const cli_args *args)
     code = code ? code : run_outputs(&job);
     free(job.records);
     free(job.image.facet);
+    lrcs_host_polygons_free(&job.polygons);
     lrcs_host_scene_free(&job.scene);
     cli_scene_options_free(&job.load);
     return code;

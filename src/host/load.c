@@ -2,6 +2,7 @@
 /* From a path to a scene, and on to sigma. It decides what kind of file a path holds, where the
    files that it names lie, and which notices are due; the geometry is the core's. */
 #include "host/demo.h"
+#include "host/input.h"
 #include "host/model.h"
 
 #include <limits.h>
@@ -46,7 +47,8 @@ static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char
     if (!step.text) {
         return lrcsi_host_fail_memory(error, size);
     }
-    int status = lrcsi_host_step_run(scene, lrcs_recipe_need(size), recipe_read, &step, error);
+    int status =
+        lrcsi_host_step_run(&scene->blocks, lrcs_recipe_need(size), recipe_read, &step, error);
     if (status == LRCS_OK || status == LRCS_E_SYSTEM) {
         return status;
     }
@@ -146,7 +148,7 @@ static int scene_from_recipe(lrcs_host_scene *scene, const char *path,
 {
     build_step step = {.scene = scene, .options = options};
     size_t need = lrcs_scene_need(&scene->recipe, scene->model, options);
-    int status = lrcsi_host_step_run(scene, need, scene_build, &step, error);
+    int status = lrcsi_host_step_run(&scene->blocks, need, scene_build, &step, error);
     return status == LRCS_OK || status == LRCS_E_SYSTEM
                ? status
                : lrcsi_host_fail_where(error, status, path, &step.where);
@@ -172,7 +174,8 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
         }
         lrcs_host_file file = {NULL, 0};
         const char *name = lrcsi_host_beside(scene, path, recipe->part[i].file);
-        status = name ? lrcs_host_file_read(name, &file, error) : lrcsi_host_fail_memory(error, 1);
+        status = name ? lrcsi_host_input_read(scene, name, &file, error)
+                      : lrcsi_host_fail_memory(error, 1);
         if (status == LRCS_OK) {
             status = lrcsi_host_model_read(scene, name, &file, &scene->model[i], error);
             lrcs_host_file_free(&file);
@@ -281,7 +284,7 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
                      ? lrcsi_host_fail(error, LRCS_E_ARGUMENT, "demo states its own units")
                      : recipe_from_text(scene, path, text, size, error);
     } else {
-        status = lrcs_host_file_read(path, &file, error);
+        status = lrcsi_host_input_read(scene, path, &file, error);
         if (status == LRCS_OK) {
             status = recipe_from_file(scene, path, &file, options, error);
         }

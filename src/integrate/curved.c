@@ -45,9 +45,8 @@ static int on_curve(const lrcs_prepared *p, uint32_t facet)
 /* A curved closed part's inside never faces the laser unhidden, whatever rounding made of it. */
 static int back_reflects(const lrcsi_view *view, uint32_t facet)
 {
-    const lrcs_prepared *p = view->prepared;
-    const lrcs_part *part = curved_part(p, facet);
-    return view->facing[facet] < 0 && lrcsi_prepared_material(p, facet)->two_sided && !p->solid &&
+    const lrcs_part *part = curved_part(view->prepared, facet);
+    return view->facing[facet] < 0 && lrcsi_view_reflects(view, facet) &&
            !(part->reach > 0 && part->solid);
 }
 
@@ -97,16 +96,16 @@ static double wall_error(const lrcsi_stray *stray, double a, double share, int s
 }
 
 /* What the facets may show of a closed part's inside, by rounding. */
-static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcsi_tilt *tilt,
-                           const lrcsi_visible *visible, const lrcsi_margin *margin)
+static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                           const lrcsi_tilt *tilt, const lrcsi_visible *visible,
+                           const lrcsi_margin *margin)
 {
-    const lrcs_material *material = lrcsi_prepared_material(view->prepared, facet);
     const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
-    if (!margin || view->facing[facet] >= 0 || !material->two_sided || view->prepared->solid ||
+    if (!margin || view->facing[facet] >= 0 || !lrcsi_view_reflects(view, facet) ||
         !(visible[facet].high > 0)) {
         return 0;
     }
-    double most = lrcsi_stray_make(&material->brdf, -tilt->cos_theta, tilt->tan2, &flat).most;
+    double most = lrcsi_stray_make(brdf, -tilt->cos_theta, tilt->tan2, &flat).most;
     return most * fmin(1, visible[facet].high / tilt->projected);
 }
 
@@ -120,8 +119,9 @@ int lrcsi_curved_known(const lrcs_prepared *p, int unshadowed)
     return unshadowed || p->nears.reach != NULL;
 }
 
-double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcsi_tilt *tilt,
-                          const lrcsi_visible *visible, const lrcsi_margin *margin)
+double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                          const lrcsi_tilt *tilt, const lrcsi_visible *visible,
+                          const lrcsi_margin *margin)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
@@ -130,11 +130,11 @@ double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcsi_ti
     double share = margin ? margin->share[facet] : 0;
     double area = 0.5 * p->normal[facet].length;
     if (share == 0 && (!curve || state == CURVED_HIDDEN)) {
-        return state == CURVED_DARK ? area * inside_shown(view, facet, tilt, visible, margin) : 0;
+        return state == CURVED_DARK ? area * inside_shown(view, facet, brdf, tilt, visible, margin)
+                                    : 0;
     }
     const lrcs_curvature *c = curve ? &curved_part(p, facet)->curvature : &flat;
     double cosine = state == CURVED_DARK ? tilt->cos_theta : fabs(tilt->cos_theta);
-    const lrcs_brdf *brdf = &lrcsi_prepared_material(p, facet)->brdf;
     lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, c);
     double error = state == CURVED_DARK ? 0 : share * stray.most;
     if (curve) {
@@ -142,7 +142,7 @@ double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcsi_ti
         error = wall_error(&stray, c->area_error, share, state, partner);
     }
     if (state == CURVED_DARK) {
-        error += inside_shown(view, facet, tilt, visible, margin);
+        error += inside_shown(view, facet, brdf, tilt, visible, margin);
     }
     return area * error;
 }

@@ -11,9 +11,10 @@
 int lrcsi_curved_known(const lrcs_prepared *prepared, int unshadowed);
 
 /* A bound on it for one facet that is not skipped and its patch, scaled, without the 4 pi.
-   Given: the visible areas of all facets; the margin of doubt, or NULL where every front is wholly
-   visible or what could be hidden is in the visible area's bounds. */
-double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcsi_tilt *tilt,
-                          const lrcsi_visible *visible, const lrcsi_margin *margin);
+   Given: what the facet wears; the visible areas of all facets; the margin of doubt, or NULL where
+   every front is wholly visible or what could be hidden is in the visible area's bounds. */
+double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                          const lrcsi_tilt *tilt, const lrcsi_visible *visible,
+                          const lrcsi_margin *margin);
 
 #endif

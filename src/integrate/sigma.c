@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/range.h"
 #include "base/work.h"
 #include "integrate/plan.h"
 #include "integrate/total.h"
@@ -33,13 +34,15 @@ typedef struct sigma_run {
 
 lrcs_run_options lrcs_run_options_default(void)
 {
-    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0};
+    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0};
 }
 
 static int options_check(const lrcs_run_options *options)
 {
     if (options->method < LRCS_METHOD_AUTO || options->method > LRCS_METHOD_EXACT ||
-        !(options->tolerance > 0) || options->resolution > MOST_SIZE) {
+        !(options->tolerance > 0) || options->resolution > MOST_SIZE ||
+        ((options->without | options->with) & ~LRCS_EFFECTS_SWITCHED) != 0 ||
+        (options->without & options->with) != 0) {
         return LRCS_E_ARGUMENT;
     }
     return LRCS_OK;
@@ -51,7 +54,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_view_need(prepared);
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
-    if (options->method == LRCS_METHOD_FACET) {
+    if (options->method == LRCS_METHOD_FACET && options->with == 0) {
         return need;
     }
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
@@ -100,19 +103,36 @@ static int run_facet(sigma_run *run)
 {
     double graze = run->plan.unshadowed ? run->view.prepared->graze : 1;
     lrcsi_visible_unshadowed(&run->view, graze, run->visible);
-    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->doubt, NULL);
+    run->total = lrcsi_total_make(&run->view, &run->plan, run->visible, run->doubt, NULL);
     return LRCS_OK;
 }
 
-/* On an open convex surface samples serve the back sides only: fronts are known. */
-static void fronts_are_known(const lrcsi_view *view, lrcsi_visible *visible)
+/* On a convex surface samples serve the back sides only: fronts are known. Where they were searched
+   all the same, what is known joins what was found: bodies convex by construction are not searched
+   for contacts, so that the search alone proves nothing of them. */
+static void fronts_are_known(const lrcsi_view *view, int searched, lrcsi_visible *visible)
 {
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (view->facing[f] > 0) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
             double low = tilt.cos_theta > view->prepared->graze ? tilt.projected : 0;
-            visible[f] = (lrcsi_visible){tilt.projected, low, tilt.projected, 0};
+            lrcsi_visible known = {tilt.projected, low, tilt.projected, 0};
+            if (searched) {
+                known.area = visible[f].area;
+                known.low = lrcsi_least(known.low, visible[f].low);
+                known.likely = visible[f].likely;
+            }
+            visible[f] = known;
         }
+    }
+}
+
+/* Back sides proved never to be seen, and looked for all the same: none of them may be all there
+   is to the truth. */
+static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
+{
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        visible[f].low = view->facing[f] < 0 ? 0 : visible[f].low;
     }
 }
 
@@ -120,12 +140,15 @@ static void fronts_are_known(const lrcsi_view *view, lrcsi_visible *visible)
 static void run_sum(sigma_run *run)
 {
     if (run->plan.unshadowed) {
-        fronts_are_known(&run->view, run->visible);
+        fronts_are_known(&run->view, run->plan.searched, run->visible);
+    }
+    if (run->view.prepared->solid && run->view.backs_cast) {
+        backs_are_known(&run->view, run->visible);
     }
     if (run->doubt) {
         lrcsi_margin_settle(run->doubt, run->visible);
     }
-    run->total = lrcsi_total_make(&run->view, run->visible, run->plan.unshadowed, run->doubt, NULL);
+    run->total = lrcsi_total_make(&run->view, &run->plan, run->visible, run->doubt, NULL);
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
@@ -153,11 +176,17 @@ static int run_raster(sigma_run *run, uint32_t size)
     return status;
 }
 
-static int run_exact(sigma_run *run)
+/* Facets that find no memory to be clipped in widen the bound; under auto a raster does better. */
+static int run_exact(sigma_run *run, int method)
 {
-    int status = lrcsi_occlude_all(&run->contest, run->work, run->visible);
+    uint32_t starved = 0;
+    int status = lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
+    if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
+        return LRCS_E_MEMORY;
+    }
     if (status == LRCS_OK) {
         run->size = 0;
+        run->flags |= starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         run_sum(run);
     }
     return status;
@@ -189,15 +218,19 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 
 static int run_method(sigma_run *run, const lrcs_run_options *options)
 {
-    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
+    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run, options->method)
+                                                 : run_zbuffer(run, options);
 }
 
 /* Under auto a raster of a size asked for goes first; where its bound misses the tolerance,
-   clipping follows. Clipping that finds no memory yields to a raster, which needs less. */
+   clipping follows. Clipping that finds no memory yields to a raster, which needs less, whether it
+   was asked for or not. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
-    if (status == LRCS_OK && run->view.prepared->nears.reach) {
+    /* where back sides are left out of a scene that shows some, its true curves are not known */
+    if (status == LRCS_OK && run->view.prepared->nears.reach &&
+        (run->view.backs_cast || run->view.prepared->solid)) {
         status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
         run->doubt = &run->margin;
     }
@@ -205,17 +238,16 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
         return status;
     }
     status = run_method(run, options);
-    if (options->method != LRCS_METHOD_AUTO) {
-        return status;
-    }
-    if (status == LRCS_OK && run->plan.method == LRCS_METHOD_ZBUFFER &&
-        !run_meets(&run->total, options->tolerance)) {
+    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
+        run->plan.method == LRCS_METHOD_ZBUFFER && !run_meets(&run->total, options->tolerance)) {
         run->plan.method = LRCS_METHOD_EXACT;
+        run->plan.reason = "the raster asked for misses the tolerance";
         run->flags = 0;
-        status = run_exact(run);
+        status = run_exact(run, options->method);
     }
     if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
         run->plan.method = LRCS_METHOD_ZBUFFER;
+        run->plan.reason = "too little memory for clipping";
         run->flags = LRCS_FLAG_MEMORY_FALLBACK;
         status = run_zbuffer(run, options);
     }
@@ -235,13 +267,14 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
                      .back_side_area_m2 = t->back_side,
                      .back_side_facets = t->back_sides,
                      .method = run->plan.method,
+                     .method_reason = run->plan.reason,
                      .resolution = run->size,
                      .facets_total = run->view.prepared->scene->facet_count,
                      .facets_front = run->view.front,
                      .facets_hidden = t->hidden,
                      .facets_partial = t->partial,
                      .flags = run->flags};
-    lrcsi_plan_effects(&run->view, &run->plan, r.effect);
+    lrcsi_plan_effects(&run->view, &run->plan, t->seen, r.effect);
     r.flags |= run_meets(t, options->tolerance) ? 0u : LRCS_FLAG_TOLERANCE_NOT_MET;
     r.notices |= t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
     r.notices |= t->tessellation < 0 ? LRCS_NOTICE_TESSELLATION_UNKNOWN : 0u;
@@ -264,6 +297,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         status = run.visible ? LRCS_OK : LRCS_E_MEMORY;
     }
     if (status == LRCS_OK) {
+        lrcsi_plan_backs(options, &run.view);
         run.plan = lrcsi_plan_make(&run.view, options);
         status =
             run.plan.method == LRCS_METHOD_FACET ? run_facet(&run) : run_shadowed(&run, options);
@@ -277,7 +311,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {
-            lrcsi_total_make(&run.view, run.visible, run.plan.unshadowed, run.doubt, records);
+            lrcsi_total_make(&run.view, &run.plan, run.visible, run.doubt, records);
         }
         result_fill(&run, options, result);
     }

@@ -3,6 +3,7 @@
 #ifndef LRCSI_TOTAL_H
 #define LRCSI_TOTAL_H
 
+#include "integrate/plan.h"
 #include "visibility/margin.h"
 #include "visibility/visible.h"
 
@@ -13,13 +14,15 @@ typedef struct lrcsi_total {
     double likely;                             /* likely error of the sampled areas */
     double projected, back_side;
     uint32_t back_sides, hidden, partial;
+    uint32_t seen; /* effects that some facet calls for which may be seen: GLINT, DIFFUSE bits */
 } lrcsi_total;
 
-/* Given: the view, and the visible area of each of its facets; whether every front facet is known
-   to be wholly visible, on the true shapes as on their meshes; where not, the margin of doubt about
-   the true shapes (NULL: none was made, areas being bounded by all that could be hidden).
-   Returned: total, summed in facet order; records[facet_count] unless NULL. */
-lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible, int unshadowed,
-                             const lrcsi_margin *margin, lrcs_facet_record *records);
+/* Given: the view, its plan, and the visible area of each facet; where the plan does not know every
+   front facet to be wholly visible, on the true shapes as on their meshes, the margin of doubt
+   about the true shapes (NULL: none was made). Returned: total, summed in facet order;
+   records[facet_count] unless NULL. */
+lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
+                             const lrcsi_visible *visible, const lrcsi_margin *margin,
+                             lrcs_facet_record *records);
 
 #endif

@@ -207,10 +207,8 @@ static double event_shares(margin_job *job, uint32_t facet, const double low[2],
 static int facet_matters(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_prepared *p = view->prepared;
-    int reflects = view->facing[facet] > 0 || (view->facing[facet] < 0 && !p->solid &&
-                                               lrcsi_prepared_material(p, facet)->two_sided);
-    int curved = p->nears.reach[p->scene->facet_part[facet]] > 0;
-    return (reflects || curved) && !p->skip[facet];
+    return !p->skip[facet] &&
+           (lrcsi_view_reflects(view, facet) || p->nears.reach[p->scene->facet_part[facet]] > 0);
 }
 
 static void facet_share(margin_job *job, uint32_t facet)

@@ -4,29 +4,20 @@
 #ifndef LRCSI_OCCLUDER_H
 #define LRCSI_OCCLUDER_H
 
-#include "view/view.h"
 #include "visibility/clip.h"
-
-/* The facet that may be hidden, in its own frame: relative to its first corner, view axes. */
-typedef struct lrcsi_target {
-    const lrcsi_view *view;
-    uint32_t facet;
-    double corner[3][2]; /* counter-clockwise in the view */
-    double reach;        /* largest distance, in space, of a corner from the first */
-    double diameter;     /* its longest side in the view, upper bound */
-    double perimeter;    /* in the view, upper bound */
-} lrcsi_target;
-
-void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *target);
+#include "visibility/target.h"
 
 typedef struct lrcsi_occluder {
     lrcsi_clip_region region;
     double error; /* the rim by which the region may be wrong, times four sides; infinite where the
                      two planes lie too close to tell where they meet */
+    double outline; /* the rim's length, upper bound; infinite where the region is so narrow that
+                       lines as far off as that may run on beyond its ends */
+    double charged; /* visibility/occlude.c: what it may be wrong by in the cells that it cut */
 } lrcsi_occluder;
 
 /* 1 and the region, where `other` hides some of the target; 0 where it hides nothing, or no more
-   than the error, which is set either way. */
+   than the error, which is set either way, and so is the outline. */
 int lrcsi_occluder_make(const lrcsi_target *target, uint32_t other, lrcsi_occluder *occluder);
 
 #endif

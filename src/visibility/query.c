@@ -114,13 +114,28 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
     int answer = LRCSI_QUERY_VISIBLE;
     uint32_t other;
     while ((other = line_next(&line)) != LRCS_NONE) {
-        int nearer = lrcsi_sample_nearer(facets->view, other, facet, line.point);
+        int nearer = lrcsi_sample_nearer(facets->view, other, facet, line.point, line.sense);
         if (nearer > 0) {
             return LRCSI_QUERY_HIDDEN;
         }
         answer = nearer == 0 ? LRCSI_QUERY_UNDECIDED : answer;
     }
     return answer;
+}
+
+/* A region is named by its first facet, which is asked first; where no answer was found there, each
+   of its facets is asked for itself. */
+void lrcsi_query_uniform(const lrcsi_contest *contest, const lrcsi_grid *facets,
+                         unsigned char *answer)
+{
+    for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count; f++) {
+        uint32_t first = contest->region[f];
+        answer[f] = LRCSI_QUERY_HIDDEN;
+        if (lrcsi_grid_casts(contest->view, f) && !contest->contested[f]) {
+            int asks = first == f || answer[first] == LRCSI_QUERY_UNDECIDED;
+            answer[f] = asks ? (unsigned char)lrcsi_query_facet(facets, f) : answer[first];
+        }
+    }
 }
 
 /* Does `other` touch the inside of the facet? */
@@ -167,7 +182,7 @@ int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint3
     while ((other = line_next(&line)) != LRCS_NONE) {
         if (contest->sheet[other] == broken ||
             touched_by(facets->view->prepared, other, facet) || /* order perhaps a guess */
-            lrcsi_sample_nearer(facets->view, other, facet, line.point) <= 0) {
+            lrcsi_sample_nearer(facets->view, other, facet, line.point, line.sense) <= 0) {
             continue;
         }
         if (crossings == LRCS_NONE) {

@@ -112,7 +112,7 @@ static void raster_contend(lrcsi_raster *r, uint32_t facet, size_t at, double he
         } else {
             double point[3];
             lrcsi_view_lift(r->view, xy[0], xy[1], point);
-            int nearer = lrcsi_sample_nearer(r->view, facet, owner, point);
+            int nearer = lrcsi_sample_nearer(r->view, facet, owner, point, 1);
             wins = nearer > 0;
             r->undecided[facet] |= nearer == 0;
             r->undecided[owner] |= nearer == 0;
@@ -232,9 +232,8 @@ static int raster_arrays(lrcsi_raster *r, lrcs_work *work)
 static void raster_draw(lrcsi_raster *r)
 {
     const lrcsi_view *view = r->view;
-    int solid = view->prepared->solid;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        if (view->facing[f] > 0 || (view->facing[f] < 0 && !solid)) {
+        if (view->facing[f] > 0 || (view->facing[f] < 0 && view->backs_cast)) {
             raster_facet(r, f);
         }
     }

@@ -60,7 +60,7 @@ static void check_run(const hostile_case *c, int sided, int method, uint32_t siz
     lrcs_facet_record records[MOST];
     assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
     assert_int_equal(lrcs_pose_from_direction(c->direction, &pose), LRCS_OK);
-    lrcs_run_options options = {1e-4, method, size};
+    lrcs_run_options options = {.tolerance = 1e-4, .method = method, .resolution = size};
     assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, records, NULL), LRCS_OK);
     assert_true(r.bound_m2 >= 0);
     check_abs(r.sigma_m2, c->truth[sided], r.bound_m2 + 2e-16 * c->truth[sided]);
@@ -133,6 +133,15 @@ static void facet_thinner_than_its_rounding_is_asked_at_a_corner(void **state)
     check_case("soup 7:1171");
 }
 
+/* A needle of 1e-23 m^2, sampled at a corner that it shares with what hides it, or does not, showed
+   half its area: there their heights agree, and each had corners on both sides of the other. */
+static void needle_sampled_at_a_common_corner_is_decided(void **state)
+{
+    (void)state;
+    check_case("turned 7:6693");
+    check_case("turned 99:6546");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +150,7 @@ int main(void)
         cmocka_unit_test(cut_of_a_sliver_keeps_its_sense),
         cmocka_unit_test(visible_area_is_never_negative),
         cmocka_unit_test(facet_thinner_than_its_rounding_is_asked_at_a_corner),
+        cmocka_unit_test(needle_sampled_at_a_common_corner_is_decided),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -175,7 +175,9 @@ static lrcs_result look(const built *b, const double d[3], int method)
 {
     lrcs_pose pose;
     lrcs_result result;
-    lrcs_run_options options = {1e-4, method, method == LRCS_METHOD_ZBUFFER ? 200 : 0};
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = method;
+    options.resolution = method == LRCS_METHOD_ZBUFFER ? 200 : 0;
     lrcs_work work = lrcs_work_make(run_memory, sizeof run_memory);
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
     assert_int_equal(lrcs_sigma_run(b->prepared, &pose, &options, &work, &result, NULL, NULL),

@@ -53,7 +53,9 @@ static lrcs_result shadow_run(shadow_scene *s, uint32_t facets, const double d[3
     lrcs_recipe recipe = {
         .part = s->part, .part_count = s->parts, .material = &s->material, .material_count = 1};
     lrcs_build_options build = {1e-9, facets};
-    lrcs_run_options run = {1e-4, method, method == LRCS_METHOD_ZBUFFER ? 300 : 0};
+    lrcs_run_options run = lrcs_run_options_default();
+    run.method = method;
+    run.resolution = method == LRCS_METHOD_ZBUFFER ? 300 : 0;
     lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
     lrcs_scene scene;
     const lrcs_prepared *prepared;
