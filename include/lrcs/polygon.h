@@ -24,7 +24,7 @@ typedef struct lrcs_polygons {
     lrcs_ring_point *point;
     uint32_t rings, points;
     double bound_m2; /* proved: in projection the rings differ from what is visible, both ways and
-                        over all facets, by no more area than this */
+                        over all facets, by no more area than this and their points' rounding */
 } lrcs_polygons;
 
 /* Bytes of work area, an upper bound for ordinary scenes; where it does not suffice,
@@ -38,8 +38,9 @@ size_t lrcs_polygon_need(const lrcs_prepared *prepared);
    Notes: 1. A facet that is visible whole, or cannot be told from one that is, has one ring: its
    own three corners, exactly. One that cannot be told from a hidden one has none, nor has one of
    which nothing is known; bound_m2 holds both.
-   2. The area of a facet's rings over `view` is its visible_area_m2 to within that bound and the
-   rounding of the points.
+   2. The area of a facet's rings over `view` is the visible_area_m2 of LRCS_METHOD_EXACT to within
+   that bound and the rounding of the points; on a surface convex by construction, of which that
+   method takes the front as visible without clipping, to within the rounding of its vertices.
    3. Facets and their back sides have rings whether or not they reflect.
    4. With u = 2^-53 and D the largest distance of the facet's corners from the body's origin, view
    is rounded to within 32 u D, body stands on the facet to within 8 u D, and is seen within 256 u D

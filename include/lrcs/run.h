@@ -81,9 +81,9 @@ const char *lrcs_effect_text(int effect); /* "self_shadowing", ... or NULL */
 /* Flags: the answer is degraded, the bound widened accordingly. */
 enum lrcs_flag {
     LRCS_FLAG_TOLERANCE_NOT_MET = 1 << 0,
-    LRCS_FLAG_MEMORY_FALLBACK =
-        1 << 1,                        /* for want of memory, a raster in place of clipping, or a
-                                          coarser one than asked; or facets that were not clipped */
+    /* for want of memory: a raster in place of clipping, or a coarser one than asked, or facets
+       that were not clipped */
+    LRCS_FLAG_MEMORY_FALLBACK = 1 << 1,
     LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2 /* two facets too close at a sample to tell apart */
 };
 const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */

@@ -245,25 +245,13 @@ static void region_sides(const occlude_caster *c, double width, lrcsi_clip_regio
    length serve for that. A convex region holds a disc of the radius area / L; where that exceeds w,
    lines that are off by w reach no farther than the region grown by twice in all directions, by at
    most 3 w L. */
-static double hull_outline(const lrcsi_clip_polygon *hull, double reach, double slip)
+static double hull_outline(const lrcsi_clip_polygon *hull, double reach, double diameter,
+                           double slip)
 {
     double length = lrcsi_clip_polygon_perimeter(hull);
     double area = lrcsi_clip_polygon_area(hull);
-    int wide = area > 64 * U * reach * length;
+    int wide = area > 64 * U * (reach + diameter) * length;
     return wide ? length + 4 * (CORNER_OFF * reach + slip) : HUGE_VAL;
-}
-
-/* Do two corners fall together in the view? Then so does the triangle, into a segment. */
-static int corners_meet(const occlude_caster *c)
-{
-    for (int k = 0; k < 3; k++) {
-        const double *p = c->corner[k];
-        const double *q = c->corner[(k + 1) % 3];
-        if (p[0] == q[0] && p[1] == q[1]) {
-            return 1;
-        }
-    }
-    return 0;
 }
 
 /* The occluder's triangle, cut where its plane passes behind the target's. The cut leaves one side
@@ -271,12 +259,15 @@ static int corners_meet(const occlude_caster *c)
    corner from the other two. Where that one lies within CUT_MARGIN of it (the points are off by
    less than 6 u reach, the corner by 10 u reach), the line's direction means nothing; then either
    what it cuts off is no wider, and it is left out, or what is left is, and there is no region: 0.
-   Elsewhere it crosses both sides within a quarter of the corner's distance beyond the points.
+   Elsewhere it crosses both sides within a quarter of the corner's distance beyond the points. A
+   triangle that rounding has turned over, or flattened, hides no more than its corners' error; the
+   two sides of one that is cut would open backwards without end.
 
    The true region lies within the corners' error, 10 u reach and the slip, of the hull of its
    computed corners; so a point beyond one of the lines by SURE_WIDTH, the cut's by the slip more,
-   is not in it, and one so far within all of them is; where the cut was left out, what it cuts off
-   lies within CUT_MARGIN and the slip of the sides. */
+   is not in it. One so far within all of them is: it lies in the true triangle, and not in the part
+   that the cut takes away, which is as near to the hull of its own computed corners. Where the cut
+   was left out, what it cuts off lies within CUT_MARGIN and the slip of the sides. */
 static int region_make(const occlude_caster *c, double diameter, lrcsi_occluder *o)
 {
     double sure = SURE_WIDTH * (c->reach + diameter);
@@ -285,7 +276,7 @@ static int region_make(const occlude_caster *c, double diameter, lrcsi_occluder 
     lrcsi_clip_polygon hull;
     hull.count = 0;
     o->error = 4 * 14 * U * (c->reach + diameter);
-    if (corners_meet(c)) {
+    if (!(lrcsi_clip_corners_area((const double(*)[2])c->corner, 3) > 0)) {
         return 0;
     }
     *region = (lrcsi_clip_region){.low = {HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL}};
@@ -303,7 +294,7 @@ static int region_make(const occlude_caster *c, double diameter, lrcsi_occluder 
         }
         region_line(region, cut.leave, cut.enter, sure + cut.slip);
     }
-    o->outline = hull_outline(&hull, c->reach, cut.slip);
+    o->outline = hull_outline(&hull, c->reach, diameter, cut.slip);
     return 1;
 }
 

@@ -194,7 +194,8 @@ static void exact_with_too_little_memory_says_so_and_its_bound_holds(void **stat
     work = lrcs_work_make(little, sizeof little);
     const lrcs_prepared *prepared = NULL;
     assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
-    lrcs_run_options options = {1e-4, LRCS_METHOD_EXACT, 0};
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = LRCS_METHOD_EXACT;
     size_t need = lrcs_sigma_need(prepared, &options);
     unsigned rasters = 0;
     unsigned starved = 0;
