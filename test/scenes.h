@@ -191,6 +191,28 @@ static inline void scene_move(test_scene *s, double factor, const double move[3]
     }
 }
 
+/* Turns scene and direction by the quaternion w, x, y, z of small integers and scales the scene by
+   w^2 + x^2 + y^2 + z^2, which is returned: exact where coordinates have bits to spare. */
+static inline double scene_turn(test_scene *s, const int q[4], double direction[3])
+{
+    double w = q[0];
+    double x = q[1];
+    double y = q[2];
+    double z = q[3];
+    const double m[3][3] = {
+        {w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+        {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+        {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}};
+    for (uint32_t v = 0; v <= s->scene.vertex_count; v++) {
+        double *to = v < s->scene.vertex_count ? s->vertex[v].x : direction;
+        const double from[3] = {to[0], to[1], to[2]};
+        for (int k = 0; k < 3; k++) {
+            to[k] = m[k][0] * from[0] + m[k][1] * from[1] + m[k][2] * from[2];
+        }
+    }
+    return w * w + x * x + y * y + z * z;
+}
+
 /* Prepares the scene at the bottom of the work area. */
 static inline const lrcs_prepared *scene_prepare(test_scene *s, lrcs_work *work)
 {

@@ -113,11 +113,12 @@ static void fronts_are_known(const lrcsi_view *view, int searched, lrcsi_visible
         if (view->facing[f] > 0) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
             double low = tilt.cos_theta > view->prepared->graze ? tilt.projected : 0;
-            lrcsi_visible known = {tilt.projected, low, tilt.projected, 0};
+            lrcsi_visible known = {tilt.projected, low, tilt.projected, 0, 0};
             if (searched) {
                 known.area = visible[f].area;
                 known.low = lrcsi_least(known.low, visible[f].low);
                 known.likely = visible[f].likely;
+                known.lean = visible[f].lean;
             }
             visible[f] = known;
         }

@@ -13,7 +13,7 @@ typedef struct lrcsi_tilt {
     double cos_theta; /* signed; its sign agrees with facing */
     double tan2;      /* tan^2(theta), infinity where edge-on */
     double stretch;   /* relative error of tan2; 1: it lies in 0 .. tan2; infinity: it is at
-                         least tan2, the facet being edge-on to within the arithmetic */
+                         least tan2, the facet being edge-on to 2^-500 rad */
     double projected; /* projected area, >= 0 */
     double error;     /* relative error of projected and of the area */
 } lrcsi_tilt;

@@ -242,10 +242,10 @@ static lrcsi_visible clipped_area(const lrcsi_occluding *o)
     }
     double left = lrcsi_most(0, lrcsi_least(whole, o->area));
     if (!isfinite(error)) {
-        return (lrcsi_visible){left, 0, whole, 0};
+        return (lrcsi_visible){left, 0, whole, 0, 0};
     }
     return (lrcsi_visible){left, lrcsi_most(0, left - error),
-                           lrcsi_least(whole, left + o->doubt + error), 0};
+                           lrcsi_least(whole, left + o->doubt + error), 0, 0};
 }
 
 static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
@@ -253,11 +253,11 @@ static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
     double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
     switch (o->uniform[facet]) {
     case LRCSI_QUERY_HIDDEN:
-        return (lrcsi_visible){0, 0, 0, 0};
+        return (lrcsi_visible){0, 0, 0, 0, 0};
     case LRCSI_QUERY_VISIBLE:
-        return (lrcsi_visible){whole, whole, whole, 0};
+        return (lrcsi_visible){whole, whole, whole, 0, 0};
     default:
-        return (lrcsi_visible){0.5 * whole, 0, whole, 0};
+        return (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
     }
 }
 
@@ -265,7 +265,7 @@ int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
 {
     lrcsi_contest *contest = o->contest;
     o->mark = o->work->used;
-    o->answer = (lrcsi_visible){0, 0, 0, 0};
+    o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
     o->target.facet = facet;
     o->contested = o->whole = 0;
     o->top = 0;
@@ -353,7 +353,7 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
             visible[f] = lrcsi_occlude_close(&o);
         } else {
             double whole = lrcsi_view_tilt(view, f).projected;
-            visible[f] = (lrcsi_visible){0.5 * whole, 0, whole, 0};
+            visible[f] = (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
             ++*starved;
         }
     }

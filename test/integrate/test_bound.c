@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The z-buffer's bound against exact rational visibility: 210 small scenes full of degenerate
-   contacts (test/vectors/visible.py), at several resolutions, one-sided and two-sided. */
+/* The z-buffer's bound and its guess against exact rational visibility: 210 small scenes full of
+   degenerate contacts (test/vectors/visible.py), at several resolutions, one-sided and two-sided.
+ */
+#include <stdlib.h>
+
 #include "visible.h"
 
 static test_scene scene;
@@ -124,22 +127,75 @@ static void uniform_facets_are_exact_at_any_resolution(void **state)
     assert_true(uniform > 50);
 }
 
-static void bound_shrinks_with_resolution(void **state)
+/* 16 times the pixels across, 16 times less of a bound, but for the few pixels of a coarse raster.
+ */
+static void bound_shrinks_as_the_pixel(void **state)
 {
     (void)state;
     double coarse = 0;
     double fine = 0;
+    double worst = 0;
     for (size_t i = 0; i < CASES; i++) {
-        lrcs_result r = run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 64);
-        double at64 = r.budget.visibility_m2 / r.sigma_m2;
-        r = run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 512);
-        double at512 = r.budget.visibility_m2 / r.sigma_m2;
-        if (isfinite(at64) && isfinite(at512)) {
-            coarse += at64;
-            fine += at512;
+        double at32 = run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 32).budget.visibility_m2;
+        lrcs_result r = run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, 512);
+        if (r.sigma_m2 > 0 && at32 > 0) {
+            coarse += at32 / r.sigma_m2;
+            fine += r.budget.visibility_m2 / r.sigma_m2;
+            worst = fmax(worst, r.budget.visibility_m2 / at32);
         }
     }
-    check_most(fine, coarse / 6); /* 8 times the pixels across: nearly 8 times less */
+    check_most(fine, 1.25 * coarse / 16);
+    check_most(worst, 3.0 / 16);
+}
+
+/* At ten resolutions the raster's interval holds what the exact one does. */
+static void raster_and_exact_intervals_overlap(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[] = {1, 2, 3, 5, 11, 24, 50, 107, 230, 400};
+    for (size_t i = 0; i < CASES; i++) {
+        lrcs_result exact = run_case(&cases[i], 1, LRCS_METHOD_EXACT, 0);
+        for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+            lrcs_result r = run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, sizes[k]);
+            check_abs(r.sigma_m2, exact.sigma_m2, r.bound_m2 + exact.bound_m2);
+        }
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a;
+    double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Half of all guesses within a factor of 5, and 95 % of them not below the error; errors that
+   rounding alone could make are left out. */
+static void estimate_is_near_the_error_and_seldom_below(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[] = {16, 37, 64, 201, 512};
+    static double ratio[2 * CASES * 5];
+    size_t count = 0;
+    size_t low = 0;
+    for (size_t i = 0; i < CASES; i++) {
+        for (size_t k = 0; k < 5; k++) {
+            double silhouette = 0;
+            double truth = true_sigma(&cases[i], 1, &silhouette);
+            lrcs_result r = run_case(&cases[i], 1, LRCS_METHOD_ZBUFFER, sizes[k]);
+            double error = fabs(r.sigma_m2 - truth);
+            assert_true(r.estimate_m2 >= 0 && r.estimate_m2 <= r.bound_m2);
+            if (error > r.budget.rounding_m2 + 4e-16 * truth) {
+                low += r.estimate_m2 < error;
+                ratio[count++] = r.estimate_m2 / error;
+            }
+        }
+    }
+    qsort(ratio, count, sizeof *ratio, ascending);
+    assert_true(count > 500);
+    check_most(ratio[count / 2], 5);
+    check_most(0.2, ratio[count / 2]);
+    check_most((double)low, 0.05 * (double)count);
 }
 
 /* The part of the triangle 0 a b that lies within -1 < x < 1, -0.75 < y < 1.25. */
@@ -251,7 +307,9 @@ int main(void)
         cmocka_unit_test(exact_areas_agree_with_rational_arithmetic),
         cmocka_unit_test(facet_bound_holds_what_could_be_hidden),
         cmocka_unit_test(uniform_facets_are_exact_at_any_resolution),
-        cmocka_unit_test(bound_shrinks_with_resolution),
+        cmocka_unit_test(bound_shrinks_as_the_pixel),
+        cmocka_unit_test(raster_and_exact_intervals_overlap),
+        cmocka_unit_test(estimate_is_near_the_error_and_seldom_below),
         cmocka_unit_test(many_small_occluders_cost_a_bound_little),
         cmocka_unit_test(facet_in_more_pieces_than_fit_is_bounded),
         cmocka_unit_test(facet_at_grazing_light_does_not_spoil_the_bound),
