@@ -114,7 +114,7 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
     }
     const lrcs_mesh *mesh = &builder->models[i];
     *counts = (lrcs_mesh_counts){mesh->vertex_count, mesh->facet_count, mesh->material_count,
-                                 mesh->part_count, 0};
+                                 mesh->part_count, 0, 0};
     return LRCS_OK;
 }
 
