@@ -75,6 +75,13 @@ typedef struct lrcs_host_options {
 
 lrcs_host_options lrcs_host_options_default(void);
 
+/* A regular file that a scene was read from: its name, and which file that was. */
+typedef struct lrcs_host_input {
+    const char *path;
+    uint64_t device, node;
+    struct lrcs_host_input *next;
+} lrcs_host_input;
+
 /* A scene with all that it stands on. Zero it before the first read; free it in any case. */
 typedef struct lrcs_host_scene {
     lrcs_recipe recipe;
@@ -82,6 +89,7 @@ typedef struct lrcs_host_scene {
     lrcs_scene scene;
     const lrcs_prepared *prepared; /* NULL until prepared */
     lrcs_host_notices notices;
+    lrcs_host_input *input; /* every file read, the last one first; NULL: none */
     double seconds_load, seconds_prepare;
     void *blocks; /* memory owned */
 } lrcs_host_scene;
@@ -100,6 +108,13 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
    scene; scene->recipe stays empty. Status: as above. */
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
+
+/* Would writing `path` replace a file that the scene was read from, under whatever name or link?
+   Status: LRCS_OK; LRCS_E_ARGUMENT: it would, and the sentence names both. */
+int lrcs_host_output_check(const char *path, const lrcs_host_scene *scene, lrcs_host_error *error);
+
+/* Are two output paths one file, there already or yet to be written? 1 or 0. */
+int lrcs_host_output_same(const char *path, const char *other);
 
 /* Does what is done once a scene. Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_prepare_run. */
 int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error);

@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -187,6 +188,21 @@ int cli_number(const cli_args *args, const char *name, double *value)
         return cli_usage(args->command, "--%s: expected a finite number, found '%s'", name, text);
     }
     return 0;
+}
+
+int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value)
+{
+    double number = *value;
+    int code = cli_number(args, name, &number);
+    if (code == 0 && cli_value(args, name)) {
+        if (!(number >= least && number <= most) || number != floor(number)) {
+            return cli_usage(args->command,
+                             "--%s: expected a whole number %.0f .. %.0f, found '%s'", name, least,
+                             most, cli_value(args, name));
+        }
+        *value = (uint32_t)number;
+    }
+    return code;
 }
 
 int cli_list(const char *text, double *value, int count)

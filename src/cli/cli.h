@@ -55,6 +55,9 @@ const char *cli_value(const cli_args *args, const char *name);
 /* Reads an option's number, untouched where it was not given. 0 or CLI_USAGE. */
 int cli_number(const cli_args *args, const char *name, double *value);
 
+/* The same for a whole number from `least` to `most`. */
+int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value);
+
 /* Reads exactly `count` numbers with commas between; 0, or -1. */
 int cli_list(const char *text, double *value, int count);
 

@@ -2,14 +2,10 @@
 /* lrcs run: sigma of a scene from a pose. */
 #include "cli/run.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define IMAGE_LEAST   16.0
-#define IMAGE_MOST    4096.0
-#define IMAGE_DEFAULT 512u
-#define RASTER_MOST   16384.0
+#define RASTER_MOST 16384.0
 
 static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"
@@ -50,44 +46,6 @@ static const cli_option run_options[] = {
 
 /* ---- options ---- */
 
-static int whole_read(const cli_args *args, const char *name, double least, double most,
-                      uint32_t *value)
-{
-    double number = *value;
-    int code = cli_number(args, name, &number);
-    if (code == 0 && cli_value(args, name)) {
-        if (!(number >= least && number <= most) || number != floor(number)) {
-            return cli_usage(args->command,
-                             "--%s: expected a whole number %.0f .. %.0f, found '%s'", name, least,
-                             most, cli_value(args, name));
-        }
-        *value = (uint32_t)number;
-    }
-    return code;
-}
-
-static int outputs_read(run_job *job)
-{
-    const cli_args *args = job->args;
-    job->facets = cli_value(args, "facets");
-    job->image_path = cli_value(args, "image");
-    if (job->facets && job->image_path && strcmp(job->facets, job->image_path) == 0) {
-        return cli_usage(args->command, "--facets and --image name the same file '%s'",
-                         job->facets);
-    }
-    if (job->image_path && strcmp(job->image_path, "-") == 0) {
-        return cli_usage(args->command, "--image: a picture does not go to standard output");
-    }
-    if (job->facets && strcmp(job->facets, "-") == 0 && cli_value(args, "json")) {
-        return cli_usage(args->command, "--facets - and --json both want standard output");
-    }
-    if (cli_value(args, "image-size") && !job->image_path) {
-        return cli_usage(args->command, "--image-size needs --image FILE.png");
-    }
-    job->image_size = IMAGE_DEFAULT;
-    return whole_read(args, "image-size", IMAGE_LEAST, IMAGE_MOST, &job->image_size);
-}
-
 static int options_read(run_job *job)
 {
     const cli_args *args = job->args;
@@ -107,8 +65,8 @@ static int options_read(run_job *job)
                              method);
         }
     }
-    code = code ? code : whole_read(args, "resolution", 1.0, RASTER_MOST, &job->options.resolution);
-    code = code ? code : outputs_read(job);
+    code = code ? code : cli_whole(args, "resolution", 1.0, RASTER_MOST, &job->options.resolution);
+    code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->options.tolerance;
     return code;
@@ -121,6 +79,7 @@ static int run_scene(run_job *job)
     lrcs_host_error error;
     lrcs_host_scene *scene = &job->scene;
     int code = cli_scene_read(job->args, &job->load, scene);
+    code = code ? code : cli_run_outputs_check(job);
     if (code != 0) {
         return code;
     }
@@ -152,49 +111,13 @@ static int run_scene(run_job *job)
     return 0;
 }
 
-/* ---- files ---- */
-
-static int facets_write(const run_job *job)
-{
-    lrcs_host_error error;
-    lrcs_host_output out;
-    if (lrcs_host_output_open(job->facets, &out, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    lrcs_host_facets_write(out.stream, &job->scene.scene, job->records);
-    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? 0 : cli_failed(&error);
-}
-
-static int image_write(const run_job *job)
-{
-    lrcs_host_error error;
-    lrcs_host_output out;
-    size_t side = job->image_size;
-    unsigned char *rgb = malloc(3 * side * side);
-    if (!rgb) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
-    }
-    lrcs_host_picture_make(&job->scene.scene, job->records, &job->image, job->image_size, rgb);
-    int status = lrcs_host_output_open(job->image_path, &out, &error);
-    if (status == LRCS_OK) {
-        status = lrcs_host_png_write(out.stream, rgb, job->image_size, job->image_size, 3, &error);
-        int good = status == LRCS_OK;
-        int closed = lrcs_host_output_close(&out, good, good ? &error : NULL);
-        status = good ? closed : status;
-    }
-    free(rgb);
-    return status == LRCS_OK ? 0 : cli_failed(&error);
-}
-
 /* ---- the command ---- */
 
 /* Files first: a table on stdout that says "picture" must be true. */
 static int run_outputs(run_job *job)
 {
     int to_stdout = job->facets && strcmp(job->facets, "-") == 0;
-    int code = job->image_path ? image_write(job) : 0;
-    code = code == 0 && job->facets ? facets_write(job) : code;
+    int code = cli_run_outputs_write(job);
     if (code != 0) {
         return code;
     }

@@ -21,6 +21,12 @@ typedef struct run_job {
     int met;
 } run_job;
 
+/* The options of output files, as 0 or CLI_USAGE; once the scene is read, that none of them would
+   replace a file that it was read from, likewise; and their writing, as 0 or CLI_FAILED. */
+int cli_run_outputs_read(run_job *job);
+int cli_run_outputs_check(const run_job *job);
+int cli_run_outputs_write(const run_job *job);
+
 /* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
    for people. */
 void cli_run_json(const run_job *job);

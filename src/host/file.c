@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Whole files in, whole files out. It decides how a file is read (once, up to a limit) and that
    an output shows its name only when complete; nothing is synced to disk. */
-#include "host/fail.h"
+#include "host/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -48,27 +48,33 @@ static int file_fill(FILE *stream, size_t guess, const char *path, lrcs_host_fil
     return LRCS_OK;
 }
 
-int lrcs_host_file_read(const char *path, lrcs_host_file *file, lrcs_host_error *error)
+int lrcsi_host_file_read(const char *path, lrcs_host_file *file, struct stat *about,
+                         lrcs_host_error *error)
 {
     FILE *stream = fopen(path, "rb");
-    struct stat about;
     if (!stream) {
         return lrcsi_host_fail_file(error, path, "open");
     }
     int status = LRCS_OK;
-    if (fstat(fileno(stream), &about) != 0) {
+    if (fstat(fileno(stream), about) != 0) {
         status = lrcsi_host_fail_file(error, path, "read");
-    } else if (S_ISDIR(about.st_mode)) {
+    } else if (S_ISDIR(about->st_mode)) {
         errno = EISDIR;
         status = lrcsi_host_fail_file(error, path, "read");
-    } else if (S_ISREG(about.st_mode) && (uint64_t)about.st_size > FILE_MOST) {
+    } else if (S_ISREG(about->st_mode) && (uint64_t)about->st_size > FILE_MOST) {
         status = lrcsi_host_fail(error, LRCS_E_LIMIT, "%s: larger than %zu bytes", path, FILE_MOST);
     } else {
-        size_t guess = S_ISREG(about.st_mode) ? (size_t)about.st_size : 4096;
+        size_t guess = S_ISREG(about->st_mode) ? (size_t)about->st_size : 4096;
         status = file_fill(stream, guess, path, file, error);
     }
     fclose(stream);
     return status;
+}
+
+int lrcs_host_file_read(const char *path, lrcs_host_file *file, lrcs_host_error *error)
+{
+    struct stat about;
+    return lrcsi_host_file_read(path, file, &about, error);
 }
 
 void lrcs_host_file_free(lrcs_host_file *file)

@@ -2,6 +2,7 @@
 /* From a path to a scene, and on to sigma. It decides what kind of file a path holds, where the
    files that it names lie, and which notices are due; the geometry is the core's. */
 #include "host/demo.h"
+#include "host/input.h"
 #include "host/model.h"
 
 #include <limits.h>
@@ -172,7 +173,8 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
         }
         lrcs_host_file file = {NULL, 0};
         const char *name = lrcsi_host_beside(scene, path, recipe->part[i].file);
-        status = name ? lrcs_host_file_read(name, &file, error) : lrcsi_host_fail_memory(error, 1);
+        status = name ? lrcsi_host_input_read(scene, name, &file, error)
+                      : lrcsi_host_fail_memory(error, 1);
         if (status == LRCS_OK) {
             status = lrcsi_host_model_read(scene, name, &file, &scene->model[i], error);
             lrcs_host_file_free(&file);
@@ -281,7 +283,7 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
                      ? lrcsi_host_fail(error, LRCS_E_ARGUMENT, "demo states its own units")
                      : recipe_from_text(scene, path, text, size, error);
     } else {
-        status = lrcs_host_file_read(path, &file, error);
+        status = lrcsi_host_input_read(scene, path, &file, error);
         if (status == LRCS_OK) {
             status = recipe_from_file(scene, path, &file, options, error);
         }

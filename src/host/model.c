@@ -8,6 +8,8 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include "host/input.h"
+
 const char *lrcsi_host_basename(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -92,7 +94,7 @@ static int materials_read(lrcs_host_scene *scene, const char *path, lrcs_mesh *m
     }
     lrcs_host_file file;
     lrcs_where where = {0};
-    int status = lrcs_host_file_read(beside, &file, error);
+    int status = lrcsi_host_input_read(scene, beside, &file, error);
     if (status != LRCS_OK) {
         return status;
     }

@@ -32,14 +32,9 @@ int lrcsi_clip_make(lrcs_work *work, lrcsi_clip *clip)
                                                                                    : LRCS_E_MEMORY;
 }
 
-static uint32_t piece_first(const lrcsi_clip_list *list, uint32_t piece)
-{
-    return piece == 0 ? 0 : list->end[piece - 1];
-}
-
 static int clip_append(lrcsi_clip_list *list, const double (*corner)[2], uint32_t count)
 {
-    uint32_t at = piece_first(list, list->pieces);
+    uint32_t at = lrcsi_clip_first(list, list->pieces);
     if (list->pieces == LRCSI_CLIP_PIECES || count > LRCSI_CLIP_CORNERS - at) {
         return 0;
     }
@@ -195,7 +190,7 @@ int lrcsi_clip_subtract(lrcsi_clip *clip, const lrcsi_clip_region *region)
 {
     clip->spare.pieces = 0;
     for (uint32_t i = 0; i < clip->list.pieces; i++) {
-        uint32_t first = piece_first(&clip->list, i);
+        uint32_t first = lrcsi_clip_first(&clip->list, i);
         if (!piece_subtract(clip, (const double(*)[2])(clip->list.corner + first),
                             clip->list.end[i] - first, region)) {
             return 0;
@@ -246,7 +241,7 @@ double lrcsi_clip_area(const lrcsi_clip *clip)
 {
     double area = 0;
     for (uint32_t i = 0; i < clip->list.pieces; i++) {
-        uint32_t first = piece_first(&clip->list, i);
+        uint32_t first = lrcsi_clip_first(&clip->list, i);
         area += corners_area((const double(*)[2])(clip->list.corner + first),
                              clip->list.end[i] - first);
     }

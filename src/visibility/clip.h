@@ -33,9 +33,15 @@ typedef struct lrcsi_clip_region {
 
 typedef struct lrcsi_clip_list {
     double (*corner)[2];
-    uint32_t *end; /* piece i is corner[end[i - 1] .. end[i]) */
+    uint32_t *end; /* piece i is corner[lrcsi_clip_first .. end[i]) */
     uint32_t pieces;
 } lrcsi_clip_list;
+
+/* Where piece i of a list starts. */
+static inline uint32_t lrcsi_clip_first(const lrcsi_clip_list *list, uint32_t i)
+{
+    return i == 0 ? 0 : list->end[i - 1];
+}
 
 typedef struct lrcsi_clip {
     lrcsi_clip_list list, spare;

@@ -33,204 +33,177 @@
 /* Halvings at most: a cell is then below 2^-48 of its facet. */
 #define MOST_DEPTH 48u
 
-/* A cell yet to be done: a piece of the facet and the occluders that its parent kept. */
-typedef struct occlude_cell {
-    lrcsi_clip_polygon shape;
-    uint32_t first, count; /* in list */
-    uint32_t stale, depth;
-} occlude_cell;
-
-/* One facet at work. */
-typedef struct occlude_job {
-    lrcsi_target target;
-    lrcsi_occluder *occluder;
-    uint32_t count;
-    uint32_t *list; /* occluders by cell, one behind the other */
-    size_t room;    /* of list */
-    lrcsi_clip *clip;
-    double area;  /* visible so far */
-    double doubt; /* area of cells that could not be finished */
-    double splits;
-} occlude_job;
-
-/* What lives as long as the run. */
-typedef struct occlude_scratch {
-    lrcsi_grid facets;
-    lrcsi_clip clip;
-    uint32_t *asked;     /* facet: the target + 1 that last met it */
-    uint32_t *candidate; /* facets that hide some of the target */
-} occlude_scratch;
-
 /* --- cells ------------------------------------------------------------------------------------ */
 
 /* Files those of the cell's occluders that overlap its shape behind their list. Returns how many;
    LRCS_NONE where one of them covers the shape. */
-static uint32_t cell_keep(occlude_job *job, const occlude_cell *cell)
+static uint32_t cell_keep(lrcsi_occluding *o, const lrcsi_occlude_cell *cell)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->count; i++) {
-        uint32_t index = job->list[cell->first + i];
-        int overlap = lrcsi_clip_overlap(&cell->shape, &job->occluder[index].region);
+        uint32_t index = o->list[cell->first + i];
+        int overlap = lrcsi_clip_overlap(&cell->shape, &o->occluder[index].region);
         if (overlap == LRCSI_CLIP_COVERED) {
             return LRCS_NONE;
         }
         if (overlap == LRCSI_CLIP_SOME) {
-            job->list[cell->first + cell->count + kept++] = index;
+            o->list[cell->first + cell->count + kept++] = index;
         }
     }
     return kept;
 }
 
 /* Cuts the kept occluders out of the cell. 0 where it fell into too many pieces. */
-static int cell_cut(occlude_job *job, const occlude_cell *cell, uint32_t kept)
+static int cell_cut(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t kept)
 {
-    lrcsi_clip_start(job->clip, &cell->shape);
+    lrcsi_clip_start(&o->clip, &cell->shape);
     int fits = 1;
     for (uint32_t i = 0; i < kept && fits; i++) {
-        uint32_t index = job->list[cell->first + cell->count + i];
-        fits = lrcsi_clip_subtract(job->clip, &job->occluder[index].region);
+        uint32_t index = o->list[cell->first + cell->count + i];
+        fits = lrcsi_clip_subtract(&o->clip, &o->occluder[index].region);
     }
-    job->splits += job->clip->splits;
-    job->area += fits ? lrcsi_clip_area(job->clip) : 0;
+    o->splits += o->clip.splits;
+    o->area += fits ? lrcsi_clip_area(&o->clip) : 0;
     return fits;
 }
 
 /* Puts both halves of a cell on the stack in its stead. */
-static void cell_halve(occlude_job *job, const occlude_cell *cell, uint32_t kept,
-                       occlude_cell *stack, uint32_t *top)
+static void cell_halve(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t kept)
 {
-    occlude_cell half = {.first = cell->first + cell->count, .count = kept};
+    lrcsi_occlude_cell half = {.first = cell->first + cell->count, .count = kept};
     half.depth = cell->depth + 1;
     half.stale = 4 * (size_t)kept > 3 * (size_t)cell->count ? cell->stale + 1 : 0;
     lrcsi_clip_polygon other;
     lrcsi_clip_halve(&cell->shape, &half.shape, &other);
-    job->splits += 1;
-    stack[(*top)++] = half;
+    o->splits += 1;
+    o->stack[o->top++] = half;
     half.shape = other;
-    stack[(*top)++] = half;
+    o->stack[o->top++] = half;
 }
 
-/* Each cell's list stands behind its parent's; a sibling done later overwrites it. */
-static void occlude_cells(occlude_job *job)
+/* Does one cell after the other until one has shown pieces: 1; 0 where no cell is left. Each
+   cell's list stands behind its parent's; a sibling done later overwrites it. */
+static int occlude_cells(lrcsi_occluding *o)
 {
-    occlude_cell stack[MOST_DEPTH + 2];
-    uint32_t top = 1;
-    stack[0] = (occlude_cell){.first = 0, .count = job->count};
-    lrcsi_clip_triangle((const double(*)[2])job->target.corner, &stack[0].shape);
-    while (top > 0) {
-        occlude_cell cell = stack[--top];
+    while (o->top > 0) {
+        lrcsi_occlude_cell cell = o->stack[--o->top];
         if (cell.shape.count < 3 || !(lrcsi_clip_polygon_area(&cell.shape) > 0)) {
             continue; /* no area, or less than the splits' error already holds */
         }
-        uint32_t kept = cell_keep(job, &cell);
+        uint32_t kept = cell_keep(o, &cell);
         if (kept == LRCS_NONE) {
             continue;
         }
         int leaf = kept <= LEAF_OCCLUDERS || cell.stale >= LEAF_STALE;
-        if (leaf && cell_cut(job, &cell, kept)) {
-            continue;
+        if (leaf && cell_cut(o, &cell, kept)) {
+            return 1;
         }
         size_t end = (size_t)cell.first + cell.count + kept;
-        if (cell.depth < MOST_DEPTH && end + kept <= job->room) {
-            cell_halve(job, &cell, kept, stack, &top);
+        if (cell.depth < MOST_DEPTH && end + kept <= o->room) {
+            cell_halve(o, &cell, kept);
         } else {
-            job->doubt += lrcsi_clip_polygon_area(&cell.shape);
+            o->doubt += lrcsi_clip_polygon_area(&cell.shape);
         }
     }
+    return 0;
 }
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
 /* The facets near the target that may hide some of it, each once. */
-static uint32_t occlude_candidates(const lrcsi_target *target, occlude_scratch *scratch)
+static uint32_t occlude_candidates(lrcsi_occluding *o)
 {
-    const lrcsi_grid *facets = &scratch->facets;
+    const lrcsi_target *target = &o->target;
+    const lrcsi_grid *facets = &o->facets;
     double low[2];
     double high[2];
     lrcsi_grid_box(target->view, target->view->prepared->scene->facet[target->facet].corner, 3, low,
                    high);
     lrcsi_cells cells = lrcsi_grid_cells(facets, low, high);
     uint32_t count = 0;
+    o->asks++;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = facets->first[(size_t)y * facets->size + cells.x0];
         uint32_t end = facets->first[(size_t)y * facets->size + cells.x1];
         for (; i < end; i++) {
             uint32_t other = facets->item[i];
-            if (other != target->facet && scratch->asked[other] != target->facet + 1) {
-                scratch->asked[other] = target->facet + 1;
-                scratch->candidate[count++] = other;
+            if (other != target->facet && o->asked[other] != o->asks) {
+                o->asked[other] = o->asks;
+                o->candidate[count++] = other;
             }
         }
     }
     return count;
 }
 
-/* The regions that they hide. The count is LRCS_NONE where one of them hides all of the target. */
-static int occlude_regions(occlude_job *job, const uint32_t *candidate, uint32_t count,
-                           lrcs_work *work, double *error)
+/* The regions that the candidates hide. 1; 0 where one of them hides all of the target. */
+static int occlude_regions(lrcsi_occluding *o, uint32_t candidates)
 {
-    job->occluder = lrcsi_work_take(work, count, sizeof *job->occluder);
-    if (!job->occluder) {
-        return LRCS_E_MEMORY;
-    }
     lrcsi_clip_polygon whole;
-    lrcsi_clip_triangle((const double(*)[2])job->target.corner, &whole);
-    for (uint32_t i = 0; i < count; i++) {
-        lrcsi_occluder *occluder = &job->occluder[job->count];
-        int hides = lrcsi_occluder_make(&job->target, candidate[i], occluder);
-        *error += occluder->error;
+    lrcsi_clip_triangle((const double(*)[2])o->target.corner, &whole);
+    o->count = 0;
+    o->rims = 0;
+    for (uint32_t i = 0; i < candidates; i++) {
+        lrcsi_occluder *occluder = &o->occluder[o->count];
+        int hides = lrcsi_occluder_make(&o->target, o->candidate[i], occluder);
+        o->rims += occluder->error;
         if (!hides) {
             continue;
         }
         if (lrcsi_clip_overlap(&whole, &occluder->region) == LRCSI_CLIP_COVERED) {
-            *error = occluder->error;
-            job->count = LRCS_NONE;
-            return LRCS_OK;
+            o->rims = occluder->error;
+            return 0;
         }
-        job->count++;
+        o->count++;
     }
-    job->room = 8 * (size_t)job->count + 1024;
-    job->list = lrcsi_work_take(work, job->room, sizeof *job->list);
-    for (uint32_t i = 0; i < job->count && job->list; i++) {
-        job->list[i] = i;
-    }
-    return job->list ? LRCS_OK : LRCS_E_MEMORY;
+    return 1;
 }
 
-static int occlude_contested(const lrcsi_view *view, uint32_t facet, occlude_scratch *scratch,
-                             lrcs_work *work, lrcsi_visible *visible)
+/* Readies a contested facet: its occluders, and all of it as the first cell. */
+static int contested_open(lrcsi_occluding *o, uint32_t facet)
 {
-    size_t mark = work->used;
-    occlude_job job = {.clip = &scratch->clip};
-    lrcsi_target_make(view, facet, &job.target);
-    uint32_t candidates = occlude_candidates(&job.target, scratch);
-    double rims = 0;
-    int status = occlude_regions(&job, scratch->candidate, candidates, work, &rims);
-    if (status == LRCS_OK) {
-        if (job.count != LRCS_NONE) {
-            occlude_cells(&job);
-        }
-        double whole = lrcsi_view_tilt(view, facet).projected;
-        double d = job.target.diameter;
-        double own = 20 * U * job.target.reach;
-        double error = (rims + own + 8 * U * d * (job.splits + 4)) * job.target.perimeter;
-        double left = lrcsi_most(0, lrcsi_least(whole, job.area));
-        visible->area = left;
-        visible->low = lrcsi_most(0, left - error);
-        visible->high = lrcsi_least(whole, left + job.doubt + error);
-        if (!isfinite(error)) {
-            *visible = (lrcsi_visible){left, 0, whole, 0};
-        }
+    lrcsi_target_make(o->contest->view, facet, &o->target);
+    uint32_t candidates = occlude_candidates(o);
+    o->area = o->doubt = o->splits = 0;
+    o->occluder = lrcsi_work_take(o->work, candidates, sizeof *o->occluder);
+    if (!o->occluder) {
+        return LRCS_E_MEMORY;
     }
-    work->used = mark;
-    return status;
+    int some = occlude_regions(o, candidates);
+    o->room = 8 * (size_t)o->count + 1024;
+    o->list = lrcsi_work_take(o->work, o->room, sizeof *o->list);
+    if (!o->list) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < o->count; i++) {
+        o->list[i] = i;
+    }
+    if (some) {
+        o->stack[0] = (lrcsi_occlude_cell){.first = 0, .count = o->count};
+        lrcsi_clip_triangle((const double(*)[2])o->target.corner, &o->stack[0].shape);
+        o->top = 1;
+    }
+    return LRCS_OK;
 }
 
-static lrcsi_visible occlude_uniform(const lrcsi_view *view, uint32_t facet,
-                                     const lrcsi_grid *facets)
+static lrcsi_visible clipped_area(const lrcsi_occluding *o)
 {
-    double whole = lrcsi_view_tilt(view, facet).projected;
-    switch (lrcsi_query_facet(facets, facet)) {
+    double whole = lrcsi_view_tilt(o->contest->view, o->target.facet).projected;
+    double own = 20 * U * o->target.reach;
+    double splits = 8 * U * o->target.diameter * (o->splits + 4);
+    double error = (o->rims + own + splits) * o->target.perimeter;
+    double left = lrcsi_most(0, lrcsi_least(whole, o->area));
+    if (!isfinite(error)) {
+        return (lrcsi_visible){left, 0, whole, 0};
+    }
+    return (lrcsi_visible){left, lrcsi_most(0, left - error),
+                           lrcsi_least(whole, left + o->doubt + error), 0};
+}
+
+static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
+{
+    double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
+    switch (lrcsi_query_facet(&o->facets, facet)) {
     case LRCSI_QUERY_HIDDEN:
         return (lrcsi_visible){0, 0, 0, 0};
     case LRCSI_QUERY_VISIBLE:
@@ -240,44 +213,91 @@ static lrcsi_visible occlude_uniform(const lrcsi_view *view, uint32_t facet,
     }
 }
 
+int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
+{
+    lrcsi_contest *contest = o->contest;
+    o->mark = o->work->used;
+    o->answer = (lrcsi_visible){0, 0, 0, 0};
+    o->target.facet = facet;
+    o->contested = o->whole = 0;
+    o->top = 0;
+    if (!lrcsi_grid_casts(contest->view, facet)) {
+        return LRCS_OK;
+    }
+    if (!contest->contested[facet]) {
+        o->answer = answered_area(o, facet);
+        o->whole = o->answer.low > 0;
+        return LRCS_OK;
+    }
+    o->contested = !lrcsi_query_screened(contest, &o->facets, facet);
+    int status = o->contested ? contested_open(o, facet) : LRCS_OK;
+    if (status != LRCS_OK) {
+        o->work->used = o->mark;
+    }
+    return status;
+}
+
+int lrcsi_occlude_next(lrcsi_occluding *o)
+{
+    lrcsi_clip_polygon triangle;
+    if (!o->whole) {
+        return occlude_cells(o);
+    }
+    o->whole = 0;
+    lrcsi_target_make(o->contest->view, o->target.facet, &o->target);
+    lrcsi_clip_triangle((const double(*)[2])o->target.corner, &triangle);
+    lrcsi_clip_start(&o->clip, &triangle);
+    return 1;
+}
+
+lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o)
+{
+    o->work->used = o->mark;
+    return o->contested ? clipped_area(o) : o->answer;
+}
+
 /* --- all facets ------------------------------------------------------------------------------- */
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_clip_need(), lrcsi_grid_facets_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_DEPTH + 2, sizeof(lrcsi_occlude_cell)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 2 * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_occluder)));
     return lrcsi_work_add(need, lrcsi_work_bytes(8 * facets + 2048, sizeof(uint32_t)));
 }
 
-static int occlude_start(const lrcsi_view *view, lrcs_work *work, occlude_scratch *scratch)
+int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)
 {
-    uint32_t count = view->prepared->scene->facet_count;
-    scratch->asked = lrcsi_work_take_zero(work, count, sizeof *scratch->asked);
-    scratch->candidate = lrcsi_work_take(work, count, sizeof *scratch->candidate);
-    if (!scratch->asked || !scratch->candidate ||
-        lrcsi_clip_make(work, &scratch->clip) != LRCS_OK) {
-        return LRCS_E_MEMORY;
+    uint32_t count = contest->view->prepared->scene->facet_count;
+    size_t mark = work->used;
+    *o = (lrcsi_occluding){.contest = contest, .work = work};
+    o->asked = lrcsi_work_take_zero(work, count, sizeof *o->asked);
+    o->candidate = lrcsi_work_take(work, count, sizeof *o->candidate);
+    o->stack = lrcsi_work_take(work, MOST_DEPTH + 2, sizeof *o->stack);
+    int status = LRCS_E_MEMORY;
+    if (o->asked && o->candidate && o->stack && lrcsi_clip_make(work, &o->clip) == LRCS_OK) {
+        status = lrcsi_grid_facets(contest->view, work, &o->facets);
     }
-    return lrcsi_grid_facets(view, work, &scratch->facets);
+    if (status != LRCS_OK) {
+        work->used = mark;
+    }
+    return status;
 }
 
 int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible)
 {
-    const lrcsi_view *view = contest->view;
     size_t mark = work->used;
-    occlude_scratch scratch;
-    int status = occlude_start(view, work, &scratch);
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        visible[f] = (lrcsi_visible){0, 0, 0, 0};
-        if (!lrcsi_grid_casts(view, f)) {
-            continue;
-        }
-        if (contest->contested[f] && !lrcsi_query_screened(contest, &scratch.facets, f)) {
-            status = occlude_contested(view, f, &scratch, work, &visible[f]);
-        } else if (!contest->contested[f]) {
-            visible[f] = occlude_uniform(view, f, &scratch.facets);
+    lrcsi_occluding o;
+    int status = lrcsi_occlude_make(contest, work, &o);
+    for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count && status == LRCS_OK;
+         f++) {
+        status = lrcsi_occlude_open(&o, f);
+        if (status == LRCS_OK) {
+            while (occlude_cells(&o)) {
+            }
+            visible[f] = lrcsi_occlude_close(&o);
         }
     }
     work->used = mark;

@@ -1,13 +1,65 @@
 /* SPDX-License-Identifier: MIT */
-/* The visible area of a contested facet, analytically: its projection less the union of what
-   nearer facets cover, each cut by the half-space in front of the facet's plane. */
+/* What the laser sees of a facet, analytically: its projection less the union of what nearer
+   facets cover, each cut by the half-space in front of the facet's plane. As an area with bounds,
+   and as disjoint convex pieces. */
 #ifndef LRCSI_OCCLUDE_H
 #define LRCSI_OCCLUDE_H
 
 #include "visibility/clip.h"
+#include "visibility/occluder.h"
 #include "visibility/visible.h"
 
+/* A part of the facet that is yet to be done, and the occluders that may hide some of it. */
+typedef struct lrcsi_occlude_cell {
+    lrcsi_clip_polygon shape;
+    uint32_t first, count; /* in list */
+    uint32_t stale, depth;
+} lrcsi_occlude_cell;
+
+/* What serves all facets of a view, and the facet at hand. */
+typedef struct lrcsi_occluding {
+    lrcsi_contest *contest;
+    lrcs_work *work;
+    lrcsi_grid facets;
+    uint32_t *asked;           /* facet: the search for candidates that last met it */
+    uint32_t asks;             /* searches so far */
+    uint32_t *candidate;       /* facets that hide some of the target */
+    lrcsi_occlude_cell *stack; /* of `top` cells yet to be done */
+    uint32_t top;
+
+    size_t mark;          /* of the work area, before the facet */
+    lrcsi_target target;  /* of a contested facet; of others once a piece has been asked for */
+    lrcsi_clip clip;      /* in its list, the pieces last found */
+    lrcsi_visible answer; /* of a facet that is not contested */
+    int contested;
+    int whole;      /* all of it is visible, and no piece has been asked for yet */
+    uint32_t count; /* of the occluders */
+    lrcsi_occluder *occluder;
+    uint32_t *list; /* occluders by cell, one behind the other */
+    size_t room;    /* of list */
+    double rims;    /* by which the occluders may be wrong */
+    double area;    /* visible so far */
+    double doubt;   /* area of cells that could not be finished */
+    double splits;
+} lrcsi_occluding;
+
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
+
+/* What serves all facets; it stays in the work area.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
+int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o);
+
+/* One facet piece by piece: open it, ask for more until there are none, close it. Each `next` that
+   returns 1 leaves some more disjoint convex pieces of what is visible in o->clip.list, in the
+   frame of o->target (lrcsi_target_weights leads back to the facet). A facet that is visible whole
+   comes as its own triangle; one of which nothing is known to be visible has no pieces. The pieces
+   together differ from what is visible, both ways, by an area of at most high - low of the answer,
+   and by the rounding of their corners: 20 u reach perimeter.
+   Status: LRCS_OK; LRCS_E_MEMORY. What is open takes some of the work area until it is closed; a
+   facet that failed to open is closed. */
+int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet);
+int lrcsi_occlude_next(lrcsi_occluding *o);
+lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o);
 
 /* Every facet: uniform ones by one exact sample, contested ones by clipping unless one sheet hides
    all of them.

@@ -23,56 +23,6 @@ typedef struct occlude_caster {
     double reach;     /* largest distance of a corner from the target's first */
 } occlude_caster;
 
-/* --- coordinates ------------------------------------------------------------------------------ */
-
-/* A scene point relative to the target's first corner, in the view plane; returns its distance. */
-static double frame_point(const lrcsi_view *view, const double *origin, const double *x,
-                          double out[2])
-{
-    double p[3];
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        p[k] = x[k] - origin[k];
-        square += p[k] * p[k];
-    }
-    for (int k = 0; k < 2; k++) {
-        out[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
-    }
-    return sqrt(square);
-}
-
-/* Corner k of a facet, counted so that they run counter-clockwise in the view. */
-static const double *caster_corner(const lrcsi_view *view, uint32_t facet, int k)
-{
-    return lrcsi_prepared_corner(view->prepared, facet, view->facing[facet] > 0 ? k : (3 - k) % 3);
-}
-
-/* Corners of a facet in the target's frame, counter-clockwise; returns the farthest distance. */
-static double frame_facet(const lrcsi_view *view, uint32_t target, uint32_t facet,
-                          double corner[3][2])
-{
-    const double *origin = lrcsi_prepared_corner(view->prepared, target, 0);
-    double reach = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *x = caster_corner(view, facet, k);
-        reach = lrcsi_most(reach, frame_point(view, origin, x, corner[k]));
-    }
-    return reach;
-}
-
-void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
-{
-    *t = (lrcsi_target){.view = view, .facet = facet};
-    t->reach = frame_facet(view, facet, facet, t->corner);
-    for (int k = 0; k < 3; k++) {
-        const double *p = t->corner[k];
-        const double *q = t->corner[(k + 1) % 3];
-        double side = hypot(q[0] - p[0], q[1] - p[1]) + 32 * U * t->reach;
-        t->diameter = lrcsi_most(t->diameter, side);
-        t->perimeter += side;
-    }
-}
-
 /* --- candidates ------------------------------------------------------------------------------- */
 
 /* Do all corners of `other` lie on or outside the line of one of `facet`'s sides? Exact. */
@@ -161,7 +111,7 @@ static int caster_in_front(const lrcsi_target *t, uint32_t other)
     int behind = 0;
     for (int k = 0; k < 3; k++) {
         double off = 0;
-        double height = height_roughly(t, caster_corner(t->view, other, k), &off);
+        double height = height_roughly(t, lrcsi_target_corner(t->view, other, k), &off);
         front += height > off;
         behind += height < -off;
     }
@@ -176,7 +126,7 @@ static int caster_heights(const lrcsi_target *t, uint32_t other, occlude_caster 
     int any = 0;
     int flat = 1;
     for (int k = 0; k < 3; k++) {
-        const double *x = caster_corner(t->view, other, k);
+        const double *x = lrcsi_target_corner(t->view, other, k);
         double height = height_finely(t, x, &caster->off[k]);
         caster->height[k] = height;
         caster->above[k] = height > 0 ? 1 : -1;
@@ -315,7 +265,7 @@ int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *o
         sides_part(view, t->facet, other) || sides_part(view, other, t->facet)) {
         return 0;
     }
-    caster.reach = frame_facet(view, t->facet, other, caster.corner);
+    caster.reach = lrcsi_target_frame(view, t->facet, other, caster.corner);
     int hides = region_make(&caster, &occluder->region, &slip);
     occluder->error = 4 * (slip + 13 * U * (caster.reach + t->diameter));
     return hides;

@@ -4,20 +4,8 @@
 #ifndef LRCSI_OCCLUDER_H
 #define LRCSI_OCCLUDER_H
 
-#include "view/view.h"
 #include "visibility/clip.h"
-
-/* The facet that may be hidden, in its own frame: relative to its first corner, view axes. */
-typedef struct lrcsi_target {
-    const lrcsi_view *view;
-    uint32_t facet;
-    double corner[3][2]; /* counter-clockwise in the view */
-    double reach;        /* largest distance, in space, of a corner from the first */
-    double diameter;     /* its longest side in the view, upper bound */
-    double perimeter;    /* in the view, upper bound */
-} lrcsi_target;
-
-void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *target);
+#include "visibility/target.h"
 
 typedef struct lrcsi_occluder {
     lrcsi_clip_region region;

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+/* Which files a scene was read from, so that no output replaces one of them. A file is known by
+   device and node, whatever path leads to it. It decides nothing about what the files hold; devices
+   and pipes are not kept, for writing to them replaces nothing. */
+#include "host/input.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/file.h"
+#include "host/model.h"
+
+int lrcsi_host_input_read(lrcs_host_scene *scene, const char *path, lrcs_host_file *file,
+                          lrcs_host_error *error)
+{
+    struct stat about;
+    int status = lrcsi_host_file_read(path, file, &about, error);
+    if (status != LRCS_OK || !S_ISREG(about.st_mode)) {
+        return status;
+    }
+    lrcs_host_input *input = lrcsi_host_take(scene, 1, sizeof *input);
+    char *name = lrcsi_host_copy(scene, path, strlen(path));
+    if (!input || !name) {
+        lrcs_host_file_free(file);
+        return lrcsi_host_fail_memory(error, sizeof *input);
+    }
+    *input = (lrcs_host_input){name, about.st_dev, about.st_ino, scene->input};
+    scene->input = input;
+    return LRCS_OK;
+}
+
+int lrcs_host_output_check(const char *path, const lrcs_host_scene *scene, lrcs_host_error *error)
+{
+    struct stat about;
+    if (strcmp(path, "-") == 0 || stat(path, &about) != 0) {
+        return LRCS_OK;
+    }
+    for (const lrcs_host_input *input = scene->input; input; input = input->next) {
+        if (input->device == about.st_dev && input->node == about.st_ino) {
+            return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
+                                   "%s: would overwrite %s, which the scene is read from", path,
+                                   input->path);
+        }
+    }
+    return LRCS_OK;
+}
+
+/* What the system says about the folder that a path lies in; 0, or -1 where there is none. */
+static int folder_stat(const char *path, struct stat *about)
+{
+    size_t size = (size_t)(lrcsi_host_basename(path) - path);
+    char *folder = malloc(size + 2);
+    if (!folder) {
+        return -1;
+    }
+    memcpy(folder, path, size);
+    memcpy(folder + size, ".", 2);
+    int found = stat(folder, about);
+    free(folder);
+    return found;
+}
+
+int lrcs_host_output_same(const char *path, const char *other)
+{
+    struct stat a;
+    struct stat b;
+    int there = stat(path, &a);
+    if (strcmp(path, other) == 0) {
+        return 1;
+    }
+    if (there != stat(other, &b)) {
+        return 0;
+    }
+    if (there != 0) { /* neither is there: they are one where folder and name are */
+        if (strcmp(lrcsi_host_basename(path), lrcsi_host_basename(other)) != 0 ||
+            folder_stat(path, &a) != 0 || folder_stat(other, &b) != 0) {
+            return 0;
+        }
+    }
+    return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}

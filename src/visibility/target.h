@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/* The facet that may be hidden, in its own frame of the view plane: relative to its first corner,
+   view axes. */
+#ifndef LRCSI_TARGET_H
+#define LRCSI_TARGET_H
+
+#include "view/view.h"
+
+typedef struct lrcsi_target {
+    const lrcsi_view *view;
+    uint32_t facet;
+    double corner[3][2]; /* counter-clockwise in the view */
+    double reach;        /* largest distance, in space, of a corner from the first */
+    double diameter;     /* its longest side in the view, upper bound */
+    double perimeter;    /* in the view, upper bound */
+} lrcsi_target;
+
+void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *target);
+
+/* Corner k of a facet, counted so that they run counter-clockwise in the view. */
+const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k);
+
+/* Corners of any facet in the target's frame, counter-clockwise; returns the largest distance, in
+   space, of one from the target's first. */
+double lrcsi_target_frame(const lrcsi_view *view, uint32_t target, uint32_t facet,
+                          double corner[3][2]);
+
+/* The point of the facet that is seen at `at`, a point of the frame, as shares of the facet's
+   corners in the facet's own order: each at least 0, their sum 1 but for rounding. At a corner of
+   the frame exactly that corner; a point beyond the rim goes to the rim. Its projection is within
+   100 u of the reach of `at`; along the direction that may be tan(theta) times as much. */
+void lrcsi_target_weights(const lrcsi_target *target, const double at[2], double weight[3]);
+
+#endif
