@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "optics/comb.h"
+
 #define GLINT_PI 3.14159265358979323846
 
 /* Neighbours that turn by less are taken for halves of one flat polygon, by more (60 deg) for
@@ -129,32 +131,6 @@ static size_t turns_list(const lrcs_scene *scene, const glint_edge *edges, size_
     return count;
 }
 
-static double glint_error(double turn, double s)
-{
-    double comb = GLINT_PI * s / turn;
-    return turn * turn / 24.0 + 2.0 * exp(-comb * comb);
-}
-
-/* The fewest facets around a full turn whose error is at most `most`; the error falls with N. */
-static double glint_around(double s, double most)
-{
-    double low = 2.0;
-    double high = 3.0;
-    while (glint_error(2.0 * GLINT_PI / high, s) > most && high < 1e15) {
-        low = high;
-        high *= 2.0;
-    }
-    while (high - low > 1.0) {
-        double middle = floor(0.5 * (low + high));
-        if (glint_error(2.0 * GLINT_PI / middle, s) > most) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return high;
-}
-
 static lrcs_host_glint glint_entry(const lrcs_scene *scene, uint32_t part, uint32_t material,
                                    double turn)
 {
@@ -163,9 +139,9 @@ static lrcs_host_glint glint_entry(const lrcs_scene *scene, uint32_t part, uint3
                              material,
                              s,
                              turn,
-                             glint_error(turn, s),
-                             glint_around(s, 1e-2),
-                             glint_around(s, 1e-3)};
+                             lrcsi_comb_error(turn, s),
+                             lrcsi_comb_around(s, 1e-2),
+                             lrcsi_comb_around(s, 1e-3)};
 }
 
 /* One entry a run of equal part and material: the median turn. */
