@@ -117,10 +117,9 @@ static int surely_on_one_side(const touch_facet *f, const touch_facet *t)
     return seen != 0;
 }
 
-/* 1 where, along the axis, some side of f (which turns by `turn`, not 0) has all of g outside or
-   on its line. */
-static int side_line_separates(const touch_facet *f, int turn, const touch_facet *g,
-                               const double *axis)
+/* The first side of f (which turns by `turn`, not 0) whose line, seen along the axis, has all of g
+   outside or on it; -1 for none. */
+static int separating_side(const touch_facet *f, int turn, const touch_facet *g, const double *axis)
 {
     for (int k = 0; k < 3; k++) {
         const double *a = f->x[k];
@@ -130,20 +129,67 @@ static int side_line_separates(const touch_facet *f, int turn, const touch_facet
             i++;
         }
         if (i == 3) {
-            return 1;
+            return k;
         }
     }
-    return 0;
+    return -1;
 }
 
-/* Step 1. */
-static int separated_along_axis(const touch_facet *f, const touch_facet *t)
+/* The corners of g on the line a b, seen along the axis: how many. */
+static int corners_on_line(const double *a, const double *b, const touch_facet *g,
+                           const double *axis, const double *on[3])
 {
-    if (side_line_separates(f, f->turn, t, f->axis)) {
+    int count = 0;
+    for (int i = 0; i < 3; i++) {
+        if (lrcsi_exact_turn(a, b, g->x[i], axis) == 0) {
+            on[count++] = g->x[i];
+        }
+    }
+    return count;
+}
+
+/* Of a side a b of F, and corners of T, all on one line as seen along the axis: may T meet the
+   side, its ends excluded, other than by having it as a side too? */
+static int side_met(const touch_facet *t, const double *a, const double *b, const double *const *on,
+                    int count, const double *axis)
+{
+    if (is_corner_of(t, a) && is_corner_of(t, b)) {
+        return 0;
+    }
+    int k = 0;
+    while (axis[k] != 0 || a[k] == b[k]) {
+        k++;
+    }
+    int below = 0;
+    int above = 0;
+    for (int i = 0; i < count; i++) {
+        below += on[i][k] <= (a[k] < b[k] ? a[k] : b[k]);
+        above += on[i][k] >= (a[k] < b[k] ? b[k] : a[k]);
+    }
+    return below != count && above != count;
+}
+
+/* Step 1. *rim: whether T may still meet a side of F. */
+static int separated_along_axis(const touch_facet *f, const touch_facet *t, int *rim)
+{
+    const double *on[3];
+    int side = separating_side(f, f->turn, t, f->axis);
+    if (side >= 0) {
+        const double *a = f->x[side];
+        const double *b = f->x[(side + 1) % 3];
+        int count = corners_on_line(a, b, t, f->axis, on);
+        *rim = side_met(t, a, b, on, count, f->axis);
         return 1;
     }
     int t_turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], f->axis);
-    return t_turn != 0 && side_line_separates(t, t_turn, f, f->axis);
+    side = t_turn != 0 ? separating_side(t, t_turn, f, f->axis) : -1;
+    if (side >= 0) {
+        const double *end[2] = {t->x[side], t->x[(side + 1) % 3]};
+        int count = corners_on_line(end[0], end[1], f, f->axis, on);
+        *rim = count == 2 && side_met(t, on[0], on[1], end, 2, f->axis);
+        return 1;
+    }
+    return 0;
 }
 
 static void plane_sides(const touch_facet *f, const touch_facet *t, int side[3])
@@ -201,16 +247,22 @@ static int cut_meets_inside(const touch_facet *f, const touch_facet *t, const in
     return above && below;
 }
 
-/* How t touches f, which has its plane and axis. */
-static int touch_kind(const touch_facet *f, const touch_facet *t)
+/* How t touches the inside of f, which has its plane and axis. *rim: 0 where t meets the rim of f
+   in corners of f only, or along a side that both have; 1 where it may do more. */
+static int touch_kind(const touch_facet *f, const touch_facet *t, int *rim)
 {
-    if (surely_on_one_side(f, t) || separated_along_axis(f, t)) {
+    *rim = 0;
+    if (surely_on_one_side(f, t) || separated_along_axis(f, t, rim)) {
         return LRCSI_TOUCH_NONE;
     }
     int side[3];
     plane_sides(f, t, side);
-    if (side[0] == side[1] && side[1] == side[2]) {
-        return side[0] == 0 ? LRCSI_TOUCH_COPLANAR : LRCSI_TOUCH_NONE;
+    if (side[0] == side[1] && side[1] == side[2] && side[0] != 0) {
+        return LRCSI_TOUCH_NONE;
+    }
+    *rim = 1;
+    if (side[0] == 0 && side[1] == 0 && side[2] == 0) {
+        return LRCSI_TOUCH_COPLANAR;
     }
     return cut_meets_inside(f, t, side) ? LRCSI_TOUCH_CROSS : LRCSI_TOUCH_NONE;
 }
@@ -219,8 +271,9 @@ int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet othe
 {
     touch_facet f = corners_of(vertex, facet);
     touch_facet t = corners_of(vertex, other);
+    int rim;
     make_inside(&f);
-    return touch_kind(&f, &t);
+    return touch_kind(&f, &t, &rim);
 }
 
 int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
@@ -235,22 +288,27 @@ int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet 
 /* Is p on the segment a b, which is longer than 0, and not at its ends? */
 static int is_inside_segment(const double *a, const double *b, const double *p)
 {
-    int within = 1;
     int at_end = 0;
     for (int k = 0; k < 3; k++) {
-        within &= fmin(a[k], b[k]) <= p[k] && p[k] <= fmax(a[k], b[k]);
-        at_end |= a[k] != b[k] && (p[k] == a[k] || p[k] == b[k]);
+        double low = a[k] < b[k] ? a[k] : b[k];
+        double high = a[k] < b[k] ? b[k] : a[k];
+        if (p[k] < low || p[k] > high) {
+            return 0;
+        }
+        at_end |= low != high && (p[k] == low || p[k] == high);
     }
-    return within && !at_end && lrcsi_exact_collinear(a, b, p);
+    return !at_end && lrcsi_exact_collinear(a, b, p);
 }
 
-int lrcsi_touch_side(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+/* Does a corner of t lie inside a side of f? */
+static int touches_side(const touch_facet *f, const touch_facet *t)
 {
-    touch_facet f = corners_of(vertex, facet);
-    touch_facet t = corners_of(vertex, other);
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < 3; i++) {
-            if (is_inside_segment(f.x[k], f.x[(k + 1) % 3], t.x[i])) {
+    for (int i = 0; i < 3; i++) {
+        if (is_corner_of(f, t->x[i])) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            if (is_inside_segment(f->x[k], f->x[(k + 1) % 3], t->x[i])) {
                 return 1;
             }
         }
@@ -289,28 +347,50 @@ static void sort_touches(lrcsi_touch *touch, size_t n)
     }
 }
 
-/* Appends the contacts inside one facet to the growing list. */
-static int collect_touches(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t f,
-                           const lrcsi_tree *tree, lrcs_work *work, lrcsi_touches *t)
+/* The facets among which contacts are sought. */
+typedef struct touch_search {
+    const lrcs_point *vertex;
+    const lrcs_facet *facet;
+    const uint32_t *piece; /* or NULL */
+    lrcsi_tree tree;
+} touch_search;
+
+/* Appends a contact to the growing list. */
+static int append_touch(uint32_t other, int kind, lrcs_work *work, lrcsi_touches *t)
 {
-    lrcsi_tree_walk walk = lrcsi_tree_around(tree, vertex, facet[f]);
-    touch_facet inside = corners_of(vertex, facet[f]);
+    if (t->count == LRCS_NONE - 1) {
+        return LRCS_E_LIMIT;
+    }
+    if (t->count % TOUCH_BLOCK == 0 && !lrcsi_work_take(work, TOUCH_BLOCK, sizeof(lrcsi_touch))) {
+        return LRCS_E_MEMORY;
+    }
+    t->touch[t->count++] = (lrcsi_touch){other, (uint32_t)kind};
+    return LRCS_OK;
+}
+
+/* The contacts inside one facet, and whether its own piece meets it there or inside a side. */
+static int collect_touches(const touch_search *search, uint32_t f, lrcs_work *work,
+                           lrcsi_touches *t)
+{
+    lrcsi_tree_walk walk = lrcsi_tree_around(&search->tree, search->vertex, search->facet[f]);
+    touch_facet inside = corners_of(search->vertex, search->facet[f]);
     make_inside(&inside);
     uint32_t other;
     while ((other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
-        touch_facet candidate = corners_of(vertex, facet[other]);
-        int kind = other == f ? LRCSI_TOUCH_NONE : touch_kind(&inside, &candidate);
-        if (kind == LRCSI_TOUCH_NONE) {
+        if (other == f) {
             continue;
         }
-        if (t->count == LRCS_NONE - 1) {
-            return LRCS_E_LIMIT;
+        touch_facet candidate = corners_of(search->vertex, search->facet[other]);
+        int rim;
+        int kind = touch_kind(&inside, &candidate, &rim);
+        t->rim[f] |= rim != 0;
+        if (search->piece && !t->self && search->piece[f] == search->piece[other]) {
+            t->self = kind != LRCSI_TOUCH_NONE || touches_side(&inside, &candidate);
         }
-        if (t->count % TOUCH_BLOCK == 0 &&
-            !lrcsi_work_take(work, TOUCH_BLOCK, sizeof(lrcsi_touch))) {
-            return LRCS_E_MEMORY;
+        int status = kind == LRCSI_TOUCH_NONE ? LRCS_OK : append_touch(other, kind, work, t);
+        if (status != LRCS_OK) {
+            return status;
         }
-        t->touch[t->count++] = (lrcsi_touch){other, (uint32_t)kind};
     }
     sort_touches(t->touch + t->first[f], t->count - t->first[f]);
     return LRCS_OK;
@@ -319,6 +399,7 @@ static int collect_touches(const lrcs_point *vertex, const lrcs_facet *facet, ui
 size_t lrcsi_touches_need(uint32_t facet_count, size_t count)
 {
     size_t need = lrcsi_work_bytes((size_t)facet_count + 1, sizeof(uint32_t));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facet_count, 1));
     need = lrcsi_work_add(need, lrcsi_tree_need(facet_count));
     return lrcsi_work_add(
         need, lrcsi_work_bytes(lrcsi_work_add(count, TOUCH_BLOCK), sizeof(lrcsi_touch)));
@@ -326,13 +407,15 @@ size_t lrcsi_touches_need(uint32_t facet_count, size_t count)
 
 /* Everything but the release on failure. The list grows above the tree and moves down at the
    end. */
-static int touches_build(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                         const unsigned char *skip, lrcs_work *work, lrcsi_touches *t)
+static int touches_build(touch_search *search, uint32_t facet_count, const unsigned char *skip,
+                         lrcs_work *work, lrcsi_touches *t)
 {
-    lrcsi_tree tree;
     t->first = lrcsi_work_take(work, (size_t)facet_count + 1, sizeof *t->first);
+    t->rim = lrcsi_work_take_zero(work, facet_count, 1);
     size_t mark = work->used;
-    if (!t->first || lrcsi_tree_make(vertex, facet, facet_count, skip, work, &tree) != LRCS_OK) {
+    if (!t->first || !t->rim ||
+        lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, work, &search->tree) !=
+            LRCS_OK) {
         return LRCS_E_MEMORY;
     }
     t->touch = lrcsi_work_take(work, TOUCH_BLOCK, sizeof *t->touch);
@@ -342,7 +425,7 @@ static int touches_build(const lrcs_point *vertex, const lrcs_facet *facet, uint
     work->used -= LRCS_WORK_ALIGN; /* the first block is taken with the first entry */
     for (uint32_t f = 0; f < facet_count; f++) {
         t->first[f] = t->count;
-        int status = skip && skip[f] ? LRCS_OK : collect_touches(vertex, facet, f, &tree, work, t);
+        int status = skip && skip[f] ? LRCS_OK : collect_touches(search, f, work, t);
         if (status != LRCS_OK) {
             return status;
         }
@@ -359,11 +442,13 @@ static int touches_build(const lrcs_point *vertex, const lrcs_facet *facet, uint
 }
 
 int lrcsi_touches_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                       const unsigned char *skip, lrcs_work *work, lrcsi_touches *touches)
+                       const unsigned char *skip, const uint32_t *piece, lrcs_work *work,
+                       lrcsi_touches *touches)
 {
     size_t mark = work->used;
-    lrcsi_touches made = {NULL, NULL, 0};
-    int status = touches_build(vertex, facet, facet_count, skip, work, &made);
+    lrcsi_touches made = {0};
+    touch_search search = {.vertex = vertex, .facet = facet, .piece = piece};
+    int status = touches_build(&search, facet_count, skip, work, &made);
     if (status != LRCS_OK) {
         work->used = mark;
         return status;

@@ -25,6 +25,9 @@ typedef struct lrcsi_touches {
     uint32_t *first;    /* facet_count + 1: entries of facet i are touch[first[i] .. first[i+1]) */
     lrcsi_touch *touch; /* by facet, then by other */
     uint32_t count;
+    unsigned char *rim; /* facet: 1 where another may meet its rim other than in one of its corners
+                           or along a side that both have */
+    int self; /* a facet meets the inside or a side of another of its own piece; 0 if not asked */
 } lrcsi_touches;
 
 /* How `other` (closed) meets the relative interior of `facet`: a lrcsi_touch_kind. Neither may be
@@ -34,17 +37,17 @@ int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet othe
 /* 1 where two facets lie exactly in one plane. Neither may be degenerate. */
 int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);
 
-/* 1 where a corner of `other` lies inside a side of `facet`, ends excluded. No contact in the sense
-   above need come of it. */
-int lrcsi_touch_side(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);
-
 /* Finds all of them. Facets marked in `skip` (degenerate, omitted) neither touch nor are touched.
+   `piece`, unless NULL, names the piece of surface that each facet belongs to: then `self` is told
+   also. Inside a side: a corner of one facet on a side of the other, ends excluded, of which no
+   contact in the sense above need come.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 entries).
    Work: near linear on ordinary meshes, quadratic where everything overlaps everything. The
    result stays in the work area, scratch does not; lrcsi_touches_need bytes serve up to `count`
    entries. */
 size_t lrcsi_touches_need(uint32_t facet_count, size_t count);
 int lrcsi_touches_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                       const unsigned char *skip, lrcs_work *work, lrcsi_touches *touches);
+                       const unsigned char *skip, const uint32_t *piece, lrcs_work *work,
+                       lrcsi_touches *touches);
 
 #endif

@@ -4,6 +4,7 @@
 #include "scene/prepare.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/dd.h"
 #include "base/exact.h"
@@ -179,13 +180,34 @@ static int prepare_arrays(const lrcs_scene *scene, lrcs_work *work, lrcs_prepare
 }
 
 /* A body convex by construction needs no search for contacts: its facets meet on their rims only,
-   up to the rounding for which graze allows. */
+   up to the rounding for which graze allows; how they meet there is left open. */
 static int prepare_made(lrcs_prepared *p, lrcs_work *work)
 {
     p->convex = 1;
-    p->touches.first =
-        lrcsi_work_take_zero(work, (size_t)p->scene->facet_count + 1, sizeof *p->touches.first);
-    return p->touches.first ? LRCS_OK : LRCS_E_MEMORY;
+    size_t facets = p->scene->facet_count;
+    p->touches.first = lrcsi_work_take_zero(work, facets + 1, sizeof *p->touches.first);
+    p->touches.rim = lrcsi_work_take(work, facets, 1);
+    if (!p->touches.first || !p->touches.rim) {
+        return LRCS_E_MEMORY;
+    }
+    memset(p->touches.rim, 1, facets);
+    return LRCS_OK;
+}
+
+/* Contacts, and with them whether the scene is solid. The pieces stay, beneath the contacts. */
+static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
+{
+    uint32_t *piece = lrcsi_work_take(work, p->scene->facet_count, sizeof *piece);
+    if (!piece) {
+        return LRCS_E_MEMORY;
+    }
+    int closed = lrcsi_solid_pieces(p, piece);
+    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, p->skip,
+                                    closed ? piece : NULL, work, &p->touches);
+    if (status == LRCS_OK && closed && !p->touches.self) {
+        status = lrcsi_solid_outward(p, piece, work, &p->solid);
+    }
+    return status;
 }
 
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
@@ -194,12 +216,9 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
         return prepare_made(p, work);
     }
     p->graze = 0;
+    p->solid = 0;
     p->convex = p->live == 0;
-    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, p->skip,
-                                    work, &p->touches);
-    if (status == LRCS_OK) {
-        status = lrcsi_solid_check(p, work, &p->solid);
-    }
+    int status = prepare_contacts(p, work);
     if (status == LRCS_OK && p->solid && p->live > 0) {
         status = lrcsi_convex_exact(p, work, &p->convex);
     }

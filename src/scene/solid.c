@@ -7,73 +7,50 @@
 
 #include "base/join.h"
 #include "base/work.h"
-#include "mesh/tree.h"
 
 #define U 0x1p-53
 
 /* --- pieces: facets joined by edges ----------------------------------------------------------- */
 
-/* Joins facets over every edge; 0 where a live facet's edge is not used by exactly two live
-   facets in opposite directions. */
-static int pieces_closed(const lrcs_prepared *p, uint32_t *parent)
+/* Joins the two live facets of an edge; 0 where there are others, or not in opposite directions. */
+static int piece_join(const lrcs_prepared *p, const lrcsi_edge *edge, uint32_t *parent)
 {
-    const lrcsi_topology *t = &p->topology;
-    for (uint32_t e = 0; e < t->edge_count; e++) {
-        const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
-        uint32_t live = 0;
-        uint32_t pair[2] = {0, 0};
-        uint32_t forward = 0;
-        for (uint32_t i = 0; i < t->edge[e].uses; i++) {
-            if (p->skip[use[i].facet]) {
-                continue;
-            }
-            if (live < 2) {
-                pair[live] = use[i].facet;
-            }
-            live++;
-            forward += use[i].forward;
-        }
-        if (live != 0 && (live != 2 || forward != 1)) {
-            return 0;
-        }
-        if (live == 2) {
-            lrcsi_join(parent, pair[0], pair[1]);
-        }
-    }
-    return 1;
-}
-
-static int pieces_untouched(const lrcs_prepared *p, uint32_t *parent)
-{
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        for (uint32_t i = p->touches.first[f]; i < p->touches.first[f + 1]; i++) {
-            if (lrcsi_join_root(parent, f) == lrcsi_join_root(parent, p->touches.touch[i].other)) {
-                return 0;
-            }
-        }
-    }
-    return 1;
-}
-
-/* No corner of a piece lies inside a side of the same piece. */
-static int pieces_sides_clear(const lrcs_prepared *p, uint32_t *parent, lrcs_work *work, int *clear)
-{
-    lrcsi_tree tree;
-    const lrcs_scene *scene = p->scene;
-    int status = lrcsi_tree_make(p->vertex, scene->facet, scene->facet_count, p->skip, work, &tree);
-    *clear = 1;
-    for (uint32_t f = 0; f < scene->facet_count && status == LRCS_OK && *clear; f++) {
-        if (p->skip[f]) {
+    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
+    uint32_t live = 0;
+    uint32_t pair[2] = {0, 0};
+    uint32_t forward = 0;
+    for (uint32_t i = 0; i < edge->uses; i++) {
+        if (p->skip[use[i].facet]) {
             continue;
         }
-        lrcsi_tree_walk walk = lrcsi_tree_around(&tree, p->vertex, scene->facet[f]);
-        uint32_t other;
-        while (*clear && (other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
-            *clear = lrcsi_join_root(parent, f) != lrcsi_join_root(parent, other) ||
-                     !lrcsi_touch_side(p->vertex, scene->facet[f], scene->facet[other]);
+        if (live < 2) {
+            pair[live] = use[i].facet;
+        }
+        live++;
+        forward += use[i].forward;
+    }
+    if (live == 2 && forward == 1) {
+        lrcsi_join(parent, pair[0], pair[1]);
+        return 1;
+    }
+    return live == 0;
+}
+
+int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
+{
+    uint32_t count = p->scene->facet_count;
+    for (uint32_t f = 0; f < count; f++) {
+        piece[f] = f;
+    }
+    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
+        if (!piece_join(p, &p->topology.edge[e], piece)) {
+            return 0;
         }
     }
-    return status;
+    for (uint32_t f = 0; f < count; f++) {
+        piece[f] = lrcsi_join_root(piece, f);
+    }
+    return 1;
 }
 
 /* Six times the signed volume of a facet's tetrahedron about `o`, and a bound on its rounding:
@@ -99,42 +76,35 @@ static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *
 }
 
 /* Every piece has positive volume, beyond the rounding of its sum. */
-static int pieces_outward(const lrcs_prepared *p, uint32_t *parent, double *volume, double *error)
+static int pieces_outward(const lrcs_prepared *p, const uint32_t *piece, double *volume,
+                          double *error)
 {
     uint32_t count = p->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
-        if (p->skip[f]) {
-            continue;
+        if (!p->skip[f]) {
+            double off = 0;
+            double six = tetrahedron(p, f, lrcsi_prepared_corner(p, piece[f], 0), &off);
+            volume[piece[f]] += six;
+            error[piece[f]] += off + 2 * U * fabs(volume[piece[f]]);
         }
-        uint32_t root = lrcsi_join_root(parent, f);
-        double off = 0;
-        double six = tetrahedron(p, f, lrcsi_prepared_corner(p, root, 0), &off);
-        volume[root] += six;
-        error[root] += off + 2 * U * fabs(volume[root]);
     }
     for (uint32_t f = 0; f < count; f++) {
-        if (!p->skip[f] && parent[f] == f && !(volume[f] > 2 * error[f])) {
+        if (!p->skip[f] && piece[f] == f && !(volume[f] > 2 * error[f])) {
             return 0;
         }
     }
     return 1;
 }
 
-int lrcsi_solid_check(const lrcs_prepared *p, lrcs_work *work, int *proved)
+int lrcsi_solid_outward(const lrcs_prepared *p, const uint32_t *piece, lrcs_work *work, int *proved)
 {
     size_t mark = work->used;
     uint32_t count = p->scene->facet_count;
-    uint32_t *parent = lrcsi_work_take(work, count, sizeof *parent);
     double *volume = lrcsi_work_take_zero(work, count, sizeof *volume);
     double *error = lrcsi_work_take_zero(work, count, sizeof *error);
-    int status = LRCS_E_MEMORY;
-    if (parent && volume && error) {
-        for (uint32_t f = 0; f < count; f++) {
-            parent[f] = f;
-        }
-        *proved = pieces_closed(p, parent) && pieces_untouched(p, parent) &&
-                  pieces_outward(p, parent, volume, error);
-        status = *proved ? pieces_sides_clear(p, parent, work, proved) : LRCS_OK;
+    int status = volume && error ? LRCS_OK : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        *proved = pieces_outward(p, piece, volume, error);
     }
     work->used = mark;
     return status;

@@ -5,16 +5,22 @@
 
 #include "scene/prepare.h"
 
-/* Proves that the winding number of the live facets is nowhere negative: in every piece
-   connected over edges, two facets stand on each edge, in opposite directions; no facet meets the
-   inside of another; no corner lies inside a side; and the volume is positive. Then the piece
-   meets itself in lone points at most (corners in one place, sides that cross): two sheets that
-   meet along a line do so inside a facet or along overlapping sides, of which one ends inside the
-   other. A sheet less such a point is connected, so it stays on one side of the other sheet and
-   can be moved off it. What results is an embedded surface: winding number 0 outside and 1 inside
-   (Jordan-Brouwer), and winding numbers add. 1: proved, 0: not; scratch from work.
+/* Pieces of surface, connected over edges: piece[facet] names its piece by one of its facets.
+   Returned: 1 where on every edge of the live facets just two of them stand, in opposite
+   directions; else 0, and piece is of no use. */
+int lrcsi_solid_pieces(const lrcs_prepared *prepared, uint32_t *piece);
+
+/* Proves that the winding number of the live facets is nowhere negative: their pieces are closed
+   (lrcsi_solid_pieces); no facet meets the inside or a side of another of its piece
+   (lrcsi_touches.self); and the volume is positive. Then the piece meets itself in lone points at
+   most (corners in one place, sides that cross): two sheets that meet along a line do so inside a
+   facet or along overlapping sides, of which one ends inside the other. A sheet less such a point
+   is connected, so it stays on one side of the other sheet and can be moved off it. What results
+   is an embedded surface: winding number 0 outside and 1 inside (Jordan-Brouwer), and winding
+   numbers add. This is the last step, the volume. 1: proved, 0: not; scratch from work.
    Status: LRCS_OK; LRCS_E_MEMORY. */
-int lrcsi_solid_check(const lrcs_prepared *prepared, lrcs_work *work, int *proved);
+int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *piece, lrcs_work *work,
+                        int *proved);
 
 /* 1 where the live facets are all of one engine-made part that lies on a convex surface, outward,
    and one-sided or closed (*solid): convex by construction. Rounding, and on doubly curved bodies

@@ -10,8 +10,11 @@
 
 /* --- event edges ------------------------------------------------------------------------------ */
 
-/* Facets of an edge that cannot hide anything do not count. */
-static int edge_is_event(const lrcsi_view *view, const lrcsi_edge *edge)
+enum edge_kind { EDGE_IDLE, EDGE_JOINS, EDGE_EVENT };
+
+/* What an edge is in this view; where it joins two facets that continue each other, they are in
+   pair. Facets that cannot hide anything do not count. */
+static int edge_kind_of(const lrcsi_view *view, const lrcsi_edge *edge, uint32_t pair[2])
 {
     const lrcsi_edge_use *use = view->prepared->topology.use + edge->first_use;
     uint32_t count = 0;
@@ -19,69 +22,80 @@ static int edge_is_event(const lrcsi_view *view, const lrcsi_edge *edge)
     int facing = 0;
     for (uint32_t i = 0; i < edge->uses; i++) {
         if (lrcsi_grid_casts(view, use[i].facet)) {
+            pair[count < 2 ? count : 1] = use[i].facet;
             count++;
             forward += use[i].forward;
             facing += view->facing[use[i].facet];
         }
     }
-    return count != 0 && !(count == 2 && forward == 1 && facing != 0);
+    return count == 0                                  ? EDGE_IDLE
+           : count == 2 && forward == 1 && facing != 0 ? EDGE_JOINS
+                                                       : EDGE_EVENT;
 }
 
-/* Joins the facets of an edge that is no event: two that continue each other. */
-static void edge_join(const lrcsi_contest *contest, const lrcsi_edge *edge)
+/* Lists the event edges and joins facets into sheets. */
+static void contest_edges(lrcsi_contest *contest)
 {
-    const lrcsi_edge_use *use = contest->view->prepared->topology.use + edge->first_use;
-    uint32_t first = LRCS_NONE;
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        if (!lrcsi_grid_casts(contest->view, use[i].facet)) {
-            continue;
-        }
-        if (first != LRCS_NONE) {
-            lrcsi_join(contest->sheet, first, use[i].facet);
-        }
-        first = use[i].facet;
-    }
-}
-
-static int contest_sheets(lrcsi_contest *contest, lrcs_work *work)
-{
-    uint32_t facets = contest->view->prepared->scene->facet_count;
     const lrcsi_topology *topology = &contest->view->prepared->topology;
-    contest->sheet = lrcsi_work_take(work, facets, sizeof *contest->sheet);
-    if (!contest->sheet) {
-        return LRCS_E_MEMORY;
-    }
-    for (uint32_t f = 0; f < facets; f++) {
-        contest->sheet[f] = f;
-    }
     for (uint32_t e = 0; e < topology->edge_count; e++) {
-        if (!edge_is_event(contest->view, &topology->edge[e])) {
-            edge_join(contest, &topology->edge[e]);
+        uint32_t pair[2];
+        int kind = edge_kind_of(contest->view, &topology->edge[e], pair);
+        if (kind == EDGE_JOINS) {
+            lrcsi_join(contest->sheet, pair[0], pair[1]);
+        } else if (kind == EDGE_EVENT) {
+            contest->event[contest->event_count++] = e;
         }
     }
-    for (uint32_t f = 0; f < facets; f++) {
-        contest->sheet[f] = lrcsi_join_root(contest->sheet, f);
-    }
-    return LRCS_OK;
 }
 
+/* Joins uniform facets into regions. */
+static void contest_regions(lrcsi_contest *contest, const unsigned char *lone)
+{
+    const lrcsi_topology *topology = &contest->view->prepared->topology;
+    for (uint32_t e = 0; e < topology->edge_count; e++) {
+        uint32_t pair[2];
+        if (edge_kind_of(contest->view, &topology->edge[e], pair) == EDGE_JOINS && !lone[pair[0]] &&
+            !lone[pair[1]]) {
+            lrcsi_join(contest->region, pair[0], pair[1]);
+        }
+    }
+}
+
+static uint32_t *contest_singles(const lrcsi_view *view, lrcs_work *work)
+{
+    uint32_t facets = view->prepared->scene->facet_count;
+    uint32_t *single = lrcsi_work_take(work, facets, sizeof *single);
+    for (uint32_t f = 0; f < facets && single; f++) {
+        single[f] = f;
+    }
+    return single;
+}
+
+static void contest_roots(uint32_t *join, uint32_t facets)
+{
+    for (uint32_t f = 0; f < facets; f++) {
+        join[f] = lrcsi_join_root(join, f);
+    }
+}
+
+/* Room for as many events as there are edges, given back but for what they need. */
 static int contest_events(lrcsi_contest *contest, lrcs_work *work)
 {
-    const lrcsi_topology *topology = &contest->view->prepared->topology;
-    uint32_t count = 0;
-    for (uint32_t e = 0; e < topology->edge_count; e++) {
-        count += (uint32_t)edge_is_event(contest->view, &topology->edge[e]);
+    const lrcs_prepared *p = contest->view->prepared;
+    size_t mark = work->used;
+    contest->event = lrcsi_work_take(work, p->topology.edge_count, sizeof *contest->event);
+    if (!contest->event) {
+        return LRCS_E_MEMORY;
     }
+    contest_edges(contest);
+    contest_roots(contest->sheet, p->scene->facet_count);
+    uint32_t count = contest->event_count;
+    work->used = mark;
     contest->event = lrcsi_work_take(work, count, sizeof *contest->event);
     contest->seen = lrcsi_work_take_zero(work, count, sizeof *contest->seen);
     contest->crossing = lrcsi_work_take(work, count, sizeof *contest->crossing);
     if (!contest->event || !contest->seen || !contest->crossing) {
         return LRCS_E_MEMORY;
-    }
-    for (uint32_t e = 0; e < topology->edge_count; e++) {
-        if (edge_is_event(contest->view, &topology->edge[e])) {
-            contest->event[contest->event_count++] = e;
-        }
     }
     return lrcsi_grid_edges(contest->view, contest->event, count, work, &contest->grid);
 }
@@ -105,8 +119,10 @@ static int boxes_apart(const lrcsi_view *view, const lrcsi_edge *edge, const dou
 }
 
 /* Does the segment p q cross the open inside of the facet, in projection? Two convex figures of
-   the plane are apart just if some line along a side of either parts them. */
-static int segment_crosses(const lrcsi_view *view, uint32_t facet, const double *p, const double *q)
+   the plane are apart just if some line along a side of either parts them. *along: it lies on the
+   line of a side that parts them. */
+static int segment_crosses(const lrcsi_view *view, uint32_t facet, const double *p, const double *q,
+                           int *along)
 {
     const double *corner[3];
     const double *d = view->direction;
@@ -117,8 +133,10 @@ static int segment_crosses(const lrcsi_view *view, uint32_t facet, const double 
     for (int k = 0; k < 3; k++) {
         const double *a = corner[k];
         const double *b = corner[(k + 1) % 3];
-        if (facing * lrcsi_exact_turn(a, b, p, d) <= 0 &&
-            facing * lrcsi_exact_turn(a, b, q, d) <= 0) {
+        int of_p = facing * lrcsi_exact_turn(a, b, p, d);
+        int of_q = facing * lrcsi_exact_turn(a, b, q, d);
+        if (of_p <= 0 && of_q <= 0) {
+            *along = of_p == 0 && of_q == 0;
             return 0;
         }
     }
@@ -143,8 +161,9 @@ static int segment_nearer(const lrcsi_view *view, uint32_t facet, const double *
 }
 
 static int edge_crosses(const lrcsi_view *view, uint32_t facet, uint32_t edge, const double low[2],
-                        const double high[2])
+                        const double high[2], int *along)
 {
+    *along = 0;
     const lrcs_prepared *p = view->prepared;
     const uint32_t *own = p->topology.facet_edge[facet].corner;
     const lrcsi_edge *e = &p->topology.edge[edge];
@@ -153,7 +172,7 @@ static int edge_crosses(const lrcsi_view *view, uint32_t facet, uint32_t edge, c
     }
     const double *a = p->vertex[e->low].x;
     const double *b = p->vertex[e->high].x;
-    return segment_crosses(view, facet, a, b) && segment_nearer(view, facet, a, b);
+    return segment_crosses(view, facet, a, b, along) && segment_nearer(view, facet, a, b);
 }
 
 /* At most `most` of them, so that one who only wants to know whether there are any can stop. */
@@ -167,6 +186,7 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
     lrcsi_cells cells = lrcsi_grid_cells(grid, low, high);
     uint32_t count = 0;
     contest->asked++;
+    contest->along = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
         uint32_t end = grid->first[(size_t)y * grid->size + cells.x1];
@@ -176,9 +196,11 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
                 continue;
             }
             contest->seen[event] = contest->asked;
-            if (edge_crosses(contest->view, facet, contest->event[event], low, high)) {
+            int along;
+            if (edge_crosses(contest->view, facet, contest->event[event], low, high, &along)) {
                 contest->crossing[count++] = contest->event[event];
             }
+            contest->along |= along;
         }
     }
     return count;
@@ -213,10 +235,24 @@ static int touch_contests(const lrcsi_view *view, uint32_t facet)
 size_t lrcsi_contest_need(const lrcs_prepared *prepared)
 {
     size_t edges = prepared->topology.edge_count;
+    size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_bytes(3 * edges, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->facet_count, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->facet_count, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(2 * facets, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(2 * facets, 1));
+}
+
+/* Which facets are contested, and which of the others are alone in their region. */
+static void contest_decide(lrcsi_contest *c, unsigned char *lone)
+{
+    const lrcs_prepared *p = c->view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (lrcsi_grid_casts(c->view, f)) {
+            c->contested[f] = touch_contests(c->view, f) || contest_find(c, f, 1) > 0;
+            c->contested_count += c->contested[f];
+            lone[f] = c->contested[f] || c->along || p->touches.rim[f];
+        }
+    }
 }
 
 int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *contest)
@@ -225,20 +261,19 @@ int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *c
     uint32_t count = view->prepared->scene->facet_count;
     lrcsi_contest c = {.view = view};
     c.contested = lrcsi_work_take_zero(work, count, 1);
-    int status = c.contested ? contest_sheets(&c, work) : LRCS_E_MEMORY;
-    if (status == LRCS_OK) {
-        status = contest_events(&c, work);
-    }
-    if (status != LRCS_OK) {
+    c.sheet = contest_singles(view, work);
+    c.region = contest_singles(view, work);
+    int status = c.contested && c.sheet && c.region ? contest_events(&c, work) : LRCS_E_MEMORY;
+    size_t end = work->used;
+    unsigned char *lone = status == LRCS_OK ? lrcsi_work_take_zero(work, count, 1) : NULL;
+    if (!lone) {
         work->used = mark;
-        return status;
+        return status == LRCS_OK ? LRCS_E_MEMORY : status;
     }
-    for (uint32_t f = 0; f < count; f++) {
-        if (lrcsi_grid_casts(view, f)) {
-            c.contested[f] = touch_contests(view, f) || contest_find(&c, f, 1) > 0;
-            c.contested_count += c.contested[f];
-        }
-    }
+    contest_decide(&c, lone);
+    contest_regions(&c, lone);
+    contest_roots(c.region, count);
+    work->used = end;
     *contest = c;
     return LRCS_OK;
 }

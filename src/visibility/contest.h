@@ -11,6 +11,11 @@
    A facet that meets neither is uniform: one exact sample tells whether all of it is visible. The
    others are contested. All decisions are exact, so a uniform facet is certain.
 
+   Uniform facets are seen alike where they share an edge that is no event edge, along which no
+   nearer event edge lies in projection, and which nothing else meets in space: a path from one
+   into the other, through a point of the shared edge where nothing else is, meets neither (1) nor
+   (2). They form regions, of which one sample tells all.
+
    Edges that are no event edges join facets into sheets, which end at event edges only. A sheet in
    front of one point of facet i, none of whose edges crosses i and none of whose facets touches its
    inside, is in front of all of it: then i is hidden, however contested (visibility/query.h). */
@@ -25,10 +30,12 @@ typedef struct lrcsi_contest {
     uint32_t event_count;
     uint32_t
         *sheet; /* facet -> its sheet, named by one of its facets; itself if it casts nothing */
-    lrcsi_grid grid;          /* of events */
-    uint32_t *seen;           /* scratch: event -> the search that last met it */
-    uint32_t asked;           /* scratch: searches so far */
-    uint32_t *crossing;       /* scratch: what lrcsi_contest_crossings found */
+    uint32_t *region;   /* facet -> the region of uniform facets that it is in, likewise named */
+    lrcsi_grid grid;    /* of events */
+    uint32_t *seen;     /* scratch: event -> the search that last met it */
+    uint32_t asked;     /* scratch: searches so far */
+    int along;          /* scratch: the last search met an event along a side of the facet */
+    uint32_t *crossing; /* scratch: what lrcsi_contest_crossings found */
     unsigned char *contested; /* facet: 1 contested; 0 uniform, or of no area in this view */
     uint32_t contested_count;
 } lrcsi_contest;

@@ -203,7 +203,7 @@ static lrcsi_visible clipped_area(const lrcsi_occluding *o)
 static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
 {
     double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
-    switch (lrcsi_query_facet(&o->facets, facet)) {
+    switch (o->uniform[facet]) {
     case LRCSI_QUERY_HIDDEN:
         return (lrcsi_visible){0, 0, 0, 0};
     case LRCSI_QUERY_VISIBLE:
@@ -263,7 +263,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_clip_need(), lrcsi_grid_facets_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_DEPTH + 2, sizeof(lrcsi_occlude_cell)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 2 * sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 2 * sizeof(uint32_t) + 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_occluder)));
     return lrcsi_work_add(need, lrcsi_work_bytes(8 * facets + 2048, sizeof(uint32_t)));
 }
@@ -273,14 +273,18 @@ int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding 
     uint32_t count = contest->view->prepared->scene->facet_count;
     size_t mark = work->used;
     *o = (lrcsi_occluding){.contest = contest, .work = work};
+    o->uniform = lrcsi_work_take(work, count, 1);
     o->asked = lrcsi_work_take_zero(work, count, sizeof *o->asked);
     o->candidate = lrcsi_work_take(work, count, sizeof *o->candidate);
     o->stack = lrcsi_work_take(work, MOST_DEPTH + 2, sizeof *o->stack);
     int status = LRCS_E_MEMORY;
-    if (o->asked && o->candidate && o->stack && lrcsi_clip_make(work, &o->clip) == LRCS_OK) {
+    if (o->uniform && o->asked && o->candidate && o->stack &&
+        lrcsi_clip_make(work, &o->clip) == LRCS_OK) {
         status = lrcsi_grid_facets(contest->view, work, &o->facets);
     }
-    if (status != LRCS_OK) {
+    if (status == LRCS_OK) {
+        lrcsi_query_uniform(contest, &o->facets, o->uniform);
+    } else {
         work->used = mark;
     }
     return status;

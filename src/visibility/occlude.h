@@ -21,6 +21,7 @@ typedef struct lrcsi_occluding {
     lrcsi_contest *contest;
     lrcs_work *work;
     lrcsi_grid facets;
+    unsigned char *uniform;    /* facet: what a uniform one shows, a lrcsi_query_answer */
     uint32_t *asked;           /* facet: the search for candidates that last met it */
     uint32_t asks;             /* searches so far */
     uint32_t *candidate;       /* facets that hide some of the target */

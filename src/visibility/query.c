@@ -123,6 +123,21 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
     return answer;
 }
 
+/* A region is named by its first facet, which is asked first; where no answer was found there, each
+   of its facets is asked for itself. */
+void lrcsi_query_uniform(const lrcsi_contest *contest, const lrcsi_grid *facets,
+                         unsigned char *answer)
+{
+    for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count; f++) {
+        uint32_t first = contest->region[f];
+        answer[f] = LRCSI_QUERY_HIDDEN;
+        if (lrcsi_grid_casts(contest->view, f) && !contest->contested[f]) {
+            int asks = first == f || answer[first] == LRCSI_QUERY_UNDECIDED;
+            answer[f] = asks ? (unsigned char)lrcsi_query_facet(facets, f) : answer[first];
+        }
+    }
+}
+
 /* Does `other` touch the inside of the facet? */
 static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other)
 {

@@ -14,6 +14,10 @@ enum lrcsi_query_answer {
 /* Asks at the facet's centroid, or at another inside point where that one rounds outside. */
 int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet);
 
+/* Asks for every uniform facet, once a region: answer[facet], a lrcsi_query_answer. */
+void lrcsi_query_uniform(const lrcsi_contest *contest, const lrcsi_grid *facets,
+                         unsigned char *answer);
+
 /* 1 where a contested facet is proved to be hidden, all of it behind one sheet; else 0. */
 int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint32_t facet);
 

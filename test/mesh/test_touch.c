@@ -13,13 +13,14 @@
 
 typedef struct pair_case {
     signed char b_in_a, a_in_b;
-    signed char x[18]; /* corners of a, then of b */
+    signed char b_on_a, a_on_b; /* rims */
+    signed char x[18];          /* corners of a, then of b */
 } pair_case;
 
 static const pair_case pair_cases[] = {
-#define PAIR(ab, ba, ...)                                                                          \
+#define PAIR(ab, ba, on_a, on_b, ...)                                                              \
     {                                                                                              \
-        ab, ba,                                                                                    \
+        ab, ba, on_a, on_b,                                                                        \
         {                                                                                          \
             __VA_ARGS__                                                                            \
         }                                                                                          \
@@ -47,17 +48,34 @@ static void check_kinds(const lrcs_point *v, const pair_case *c)
     }
 }
 
+/* A rim that is met is never missed. *sure counts those not met and told so. */
+static void check_rims(const lrcs_point *v, const pair_case *c, int *sure)
+{
+    static const lrcs_facet both[2] = {{{0, 1, 2}}, {{3, 4, 5}}};
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_touches t;
+    assert_int_equal(lrcsi_touches_make(v, both, 2, NULL, NULL, &work, &t), LRCS_OK);
+    assert_true(t.rim[0] >= c->b_on_a);
+    assert_true(t.rim[1] >= c->a_on_b);
+    *sure += !t.rim[0] + !t.rim[1];
+}
+
 static void pairs_agree_with_rational_clipping(void **state)
 {
     (void)state;
+    int sure = 0;
+    int clean = 0;
     for (int n = 0; n < PAIRS; n++) {
         lrcs_point v[6];
         for (int i = 0; i < 18; i++) {
             v[i / 3].x[i % 3] = pair_cases[n].x[i];
         }
         check_kinds(v, &pair_cases[n]);
+        check_rims(v, &pair_cases[n], &sure);
+        clean += !pair_cases[n].b_on_a + !pair_cases[n].a_on_b;
     }
     assert_true(PAIRS >= 4000);
+    assert_true(clean >= 1000 && 2 * sure > clean); /* most of the clean ones are told */
 }
 
 /* The same under an integer map that tilts and shears, far from the origin, times a power of
@@ -84,7 +102,7 @@ static void check_against_all_pairs(uint32_t facets, const unsigned char *skip)
 {
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_touches t;
-    assert_int_equal(lrcsi_touches_make(vertex, facet, facets, skip, &work, &t), LRCS_OK);
+    assert_int_equal(lrcsi_touches_make(vertex, facet, facets, skip, NULL, &work, &t), LRCS_OK);
     assert_true(work.peak <= lrcsi_touches_need(facets, t.count));
     uint32_t at = 0;
     for (uint32_t f = 0; f < facets; f++) {
@@ -199,8 +217,11 @@ static void neighbours_on_a_closed_surface_do_not_touch(void **state)
     memset(skip, 0, sizeof skip);
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_touches t;
-    assert_int_equal(lrcsi_touches_make(vertex, facet, facets, skip, &work, &t), LRCS_OK);
+    assert_int_equal(lrcsi_touches_make(vertex, facet, facets, skip, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count, 0);
+    for (uint32_t f = 0; f < facets; f++) {
+        assert_int_equal(t.rim[f], 0);
+    }
 }
 
 static void a_strut_touches_the_plate_and_not_the_other_way(void **state)
@@ -247,11 +268,11 @@ static void an_empty_list_and_a_skipped_one_have_no_contacts(void **state)
     lrcs_facet f[2] = {{{0, 1, 2}}, {{0, 1, 2}}};
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_touches t;
-    assert_int_equal(lrcsi_touches_make(v, f, 0, NULL, &work, &t), LRCS_OK);
+    assert_int_equal(lrcsi_touches_make(v, f, 0, NULL, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count + t.first[0], 0);
-    assert_int_equal(lrcsi_touches_make(v, f, 2, skip, &work, &t), LRCS_OK);
+    assert_int_equal(lrcsi_touches_make(v, f, 2, skip, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count, 0);
-    assert_int_equal(lrcsi_touches_make(v, f, 2, NULL, &work, &t), LRCS_OK);
+    assert_int_equal(lrcsi_touches_make(v, f, 2, NULL, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count, 2);
     assert_int_equal(t.first[1], 1);
     assert_int_equal(t.touch[1].other, 0);
@@ -269,7 +290,7 @@ static void starved_searches_fail_clean(void **state)
     }
     lrcs_work whole = lrcs_work_make(room, ROOM);
     lrcsi_touches t;
-    assert_int_equal(lrcsi_touches_make(vertex, facet, 20, skip, &whole, &t), LRCS_OK);
+    assert_int_equal(lrcsi_touches_make(vertex, facet, 20, skip, NULL, &whole, &t), LRCS_OK);
     uint32_t count = t.count;
     assert_true(count > 10);
     size_t need = lrcsi_touches_need(20, count);
@@ -279,7 +300,7 @@ static void starved_searches_fail_clean(void **state)
         assert_non_null(bytes);
         lrcs_work work = lrcs_work_make(bytes, size);
         t.count = 99;
-        status = lrcsi_touches_make(vertex, facet, 20, skip, &work, &t);
+        status = lrcsi_touches_make(vertex, facet, 20, skip, NULL, &work, &t);
         if (status != LRCS_OK) {
             assert_int_equal(work.used, 0);
         }

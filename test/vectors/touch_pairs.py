@@ -106,6 +106,20 @@ def meets(f, t):
     return CROSS if ends and segment_meets_inside(f, ends) else NONE
 
 
+def rim(f, t):
+    """Does t meet a side of f, ends excluded, that is not a side of t too?"""
+    flat = all(dot(normal(f), sub(p, f[0])) == 0 for p in t)
+    poly = [[F(x) for x in p] for p in (t if flat else cut(f, t))]
+    for k in range(3):
+        poly = clip(poly, f, k) if poly else []
+    for k in range(3):
+        along = [barycentric(f, x)[(k + 1) % 3] for x in poly if barycentric(f, x)[k] == 0]
+        inside = any(0 < u < 1 for u in along) or (0 in along and 1 in along)
+        if inside and not (f[(k + 1) % 3] in t and f[(k + 2) % 3] in t):
+            return 1
+    return 0
+
+
 def point(span):
     return [random.randrange(span + 1) for _ in range(3)]
 
@@ -133,7 +147,8 @@ def pair(i):
 
 
 def main():
-    print('/* Made by touch_pairs.py: how b meets the inside of a, how a meets that of b, then a, b. */')
+    print('/* Made by touch_pairs.py: how b meets the inside of a, how a meets that of b; whether b meets the')
+    print('   rim of a other than in corners of a or along a common side, and a that of b; then a, b. */')
     seen, i = {}, 0
     while sum(seen.values()) < 4000:
         i += 1
@@ -144,7 +159,7 @@ def main():
         if seen.get(kinds, 0) >= 1000:
             continue
         seen[kinds] = seen.get(kinds, 0) + 1
-        print('PAIR(%d,%d,%s),' % (kinds[0], kinds[1], ','.join(str(x) for p in a + b for x in p)))
+        print('PAIR(%d,%d,%d,%d,%s),' % (*kinds, rim(a, b), rim(b, a), ','.join(str(x) for p in a + b for x in p)))
 
 
 main()

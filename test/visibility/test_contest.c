@@ -99,6 +99,70 @@ static void piercing_and_overlapping_facets_contest_each_other(void **state)
     assert_true(lrcsi_query_screened(&contest, &facets, 2) == 0);
 }
 
+/* A roof whose ridge stands over the y axis: facet 0 slopes down to the left, facet 1 to the
+   right. */
+static void roof(void)
+{
+    scene_start(&scene);
+    uint32_t v = scene_vertex(&scene, 0, 0, 1);
+    scene_vertex(&scene, 0, 1, 1);
+    scene_vertex(&scene, -1, 0.5, 0);
+    scene_vertex(&scene, 1, 0.5, 0);
+    scene_facet(&scene, v, v + 1, v + 2);
+    scene_facet(&scene, v, v + 3, v + 1);
+}
+
+static int region_answer(uint32_t facet)
+{
+    static unsigned char answer[SCENE_FACETS];
+    lrcsi_query_uniform(&contest, &facets, answer);
+    return answer[facet];
+}
+
+static void uniform_neighbours_form_regions(void **state)
+{
+    (void)state;
+    roof();
+    look_from(0, 0, 1);
+    assert_int_equal(contest.region[1], 0);
+    assert_int_equal(region_answer(1), LRCSI_QUERY_VISIBLE);
+    square(-3, -3, 2, 6); /* hides both */
+    look_from(0, 0, 1);
+    assert_int_equal(contest.region[1], 0);
+    assert_int_equal(region_answer(0), LRCSI_QUERY_HIDDEN);
+    assert_int_equal(region_answer(1), LRCSI_QUERY_HIDDEN);
+    look_from(1, 0, 0); /* the ridge is a contour now */
+    assert_int_equal(contest.region[1], 1);
+}
+
+/* A rim that ends right above the ridge crosses neither slope, yet hides one of them. */
+static void a_rim_along_a_shared_edge_parts_regions(void **state)
+{
+    (void)state;
+    roof();
+    scene_plate(&scene, (const double[3]){0, -1, 2}, (const double[3]){3, 0, 0},
+                (const double[3]){0, 3, 0});
+    look_from(0, 0, 1);
+    assert_int_equal(contest.contested[0] + contest.contested[1], 0);
+    assert_int_equal(contest.region[1], 1);
+    assert_int_equal(region_answer(0), LRCSI_QUERY_VISIBLE);
+    assert_int_equal(region_answer(1), LRCSI_QUERY_HIDDEN);
+}
+
+/* A plane through the ridge, above one slope and below the other, touches the inside of neither. */
+static void a_plane_through_a_shared_edge_parts_regions(void **state)
+{
+    (void)state;
+    roof();
+    scene_plate(&scene, (const double[3]){-2, -1, 5}, (const double[3]){4, 0, -8},
+                (const double[3]){0, 4, 0});
+    look_from(0, 0, 1);
+    assert_int_equal(contest.contested[0] + contest.contested[1], 0);
+    assert_int_equal(contest.region[1], 1);
+    assert_int_equal(region_answer(0), LRCSI_QUERY_HIDDEN);
+    assert_int_equal(region_answer(1), LRCSI_QUERY_VISIBLE);
+}
+
 /* Sheets end at contours: from (1, 2, 3) a box has one of its six front facets and one behind; one
    facet without a neighbour is a sheet of its own. */
 static void sheets_end_at_contours(void **state)
@@ -213,6 +277,9 @@ int main(void)
         cmocka_unit_test(rims_in_front_contest_what_they_cross),
         cmocka_unit_test(rims_along_rims_contest_nothing),
         cmocka_unit_test(piercing_and_overlapping_facets_contest_each_other),
+        cmocka_unit_test(uniform_neighbours_form_regions),
+        cmocka_unit_test(a_rim_along_a_shared_edge_parts_regions),
+        cmocka_unit_test(a_plane_through_a_shared_edge_parts_regions),
         cmocka_unit_test(sheets_end_at_contours),
         cmocka_unit_test(whole_sheets_screen_and_others_do_not),
         cmocka_unit_test(grids_list_every_item_wherever_it_stands),
