@@ -32,8 +32,9 @@ size_t lrcs_prepare_need(const lrcs_scene *scene);
 int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared);
 
 typedef struct lrcs_run_options {
-    double tolerance;    /* relative, > 0: bound <= tolerance * sigma is asked for */
-    int method;          /* lrcs_method */
+    double tolerance; /* relative, > 0: bound <= tolerance * sigma is asked for, and of a cubature
+                         over curved normals that its estimate is no greater either */
+    int method;       /* lrcs_method */
     uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
 } lrcs_run_options;
 
@@ -92,9 +93,11 @@ typedef struct lrcs_result {
     double bound_m2; /* proved: |sigma - truth| <= bound, truth being Eq. 2 over the placed
                         facets (over the true shapes where the tessellation is known) */
     lrcs_budget budget;
-    double estimate_m2;       /* likely error of a raster's answer; negative: none */
-    double projected_area_m2; /* the whole silhouette */
-    double back_side_area_m2; /* visible projected area of one-sided back sides */
+    double estimate_m2;           /* likely error of a raster's answer; negative: none */
+    double curvature_estimate_m2; /* of the cubature over curved normals, not in the bound;
+                                     negative: all facets are flat */
+    double projected_area_m2;     /* the whole silhouette */
+    double back_side_area_m2;     /* visible projected area of one-sided back sides */
     uint32_t back_side_facets;
     int method;          /* the one used, never AUTO */
     uint32_t resolution; /* 0: no raster */

@@ -29,6 +29,7 @@
 #define MOST_SPLITS   (1u << 15)
 /* No cell's normals turn by more than this (rad) where a rule is trusted. */
 #define MOST_TURN 0.5
+#define HALF_TURN 3.14159265358979323846
 /* A glint below this is nothing, whatever else there is. */
 #define NO_GLINT 0x1p-900
 /* Beyond this tan^2 the laser is as good as in the plane. */
@@ -42,8 +43,8 @@ typedef struct cube_value {
 typedef struct cube_cell {
     double normal[3][3];
     double area;
-    double nearness; /* cosine of the angle from its centroid's normal to the laser */
-    double unheard;  /* bound on a glint that no rule need find, per area */
+    double theta;   /* from its centroid's normal to the laser */
+    double unheard; /* bound on a glint that no rule need find, per area */
     uint32_t depth;
     int trusted; /* the rule may be: `value` is its sum */
     cube_value value;
@@ -134,12 +135,11 @@ static void cell_measure(cube_cell *cell)
 {
     double n[3];
     cell_centroid(cell, n);
-    double length = sqrt(square_of(n));
-    cell->nearness = length > 0 ? n[2] / length : 0;
+    cell->theta = atan2(sqrt(n[0] * n[0] + n[1] * n[1]), n[2]);
 }
 
-/* The largest angle from the centroid's normal to one of the cell's: to a corner's, since a circle
-   about it that is no greater than a hemisphere and holds the corners holds their triangle. */
+/* The largest angle from the centroid's normal to one of the cell's: to a corner's where that is
+   less than a right angle, since such a circle that holds the corners holds their triangle. */
 static double cell_turn(const cube_cell *cell)
 {
     double n[3];
@@ -152,7 +152,7 @@ static double cell_turn(const cube_cell *cell)
                            n[0] * m[1] - n[1] * m[0]};
         most = lrcsi_most(most, dot > 0 ? sqrt(square_of(cross)) / dot : HUGE_VAL);
     }
-    return atan(most) * (1 + 4 * U) + 16 * U;
+    return isfinite(most) ? atan(most) * (1 + 4 * U) + 16 * U : HALF_TURN;
 }
 
 /* Decides whether a rule may be trusted with the cell, or never hear of its glint. */
@@ -160,12 +160,11 @@ static void cell_trust(const lrcsi_cubature *sum, cube_cell *cell)
 {
     const lrcs_brdf *brdf = sum->brdf;
     double turn = cell_turn(cell);
-    double near2 = cell->nearness * cell->nearness;
+    double cosine = cos(cell->theta);
     int diffuse = turn <= MOST_TURN && (!(brdf->B > 0) || turn * turn * (brdf->m + 1) <= 1);
-    int glint = !(brdf->A > 0) || turn <= brdf->s * near2;
+    int glint = !(brdf->A > 0) || turn <= brdf->s * cosine * cosine;
     if (diffuse && !glint) {
-        double theta = acos(lrcsi_least(1, cell->nearness));
-        double most = lrcsi_reflect_most(brdf, theta, turn + 0x1p-24).glint;
+        double most = lrcsi_reflect_most(brdf, cell->theta, turn).glint;
         double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
         glint = most <= NO_GLINT || most * sum->whole <= sum->tolerance * had;
         cell->unheard = glint ? most : 0;
@@ -218,7 +217,7 @@ static void cell_split(const lrcsi_cubature *sum, const cube_cell *cell, cube_ce
             half[h].value = rule_value(sum, &half[h]);
         }
     }
-    if (half[0].nearness > half[1].nearness) {
+    if (half[0].theta < half[1].theta) {
         cube_cell other = half[0];
         half[0] = half[1];
         half[1] = other;
@@ -236,8 +235,7 @@ static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell, double estimate
 /* No halvings are left: the most that the cell may hold is its estimate. */
 static void cell_give_up(lrcsi_cubature *sum, cube_cell *cell)
 {
-    lrcsi_reflection most =
-        lrcsi_reflect_most(sum->brdf, acos(lrcsi_least(1, cell->nearness)), cell_turn(cell));
+    lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, cell_turn(cell));
     cell->value = rule_value(sum, cell);
     sum_keep(sum, cell, cell->area * (most.glint + most.diffuse));
 }
@@ -307,6 +305,22 @@ static cube_cell cell_of(const double a[3], const double b[3], const double c[3]
         cell.normal[2][k] = c[k];
     }
     return cell;
+}
+
+lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
+                                   double tolerance)
+{
+    lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance};
+    cube_cell cell = cell_of(normal[0], normal[1], normal[2], 0);
+    cell_measure(&cell);
+    sum.most = lrcsi_reflect_most(brdf, cell.theta, cell_turn(&cell) + 0x1p-40);
+    return sum;
+}
+
+double lrcsi_cubature_at(const lrcsi_cubature *sum, const double normal[3])
+{
+    cube_value at = node_value(sum, normal);
+    return at.glint + at.diffuse;
 }
 
 void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area)

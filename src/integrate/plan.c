@@ -43,6 +43,27 @@ static lrcs_effect caster_effect(const lrcs_prepared *p, const lrcsi_plan *plan)
     return (lrcs_effect){1, "not proved closed and outward"};
 }
 
+/* Shapes are tessellated to the tolerance, with a proof: they need none. */
+static lrcs_effect normals_effect(const lrcs_prepared *p)
+{
+    int given = 0;
+    for (uint32_t i = 0; i < p->scene->part_count; i++) {
+        given |= p->scene->part[i].smoothed;
+    }
+    switch (p->scene->normals) {
+    case LRCS_NORMALS_AUTO:
+        return p->smooth ? (lrcs_effect){1, "some facets turn too far for the glint they wear"}
+               : given   ? (lrcs_effect){0, "no model's facets turn too far for their glint"}
+                         : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
+    case LRCS_NORMALS_SMOOTH:
+        return p->smooth ? (lrcs_effect){1, "smoothing groups or vertex normals, as asked"}
+               : given   ? (lrcs_effect){0, "all smoothed facets are flat"}
+                         : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
+    default:
+        return (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
+    }
+}
+
 void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, lrcs_effect *effect)
 {
     const lrcs_prepared *p = view->prepared;
@@ -52,8 +73,7 @@ void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, lrcs_eff
                                          : (lrcs_effect){0, "A = 0 for every material"};
     effect[LRCS_EFFECT_DIFFUSE] = p->diffuse ? (lrcs_effect){1, "a material has B > 0"}
                                              : (lrcs_effect){0, "B = 0 for every material"};
-    effect[LRCS_EFFECT_CURVED_NORMALS] =
-        (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
+    effect[LRCS_EFFECT_CURVED_NORMALS] = normals_effect(p);
     effect[LRCS_EFFECT_TWO_SIDED] =
         !p->two_sided ? (lrcs_effect){0, "no material is two-sided"}
         : p->solid    ? (lrcs_effect){0, "closed and outward: back sides are never seen"}

@@ -16,7 +16,7 @@
 /* Running sums, in scaled units. */
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
-    double visibility, tessellation, rounding, likely;
+    double visibility, tessellation, rounding, likely, curvature;
 } total_sums;
 
 /* The largest value of (1 + u)^2 exp(-u / s^2) over u >= 0. */
@@ -67,6 +67,18 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t 
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
                       whole * most * (at.error + reflection_vague(brdf, tilt, &at));
     return glint + diffuse;
+}
+
+/* One with curved normals, which comes summed. */
+static double add_curved(total_sums *sums, const lrcsi_curved *curved)
+{
+    lrcsi_sum_add(&sums->glint, curved->glint);
+    lrcsi_sum_add(&sums->diffuse, curved->diffuse);
+    sums->visibility += curved->visibility;
+    sums->rounding += curved->rounding;
+    sums->likely += curved->likely * curved->likely;
+    sums->curvature += curved->estimate;
+    return curved->glint + curved->diffuse;
 }
 
 /* What the flat facets of an engine-made shape may be off, whichever way they face: part of the
@@ -145,14 +157,15 @@ static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total
     double adding = (glint + diffuse) * (4 * U + 3 * (count * U) * (count * U));
     total->rounding = lrcsi_prepared_area(p, (sums->rounding + adding) * outward);
     total->likely = lrcsi_prepared_area(p, 2 * sqrt(sums->likely));
+    total->curvature = lrcsi_prepared_area(p, sums->curvature);
 }
 
-lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible, int unshadowed,
-                             lrcs_facet_record *records)
+lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible,
+                             const lrcsi_curved *curved, int unshadowed, lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
     lrcsi_total total = {0};
-    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0};
+    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0, 0};
     if (p->curved && !unshadowed) {
         sums.tessellation = -HUGE_VAL;
     }
@@ -163,7 +176,9 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visibl
             int reflects =
                 view->facing[f] > 0 || (lrcsi_prepared_material(p, f)->two_sided && !p->solid);
             if (reflects && visible[f].high > 0) {
-                sigma = add_reflecting(&sums, view, f, &tilt, &visible[f]);
+                sigma = curved && lrcsi_curve_wanted(view, f)
+                            ? add_curved(&sums, &curved[f])
+                            : add_reflecting(&sums, view, f, &tilt, &visible[f]);
             }
             count_facet(&total, &sums, reflects, &tilt, &visible[f]);
         }

@@ -3,21 +3,24 @@
 #ifndef LRCSI_TOTAL_H
 #define LRCSI_TOTAL_H
 
-#include "visibility/visible.h"
+#include "integrate/curve.h"
 
 /* All in square metres. */
 typedef struct lrcsi_total {
     double glint, diffuse;
     double visibility, tessellation, rounding; /* bounds; tessellation negative: not known */
     double likely;                             /* likely error of the sampled areas */
+    double curvature;                          /* estimate of the error of curved facets */
     double projected, back_side;
     uint32_t back_sides, hidden, partial;
 } lrcsi_total;
 
 /* Given: the view, and the visible area of each of its facets; whether every front facet is known
    to be wholly visible, on the true shapes as on their meshes (then tessellation can be bounded).
+   Facets with curved normals come with their own sums in curved[facet_count]; NULL: all are flat.
    Returned: total, summed in facet order; records[facet_count] unless NULL. */
-lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible, int unshadowed,
+lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible,
+                             const lrcsi_curved *curved, int unshadowed,
                              lrcs_facet_record *records);
 
 #endif
