@@ -52,20 +52,22 @@ typedef struct cube_cell {
 
 /* --- the rule --------------------------------------------------------------------------------- */
 
-/* By how much the parts may move where the normal is off by d <= slip / |n|. Their logarithms fall
-   with theta by at most t (5 + 2 (1 + t^2)/s^2) and (m + 1) t, t = tan(theta), both growing with t;
-   tan(theta + d) <= t + 2 d (1 + t^2) for d t <= 1/2; e^x - 1 <= 2 x for x <= 1/4. Where they move
-   by more, all that is known is the parts' most. */
+/* By how much the parts may move where the normal is off by d. Their logarithms fall with theta by
+   at most t (5 + 2 (1 + t^2)/s^2) and (m + 1) t, t = tan(theta), both growing with t; tan(theta + d)
+   <= t + 2 d (1 + t^2) for d t <= 1/2; e^x - 1 <= 2 x for x <= 1/4. Where a part may move by more,
+   all that is known is the most that it reaches near by. */
 static double node_slip(const lrcsi_cubature *sum, double u, double d, const cube_value *at)
 {
     const lrcs_brdf *brdf = sum->brdf;
     double t = sqrt(u) + 2 * d * (1 + u);
     double steep = brdf->A > 0 ? d * t * (5 + 2 * ((1 + t * t) / brdf->s) / brdf->s) : 0;
     double flat = d * t * (brdf->m + 1);
-    if (!(steep <= 0.25 && flat <= 0.25)) {
-        return sum->most.glint + sum->most.diffuse;
+    if (steep <= 0.25 && flat <= 0.25) {
+        return 2 * (at->glint * steep + at->diffuse * flat);
     }
-    return 2 * (at->glint * steep + at->diffuse * flat);
+    lrcsi_reflection most = lrcsi_reflect_most(brdf, atan(sqrt(u)), 2 * d);
+    return (steep <= 0.25 ? 2 * at->glint * steep : most.glint) +
+           (flat <= 0.25 ? 2 * at->diffuse * flat : most.diffuse);
 }
 
 /* f_r cos at one normal. Rounding: lrcsi_reflect's own, and a square root and a product; tan^2 is
