@@ -11,10 +11,11 @@
    - A rule is trusted only where the normals turn by less than the peaks are wide (of the glint
      s cos^2 theta, of the diffuse part 1 / sqrt(m + 1)): no peak can then hide from its centroid,
      nor a flank from the comparison below. Elsewhere a cell is halved unheard, unless the most that
-     the glint reaches in it (a proved bound) is nothing to what the sum already has.
-   - There the rule of degree 5 on 7 points (Radon 1948) on both halves is compared with the same
-     on the whole. The difference is the estimate; being the error of the coarser of the two, it is
-     some 2^3 to 2^6 times that of what is kept.
+     the glint reaches in it (a proved bound) is nothing to what the sum and its estimate have.
+   - There the rule of degree 5 on 7 points (Radon 1948) is compared with itself on four quarters,
+   the halves of both halves: between them every direction in which the normals turn much is halved,
+     which one halving does not do. The difference is the estimate; being the error of the coarser,
+     it is some ten to sixty times that of what is kept.
    Where halvings run out, the bound on the cell stands as the estimate. */
 #include "integrate/cubature.h"
 
@@ -24,9 +25,11 @@
 
 #define U 0x1p-53
 
-/* Halvings of a cell, and of all triangles of a sum beyond the first of each. */
+/* Halvings of a cell, and cells of one sum but for those that each triangle is granted. A
+   quartering leaves three cells more on the stack, for two halvings. */
 #define MOST_HALVINGS 64u
-#define MOST_SPLITS   (1u << 15)
+#define STACK_SIZE    (3 * MOST_HALVINGS / 2 + 4)
+#define MOST_SPLITS   (1u << 17)
 /* No cell's normals turn by more than this (rad) where a rule is trusted. */
 #define MOST_TURN 0.5
 #define HALF_TURN 3.14159265358979323846
@@ -53,7 +56,8 @@ typedef struct cube_cell {
 /* --- the rule --------------------------------------------------------------------------------- */
 
 /* By how much the parts may move where the normal is off by d. Their logarithms fall with theta by
-   at most t (5 + 2 (1 + t^2)/s^2) and (m + 1) t, t = tan(theta), both growing with t; tan(theta + d)
+   at most t (5 + 2 (1 + t^2)/s^2) and (m + 1) t, t = tan(theta), both growing with t; tan(theta +
+   d)
    <= t + 2 d (1 + t^2) for d t <= 1/2; e^x - 1 <= 2 x for x <= 1/4. Where a part may move by more,
    all that is known is the most that it reaches near by. */
 static double node_slip(const lrcsi_cubature *sum, double u, double d, const cube_value *at)
@@ -167,7 +171,7 @@ static void cell_trust(const lrcsi_cubature *sum, cube_cell *cell)
     int glint = !(brdf->A > 0) || turn <= brdf->s * cosine * cosine;
     if (diffuse && !glint) {
         double most = lrcsi_reflect_most(brdf, cell->theta, turn).glint;
-        double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
+        double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
         glint = most <= NO_GLINT || most * sum->whole <= sum->tolerance * had;
         cell->unheard = glint ? most : 0;
     }
@@ -202,7 +206,7 @@ static int cell_side(const cube_cell *cell)
 }
 
 /* Both halves, the one nearer to the laser second. */
-static void cell_split(const lrcsi_cubature *sum, const cube_cell *cell, cube_cell half[2])
+static void cell_halve(const cube_cell *cell, cube_cell half[2])
 {
     int from = cell_side(cell);
     int to = (from + 1) % 3;
@@ -215,14 +219,23 @@ static void cell_split(const lrcsi_cubature *sum, const cube_cell *cell, cube_ce
                 0.5 * (cell->normal[from][k] + cell->normal[to][k]);
         }
         cell_measure(&half[h]);
-        if (cell->trusted) {
-            half[h].value = rule_value(sum, &half[h]);
-        }
     }
     if (half[0].theta < half[1].theta) {
         cube_cell other = half[0];
         half[0] = half[1];
         half[1] = other;
+    }
+}
+
+/* The halves of both halves, with the rule's sums. */
+static void cell_quarter(const lrcsi_cubature *sum, const cube_cell *cell, cube_cell quarter[4])
+{
+    cube_cell half[2];
+    cell_halve(cell, half);
+    cell_halve(&half[0], &quarter[0]);
+    cell_halve(&half[1], &quarter[2]);
+    for (int i = 0; i < 4; i++) {
+        quarter[i].value = rule_value(sum, &quarter[i]);
     }
 }
 
@@ -234,7 +247,8 @@ static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell, double estimate
     sum->estimate += estimate;
 }
 
-/* No halvings are left: the most that the cell may hold is its estimate. */
+/* No halvings are left for a cell that no rule is good for: the most that it may hold is its
+   estimate. */
 static void cell_give_up(lrcsi_cubature *sum, cube_cell *cell)
 {
     lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, cell_turn(cell));
@@ -242,44 +256,60 @@ static void cell_give_up(lrcsi_cubature *sum, cube_cell *cell)
     sum_keep(sum, cell, cell->area * (most.glint + most.diffuse));
 }
 
-/* Do the halves agree with the whole? Then they are kept. */
-static int halves_agree(lrcsi_cubature *sum, const cube_cell *cell, const cube_cell half[2])
+/* Keeps the quarters where they agree with the whole, or must. 0: they are not kept. */
+static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_cell quarter[4],
+                         int must)
 {
-    double glint = half[0].value.glint + half[1].value.glint;
-    double diffuse = half[0].value.diffuse + half[1].value.diffuse;
-    double off = fabs(glint - cell->value.glint) + fabs(diffuse - cell->value.diffuse);
+    cube_value all = {0, 0, 0};
+    for (int i = 0; i < 4; i++) {
+        value_add(&all, 1, &quarter[i].value);
+    }
+    double off = fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
     double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
-    if (!(off <= sum->tolerance * (glint + diffuse + had * (cell->area / sum->whole)))) {
+    if (!must &&
+        !(off <= sum->tolerance * (all.glint + all.diffuse + had * (cell->area / sum->whole)))) {
         return 0;
     }
-    sum_keep(sum, &half[0], off + cell->unheard * cell->area);
-    sum_keep(sum, &half[1], 0);
+    for (int i = 0; i < 4; i++) {
+        sum_keep(sum, &quarter[i], i == 0 ? off + cell->unheard * cell->area : 0);
+    }
     return 1;
 }
 
+/* One cell: kept, or parted into `part`. Returns into how many. */
+static uint32_t cell_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cube_cell part[4])
+{
+    if (!cell->trusted) {
+        cell_trust(sum, cell);
+    }
+    if (cell->trusted) {
+        cell_quarter(sum, cell, part);
+        return quarters_keep(sum, cell, part, !may_part) ? 0 : 4;
+    }
+    if (may_part) {
+        cell_halve(cell, part);
+        return 2;
+    }
+    cell_give_up(sum, cell);
+    return 0;
+}
+
+/* A triangle may always be parted once. */
 static void cells_add(lrcsi_cubature *sum, cube_cell first)
 {
-    cube_cell stack[MOST_HALVINGS + 2];
+    cube_cell stack[STACK_SIZE];
+    cube_cell part[4];
     uint32_t top = 0;
-    uint32_t free_split = 1;
     cell_measure(&first);
     stack[top++] = first;
     while (top > 0) {
         cube_cell cell = stack[--top];
-        cube_cell half[2];
-        if (!cell.trusted) {
-            cell_trust(sum, &cell);
-        }
-        if (cell.depth >= MOST_HALVINGS || (sum->splits >= MOST_SPLITS && !free_split)) {
-            cell_give_up(sum, &cell);
-            continue;
-        }
-        sum->splits += free_split ? 0 : 1;
-        free_split = 0;
-        cell_split(sum, &cell, half);
-        if (!cell.trusted || !halves_agree(sum, &cell, half)) {
-            stack[top++] = half[0];
-            stack[top++] = half[1];
+        int may_part =
+            cell.depth == 0 || (cell.depth + 2 <= MOST_HALVINGS && sum->splits < MOST_SPLITS);
+        uint32_t parts = cell_step(sum, &cell, may_part, part);
+        sum->splits += parts;
+        for (uint32_t i = 0; i < parts; i++) {
+            stack[top++] = part[i];
         }
     }
 }

@@ -24,7 +24,7 @@
 
 /* The cubature aims at this share of the tolerance, within what rules of its order can do. */
 #define CUBATURE_SHARE 0.1
-#define CUBATURE_LEAST 1e-12
+#define CUBATURE_LEAST 1e-9
 #define CUBATURE_MOST  1e-2
 
 /* A facet at work. */
