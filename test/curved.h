@@ -22,7 +22,7 @@ typedef struct curved_case {
     double tolerance;
     lrcs_scene scene;
     const lrcs_prepared *prepared;
-    lrcs_facet_record record[512]; /* of the last run */
+    lrcs_facet_record record[1024]; /* of the last run */
     void *read, *built, *kept;     /* memory */
 } curved_case;
 

@@ -280,11 +280,14 @@ static int check_normals(const lrcs_mesh *mesh)
 
 int lrcsi_smooth_given(const lrcs_mesh *mesh)
 {
-    int given = mesh->facet_normal != NULL;
-    for (uint32_t f = 0; f < mesh->facet_count && !given; f++) {
-        given = mesh->facet_smooth[f] != 0;
+    for (uint32_t f = 0; f < mesh->facet_count; f++) {
+        const uint32_t *n = mesh->facet_normal ? mesh->facet_normal[f].corner : NULL;
+        if (mesh->facet_smooth[f] != 0 ||
+            (n && (n[0] != LRCS_NONE || n[1] != LRCS_NONE || n[2] != LRCS_NONE))) {
+            return 1;
+        }
     }
-    return given;
+    return 0;
 }
 
 const char *lrcs_normals_text(int normals)
