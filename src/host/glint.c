@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Whether a mesh of curved bodies is fine enough for the glint of what it wears: an estimate,
-   from the angles between neighbours that share a smoothing group. */
+   from the angles between neighbours that share a smoothing group, or between vertex normals. */
 #include "host/fail.h"
 
 #include <math.h>
@@ -127,7 +127,35 @@ static size_t turns_list(const lrcs_scene *scene, const glint_edge *edges, size_
             turns[count++] = (glint_turn){scene->facet_part[a], scene->facet_material[a], turn};
         }
     }
-    qsort(turns, count, sizeof *turns, turn_order);
+    return count;
+}
+
+/* The largest angle between the normals at a facet's corners; 0 for a flat one. */
+static double corners_turn(const lrcs_scene *scene, uint32_t facet)
+{
+    const lrcs_point *n = &scene->corner_normal[3 * (size_t)facet];
+    double most = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = n[i].x;
+        const double *b = n[(i + 1) % 3].x;
+        double chord = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+        most = fmax(most, 2.0 * asin(fmin(1.0, 0.5 * chord)));
+    }
+    return most;
+}
+
+/* Facets in no group whose corners have normals of their own turn by those. */
+static size_t corners_list(const lrcs_scene *scene, glint_turn *turns)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; scene->corner_normal && i < scene->facet_count; i++) {
+        const lrcs_material *material = &scene->material[scene->facet_material[i]];
+        double turn = corners_turn(scene, i);
+        if (scene->facet_smooth[i] == 0 && material->brdf.A > 0.0 && !material->omitted &&
+            turn > FLAT_TURN) {
+            turns[count++] = (glint_turn){scene->facet_part[i], scene->facet_material[i], turn};
+        }
+    }
     return count;
 }
 
@@ -196,6 +224,8 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
     size_t entries = scene->part_count + (size_t)1;
     if (edges && turns) {
         turn_count = turns_list(scene, edges, edges_list(scene, edges), turns);
+        turn_count += corners_list(scene, turns + turn_count);
+        qsort(turns, turn_count, sizeof *turns, turn_order);
     }
     for (size_t i = 0; i < turn_count; i++) {
         entries += i == 0 || turns[i].part != turns[i - 1].part ||
