@@ -72,6 +72,11 @@ bounds: $(LIB)
 BOUNDS_SCENES = 1000
 BOUNDS_SEED   = 1
 
+# The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
+big: cmocka $(BUILD)/test/integrate/test_large
+	$(BUILD)/test/integrate/test_large $(BIG_ROWS)
+BIG_ROWS = 1600
+
 clean:
 	rm -rf $(BUILD)
 
@@ -79,7 +84,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo test asan lint purity layers fuzz bounds clean cmocka
+.PHONY: all demo test asan lint purity layers fuzz bounds big clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------

@@ -191,6 +191,28 @@ static inline void scene_move(test_scene *s, double factor, const double move[3]
     }
 }
 
+/* Turns scene and direction by the quaternion w, x, y, z of small integers and scales the scene by
+   w^2 + x^2 + y^2 + z^2, which is returned: exact where coordinates have bits to spare. */
+static inline double scene_turn(test_scene *s, const int q[4], double direction[3])
+{
+    double w = q[0];
+    double x = q[1];
+    double y = q[2];
+    double z = q[3];
+    const double m[3][3] = {
+        {w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+        {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+        {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}};
+    for (uint32_t v = 0; v <= s->scene.vertex_count; v++) {
+        double *to = v < s->scene.vertex_count ? s->vertex[v].x : direction;
+        const double from[3] = {to[0], to[1], to[2]};
+        for (int k = 0; k < 3; k++) {
+            to[k] = m[k][0] * from[0] + m[k][1] * from[1] + m[k][2] * from[2];
+        }
+    }
+    return w * w + x * x + y * y + z * z;
+}
+
 /* Prepares the scene at the bottom of the work area. */
 static inline const lrcs_prepared *scene_prepare(test_scene *s, lrcs_work *work)
 {
@@ -206,7 +228,7 @@ static inline lrcs_result scene_pose(test_scene *s, const lrcs_prepared *prepare
 {
     lrcs_pose pose;
     lrcs_result result;
-    lrcs_run_options options = {1e-4, method, size};
+    lrcs_run_options options = {.tolerance = 1e-4, .method = method, .resolution = size};
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, work, &result, s->record, NULL),
                      LRCS_OK);

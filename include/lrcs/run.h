@@ -31,15 +31,6 @@ size_t lrcs_prepare_need(const lrcs_scene *scene);
    LRCS_E_NUMBER (a scene not made by lrcs_scene_build). */
 int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared);
 
-typedef struct lrcs_run_options {
-    double tolerance; /* relative, > 0: bound <= tolerance * sigma is asked for, and of a cubature
-                         over curved normals that its estimate is no greater either */
-    int method;       /* lrcs_method */
-    uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
-} lrcs_run_options;
-
-lrcs_run_options lrcs_run_options_default(void); /* 1e-4, auto, 0 */
-
 /* What the engine can leave out. */
 enum lrcs_effect_name {
     LRCS_EFFECT_SELF_SHADOWING,
@@ -51,6 +42,35 @@ enum lrcs_effect_name {
     LRCS_EFFECT_ARTICULATION,
     LRCS_EFFECTS
 };
+
+/* Effects that a run may switch: not curved normals and articulation, which its scene decides. */
+#define LRCS_EFFECTS_SWITCHED                                                                      \
+    (1u << LRCS_EFFECT_SELF_SHADOWING | 1u << LRCS_EFFECT_BACK_FACE_CASTERS |                      \
+     1u << LRCS_EFFECT_GLINT | 1u << LRCS_EFFECT_DIFFUSE | 1u << LRCS_EFFECT_TWO_SIDED)
+
+typedef struct lrcs_run_options {
+    double tolerance; /* relative, > 0: bound <= tolerance * sigma is asked for, and of a cubature
+                         over curved normals that its estimate is no greater either */
+    int method;       /* lrcs_method */
+    uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
+    uint32_t without;    /* effects to leave out, bits 1u << LRCS_EFFECT_...: note 1 */
+    uint32_t with;       /* effects to simulate, none of them in `without`: note 2 */
+} lrcs_run_options;
+
+/* 1e-4, auto, 0, 0, 0.
+
+   Notes: 1. `without` shows what an effect does and costs; leaving out one that is off changes
+   nothing. Without self-shadowing a run is one by method facet, whatever the method: the bound
+   still refers to the shadowed truth, and holds all that could be hidden. Otherwise the bound
+   refers to a truth without the effect. Back-face casters: facets that face away are taken from
+   the scene (back-face culling), two-sided ones too. Glint, diffuse: A or B is 0 everywhere.
+   Two-sided: every material reflects from its front only.
+   2. `with` shows that what the planner leaves out does not matter: sigma and the truth stay, to
+   within the bounds. Self-shadowing is computed though proved absent (where the method is facet,
+   as auto would do it), back sides are looked for and cast shadows though proved never seen, a
+   term of amplitude 0 is evaluated. Where self-shadowing is left out, back sides are not looked
+   for: nothing could hide them. */
+lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {
     int on;
@@ -99,8 +119,9 @@ typedef struct lrcs_result {
     double projected_area_m2;     /* the whole silhouette */
     double back_side_area_m2;     /* visible projected area of one-sided back sides */
     uint32_t back_side_facets;
-    int method;          /* the one used, never AUTO */
-    uint32_t resolution; /* 0: no raster */
+    int method;                /* the one used, never AUTO */
+    const char *method_reason; /* why that one: constant text, "as asked" unless auto chose */
+    uint32_t resolution;       /* 0: no raster */
     uint32_t facets_total, facets_front, facets_hidden, facets_partial;
     lrcs_effect effect[LRCS_EFFECTS];
     uint32_t flags, notices;

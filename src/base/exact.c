@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Signs of 3 x 3 determinants of differences of points, and the normals of slivers. No tolerance. A
+/* Signs of 3 x 3 determinants of differences of points, and what slivers and grazing light leave of
+   normals. No tolerance. A
    floating-point value with a proved error bound settles almost every call; what it leaves is
    evaluated without error in expansion arithmetic (Priest 1991; Shewchuk 1997, "Adaptive precision
    floating-point arithmetic and fast robust geometric predicates"): sums of doubles that do not
@@ -120,8 +121,8 @@ static int expansion_sign(const double *e, int n)
     return n == 0 ? 0 : e[n - 1] > 0.0 ? 1 : -1;
 }
 
-/* Sign of p x q . r, without error. */
-static int exact_det_sign(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_dd r[3])
+/* all = p x q . r, without error, EXACT_DET terms at most. */
+static int expansion_det(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_dd r[3], double *all)
 {
     double term[3][EXACT_TERM];
     int n[3];
@@ -131,9 +132,14 @@ static int exact_det_sign(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_
         n[k] = expansion_times(minor, m, r[k], term[k]);
     }
     double two[2 * EXACT_TERM];
-    double all[EXACT_DET];
     int m = expansion_sum(term[0], n[0], term[1], n[1], two);
-    m = expansion_sum(two, m, term[2], n[2], all);
+    return expansion_sum(two, m, term[2], n[2], all);
+}
+
+static int exact_det_sign(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_dd r[3])
+{
+    double all[EXACT_DET];
+    int m = expansion_det(p, q, r, all);
     return expansion_sign(all, m);
 }
 
@@ -282,4 +288,22 @@ void lrcsi_exact_normal(const double a[3], const double b[3], const double c[3],
         high[k] = sum.hi;
         low[k] = sum.lo;
     }
+}
+
+/* The terms do not overlap: added from the smallest on, all but the last make at most a unit of the
+   last, and so do their roundings; the last addition is one more. */
+double lrcsi_exact_dot(const double a[3], const double b[3], const double c[3], const double d[3])
+{
+    lrcsi_dd pp[3];
+    lrcsi_dd qq[3];
+    double all[EXACT_DET];
+    double sum = 0.0;
+    exact_difference(a, b, pp);
+    exact_difference(a, c, qq);
+    const lrcsi_dd rr[3] = {{d[0], 0.0}, {d[1], 0.0}, {d[2], 0.0}};
+    int n = expansion_det(pp, qq, rr, all);
+    for (int i = 0; i < n; i++) {
+        sum += all[i];
+    }
+    return sum;
 }

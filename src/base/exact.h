@@ -22,4 +22,7 @@ int lrcsi_exact_collinear(const double a[3], const double b[3], const double c[3
 void lrcsi_exact_normal(const double a[3], const double b[3], const double c[3], double high[3],
                         double low[3]);
 
+/* (b - a) x (c - a) . d, within 2 u of itself: for facets all but edge-on. */
+double lrcsi_exact_dot(const double a[3], const double b[3], const double c[3], const double d[3]);
+
 #endif

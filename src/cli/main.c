@@ -18,7 +18,7 @@ static const char main_help[] =
     "  run SCENE     sigma from a pose, its bound, what was simulated\n"
     "  info SCENE    what a model holds: parts, materials, area, volume, defects\n"
     "  shape KIND    sigma of a simple body from its closed form\n"
-    "  verify        the engine against closed forms on this machine\n"
+    "  verify        the engine against closed forms, or on hard cases, on this machine\n"
     "  help COMMAND  options, units and examples of one command\n"
     "\n"
     "SCENE is a .3ds, .obj or .stl model, a scene file (.toml), or 'demo', which is built in.\n"

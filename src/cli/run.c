@@ -30,6 +30,8 @@ static const char run_help[] =
     "                        missing; BRDF is A,B,s,m (1/sr, 1/sr, slope, exponent) or a library\n"
     "                        material\n"
     "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
+    "                        where it is off; runs the pose for some 2 s more, or once for each\n"
     "  --json                the result as JSON, notices included\n"
     "  --facets FILE.csv     one row for every facet ('-': instead of the table)\n"
     "  --image FILE.png      what the laser sees, coloured by sigma per projected area\n"
@@ -38,15 +40,16 @@ static const char run_help[] =
     "examples\n"
     "  lrcs run demo --image demo.png\n"
     "  lrcs run demo --azel 30,-20 --json\n"
+    "  lrcs run demo --azel 30,-20 --explain\n"
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
 static const cli_option run_options[] = {
-    {"direction", 1, 0}, {"azel", 1, 0},   {"euler", 1, 0},      {"quaternion", 1, 0},
-    {"tolerance", 1, 0}, {"method", 1, 0}, {"unit", 1, 0},       {"resolution", 1, 0},
-    {"material", 1, 1},  {"json", 0, 0},   {"facets", 1, 0},     {"keep-transparent", 0, 0},
-    {"normals", 1, 0},   {"image", 1, 0},  {"image-size", 1, 0}, {"help", 0, 0},
-    {NULL, 0, 0}};
+    {"direction", 1, 0}, {"azel", 1, 0},       {"euler", 1, 0},   {"quaternion", 1, 0},
+    {"tolerance", 1, 0}, {"method", 1, 0},     {"unit", 1, 0},    {"resolution", 1, 0},
+    {"material", 1, 1},  {"json", 0, 0},       {"facets", 1, 0},  {"keep-transparent", 0, 0},
+    {"image", 1, 0},     {"image-size", 1, 0}, {"explain", 0, 0}, {"normals", 1, 0},
+    {"help", 0, 0},      {NULL, 0, 0}};
 
 /* ---- options ---- */
 
@@ -85,6 +88,7 @@ static int options_read(run_job *job)
     code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->options.tolerance;
+    job->explain = cli_value(args, "explain") != NULL;
     return code ? code : normals_read(job);
 }
 
@@ -134,6 +138,7 @@ static int run_outputs(run_job *job)
 {
     int to_stdout = job->facets && strcmp(job->facets, "-") == 0;
     int code = cli_run_outputs_write(job);
+    code = code == 0 && job->explain ? cli_run_explain(job) : code;
     if (code != 0) {
         return code;
     }

@@ -5,6 +5,20 @@
 
 #include "cli/cli.h"
 
+/* What flipping an effect told of it: an effect that is on was left out, one that is off was
+   simulated. All zero where a run cannot switch it. */
+typedef struct run_explained_effect {
+    double seconds;  /* what it takes, or would take */
+    double scatter;  /* how far single measurements lie from that */
+    double sigma_m2; /* flipped */
+} run_explained_effect;
+
+typedef struct run_explained {
+    double pose; /* seconds of the pose as planned */
+    uint32_t rounds;
+    run_explained_effect effect[LRCS_EFFECTS];
+} run_explained;
+
 /* All that a run is made of, and all that it makes. */
 typedef struct run_job {
     const cli_args *args;
@@ -19,6 +33,8 @@ typedef struct run_job {
     lrcs_image image;
     double seconds;
     int met;
+    int explain; /* asked for */
+    run_explained explained;
 } run_job;
 
 /* The options of output files, as 0 or CLI_USAGE; once the scene is read, that none of them would
@@ -26,6 +42,12 @@ typedef struct run_job {
 int cli_run_outputs_read(run_job *job);
 int cli_run_outputs_check(const run_job *job);
 int cli_run_outputs_write(const run_job *job);
+
+/* --explain: runs the pose again and again, each effect flipped in turn; 0 or CLI_FAILED. Then as
+   keys of an effect's JSON object, and as a table after the result's. */
+int cli_run_explain(run_job *job);
+void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json);
+void cli_run_explain_table(const run_job *job);
 
 /* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
    for people. */

@@ -24,6 +24,9 @@ int cli_run_outputs_read(run_job *job)
     if (job->facets && strcmp(job->facets, "-") == 0 && cli_value(args, "json")) {
         return cli_usage(args->command, "--facets - and --json both want standard output");
     }
+    if (job->facets && strcmp(job->facets, "-") == 0 && cli_value(args, "explain")) {
+        return cli_usage(args->command, "--facets - and --explain both want standard output");
+    }
     if (cli_value(args, "image-size") && !job->image_path) {
         return cli_usage(args->command, "--image-size needs --image FILE.png");
     }

@@ -75,14 +75,18 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
-static void json_effects(const lrcs_result *result, lrcs_host_json *json)
+static void json_effects(const run_job *job, lrcs_host_json *json)
 {
+    const lrcs_result *result = &job->result;
     lrcs_host_json_begin(json, "effects", LRCS_HOST_ARRAY);
     for (int i = 0; i < LRCS_EFFECTS; i++) {
         lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
         lrcs_host_json_text(json, "name", lrcs_effect_text(i));
         lrcs_host_json_bool(json, "on", result->effect[i].on);
         lrcs_host_json_text(json, "reason", result->effect[i].reason);
+        if (job->explain) {
+            cli_run_explain_json(job, i, json);
+        }
         lrcs_host_json_end(json);
     }
     lrcs_host_json_end(json);
@@ -165,7 +169,8 @@ void cli_run_json(const run_job *job)
     lrcs_host_json_end(&json);
     lrcs_host_json_number(&json, "projected_area_m2", result->projected_area_m2);
     lrcs_host_json_text(&json, "method", lrcs_method_text(result->method));
-    json_effects(result, &json);
+    lrcs_host_json_text(&json, "method_reason", result->method_reason);
+    json_effects(job, &json);
     json_tail(job, &json);
     lrcs_host_json_end(&json);
 }
@@ -184,7 +189,8 @@ void cli_run_table(const run_job *job)
     if (r->resolution != 0) {
         printf(", %lu x %lu", (unsigned long)r->resolution, (unsigned long)r->resolution);
     }
-    printf(" (%s)\n", job->options.method == LRCS_METHOD_AUTO ? "chosen by auto" : "as asked");
+    printf(" (%s%s)\n", job->options.method == LRCS_METHOD_AUTO ? "chosen by auto: " : "",
+           r->method_reason);
     printf("simulated    normals %s\n", lrcs_normals_text(job->scene.scene.normals));
     for (int i = 0; i < LRCS_EFFECTS; i++) {
         printf("  %-18s %-4s %s\n", lrcs_effect_text(i), r->effect[i].on ? "on" : "off",
@@ -202,6 +208,9 @@ void cli_run_table(const run_job *job)
            1e3 * job->scene.seconds_load, 1e3 * job->scene.seconds_prepare, 1e3 * job->seconds);
     if (job->image_path) {
         printf("picture      %s\n", job->image_path);
+    }
+    if (job->explain) {
+        cli_run_explain_table(job);
     }
 }
 

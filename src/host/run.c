@@ -51,7 +51,9 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
     sigma_step step = {scene->prepared, pose, options, result, records, image};
     size_t need = lrcs_sigma_need(scene->prepared, options);
     if (image) { /* its raster comes after the run's own */
-        lrcs_run_options draw = {options->tolerance, LRCS_METHOD_ZBUFFER, image->size};
+        lrcs_run_options draw = {.tolerance = options->tolerance,
+                                 .method = LRCS_METHOD_ZBUFFER,
+                                 .resolution = image->size};
         size_t more = lrcs_sigma_need(scene->prepared, &draw);
         need = more > need ? more : need;
     }

@@ -32,6 +32,7 @@ typedef struct curve_job {
     const lrcsi_view *view;
     uint32_t facet;
     lrcsi_tilt tilt;
+    lrcs_brdf brdf;
     double normal[3][3]; /* at its corners, view axes, on the side that is seen */
     lrcsi_cubature sum;
 } curve_job;
@@ -39,12 +40,12 @@ typedef struct curve_job {
 int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_prepared *p = view->prepared;
-    return lrcsi_prepared_normals(p, facet) &&
-           (view->facing[facet] > 0 ||
-            (view->facing[facet] < 0 && !p->solid && lrcsi_prepared_material(p, facet)->two_sided));
+    return lrcsi_prepared_normals(p, facet) && view->facing[facet] != 0 &&
+           lrcsi_view_reflects(view, facet);
 }
 
-static void job_start(curve_job *job, const lrcsi_view *view, uint32_t facet, double tolerance)
+static void job_start(curve_job *job, const lrcsi_view *view, const lrcsi_plan *plan,
+                      uint32_t facet, double tolerance)
 {
     const lrcs_point *n = lrcsi_prepared_normals(view->prepared, facet);
     job->view = view;
@@ -58,8 +59,8 @@ static void job_start(curve_job *job, const lrcsi_view *view, uint32_t facet, do
         }
     }
     double aim = lrcsi_least(CUBATURE_MOST, lrcsi_most(CUBATURE_LEAST, CUBATURE_SHARE * tolerance));
-    const lrcs_brdf *brdf = &lrcsi_prepared_material(view->prepared, facet)->brdf;
-    job->sum = lrcsi_cubature_make(brdf, (const double(*)[3])job->normal, aim);
+    job->brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
+    job->sum = lrcsi_cubature_make(&job->brdf, (const double(*)[3])job->normal, aim);
     job->sum.whole = job->tilt.projected;
     job->sum.slip = SLIP_WHOLE;
 }
@@ -162,14 +163,15 @@ static lrcsi_curved curve_share(curve_job *job, const lrcsi_raster *raster,
     return part;
 }
 
-void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_visible *visible,
-                        const lrcsi_raster *raster, double tolerance, lrcsi_curved *curved)
+void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
+                        const lrcsi_visible *visible, const lrcsi_raster *raster, double tolerance,
+                        lrcsi_curved *curved)
 {
     curve_job job;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0};
         if (lrcsi_curve_wanted(view, f) && visible[f].high > 0) {
-            job_start(&job, view, f, tolerance);
+            job_start(&job, view, plan, f, tolerance);
             curved[f] = curve_share(&job, raster, &visible[f]);
         }
     }
@@ -214,6 +216,15 @@ static double pieces_slip(const curve_job *job, const lrcsi_target *target)
     return SLIP_WHOLE + 200 * U * target->reach / height;
 }
 
+/* Back sides proved never to be seen, and looked for all the same, may show nothing. */
+static lrcsi_visible facet_close(lrcsi_occluding *o, uint32_t facet)
+{
+    const lrcsi_view *view = o->contest->view;
+    lrcsi_visible visible = lrcsi_occlude_close(o);
+    visible.low = view->prepared->solid && view->facing[facet] < 0 ? 0 : visible.low;
+    return visible;
+}
+
 /* All pieces of the facet that is open, which is closed then. */
 static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visible *visible)
 {
@@ -228,14 +239,14 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
                              list->end[i] - first);
         }
     }
-    *visible = lrcsi_occlude_close(o);
+    *visible = facet_close(o, job->facet);
     lrcsi_curved part = job_part(job, 1);
     part.visibility = FOUR_PI * job_most(job) * (visible->high - visible->low + off);
     return part;
 }
 
-int lrcsi_curve_pieces(lrcsi_contest *contest, double tolerance, lrcs_work *work,
-                       lrcsi_visible *visible, lrcsi_curved *curved)
+int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved)
 {
     const lrcsi_view *view = contest->view;
     size_t mark = work->used;
@@ -250,7 +261,7 @@ int lrcsi_curve_pieces(lrcsi_contest *contest, double tolerance, lrcs_work *work
         }
         int wanted = lrcsi_curve_wanted(view, f);
         if (wanted) {
-            job_start(&job, view, f, tolerance);
+            job_start(&job, view, plan, f, tolerance);
         }
         if (wanted && o.contested) {
             curved[f] = curve_pieces(&job, &o, &visible[f]);
@@ -258,7 +269,7 @@ int lrcsi_curve_pieces(lrcsi_contest *contest, double tolerance, lrcs_work *work
         }
         while (lrcsi_occlude_next(&o)) { /* the area alone is wanted */
         }
-        visible[f] = lrcsi_occlude_close(&o);
+        visible[f] = facet_close(&o, f);
         if (wanted && visible[f].high > 0) {
             curved[f] = curve_share(&job, NULL, &visible[f]);
         }

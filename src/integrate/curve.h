@@ -5,6 +5,7 @@
 #ifndef LRCSI_CURVE_H
 #define LRCSI_CURVE_H
 
+#include "integrate/plan.h"
 #include "visibility/occlude.h"
 #include "visibility/visible.h"
 
@@ -24,12 +25,13 @@ int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet);
    f_r cos.
    Given: visible; raster, or NULL; the relative error asked for. Returned: curved[facet_count] of
    the facets wanted. */
-void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_visible *visible,
-                        const lrcsi_raster *raster, double tolerance, lrcsi_curved *curved);
+void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
+                        const lrcsi_visible *visible, const lrcsi_raster *raster, double tolerance,
+                        lrcsi_curved *curved);
 
 /* Every facet by clipping, as lrcsi_occlude_all, and those wanted integrated over the pieces that
    are visible. Status: as lrcsi_occlude_all. */
-int lrcsi_curve_pieces(lrcsi_contest *contest, double tolerance, lrcs_work *work,
-                       lrcsi_visible *visible, lrcsi_curved *curved);
+int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved);
 
 #endif

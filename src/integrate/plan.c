@@ -1,24 +1,87 @@
 /* SPDX-License-Identifier: MIT */
-/* What the planner decides from the proofs of scene/solid.h and the facets' facing. */
+/* What the planner decides from the proofs of scene/solid.h and the facets' facing, and from what
+   it was told to leave out or not to leave out. */
 #include "integrate/plan.h"
+
+static int effect_in(uint32_t set, int effect)
+{
+    return (set >> effect & 1u) != 0;
+}
+
+/* Is self-shadowing left out whatever the scene calls for? */
+static int shadows_dropped(const lrcs_run_options *options)
+{
+    return effect_in(options->without, LRCS_EFFECT_SELF_SHADOWING) ||
+           (options->method == LRCS_METHOD_FACET &&
+            !effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING));
+}
+
+void lrcsi_plan_backs(const lrcs_run_options *options, lrcsi_view *view)
+{
+    const lrcs_prepared *p = view->prepared;
+    int asked = effect_in(options->with, LRCS_EFFECT_BACK_FACE_CASTERS) ||
+                (p->two_sided && effect_in(options->with, LRCS_EFFECT_TWO_SIDED));
+    view->backs_cast = (!p->solid || (asked && !shadows_dropped(options))) &&
+                       !effect_in(options->without, LRCS_EFFECT_BACK_FACE_CASTERS);
+    view->backs_reflect = view->backs_cast && !effect_in(options->without, LRCS_EFFECT_TWO_SIDED);
+}
+
+static int plan_term(const lrcs_run_options *options, int effect)
+{
+    return effect_in(options->without, effect) ? LRCSI_TERM_OUT
+           : effect_in(options->with, effect)  ? LRCSI_TERM_FORCED
+                                               : LRCSI_TERM_WORN;
+}
+
+static void plan_choose(lrcsi_plan *plan, int method, const char *reason)
+{
+    plan->method = method;
+    plan->reason = reason;
+}
+
+/* What auto takes for the rest: clipping the contested facets costs no more than the coarsest
+   raster, for finding them is most of the work of both. */
+static void plan_method(lrcsi_plan *plan, const lrcs_run_options *options)
+{
+    if (shadows_dropped(options)) {
+        plan_choose(plan, LRCS_METHOD_FACET,
+                    options->method == LRCS_METHOD_FACET ? "as asked"
+                                                         : "self-shadowing is left out on request");
+    } else if (options->method > LRCS_METHOD_FACET) {
+        plan_choose(plan, options->method, "as asked");
+    } else if (plan->alone && !plan->searched) {
+        plan_choose(plan, LRCS_METHOD_FACET, "proved convex and alone: nothing is hidden");
+    } else if (options->resolution != 0) {
+        plan_choose(plan, LRCS_METHOD_ZBUFFER, "the raster asked for meets the tolerance");
+    } else {
+        plan_choose(plan, LRCS_METHOD_EXACT,
+                    plan->alone ? "self-shadowing is asked for"
+                                : "not proved convex and alone; clipping costs less than a raster");
+    }
+}
 
 lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *options)
 {
     const lrcs_prepared *p = view->prepared;
-    lrcsi_plan plan;
+    lrcsi_plan plan = {0};
     plan.unshadowed = p->convex;
-    plan.alone = p->convex && (p->solid || view->front == 0 || view->back == 0);
-    plan.method = options->method;
-    if (options->method == LRCS_METHOD_AUTO) { /* clipping the few contested facets costs less
-                                                  than a raster fine enough for its bound */
-        plan.method = plan.alone                 ? LRCS_METHOD_FACET
-                      : options->resolution != 0 ? LRCS_METHOD_ZBUFFER
-                                                 : LRCS_METHOD_EXACT;
-    }
+    plan.alone = p->convex && (!view->backs_cast || view->front == 0 || view->back == 0);
+    plan.searched = effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING);
+    plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
+    plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
+    plan_method(&plan, options);
     return plan;
 }
 
-static lrcs_effect shadowing_effect(const lrcsi_plan *plan)
+lrcs_brdf lrcsi_plan_brdf(const lrcsi_plan *plan, const lrcs_material *material)
+{
+    lrcs_brdf brdf = material->brdf;
+    brdf.A = plan->glint == LRCSI_TERM_OUT ? 0 : brdf.A;
+    brdf.B = plan->diffuse == LRCSI_TERM_OUT ? 0 : brdf.B;
+    return brdf;
+}
+
+static lrcs_effect shadowing_effect(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
     if (plan->method == LRCS_METHOD_FACET && plan->alone) {
         return (lrcs_effect){0, "convex and alone: no front side is ever hidden"};
@@ -26,21 +89,29 @@ static lrcs_effect shadowing_effect(const lrcsi_plan *plan)
     if (plan->method == LRCS_METHOD_FACET) {
         return (lrcs_effect){0, "left out on request; the bound holds all that could be hidden"};
     }
+    if (plan->alone) {
+        return (lrcs_effect){1, "on request, though proved convex and alone"};
+    }
     if (plan->unshadowed) {
-        return (lrcs_effect){1, "an open convex surface: fronts hide backs"};
+        return (lrcs_effect){1, p->solid ? "convex: fronts hide backs, looked for on request"
+                                         : "an open convex surface: fronts hide backs"};
     }
     return (lrcs_effect){1, "not proved convex and alone"};
 }
 
-static lrcs_effect caster_effect(const lrcs_prepared *p, const lrcsi_plan *plan)
+static lrcs_effect caster_effect(const lrcsi_view *view, const lrcsi_plan *plan)
 {
-    if (p->solid) {
+    if (view->backs_cast && view->prepared->solid) {
+        return (lrcs_effect){1, "on request, though proved closed and outward"};
+    }
+    if (view->prepared->solid) {
         return (lrcs_effect){0, "closed and outward, proved: back sides are never seen"};
     }
     if (plan->method == LRCS_METHOD_FACET) {
         return (lrcs_effect){0, "no self-shadowing"};
     }
-    return (lrcs_effect){1, "not proved closed and outward"};
+    return view->backs_cast ? (lrcs_effect){1, "not proved closed and outward"}
+                            : (lrcs_effect){0, "left out on request"};
 }
 
 /* Shapes are tessellated to the tolerance, with a proof: they need none. */
@@ -64,20 +135,55 @@ static lrcs_effect normals_effect(const lrcs_prepared *p)
     }
 }
 
-void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, lrcs_effect *effect)
+static lrcs_effect two_sided_effect(const lrcsi_view *view)
 {
+    if (!view->prepared->two_sided) {
+        return (lrcs_effect){0, "no material is two-sided"};
+    }
+    if (view->backs_reflect) {
+        return (lrcs_effect){1, view->prepared->solid
+                                    ? "on request, though back sides are never seen"
+                                    : "a material is two-sided"};
+    }
+    return (lrcs_effect){0, view->prepared->solid ? "closed and outward: back sides are never seen"
+                                                  : "left out on request"};
+}
+
+/* The sentences on a term of the BRDF. */
+typedef struct term_text {
+    const char *worn, *none, *unseen, *forced;
+} term_text;
+
+/* A term that a facet wears but none that may be seen adds nothing, and counts as off. */
+static lrcs_effect term_effect(int term, int worn, int seen, const term_text *text)
+{
+    if (worn && term == LRCSI_TERM_OUT) {
+        return (lrcs_effect){0, "left out on request"};
+    }
+    if (!seen && term == LRCSI_TERM_FORCED) {
+        return (lrcs_effect){1, text->forced};
+    }
+    return seen ? (lrcs_effect){1, text->worn} : (lrcs_effect){0, worn ? text->unseen : text->none};
+}
+
+void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t seen,
+                        lrcs_effect *effect)
+{
+    static const term_text glint = {"a material has A > 0", "A = 0 for every material",
+                                    "nothing seen has A > 0",
+                                    "on request, though nothing seen has A > 0"};
+    static const term_text diffuse = {"a material has B > 0", "B = 0 for every material",
+                                      "nothing seen has B > 0",
+                                      "on request, though nothing seen has B > 0"};
     const lrcs_prepared *p = view->prepared;
-    effect[LRCS_EFFECT_SELF_SHADOWING] = shadowing_effect(plan);
-    effect[LRCS_EFFECT_BACK_FACE_CASTERS] = caster_effect(p, plan);
-    effect[LRCS_EFFECT_GLINT] = p->glint ? (lrcs_effect){1, "a material has A > 0"}
-                                         : (lrcs_effect){0, "A = 0 for every material"};
-    effect[LRCS_EFFECT_DIFFUSE] = p->diffuse ? (lrcs_effect){1, "a material has B > 0"}
-                                             : (lrcs_effect){0, "B = 0 for every material"};
+    effect[LRCS_EFFECT_SELF_SHADOWING] = shadowing_effect(p, plan);
+    effect[LRCS_EFFECT_BACK_FACE_CASTERS] = caster_effect(view, plan);
+    effect[LRCS_EFFECT_GLINT] =
+        term_effect(plan->glint, p->glint, effect_in(seen, LRCS_EFFECT_GLINT), &glint);
+    effect[LRCS_EFFECT_DIFFUSE] =
+        term_effect(plan->diffuse, p->diffuse, effect_in(seen, LRCS_EFFECT_DIFFUSE), &diffuse);
     effect[LRCS_EFFECT_CURVED_NORMALS] = normals_effect(p);
-    effect[LRCS_EFFECT_TWO_SIDED] =
-        !p->two_sided ? (lrcs_effect){0, "no material is two-sided"}
-        : p->solid    ? (lrcs_effect){0, "closed and outward: back sides are never seen"}
-                      : (lrcs_effect){1, "a material is two-sided"};
+    effect[LRCS_EFFECT_TWO_SIDED] = two_sided_effect(view);
     effect[LRCS_EFFECT_ARTICULATION] = p->articulated
                                            ? (lrcs_effect){1, "a part stands on a joint"}
                                            : (lrcs_effect){0, "no part stands on a joint"};

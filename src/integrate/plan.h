@@ -1,21 +1,39 @@
 /* SPDX-License-Identifier: MIT */
 /* The planner: which effects the scene and this direction call for, and so which method is
-   enough. What it leaves out is proved not to change sigma. */
+   enough. What it leaves out is proved not to change sigma, or was asked to be left out. */
 #ifndef LRCSI_PLAN_H
 #define LRCSI_PLAN_H
 
 #include "view/view.h"
 
+/* A term of the BRDF. */
+enum lrcsi_term {
+    LRCSI_TERM_OUT,   /* its amplitude is taken for 0 */
+    LRCSI_TERM_WORN,  /* as the materials say */
+    LRCSI_TERM_FORCED /* evaluated even where its amplitude is 0 */
+};
+
 typedef struct lrcsi_plan {
-    int method;     /* FACET, ZBUFFER or EXACT: the first to try */
-    int unshadowed; /* proved: in this view front facets above prepared->graze are not hidden */
-    int alone;      /* proved: nor does any facet hide a back side */
+    int method;         /* FACET, ZBUFFER or EXACT: the first to try */
+    const char *reason; /* why that one */
+    int unshadowed;     /* proved: in this view front facets above prepared->graze are not hidden */
+    int alone;          /* proved: nor does any facet hide a back side */
+    int searched;       /* what hides them is looked for all the same */
+    int glint, diffuse; /* lrcsi_term */
 } lrcsi_plan;
 
-/* Given: the view and what was asked for. */
+/* Decides what back sides do in a view: cast, reflect, or neither. */
+void lrcsi_plan_backs(const lrcs_run_options *options, lrcsi_view *view);
+
+/* Given: such a view and what was asked for. */
 lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *options);
 
-/* Fills effect[LRCS_EFFECTS]: on or off, and why. */
-void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, lrcs_effect *effect);
+/* What a material's facets wear, as far as the plan takes it into account. */
+lrcs_brdf lrcsi_plan_brdf(const lrcsi_plan *plan, const lrcs_material *material);
+
+/* Fills effect[LRCS_EFFECTS]: on or off, and why. `seen` holds the bits GLINT and DIFFUSE where
+   something that may be seen has such a term. */
+void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t seen,
+                        lrcs_effect *effect);
 
 #endif

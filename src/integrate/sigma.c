@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/range.h"
 #include "base/work.h"
 #include "integrate/plan.h"
 #include "integrate/total.h"
@@ -33,13 +34,15 @@ typedef struct sigma_run {
 
 lrcs_run_options lrcs_run_options_default(void)
 {
-    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0};
+    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0};
 }
 
 static int options_check(const lrcs_run_options *options)
 {
     if (options->method < LRCS_METHOD_AUTO || options->method > LRCS_METHOD_EXACT ||
-        !(options->tolerance > 0) || options->resolution > MOST_SIZE) {
+        !(options->tolerance > 0) || options->resolution > MOST_SIZE ||
+        ((options->without | options->with) & ~LRCS_EFFECTS_SWITCHED) != 0 ||
+        (options->without & options->with) != 0) {
         return LRCS_E_ARGUMENT;
     }
     return LRCS_OK;
@@ -53,7 +56,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
     need =
         lrcsi_work_add(need, prepared->smooth ? lrcsi_work_bytes(facets, sizeof(lrcsi_curved)) : 0);
-    if (options->method == LRCS_METHOD_FACET) {
+    if (options->method == LRCS_METHOD_FACET && options->with == 0) {
         return need;
     }
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
@@ -100,8 +103,7 @@ static int run_image(sigma_run *run)
 
 static void run_total(sigma_run *run, lrcs_facet_record *records)
 {
-    run->total =
-        lrcsi_total_make(&run->view, run->visible, run->curved, run->plan.unshadowed, records);
+    run->total = lrcsi_total_make(&run->view, &run->plan, run->visible, run->curved, records);
 }
 
 static int run_facet(sigma_run *run)
@@ -109,21 +111,38 @@ static int run_facet(sigma_run *run)
     double graze = run->plan.unshadowed ? run->view.prepared->graze : 1;
     lrcsi_visible_unshadowed(&run->view, graze, run->visible);
     if (run->curved) {
-        lrcsi_curve_shares(&run->view, run->visible, NULL, run->tolerance, run->curved);
+        lrcsi_curve_shares(&run->view, &run->plan, run->visible, NULL, run->tolerance, run->curved);
     }
     run_total(run, NULL);
     return LRCS_OK;
 }
 
-/* On an open convex surface samples serve the back sides only: fronts are known. */
-static void fronts_are_known(const lrcsi_view *view, lrcsi_visible *visible)
+/* On a convex surface samples serve the back sides only: fronts are known. Where they were searched
+   all the same, what is known joins what was found: bodies convex by construction are not searched
+   for contacts, so that the search alone proves nothing of them. */
+static void fronts_are_known(const lrcsi_view *view, int searched, lrcsi_visible *visible)
 {
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (view->facing[f] > 0) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
             double low = tilt.cos_theta > view->prepared->graze ? tilt.projected : 0;
-            visible[f] = (lrcsi_visible){tilt.projected, low, tilt.projected, 0};
+            lrcsi_visible known = {tilt.projected, low, tilt.projected, 0};
+            if (searched) {
+                known.area = visible[f].area;
+                known.low = lrcsi_least(known.low, visible[f].low);
+                known.likely = visible[f].likely;
+            }
+            visible[f] = known;
         }
+    }
+}
+
+/* Back sides proved never to be seen, and looked for all the same: none of them may be all there
+   is to the truth. */
+static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
+{
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        visible[f].low = view->facing[f] < 0 ? 0 : visible[f].low;
     }
 }
 
@@ -131,10 +150,14 @@ static void fronts_are_known(const lrcsi_view *view, lrcsi_visible *visible)
 static void run_sum(sigma_run *run, const lrcsi_raster *raster)
 {
     if (run->plan.unshadowed) {
-        fronts_are_known(&run->view, run->visible);
+        fronts_are_known(&run->view, run->plan.searched, run->visible);
+    }
+    if (run->view.prepared->solid && run->view.backs_cast) {
+        backs_are_known(&run->view, run->visible);
     }
     if (run->curved && raster) { /* clipping has integrated over its pieces */
-        lrcsi_curve_shares(&run->view, run->visible, raster, run->tolerance, run->curved);
+        lrcsi_curve_shares(&run->view, &run->plan, run->visible, raster, run->tolerance,
+                           run->curved);
     }
     run_total(run, NULL);
 }
@@ -166,8 +189,8 @@ static int run_raster(sigma_run *run, uint32_t size)
 
 static int run_exact(sigma_run *run)
 {
-    int status = run->curved ? lrcsi_curve_pieces(&run->contest, run->tolerance, run->work,
-                                                  run->visible, run->curved)
+    int status = run->curved ? lrcsi_curve_pieces(&run->contest, &run->plan, run->tolerance,
+                                                  run->work, run->visible, run->curved)
                              : lrcsi_occlude_all(&run->contest, run->work, run->visible);
     if (status == LRCS_OK) {
         run->size = 0;
@@ -220,11 +243,13 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
     if (status == LRCS_OK && run->plan.method == LRCS_METHOD_ZBUFFER &&
         !run_meets(&run->total, options->tolerance)) {
         run->plan.method = LRCS_METHOD_EXACT;
+        run->plan.reason = "the raster asked for misses the tolerance";
         run->flags = 0;
         status = run_exact(run);
     }
     if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
         run->plan.method = LRCS_METHOD_ZBUFFER;
+        run->plan.reason = "too little memory for clipping";
         run->flags = LRCS_FLAG_MEMORY_FALLBACK;
         status = run_zbuffer(run, options);
     }
@@ -245,13 +270,14 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
                      .back_side_area_m2 = t->back_side,
                      .back_side_facets = t->back_sides,
                      .method = run->plan.method,
+                     .method_reason = run->plan.reason,
                      .resolution = run->size,
                      .facets_total = run->view.prepared->scene->facet_count,
                      .facets_front = run->view.front,
                      .facets_hidden = t->hidden,
                      .facets_partial = t->partial,
                      .flags = run->flags};
-    lrcsi_plan_effects(&run->view, &run->plan, r.effect);
+    lrcsi_plan_effects(&run->view, &run->plan, t->seen, r.effect);
     r.flags |= run_meets(t, options->tolerance) ? 0u : LRCS_FLAG_TOLERANCE_NOT_MET;
     r.notices |= t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
     r.notices |= t->tessellation < 0 ? LRCS_NOTICE_TESSELLATION_UNKNOWN : 0u;
@@ -284,6 +310,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         status = run_take(&run, prepared);
     }
     if (status == LRCS_OK) {
+        lrcsi_plan_backs(options, &run.view);
         run.plan = lrcsi_plan_make(&run.view, options);
         status =
             run.plan.method == LRCS_METHOD_FACET ? run_facet(&run) : run_shadowed(&run, options);

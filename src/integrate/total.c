@@ -17,7 +17,25 @@
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
     double visibility, tessellation, rounding, likely, curvature;
+    uint32_t seen;
 } total_sums;
+
+/* Its reflection. A term of amplitude 0 that is to be evaluated all the same is so at amplitude 1,
+   and added 0 times; with no slope there is no glint to evaluate. */
+static lrcsi_reflection reflection_planned(const lrcs_brdf *brdf, const lrcsi_plan *plan,
+                                           double tan2)
+{
+    lrcsi_reflection at = lrcsi_reflect(brdf, tan2, 0);
+    lrcs_brdf idle = {0, 0, brdf->s, brdf->m};
+    idle.A = plan->glint == LRCSI_TERM_FORCED && brdf->A == 0 && brdf->s > 0 ? 1 : 0;
+    idle.B = plan->diffuse == LRCSI_TERM_FORCED && brdf->B == 0 ? 1 : 0;
+    if (idle.A > 0 || idle.B > 0) {
+        lrcsi_reflection none = lrcsi_reflect(&idle, tan2, 0);
+        at.glint += brdf->A * none.glint;
+        at.diffuse += brdf->B * none.diffuse;
+    }
+    return at;
+}
 
 /* The largest value of (1 + u)^2 exp(-u / s^2) over u >= 0. */
 static double glint_peak(double s)
@@ -26,32 +44,49 @@ static double glint_peak(double s)
     return q <= 1 ? 1 : q * q * exp(2 / q - 2);
 }
 
+/* How far the glint may be off where tan^2 is too vague for its flank: truth and value both lie
+   between 0 and the glint at the least tan^2, which beyond the peak (2 s^2 - 1) is the most. */
+static double glint_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt)
+{
+    double least = tilt->tan2 * (1 - 2 * tilt->stretch);
+    if (!(least >= 2 * brdf->s * brdf->s)) {
+        return brdf->A * glint_peak(brdf->s);
+    }
+    const lrcs_brdf alone = {brdf->A, 0, brdf->s, 0};
+    lrcsi_reflection most = lrcsi_reflect(&alone, least, 0);
+    return most.glint + most.error;
+}
+
 /* How far f_r cos^2 may be off for want of knowing tan^2. With u = tan^2 known to a relative r,
    log of the glint moves by at most r (2 min(u, 1) + u / s^2), of the diffuse part by at most
-   r (m + 2)/2 min(u, 1); where that is no small number the glint's peak and B bound both. Near
+   r (m + 2)/2 min(u, 1); where these are no small numbers, each part is bounded itself. Near
    edge-on (r infinite) u is at least this, and beyond the glint's peak both parts only fall. */
 static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
                                const lrcsi_reflection *at)
 {
-    double most = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
     if (isinf(tilt->stretch)) {
+        double most = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
         return tilt->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : most;
     }
     double bent = fmin(tilt->tan2, 1);
     double glint = brdf->A > 0 ? tilt->stretch * (2 * bent + tilt->tan2 / brdf->s / brdf->s) : 0;
     double diffuse = tilt->stretch * (0.5 * brdf->m + 1) * bent;
-    if (!(glint < 1 && diffuse < 1)) {
-        return most;
-    }
-    return at->glint * expm1(glint) + at->diffuse * expm1(diffuse);
+    return (glint < 1 ? at->glint * expm1(glint) : glint_vague(brdf, tilt)) +
+           (diffuse < 1 ? at->diffuse * expm1(diffuse) : brdf->B);
+}
+
+static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
+{
+    sums->seen |= brdf->A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
+    sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
 }
 
 /* One facet that reflects towards the laser. Returns its sigma. */
-static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t facet,
-                             const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+static double add_reflecting(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
+                             uint32_t facet, const lrcsi_tilt *tilt, const lrcsi_visible *visible)
 {
-    const lrcs_brdf *brdf = &lrcsi_prepared_material(view->prepared, facet)->brdf;
-    lrcsi_reflection at = lrcsi_reflect(brdf, tilt->tan2, 0);
+    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
+    lrcsi_reflection at = reflection_planned(&brdf, plan, tilt->tan2);
     double whole = FOUR_PI * 0.5 * view->prepared->normal[facet].length;
     double share = visible->area / tilt->projected;
     double most = visible->high / tilt->projected;
@@ -65,13 +100,17 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, uint32_t 
     sums->likely += (per_area * visible->likely) * (per_area * visible->likely);
     /* S, 4 pi, two products and the share: 8 u, with the relative error of areas */
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
-                      whole * most * (at.error + reflection_vague(brdf, tilt, &at));
+                      whole * most * (at.error + reflection_vague(&brdf, tilt, &at));
+    add_seen(sums, &brdf);
     return glint + diffuse;
 }
 
 /* One with curved normals, which comes summed. */
-static double add_curved(total_sums *sums, const lrcsi_curved *curved)
+static double add_curved(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
+                         uint32_t facet, const lrcsi_curved *curved)
 {
+    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
+    add_seen(sums, &brdf);
     lrcsi_sum_add(&sums->glint, curved->glint);
     lrcsi_sum_add(&sums->diffuse, curved->diffuse);
     sums->visibility += curved->visibility;
@@ -84,13 +123,13 @@ static double add_curved(total_sums *sums, const lrcsi_curved *curved)
 /* What the flat facets of an engine-made shape may be off, whichever way they face: part of the
    patch behind a facet that faces away may still see the light. Caps and bases, which no smoothing
    group marks as curved, are exact. */
-static void add_tessellation(total_sums *sums, const lrcsi_view *view, uint32_t facet,
-                             const lrcsi_tilt *tilt)
+static void add_tessellation(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
+                             uint32_t facet, const lrcsi_tilt *tilt)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
-    const lrcs_brdf *brdf = &lrcsi_prepared_material(p, facet)->brdf;
-    double stray = lrcsi_reflect_stray(brdf, tilt->cos_theta, tilt->tan2, &part->curvature);
+    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
+    double stray = lrcsi_reflect_stray(&brdf, tilt->cos_theta, tilt->tan2, &part->curvature);
     sums->tessellation += FOUR_PI * 0.5 * p->normal[facet].length * stray;
     if (!part->curvature_known) {
         sums->tessellation = -HUGE_VAL;
@@ -158,32 +197,33 @@ static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total
     total->rounding = lrcsi_prepared_area(p, (sums->rounding + adding) * outward);
     total->likely = lrcsi_prepared_area(p, 2 * sqrt(sums->likely));
     total->curvature = lrcsi_prepared_area(p, sums->curvature);
+    total->seen = sums->seen;
 }
 
-lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible,
-                             const lrcsi_curved *curved, int unshadowed, lrcs_facet_record *records)
+lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
+                             const lrcsi_visible *visible, const lrcsi_curved *curved,
+                             lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
     lrcsi_total total = {0};
-    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0, 0};
-    if (p->curved && !unshadowed) {
+    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0, 0, 0};
+    if (p->curved && !plan->unshadowed) {
         sums.tessellation = -HUGE_VAL;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
         double sigma = 0;
         if (view->facing[f] != 0) {
-            int reflects =
-                view->facing[f] > 0 || (lrcsi_prepared_material(p, f)->two_sided && !p->solid);
+            int reflects = lrcsi_view_reflects(view, f);
             if (reflects && visible[f].high > 0) {
                 sigma = curved && lrcsi_curve_wanted(view, f)
-                            ? add_curved(&sums, &curved[f])
-                            : add_reflecting(&sums, view, f, &tilt, &visible[f]);
+                            ? add_curved(&sums, view, plan, f, &curved[f])
+                            : add_reflecting(&sums, view, plan, f, &tilt, &visible[f]);
             }
             count_facet(&total, &sums, reflects, &tilt, &visible[f]);
         }
-        if (p->curved && unshadowed && !p->skip[f] && p->scene->facet_smooth[f] != 0) {
-            add_tessellation(&sums, view, f, &tilt);
+        if (p->curved && plan->unshadowed && !p->skip[f] && p->scene->facet_smooth[f] != 0) {
+            add_tessellation(&sums, view, plan, f, &tilt);
         }
         if (records) {
             records[f] = record_of(view, f, &tilt, visible[f].area, sigma);

@@ -13,14 +13,15 @@ typedef struct lrcsi_total {
     double curvature;                          /* estimate of the error of curved facets */
     double projected, back_side;
     uint32_t back_sides, hidden, partial;
+    uint32_t seen; /* effects that some facet calls for which may be seen: GLINT, DIFFUSE bits */
 } lrcsi_total;
 
-/* Given: the view, and the visible area of each of its facets; whether every front facet is known
-   to be wholly visible, on the true shapes as on their meshes (then tessellation can be bounded).
+/* Given: the view, its plan, and the visible area of each facet. Where the plan knows every front
+   facet to be wholly visible, on the true shapes as on their meshes, tessellation can be bounded.
    Facets with curved normals come with their own sums in curved[facet_count]; NULL: all are flat.
    Returned: total, summed in facet order; records[facet_count] unless NULL. */
-lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_visible *visible,
-                             const lrcsi_curved *curved, int unshadowed,
+lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
+                             const lrcsi_visible *visible, const lrcsi_curved *curved,
                              lrcs_facet_record *records);
 
 #endif

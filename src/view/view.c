@@ -65,9 +65,21 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
                                          lrcsi_prepared_corner(view->prepared, facet, 2), d);
 }
 
+static double grazing_dot(const lrcsi_view *view, uint32_t facet)
+{
+    return lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
+                           lrcsi_prepared_corner(view->prepared, facet, 1),
+                           lrcsi_prepared_corner(view->prepared, facet, 2), view->direction);
+}
+
+/* A dot product below this multiple of its error is taken exactly. */
+#define GRAZING_DOT 0x1p50
+/* Nearer to edge-on than this, only a lower bound of tan^2 is known: a square that doubles hold. */
+#define GRAZING_LEAST 0x1p-500
+
 /* tan^2 = |N x d|^2 / (N . d)^2. Near normal incidence the cross product drowns in its own error
-   and only an upper bound of tan^2 is known; near grazing the dot product does, and only a lower
-   bound is. */
+   and only an upper bound of tan^2 is known; near grazing the dot product does, and is taken
+   exactly, to 2 u. */
 lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
@@ -78,17 +90,22 @@ lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
     }
     double off = normal_off(n) * view->length;
     double dot = fabs(lrcsi_dd_value(normal_dot(n, view->direction)));
+    double dot_off = off;
     double cross = normal_cross(n, view->direction);
-    tilt.error = 2 * off / dot + n->error / n->length + 8 * U;
-    tilt.stretch = 4 * off / dot + 12 * U;
+    if (!(dot > GRAZING_DOT * off)) {
+        dot = fabs(grazing_dot(view, facet));
+        dot_off = 2 * U * dot;
+    }
+    tilt.error = 2 * dot_off / dot + n->error / n->length + 8 * U;
+    tilt.stretch = 4 * dot_off / dot + 12 * U;
     if (cross > 1000 * off) {
         tilt.stretch += 2.1 * off / cross;
     } else {
         cross += off;
         tilt.stretch = 1;
     }
-    if (!(dot > 1000 * off)) {
-        dot += off;
+    if (dot < GRAZING_LEAST * n->length * view->length) {
+        dot = GRAZING_LEAST * n->length * view->length;
         tilt.error = 2;
         tilt.stretch = HUGE_VAL;
     }
@@ -96,6 +113,12 @@ lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
     tilt.cos_theta = facing * lrcsi_least(1, dot / (n->length * view->length));
     tilt.projected = dot / (2 * view->length);
     return tilt;
+}
+
+int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
+{
+    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_reflect &&
+                                       lrcsi_prepared_material(view->prepared, facet)->two_sided);
 }
 
 static void view_point(const lrcsi_view *view, const double *x, double *out)
@@ -159,6 +182,7 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
                     lrcsi_view *view)
 {
     lrcsi_view v = {.prepared = prepared};
+    v.backs_cast = v.backs_reflect = !prepared->solid;
     size_t mark = work->used;
     v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
     v.point = lrcsi_work_take(work, prepared->scene->vertex_count, sizeof *v.point);

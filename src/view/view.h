@@ -13,7 +13,7 @@ typedef struct lrcsi_tilt {
     double cos_theta; /* signed; its sign agrees with facing */
     double tan2;      /* tan^2(theta), infinity where edge-on */
     double stretch;   /* relative error of tan2; 1: it lies in 0 .. tan2; infinity: it is at
-                         least tan2, the facet being edge-on to within the arithmetic */
+                         least tan2, the facet being edge-on to 2^-500 rad */
     double projected; /* projected area, >= 0 */
     double error;     /* relative error of projected and of the area */
 } lrcsi_tilt;
@@ -29,6 +29,9 @@ typedef struct lrcsi_view {
     double off;
     double low[2], side;  /* the square window around the projection of the live facets */
     uint32_t front, back; /* live facets facing either way */
+    int backs_cast;       /* facets facing away hide others and may be seen: not where the scene is
+                             proved to show none, unless the planner was told otherwise */
+    int backs_reflect;    /* they reflect, where their material is two-sided */
 } lrcsi_view;
 
 size_t lrcsi_view_need(const lrcs_prepared *prepared);
@@ -36,6 +39,9 @@ size_t lrcsi_view_need(const lrcs_prepared *prepared);
 /* Status: LRCS_OK; LRCS_E_MEMORY. The view stays in the work area. */
 int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view);
+
+/* Does a facet send light back, if seen? */
+int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet);
 
 /* The incidence of a facet that is not skipped. */
 lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet);

@@ -43,7 +43,7 @@ void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex, int count, d
 
 int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
 {
-    return view->facing[facet] > 0 || (view->facing[facet] < 0 && !view->prepared->solid);
+    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_cast);
 }
 
 size_t lrcsi_grid_need(size_t items, size_t entries)

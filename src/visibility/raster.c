@@ -232,9 +232,8 @@ static int raster_arrays(lrcsi_raster *r, lrcs_work *work)
 static void raster_draw(lrcsi_raster *r)
 {
     const lrcsi_view *view = r->view;
-    int solid = view->prepared->solid;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        if (view->facing[f] > 0 || (view->facing[f] < 0 && !solid)) {
+        if (view->facing[f] > 0 || (view->facing[f] < 0 && view->backs_cast)) {
             raster_facet(r, f);
         }
     }

@@ -35,7 +35,7 @@ typedef struct lrcsi_plane {
 
 size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size);
 
-/* Draws the view. Where back sides are never seen (prepared->solid) they are not drawn.
+/* Draws the view. Back sides are drawn where they cast (view->backs_cast).
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
 int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster);
 

@@ -58,8 +58,8 @@ int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser)
         return view->facing[winner] > view->facing[loser];
     }
     if (view->facing[winner] < 0) {
-        int reflects = lrcsi_prepared_material(view->prepared, winner)->two_sided != 0;
-        int other = lrcsi_prepared_material(view->prepared, loser)->two_sided != 0;
+        int reflects = lrcsi_view_reflects(view, winner);
+        int other = lrcsi_view_reflects(view, loser);
         if (reflects != other) {
             return reflects;
         }

@@ -14,8 +14,8 @@ typedef struct lrcsi_visible {
     double likely; /* of a sampled area: its likely error; else 0 */
 } lrcsi_visible;
 
-/* Every facet is wholly visible, front or back, except that where back sides are never seen
-   (prepared->solid) they show nothing. Certain for |cos(theta)| > graze; below it the area is an
+/* Every facet is wholly visible, front or back, except that back sides show nothing where
+   they do not cast (view->backs_cast). Certain for |cos(theta)| > graze; below it the area is an
    upper bound (low is 0). graze = 1 makes all of them so. */
 void lrcsi_visible_unshadowed(const lrcsi_view *view, double graze, lrcsi_visible *visible);
 

@@ -143,6 +143,31 @@ static void far_from_the_origin_agrees_with_integers(void **state)
     }
 }
 
+/* d = 2^44 p + e with small integers: the large part lies in the plane of p and q. */
+static void dot_keeps_its_digits_where_all_but_e_cancels(void **state)
+{
+    (void)state;
+    uint64_t seed = 54321;
+    for (int i = 0; i < 20000; i++) {
+        long long m[3][3]; /* p, q, e */
+        double x[4][3];
+        for (int k = 0; k < 3; k++) {
+            for (int v = 0; v < 3; v++) {
+                seed = seed * 6364136223846793005u + 1442695040888963407u;
+                m[v][k] = (long long)(seed >> 60) - 8;
+            }
+            x[0][k] = 0.375 * k;
+            x[1][k] = x[0][k] + (double)m[0][k];
+            x[2][k] = x[0][k] + (double)m[1][k];
+            x[3][k] = (double)m[0][k] * 0x1p44 + (double)m[2][k];
+        }
+        long long det = m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1]) +
+                        m[2][1] * (m[0][2] * m[1][0] - m[0][0] * m[1][2]) +
+                        m[2][2] * (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
+        check_rel(lrcsi_exact_dot(x[0], x[1], x[2], x[3]), (double)det, 0x1p-52);
+    }
+}
+
 static void one_ulp_off_the_plane_is_seen(void **state)
 {
     (void)state;
@@ -219,6 +244,7 @@ int main(void)
         cmocka_unit_test(mirroring_negates),
         cmocka_unit_test(powers_of_two_change_nothing),
         cmocka_unit_test(far_from_the_origin_agrees_with_integers),
+        cmocka_unit_test(dot_keeps_its_digits_where_all_but_e_cancels),
         cmocka_unit_test(one_ulp_off_the_plane_is_seen),
         cmocka_unit_test(equal_points_give_zero),
         cmocka_unit_test(turn_along_an_axis_is_the_planar_turn),

@@ -28,6 +28,7 @@ typedef struct hostile_way {
     const char *name;
     int method;
     uint32_t size;
+    uint32_t with;
     unsigned runs, violations, refused, ratios, guesses, low_guesses;
     double *ratio, *guess;
 } hostile_way;
@@ -39,7 +40,8 @@ static hostile_way ways[] = {{.name = "facet", .method = LRCS_METHOD_FACET},
                              {.name = "zbuffer 64", .method = LRCS_METHOD_ZBUFFER, .size = 64},
                              {.name = "zbuffer 255", .method = LRCS_METHOD_ZBUFFER, .size = 255},
                              {.name = "exact", .method = LRCS_METHOD_EXACT},
-                             {.name = "auto", .method = LRCS_METHOD_AUTO}};
+                             {.name = "auto", .method = LRCS_METHOD_AUTO},
+                             {.name = "all effects", .with = LRCS_EFFECTS_SWITCHED}};
 #define WAYS (sizeof ways / sizeof *ways)
 
 static double worst_area;
@@ -165,7 +167,10 @@ static void run_case(hostile_case *c, void *memory, size_t bytes)
             return;
         }
         for (size_t w = 0; w < WAYS; w++) {
-            lrcs_run_options options = {1e-4, ways[w].method, ways[w].size};
+            lrcs_run_options options = {.tolerance = 1e-4,
+                                        .method = ways[w].method,
+                                        .resolution = ways[w].size,
+                                        .with = ways[w].with};
             lrcs_result r;
             int status = lrcs_sigma_run(prepared, &pose, &options, &work, &r, records, NULL);
             if (status != LRCS_OK) {

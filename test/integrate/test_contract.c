@@ -41,14 +41,19 @@ static void fails_and_touches_nothing(const lrcs_run_options *options, lrcs_imag
 static void bad_options_are_refused(void **state)
 {
     (void)state;
-    static const lrcs_run_options bad[] = {{0, LRCS_METHOD_AUTO, 0},
-                                           {-1e-4, LRCS_METHOD_AUTO, 0},
-                                           {NAN, LRCS_METHOD_AUTO, 0},
-                                           {1e-4, 99, 0},
-                                           {1e-4, -1, 0},
-                                           {1e-4, 4, 0},
-                                           {1e-4, LRCS_METHOD_ZBUFFER, 16385},
-                                           {1e-4, LRCS_METHOD_AUTO, UINT32_MAX}};
+    static const lrcs_run_options bad[] = {
+        {.tolerance = 0},
+        {.tolerance = -1e-4},
+        {.tolerance = NAN},
+        {.tolerance = 1e-4, .method = 99},
+        {.tolerance = 1e-4, .method = -1},
+        {.tolerance = 1e-4, .method = 4},
+        {.tolerance = 1e-4, .method = LRCS_METHOD_ZBUFFER, .resolution = 16385},
+        {.tolerance = 1e-4, .resolution = UINT32_MAX},
+        {.tolerance = 1e-4, .without = 1u << LRCS_EFFECTS},
+        {.tolerance = 1e-4, .with = 1u << LRCS_EFFECT_ARTICULATION},
+        {.tolerance = 1e-4, .without = 1u << LRCS_EFFECT_CURVED_NORMALS},
+        {.tolerance = 1e-4, .without = 1u << LRCS_EFFECT_GLINT, .with = LRCS_EFFECTS_SWITCHED}};
     unit_cube();
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         fails_and_touches_nothing(&bad[i], NULL, LRCS_E_ARGUMENT);
@@ -63,7 +68,9 @@ static void sigma_beyond_doubles_is_refused(void **state)
     scene.material[0].brdf.A = 1e200;
     scene.material[0].brdf.s = 10;
     for (int method = LRCS_METHOD_AUTO; method <= LRCS_METHOD_EXACT; method++) {
-        lrcs_run_options options = {1e-4, method, method == LRCS_METHOD_ZBUFFER ? 16 : 0};
+        lrcs_run_options options = {.tolerance = 1e-4,
+                                    .method = method,
+                                    .resolution = method == LRCS_METHOD_ZBUFFER ? 16 : 0};
         fails_and_touches_nothing(&options, NULL, LRCS_E_NUMBER);
     }
 }
@@ -85,7 +92,8 @@ static void tolerance_not_met_is_a_flag_not_a_failure(void **state)
     lrcs_result r;
     unit_cube();
     scene_box(&scene, (const double[3]){0.25, 0.5, 2}, (const double[3]){3, 1, 3});
-    lrcs_run_options options = {1e-15, LRCS_METHOD_ZBUFFER, 16};
+    lrcs_run_options options = {
+        .tolerance = 1e-15, .method = LRCS_METHOD_ZBUFFER, .resolution = 16};
     assert_int_equal(status_of(&options, NULL, &r), LRCS_OK);
     assert_true(r.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
     options.tolerance = 10;
@@ -93,7 +101,7 @@ static void tolerance_not_met_is_a_flag_not_a_failure(void **state)
     assert_int_equal(r.flags, 0);
     assert_int_equal(r.resolution, 16);
     assert_true(r.estimate_m2 >= 0);
-    options = (lrcs_run_options){1e-10, LRCS_METHOD_EXACT, 0};
+    options = (lrcs_run_options){.tolerance = 1e-10, .method = LRCS_METHOD_EXACT};
     assert_int_equal(status_of(&options, NULL, &r), LRCS_OK);
     assert_int_equal(r.flags, 0);
     assert_int_equal(r.resolution, 0);

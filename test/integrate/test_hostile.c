@@ -60,7 +60,7 @@ static void check_run(const hostile_case *c, int sided, int method, uint32_t siz
     lrcs_facet_record records[MOST];
     assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
     assert_int_equal(lrcs_pose_from_direction(c->direction, &pose), LRCS_OK);
-    lrcs_run_options options = {1e-4, method, size};
+    lrcs_run_options options = {.tolerance = 1e-4, .method = method, .resolution = size};
     assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, records, NULL), LRCS_OK);
     assert_true(r.bound_m2 >= 0);
     check_abs(r.sigma_m2, c->truth[sided], r.bound_m2 + 2e-16 * c->truth[sided]);

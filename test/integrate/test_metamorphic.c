@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* What must not change sigma, or must change it in a known way: moving, scaling, turning the scene
    with the laser, shuffling, splitting and doubling facets; methods against each other; areas
-   against silhouettes; the mean over all attitudes. */
+   against silhouettes. On one satellite; test_random.c has random scenes, test_mean.c the mean over
+   all attitudes. */
 #include "scenes.h"
 
 static test_scene scene;
@@ -181,28 +182,6 @@ static void splitting_facets_changes_nothing(void **state)
     }
 }
 
-/* Splitting one side of an edge only: a T-junction. */
-static void t_junctions_leave_no_crack(void **state)
-{
-    (void)state;
-    scene_start(&scene);
-    scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){3, 2, 1});
-    uint32_t m = scene_vertex(&scene, 1.5, 1, 1); /* on the diagonal of the top */
-    lrcs_facet old = scene.facet[10];             /* 4 5 7, the diagonal from 7 to 4 */
-    scene.facet[10] = (lrcs_facet){{old.corner[0], old.corner[1], m}};
-    scene_facet(&scene, old.corner[1], old.corner[2], m);
-    for (size_t i = 0; i < DIRECTIONS; i++) {
-        const double *d = directions[i];
-        double silhouette = (2 * fabs(d[0]) + 3 * fabs(d[1]) + 6 * fabs(d[2])) /
-                            sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        for (int k = 1; k < 4; k++) {
-            lrcs_result r = seen(i, methods[k]);
-            check_rel(r.projected_area_m2, silhouette, 1e-13);
-            check_most(r.back_side_area_m2, 1e-14);
-        }
-    }
-}
-
 static void doubling_a_caster_changes_nothing(void **state)
 {
     (void)state;
@@ -279,61 +258,6 @@ static void methods_agree_at_ten_resolutions(void **state)
     }
 }
 
-/* Gauss-Legendre nodes and weights on 0 .. 1, by Newton on the three-term recurrence. */
-static void gauss_legendre(int n, double *node, double *weight)
-{
-    for (int i = 0; i < n; i++) {
-        double x = cos((double)SCENE_PI * (i + 0.75) / (n + 0.5));
-        double slope = 1;
-        for (int step = 0; step < 100; step++) {
-            double p = 1;
-            double before = 0;
-            for (int k = 1; k <= n; k++) {
-                double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-                before = p;
-                p = next;
-            }
-            slope = n * (before - x * p) / (1 - x * x);
-            x -= p / slope;
-        }
-        node[i] = 0.5 * (1 + x);
-        weight[i] = 1 / ((1 - x * x) * slope * slope);
-    }
-}
-
-/* Mean of sigma over all attitudes = S (pi A E + 2 pi B / (m + 3)), E = s^2 + (sqrt(pi) / 2) s^3
-   erfcx(1/s). A box is smooth in each octant: Gauss-Legendre in z and in azimuth, each octant. */
-static void mean_over_attitudes_of_a_box_is_its_closed_form(void **state)
-{
-    (void)state;
-    enum { N = 20 };
-    const double s = 0.5;
-    double node[N];
-    double weight[N];
-    gauss_legendre(N, node, weight);
-    scene_start(&scene);
-    scene_material(&scene, 1, 0.25, s, 0.5);
-    scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 2, 0.5});
-    lrcs_work work;
-    const lrcs_prepared *p = scene_prepare(&scene, &work);
-    double mean = 0;
-    for (int octant = 0; octant < 8; octant++) {
-        for (int i = 0; i < N * N; i++) {
-            double z = node[i / N];
-            double a = node[i % N] * (double)SCENE_PI / 2;
-            double r = sqrt(1 - z * z);
-            const double d[3] = {octant & 1 ? -r * cos(a) : r * cos(a),
-                                 octant & 2 ? -r * sin(a) : r * sin(a), octant & 4 ? -z : z};
-            lrcs_result result = scene_pose(&scene, p, &work, d, LRCS_METHOD_AUTO, 0);
-            assert_int_equal(result.method, LRCS_METHOD_FACET);
-            mean += weight[i / N] * weight[i % N] * result.sigma_m2 / 8;
-        }
-    }
-    double e = s * s + 0.5 * sqrt((double)SCENE_PI) * s * s * s * exp(1 / s / s) * erfc(1 / s);
-    double want = 7 * ((double)SCENE_PI * e + 2 * (double)SCENE_PI * 0.25 / 3.5);
-    check_rel(mean, want, 1e-6);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -343,11 +267,9 @@ int main(void)
         cmocka_unit_test(shuffled_facets_give_the_same_sum),
         cmocka_unit_test(turning_scene_and_laser_together_changes_nothing),
         cmocka_unit_test(splitting_facets_changes_nothing),
-        cmocka_unit_test(t_junctions_leave_no_crack),
         cmocka_unit_test(doubling_a_caster_changes_nothing),
         cmocka_unit_test(visible_areas_add_up_to_the_silhouette),
         cmocka_unit_test(methods_agree_at_ten_resolutions),
-        cmocka_unit_test(mean_over_attitudes_of_a_box_is_its_closed_form),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -114,7 +114,7 @@ static void running_grows_until_it_fits(void **state)
     assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
     size_t least[4];
     for (int i = 0; i < 4; i++) {
-        lrcs_run_options options = {1e-4, methods[i], 64};
+        lrcs_run_options options = {.tolerance = 1e-4, .method = methods[i], .resolution = 64};
         size_t need = lrcs_sigma_need(prepared, &options);
         assert_int_equal(run_in(prepared, &work, need, &options, &r), LRCS_OK);
         assert_false(r.flags & LRCS_FLAG_MEMORY_FALLBACK);
@@ -140,7 +140,7 @@ static void every_size_is_survived(void **state)
     const lrcs_prepared *prepared = NULL;
     assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
     for (int i = 0; i < 4; i++) {
-        lrcs_run_options options = {1e-4, methods[i], 0};
+        lrcs_run_options options = {.tolerance = 1e-4, .method = methods[i], .resolution = 0};
         int before = LRCS_E_MEMORY;
         for (size_t size = 0; size < 20000; size += 16) {
             lrcs_result r;
@@ -162,7 +162,8 @@ static void less_memory_means_a_coarser_raster_and_a_wider_bound(void **state)
     work = lrcs_work_make(little, sizeof little);
     const lrcs_prepared *prepared = NULL;
     assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
-    lrcs_run_options options = {1e-4, LRCS_METHOD_ZBUFFER, 256};
+    lrcs_run_options options = {
+        .tolerance = 1e-4, .method = LRCS_METHOD_ZBUFFER, .resolution = 256};
     size_t need = lrcs_sigma_need(prepared, &options);
     uint32_t coarsest = 256;
     uint32_t before = 0;
@@ -194,7 +195,7 @@ static void ordinary_scenes_fit_into_what_is_asked_for(void **state)
         assert_int_equal(prepare_in(lrcs_prepare_need(&scene.scene), &work, &prepared), LRCS_OK);
         work.size = sizeof little;
         for (int i = 0; i < 4; i++) {
-            lrcs_run_options options = {1e-4, methods[i], 128};
+            lrcs_run_options options = {.tolerance = 1e-4, .method = methods[i], .resolution = 128};
             lrcs_result r;
             size_t need = lrcs_sigma_need(prepared, &options);
             assert_int_equal(run_in(prepared, &work, need, &options, &r), LRCS_OK);

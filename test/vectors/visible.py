@@ -179,4 +179,5 @@ def main():
             print(" {%s}}," % ", ".join("-1" if x is None else float(x).hex() for x in s))
 
 
-main()
+if __name__ == "__main__":
+    main()
