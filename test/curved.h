@@ -23,7 +23,7 @@ typedef struct curved_case {
     lrcs_scene scene;
     const lrcs_prepared *prepared;
     lrcs_facet_record record[1024]; /* of the last run */
-    void *read, *built, *kept;     /* memory */
+    void *read, *built, *kept;      /* memory */
 } curved_case;
 
 static inline void curved_free(curved_case *c)

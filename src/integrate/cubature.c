@@ -5,9 +5,9 @@
 
    Normals are linear in position, so the part with n . s_hat > 0 is the triangle less a half-plane,
    cut off first; inside it the integrand is analytic, but may peak in a small fraction of the
-   triangle, or outside of it. A cell (a triangle of normals) is halved across the side over which
-   its normals turn most, the half nearer to the laser done first, so that the peak, if there is
-   one, is in the sum before what surrounds it.
+   triangle, or outside of it. A cell (a convex polygon) is halved by a line across the direction in
+   which its normals turn most, the half nearer to the laser done first, so that the peak, if there
+   is one, is in the sum before what surrounds it.
    - A rule is trusted only where the normals turn by less than the peaks are wide (of the glint
      s cos^2 theta, of the diffuse part 1 / sqrt(m + 1)): no peak can then hide from its centroid,
      nor a flank from the comparison below. Elsewhere a cell is halved unheard, unless the most that
@@ -29,7 +29,9 @@
    quartering leaves three cells more on the stack, for two halvings. */
 #define MOST_HALVINGS 64u
 #define STACK_SIZE    (3 * MOST_HALVINGS / 2 + 4)
-#define MOST_SPLITS   (1u << 17)
+/* Corners of a cell: one with so many is halved along a diagonal, which leaves fewer. */
+#define CORNERS     8
+#define MOST_SPLITS (1u << 17)
 /* No cell's normals turn by more than this (rad) where a rule is trusted. */
 #define MOST_TURN 0.5
 #define HALF_TURN 3.14159265358979323846
@@ -43,10 +45,13 @@ typedef struct cube_value {
     double glint, diffuse, rounding;
 } cube_value;
 
+/* A convex polygon. Positions are relative to the first corner, so that they stay good to a few u
+   of the cell's size however small it is. */
 typedef struct cube_cell {
-    double normal[3][3];
-    double area;
-    double theta;   /* from its centroid's normal to the laser */
+    double normal[CORNERS][3], at[CORNERS][2];
+    int count;
+    double unit;    /* area of the square of positions */
+    double theta;   /* from the mean of its corners' normals to the laser */
     double unheard; /* bound on a glint that no rule need find, per area */
     uint32_t depth;
     int trusted; /* the rule may be: `value` is its sum */
@@ -99,28 +104,56 @@ static void value_add(cube_value *sum, double weight, const cube_value *value)
     sum->rounding += weight * value->rounding;
 }
 
-/* The rule over a cell: centroid 9/40; points (a, a, 1 - 2 a) and turned, a = (6 -+ sqrt 15)/21,
-   (155 -+ sqrt 15)/1200. Weights and sums are good to 16 u. */
-static cube_value rule_value(const lrcsi_cubature *sum, const cube_cell *cell)
+/* The rule over the triangle of corners 0, i and i + 1: centroid 9/40; points (a, a, 1 - 2 a) and
+   turned, a = (6 -+ sqrt 15)/21, (155 -+ sqrt 15)/1200. Weights and sums are good to 16 u;
+   positions lose 2 u of the cell's size at every halving, the area that times the size, and 4 u
+   itself. */
+static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cube_value *value)
 {
     static const double rule[3][3] = {
         {1.0 / 3, 1.0 / 3, 0.225},
         {0.10128650732345633880, 0.79742698535308732240, 0.12593918054482715260},
         {0.47014206410511508977, 0.05971587178976982046, 0.13239415278850618074}};
-    cube_value value = {0, 0, 0};
-    for (int i = 0; i < 7; i++) {
-        const double *node = rule[(i + 2) / 3]; /* the centroid once, the others three times */
-        int odd = (i + 2) % 3;
+    const double *u = cell->at[i];
+    const double *v = cell->at[i + 1];
+    double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
+    double slack =
+        8 * U * (1 + cell->depth) * (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1]);
+    cube_value mean = {0, 0, 0};
+    for (int k = 0; k < 7 && area > 0; k++) {
+        const double *node = rule[(k + 2) / 3]; /* the centroid once, the others three times */
+        int odd = (k + 2) % 3;
         double n[3];
-        for (int k = 0; k < 3; k++) {
-            n[k] = node[odd == 0] * cell->normal[0][k] + node[odd == 1] * cell->normal[1][k] +
-                   node[odd == 2] * cell->normal[2][k];
+        for (int c = 0; c < 3; c++) {
+            n[c] = node[odd == 0] * cell->normal[0][c] + node[odd == 1] * cell->normal[i][c] +
+                   node[odd == 2] * cell->normal[i + 1][c];
         }
         cube_value at = node_value(sum, n);
-        value_add(&value, node[2] * cell->area, &at);
+        value_add(&mean, node[2], &at);
     }
-    value.rounding += 16 * U * (value.glint + value.diffuse);
+    mean.rounding += 16 * U * (mean.glint + mean.diffuse);
+    value_add(value, cell->unit * area, &mean);
+    value->rounding += cell->unit * slack * (mean.glint + mean.diffuse);
+}
+
+static cube_value rule_value(const lrcsi_cubature *sum, const cube_cell *cell)
+{
+    cube_value value = {0, 0, 0};
+    for (int i = 1; i + 1 < cell->count; i++) {
+        rule_add(sum, cell, i, &value);
+    }
     return value;
+}
+
+static double cube_area(const cube_cell *cell)
+{
+    double area = 0;
+    for (int i = 1; i + 1 < cell->count; i++) {
+        const double *u = cell->at[i];
+        const double *v = cell->at[i + 1];
+        area += 0.5 * (u[0] * v[1] - u[1] * v[0]);
+    }
+    return lrcsi_most(0, cell->unit * area);
 }
 
 /* --- cells ------------------------------------------------------------------------------------ */
@@ -130,28 +163,31 @@ static double square_of(const double v[3])
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
 }
 
-static void cell_centroid(const cube_cell *cell, double n[3])
+static void cube_mean(const cube_cell *cell, double n[3])
 {
     for (int k = 0; k < 3; k++) {
-        n[k] = (cell->normal[0][k] + cell->normal[1][k] + cell->normal[2][k]) / 3;
+        n[k] = 0;
+        for (int i = 0; i < cell->count; i++) {
+            n[k] += cell->normal[i][k] / cell->count;
+        }
     }
 }
 
-static void cell_measure(cube_cell *cell)
+static void cube_measure(cube_cell *cell)
 {
     double n[3];
-    cell_centroid(cell, n);
+    cube_mean(cell, n);
     cell->theta = atan2(sqrt(n[0] * n[0] + n[1] * n[1]), n[2]);
 }
 
-/* The largest angle from the centroid's normal to one of the cell's: to a corner's where that is
+/* The largest angle from the mean normal to one of the cell's: to a corner's where that is
    less than a right angle, since such a circle that holds the corners holds their triangle. */
-static double cell_turn(const cube_cell *cell)
+static double cube_turn(const cube_cell *cell)
 {
     double n[3];
     double most = 0;
-    cell_centroid(cell, n);
-    for (int i = 0; i < 3; i++) {
+    cube_mean(cell, n);
+    for (int i = 0; i < cell->count; i++) {
         const double *m = cell->normal[i];
         double dot = n[0] * m[0] + n[1] * m[1] + n[2] * m[2];
         double cross[3] = {n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],
@@ -162,10 +198,10 @@ static double cell_turn(const cube_cell *cell)
 }
 
 /* Decides whether a rule may be trusted with the cell, or never hear of its glint. */
-static void cell_trust(const lrcsi_cubature *sum, cube_cell *cell)
+static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
 {
     const lrcs_brdf *brdf = sum->brdf;
-    double turn = cell_turn(cell);
+    double turn = cube_turn(cell);
     double cosine = cos(cell->theta);
     int diffuse = turn <= MOST_TURN && (!(brdf->B > 0) || turn * turn * (brdf->m + 1) <= 1);
     int glint = !(brdf->A > 0) || turn <= brdf->s * cosine * cosine;
@@ -181,44 +217,113 @@ static void cell_trust(const lrcsi_cubature *sum, cube_cell *cell)
     }
 }
 
-/* The side over which normals turn most: from corner k to corner (k + 1) % 3. */
-static int cell_side(const cube_cell *cell)
+/* The direction in which normals turn most: from corner *from to corner *to, the chord between
+   their normals of length 1. */
+static void cube_chord(const cube_cell *cell, int *from, int *to, double chord[3])
 {
-    double length[3];
+    double unit[CORNERS][3];
     double most = -1;
-    int side = 0;
-    for (int i = 0; i < 3; i++) {
-        length[i] = sqrt(square_of(cell->normal[i]));
-    }
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3;
-        double chord[3];
+    for (int i = 0; i < cell->count; i++) {
+        double length = sqrt(square_of(cell->normal[i]));
         for (int k = 0; k < 3; k++) {
-            chord[k] = cell->normal[i][k] * length[j] - cell->normal[j][k] * length[i];
+            unit[i][k] = length > 0 ? cell->normal[i][k] / length : 0;
         }
-        double turn = square_of(chord) / (length[i] * length[j]) / (length[i] * length[j]);
-        if (turn > most) {
-            most = turn;
-            side = i;
+        for (int j = 0; j < i; j++) {
+            double apart[3] = {unit[i][0] - unit[j][0], unit[i][1] - unit[j][1],
+                               unit[i][2] - unit[j][2]};
+            if (square_of(apart) > most) {
+                most = square_of(apart);
+                *from = j;
+                *to = i;
+                for (int k = 0; k < 3; k++) {
+                    chord[k] = apart[k];
+                }
+            }
         }
     }
-    return side;
+}
+
+static void corner_add(cube_cell *cell, const double normal[3], const double at[2])
+{
+    for (int k = 0; k < 3; k++) {
+        cell->normal[cell->count][k] = normal[k];
+    }
+    for (int k = 0; k < 2; k++) {
+        cell->at[cell->count][k] = at[k];
+    }
+    cell->count++;
+}
+
+/* The part of a cell with level >= 0, `sign` 1, or <= 0, -1; the level is linear in position. */
+static void cube_cut(const cube_cell *cell, const double level[CORNERS], int sign, cube_cell *part)
+{
+    for (int i = 0; i < cell->count; i++) {
+        int j = (i + 1) % cell->count;
+        double here = sign * level[i];
+        double there = sign * level[j];
+        if (here >= 0) {
+            corner_add(part, cell->normal[i], cell->at[i]);
+        }
+        if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
+            double share = here / (here - there);
+            double normal[3];
+            double at[2];
+            for (int k = 0; k < 3; k++) {
+                normal[k] = cell->normal[i][k] + share * (cell->normal[j][k] - cell->normal[i][k]);
+            }
+            for (int k = 0; k < 2; k++) {
+                at[k] = cell->at[i][k] + share * (cell->at[j][k] - cell->at[i][k]);
+            }
+            corner_add(part, normal, at);
+        }
+    }
+}
+
+/* Positions relative to the first corner, and the angle to the laser. */
+static void cube_settle(cube_cell *cell)
+{
+    for (int i = cell->count - 1; i >= 0; i--) {
+        cell->at[i][0] -= cell->at[0][0];
+        cell->at[i][1] -= cell->at[0][1];
+    }
+    cube_measure(cell);
+}
+
+/* Levels whose zero halves a cell; 0 where none of it is below, as where no normal turns. By the
+   line across the largest turn, midway, or where the cell has corners enough, by a diagonal. */
+static int cube_levels(const cube_cell *cell, double level[CORNERS])
+{
+    int from = 0;
+    int to = 0;
+    double chord[3] = {0, 0, 0};
+    cube_chord(cell, &from, &to, chord);
+    const double *p = cell->at[CORNERS / 2];
+    int below = 0;
+    for (int i = 0; i < cell->count; i++) {
+        double g = 0;
+        for (int k = 0; k < 3; k++) {
+            g += chord[k] *
+                 (cell->normal[i][k] - 0.5 * (cell->normal[from][k] + cell->normal[to][k]));
+        }
+        level[i] = cell->count < CORNERS ? g : p[0] * cell->at[i][1] - p[1] * cell->at[i][0];
+        below |= level[i] < 0;
+    }
+    return below;
 }
 
 /* Both halves, the one nearer to the laser second. */
-static void cell_halve(const cube_cell *cell, cube_cell half[2])
+static void cube_halve(const cube_cell *cell, cube_cell half[2])
 {
-    int from = cell_side(cell);
-    int to = (from + 1) % 3;
+    double level[CORNERS];
+    int parts = cube_levels(cell, level);
     for (int h = 0; h < 2; h++) {
-        half[h] = *cell;
-        half[h].area = 0.5 * cell->area;
-        half[h].depth = cell->depth + 1;
-        for (int k = 0; k < 3; k++) {
-            half[h].normal[h == 0 ? from : to][k] =
-                0.5 * (cell->normal[from][k] + cell->normal[to][k]);
+        half[h] =
+            (cube_cell){.unit = cell->unit, .unheard = cell->unheard, .depth = cell->depth + 1};
+        half[h].trusted = cell->trusted;
+        if (h == 0 || parts) {
+            cube_cut(cell, level, h == 0 ? 1 : -1, &half[h]);
         }
-        cell_measure(&half[h]);
+        cube_settle(&half[h]);
     }
     if (half[0].theta < half[1].theta) {
         cube_cell other = half[0];
@@ -228,12 +333,12 @@ static void cell_halve(const cube_cell *cell, cube_cell half[2])
 }
 
 /* The halves of both halves, with the rule's sums. */
-static void cell_quarter(const lrcsi_cubature *sum, const cube_cell *cell, cube_cell quarter[4])
+static void cube_quarter(const lrcsi_cubature *sum, const cube_cell *cell, cube_cell quarter[4])
 {
     cube_cell half[2];
-    cell_halve(cell, half);
-    cell_halve(&half[0], &quarter[0]);
-    cell_halve(&half[1], &quarter[2]);
+    cube_halve(cell, half);
+    cube_halve(&half[0], &quarter[0]);
+    cube_halve(&half[1], &quarter[2]);
     for (int i = 0; i < 4; i++) {
         quarter[i].value = rule_value(sum, &quarter[i]);
     }
@@ -249,11 +354,11 @@ static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell, double estimate
 
 /* No halvings are left for a cell that no rule is good for: the most that it may hold is its
    estimate. */
-static void cell_give_up(lrcsi_cubature *sum, cube_cell *cell)
+static void cube_give_up(lrcsi_cubature *sum, cube_cell *cell)
 {
-    lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, cell_turn(cell));
+    lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, cube_turn(cell));
     cell->value = rule_value(sum, cell);
-    sum_keep(sum, cell, cell->area * (most.glint + most.diffuse));
+    sum_keep(sum, cell, cube_area(cell) * (most.glint + most.diffuse));
 }
 
 /* Keeps the quarters where they agree with the whole, or must. 0: they are not kept. */
@@ -264,33 +369,33 @@ static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_
     for (int i = 0; i < 4; i++) {
         value_add(&all, 1, &quarter[i].value);
     }
+    double area = cube_area(cell);
     double off = fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
     double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
-    if (!must &&
-        !(off <= sum->tolerance * (all.glint + all.diffuse + had * (cell->area / sum->whole)))) {
+    if (!must && !(off <= sum->tolerance * (all.glint + all.diffuse + had * (area / sum->whole)))) {
         return 0;
     }
     for (int i = 0; i < 4; i++) {
-        sum_keep(sum, &quarter[i], i == 0 ? off + cell->unheard * cell->area : 0);
+        sum_keep(sum, &quarter[i], i == 0 ? off + cell->unheard * area : 0);
     }
     return 1;
 }
 
 /* One cell: kept, or parted into `part`. Returns into how many. */
-static uint32_t cell_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cube_cell part[4])
+static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cube_cell part[4])
 {
     if (!cell->trusted) {
-        cell_trust(sum, cell);
+        cube_trust(sum, cell);
     }
     if (cell->trusted) {
-        cell_quarter(sum, cell, part);
+        cube_quarter(sum, cell, part);
         return quarters_keep(sum, cell, part, !may_part) ? 0 : 4;
     }
     if (may_part) {
-        cell_halve(cell, part);
+        cube_halve(cell, part);
         return 2;
     }
-    cell_give_up(sum, cell);
+    cube_give_up(sum, cell);
     return 0;
 }
 
@@ -300,41 +405,31 @@ static void cells_add(lrcsi_cubature *sum, cube_cell first)
     cube_cell stack[STACK_SIZE];
     cube_cell part[4];
     uint32_t top = 0;
-    cell_measure(&first);
+    cube_settle(&first);
     stack[top++] = first;
     while (top > 0) {
         cube_cell cell = stack[--top];
         int may_part =
             cell.depth == 0 || (cell.depth + 2 <= MOST_HALVINGS && sum->splits < MOST_SPLITS);
-        uint32_t parts = cell_step(sum, &cell, may_part, part);
+        uint32_t parts = cube_step(sum, &cell, may_part, part);
         sum->splits += parts;
         for (uint32_t i = 0; i < parts; i++) {
-            stack[top++] = part[i];
+            if (part[i].count >= 3) {
+                stack[top++] = part[i];
+            }
         }
     }
 }
 
-/* --- the lit part ----------------------------------------------------------------------------- */
+/* --- triangles -------------------------------------------------------------------------------- */
 
-/* The point on the side from a corner with z > 0 to one with z <= 0 where z = 0; its share of it.
- */
-static double lit_end(const double from[3], const double to[3], double at[3])
+/* A triangle of that area. */
+static cube_cell cube_of(const double normal[3][3], double area)
 {
-    double share = from[2] / (from[2] - to[2]);
-    for (int k = 0; k < 2; k++) {
-        at[k] = from[k] + share * (to[k] - from[k]);
-    }
-    at[2] = 0;
-    return share;
-}
-
-static cube_cell cell_of(const double a[3], const double b[3], const double c[3], double area)
-{
-    cube_cell cell = {.area = area};
-    for (int k = 0; k < 3; k++) {
-        cell.normal[0][k] = a[k];
-        cell.normal[1][k] = b[k];
-        cell.normal[2][k] = c[k];
+    static const double at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    cube_cell cell = {.unit = 2 * area};
+    for (int i = 0; i < 3; i++) {
+        corner_add(&cell, normal[i], at[i]);
     }
     return cell;
 }
@@ -343,9 +438,9 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
                                    double tolerance)
 {
     lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance};
-    cube_cell cell = cell_of(normal[0], normal[1], normal[2], 0);
-    cell_measure(&cell);
-    sum.most = lrcsi_reflect_most(brdf, cell.theta, cell_turn(&cell) + 0x1p-40);
+    cube_cell cell = cube_of(normal, 0);
+    cube_measure(&cell);
+    sum.most = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
     return sum;
 }
 
@@ -357,30 +452,14 @@ double lrcsi_cubature_at(const lrcsi_cubature *sum, const double normal[3])
 
 void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area)
 {
-    const double *lit[3];
-    const double *dark[3];
-    int count = 0;
-    double p[3];
-    double q[3];
+    double level[CORNERS] = {0};
+    cube_cell whole = cube_of(normal, area);
+    cube_cell lit = {.unit = whole.unit};
     for (int i = 0; i < 3; i++) {
-        if (normal[i][2] > 0) {
-            lit[count++] = normal[i];
-        } else {
-            dark[i - count] = normal[i];
-        }
+        level[i] = normal[i][2];
     }
-    if (!(area > 0) || count == 0) {
-        return;
-    }
-    if (count == 3) {
-        cells_add(sum, cell_of(lit[0], lit[1], lit[2], area));
-    } else if (count == 1) {
-        double share = lit_end(lit[0], dark[0], p) * lit_end(lit[0], dark[1], q);
-        cells_add(sum, cell_of(lit[0], p, q, area * share));
-    } else {
-        double along_p = lit_end(lit[0], dark[0], p);
-        double along_q = lit_end(lit[1], dark[0], q);
-        cells_add(sum, cell_of(lit[0], lit[1], q, area * along_q));
-        cells_add(sum, cell_of(lit[0], q, p, area * (1 - along_q) * along_p));
+    cube_cut(&whole, level, 1, &lit);
+    if (area > 0 && lit.count >= 3) {
+        cells_add(sum, lit);
     }
 }
