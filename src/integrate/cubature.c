@@ -9,9 +9,10 @@
    which its normals turn most, the half nearer to the laser done first, so that the peak, if there
    is one, is in the sum before what surrounds it.
    - A rule is trusted only where the normals turn by less than the peaks are wide (of the glint
-     s cos^2 theta, of the diffuse part 1 / sqrt(m + 1)): no peak can then hide from its centroid,
-     nor a flank from the comparison below. Elsewhere a cell is halved unheard, unless the most that
-     the glint reaches in it (a proved bound) is nothing to what the sum and its estimate have.
+     s cos^2 theta, of the diffuse part 1 / sqrt(m + 1)) and than their flanks take for a few powers
+     of e: no peak can then hide from the rule, nor a flank from the comparison below. Elsewhere a
+     cell is halved unheard, unless the most that such a part reaches in it (a proved bound) is
+     nothing to what the sum and its estimate have, or are sure to get.
    - There the rule of degree 5 on 7 points (Radon 1948) is compared with itself on four quarters,
    the halves of both halves: between them every direction in which the normals turn much is halved,
      which one halving does not do. The difference is the estimate; being the error of the coarser,
@@ -35,8 +36,9 @@
 /* No cell's normals turn by more than this (rad) where a rule is trusted. */
 #define MOST_TURN 0.5
 #define HALF_TURN 3.14159265358979323846
-/* A glint below this is nothing, whatever else there is. */
-#define NO_GLINT 0x1p-900
+/* Of the tolerance: what stays below this, relative to what a peak of the most and of the BRDF's
+   own width would add over a radian, is nothing. It goes to the estimate all the same. */
+#define NOTHING 0x1p-20
 /* Beyond this tan^2 the laser is as good as in the plane. */
 #define MOST_TAN2 1e300
 
@@ -203,15 +205,21 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
     const lrcs_brdf *brdf = sum->brdf;
     double turn = cube_turn(cell);
     double cosine = cos(cell->theta);
-    int diffuse = turn <= MOST_TURN && (!(brdf->B > 0) || turn * turn * (brdf->m + 1) <= 1);
-    int glint = !(brdf->A > 0) || turn <= brdf->s * cosine * cosine;
-    if (diffuse && !glint) {
-        double most = lrcsi_reflect_most(brdf, cell->theta, turn).glint;
+    double t = tan(cell->theta);
+    double wide = brdf->s * cosine * cosine * lrcsi_least(1, 2 * brdf->s / t);
+    double steep = (brdf->m + 1) * lrcsi_least(1, t);
+    int glint = !(brdf->A > 0) || turn <= wide;
+    int diffuse = !(brdf->B > 0) || (turn * turn * (brdf->m + 1) <= 1 && turn * steep <= 4);
+    cell->unheard = 0;
+    if (turn <= MOST_TURN && !(glint && diffuse)) {
+        lrcsi_reflection most = lrcsi_reflect_most(brdf, cell->theta, turn);
+        cell->unheard = (glint ? 0 : most.glint) + (diffuse ? 0 : most.diffuse);
         double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
-        glint = most <= NO_GLINT || most * sum->whole <= sum->tolerance * had;
-        cell->unheard = glint ? most : 0;
+        double scale = lrcsi_most(had, sum->least * sum->whole);
+        glint = diffuse =
+            cell->unheard <= sum->nothing || cell->unheard * sum->whole <= sum->tolerance * scale;
     }
-    cell->trusted = diffuse && glint;
+    cell->trusted = turn <= MOST_TURN && diffuse && glint;
     if (cell->trusted) {
         cell->value = rule_value(sum, cell);
     }
@@ -441,6 +449,11 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     cube_cell cell = cube_of(normal, 0);
     cube_measure(&cell);
     sum.most = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
+    double far = cell.theta + cube_turn(&cell);
+    sum.least = far < HALF_TURN / 2 ? brdf->B * pow(cos(far), brdf->m + 1) : 0;
+    sum.nothing =
+        NOTHING * tolerance *
+        (sum.most.glint * lrcsi_least(1, brdf->s * brdf->s) + sum.most.diffuse / (brdf->m + 1));
     return sum;
 }
 

@@ -14,14 +14,16 @@ typedef struct lrcsi_cubature {
     double whole;          /* area of all triangles to come, or about that */
     double slip;           /* by how much a normal may be off where it is evaluated, rad */
     lrcsi_reflection most; /* bounds on the parts of f_r cos over all of them */
+    double least;          /* a diffuse f_r cos that is nowhere undercut */
+    double nothing;        /* f_r cos below this is not looked for */
     lrcsi_sum glint, diffuse;
     double estimate; /* of the cubature's error */
     double rounding; /* bound on the error that rounding adds to the cubature's own sum */
     uint32_t splits;
 } lrcsi_cubature;
 
-/* An empty sum over surfaces whose normals lie between these three (as below): most is set, whole
-   and slip are the caller's to set. */
+/* An empty sum over surfaces whose normals lie between these three (as below): whole and slip
+   are the caller's to set, and nothing where other surfaces reach more. */
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
                                    double tolerance);
 

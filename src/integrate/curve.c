@@ -65,6 +65,20 @@ static void job_start(curve_job *job, const lrcsi_view *view, const lrcsi_plan *
     job->sum.slip = SLIP_WHOLE;
 }
 
+/* What is nothing to the brightest of the facets wanted is so on all of them. */
+static double least_of_all(const lrcsi_view *view, const lrcsi_plan *plan, double tolerance)
+{
+    curve_job job;
+    double nothing = 0;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        if (lrcsi_curve_wanted(view, f)) {
+            job_start(&job, view, plan, f, tolerance);
+            nothing = lrcsi_most(nothing, job.sum.nothing);
+        }
+    }
+    return nothing;
+}
+
 static void job_whole(curve_job *job)
 {
     lrcsi_cubature_add(&job->sum, (const double(*)[3])job->normal, job->tilt.projected);
@@ -168,10 +182,12 @@ void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
                         lrcsi_curved *curved)
 {
     curve_job job;
+    double nothing = least_of_all(view, plan, tolerance);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0};
         if (lrcsi_curve_wanted(view, f) && visible[f].high > 0) {
             job_start(&job, view, plan, f, tolerance);
+            job.sum.nothing = nothing;
             curved[f] = curve_share(&job, raster, &visible[f]);
         }
     }
@@ -252,6 +268,7 @@ int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double to
     size_t mark = work->used;
     lrcsi_occluding o;
     curve_job job;
+    double nothing = least_of_all(view, plan, tolerance);
     int status = lrcsi_occlude_make(contest, work, &o);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0};
@@ -262,6 +279,7 @@ int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double to
         int wanted = lrcsi_curve_wanted(view, f);
         if (wanted) {
             job_start(&job, view, plan, f, tolerance);
+            job.sum.nothing = nothing;
         }
         if (wanted && o.contested) {
             curved[f] = curve_pieces(&job, &o, &visible[f]);
