@@ -251,8 +251,12 @@ static void cube_chord(const cube_cell *cell, int *from, int *to, double chord[3
     }
 }
 
+/* A convex cell never has too many; one that rounding has dented loses a sliver of its rim. */
 static void corner_add(cube_cell *cell, const double normal[3], const double at[2])
 {
+    if (cell->count == CORNERS) {
+        return;
+    }
     for (int k = 0; k < 3; k++) {
         cell->normal[cell->count][k] = normal[k];
     }
@@ -297,23 +301,48 @@ static void cube_settle(cube_cell *cell)
     cube_measure(cell);
 }
 
-/* Levels whose zero halves a cell; 0 where none of it is below, as where no normal turns. By the
-   line across the largest turn, midway, or where the cell has corners enough, by a diagonal. */
+/* The direction in position along which the component of the normals along `chord` grows, from the
+   largest triangle of the fan; of any length. */
+static void cube_gradient(const cube_cell *cell, const double chord[3], double gradient[2])
+{
+    double most = 0;
+    gradient[0] = gradient[1] = 0;
+    for (int i = 1; i + 1 < cell->count; i++) {
+        const double *u = cell->at[i];
+        const double *v = cell->at[i + 1];
+        double gu = 0;
+        double gv = 0;
+        for (int k = 0; k < 3; k++) {
+            gu += chord[k] * (cell->normal[i][k] - cell->normal[0][k]);
+            gv += chord[k] * (cell->normal[i + 1][k] - cell->normal[0][k]);
+        }
+        if (u[0] * v[1] - u[1] * v[0] > most) {
+            most = u[0] * v[1] - u[1] * v[0];
+            gradient[0] = gu * v[1] - gv * u[1];
+            gradient[1] = gv * u[0] - gu * v[0];
+        }
+    }
+}
+
+/* Levels whose zero halves a cell; 0 where none of it is below, as where no normal turns. They are
+   linear in position, so that areas add up whatever rounding does to normals: across the largest
+   turn, midway, or where the cell has corners enough, along a diagonal. */
 static int cube_levels(const cube_cell *cell, double level[CORNERS])
 {
     int from = 0;
     int to = 0;
-    double chord[3] = {0, 0, 0};
-    cube_chord(cell, &from, &to, chord);
-    const double *p = cell->at[CORNERS / 2];
     int below = 0;
+    double chord[3] = {0, 0, 0};
+    double g[2];
+    cube_chord(cell, &from, &to, chord);
+    cube_gradient(cell, chord, g);
+    const double *p = cell->at[CORNERS / 2];
     for (int i = 0; i < cell->count; i++) {
-        double g = 0;
-        for (int k = 0; k < 3; k++) {
-            g += chord[k] *
-                 (cell->normal[i][k] - 0.5 * (cell->normal[from][k] + cell->normal[to][k]));
-        }
-        level[i] = cell->count < CORNERS ? g : p[0] * cell->at[i][1] - p[1] * cell->at[i][0];
+        const double *at = cell->at[i];
+        level[i] = cell->count == CORNERS
+                       ? p[0] * at[1] - p[1] * at[0]
+                       : g[0] * (at[0] - 0.5 * (cell->at[from][0] + cell->at[to][0])) +
+                             g[1] * (at[1] - 0.5 * (cell->at[from][1] + cell->at[to][1]));
         below |= level[i] < 0;
     }
     return below;
@@ -422,7 +451,7 @@ static void cells_add(lrcsi_cubature *sum, cube_cell first)
         uint32_t parts = cube_step(sum, &cell, may_part, part);
         sum->splits += parts;
         for (uint32_t i = 0; i < parts; i++) {
-            if (part[i].count >= 3) {
+            if (part[i].count >= 3 && cube_area(&part[i]) > 0) {
                 stack[top++] = part[i];
             }
         }

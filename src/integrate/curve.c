@@ -212,8 +212,8 @@ static double piece_add(curve_job *job, const lrcsi_target *target, const double
         if (i < 2) {
             continue;
         }
-        double u[2] = {corner[i - 1][0] - corner[0][0], corner[i - 1][1] - corner[0][1]};
-        double v[2] = {corner[i][0] - corner[0][0], corner[i][1] - corner[0][1]};
+        const double u[2] = {corner[i - 1][0] - corner[0][0], corner[i - 1][1] - corner[0][1]};
+        const double v[2] = {corner[i][0] - corner[0][0], corner[i][1] - corner[0][1]};
         lrcsi_cubature_add(&job->sum, (const double(*)[3])normal,
                            0.5 * (u[0] * v[1] - u[1] * v[0]));
         off += 4 * U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
