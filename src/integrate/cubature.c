@@ -17,6 +17,8 @@
    the halves of both halves: between them every direction in which the normals turn much is halved,
      which one halving does not do. The difference is the estimate; being the error of the coarser,
      it is some ten to sixty times that of what is kept.
+   - Where the normals turn by less than a small part p of those widths, the rule alone serves: its
+     error is of the order of p^6, which then is the estimate.
    Where halvings run out, the bound on the cell stands as the estimate. */
 #include "integrate/cubature.h"
 
@@ -56,7 +58,8 @@ typedef struct cube_cell {
     double theta;   /* from the mean of its corners' normals to the laser */
     double unheard; /* bound on a glint that no rule need find, per area */
     uint32_t depth;
-    int trusted; /* the rule may be: `value` is its sum */
+    int trusted;  /* the rule may be: `value` is its sum */
+    double rough; /* relative error of that where it is small enough to go by, else 1 */
     cube_value value;
 } cube_cell;
 
@@ -209,6 +212,7 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
     double wide = brdf->s * cosine * cosine * lrcsi_least(1, 2 * brdf->s / t);
     double steep = (brdf->m + 1) * lrcsi_least(1, t);
     int glint = !(brdf->A > 0) || turn <= wide;
+    int glint_near = glint;
     int diffuse = !(brdf->B > 0) || (turn * turn * (brdf->m + 1) <= 1 && turn * steep <= 4);
     cell->unheard = 0;
     if (turn <= MOST_TURN && !(glint && diffuse)) {
@@ -220,6 +224,9 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
             cell->unheard <= sum->nothing || cell->unheard * sum->whole <= sum->tolerance * scale;
     }
     cell->trusted = turn <= MOST_TURN && diffuse && glint;
+    double part = lrcsi_most(turn * sqrt(brdf->m + 1), 0.25 * turn * steep);
+    part = lrcsi_most(part, brdf->A > 0 && glint_near ? turn / wide : 0);
+    cell->rough = part < 1 ? part * part * part * part * part * part : 1;
     if (cell->trusted) {
         cell->value = rule_value(sum, cell);
     }
@@ -357,6 +364,7 @@ static void cube_halve(const cube_cell *cell, cube_cell half[2])
         half[h] =
             (cube_cell){.unit = cell->unit, .unheard = cell->unheard, .depth = cell->depth + 1};
         half[h].trusted = cell->trusted;
+        half[h].rough = 1;
         if (h == 0 || parts) {
             cube_cut(cell, level, h == 0 ? 1 : -1, &half[h]);
         }
@@ -423,6 +431,11 @@ static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cu
 {
     if (!cell->trusted) {
         cube_trust(sum, cell);
+    }
+    if (cell->trusted && cell->rough <= sum->tolerance) {
+        double value = cell->value.glint + cell->value.diffuse;
+        sum_keep(sum, cell, cell->rough * value + cell->unheard * cube_area(cell));
+        return 0;
     }
     if (cell->trusted) {
         cube_quarter(sum, cell, part);
