@@ -63,13 +63,16 @@ fuzz:
 	    -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus test/fuzz/seeds
 FUZZ_SECONDS = 120
 
-# Every proved bound on BOUNDS_SCENES hostile scenes with exact answers (needs python3, mpmath).
+# Every proved bound on BOUNDS_SCENES scenes of each kind with exact answers, and what the estimate is
+# worth (needs python3, mpmath).
 bounds: $(LIB)
 	@mkdir -p $(BUILD)/test/hostile
-	python3 test/hostile/bounds.py $(BOUNDS_SCENES) $(BOUNDS_SEED) >$(BUILD)/test/hostile/scenes
 	$(CC) $(STD) $(OPT) -Wall -Wextra -Iinclude -o $(BUILD)/test/hostile/bounds test/hostile/bounds.c $(LIB) $(LDLIBS)
-	$(BUILD)/test/hostile/bounds $(BUILD)/test/hostile/scenes
-BOUNDS_SCENES = 1000
+	for kind in hostile plain; do \
+	    python3 test/hostile/bounds.py $(BOUNDS_SCENES) $(BOUNDS_SEED) $$kind >$(BUILD)/test/hostile/$$kind && \
+	    $(BUILD)/test/hostile/bounds $(BUILD)/test/hostile/$$kind || exit 1; \
+	done
+BOUNDS_SCENES = 500
 BOUNDS_SEED   = 1
 
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.

@@ -129,6 +129,16 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
 
 void lrcs_host_scene_free(lrcs_host_scene *scene);
 
+/* The visible polygons of a pose, in memory of their own: lrcs_polygon_run, and what gives it back.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as there. */
+typedef struct lrcs_host_polygons {
+    lrcs_polygons list;
+    void *blocks; /* memory owned */
+} lrcs_host_polygons;
+int lrcs_host_polygons_make(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                            lrcs_host_polygons *polygons, lrcs_host_error *error);
+void lrcs_host_polygons_free(lrcs_host_polygons *polygons);
+
 /* How a mesh of a curved body serves the glint of what it wears. An ESTIMATE: the turn is the
    median angle between neighbours that share a smoothing group, or in a scene built with curved
    normals between those at the corners of facets in no group (engine shapes: twice the proved
@@ -152,6 +162,8 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
 
 /* The per-facet table of a run: header and one row for every facet. */
 void lrcs_host_facets_write(FILE *out, const lrcs_scene *scene, const lrcs_facet_record *records);
+/* That of visible polygons: header and one row for every point, rings counted from 0. */
+void lrcs_host_polygons_write(FILE *out, const lrcs_polygons *polygons);
 
 /* JSON as it is written: one container inside another, commas and escapes by themselves. */
 enum lrcs_host_json_kind {

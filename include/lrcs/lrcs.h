@@ -5,6 +5,7 @@
 
 #include <lrcs/brdf.h>
 #include <lrcs/mesh.h>
+#include <lrcs/polygon.h>
 #include <lrcs/pose.h>
 #include <lrcs/read.h>
 #include <lrcs/run.h>

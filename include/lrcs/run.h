@@ -82,15 +82,17 @@ const char *lrcs_effect_text(int effect); /* "self_shadowing", ... or NULL */
 /* Flags: the answer is degraded, the bound widened accordingly. */
 enum lrcs_flag {
     LRCS_FLAG_TOLERANCE_NOT_MET = 1 << 0,
-    LRCS_FLAG_MEMORY_FALLBACK = 1 << 1, /* coarser raster than asked, for want of memory */
-    LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2  /* two facets too close at a sample to tell apart */
+    /* for want of memory: a raster in place of clipping, or a coarser one than asked, or facets
+       that were not clipped */
+    LRCS_FLAG_MEMORY_FALLBACK = 1 << 1,
+    LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2 /* two facets too close at a sample to tell apart */
 };
 const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 
 /* Notices: true and worth knowing, not a degradation. */
 enum lrcs_notice {
     LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,  /* open or inverted mesh */
-    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* curved shapes under shadowing */
+    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape scaled unevenly, say */
 };
 const char *lrcs_notice_text(int bit);
 
@@ -134,8 +136,8 @@ typedef struct lrcs_image {
 } lrcs_image;
 
 /* Bytes of work area that lrcs_sigma_run takes, an upper bound for ordinary scenes; with less
-   it uses a coarser raster (LRCS_FLAG_MEMORY_FALLBACK), or says LRCS_E_MEMORY when even the
-   coarsest does not fit. */
+   it leaves facets unclipped, or uses a raster, or a coarser one (LRCS_FLAG_MEMORY_FALLBACK; the
+   result names the method used), or says LRCS_E_MEMORY when even the coarsest does not fit. */
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options);
 
 /* sigma from a pose.

@@ -116,6 +116,8 @@ typedef struct lrcs_part {
     int solid;           /* a closed outward solid by construction, up to rounding */
     double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
     double misplaced;    /* m, bound on the rounding of its placed vertices */
+    double reach;        /* m, no point of the true surface is farther from its place on the
+                            facets; 0 where the facets are the truth */
     int articulated;     /* stands on a joint */
     int smoothed;        /* its model has smoothing groups or vertex normals */
 } lrcs_part;
@@ -151,8 +153,9 @@ int lrcs_normals_find(const char *name);
 
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
-    double tolerance;    /* relative, > 0, of a shape alone; among other parts ten times this,
-                            at least 1e-4 */
+    double tolerance;    /* relative, > 0, of a shape alone; among other parts small ones may be
+                            coarser, and a sphere, dome or paraboloid is divided for ten times
+                            this, at least 1e-4 */
     uint32_t max_facets; /* a shape's most */
     int normals;         /* lrcs_normals */
 } lrcs_build_options;

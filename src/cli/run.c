@@ -34,6 +34,8 @@ static const char run_help[] =
     "                        where it is off; runs the pose for some 2 s more, or once for each\n"
     "  --json                the result as JSON, notices included\n"
     "  --facets FILE.csv     one row for every facet ('-': instead of the table)\n"
+    "  --polygons FILE.csv   what is visible, as convex rings on each facet, one row a point; by\n"
+    "                        exact visibility, whichever method auto took ('-' as for --facets)\n"
     "  --image FILE.png      what the laser sees, coloured by sigma per projected area\n"
     "  --image-size N        its side in pixels (512)\n"
     "\n"
@@ -45,11 +47,11 @@ static const char run_help[] =
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
 static const cli_option run_options[] = {
-    {"direction", 1, 0}, {"azel", 1, 0},       {"euler", 1, 0},   {"quaternion", 1, 0},
-    {"tolerance", 1, 0}, {"method", 1, 0},     {"unit", 1, 0},    {"resolution", 1, 0},
-    {"material", 1, 1},  {"json", 0, 0},       {"facets", 1, 0},  {"keep-transparent", 0, 0},
-    {"image", 1, 0},     {"image-size", 1, 0}, {"explain", 0, 0}, {"normals", 1, 0},
-    {"help", 0, 0},      {NULL, 0, 0}};
+    {"direction", 1, 0}, {"azel", 1, 0},   {"euler", 1, 0},      {"quaternion", 1, 0},
+    {"tolerance", 1, 0}, {"method", 1, 0}, {"unit", 1, 0},       {"resolution", 1, 0},
+    {"material", 1, 1},  {"json", 0, 0},   {"facets", 1, 0},     {"keep-transparent", 0, 0},
+    {"polygons", 1, 0},  {"image", 1, 0},  {"image-size", 1, 0}, {"explain", 0, 0},
+    {"normals", 1, 0},   {"help", 0, 0},   {NULL, 0, 0}};
 
 /* ---- options ---- */
 
@@ -94,17 +96,11 @@ static int options_read(run_job *job)
 
 /* ---- the run ---- */
 
-static int run_scene(run_job *job)
+/* Room for what the outputs show. */
+static int run_room(run_job *job)
 {
-    lrcs_host_error error;
-    lrcs_host_scene *scene = &job->scene;
-    int code = cli_scene_read(job->args, &job->load, scene);
-    code = code ? code : cli_run_outputs_check(job);
-    if (code != 0) {
-        return code;
-    }
     if (job->facets || job->image_path) {
-        job->records = calloc((size_t)scene->scene.facet_count + 1, sizeof *job->records);
+        job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
     }
     if (job->image_path) {
         job->image.size = lrcs_host_picture_need(job->image_size);
@@ -115,14 +111,24 @@ static int run_scene(run_job *job)
         fprintf(stderr, "lrcs: out of memory\n");
         return CLI_FAILED;
     }
-    if (lrcs_host_scene_prepare(scene, &error) != LRCS_OK) {
+    return 0;
+}
+
+static int run_pose(run_job *job)
+{
+    lrcs_host_error error;
+    if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    int status = lrcs_host_scene_run(scene, &job->pose, &job->options, &job->result, job->records,
-                                     job->image_path ? &job->image : NULL, &job->seconds, &error);
+    int status =
+        lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
+                            job->image_path ? &job->image : NULL, &job->seconds, &error);
     if (status == LRCS_E_UNSUPPORTED) {
         return cli_usage(job->args->command, "--method %s is not in this version",
                          lrcs_method_text(job->options.method));
+    }
+    if (status == LRCS_OK && job->polygons_path) {
+        status = lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error);
     }
     if (status != LRCS_OK) {
         return cli_failed(&error);
@@ -131,12 +137,19 @@ static int run_scene(run_job *job)
     return 0;
 }
 
+static int run_scene(run_job *job)
+{
+    int code = cli_scene_read(job->args, &job->load, &job->scene);
+    code = code ? code : cli_run_outputs_check(job);
+    code = code ? code : run_room(job);
+    return code ? code : run_pose(job);
+}
+
 /* ---- the command ---- */
 
 /* Files first: a table on stdout that says "picture" must be true. */
 static int run_outputs(run_job *job)
 {
-    int to_stdout = job->facets && strcmp(job->facets, "-") == 0;
     int code = cli_run_outputs_write(job);
     code = code == 0 && job->explain ? cli_run_explain(job) : code;
     if (code != 0) {
@@ -146,7 +159,7 @@ static int run_outputs(run_job *job)
         cli_run_json(job);
     } else {
         cli_run_notices(job);
-        if (!to_stdout) {
+        if (!cli_run_outputs_stdout(job)) {
             cli_run_table(job);
         }
     }
@@ -165,6 +178,7 @@ static int run_command(const cli_args *args)
     code = code ? code : run_outputs(&job);
     free(job.records);
     free(job.image.facet);
+    lrcs_host_polygons_free(&job.polygons);
     lrcs_host_scene_free(&job.scene);
     cli_scene_options_free(&job.load);
     return code;

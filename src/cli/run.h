@@ -25,12 +25,13 @@ typedef struct run_job {
     lrcs_pose pose;
     lrcs_run_options options;
     lrcs_host_options load;
-    const char *facets, *image_path;
+    const char *facets, *polygons_path, *image_path;
     uint32_t image_size;
     lrcs_host_scene scene;
     lrcs_result result;
     lrcs_facet_record *records;
     lrcs_image image;
+    lrcs_host_polygons polygons;
     double seconds;
     int met;
     int explain; /* asked for */
@@ -42,6 +43,9 @@ typedef struct run_job {
 int cli_run_outputs_read(run_job *job);
 int cli_run_outputs_check(const run_job *job);
 int cli_run_outputs_write(const run_job *job);
+
+/* Does a file's table take the place of the one for people? */
+int cli_run_outputs_stdout(const run_job *job);
 
 /* --explain: runs the pose again and again, each effect flipped in turn; 0 or CLI_FAILED. Then as
    keys of an effect's JSON object, and as a table after the result's. */

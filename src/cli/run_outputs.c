@@ -9,29 +9,71 @@
 #define IMAGE_MOST    4096.0
 #define IMAGE_DEFAULT 512u
 
+/* One of the files that a run may write. */
+typedef struct run_file {
+    const char *option, *path; /* NULL: not asked for */
+} run_file;
+
+#define FILES 3
+
+static void files_list(const run_job *job, run_file file[FILES])
+{
+    file[0] = (run_file){"facets", job->facets};
+    file[1] = (run_file){"polygons", job->polygons_path};
+    file[2] = (run_file){"image", job->image_path};
+}
+
+static int to_stdout(const char *path)
+{
+    return path && strcmp(path, "-") == 0;
+}
+
+/* No two outputs in one place, a file or standard output. */
+static int files_apart(const run_job *job)
+{
+    const cli_command *command = job->args->command;
+    run_file file[FILES];
+    files_list(job, file);
+    for (int i = 0; i < FILES; i++) {
+        const char *table = cli_value(job->args, "json")      ? "json"
+                            : cli_value(job->args, "explain") ? "explain"
+                                                              : NULL;
+        if (to_stdout(file[i].path) && table) {
+            return cli_usage(command, "--%s - and --%s both want standard output", file[i].option,
+                             table);
+        }
+        for (int k = i + 1; k < FILES; k++) {
+            if (file[i].path && file[k].path && lrcs_host_output_same(file[i].path, file[k].path)) {
+                return cli_usage(command, "--%s and --%s name the same file: '%s', '%s'",
+                                 file[i].option, file[k].option, file[i].path, file[k].path);
+            }
+        }
+    }
+    return 0;
+}
+
 int cli_run_outputs_read(run_job *job)
 {
     const cli_args *args = job->args;
+    int method = job->options.method;
     job->facets = cli_value(args, "facets");
+    job->polygons_path = cli_value(args, "polygons");
     job->image_path = cli_value(args, "image");
-    if (job->facets && job->image_path && lrcs_host_output_same(job->facets, job->image_path)) {
-        return cli_usage(args->command, "--facets and --image name the same file: '%s', '%s'",
-                         job->facets, job->image_path);
-    }
-    if (job->image_path && strcmp(job->image_path, "-") == 0) {
+    if (to_stdout(job->image_path)) {
         return cli_usage(args->command, "--image: a picture does not go to standard output");
     }
-    if (job->facets && strcmp(job->facets, "-") == 0 && cli_value(args, "json")) {
-        return cli_usage(args->command, "--facets - and --json both want standard output");
+    if (job->polygons_path && method != LRCS_METHOD_AUTO && method != LRCS_METHOD_EXACT) {
+        return cli_usage(args->command,
+                         "--polygons: visible polygons come from --method exact (or auto), found "
+                         "--method %s",
+                         lrcs_method_text(method));
     }
-    if (job->facets && strcmp(job->facets, "-") == 0 && cli_value(args, "explain")) {
-        return cli_usage(args->command, "--facets - and --explain both want standard output");
-    }
-    if (cli_value(args, "image-size") && !job->image_path) {
+    int code = files_apart(job);
+    if (code == 0 && cli_value(args, "image-size") && !job->image_path) {
         return cli_usage(args->command, "--image-size needs --image FILE.png");
     }
     job->image_size = IMAGE_DEFAULT;
-    return cli_whole(args, "image-size", IMAGE_LEAST, IMAGE_MOST, &job->image_size);
+    return code ? code : cli_whole(args, "image-size", IMAGE_LEAST, IMAGE_MOST, &job->image_size);
 }
 
 /* Does an option's file replace none of those that the scene was read from? */
@@ -46,8 +88,18 @@ static int output_spares(const run_job *job, const char *option, const char *pat
 
 int cli_run_outputs_check(const run_job *job)
 {
-    int code = output_spares(job, "facets", job->facets);
-    return code ? code : output_spares(job, "image", job->image_path);
+    run_file file[FILES];
+    int code = 0;
+    files_list(job, file);
+    for (int i = 0; i < FILES && code == 0; i++) {
+        code = output_spares(job, file[i].option, file[i].path);
+    }
+    return code;
+}
+
+int cli_run_outputs_stdout(const run_job *job)
+{
+    return to_stdout(job->facets) || to_stdout(job->polygons_path);
 }
 
 static int facets_write(const run_job *job)
@@ -58,6 +110,17 @@ static int facets_write(const run_job *job)
         return cli_failed(&error);
     }
     lrcs_host_facets_write(out.stream, &job->scene.scene, job->records);
+    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+static int polygons_write(const run_job *job)
+{
+    lrcs_host_error error;
+    lrcs_host_output out;
+    if (lrcs_host_output_open(job->polygons_path, &out, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    lrcs_host_polygons_write(out.stream, &job->polygons.list);
     return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? 0 : cli_failed(&error);
 }
 
@@ -86,5 +149,6 @@ static int image_write(const run_job *job)
 int cli_run_outputs_write(const run_job *job)
 {
     int code = job->image_path ? image_write(job) : 0;
-    return code == 0 && job->facets ? facets_write(job) : code;
+    code = code == 0 && job->facets ? facets_write(job) : code;
+    return code == 0 && job->polygons_path ? polygons_write(job) : code;
 }

@@ -47,7 +47,8 @@ static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char
     if (!step.text) {
         return lrcsi_host_fail_memory(error, size);
     }
-    int status = lrcsi_host_step_run(scene, lrcs_recipe_need(size), recipe_read, &step, error);
+    int status =
+        lrcsi_host_step_run(&scene->blocks, lrcs_recipe_need(size), recipe_read, &step, error);
     if (status == LRCS_OK || status == LRCS_E_SYSTEM) {
         return status;
     }
@@ -147,7 +148,7 @@ static int scene_from_recipe(lrcs_host_scene *scene, const char *path,
 {
     build_step step = {.scene = scene, .options = options};
     size_t need = lrcs_scene_need(&scene->recipe, scene->model, options);
-    int status = lrcsi_host_step_run(scene, need, scene_build, &step, error);
+    int status = lrcsi_host_step_run(&scene->blocks, need, scene_build, &step, error);
     return status == LRCS_OK || status == LRCS_E_SYSTEM
                ? status
                : lrcsi_host_fail_where(error, status, path, &step.where);

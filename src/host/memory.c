@@ -20,10 +20,10 @@ static host_block *block_make(size_t bytes)
     return bytes <= SIZE_MAX - sizeof(host_block) ? malloc(sizeof(host_block) + bytes) : NULL;
 }
 
-static void block_own(lrcs_host_scene *scene, host_block *block)
+static void block_own(void **blocks, host_block *block)
 {
-    block->next = scene->blocks;
-    scene->blocks = block;
+    block->next = *blocks;
+    *blocks = block;
 }
 
 void *lrcsi_host_take(lrcs_host_scene *scene, size_t count, size_t size)
@@ -33,7 +33,7 @@ void *lrcsi_host_take(lrcs_host_scene *scene, size_t count, size_t size)
     if (!block) {
         return NULL;
     }
-    block_own(scene, block);
+    block_own(&scene->blocks, block);
     return memset(block + 1, 0, bytes);
 }
 
@@ -46,7 +46,7 @@ char *lrcsi_host_copy(lrcs_host_scene *scene, const char *text, size_t size)
     return copy;
 }
 
-int lrcsi_host_step_run(lrcs_host_scene *owner, size_t need, lrcsi_host_step *step, void *context,
+int lrcsi_host_step_run(void **blocks, size_t need, lrcsi_host_step *step, void *context,
                         lrcs_host_error *error)
 {
     int status = LRCS_E_MEMORY;
@@ -57,8 +57,8 @@ int lrcsi_host_step_run(lrcs_host_scene *owner, size_t need, lrcsi_host_step *st
         }
         lrcs_work work = lrcs_work_make(block + 1, need);
         status = step(context, &work);
-        if (status == LRCS_OK && owner) {
-            block_own(owner, block);
+        if (status == LRCS_OK && blocks) {
+            block_own(blocks, block);
         } else {
             free(block);
         }
@@ -75,14 +75,19 @@ double lrcsi_host_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void lrcs_host_scene_free(lrcs_host_scene *scene)
+void lrcsi_host_free(void *blocks)
 {
-    host_block *block = scene->blocks;
+    host_block *block = blocks;
     while (block) {
         host_block *next = block->next;
         free(block);
         block = next;
     }
+}
+
+void lrcs_host_scene_free(lrcs_host_scene *scene)
+{
+    lrcsi_host_free(scene->blocks);
     for (uint32_t i = 0; i < scene->notices.count; i++) {
         free(scene->notices.text[i]);
     }

@@ -15,11 +15,14 @@ char *lrcsi_host_copy(lrcs_host_scene *scene, const char *text, size_t size);
 typedef int lrcsi_host_step(void *context, lrcs_work *work);
 
 /* Runs a step in a work area of `need` bytes, and again in larger ones while it says
-   LRCS_E_MEMORY and work->peak asks for more. Where the area outlives the step (owner not NULL)
-   the scene keeps it; else it is freed.
+   LRCS_E_MEMORY and work->peak asks for more. Where the area outlives the step it joins the list
+   of blocks; else (blocks NULL) it is freed.
    Status: the step's; LRCS_E_SYSTEM where the heap has no more. */
-int lrcsi_host_step_run(lrcs_host_scene *owner, size_t need, lrcsi_host_step *step, void *context,
+int lrcsi_host_step_run(void **blocks, size_t need, lrcsi_host_step *step, void *context,
                         lrcs_host_error *error);
+
+/* Frees a list of blocks. */
+void lrcsi_host_free(void *blocks);
 
 /* Seconds on a clock that only goes forward. */
 double lrcsi_host_seconds(void);

@@ -177,7 +177,7 @@ int lrcsi_host_model_read(lrcs_host_scene *scene, const char *path, const lrcs_h
     if (status != LRCS_OK) {
         return lrcsi_host_fail_where(error, status, path, &step.where);
     }
-    status = lrcsi_host_step_run(scene, lrcs_mesh_need(&counts), model_read, &step, error);
+    status = lrcsi_host_step_run(&scene->blocks, lrcs_mesh_need(&counts), model_read, &step, error);
     if (status == LRCS_E_SYSTEM) {
         return status;
     }

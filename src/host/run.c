@@ -22,7 +22,7 @@ int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error)
 {
     double start = lrcsi_host_seconds();
     size_t need = lrcs_prepare_need(&scene->scene);
-    int status = lrcsi_host_step_run(scene, need, run_prepare, scene, error);
+    int status = lrcsi_host_step_run(&scene->blocks, need, run_prepare, scene, error);
     scene->seconds_prepare = lrcsi_host_seconds() - start;
     return run_fail(error, status, "preparing the scene");
 }
@@ -34,13 +34,26 @@ typedef struct sigma_step {
     lrcs_result *result;
     lrcs_facet_record *records;
     lrcs_image *image;
+    int tries; /* with more memory, where an answer was degraded for want of it */
 } sigma_step;
+
+/* Does the heap have what the next try asks for? */
+static int heap_holds(const lrcs_work *work)
+{
+    size_t twice = work->size <= SIZE_MAX / 4 ? 2 * work->size : SIZE_MAX / 2;
+    void *probe = malloc((work->peak > twice ? work->peak : twice) + 64);
+    free(probe);
+    return probe != NULL;
+}
 
 static int run_sigma(void *context, lrcs_work *work)
 {
     sigma_step *step = context;
-    return lrcs_sigma_run(step->prepared, step->pose, step->options, work, step->result,
-                          step->records, step->image);
+    int status = lrcs_sigma_run(step->prepared, step->pose, step->options, work, step->result,
+                                step->records, step->image);
+    int degraded = status == LRCS_OK && (step->result->flags & LRCS_FLAG_MEMORY_FALLBACK) &&
+                   work->peak > work->size;
+    return degraded && step->tries-- > 0 && heap_holds(work) ? LRCS_E_MEMORY : status;
 }
 
 int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
@@ -48,7 +61,7 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error)
 {
-    sigma_step step = {scene->prepared, pose, options, result, records, image};
+    sigma_step step = {scene->prepared, pose, options, result, records, image, 6};
     size_t need = lrcs_sigma_need(scene->prepared, options);
     if (image) { /* its raster comes after the run's own */
         lrcs_run_options draw = {.tolerance = options->tolerance,

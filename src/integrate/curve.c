@@ -84,24 +84,25 @@ static void job_whole(curve_job *job)
     lrcsi_cubature_add(&job->sum, (const double(*)[3])job->normal, job->tilt.projected);
 }
 
+/* The most that f_r cos reaches on the facet. */
+static double job_most(const curve_job *job)
+{
+    return job->sum.most.glint + job->sum.most.diffuse;
+}
+
 /* What has been summed, `share` of it. */
 static lrcsi_curved job_part(const curve_job *job, double share)
 {
     const lrcsi_cubature *sum = &job->sum;
     double factor = FOUR_PI * share;
-    lrcsi_curved part = {0, 0, 0, 0, 0, 0};
+    lrcsi_curved part = {0, 0, 0, 0, 0, 0, 0};
     part.glint = factor * lrcsi_sum_value(&sum->glint);
     part.diffuse = factor * lrcsi_sum_value(&sum->diffuse);
     part.rounding =
         factor * sum->rounding + (job->tilt.error + 16 * U) * (part.glint + part.diffuse);
     part.estimate = factor * sum->estimate;
+    part.most = FOUR_PI * job_most(job) * job->tilt.projected * (1 + job->tilt.error);
     return part;
-}
-
-/* The most that f_r cos reaches on the facet. */
-static double job_most(const curve_job *job)
-{
-    return job->sum.most.glint + job->sum.most.diffuse;
 }
 
 /* --- shares ----------------------------------------------------------------------------------- */
@@ -156,6 +157,9 @@ static double visible_share(const curve_job *job, const lrcsi_raster *raster,
 static lrcsi_curved curve_share(curve_job *job, const lrcsi_raster *raster,
                                 const lrcsi_visible *visible)
 {
+    if (!(visible->high > 0)) {
+        return job_part(job, 0);
+    }
     job_whole(job);
     double whole = lrcsi_sum_value(&job->sum.glint) + lrcsi_sum_value(&job->sum.diffuse);
     double most = job_most(job);
@@ -184,8 +188,8 @@ void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
     curve_job job;
     double nothing = least_of_all(view, plan, tolerance);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0};
-        if (lrcsi_curve_wanted(view, f) && visible[f].high > 0) {
+        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
+        if (lrcsi_curve_wanted(view, f)) {
             job_start(&job, view, plan, f, tolerance);
             job.sum.nothing = nothing;
             curved[f] = curve_share(&job, raster, &visible[f]);
@@ -262,7 +266,8 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
 }
 
 int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
-                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved)
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
+                       uint32_t *starved)
 {
     const lrcsi_view *view = contest->view;
     size_t mark = work->used;
@@ -270,25 +275,27 @@ int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double to
     curve_job job;
     double nothing = least_of_all(view, plan, tolerance);
     int status = lrcsi_occlude_make(contest, work, &o);
+    *starved = 0;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0};
-        status = lrcsi_occlude_open(&o, f);
-        if (status != LRCS_OK) {
-            continue;
-        }
         int wanted = lrcsi_curve_wanted(view, f);
+        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
         if (wanted) {
             job_start(&job, view, plan, f, tolerance);
             job.sum.nothing = nothing;
         }
-        if (wanted && o.contested) {
+        if (lrcsi_occlude_open(&o, f) != LRCS_OK) {
+            double whole = lrcsi_view_tilt(view, f).projected;
+            visible[f] = (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
+            ++*starved;
+        } else if (wanted && o.contested) {
             curved[f] = curve_pieces(&job, &o, &visible[f]);
             continue;
+        } else {
+            while (lrcsi_occlude_next(&o)) { /* the area alone is wanted */
+            }
+            visible[f] = facet_close(&o, f);
         }
-        while (lrcsi_occlude_next(&o)) { /* the area alone is wanted */
-        }
-        visible[f] = facet_close(&o, f);
-        if (wanted && visible[f].high > 0) {
+        if (wanted) {
             curved[f] = curve_share(&job, NULL, &visible[f]);
         }
     }

@@ -14,6 +14,7 @@ typedef struct lrcsi_curved {
     double glint, diffuse;
     double visibility, rounding; /* bounds */
     double likely;               /* likely error of a sampled share; 0: none */
+    double most;                 /* bound on what all of the facet could add, were it seen */
     double estimate;             /* of the cubature's error */
 } lrcsi_curved;
 
@@ -32,6 +33,7 @@ void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
 /* Every facet by clipping, as lrcsi_occlude_all, and those wanted integrated over the pieces that
    are visible. Status: as lrcsi_occlude_all. */
 int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
-                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved);
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
+                       uint32_t *starved);
 
 #endif

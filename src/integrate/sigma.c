@@ -22,6 +22,8 @@ typedef struct sigma_run {
     lrcsi_view view;
     lrcsi_plan plan;
     lrcsi_contest contest;
+    lrcsi_margin margin;
+    const lrcsi_margin *doubt; /* margin, or NULL where none was made */
     lrcsi_visible *visible;
     lrcsi_curved *curved; /* NULL: all facets are flat */
     double tolerance;
@@ -60,6 +62,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
         return need;
     }
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
     if (options->method == LRCS_METHOD_EXACT) {
         return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
     }
@@ -103,7 +106,8 @@ static int run_image(sigma_run *run)
 
 static void run_total(sigma_run *run, lrcs_facet_record *records)
 {
-    run->total = lrcsi_total_make(&run->view, &run->plan, run->visible, run->curved, records);
+    run->total =
+        lrcsi_total_make(&run->view, &run->plan, run->visible, run->curved, run->doubt, records);
 }
 
 static int run_facet(sigma_run *run)
@@ -126,11 +130,12 @@ static void fronts_are_known(const lrcsi_view *view, int searched, lrcsi_visible
         if (view->facing[f] > 0) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
             double low = tilt.cos_theta > view->prepared->graze ? tilt.projected : 0;
-            lrcsi_visible known = {tilt.projected, low, tilt.projected, 0};
+            lrcsi_visible known = {tilt.projected, low, tilt.projected, 0, 0};
             if (searched) {
                 known.area = visible[f].area;
                 known.low = lrcsi_least(known.low, visible[f].low);
                 known.likely = visible[f].likely;
+                known.lean = visible[f].lean;
             }
             visible[f] = known;
         }
@@ -158,6 +163,9 @@ static void run_sum(sigma_run *run, const lrcsi_raster *raster)
     if (run->curved && raster) { /* clipping has integrated over its pieces */
         lrcsi_curve_shares(&run->view, &run->plan, run->visible, raster, run->tolerance,
                            run->curved);
+    }
+    if (run->doubt) {
+        lrcsi_margin_settle(run->doubt, run->visible);
     }
     run_total(run, NULL);
 }
@@ -187,13 +195,19 @@ static int run_raster(sigma_run *run, uint32_t size)
     return status;
 }
 
-static int run_exact(sigma_run *run)
+/* Facets that find no memory to be clipped in widen the bound; under auto a raster does better. */
+static int run_exact(sigma_run *run, int method)
 {
+    uint32_t starved = 0;
     int status = run->curved ? lrcsi_curve_pieces(&run->contest, &run->plan, run->tolerance,
-                                                  run->work, run->visible, run->curved)
-                             : lrcsi_occlude_all(&run->contest, run->work, run->visible);
+                                                  run->work, run->visible, run->curved, &starved)
+                             : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
+    if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
+        return LRCS_E_MEMORY;
+    }
     if (status == LRCS_OK) {
         run->size = 0;
+        run->flags |= starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         run_sum(run, NULL);
     }
     return status;
@@ -225,27 +239,32 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 
 static int run_method(sigma_run *run, const lrcs_run_options *options)
 {
-    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
+    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run, options->method)
+                                                 : run_zbuffer(run, options);
 }
 
 /* Under auto a raster of a size asked for goes first; where its bound misses the tolerance,
-   clipping follows. Clipping that finds no memory yields to a raster, which needs less. */
+   clipping follows. Clipping that finds no memory yields to a raster, which needs less, whether it
+   was asked for or not. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    /* where back sides are left out of a scene that shows some, its true curves are not known */
+    if (status == LRCS_OK && run->view.prepared->nears.reach &&
+        (run->view.backs_cast || run->view.prepared->solid)) {
+        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
+        run->doubt = &run->margin;
+    }
     if (status != LRCS_OK) {
         return status;
     }
     status = run_method(run, options);
-    if (options->method != LRCS_METHOD_AUTO) {
-        return status;
-    }
-    if (status == LRCS_OK && run->plan.method == LRCS_METHOD_ZBUFFER &&
-        !run_meets(&run->total, options->tolerance)) {
+    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
+        run->plan.method == LRCS_METHOD_ZBUFFER && !run_meets(&run->total, options->tolerance)) {
         run->plan.method = LRCS_METHOD_EXACT;
         run->plan.reason = "the raster asked for misses the tolerance";
         run->flags = 0;
-        status = run_exact(run);
+        status = run_exact(run, options->method);
     }
     if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
         run->plan.method = LRCS_METHOD_ZBUFFER;

@@ -11,12 +11,17 @@
 #include "base/range.h"
 #include "base/where.h"
 #include "base/work.h"
+#include "mesh/tessellate.h"
 #include "scene/bind.h"
 #include "scene/place.h"
 #include "scene/smooth.h"
 
 /* Coordinates beyond this are refused: their squares and cubes must stay doubles. */
 #define COORDINATE_MOST 1e100
+/* How many shares a scene's tolerance is cut into at least, and how much coarser than asked a small
+   part may be at most. */
+#define SHARES_LEAST 16.0
+#define LEAVE_MOST   100.0
 
 typedef struct scene_builder {
     const lrcs_recipe *recipe;
@@ -26,6 +31,7 @@ typedef struct scene_builder {
     lrcsi_binder binder;
     uint32_t *entry; /* by worn material: its place among the scene's materials, or LRCS_NONE */
     uint32_t bare;   /* the place of "", or LRCS_NONE */
+    double area;     /* of all parts, roughly */
 } scene_builder;
 
 /* A part's mesh on its way into the scene. */
@@ -70,15 +76,85 @@ static int find_worn(const scene_builder *builder, const lrcs_recipe_part *part,
                                   part->material, strlen(part->material));
 }
 
-/* The tolerance that a shape is divided for. Among other parts its tessellation error is not
-   bounded (they may hide some of it), and facet-by-facet bounds are tens of times the error that
-   they hold: a tenth of the fineness then serves, and beyond 1e-4 nothing is gained that could be
-   vouched for. */
-static double shape_tolerance(const scene_builder *builder)
+/* 0 where a corner is out of range. */
+static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
+{
+    const uint32_t *corner = mesh->facet[f].corner;
+    double p[3];
+    double q[3];
+    if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count ||
+        corner[2] >= mesh->vertex_count) {
+        return 0.0;
+    }
+    for (int k = 0; k < 3; k++) {
+        p[k] = mesh->vertex[corner[1]].x[k] - mesh->vertex[corner[0]].x[k];
+        q[k] = mesh->vertex[corner[2]].x[k] - mesh->vertex[corner[0]].x[k];
+    }
+    const double n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+                         p[0] * q[1] - p[1] * q[0]};
+    return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+}
+
+/* Roughly the surface of a part, to weigh parts with; of a model, its facets'. */
+static double part_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh)
+{
+    const lrcs_shape *shape = &part->shape;
+    const double *s = shape->size;
+    double r = fmax(shape->radius, shape->radius2);
+    double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]) + 6.0 * r * (r + shape->length);
+    if (part->file) {
+        area = 0.0;
+        for (uint32_t f = 0; mesh && f < mesh->facet_count; f++) {
+            area += mesh_facet_area(mesh, f);
+        }
+    }
+    const double *scale = part->place.scale;
+    double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    return area * most * most;
+}
+
+/* How much coarser than asked a part may be, being small among the others: all of them together
+   may add as much error as the scene may have, were each as bright as its surface is large. */
+static double part_leave(const scene_builder *builder, const lrcs_recipe_part *part)
+{
+    double parts = fmax(SHARES_LEAST, builder->recipe->part_count);
+    double leave = builder->area / (part_area(part, NULL) * parts);
+    return leave > 1.0 ? fmin(leave, LEAVE_MOST) : 1.0;
+}
+
+/* The tolerance that a shape is divided for: as asked where it is alone. Among other parts its
+   leave counts; and of round bodies, whose facets cost 1/tolerance (those of straight walls its
+   root), ten times as much must do, at least 1e-4. */
+static double shape_tolerance(const scene_builder *builder, const lrcs_recipe_part *part)
 {
     double tolerance = builder->options->tolerance;
-    return builder->recipe->part_count > 1 ? lrcsi_most(lrcsi_least(10 * tolerance, 1), 1e-4)
-                                           : tolerance;
+    if (builder->recipe->part_count == 1) {
+        return tolerance;
+    }
+    tolerance = fmin(tolerance * part_leave(builder, part), fmax(1.0, tolerance));
+    int kind = part->shape.kind;
+    int is_round =
+        kind == LRCS_SHAPE_SPHERE || kind == LRCS_SHAPE_DOME || kind == LRCS_SHAPE_PARABOLOID;
+    return is_round ? fmax(fmin(10.0 * tolerance, 1.0), 1e-4) : tolerance;
+}
+
+/* Among other parts a rim casts shadows, in doubt over twice its reach, some 0.4 R (pi/N)^2, along
+   2 pi R: less than half the tolerance of the disc that it bounds where N is this. */
+static void refine_rim(const scene_builder *builder, const lrcs_recipe_part *part,
+                       lrcs_divisions *divisions, lrcs_mesh_counts *counts)
+{
+    const lrcs_shape *shape = &part->shape;
+    double corners = 3.1416 * sqrt(5.0 / shape_tolerance(builder, part));
+    if (builder->recipe->part_count == 1 || divisions->along > 1 ||
+        shape->kind == LRCS_SHAPE_PLATE || shape->kind == LRCS_SHAPE_BOX || !(corners < 1e6)) {
+        return;
+    }
+    lrcs_divisions finer = {4 * (uint32_t)(corners / 4.0 + 1.0), 1};
+    if (finer.around > divisions->around &&
+        lrcsi_tessellate_counts(shape, &finer).facets <= builder->options->max_facets) {
+        *divisions = finer;
+        *counts = lrcsi_tessellate_counts(shape, &finer);
+    }
 }
 
 /* How a shape is divided, for the material it wears. */
@@ -97,9 +173,12 @@ static int count_shape(const scene_builder *builder, const lrcs_recipe_part *par
         return status;
     }
     lrcs_material material = lrcsi_binder_bare(&builder->binder, worn);
-    lrcs_fineness fineness = {shape_tolerance(builder), material.brdf,
+    lrcs_fineness fineness = {shape_tolerance(builder, part), material.brdf,
                               builder->options->max_facets};
     status = lrcs_shape_count(&part->shape, &fineness, divisions, counts);
+    if (status == LRCS_OK) {
+        refine_rim(builder, part, divisions, counts);
+    }
     return status == LRCS_OK ? LRCS_OK
                              : refuse_part(builder, status, part,
                                            "a shape, material and "
@@ -132,9 +211,14 @@ static int is_curved(const scene_builder *builder, uint32_t i)
            lrcsi_smooth_given(&builder->models[i]);
 }
 
-static int count_scene(const scene_builder *builder, scene_totals *totals)
+static int count_scene(scene_builder *builder, scene_totals *totals)
 {
     const lrcs_recipe *recipe = builder->recipe;
+    builder->area = 0.0;
+    for (uint32_t i = 0; i < recipe->part_count; i++) {
+        builder->area +=
+            part_area(&recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
+    }
     *totals = (scene_totals){.materials = lrcsi_binder_wardrobe(recipe) + UINT64_C(1)};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         lrcs_mesh_counts counts;
@@ -336,7 +420,7 @@ static double misplacement(const lrcs_mesh *mesh, const lrcs_divisions *division
 
 /* What holds of a placed shape by construction. Curvature outlives uniform scaling only; convexity
    any affine map, and with the winding flipped the outside stays outside under a mirror. */
-static void describe_shape(const scene_piece *piece, const lrcs_curvature *curvature,
+static void describe_shape(const scene_piece *piece, const lrcs_curvature *curvature, double reach,
                            lrcs_part *part)
 {
     const lrcs_recipe_part *recipe = piece->part;
@@ -348,6 +432,7 @@ static void describe_shape(const scene_piece *piece, const lrcs_curvature *curva
     part->kind = recipe->shape.kind;
     part->curvature = *curvature;
     part->curvature_known = plane || least == most;
+    part->reach = reach > 0.0 ? 1.000001 * most * reach + 2.0 * part->misplaced : 0.0;
     part->convex_patch = 1;
     part->thinnest = least * least_extent(&recipe->shape);
     part->solid = is_closed(&recipe->shape) && part->thinnest > 0.0;
@@ -394,8 +479,9 @@ static int add_shape(scene_builder *builder, scene_piece *piece, lrcs_work *work
                    : refuse_part(builder, status, piece->part, "a shape that can be meshed");
     }
     lrcs_part *part = &scene->part[scene->part_count];
-    describe_shape(piece, &curvature, part);
     part->misplaced = misplacement(&mesh, &divisions, &piece->placer);
+    describe_shape(piece, &curvature, lrcsi_tessellate_reach(&piece->part->shape, &divisions),
+                   part);
     status = add_piece(builder, &mesh, piece, scene);
     work->used = mark;
     return status;

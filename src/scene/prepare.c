@@ -160,7 +160,7 @@ static void prepare_effects(lrcs_prepared *p)
         p->two_sided |= material->two_sided != 0;
         p->glint |= material->brdf.A > 0;
         p->diffuse |= material->brdf.B > 0;
-        p->curved |= part->curvature.turn > 0 || !part->curvature_known;
+        p->curved |= part->reach > 0 || !part->curvature_known;
         p->articulated |= part->articulated != 0;
         p->smooth |= lrcsi_prepared_normals(p, f) != NULL;
     }
@@ -222,6 +222,9 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     if (status == LRCS_OK && p->solid && p->live > 0) {
         status = lrcsi_convex_exact(p, work, &p->convex);
     }
+    if (status == LRCS_OK && p->curved && !p->convex) {
+        status = lrcsi_nears_make(p, work);
+    }
     return status;
 }
 
@@ -237,6 +240,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     size_t proof = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
     proof = lrcsi_work_add(proof, lrcsi_tree_need(scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_nears_need(scene));
     return lrcsi_work_add(need, proof);
 }
 

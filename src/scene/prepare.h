@@ -10,6 +10,7 @@
 
 #include "mesh/topology.h"
 #include "mesh/touch.h"
+#include "scene/near.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
    (base/exact.h) ask for that. */
@@ -40,6 +41,7 @@ struct lrcs_prepared {
     int two_sided;      /* some live facet is */
     int glint, diffuse; /* some live facet's A, B is not 0 */
     int curved;         /* some live part was tessellated from a curved shape */
+    lrcsi_nears nears;  /* where curved shapes stand among others; else nears.reach is NULL */
     int articulated;    /* some part stands on a joint */
     int smooth;         /* some live facet has curved normals */
 };

@@ -6,6 +6,7 @@
 
 #include <lrcs/status.h>
 
+#include <math.h>
 #include <string.h>
 
 #include "base/work.h"
@@ -110,13 +111,18 @@ static void corners_box(const double (*corner)[2], uint32_t count, double low[2]
     }
 }
 
-static int box_apart(const double (*corner)[2], uint32_t count, const lrcsi_clip_region *region)
+static int box_apart(const double (*corner)[2], uint32_t count, const lrcsi_clip_region *region,
+                     double width)
 {
     double low[2];
     double high[2];
     corners_box(corner, count, low, high);
-    return high[0] <= region->low[0] || low[0] >= region->high[0] || high[1] <= region->low[1] ||
-           low[1] >= region->high[1];
+    for (int k = 0; k < 2; k++) {
+        if (high[k] + width <= region->low[k] || low[k] >= region->high[k] + width) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 void lrcsi_clip_halve(const lrcsi_clip_polygon *polygon, lrcsi_clip_polygon *left,
@@ -126,31 +132,33 @@ void lrcsi_clip_halve(const lrcsi_clip_polygon *polygon, lrcsi_clip_polygon *lef
     double high[2];
     corners_box((const double(*)[2])polygon->corner, polygon->count, low, high);
     int wide = high[0] - low[0] > high[1] - low[1];
-    lrcsi_clip_line line = {{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])},
-                            {wide ? 0 : 1, wide ? 1 : 0}};
+    lrcsi_clip_line line = {
+        {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])}, {wide ? 0 : 1, wide ? 1 : 0}, 0};
     polygon_split(polygon, &line, left, right);
 }
 
 int lrcsi_clip_overlap(const lrcsi_clip_polygon *polygon, const lrcsi_clip_region *region)
 {
-    if (box_apart((const double(*)[2])polygon->corner, polygon->count, region)) {
+    if (box_apart((const double(*)[2])polygon->corner, polygon->count, region, region->width)) {
         return LRCSI_CLIP_NONE;
     }
     int covered = 1;
+    int buried = 1;
     for (int k = 0; k < region->lines; k++) {
-        int inside = 0;
-        int outside = 0;
+        const lrcsi_clip_line *line = &region->line[k];
+        double slack = line->width * (fabs(line->to[0]) + fabs(line->to[1]));
+        int near = 0;
         for (uint32_t i = 0; i < polygon->count; i++) {
-            double side = line_side(&region->line[k], polygon->corner[i]);
-            inside |= side > 0;
-            outside |= side < 0;
+            double side = line_side(line, polygon->corner[i]);
+            near |= !(side < -slack);
+            covered &= side >= 0;
+            buried &= side > slack;
         }
-        if (!inside) {
+        if (!near) {
             return LRCSI_CLIP_NONE;
         }
-        covered &= !outside;
     }
-    return covered ? LRCSI_CLIP_COVERED : LRCSI_CLIP_SOME;
+    return buried ? LRCSI_CLIP_BURIED : covered ? LRCSI_CLIP_COVERED : LRCSI_CLIP_SOME;
 }
 
 /* Cuts the region out of one piece and files what is left in the spare list. A piece that turns out
@@ -158,7 +166,7 @@ int lrcsi_clip_overlap(const lrcsi_clip_polygon *polygon, const lrcsi_clip_regio
 static int piece_subtract(lrcsi_clip *clip, const double (*corner)[2], uint32_t count,
                           const lrcsi_clip_region *region)
 {
-    if (count > LRCSI_CLIP_SIDES - 4 || box_apart(corner, count, region)) {
+    if (count > LRCSI_CLIP_SIDES - 4 || box_apart(corner, count, region, 0)) {
         return count <= LRCSI_CLIP_SIDES - 4 && clip_append(&clip->spare, corner, count);
     }
     lrcsi_clip_polygon inside = {.count = count};
@@ -202,7 +210,7 @@ int lrcsi_clip_subtract(lrcsi_clip *clip, const lrcsi_clip_region *region)
     return 1;
 }
 
-static double corners_area(const double (*c)[2], uint32_t count)
+double lrcsi_clip_corners_area(const double (*c)[2], uint32_t count)
 {
     double area = 0;
     for (uint32_t j = 2; j < count; j++) {
@@ -214,15 +222,23 @@ static double corners_area(const double (*c)[2], uint32_t count)
 
 double lrcsi_clip_polygon_area(const lrcsi_clip_polygon *polygon)
 {
-    return corners_area((const double(*)[2])polygon->corner, polygon->count);
+    return lrcsi_clip_corners_area((const double(*)[2])polygon->corner, polygon->count);
+}
+
+double lrcsi_clip_polygon_perimeter(const lrcsi_clip_polygon *polygon)
+{
+    double low[2];
+    double high[2];
+    corners_box((const double(*)[2])polygon->corner, polygon->count, low, high);
+    return 2 * ((high[0] - low[0]) + (high[1] - low[1]));
 }
 
 double lrcsi_clip_box_area(const double corner[3][2], const double low[2])
 {
-    const lrcsi_clip_line side[4] = {{{low[0], low[1]}, {1, 0}},
-                                     {{low[0] + 1, low[1]}, {0, 1}},
-                                     {{low[0] + 1, low[1] + 1}, {-1, 0}},
-                                     {{low[0], low[1] + 1}, {0, -1}}};
+    const lrcsi_clip_line side[4] = {{{low[0], low[1]}, {1, 0}, 0},
+                                     {{low[0] + 1, low[1]}, {0, 1}, 0},
+                                     {{low[0] + 1, low[1] + 1}, {-1, 0}, 0},
+                                     {{low[0], low[1] + 1}, {0, -1}, 0}};
     lrcsi_clip_polygon inside;
     lrcsi_clip_polygon left;
     lrcsi_clip_polygon right;
@@ -242,8 +258,8 @@ double lrcsi_clip_area(const lrcsi_clip *clip)
     double area = 0;
     for (uint32_t i = 0; i < clip->list.pieces; i++) {
         uint32_t first = lrcsi_clip_first(&clip->list, i);
-        area += corners_area((const double(*)[2])(clip->list.corner + first),
-                             clip->list.end[i] - first);
+        area += lrcsi_clip_corners_area((const double(*)[2])(clip->list.corner + first),
+                                        clip->list.end[i] - first);
     }
     return area;
 }

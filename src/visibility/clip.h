@@ -22,6 +22,7 @@ typedef struct lrcsi_clip_polygon {
 /* A line, positive on its left: through `at` along `to`. */
 typedef struct lrcsi_clip_line {
     double at[2], to[2];
+    double width; /* by which its true place may be off; overlaps alone look at it */
 } lrcsi_clip_line;
 
 /* A convex region: the left sides of at most four lines, and its box. */
@@ -29,6 +30,7 @@ typedef struct lrcsi_clip_region {
     lrcsi_clip_line line[4];
     int lines;
     double low[2], high[2];
+    double width; /* of the box, as that of a line */
 } lrcsi_clip_region;
 
 typedef struct lrcsi_clip_list {
@@ -53,7 +55,11 @@ size_t lrcsi_clip_need(void);
 int lrcsi_clip_make(lrcs_work *work, lrcsi_clip *clip);
 
 void lrcsi_clip_triangle(const double corner[3][2], lrcsi_clip_polygon *polygon);
+double lrcsi_clip_corners_area(const double (*corner)[2], uint32_t count);
 double lrcsi_clip_polygon_area(const lrcsi_clip_polygon *polygon);
+
+/* That of its box: the longest that a convex figure within it can have. */
+double lrcsi_clip_polygon_perimeter(const lrcsi_clip_polygon *polygon);
 
 /* Halves a piece across the longer side of its box. Either half may come out with less than three
    corners: then it is nothing. */
@@ -63,9 +69,14 @@ void lrcsi_clip_halve(const lrcsi_clip_polygon *polygon, lrcsi_clip_polygon *lef
 /* The area that a counter-clockwise triangle has in the unit square at `low`. */
 double lrcsi_clip_box_area(const double corner[3][2], const double low[2]);
 
-enum lrcsi_clip_overlap_kind { LRCSI_CLIP_NONE, LRCSI_CLIP_SOME, LRCSI_CLIP_COVERED };
+enum lrcsi_clip_overlap_kind {
+    LRCSI_CLIP_NONE,    /* surely apart, by more than the widths */
+    LRCSI_CLIP_SOME,    /* none of the others */
+    LRCSI_CLIP_COVERED, /* the region covers the piece, as computed */
+    LRCSI_CLIP_BURIED   /* surely covers it */
+};
 
-/* How a region stands to a piece: some line parts them, it covers the piece, or neither is seen. */
+/* How a region stands to a piece. */
 int lrcsi_clip_overlap(const lrcsi_clip_polygon *polygon, const lrcsi_clip_region *region);
 
 /* Starts again with one piece. */

@@ -3,18 +3,29 @@
    a cell that one of them covers is hidden, one that none overlaps is visible, and from the others
    the few are cut out. So the work grows with the occluders near by, not with their square.
 
-   Error. In the facet's frame (visibility/occluder.c) corners are off by at most e = 10 u r, r
-   the largest distance in space of the corners at hand from the facet's first one: R's rows are
+   Error. In the facet's frame (visibility/target.c) corners are off by at most e = 10 u r, r the
+   largest distance in space of the corners at hand from the facet's first one: R's rows are
    orthonormal to 4 u; a rounded difference, three products and two sums. Let p be the perimeter
    of the facet's projection, d its diameter, 2 d <= p. The facet's own corners move its rim by
-   e: 2 e p, charged once. The region that an occluder hides is cut by the lines through its own
-   computed corners: their hull and the true one lie within e of each other, and differ by 2 e p
-   at most; deciding in doubles on which side of a line a point lies, wrong within 4 u (r + d) of
-   it, adds 4 u (r + d) p for each of four sides; a cut left out for want of a direction
-   (visibility/occluder.c) adds 32 u r d, at most 16 u r p. Together 52 u (r + d) p. The cut by
-   the facet's plane ends on the occluder's sides; how far those ends may slip is added to the
-   rim. A split of a piece puts one corner on a line to within 8 u d, and both parts share it: 8
-   u d p. A cell that could not be finished counts whole. */
+   e: 2 e p, charged once.
+
+   The region that an occluder hides is cut by the lines through its own computed corners. Their
+   hull and the true one lie within e of each other; deciding in doubles on which side of a line a
+   point lies is wrong within w = 4 u (r + d) of it; a cut left out for want of a direction
+   (visibility/occluder.c) is a strip 32 u r wide. So what is hidden as computed and what is in
+   truth differ, within a convex cell of perimeter q, by at most 2 e q + 4 w q + 16 u r q, less than
+   56 u (r + d) q; and all over by as much with the region's own outline for q, where it is wide
+   enough for its lines to end where it does. The cut by the facet's plane ends on the occluder's
+   sides; how far those ends may slip is added to the rim. And in a cell nothing can be wrong by
+   more than its area. So an occluder is charged with the least of three: the sum over the cells
+   where it could matter, of the lesser of rim q and their area; rim times outline; rim p. In a
+   cell that lies surely apart from it, or surely behind it, it is not charged, nor are the others
+   where one surely covers all.
+
+   A split puts two corners on the sides of a piece to within 5 u d. Both parts share them, so that
+   only the two sides bend, by 5 u d d' of area in a cell of diameter d'; and there are two more
+   triangles to sum areas from, 7 u d'^2: together below 8 u d q. Adding up the cells costs u d p
+   each. A cell that could not be finished counts whole. */
 #include "visibility/occlude.h"
 
 #include <math.h>
@@ -35,15 +46,32 @@
 
 /* --- cells ------------------------------------------------------------------------------------ */
 
-/* Files those of the cell's occluders that overlap its shape behind their list. Returns how many;
-   LRCS_NONE where one of them covers the shape. */
-static uint32_t cell_keep(lrcsi_occluding *o, const lrcsi_occlude_cell *cell)
+static double split_error(const lrcsi_occluding *o, const lrcsi_clip_polygon *shape)
+{
+    return 8 * U * o->target.diameter * lrcsi_clip_polygon_perimeter(shape);
+}
+
+/* Charges an occluder with what it may be wrong by in a cell; its area is off as if by a split. */
+static void cell_charge(const lrcsi_occluding *o, uint32_t index, const lrcsi_clip_polygon *shape,
+                        double area)
+{
+    lrcsi_occluder *occluder = &o->occluder[index];
+    double rim = occluder->error * lrcsi_clip_polygon_perimeter(shape);
+    occluder->charged += lrcsi_least(rim, area + split_error(o, shape));
+}
+
+/* Files those of the cell's occluders that may overlap its shape behind their list. Returns how
+   many; LRCS_NONE where one of them covers the shape. */
+static uint32_t cell_keep(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->count; i++) {
         uint32_t index = o->list[cell->first + i];
         int overlap = lrcsi_clip_overlap(&cell->shape, &o->occluder[index].region);
         if (overlap == LRCSI_CLIP_COVERED) {
+            cell_charge(o, index, &cell->shape, area);
+        }
+        if (overlap == LRCSI_CLIP_COVERED || overlap == LRCSI_CLIP_BURIED) {
             return LRCS_NONE;
         }
         if (overlap == LRCSI_CLIP_SOME) {
@@ -54,55 +82,67 @@ static uint32_t cell_keep(lrcsi_occluding *o, const lrcsi_occlude_cell *cell)
 }
 
 /* Cuts the kept occluders out of the cell. 0 where it fell into too many pieces. */
-static int cell_cut(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t kept)
+static int cell_cut(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t kept, double area)
 {
+    const uint32_t *list = o->list + cell->first + cell->count;
     lrcsi_clip_start(&o->clip, &cell->shape);
-    int fits = 1;
-    for (uint32_t i = 0; i < kept && fits; i++) {
-        uint32_t index = o->list[cell->first + cell->count + i];
-        fits = lrcsi_clip_subtract(&o->clip, &o->occluder[index].region);
+    for (uint32_t i = 0; i < kept; i++) {
+        if (!lrcsi_clip_subtract(&o->clip, &o->occluder[list[i]].region)) {
+            return 0;
+        }
     }
-    o->splits += o->clip.splits;
-    o->area += fits ? lrcsi_clip_area(&o->clip) : 0;
-    return fits;
+    for (uint32_t i = 0; i < kept; i++) {
+        cell_charge(o, list[i], &cell->shape, area);
+    }
+    o->off += o->clip.splits * split_error(o, &cell->shape) +
+              U * o->target.diameter * o->target.perimeter;
+    o->area += lrcsi_clip_area(&o->clip);
+    return 1;
+}
+
+/* Where the list of a cell's halves stands: its own, where it has kept all of that. */
+static uint32_t cell_list(const lrcsi_occlude_cell *cell, uint32_t kept)
+{
+    return kept == cell->count ? cell->first : cell->first + cell->count;
 }
 
 /* Puts both halves of a cell on the stack in its stead. */
 static void cell_halve(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t kept)
 {
-    lrcsi_occlude_cell half = {.first = cell->first + cell->count, .count = kept};
+    lrcsi_occlude_cell half = {.first = cell_list(cell, kept), .count = kept};
     half.depth = cell->depth + 1;
     half.stale = 4 * (size_t)kept > 3 * (size_t)cell->count ? cell->stale + 1 : 0;
     lrcsi_clip_polygon other;
     lrcsi_clip_halve(&cell->shape, &half.shape, &other);
-    o->splits += 1;
+    o->off += split_error(o, &cell->shape);
     o->stack[o->top++] = half;
     half.shape = other;
     o->stack[o->top++] = half;
 }
 
 /* Does one cell after the other until one has shown pieces: 1; 0 where no cell is left. Each
-   cell's list stands behind its parent's; a sibling done later overwrites it. */
+   cell's list stands behind its parent's, or is that; a sibling done later overwrites it. */
 static int occlude_cells(lrcsi_occluding *o)
 {
     while (o->top > 0) {
         lrcsi_occlude_cell cell = o->stack[--o->top];
-        if (cell.shape.count < 3 || !(lrcsi_clip_polygon_area(&cell.shape) > 0)) {
+        double area = cell.shape.count < 3 ? 0 : lrcsi_clip_polygon_area(&cell.shape);
+        if (!(area > 0)) {
             continue; /* no area, or less than the splits' error already holds */
         }
-        uint32_t kept = cell_keep(o, &cell);
+        uint32_t kept = cell_keep(o, &cell, area);
         if (kept == LRCS_NONE) {
             continue;
         }
         int leaf = kept <= LEAF_OCCLUDERS || cell.stale >= LEAF_STALE;
-        if (leaf && cell_cut(o, &cell, kept)) {
+        if (leaf && cell_cut(o, &cell, kept, area)) {
             return 1;
         }
-        size_t end = (size_t)cell.first + cell.count + kept;
+        size_t end = (size_t)cell_list(&cell, kept) + kept;
         if (cell.depth < MOST_DEPTH && end + kept <= o->room) {
             cell_halve(o, &cell, kept);
         } else {
-            o->doubt += lrcsi_clip_polygon_area(&cell.shape);
+            o->doubt += area;
         }
     }
     return 0;
@@ -136,22 +176,28 @@ static uint32_t occlude_candidates(lrcsi_occluding *o)
     return count;
 }
 
+/* What an occluder may be wrong by all over the facet. */
+static double occluder_most(const lrcsi_occluding *o, const lrcsi_occluder *occluder)
+{
+    return occluder->error * lrcsi_least(occluder->outline, o->target.perimeter);
+}
+
 /* The regions that the candidates hide. 1; 0 where one of them hides all of the target. */
 static int occlude_regions(lrcsi_occluding *o, uint32_t candidates)
 {
     lrcsi_clip_polygon whole;
     lrcsi_clip_triangle((const double(*)[2])o->target.corner, &whole);
     o->count = 0;
-    o->rims = 0;
     for (uint32_t i = 0; i < candidates; i++) {
         lrcsi_occluder *occluder = &o->occluder[o->count];
-        int hides = lrcsi_occluder_make(&o->target, o->candidate[i], occluder);
-        o->rims += occluder->error;
-        if (!hides) {
+        if (!lrcsi_occluder_make(&o->target, o->candidate[i], occluder)) {
+            o->off += occluder->error > 0 ? occluder_most(o, occluder) : 0;
             continue;
         }
-        if (lrcsi_clip_overlap(&whole, &occluder->region) == LRCSI_CLIP_COVERED) {
-            o->rims = occluder->error;
+        int overlap = lrcsi_clip_overlap(&whole, &occluder->region);
+        if (overlap == LRCSI_CLIP_COVERED || overlap == LRCSI_CLIP_BURIED) {
+            o->off = overlap == LRCSI_CLIP_COVERED ? occluder_most(o, occluder) : 0;
+            o->count = 0;
             return 0;
         }
         o->count++;
@@ -164,7 +210,7 @@ static int contested_open(lrcsi_occluding *o, uint32_t facet)
 {
     lrcsi_target_make(o->contest->view, facet, &o->target);
     uint32_t candidates = occlude_candidates(o);
-    o->area = o->doubt = o->splits = 0;
+    o->area = o->doubt = o->off = 0;
     o->occluder = lrcsi_work_take(o->work, candidates, sizeof *o->occluder);
     if (!o->occluder) {
         return LRCS_E_MEMORY;
@@ -189,15 +235,17 @@ static int contested_open(lrcsi_occluding *o, uint32_t facet)
 static lrcsi_visible clipped_area(const lrcsi_occluding *o)
 {
     double whole = lrcsi_view_tilt(o->contest->view, o->target.facet).projected;
-    double own = 20 * U * o->target.reach;
-    double splits = 8 * U * o->target.diameter * (o->splits + 4);
-    double error = (o->rims + own + splits) * o->target.perimeter;
+    double own = 20 * U * o->target.reach + 32 * U * o->target.diameter;
+    double error = own * o->target.perimeter + o->off;
+    for (uint32_t i = 0; i < o->count; i++) {
+        error += lrcsi_least(o->occluder[i].charged, occluder_most(o, &o->occluder[i]));
+    }
     double left = lrcsi_most(0, lrcsi_least(whole, o->area));
     if (!isfinite(error)) {
-        return (lrcsi_visible){left, 0, whole, 0};
+        return (lrcsi_visible){left, 0, whole, 0, 0};
     }
     return (lrcsi_visible){left, lrcsi_most(0, left - error),
-                           lrcsi_least(whole, left + o->doubt + error), 0};
+                           lrcsi_least(whole, left + o->doubt + error), 0, 0};
 }
 
 static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
@@ -205,11 +253,11 @@ static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
     double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
     switch (o->uniform[facet]) {
     case LRCSI_QUERY_HIDDEN:
-        return (lrcsi_visible){0, 0, 0, 0};
+        return (lrcsi_visible){0, 0, 0, 0, 0};
     case LRCSI_QUERY_VISIBLE:
-        return (lrcsi_visible){whole, whole, whole, 0};
+        return (lrcsi_visible){whole, whole, whole, 0, 0};
     default:
-        return (lrcsi_visible){0.5 * whole, 0, whole, 0};
+        return (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
     }
 }
 
@@ -217,7 +265,7 @@ int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
 {
     lrcsi_contest *contest = o->contest;
     o->mark = o->work->used;
-    o->answer = (lrcsi_visible){0, 0, 0, 0};
+    o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
     o->target.facet = facet;
     o->contested = o->whole = 0;
     o->top = 0;
@@ -290,18 +338,23 @@ int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding 
     return status;
 }
 
-int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible)
+int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible,
+                      uint32_t *starved)
 {
+    const lrcsi_view *view = contest->view;
     size_t mark = work->used;
     lrcsi_occluding o;
     int status = lrcsi_occlude_make(contest, work, &o);
-    for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count && status == LRCS_OK;
-         f++) {
-        status = lrcsi_occlude_open(&o, f);
-        if (status == LRCS_OK) {
+    *starved = 0;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
+        if (lrcsi_occlude_open(&o, f) == LRCS_OK) {
             while (occlude_cells(&o)) {
             }
             visible[f] = lrcsi_occlude_close(&o);
+        } else {
+            double whole = lrcsi_view_tilt(view, f).projected;
+            visible[f] = (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
+            ++*starved;
         }
     }
     work->used = mark;

@@ -38,10 +38,9 @@ typedef struct lrcsi_occluding {
     lrcsi_occluder *occluder;
     uint32_t *list; /* occluders by cell, one behind the other */
     size_t room;    /* of list */
-    double rims;    /* by which the occluders may be wrong */
     double area;    /* visible so far */
     double doubt;   /* area of cells that could not be finished */
-    double splits;
+    double off;     /* by which the area may be wrong, but for what occluders were charged with */
 } lrcsi_occluding;
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
@@ -63,9 +62,10 @@ int lrcsi_occlude_next(lrcsi_occluding *o);
 lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o);
 
 /* Every facet: uniform ones by one exact sample, contested ones by clipping unless one sheet hides
-   all of them.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. A facet that falls
-   into more pieces than the lists hold keeps the area reached as an upper bound. */
-int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible);
+   all of them. A facet whose occluders find no memory may show anything: *starved counts those. One
+   that falls into more pieces than the lists hold is bounded by what was reached.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. */
+int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible,
+                      uint32_t *starved);
 
 #endif

@@ -148,9 +148,16 @@ static int caster_heights(const lrcsi_target *t, uint32_t other, occlude_caster 
 
 /* --- regions ---------------------------------------------------------------------------------- */
 
-static void region_line(lrcsi_clip_region *region, const double *from, const double *to)
+/* How far a corner may be off, and a line, and more: beyond this a point is surely to one side. */
+#define CORNER_OFF (10 * U)
+#define CUT_MARGIN (32 * U)
+#define SURE_WIDTH (48 * U)
+
+static void region_line(lrcsi_clip_region *region, const double *from, const double *to,
+                        double width)
 {
     lrcsi_clip_line *line = &region->line[region->lines++];
+    line->width = width;
     for (int k = 0; k < 2; k++) {
         line->at[k] = from[k];
         line->to[k] = to[k] - from[k];
@@ -165,8 +172,6 @@ static void region_grow(lrcsi_clip_region *region, const double *p)
     }
 }
 
-#define CUT_MARGIN (32 * U)
-
 /* Where the side k of the occluder passes through the target's plane, and how far that may be off:
    the share t = h / (h - h') moves by at most the heights' errors over |h| + |h'|. */
 static double side_cut(const occlude_caster *c, int k, double at[2])
@@ -174,7 +179,7 @@ static double side_cut(const occlude_caster *c, int k, double at[2])
     int next = (k + 1) % 3;
     double span = fabs(c->height[k]) + fabs(c->height[next]);
     double off = c->off[k] + c->off[next];
-    double t = lrcsi_least(1, fabs(c->height[k]) / span);
+    double t = span > 0 ? lrcsi_least(1, fabs(c->height[k]) / span) : 0.5;
     for (int i = 0; i < 2; i++) {
         at[i] = c->corner[k][i] + t * (c->corner[next][i] - c->corner[k][i]);
     }
@@ -215,48 +220,92 @@ static double cut_height(const occlude_caster *c, const region_cut *cut)
     return lone * side / hypot(x, y);
 }
 
+/* The sides of the occluder that bound its region, and the corners of that, in their order. */
+static void region_sides(const occlude_caster *c, double width, lrcsi_clip_region *region,
+                         region_cut *cut, lrcsi_clip_polygon *hull)
+{
+    for (int k = 0; k < 3; k++) {
+        int next = (k + 1) % 3;
+        if (c->above[k] >= 0) {
+            region_grow(region, c->corner[k]);
+            memcpy(hull->corner[hull->count++], c->corner[k], sizeof c->corner[k]);
+        }
+        if (c->above[k] > 0 || c->above[next] > 0 || (c->above[k] == 0 && c->above[next] == 0)) {
+            region_line(region, c->corner[k], c->corner[next], width);
+        }
+        region_side(c, k, cut);
+        if (c->above[k] * c->above[next] < 0) {
+            memcpy(hull->corner[hull->count++], c->above[k] > 0 ? cut->leave : cut->enter,
+                   sizeof cut->leave);
+        }
+    }
+}
+
+/* The rim's length. Where corners are off by e, two hulls differ by 2 e L + 13 e^2: 4 e more of
+   length serve for that. A convex region holds a disc of the radius area / L; where that exceeds w,
+   lines that are off by w reach no farther than the region grown by twice in all directions, by at
+   most 3 w L. */
+static double hull_outline(const lrcsi_clip_polygon *hull, double reach, double diameter,
+                           double slip)
+{
+    double length = lrcsi_clip_polygon_perimeter(hull);
+    double area = lrcsi_clip_polygon_area(hull);
+    int wide = area > 64 * U * (reach + diameter) * length;
+    return wide ? length + 4 * (CORNER_OFF * reach + slip) : HUGE_VAL;
+}
+
 /* The occluder's triangle, cut where its plane passes behind the target's. The cut leaves one side
    downwards and enters another upwards; its line runs from the one point to the other. It parts one
    corner from the other two. Where that one lies within CUT_MARGIN of it (the points are off by
    less than 6 u reach, the corner by 10 u reach), the line's direction means nothing; then either
    what it cuts off is no wider, and it is left out, or what is left is, and there is no region: 0.
-   Elsewhere it crosses both sides within a quarter of the corner's distance beyond the points. */
-static int region_make(const occlude_caster *c, lrcsi_clip_region *region, double *slip)
+   Elsewhere it crosses both sides within a quarter of the corner's distance beyond the points. A
+   triangle that rounding has turned over, or flattened, hides no more than its corners' error; the
+   two sides of one that is cut would open backwards without end.
+
+   The true region lies within the corners' error, 10 u reach and the slip, of the hull of its
+   computed corners; so a point beyond one of the lines by SURE_WIDTH, the cut's by the slip more,
+   is not in it. One so far within all of them is: it lies in the true triangle, and not in the part
+   that the cut takes away, which is as near to the hull of its own computed corners. Where the cut
+   was left out, what it cuts off lies within CUT_MARGIN and the slip of the sides. */
+static int region_make(const occlude_caster *c, double diameter, lrcsi_occluder *o)
 {
+    double sure = SURE_WIDTH * (c->reach + diameter);
     region_cut cut = {{0, 0}, {0, 0}, 0, 0};
+    lrcsi_clip_region *region = &o->region;
+    lrcsi_clip_polygon hull;
+    hull.count = 0;
+    o->error = 4 * 14 * U * (c->reach + diameter);
+    if (!(lrcsi_clip_corners_area((const double(*)[2])c->corner, 3) > 0)) {
+        return 0;
+    }
     *region = (lrcsi_clip_region){.low = {HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL}};
-    for (int k = 0; k < 3; k++) {
-        int next = (k + 1) % 3;
-        if (c->above[k] >= 0) {
-            region_grow(region, c->corner[k]);
+    region_sides(c, sure, region, &cut, &hull);
+    region->width = sure + cut.slip;
+    o->error += 4 * cut.slip;
+    if (cut.real) {
+        region_grow(region, cut.leave);
+        region_grow(region, cut.enter);
+        if (!(cut_height(c, &cut) > CUT_MARGIN * c->reach)) {
+            for (int k = 0; k < region->lines; k++) {
+                region->line[k].width += cut.slip;
+            }
+            return region->lines == 3;
         }
-        if (c->above[k] > 0 || c->above[next] > 0 || (c->above[k] == 0 && c->above[next] == 0)) {
-            region_line(region, c->corner[k], c->corner[next]);
-        }
-        region_side(c, k, &cut);
+        region_line(region, cut.leave, cut.enter, sure + cut.slip);
     }
-    *slip = cut.slip;
-    if (!cut.real) {
-        return 1;
-    }
-    region_grow(region, cut.leave);
-    region_grow(region, cut.enter);
-    if (!(cut_height(c, &cut) > CUT_MARGIN * c->reach)) {
-        return region->lines == 3;
-    }
-    region_line(region, cut.leave, cut.enter);
+    o->outline = hull_outline(&hull, c->reach, diameter, cut.slip);
     return 1;
 }
 
-/* --- one occluder ------------------------------------------------------------------------------
- */
+/* --- one occluder ----------------------------------------------------------------------------- */
 
 int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *occluder)
 {
     const lrcsi_view *view = t->view;
     occlude_caster caster = {.above = {1, 1, 1}};
-    double slip = 0;
-    occluder->error = 0;
+    occluder->error = occluder->charged = 0;
+    occluder->outline = HUGE_VAL;
     if (surely_behind(t, other)) {
         return 0;
     }
@@ -266,7 +315,5 @@ int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *o
         return 0;
     }
     caster.reach = lrcsi_target_frame(view, t->facet, other, caster.corner);
-    int hides = region_make(&caster, &occluder->region, &slip);
-    occluder->error = 4 * (slip + 13 * U * (caster.reach + t->diameter));
-    return hides;
+    return region_make(&caster, t->diameter, occluder);
 }

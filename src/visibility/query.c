@@ -114,7 +114,7 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
     int answer = LRCSI_QUERY_VISIBLE;
     uint32_t other;
     while ((other = line_next(&line)) != LRCS_NONE) {
-        int nearer = lrcsi_sample_nearer(facets->view, other, facet, line.point);
+        int nearer = lrcsi_sample_nearer(facets->view, other, facet, line.point, line.sense);
         if (nearer > 0) {
             return LRCSI_QUERY_HIDDEN;
         }
@@ -182,7 +182,7 @@ int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint3
     while ((other = line_next(&line)) != LRCS_NONE) {
         if (contest->sheet[other] == broken ||
             touched_by(facets->view->prepared, other, facet) || /* order perhaps a guess */
-            lrcsi_sample_nearer(facets->view, other, facet, line.point) <= 0) {
+            lrcsi_sample_nearer(facets->view, other, facet, line.point, line.sense) <= 0) {
             continue;
         }
         if (crossings == LRCS_NONE) {

@@ -112,7 +112,7 @@ static void raster_contend(lrcsi_raster *r, uint32_t facet, size_t at, double he
         } else {
             double point[3];
             lrcsi_view_lift(r->view, xy[0], xy[1], point);
-            int nearer = lrcsi_sample_nearer(r->view, facet, owner, point);
+            int nearer = lrcsi_sample_nearer(r->view, facet, owner, point, 1);
             wins = nearer > 0;
             r->undecided[facet] |= nearer == 0;
             r->undecided[owner] |= nearer == 0;

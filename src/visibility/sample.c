@@ -128,11 +128,64 @@ static int sample_side(const lrcsi_view *view, uint32_t first, uint32_t second)
     return most + least;
 }
 
+/* Does the corner `ray` lie, seen from corner `at` of the facet, within the angle there? */
+static int angle_holds(const lrcsi_view *view, uint32_t facet, int at, const double *ray)
+{
+    const double *corner[3];
+    for (int k = 0; k < 3; k++) {
+        corner[k] = lrcsi_prepared_corner(view->prepared, facet, (at + k) % 3);
+    }
+    return view->facing[facet] * lrcsi_exact_turn(corner[0], corner[1], ray, view->direction) >=
+               0 &&
+           view->facing[facet] * lrcsi_exact_turn(corner[2], corner[0], ray, view->direction) >= 0;
+}
+
+/* Which of the two is nearer along a side that leaves the first's corner `i` within the second's
+   angle at its corner `j`, the same point; 0 where no side does. */
+static int sample_sides_at(const lrcsi_view *view, uint32_t first, int i, uint32_t second, int j)
+{
+    for (int k = 1; k <= 2; k++) {
+        const double *ray = lrcsi_prepared_corner(view->prepared, first, (i + k) % 3);
+        if (angle_holds(view, second, j, ray)) {
+            return view->facing[second] *
+                   lrcsi_exact_side(lrcsi_prepared_corner(view->prepared, second, 0),
+                                    lrcsi_prepared_corner(view->prepared, second, 1),
+                                    lrcsi_prepared_corner(view->prepared, second, 2), ray);
+        }
+    }
+    return 0;
+}
+
+static int points_agree(const double *p, const double *q)
+{
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
+
+/* Two facets that meet at a common corner only, each with its other corners on both sides of the
+   other's plane (one has part of the line where the planes meet, the other its continuation beyond
+   the corner): 1 first is nearer, -1 second, wherever a line meets both; 0 where they have no
+   corner in common. What they both cover of the view is convex and reaches to the corner, and
+   their heights differ on all of it, so in one sense; there it is bounded by a side of one of them
+   that lies within the angle of the other. Exact. */
+static int sample_corner(const lrcsi_view *view, uint32_t first, uint32_t second)
+{
+    for (int n = 0; n < 9; n++) {
+        int i = n / 3;
+        int j = n % 3;
+        if (points_agree(lrcsi_prepared_corner(view->prepared, first, i),
+                         lrcsi_prepared_corner(view->prepared, second, j))) {
+            int side = sample_sides_at(view, first, i, second, j);
+            return side != 0 ? side : -sample_sides_at(view, second, j, first, i);
+        }
+    }
+    return 0;
+}
+
 /* Two facets that pierce each other, on a line where they meet as far as can be told: which is
    nearer just beside it, on the side to which the line counts as moved. Heights fall by
    N_k / (N . d) there. Where they meet elsewhere it may be wrong; but both are then contested, and
    so mixed is the pixel (visibility/visible.c), so that no bound rests on it. */
-static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t second,
+static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t second, int sense,
                           lrcsi_dd first_bottom, lrcsi_dd second_bottom)
 {
     const lrcsi_normal *f = &view->prepared->normal[first];
@@ -145,14 +198,14 @@ static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t secon
         double fall = view->facing[first] * lrcsi_dd_value(left) -
                       view->facing[second] * lrcsi_dd_value(right);
         if (fall != 0) {
-            return fall < 0 ? 1 : -1;
+            return fall < 0 ? sense : -sense;
         }
     }
     return 0;
 }
 
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
-                        const double point[3])
+                        const double point[3], int sense)
 {
     sample_height f = sample_height_of(view, first, point);
     sample_height s = sample_height_of(view, second, point);
@@ -179,6 +232,6 @@ int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
     const lrcs_scene *scene = view->prepared->scene;
     return lrcsi_touch_pair(view->prepared->vertex, scene->facet[first], scene->facet[second]) ==
                    LRCSI_TOUCH_CROSS
-               ? sample_steeper(view, first, second, f.bottom, s.bottom)
-               : 0;
+               ? sample_steeper(view, first, second, sense, f.bottom, s.bottom)
+               : sample_corner(view, first, second);
 }

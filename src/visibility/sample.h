@@ -22,8 +22,9 @@ int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser);
 
 /* Which of two facets that the line meets hides the other: 1 the first, -1 the second, 0
    undecided: nearer to each other there than double-double tells, each with corners on both sides
-   of the other's plane, yet not touching. Where they pierce each other that near, a guess. */
+   of the other's plane, yet not touching. Where they pierce each other that near, a guess. The
+   line counts as moved in the sense that lrcsi_sample_covers_towards takes. */
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
-                        const double point[3]);
+                        const double point[3], int sense);
 
 #endif

@@ -12,15 +12,20 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/clip.h"
+#include "visibility/drift.h"
 #include "visibility/query.h"
 #include "visibility/sample.h"
+
+/* The share of fewer samples than this is biased: a row of facets thinner than a pixel then leans
+   one way, which the plain count of their samples does not. */
+#define FEW 16u
 
 /* --- nothing hides anything ------------------------------------------------------------------- */
 
 void lrcsi_visible_unshadowed(const lrcsi_view *view, double graze, lrcsi_visible *visible)
 {
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        visible[f] = (lrcsi_visible){0, 0, 0, 0};
+        visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
         if (lrcsi_grid_casts(view, f)) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
             visible[f].area = visible[f].high = tilt.projected;
@@ -241,8 +246,9 @@ static void mark_pure(pixel_marks *m, uint32_t facet, int uniform)
     }
 }
 
-/* Marks where the visibility of a contested facet may change. */
-static void mark_changes(pixel_marks *m, lrcsi_contest *contest, uint32_t facet)
+/* Marks where the visibility of a contested facet may change. Returns how many event edges cross
+   it; they stand in contest->crossing. */
+static uint32_t mark_changes(pixel_marks *m, lrcsi_contest *contest, uint32_t facet)
 {
     marks_start(m, facet);
     uint32_t crossings = lrcsi_contest_crossings(contest, facet);
@@ -250,6 +256,7 @@ static void mark_changes(pixel_marks *m, lrcsi_contest *contest, uint32_t facet)
         mark_edge(m, contest->crossing[i]);
     }
     mark_touches(m, facet);
+    return crossings;
 }
 
 /* The share of its samples that a facet owns; one query where it has none. */
@@ -269,8 +276,10 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *
     double area = lrcsi_view_tilt(contest->view, facet).projected;
     double shown = 0;
     double hidden = 0;
+    lrcsi_drift drift = {HUGE_VAL, 0};
     if (!raster->undecided[facet]) {
-        mark_changes(marks, contest, facet);
+        uint32_t crossings = mark_changes(marks, contest, facet);
+        drift = lrcsi_drift_facet(contest, crossings, raster, facet);
         count_certain(marks, facet, &shown, &hidden);
     }
     double pixel = raster->pixel * raster->pixel;
@@ -278,7 +287,13 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *
     v.low = lrcsi_least(area, shown * pixel * (1 - 1e-12));
     v.high = lrcsi_most(v.low, area - hidden * pixel * (1 - 1e-12));
     v.area = lrcsi_least(v.high, lrcsi_most(v.low, area * sampled_share(raster, facets, facet)));
-    v.likely = 0.5 * sqrt((v.high - v.low) * lrcsi_least(pixel, v.high - v.low));
+    double gap = v.high - v.low;
+    v.likely = lrcsi_least(gap, sqrt(drift.square) * pixel);
+    v.lean = drift.lean * pixel;
+    if (raster->covered[facet] < FEW) {
+        v.lean += v.area - raster->owned[facet] * pixel;
+    }
+    v.lean = lrcsi_least(gap, lrcsi_most(-gap, v.lean));
     return v;
 }
 
@@ -293,12 +308,12 @@ static lrcsi_visible uniform_area(const lrcsi_view *view, const lrcsi_raster *ra
                  : raster->owned[facet] != 0   ? LRCSI_QUERY_VISIBLE
                                                : LRCSI_QUERY_HIDDEN;
     if (answer == LRCSI_QUERY_UNDECIDED) {
-        return (lrcsi_visible){0.5 * area, 0, area, 0.5 * area};
+        return (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
     }
     if (answer == LRCSI_QUERY_HIDDEN) {
-        return (lrcsi_visible){0, 0, 0, 0};
+        return (lrcsi_visible){0, 0, 0, 0, 0};
     }
-    return (lrcsi_visible){area, area, area, 0};
+    return (lrcsi_visible){area, area, area, 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
@@ -333,7 +348,7 @@ static void visible_fill(lrcsi_contest *contest, const lrcsi_grid *facets, pixel
     const lrcsi_view *view = contest->view;
     uint32_t count = view->prepared->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
-        visible[f] = (lrcsi_visible){0, 0, 0, 0};
+        visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
         if (lrcsi_grid_casts(view, f) && !contest->contested[f]) {
             visible[f] = uniform_area(view, marks->raster, facets, f);
         }

@@ -12,6 +12,7 @@
 typedef struct lrcsi_visible {
     double area, low, high;
     double likely; /* of a sampled area: its likely error; else 0 */
+    double lean;   /* the part of it that has a sign, too much being positive */
 } lrcsi_visible;
 
 /* Every facet is wholly visible, front or back, except that back sides show nothing where

@@ -6,8 +6,9 @@ Coordinates and directions are arbitrary doubles, taken as exact. Everything is 
 points of the view plane are intersections of input lines in homogeneous integers, so that nothing
 is ever rounded and nothing grows. The visible part of a facet is what is left after each nearer
 facet, cut by the plane where both have one height, is taken away. Eq. 2 is summed at 40 digits.
-usage: bounds.py SCENES SEED > FILE
-       bounds.py table SEED:NUMBER... > hostile.inc     the same scenes as rows of C
+usage: bounds.py SCENES SEED hostile > FILE   degenerate, aligned, nearly so
+       bounds.py SCENES SEED plain > FILE     soups, piercing plates, spacecraft, slivers at large
+       bounds.py table SEED:NUMBER... > hostile.inc     hostile scenes as rows of C
 """
 import math
 import random
@@ -304,6 +305,57 @@ def turned(r, s):  # a sphere whose pole was pushed through the other: closed, c
     s.add(v, f)
 
 
+# Plain ones: nothing lies on a grid, bodies are turned at random.
+
+def turn(r, s):
+    q = [r.gauss(0, 1) for _ in range(4)]
+    w, x, y, z = (c / math.sqrt(sum(p * p for p in q)) for c in q)
+    rows = ((1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+            (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
+    s.v = [tuple(dot(row, p) for row in rows) for p in s.v]
+
+
+def soups(r, s):
+    for _ in range(r.randint(3, 16)):
+        s.tri(*(point(r, 4, 0) for _ in range(3)))
+
+
+def plates(r, s):  # through each other
+    for _ in range(r.randint(2, 6)):
+        at, u, v = point(r, 1.5, 0), point(r, 2, 0), point(r, 2, 0)
+        s.quad(*(tuple(a + i * b + j * c for a, b, c in zip(at, u, v))
+                 for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))))
+
+
+def spacecraft(r, s):  # bus, booms, panels in one or two wings, dish, feed
+    x, y, z = (r.uniform(0.5, 1.5) for _ in range(3))
+    s.box((-x, -y, -z), (x, y, z))
+    t = r.uniform(-math.pi, math.pi)
+    width, gap, length = r.uniform(0.4, 1.5), r.uniform(0.1, 1), r.uniform(1, 5)
+    c, e = width * math.cos(t), width * math.sin(t)
+    for side in (-1, 1)[:r.randint(1, 2)]:
+        near, far, thin = side * (y + gap), side * (y + gap + length), 0.05
+        s.box((-thin, min(side * y, near), -thin), (thin, max(side * y, near), thin))
+        s.quad((-c, near, -e), (c, near, e), (c, far, e), (-c, far, -e))
+    n, radius, deep = r.randint(6, 12), r.uniform(0.4, 1.5), r.uniform(0.1, 0.6)
+    low = z + r.uniform(0, 0.3)
+    rim = [(radius * math.cos(2 * math.pi * i / n), radius * math.sin(2 * math.pi * i / n), low + deep) for i in range(n)]
+    s.add([(0, 0, low)] + rim, [(0, 1 + i, 1 + (i + 1) % n) for i in range(n)])
+    s.quad((-0.04, 0, low), (0.04, 0, low), (0.04, 0, low + 2 * deep), (-0.04, 0, low + 2 * deep))
+    turn(r, s)
+
+
+def slivers(r, s):  # from a thousandth to a tenth as wide as long, between larger facets
+    for _ in range(r.randint(2, 8)):
+        a, b = point(r, 4, 0), point(r, 4, 0)
+        w = 10.0 ** -r.uniform(0.5, 2.5)
+        s.tri(a, b, tuple(p + w * r.uniform(-1, 1) for p in mix(a, b, r.random())))
+    for _ in range(r.randint(1, 4)):
+        s.tri(*(point(r, 4, 0) for _ in range(3)))
+
+
+PLAIN = [soups, plates, spacecraft, slivers]
 KINDS = [soup, sheet, sliver, tiny, skins, stack, tjunction, comb, fan, boxes, satellite, spikes, roof, turned]
 
 
@@ -332,6 +384,24 @@ def direction(r, s):
     return d if max(map(abs, d)) > 1e-200 else (0.0, 0.0, 1.0)
 
 
+def valid(s):
+    """Drops facets without area."""
+    good = []
+    for t in s.f:
+        a, b, c = (tuple(map(F, s.v[i])) for i in t)
+        if cross(sub(b, a), sub(c, a)) != (0, 0, 0):
+            good.append(t)
+    s.f = good
+
+
+def make_plain(r):
+    kind = r.choice(PLAIN)
+    s = Scene()
+    kind(r, s)
+    valid(s)
+    return kind.__name__, s, tuple(r.gauss(0, 1) for _ in range(3))
+
+
 def make(r):
     kind = KINDS[r.randrange(len(KINDS))] if r.random() < 0.9 else KINDS[0]
     s = Scene()
@@ -345,13 +415,8 @@ def make(r):
     s.v = [tuple(x * scale for x in p) for p in s.v]
     if r.random() < 0.2:
         r.shuffle(s.f)
-    good = []
-    for t in s.f:
-        a, b, c = (tuple(map(F, s.v[i])) for i in t)
-        if cross(sub(b, a), sub(c, a)) != (0, 0, 0):
-            good.append(t)
-    s.f = good
-    return kind.__name__, s
+    valid(s)
+    return kind.__name__, s, direction(r, s) if s.f else None
 
 
 # --- Eq. 2 -------------------------------------------------------------------------------------------
@@ -424,12 +489,12 @@ def main():
         wanted = [tuple(map(int, x.split(":"))) for x in sys.argv[2:]]
     else:
         wanted = [(int(sys.argv[2]), number) for number in range(int(sys.argv[1]))]
+    plain = sys.argv[3:] == ["plain"]
     for seed, number in wanted:
-        r = random.Random("%d %d" % (seed, number))
-        name, s = make(r)
+        r = random.Random("%s%d %d" % ("plain " if plain else "", seed, number))
+        name, s, d = (make_plain if plain else make)(r)
         if not s.f:
             continue
-        d = direction(r, s)
         which = [r.randint(0, 1) for _ in s.f]
         brdfs = [(0, 0.25, 0.2, r.choice((0, 0.5))), (0, 0.5, 0.2, 1.0)] if r.random() < 0.4 else \
             [(r.choice((0, 1)), r.choice((0.25, 0.1)), 10.0 ** r.uniform(-3, -0.155), r.choice((0.5, 0, 3.7, 40))),

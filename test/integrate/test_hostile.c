@@ -133,6 +133,15 @@ static void facet_thinner_than_its_rounding_is_asked_at_a_corner(void **state)
     check_case("soup 7:1171");
 }
 
+/* A needle of 1e-23 m^2, sampled at a corner that it shares with what hides it, or does not, showed
+   half its area: there their heights agree, and each had corners on both sides of the other. */
+static void needle_sampled_at_a_common_corner_is_decided(void **state)
+{
+    (void)state;
+    check_case("turned 7:6693");
+    check_case("turned 99:6546");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +150,7 @@ int main(void)
         cmocka_unit_test(cut_of_a_sliver_keeps_its_sense),
         cmocka_unit_test(visible_area_is_never_negative),
         cmocka_unit_test(facet_thinner_than_its_rounding_is_asked_at_a_corner),
+        cmocka_unit_test(needle_sampled_at_a_common_corner_is_decided),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,6 +121,7 @@ static void running_grows_until_it_fits(void **state)
         least[i] = least_size(prepared, &work, need, &options, truth);
     }
     assert_int_equal(least[0], least[2]); /* auto with a resolution is the raster */
+    assert_int_equal(least[3], least[2]); /* exact falls back to it */
     lrcs_run_options options = lrcs_run_options_default();
     assert_int_equal(least_size(prepared, &work, sizeof little - work.used, &options, truth),
                      least[2]); /* auto falls back to the coarsest raster before it gives up */
@@ -148,7 +149,7 @@ static void every_size_is_survived(void **state)
             assert_true(status == LRCS_OK || before != LRCS_OK);
             before = status;
         }
-        assert_int_equal(before, methods[i] == LRCS_METHOD_EXACT ? LRCS_E_MEMORY : LRCS_OK);
+        assert_int_equal(before, LRCS_OK);
     }
 }
 
@@ -182,6 +183,47 @@ static void less_memory_means_a_coarser_raster_and_a_wider_bound(void **state)
     assert_true(coarsest <= 16);
 }
 
+/* Exact in every size of memory: a raster, then clipping that leaves facets unclipped, then all. */
+static void exact_with_too_little_memory_says_so_and_its_bound_holds(void **state)
+{
+    (void)state;
+    lrcs_work work;
+    lrcs_result r;
+    make_scene();
+    double truth = scene_run(&scene, direction, LRCS_METHOD_EXACT, 0).sigma_m2;
+    work = lrcs_work_make(little, sizeof little);
+    const lrcs_prepared *prepared = NULL;
+    assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = LRCS_METHOD_EXACT;
+    size_t need = lrcs_sigma_need(prepared, &options);
+    unsigned rasters = 0;
+    unsigned starved = 0;
+    unsigned whole = 0;
+    int before = LRCS_E_MEMORY;
+    for (size_t size = 0; size <= need; size += 307) {
+        int status = run_in(prepared, &work, size, &options, &r);
+        assert_true(status == LRCS_OK || before != LRCS_OK);
+        before = status;
+        if (status != LRCS_OK) {
+            continue;
+        }
+        int flagged = (r.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
+        check_abs(r.sigma_m2, truth, r.bound_m2 + 1e-12 * truth);
+        if (r.method == LRCS_METHOD_ZBUFFER) {
+            assert_true(flagged && starved == 0 && whole == 0 && r.resolution > 0);
+            rasters++;
+        } else if (flagged) {
+            assert_true(whole == 0 && r.resolution == 0 && r.bound_m2 > 1e-3 * truth);
+            starved++;
+        } else {
+            check_most(r.bound_m2, 1e-11 * truth);
+            whole++;
+        }
+    }
+    assert_true(rasters > 20 && starved > 5 && whole > 5);
+}
+
 static void ordinary_scenes_fit_into_what_is_asked_for(void **state)
 {
     (void)state;
@@ -211,6 +253,7 @@ int main(void)
         cmocka_unit_test(running_grows_until_it_fits),
         cmocka_unit_test(every_size_is_survived),
         cmocka_unit_test(less_memory_means_a_coarser_raster_and_a_wider_bound),
+        cmocka_unit_test(exact_with_too_little_memory_says_so_and_its_bound_holds),
         cmocka_unit_test(ordinary_scenes_fit_into_what_is_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

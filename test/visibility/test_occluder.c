@@ -120,6 +120,28 @@ static void shallow_cuts_own_up_to_their_slip(void **state)
     }
 }
 
+/* Needles an ulp wide through the target's plane, many of which rounding turns over in the view:
+   the sides of those open backwards, and what is cut out must not. */
+static void needles_turned_over_by_rounding_hide_nothing(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    double worst = 0;
+    for (int i = 0; i < 4000; i++) {
+        double length = ldexp(1, -(int)scene_random(&seed, 30));
+        double angle = 0.001 * scene_random(&seed, 6283);
+        double error;
+        const double a[3] = {0.7 + 0.0001 * i, 1.3 - 0.0001 * i, 0.3 * length};
+        double b[3] = {a[0] + length * cos(angle), a[1] + length * sin(angle), -0.7 * length};
+        double c[3] = {nextafter(b[0], 9), b[1], b[2]};
+        const double from[3] = {0.3 + 0.00007 * i, -0.1, 1};
+        start(a, b, c);
+        double hidden = 1 - share_left(from, &error);
+        worst = fmax(worst, hidden - 4 * error);
+    }
+    check_most(worst, 4e-16);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -128,6 +150,7 @@ int main(void)
         cmocka_unit_test(facets_behind_beside_or_in_contact_hide_nothing),
         cmocka_unit_test(front_skin_hides_a_back_in_its_plane),
         cmocka_unit_test(shallow_cuts_own_up_to_their_slip),
+        cmocka_unit_test(needles_turned_over_by_rounding_hide_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,8 +72,8 @@ static void cube_is_entered_and_left_once_on_every_line(void **state)
             assert_int_equal(meets(&view, -1, p, &back), met);
             assert_true(met == 1 || (met == 0 && !passes_through(p, d)));
             if (met == 1) {
-                assert_int_equal(lrcsi_sample_nearer(&view, front, back, p), 1);
-                assert_int_equal(lrcsi_sample_nearer(&view, back, front, p), -1);
+                assert_int_equal(lrcsi_sample_nearer(&view, front, back, p, 1), 1);
+                assert_int_equal(lrcsi_sample_nearer(&view, back, front, p, 1), -1);
                 through++;
             }
         }
@@ -101,7 +101,7 @@ static void sphere_is_entered_and_left_once_through_its_own_corners(void **state
                 assert_true(met <= 1);
                 assert_int_equal(meets(&view, -1, p, &back), met);
                 if (met == 1) {
-                    assert_int_equal(lrcsi_sample_nearer(&view, front, back, p), 1);
+                    assert_int_equal(lrcsi_sample_nearer(&view, front, back, p, 1), 1);
                 }
             }
         }
@@ -131,8 +131,37 @@ static void coincident_facets_come_in_their_order_of_precedence(void **state)
         assert_true(lrcsi_sample_covers(&view, order[i], p));
         for (int j = 0; j < 4; j++) {
             if (i != j) {
-                assert_int_equal(lrcsi_sample_nearer(&view, order[i], order[j], p), i < j ? 1 : -1);
+                assert_int_equal(lrcsi_sample_nearer(&view, order[i], order[j], p, 1),
+                                 i < j ? 1 : -1);
                 assert_int_equal(lrcsi_sample_beats(&view, order[i], order[j]), i < j);
+            }
+        }
+    }
+}
+
+/* Symptom: half of a facet asked at its corner, there undecided. The first lies in z = x, the
+   second in z = -x; they have one corner in common, and go from it each to its own side of x = 0
+   and a little beyond, so that each has corners on both sides of the other. Both cover the line
+   through the corner that counts as moved along x, or, point-mirrored, against it. */
+static void facets_with_a_common_corner_are_ordered_beside_it(void **state)
+{
+    (void)state;
+    const double p[3] = {0, 0, 0};
+    for (int sense = -1; sense <= 1; sense += 2) {
+        for (int inverted = 0; inverted < 2; inverted++) {
+            const double a = 0.5 * sense;
+            const double b = 0.125 * sense;
+            scene_start(&scene);
+            scene_triangle(&scene, p, (const double[3]){a, -b, a}, (const double[3]){-b, a, -b});
+            scene_triangle(&scene, p, (const double[3]){-b, -a, b}, (const double[3]){a, b, -a});
+            if (inverted) {
+                scene_invert(&scene, 1);
+            }
+            lrcsi_view view = view_from(0, 0, 1);
+            for (uint32_t f = 0; f < 2; f++) {
+                assert_true(lrcsi_sample_covers_towards(&view, f, p, sense));
+                assert_int_equal(lrcsi_sample_nearer(&view, f, 1 - f, p, sense),
+                                 f == 0 ? sense : -sense);
             }
         }
     }
@@ -151,9 +180,10 @@ static void crossing_plates_are_ordered_where_they_cross(void **state)
     lrcsi_view view = view_from(0, 0, 1);
     for (int i = -2; i <= 2; i++) { /* the first is z = x, the second z = -x */
         const double p[3] = {i * 0.0625, 0.03125, 0};
-        int nearer = lrcsi_sample_nearer(&view, 0, 1, p);
-        assert_int_equal(lrcsi_sample_nearer(&view, 1, 0, p), -nearer);
+        int nearer = lrcsi_sample_nearer(&view, 0, 1, p, 1);
+        assert_int_equal(lrcsi_sample_nearer(&view, 1, 0, p, 1), -nearer);
         assert_true(i == 0 ? nearer != 0 : nearer == (i > 0 ? 1 : -1));
+        assert_int_equal(lrcsi_sample_nearer(&view, 0, 1, p, -1), i == 0 ? -nearer : nearer);
     }
 }
 
@@ -175,8 +205,8 @@ static void skins_closer_than_double_double_keep_their_order(void **state)
             lrcsi_view view = view_from(0, 0, 1);
             const double p[3] = {0.125, 0.25, 0};
             int want = upper == 0 ? 1 : -1;
-            assert_int_equal(lrcsi_sample_nearer(&view, 0, 1, p), want);
-            assert_int_equal(lrcsi_sample_nearer(&view, 1, 0, p), -want);
+            assert_int_equal(lrcsi_sample_nearer(&view, 0, 1, p, 1), want);
+            assert_int_equal(lrcsi_sample_nearer(&view, 1, 0, p, 1), -want);
             for (int method = LRCS_METHOD_ZBUFFER; method <= LRCS_METHOD_EXACT; method++) {
                 scene_run(&scene, (const double[3]){0, 0, 1}, method, 32);
                 check_same(scene.record[upper].visible_area_m2, 0.125);
@@ -192,6 +222,7 @@ int main(void)
         cmocka_unit_test(cube_is_entered_and_left_once_on_every_line),
         cmocka_unit_test(sphere_is_entered_and_left_once_through_its_own_corners),
         cmocka_unit_test(coincident_facets_come_in_their_order_of_precedence),
+        cmocka_unit_test(facets_with_a_common_corner_are_ordered_beside_it),
         cmocka_unit_test(crossing_plates_are_ordered_where_they_cross),
         cmocka_unit_test(skins_closer_than_double_double_keep_their_order),
     };

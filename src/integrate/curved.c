@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT */
+/* The tessellation error of one facet under shadowing. It combines how F strays over the facet's
+   patch (optics/stray.c) with where truth and facets may differ about what is seen
+   (visibility/margin.h), and decides neither.
+
+   Let U be the facet's patch and f the facet, of area S, |U| within a S of it; v and w say what is
+   seen of them, off a share b of both alike. Truth T = Int_U F v, the facets' M = F_i Int_f w.
+     seen all over, b = 0: T - M is the whole patch's stray; its numbers hold for the two facets of
+   a sector together, so both must be seen; hidden all over: M = 0, T <= (1 + a) S b sup F; else |T
+   - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
+                  <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b), and <= (1 + a) S sup F;
+         where neither facet of the sector is hidden or dark, the first term together is at most
+   what (F - F_i) integrates to over any part of both. Patches of facets that face away from the
+   laser may see it in part: T is at most their stray. On flat facets a = 0 and F = F_i. Without a
+   margin the facets count as seen: what of it may be hidden is then in the visible area's bounds,
+   for truth and facets alike. */
+#include "integrate/curved.h"
+
+#include <math.h>
+
+#include "optics/reflect.h"
+
+/* Of a flat facet: wider than the error of its angle. */
+#define FLAT_TILT 1e-12
+
+/* What is known of a facet and its patch. */
+enum curved_state {
+    CURVED_DARK,   /* no side of it that reflects faces the laser */
+    CURVED_SEEN,   /* all of it is seen, in truth too */
+    CURVED_HIDDEN, /* none of the facet is seen */
+    CURVED_MIXED
+};
+
+static const lrcs_part *curved_part(const lrcs_prepared *p, uint32_t facet)
+{
+    return &p->scene->part[p->scene->facet_part[facet]];
+}
+
+/* Is it one of a curved wall's, to which the part's curvature belongs? */
+static int on_curve(const lrcs_prepared *p, uint32_t facet)
+{
+    return p->scene->facet_smooth[facet] != 0 && curved_part(p, facet)->curvature.turn > 0;
+}
+
+/* A curved closed part's inside never faces the laser unhidden, whatever rounding made of it. */
+static int back_reflects(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcs_part *part = curved_part(view->prepared, facet);
+    return view->facing[facet] < 0 && lrcsi_view_reflects(view, facet) &&
+           !(part->reach > 0 && part->solid);
+}
+
+static int curved_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                        const lrcsi_margin *margin)
+{
+    if (margin && margin->hidden[margin->region[facet]]) {
+        return CURVED_HIDDEN;
+    }
+    if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
+        return CURVED_DARK;
+    }
+    if (!margin || (margin->share[facet] == 0 && !margin->contest->contested[facet] &&
+                    visible[facet].low > 0)) {
+        return CURVED_SEEN;
+    }
+    return visible[facet].high > 0 ? CURVED_MIXED : CURVED_HIDDEN;
+}
+
+/* The state of the other facet of the sector. The two lie side by side in a part's list, which
+   every strip of a wall begins at an even place (mesh/tessellate.c); where a strip ends in an apex,
+   its facets have sectors of their own and a neighbour stands in. */
+static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                         const lrcsi_margin *margin)
+{
+    const lrcs_prepared *p = view->prepared;
+    uint32_t first = curved_part(p, facet)->first_facet;
+    uint32_t other = first + ((facet - first) ^ 1);
+    return p->skip[other] ? CURVED_HIDDEN : curved_state(view, other, visible, margin);
+}
+
+/* The error of a facet on a curved wall, per unit of its area. */
+static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner)
+{
+    double lit =
+        partner == CURVED_SEEN || partner == CURVED_MIXED ? stray->part : (1 + a) * stray->apart;
+    if (state == CURVED_HIDDEN) {
+        return (1 + a) * share * stray->most;
+    }
+    if (state == partner && state != CURVED_MIXED) {
+        return stray->whole;
+    }
+    if (state == CURVED_DARK) {
+        return (1 + a) * stray->most;
+    }
+    return fmin(lit + stray->here * (a + (1 + a) * share), (1 + a) * stray->most);
+}
+
+/* What the facets may show of a closed part's inside, by rounding. */
+static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                           const lrcsi_tilt *tilt, const lrcsi_visible *visible,
+                           const lrcsi_margin *margin)
+{
+    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
+    if (!margin || view->facing[facet] >= 0 || !lrcsi_view_reflects(view, facet) ||
+        !(visible[facet].high > 0)) {
+        return 0;
+    }
+    double most = lrcsi_stray_make(brdf, -tilt->cos_theta, tilt->tan2, &flat).most;
+    return most * fmin(1, visible[facet].high / tilt->projected);
+}
+
+int lrcsi_curved_known(const lrcs_prepared *p, int unshadowed)
+{
+    for (uint32_t i = 0; i < p->scene->part_count && unshadowed; i++) {
+        if (p->scene->part[i].facet_count != 0 && !p->scene->part[i].curvature_known) {
+            return 0;
+        }
+    }
+    return unshadowed || p->nears.reach != NULL;
+}
+
+double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                          const lrcsi_tilt *tilt, const lrcsi_visible *visible,
+                          const lrcsi_margin *margin)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
+    int curve = on_curve(p, facet);
+    int state = curved_state(view, facet, visible, margin);
+    double share = margin ? margin->share[facet] : 0;
+    double area = 0.5 * p->normal[facet].length;
+    if (share == 0 && (!curve || state == CURVED_HIDDEN)) {
+        return state == CURVED_DARK ? area * inside_shown(view, facet, brdf, tilt, visible, margin)
+                                    : 0;
+    }
+    const lrcs_curvature *c = curve ? &curved_part(p, facet)->curvature : &flat;
+    double cosine = state == CURVED_DARK ? tilt->cos_theta : fabs(tilt->cos_theta);
+    lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, c);
+    double error = state == CURVED_DARK ? 0 : share * stray.most;
+    if (curve) {
+        int partner = margin ? partner_state(view, facet, visible, margin) : state;
+        error = wall_error(&stray, c->area_error, share, state, partner);
+    }
+    if (state == CURVED_DARK) {
+        error += inside_shown(view, facet, brdf, tilt, visible, margin);
+    }
+    return area * error;
+}

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: MIT */
+/* The likely error of a sampled area. A straight line that parts what is seen from what is not is
+   met between two samples at every step along its longer axis, and the samples put it midway
+   between them. The sum of these offsets is the error of the area: it stays small where they go
+   round all values, and grows with every step where the line runs along the rows or at a simple
+   slope to them. It counts from the first to the last step where just one of the two samples shows
+   the facet's sheet; since that stretch is known to a step or two only, what counts is how far the
+   sum strays over it. The facet's own sides miscount its covered and its owned samples alike, so
+   that they count times share (1 - share). All this is a guess, and strips thinner than a pixel
+   that hide from all samples escape it. */
+#include "visibility/drift.h"
+
+#include <math.h>
+
+#include "base/range.h"
+
+/* Squared errors in pixels, calibrated (integrate/total.c): at the ends of a stretch; of a facet
+   that owns none of its samples; of one that has none. */
+#define ENDS      0.2
+#define UNSEEN    0.5
+#define UNSAMPLED 1.0
+
+/* A facet on the raster. */
+typedef struct drift_facet {
+    const lrcsi_raster *raster;
+    lrcsi_edges edges;
+    const uint32_t *sheet; /* of each facet */
+    uint32_t facet;
+} drift_facet;
+
+/* A sum of offsets along a line, and what it was over the stretch that is seen. */
+typedef struct drift_sum {
+    double sum, low, high;    /* low, high: since the stretch began */
+    double start, end;        /* where it began; at its last step so far */
+    double end_low, end_high; /* low and high at that step */
+    int seen;                 /* 0: not yet; at the last step: 1 seen above the line, -1 below */
+} drift_sum;
+
+/* Does the sample show the facet, or one that continues it? */
+static int drift_shows(const drift_facet *d, int axis, double along, double across)
+{
+    const lrcsi_raster *r = d->raster;
+    double x = axis == 0 ? along : across;
+    double y = axis == 0 ? across : along;
+    if (!(x >= 0 && y >= 0 && x < r->size && y < r->size)) {
+        return 0;
+    }
+    uint32_t owner = r->owner[(size_t)y * r->size + (size_t)x];
+    return owner != LRCS_NONE && d->sheet[owner] == d->sheet[d->facet];
+}
+
+/* Where samples put a line that passes at `across`: midway between the two about it. Through a
+   sample itself it may count as passing on either side. */
+static double drift_limit(const drift_facet *d, int axis, double along, double across)
+{
+    double limit = floor(across + 0.5);
+    double sample = floor(across);
+    if (fabs(across - sample - 0.5) > 4 * d->raster->off) {
+        return limit;
+    }
+    int at = drift_shows(d, axis, along, sample);
+    return at != drift_shows(d, axis, along, sample - 1)   ? sample
+           : at != drift_shows(d, axis, along, sample + 1) ? sample + 1
+                                                           : limit;
+}
+
+/* One step. Of a facet's own side every one belongs to the stretch. */
+static void drift_step(drift_sum *s, double offset, int above, int below, int side)
+{
+    if (s->seen == 0) {
+        s->start = s->low = s->high = s->sum;
+    }
+    s->sum += offset;
+    s->low = lrcsi_least(s->low, s->sum);
+    s->high = lrcsi_most(s->high, s->sum);
+    if (above != below || side) {
+        s->seen = above ? 1 : -1;
+        s->end = s->sum;
+        s->end_low = s->low;
+        s->end_high = s->high;
+    }
+}
+
+/* Cuts the line a b off where it leaves the facet: from a + t[0] (b - a) to a + t[1] (b - a).
+   Returns 0 where nothing is left. */
+static int drift_clip(const lrcsi_edges *e, const double a[2], const double b[2], double t[2])
+{
+    for (int k = 0; k < 3; k++) {
+        double p = e->at[k] + e->along[k] * a[0] + e->up[k] * a[1] + e->off;
+        double q = e->at[k] + e->along[k] * b[0] + e->up[k] * b[1] + e->off;
+        if (p < 0 && q < 0) {
+            return 0;
+        }
+        if (p < 0) {
+            t[0] = lrcsi_most(t[0], p / (p - q));
+        } else if (q < 0) {
+            t[1] = lrcsi_least(t[1], p / (p - q));
+        }
+    }
+    return t[0] < t[1];
+}
+
+/* Walks the part of the line a b that lies over the facet. */
+static drift_sum drift_walk(const drift_facet *d, const double a[2], const double b[2], int side)
+{
+    drift_sum s = {0};
+    double t[2] = {0, 1};
+    int axis = fabs(b[1] - a[1]) > fabs(b[0] - a[0]);
+    double run = b[axis] - a[axis];
+    if (run == 0 || !drift_clip(&d->edges, a, b, t)) {
+        return s;
+    }
+    double slope = (b[!axis] - a[!axis]) / run;
+    double from = a[axis] + lrcsi_least(t[0] * run, t[1] * run);
+    double to = a[axis] + lrcsi_most(t[0] * run, t[1] * run);
+    double last = lrcsi_least(to - 0.5, d->raster->size - 1.0);
+    for (double step = lrcsi_most(ceil(from - 0.5), 0); step <= last; step++) {
+        double across = a[!axis] + slope * (step + 0.5 - a[axis]);
+        double limit = drift_limit(d, axis, step, across);
+        drift_step(&s, across - limit, drift_shows(d, axis, step, limit),
+                   drift_shows(d, axis, step, limit - 1), side);
+    }
+    return s;
+}
+
+/* A line that parts what is seen from what another facet hides. */
+static void drift_add(const drift_facet *d, const double a[2], const double b[2],
+                      lrcsi_drift *drift)
+{
+    drift_sum s = drift_walk(d, a, b, 0);
+    double stray = s.end_high - s.end_low;
+    drift->square += s.seen != 0 ? stray * stray + ENDS : 0;
+    drift->lean += s.seen * (s.end - s.start);
+}
+
+static void drift_add_edge(const drift_facet *d, uint32_t edge, lrcsi_drift *drift)
+{
+    const lrcsi_edge *e = &d->raster->view->prepared->topology.edge[edge];
+    double a[2];
+    double b[2];
+    lrcsi_raster_point(d->raster, e->low, a);
+    lrcsi_raster_point(d->raster, e->high, b);
+    drift_add(d, a, b, drift);
+}
+
+/* The line where the planes of two facets meet, as far as it may pass over the facet's box. */
+static void drift_add_meeting(const drift_facet *d, uint32_t other, lrcsi_drift *drift)
+{
+    const lrcsi_edges *box = &d->edges;
+    lrcsi_plane p = lrcsi_raster_plane(d->raster, d->facet);
+    lrcsi_plane q = lrcsi_raster_plane(d->raster, other);
+    double along = p.along - q.along;
+    double up = p.up - q.up;
+    double steep = sqrt(along * along + up * up);
+    double x = 0.5 * ((double)box->x0 + box->x1);
+    double y = 0.5 * ((double)box->y0 + box->y1);
+    double reach = 2.0 + box->x1 - box->x0 + box->y1 - box->y0;
+    double far = (p.at - q.at + along * x + up * y) / steep; /* from the middle of the box */
+    if (!(fabs(far) < reach)) {
+        return;
+    }
+    along /= steep;
+    up /= steep;
+    const double a[2] = {x - along * far - up * reach, y - up * far + along * reach};
+    const double b[2] = {x - along * far + up * reach, y - up * far - along * reach};
+    drift_add(d, a, b, drift);
+}
+
+static void drift_add_touches(const drift_facet *d, lrcsi_drift *drift)
+{
+    const lrcsi_view *view = d->raster->view;
+    const lrcsi_touches *touches = &view->prepared->touches;
+    for (uint32_t i = touches->first[d->facet]; i < touches->first[d->facet + 1]; i++) {
+        const lrcsi_touch *touch = &touches->touch[i];
+        if (!lrcsi_contest_touch_hides(view, d->facet, touch)) {
+            continue;
+        }
+        if (touch->kind == LRCSI_TOUCH_CROSS) {
+            drift_add_meeting(d, touch->other, drift);
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            drift_add_edge(d, view->prepared->topology.facet_edge[touch->other].corner[k], drift);
+        }
+    }
+}
+
+static void drift_add_sides(const drift_facet *d, double share, lrcsi_drift *drift)
+{
+    const uint32_t *corner = d->raster->view->prepared->scene->facet[d->facet].corner;
+    double p[3][2];
+    for (int k = 0; k < 3; k++) {
+        lrcsi_raster_point(d->raster, corner[k], p[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        drift_sum s = drift_walk(d, p[k], p[(k + 1) % 3], 1);
+        double stray = s.end_high - s.end_low;
+        drift->square += share * (1 - share) * stray * stray + ENDS;
+    }
+}
+
+lrcsi_drift lrcsi_drift_facet(const lrcsi_contest *contest, uint32_t crossings,
+                              const lrcsi_raster *raster, uint32_t facet)
+{
+    drift_facet d = {raster, lrcsi_raster_edges(raster, facet), contest->sheet, facet};
+    lrcsi_drift drift = {0, 0};
+    if (raster->owned[facet] == 0) {
+        drift.square = raster->covered[facet] == 0 ? UNSAMPLED : UNSEEN;
+    } else {
+        drift_add_sides(&d, (double)raster->owned[facet] / raster->covered[facet], &drift);
+    }
+    for (uint32_t i = 0; i < crossings; i++) {
+        drift_add_edge(&d, contest->crossing[i], &drift);
+    }
+    drift_add_touches(&d, &drift);
+    return drift;
+}

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+/* The visible regions of all facets as rings of points: counted first, then filled in. What is
+   visible is decided in visibility/occlude.c; here only which of its pieces are worth a ring, and
+   where their corners lie on the facet. */
+#include <lrcs/polygon.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "base/work.h"
+#include "visibility/occlude.h"
+
+#define U 0x1p-53
+
+/* Rings and points a facet: twice what satellites take. */
+#define ORDINARY_RINGS  6u
+#define ORDINARY_POINTS 24u
+
+/* Rings so far. What stands beyond the room, if only for a while, is counted and not written. */
+typedef struct ring_list {
+    lrcs_ring *ring;
+    lrcs_ring_point *point;
+    size_t ring_room, point_room;
+    size_t rings, points;
+    double bound; /* scaled area */
+} ring_list;
+
+/* --- one ring --------------------------------------------------------------------------------- */
+
+/* On the facet: three products and two sums of shares that add up to 1 within 4 u, 8 u D. In the
+   view: the first corner's place, 4 u D, and the frame's, 10 u of its reach of at most 2 D, added.
+   The shares move it by at most 100 u of the reach (visibility/target.h). */
+static lrcs_ring_point point_at(const lrcsi_target *t, const double at[2])
+{
+    const lrcs_prepared *p = t->view->prepared;
+    const uint32_t *corner = p->scene->facet[t->facet].corner;
+    const double *origin = p->scene->vertex[corner[0]].x;
+    lrcs_ring_point point;
+    double weight[3];
+    lrcsi_target_weights(t, at, weight);
+    for (int k = 0; k < 3; k++) {
+        point.body[k] = weight[0] * p->scene->vertex[corner[0]].x[k] +
+                        weight[1] * p->scene->vertex[corner[1]].x[k] +
+                        weight[2] * p->scene->vertex[corner[2]].x[k];
+    }
+    for (int k = 0; k < 2; k++) {
+        const double *row = t->view->R[k];
+        point.view[k] = (row[0] * origin[0] + row[1] * origin[1] + row[2] * origin[2]) +
+                        ldexp(at[k], p->exponent);
+    }
+    return point;
+}
+
+static void ring_add(ring_list *list, const lrcsi_target *t, const double (*corner)[2],
+                     uint32_t count)
+{
+    lrcs_ring ring = {t->facet, (uint32_t)list->points, 0};
+    const double *before = corner[count - 1];
+    for (uint32_t i = 0; i < count; i++) {
+        if (corner[i][0] == before[0] && corner[i][1] == before[1]) {
+            continue;
+        }
+        if (list->points < list->point_room) {
+            list->point[list->points] = point_at(t, corner[i]);
+        }
+        list->points++;
+        ring.count++;
+        before = corner[i];
+    }
+    if (list->rings < list->ring_room) {
+        list->ring[list->rings] = ring;
+    }
+    list->rings++;
+}
+
+/* --- one facet -------------------------------------------------------------------------------- */
+
+/* The pieces at hand. Those that rounding has left without area show nothing. */
+static void pieces_add(ring_list *list, const lrcsi_occluding *o)
+{
+    const lrcsi_clip_list *pieces = &o->clip.list;
+    for (uint32_t i = 0; i < pieces->pieces; i++) {
+        uint32_t first = lrcsi_clip_first(pieces, i);
+        const double(*corner)[2] = (const double(*)[2])(pieces->corner + first);
+        uint32_t count = pieces->end[i] - first;
+        if (!o->contested || lrcsi_clip_corners_area(corner, count) > 0) {
+            ring_add(list, &o->target, corner, count);
+        }
+    }
+}
+
+/* Where the bounds reach all of the facet, or none of it, but not both, that is the answer: it is
+   no farther from the truth than they are from each other. */
+static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
+{
+    ring_list before = *list;
+    int status = lrcsi_occlude_open(o, facet);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    while (lrcsi_occlude_next(o)) {
+        pieces_add(list, o);
+    }
+    lrcsi_visible visible = lrcsi_occlude_close(o);
+    list->bound += visible.high - visible.low;
+    if (!o->contested) {
+        return LRCS_OK;
+    }
+    int all = visible.high >= lrcsi_view_tilt(o->contest->view, facet).projected;
+    int none = visible.low <= 0;
+    if (all != none) {
+        list->rings = before.rings;
+        list->points = before.points;
+        if (all) {
+            ring_add(list, &o->target, (const double(*)[2])o->target.corner, 3);
+        }
+    }
+    return list->points < LRCS_NONE ? LRCS_OK : LRCS_E_LIMIT;
+}
+
+static int facets_add(ring_list *list, lrcsi_occluding *o)
+{
+    int status = LRCS_OK;
+    for (uint32_t f = 0; f < o->contest->view->prepared->scene->facet_count && status == LRCS_OK;
+         f++) {
+        status = facet_add(list, o, f);
+    }
+    return status;
+}
+
+/* --- all facets ------------------------------------------------------------------------------- */
+
+size_t lrcs_polygon_need(const lrcs_prepared *prepared)
+{
+    size_t facets = prepared->scene->facet_count;
+    size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_contest_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_occlude_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, ORDINARY_RINGS * sizeof(lrcs_ring)));
+    return lrcsi_work_add(need,
+                          lrcsi_work_bytes(facets, ORDINARY_POINTS * sizeof(lrcs_ring_point)));
+}
+
+/* Takes room for the rings that were counted, and fills it. */
+static int list_fill(ring_list *list, lrcsi_occluding *o)
+{
+    ring_list full = {.ring_room = list->rings, .point_room = list->points};
+    full.ring = lrcsi_work_take(o->work, full.ring_room, sizeof *full.ring);
+    full.point = lrcsi_work_take(o->work, full.point_room, sizeof *full.point);
+    *list = full;
+    return full.ring && full.point ? facets_add(list, o) : LRCS_E_MEMORY;
+}
+
+static int polygon_list(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+                        ring_list *list)
+{
+    lrcsi_view view;
+    lrcsi_contest contest;
+    lrcsi_occluding o;
+    int status = lrcsi_view_make(prepared, pose, work, &view);
+    status = status == LRCS_OK ? lrcsi_contest_make(&view, work, &contest) : status;
+    status = status == LRCS_OK ? lrcsi_occlude_make(&contest, work, &o) : status;
+    status = status == LRCS_OK ? facets_add(list, &o) : status;
+    return status == LRCS_OK ? list_fill(list, &o) : status;
+}
+
+/* The rings stand above what was needed to find them; they sink to the bottom, rings first. */
+static lrcs_polygons list_settle(const ring_list *list, lrcs_work *work)
+{
+    lrcs_polygons p = {.rings = (uint32_t)list->rings, .points = (uint32_t)list->points};
+    p.ring = lrcsi_work_take(work, list->rings, sizeof *p.ring);
+    p.point = lrcsi_work_take(work, list->points, sizeof *p.point);
+    memmove(p.ring, list->ring, list->rings * sizeof *p.ring);
+    memmove(p.point, list->point, list->points * sizeof *p.point);
+    return p;
+}
+
+int lrcs_polygon_run(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+                     lrcs_polygons *polygons)
+{
+    size_t mark = work->used;
+    ring_list list = {0};
+    int status = polygon_list(prepared, pose, work, &list);
+    work->used = mark;
+    if (status == LRCS_OK) {
+        double count = prepared->scene->facet_count;
+        *polygons = list_settle(&list, work);
+        polygons->bound_m2 = lrcsi_prepared_area(prepared, list.bound * (1 + 1e-9 + 2 * count * U));
+    }
+    return status;
+}
