@@ -49,8 +49,9 @@ enum lrcs_effect_name {
      1u << LRCS_EFFECT_GLINT | 1u << LRCS_EFFECT_DIFFUSE | 1u << LRCS_EFFECT_TWO_SIDED)
 
 typedef struct lrcs_run_options {
-    double tolerance;    /* relative, > 0: bound <= tolerance * sigma is asked for */
-    int method;          /* lrcs_method */
+    double tolerance; /* relative, > 0: bound <= tolerance * sigma is asked for, and of a cubature
+                         over curved normals that its estimate is no greater either */
+    int method;       /* lrcs_method */
     uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
     uint32_t without;    /* effects to leave out, bits 1u << LRCS_EFFECT_...: note 1 */
     uint32_t with;       /* effects to simulate, none of them in `without`: note 2 */
@@ -114,9 +115,11 @@ typedef struct lrcs_result {
     double bound_m2; /* proved: |sigma - truth| <= bound, truth being Eq. 2 over the placed
                         facets (over the true shapes where the tessellation is known) */
     lrcs_budget budget;
-    double estimate_m2;       /* likely error of a raster's answer; negative: none */
-    double projected_area_m2; /* the whole silhouette */
-    double back_side_area_m2; /* visible projected area of one-sided back sides */
+    double estimate_m2;           /* likely error of a raster's answer; negative: none */
+    double curvature_estimate_m2; /* of the cubature over curved normals, not in the bound;
+                                     negative: all facets are flat */
+    double projected_area_m2;     /* the whole silhouette */
+    double back_side_area_m2;     /* visible projected area of one-sided back sides */
     uint32_t back_side_facets;
     int method;                /* the one used, never AUTO */
     const char *method_reason; /* why that one: constant text, "as asked" unless auto chose */

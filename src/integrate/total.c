@@ -21,19 +21,10 @@
 /* Running sums, in scaled units. */
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
-    double visibility, tessellation, rounding;
+    double visibility, tessellation, rounding, curvature;
     double likely, lean; /* of errors that add up by chance, squares; of those that lean one way */
     uint32_t seen;
 } total_sums;
-
-/* What a facet wears, as far as the plan takes it into account. */
-static lrcs_brdf brdf_planned(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet)
-{
-    lrcs_brdf brdf = lrcsi_prepared_material(view->prepared, facet)->brdf;
-    brdf.A = plan->glint == LRCSI_TERM_OUT ? 0 : brdf.A;
-    brdf.B = plan->diffuse == LRCSI_TERM_OUT ? 0 : brdf.B;
-    return brdf;
-}
 
 /* Its reflection. A term of amplitude 0 that is to be evaluated all the same is so at amplitude 1,
    and added 0 times; with no slope there is no glint to evaluate. */
@@ -90,11 +81,17 @@ static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
            (diffuse < 1 ? at->diffuse * expm1(diffuse) : brdf->B);
 }
 
+static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
+{
+    sums->seen |= brdf->A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
+    sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
+}
+
 /* One facet that reflects towards the laser. Returns its sigma. */
 static double add_reflecting(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
                              uint32_t facet, const lrcsi_tilt *tilt, const lrcsi_visible *visible)
 {
-    lrcs_brdf brdf = brdf_planned(view, plan, facet);
+    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
     lrcsi_reflection at = reflection_planned(&brdf, plan, tilt->tan2);
     double whole = FOUR_PI * 0.5 * view->prepared->normal[facet].length;
     double share = visible->area / tilt->projected;
@@ -111,9 +108,23 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, const lrc
     /* S, 4 pi, two products and the share: 8 u, with the relative error of areas */
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
                       whole * most * (at.error + reflection_vague(&brdf, tilt, &at));
-    sums->seen |= brdf.A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
-    sums->seen |= brdf.B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
+    add_seen(sums, &brdf);
     return glint + diffuse;
+}
+
+/* One with curved normals, which comes summed. */
+static double add_curved(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
+                         uint32_t facet, const lrcsi_curved *curved)
+{
+    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
+    add_seen(sums, &brdf);
+    lrcsi_sum_add(&sums->glint, curved->glint);
+    lrcsi_sum_add(&sums->diffuse, curved->diffuse);
+    sums->visibility += curved->visibility;
+    sums->rounding += curved->rounding;
+    sums->likely += curved->likely * curved->likely;
+    sums->curvature += curved->estimate;
+    return curved->glint + curved->diffuse;
 }
 
 /* Can what the facets err from the true shapes be bounded? Where nothing is searched, all that
@@ -186,16 +197,17 @@ static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total
     total->rounding = lrcsi_prepared_area(p, (sums->rounding + adding) * outward);
     double likely = sqrt(sums->likely + LEANING * sums->lean * sums->lean);
     total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
+    total->curvature = lrcsi_prepared_area(p, sums->curvature);
     total->seen = sums->seen;
 }
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                             const lrcsi_visible *visible, const lrcsi_margin *margin,
-                             lrcs_facet_record *records)
+                             const lrcsi_visible *visible, const lrcsi_curved *curved,
+                             const lrcsi_margin *margin, lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
     lrcsi_total total = {0};
-    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0, 0, 0};
+    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0, 0, 0, 0};
     if (p->curved && !tessellation_known(view, plan, margin)) {
         sums.tessellation = -HUGE_VAL;
     }
@@ -205,14 +217,18 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
         if (view->facing[f] != 0) {
             int reflects = lrcsi_view_reflects(view, f);
             if (reflects && visible[f].high > 0) {
-                sigma = add_reflecting(&sums, view, plan, f, &tilt, &visible[f]);
+                sigma = curved && lrcsi_curve_wanted(view, f)
+                            ? add_curved(&sums, view, plan, f, &curved[f])
+                            : add_reflecting(&sums, view, plan, f, &tilt, &visible[f]);
             }
             count_facet(&total, &sums, reflects, &tilt, &visible[f]);
         }
         if (p->curved && !p->skip[f]) {
-            lrcs_brdf brdf = brdf_planned(view, plan, f);
+            lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, f));
             sums.tessellation +=
-                FOUR_PI * lrcsi_curved_error(view, f, &brdf, &tilt, visible, margin);
+                curved && lrcsi_curve_wanted(view, f)
+                    ? (margin ? margin->share[f] * curved[f].most : 0)
+                    : FOUR_PI * lrcsi_curved_error(view, f, &brdf, &tilt, visible, margin);
         }
         if (records) {
             records[f] = record_of(view, f, &tilt, visible[f].area, sigma);

@@ -42,4 +42,9 @@ typedef struct lrcsi_stray {
 lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
                              const lrcs_curvature *curvature);
 
+/* The most that the parts of f_r cos (not cos^2) reach over the normals within `turn` of one at
+   angle theta to s_hat, both in rad, theta <= pi: proved upper bounds. `error` is 0.
+   Notes: 1. Infinite only where f_r itself nears the largest double. */
+lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn);
+
 #endif

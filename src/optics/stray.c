@@ -219,3 +219,20 @@ double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
     }
     return lrcsi_stray_make(brdf, cos_theta, tan2, curvature).whole;
 }
+
+/* f_r cos is w^(5/2) E, of the family of glint terms, and w^(-(m+1)/2), which only falls. */
+lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn)
+{
+    lrcsi_reflection most = {0.0, 0.0, 0.0};
+    tan2_range range;
+    if (!range_around(theta, turn, &range)) {
+        return most;
+    }
+    if (brdf->A > 0.0) {
+        most.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, brdf->s, &range) * STRAY_MARGIN;
+    }
+    if (brdf->B > 0.0) {
+        most.diffuse = brdf->B * diffuse_sup(0.0, brdf->m + 1.0, &range) * STRAY_MARGIN;
+    }
+    return most;
+}

@@ -14,6 +14,7 @@
 #include "mesh/tessellate.h"
 #include "scene/bind.h"
 #include "scene/place.h"
+#include "scene/smooth.h"
 
 /* Coordinates beyond this are refused: their squares and cubes must stay doubles. */
 #define COORDINATE_MOST 1e100
@@ -43,7 +44,7 @@ typedef struct scene_piece {
 
 lrcs_build_options lrcs_build_options_default(void)
 {
-    lrcs_build_options options = {1e-4, UINT32_C(1) << 21};
+    lrcs_build_options options = {1e-4, UINT32_C(1) << 21, LRCS_NORMALS_FLAT};
     return options;
 }
 
@@ -192,15 +193,23 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
         return count_shape(builder, part, &divisions, counts);
     }
     const lrcs_mesh *mesh = &builder->models[i];
-    *counts = (lrcs_mesh_counts){mesh->vertex_count, mesh->facet_count, mesh->material_count,
-                                 mesh->part_count, 0};
+    *counts = (lrcs_mesh_counts){
+        mesh->vertex_count, mesh->facet_count, mesh->material_count, mesh->part_count, 0, 0};
     return LRCS_OK;
 }
 
 typedef struct scene_totals {
     uint64_t vertices, facets, materials;
-    size_t scratch; /* the largest mesh made on the way */
+    size_t scratch; /* the most taken on the way, by a shape's mesh or for normals */
+    int curved;     /* normals are asked for, and some model has them */
 } scene_totals;
+
+/* Does part i get normals from its file? */
+static int is_curved(const scene_builder *builder, uint32_t i)
+{
+    return builder->options->normals != LRCS_NORMALS_FLAT && builder->recipe->part[i].file &&
+           lrcsi_smooth_given(&builder->models[i]);
+}
 
 static int count_scene(scene_builder *builder, scene_totals *totals)
 {
@@ -210,7 +219,7 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
         builder->area +=
             part_area(&recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
     }
-    *totals = (scene_totals){0, 0, lrcsi_binder_wardrobe(recipe) + UINT64_C(1), 0};
+    *totals = (scene_totals){.materials = lrcsi_binder_wardrobe(recipe) + UINT64_C(1)};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         lrcs_mesh_counts counts;
         int status = count_part(builder, i, &counts);
@@ -218,6 +227,10 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
             return status;
         }
         size_t need = recipe->part[i].file ? 0 : lrcs_mesh_need(&counts);
+        if (is_curved(builder, i)) {
+            need = lrcsi_smooth_need(&builder->models[i]);
+            totals->curved = 1;
+        }
         totals->scratch = need > totals->scratch ? need : totals->scratch;
         totals->vertices += counts.vertices;
         totals->facets += counts.facets;
@@ -239,6 +252,7 @@ static size_t array_need(const scene_totals *totals, uint32_t parts)
         lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
         lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
         lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
+        lrcsi_work_bytes(totals->curved ? (size_t)totals->facets : 0, 3 * sizeof(lrcs_point)),
         lrcsi_work_bytes((size_t)totals->materials, sizeof(lrcs_material)),
         lrcsi_work_bytes(parts, sizeof(lrcs_part)),
     };
@@ -473,6 +487,17 @@ static int add_shape(scene_builder *builder, scene_piece *piece, lrcs_work *work
     return status;
 }
 
+static int add_normals(const scene_builder *builder, uint32_t i, const scene_piece *piece,
+                       lrcs_work *work, lrcs_scene *scene)
+{
+    int status =
+        lrcsi_smooth_run(&builder->models[i], &piece->placer, builder->options, work, scene);
+    return status == LRCS_OK ? LRCS_OK
+           : status == LRCS_E_MEMORY
+               ? refuse_memory(builder)
+               : refuse_part(builder, status, piece->part, "normals that its mesh has");
+}
+
 static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_scene *scene)
 {
     scene_piece piece;
@@ -493,7 +518,10 @@ static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_sc
     lrcs_part *part = &scene->part[scene->part_count];
     part->kind = -1;
     part->curvature_known = 1;
-    return add_piece(builder, &builder->models[i], &piece, scene);
+    part->smoothed = lrcsi_smooth_given(&builder->models[i]);
+    status = add_piece(builder, &builder->models[i], &piece, scene);
+    return status == LRCS_OK && is_curved(builder, i) ? add_normals(builder, i, &piece, work, scene)
+                                                      : status;
 }
 
 static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *work,
@@ -507,12 +535,28 @@ static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *wor
     scene->facet_part = lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_part);
     scene->facet_smooth =
         lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_smooth);
+    if (totals->curved) { /* what no part fills stays flat */
+        scene->corner_normal =
+            lrcsi_work_take_zero(work, (size_t)totals->facets, 3 * sizeof *scene->corner_normal);
+    }
     scene->material = lrcsi_work_take(work, (size_t)totals->materials, sizeof *scene->material);
     scene->part = lrcsi_work_take_zero(work, parts, sizeof *scene->part);
     return scene->vertex && scene->facet && scene->facet_material && scene->facet_part &&
-                   scene->facet_smooth && scene->material && scene->part
+                   scene->facet_smooth && scene->material && scene->part &&
+                   (scene->corner_normal || !totals->curved)
                ? LRCS_OK
                : LRCS_E_MEMORY;
+}
+
+/* No normals at all where every facet is flat. */
+static void settle_normals(lrcs_scene *scene)
+{
+    int curved = 0;
+    for (uint32_t f = 0; scene->corner_normal && f < scene->facet_count && !curved; f++) {
+        const double *x = scene->corner_normal[3 * (size_t)f].x;
+        curved = x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0;
+    }
+    scene->corner_normal = curved ? scene->corner_normal : NULL;
 }
 
 /* Everything, in an area whose `used` the caller puts back on failure. */
@@ -542,6 +586,8 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
         }
     }
     scene->unmatched = lrcsi_binder_unmatched(&builder->binder);
+    scene->normals = builder->options->normals;
+    settle_normals(scene);
     work->used = mark;
     return LRCS_OK;
 }
@@ -554,9 +600,11 @@ int lrcs_scene_build(const lrcs_recipe *recipe, const lrcs_mesh *models,
         .recipe = recipe, .models = models, .options = options, .where = where, .bare = LRCS_NONE};
     lrcs_scene made;
     size_t mark = work->used;
-    if (!(options->tolerance > 0.0) || !isfinite(options->tolerance) || options->max_facets < 64) {
+    if (!(options->tolerance > 0.0) || !isfinite(options->tolerance) || options->max_facets < 64 ||
+        !lrcs_normals_text(options->normals)) {
         return lrcsi_where_text(where, LRCS_E_ARGUMENT, 0, 0, "options",
-                                "a tolerance above 0 and at least 64 facets", "", 0);
+                                "a tolerance above 0, at least 64 facets and a kind of normals", "",
+                                0);
     }
     int status = build(&builder, work, &made);
     if (status != LRCS_OK) {

@@ -36,6 +36,11 @@ static int prepare_door(const lrcs_scene *scene)
                 return LRCS_E_INDEX;
             }
         }
+        for (int k = 0; scene->corner_normal && k < 9; k++) {
+            if (!(fabs(scene->corner_normal[3 * (size_t)f + (size_t)k / 3].x[k % 3]) <= 1.0)) {
+                return LRCS_E_NUMBER;
+            }
+        }
         if (scene->facet_material[f] >= scene->material_count ||
             scene->facet_part[f] >= scene->part_count) {
             return LRCS_E_INDEX;
@@ -157,6 +162,7 @@ static void prepare_effects(lrcs_prepared *p)
         p->diffuse |= material->brdf.B > 0;
         p->curved |= part->reach > 0 || !part->curvature_known;
         p->articulated |= part->articulated != 0;
+        p->smooth |= lrcsi_prepared_normals(p, f) != NULL;
     }
 }
 

@@ -149,7 +149,7 @@ static unsigned char run_memory[1u << 27];
 
 static void build(const random_scene *s, uint32_t facets, built *b)
 {
-    lrcs_build_options options = {1e-9, facets};
+    lrcs_build_options options = {1e-9, facets, LRCS_NORMALS_FLAT};
     size_t need = lrcs_scene_need(&s->recipe, NULL, &options);
     b->area = malloc(need);
     lrcs_work work = lrcs_work_make(b->area, need);
