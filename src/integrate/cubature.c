@@ -202,6 +202,12 @@ static double cube_turn(const cube_cell *cell)
     return isfinite(most) ? atan(most) * (1 + 4 * U) + 16 * U : HALF_TURN;
 }
 
+/* An error of f_r cos that nobody looks for. */
+static double nothing_to(const lrcsi_cubature *sum)
+{
+    return lrcsi_most(sum->nothing, sum->tolerance * sum->had);
+}
+
 /* Decides whether a rule may be trusted with the cell, or never hear of its glint. */
 static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
 {
@@ -220,8 +226,8 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
         cell->unheard = (glint ? 0 : most.glint) + (diffuse ? 0 : most.diffuse);
         double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
         double scale = lrcsi_most(had, sum->least * sum->whole);
-        glint = diffuse =
-            cell->unheard <= sum->nothing || cell->unheard * sum->whole <= sum->tolerance * scale;
+        glint = diffuse = cell->unheard <= nothing_to(sum) ||
+                          cell->unheard * sum->whole <= sum->tolerance * scale;
     }
     cell->trusted = turn <= MOST_TURN && diffuse && glint;
     double part = lrcsi_most(turn * sqrt(brdf->m + 1), 0.25 * turn * steep);
@@ -417,7 +423,8 @@ static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_
     double area = cube_area(cell);
     double off = fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
     double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
-    if (!must && !(off <= sum->tolerance * (all.glint + all.diffuse + had * (area / sum->whole)))) {
+    double most = sum->tolerance * (all.glint + all.diffuse + had * (area / sum->whole));
+    if (!must && !(off <= most + nothing_to(sum) * area)) {
         return 0;
     }
     for (int i = 0; i < 4; i++) {
@@ -432,9 +439,10 @@ static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cu
     if (!cell->trusted) {
         cube_trust(sum, cell);
     }
-    if (cell->trusted && cell->rough <= sum->tolerance) {
-        double value = cell->value.glint + cell->value.diffuse;
-        sum_keep(sum, cell, cell->rough * value + cell->unheard * cube_area(cell));
+    double area = cube_area(cell);
+    double value = cell->value.glint + cell->value.diffuse;
+    if (cell->trusted && cell->rough * value <= sum->tolerance * value + nothing_to(sum) * area) {
+        sum_keep(sum, cell, cell->rough * value + cell->unheard * area);
         return 0;
     }
     if (cell->trusted) {

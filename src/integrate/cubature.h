@@ -16,6 +16,8 @@ typedef struct lrcsi_cubature {
     lrcsi_reflection most; /* bounds on the parts of f_r cos over all of them */
     double least;          /* a diffuse f_r cos that is nowhere undercut */
     double nothing;        /* f_r cos below this is not looked for */
+    double had;            /* what other surfaces have in sum, over the area of all: an error of
+                              the tolerance times this is small enough anywhere */
     lrcsi_sum glint, diffuse;
     double estimate; /* of the cubature's error */
     double rounding; /* bound on the error that rounding adds to the cubature's own sum */
@@ -23,7 +25,7 @@ typedef struct lrcsi_cubature {
 } lrcsi_cubature;
 
 /* An empty sum over surfaces whose normals lie between these three (as below): whole and slip
-   are the caller's to set, and nothing where other surfaces reach more. */
+   are the caller's to set, and nothing and had where there are other surfaces. */
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
                                    double tolerance);
 

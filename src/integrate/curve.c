@@ -27,6 +27,17 @@
 #define CUBATURE_LEAST 1e-9
 #define CUBATURE_MOST  1e-2
 
+/* All facets wanted. What is had of them tells how little matters on the next: a dark sliver is
+   worth no more work than it can add. */
+typedef struct curve_all {
+    const lrcsi_view *view;
+    const lrcsi_plan *plan;
+    double tolerance;
+    double nothing;   /* f_r cos that is nothing to the brightest of them */
+    double projected; /* area of all */
+    double had;       /* integral of f_r cos over what is visible of those done */
+} curve_all;
+
 /* A facet at work. */
 typedef struct curve_job {
     const lrcsi_view *view;
@@ -44,9 +55,9 @@ int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet)
            lrcsi_view_reflects(view, facet);
 }
 
-static void job_start(curve_job *job, const lrcsi_view *view, const lrcsi_plan *plan,
-                      uint32_t facet, double tolerance)
+static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
 {
+    const lrcsi_view *view = all->view;
     const lrcs_point *n = lrcsi_prepared_normals(view->prepared, facet);
     job->view = view;
     job->facet = facet;
@@ -58,25 +69,33 @@ static void job_start(curve_job *job, const lrcsi_view *view, const lrcsi_plan *
                                 (row[0] * n[i].x[0] + row[1] * n[i].x[1] + row[2] * n[i].x[2]);
         }
     }
-    double aim = lrcsi_least(CUBATURE_MOST, lrcsi_most(CUBATURE_LEAST, CUBATURE_SHARE * tolerance));
-    job->brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
+    double aim =
+        lrcsi_least(CUBATURE_MOST, lrcsi_most(CUBATURE_LEAST, CUBATURE_SHARE * all->tolerance));
+    job->brdf = lrcsi_plan_brdf(all->plan, lrcsi_prepared_material(view->prepared, facet));
     job->sum = lrcsi_cubature_make(&job->brdf, (const double(*)[3])job->normal, aim);
     job->sum.whole = job->tilt.projected;
     job->sum.slip = SLIP_WHOLE;
+    job->sum.nothing = lrcsi_most(job->sum.nothing, all->nothing);
+    job->sum.had = all->projected > 0 ? all->had / all->projected : 0;
 }
 
-/* What is nothing to the brightest of the facets wanted is so on all of them. */
-static double least_of_all(const lrcsi_view *view, const lrcsi_plan *plan, double tolerance)
+static curve_all all_make(const lrcsi_view *view, const lrcsi_plan *plan, double tolerance)
 {
+    curve_all all = {view, plan, tolerance, 0, 0, 0};
     curve_job job;
-    double nothing = 0;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (lrcsi_curve_wanted(view, f)) {
-            job_start(&job, view, plan, f, tolerance);
-            nothing = lrcsi_most(nothing, job.sum.nothing);
+            job_start(&job, &all, f);
+            all.nothing = job.sum.nothing;
+            all.projected += job.tilt.projected;
         }
     }
-    return nothing;
+    return all;
+}
+
+static void all_have(curve_all *all, const lrcsi_curved *curved)
+{
+    all->had += (curved->glint + curved->diffuse) / FOUR_PI;
 }
 
 static void job_whole(curve_job *job)
@@ -186,13 +205,13 @@ void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
                         lrcsi_curved *curved)
 {
     curve_job job;
-    double nothing = least_of_all(view, plan, tolerance);
+    curve_all all = all_make(view, plan, tolerance);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
         if (lrcsi_curve_wanted(view, f)) {
-            job_start(&job, view, plan, f, tolerance);
-            job.sum.nothing = nothing;
+            job_start(&job, &all, f);
             curved[f] = curve_share(&job, raster, &visible[f]);
+            all_have(&all, &curved[f]);
         }
     }
 }
@@ -265,6 +284,29 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
     return part;
 }
 
+/* One facet, integrated where there is a job for it. Returns 1 where it could not be opened. */
+static uint32_t facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet,
+                             lrcsi_visible *visible, lrcsi_curved *curved)
+{
+    uint32_t starved = 0;
+    if (lrcsi_occlude_open(o, facet) != LRCS_OK) {
+        double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
+        *visible = (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
+        starved = 1;
+    } else if (job && o->contested) {
+        *curved = curve_pieces(job, o, visible);
+        return 0;
+    } else {
+        while (lrcsi_occlude_next(o)) { /* the area alone is wanted */
+        }
+        *visible = facet_close(o, facet);
+    }
+    if (job) {
+        *curved = curve_share(job, NULL, visible);
+    }
+    return starved;
+}
+
 int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
                        lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
                        uint32_t *starved)
@@ -273,31 +315,17 @@ int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double to
     size_t mark = work->used;
     lrcsi_occluding o;
     curve_job job;
-    double nothing = least_of_all(view, plan, tolerance);
+    curve_all all = all_make(view, plan, tolerance);
     int status = lrcsi_occlude_make(contest, work, &o);
     *starved = 0;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         int wanted = lrcsi_curve_wanted(view, f);
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
         if (wanted) {
-            job_start(&job, view, plan, f, tolerance);
-            job.sum.nothing = nothing;
+            job_start(&job, &all, f);
         }
-        if (lrcsi_occlude_open(&o, f) != LRCS_OK) {
-            double whole = lrcsi_view_tilt(view, f).projected;
-            visible[f] = (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
-            ++*starved;
-        } else if (wanted && o.contested) {
-            curved[f] = curve_pieces(&job, &o, &visible[f]);
-            continue;
-        } else {
-            while (lrcsi_occlude_next(&o)) { /* the area alone is wanted */
-            }
-            visible[f] = facet_close(&o, f);
-        }
-        if (wanted) {
-            curved[f] = curve_share(&job, NULL, &visible[f]);
-        }
+        *starved += facet_pieces(wanted ? &job : NULL, &o, f, &visible[f], &curved[f]);
+        all_have(&all, &curved[f]);
     }
     work->used = mark;
     return status;
