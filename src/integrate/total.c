@@ -8,7 +8,7 @@
 #include <math.h>
 
 #include "base/sum.h"
-#include "integrate/curved.h"
+#include "integrate/tessellation.h"
 #include "optics/reflect.h"
 
 #define U       0x1p-53
@@ -132,7 +132,7 @@ static double add_curved(total_sums *sums, const lrcsi_view *view, const lrcsi_p
 static int tessellation_known(const lrcsi_view *view, const lrcsi_plan *plan,
                               const lrcsi_margin *margin)
 {
-    return lrcsi_curved_known(view->prepared, plan->unshadowed) &&
+    return lrcsi_tessellation_known(view->prepared, plan->unshadowed) &&
            (plan->unshadowed || margin || plan->method == LRCS_METHOD_FACET);
 }
 
@@ -228,7 +228,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
             sums.tessellation +=
                 curved && lrcsi_curve_wanted(view, f)
                     ? (margin ? margin->share[f] * curved[f].most : 0)
-                    : FOUR_PI * lrcsi_curved_error(view, f, &brdf, &tilt, visible, margin);
+                    : FOUR_PI * lrcsi_tessellation_error(view, f, &brdf, &tilt, visible, margin);
         }
         if (records) {
             records[f] = record_of(view, f, &tilt, visible[f].area, sigma);

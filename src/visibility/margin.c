@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Adding up, facet by facet, the shares near event edges and near facets of other parts. It decides
    nothing exactly: every distance is widened by the view's error. What doubt costs in sigma is
-   decided in integrate/curved.c. */
+   decided in integrate/tessellation.c. */
 #include "visibility/margin.h"
 
 #include <math.h>

@@ -14,7 +14,7 @@
    laser may see it in part: T is at most their stray. On flat facets a = 0 and F = F_i. Without a
    margin the facets count as seen: what of it may be hidden is then in the visible area's bounds,
    for truth and facets alike. */
-#include "integrate/curved.h"
+#include "integrate/tessellation.h"
 
 #include <math.h>
 
@@ -24,14 +24,14 @@
 #define FLAT_TILT 1e-12
 
 /* What is known of a facet and its patch. */
-enum curved_state {
-    CURVED_DARK,   /* no side of it that reflects faces the laser */
-    CURVED_SEEN,   /* all of it is seen, in truth too */
-    CURVED_HIDDEN, /* none of the facet is seen */
-    CURVED_MIXED
+enum patch_state {
+    PATCH_DARK,   /* no side of it that reflects faces the laser */
+    PATCH_SEEN,   /* all of it is seen, in truth too */
+    PATCH_HIDDEN, /* none of the facet is seen */
+    PATCH_MIXED
 };
 
-static const lrcs_part *curved_part(const lrcs_prepared *p, uint32_t facet)
+static const lrcs_part *patch_part(const lrcs_prepared *p, uint32_t facet)
 {
     return &p->scene->part[p->scene->facet_part[facet]];
 }
@@ -39,31 +39,31 @@ static const lrcs_part *curved_part(const lrcs_prepared *p, uint32_t facet)
 /* Is it one of a curved wall's, to which the part's curvature belongs? */
 static int on_curve(const lrcs_prepared *p, uint32_t facet)
 {
-    return p->scene->facet_smooth[facet] != 0 && curved_part(p, facet)->curvature.turn > 0;
+    return p->scene->facet_smooth[facet] != 0 && patch_part(p, facet)->curvature.turn > 0;
 }
 
 /* A curved closed part's inside never faces the laser unhidden, whatever rounding made of it. */
 static int back_reflects(const lrcsi_view *view, uint32_t facet)
 {
-    const lrcs_part *part = curved_part(view->prepared, facet);
+    const lrcs_part *part = patch_part(view->prepared, facet);
     return view->facing[facet] < 0 && lrcsi_view_reflects(view, facet) &&
            !(part->reach > 0 && part->solid);
 }
 
-static int curved_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                        const lrcsi_margin *margin)
+static int patch_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                       const lrcsi_margin *margin)
 {
     if (margin && margin->hidden[margin->region[facet]]) {
-        return CURVED_HIDDEN;
+        return PATCH_HIDDEN;
     }
     if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
-        return CURVED_DARK;
+        return PATCH_DARK;
     }
     if (!margin || (margin->share[facet] == 0 && !margin->contest->contested[facet] &&
                     visible[facet].low > 0)) {
-        return CURVED_SEEN;
+        return PATCH_SEEN;
     }
-    return visible[facet].high > 0 ? CURVED_MIXED : CURVED_HIDDEN;
+    return visible[facet].high > 0 ? PATCH_MIXED : PATCH_HIDDEN;
 }
 
 /* The state of the other facet of the sector. The two lie side by side in a part's list, which
@@ -73,23 +73,23 @@ static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_vis
                          const lrcsi_margin *margin)
 {
     const lrcs_prepared *p = view->prepared;
-    uint32_t first = curved_part(p, facet)->first_facet;
+    uint32_t first = patch_part(p, facet)->first_facet;
     uint32_t other = first + ((facet - first) ^ 1);
-    return p->skip[other] ? CURVED_HIDDEN : curved_state(view, other, visible, margin);
+    return p->skip[other] ? PATCH_HIDDEN : patch_state(view, other, visible, margin);
 }
 
 /* The error of a facet on a curved wall, per unit of its area. */
 static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner)
 {
     double lit =
-        partner == CURVED_SEEN || partner == CURVED_MIXED ? stray->part : (1 + a) * stray->apart;
-    if (state == CURVED_HIDDEN) {
+        partner == PATCH_SEEN || partner == PATCH_MIXED ? stray->part : (1 + a) * stray->apart;
+    if (state == PATCH_HIDDEN) {
         return (1 + a) * share * stray->most;
     }
-    if (state == partner && state != CURVED_MIXED) {
+    if (state == partner && state != PATCH_MIXED) {
         return stray->whole;
     }
-    if (state == CURVED_DARK) {
+    if (state == PATCH_DARK) {
         return (1 + a) * stray->most;
     }
     return fmin(lit + stray->here * (a + (1 + a) * share), (1 + a) * stray->most);
@@ -109,7 +109,7 @@ static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcs_br
     return most * fmin(1, visible[facet].high / tilt->projected);
 }
 
-int lrcsi_curved_known(const lrcs_prepared *p, int unshadowed)
+int lrcsi_tessellation_known(const lrcs_prepared *p, int unshadowed)
 {
     for (uint32_t i = 0; i < p->scene->part_count && unshadowed; i++) {
         if (p->scene->part[i].facet_count != 0 && !p->scene->part[i].curvature_known) {
@@ -119,29 +119,29 @@ int lrcsi_curved_known(const lrcs_prepared *p, int unshadowed)
     return unshadowed || p->nears.reach != NULL;
 }
 
-double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
-                          const lrcsi_tilt *tilt, const lrcsi_visible *visible,
-                          const lrcsi_margin *margin)
+double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                                const lrcsi_tilt *tilt, const lrcsi_visible *visible,
+                                const lrcsi_margin *margin)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
     int curve = on_curve(p, facet);
-    int state = curved_state(view, facet, visible, margin);
+    int state = patch_state(view, facet, visible, margin);
     double share = margin ? margin->share[facet] : 0;
     double area = 0.5 * p->normal[facet].length;
-    if (share == 0 && (!curve || state == CURVED_HIDDEN)) {
-        return state == CURVED_DARK ? area * inside_shown(view, facet, brdf, tilt, visible, margin)
-                                    : 0;
+    if (share == 0 && (!curve || state == PATCH_HIDDEN)) {
+        return state == PATCH_DARK ? area * inside_shown(view, facet, brdf, tilt, visible, margin)
+                                   : 0;
     }
-    const lrcs_curvature *c = curve ? &curved_part(p, facet)->curvature : &flat;
-    double cosine = state == CURVED_DARK ? tilt->cos_theta : fabs(tilt->cos_theta);
+    const lrcs_curvature *c = curve ? &patch_part(p, facet)->curvature : &flat;
+    double cosine = state == PATCH_DARK ? tilt->cos_theta : fabs(tilt->cos_theta);
     lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, c);
-    double error = state == CURVED_DARK ? 0 : share * stray.most;
+    double error = state == PATCH_DARK ? 0 : share * stray.most;
     if (curve) {
         int partner = margin ? partner_state(view, facet, visible, margin) : state;
         error = wall_error(&stray, c->area_error, share, state, partner);
     }
-    if (state == CURVED_DARK) {
+    if (state == PATCH_DARK) {
         error += inside_shown(view, facet, brdf, tilt, visible, margin);
     }
     return area * error;
