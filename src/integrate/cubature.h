@@ -16,8 +16,8 @@ typedef struct lrcsi_cubature {
     lrcsi_reflection most; /* bounds on the parts of f_r cos over all of them */
     double least;          /* a diffuse f_r cos that is nowhere undercut */
     double nothing;        /* f_r cos below this is not looked for */
-    double had;            /* what other surfaces have in sum, over the area of all: an error of
-                              the tolerance times this is small enough anywhere */
+    double had;            /* f_r cos that other surfaces have to set against this one's: an error
+                              of the tolerance times this, per area, is small enough */
     lrcsi_sum glint, diffuse;
     double estimate; /* of the cubature's error */
     double rounding; /* bound on the error that rounding adds to the cubature's own sum */

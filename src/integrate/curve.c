@@ -28,14 +28,16 @@
 #define CUBATURE_MOST  1e-2
 
 /* All facets wanted. What is had of them tells how little matters on the next: a dark sliver is
-   worth no more work than it can add. */
+   worth no more work than it can add. Each may err by its share of the sum, by area and by count:
+   all together by twice the aim. */
 typedef struct curve_all {
     const lrcsi_view *view;
     const lrcsi_plan *plan;
     double tolerance;
     double nothing;   /* f_r cos that is nothing to the brightest of them */
     double projected; /* area of all */
-    double had;       /* integral of f_r cos over what is visible of those done */
+    double count;
+    double had; /* integral of f_r cos over what is visible of those done */
 } curve_all;
 
 /* A facet at work. */
@@ -76,18 +78,20 @@ static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
     job->sum.whole = job->tilt.projected;
     job->sum.slip = SLIP_WHOLE;
     job->sum.nothing = lrcsi_most(job->sum.nothing, all->nothing);
-    job->sum.had = all->projected > 0 ? all->had / all->projected : 0;
+    job->sum.had =
+        all->had > 0 ? all->had / all->projected + all->had / all->count / job->tilt.projected : 0;
 }
 
 static curve_all all_make(const lrcsi_view *view, const lrcsi_plan *plan, double tolerance)
 {
-    curve_all all = {view, plan, tolerance, 0, 0, 0};
+    curve_all all = {view, plan, tolerance, 0, 0, 0, 0};
     curve_job job;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (lrcsi_curve_wanted(view, f)) {
             job_start(&job, &all, f);
             all.nothing = job.sum.nothing;
             all.projected += job.tilt.projected;
+            all.count++;
         }
     }
     return all;
