@@ -19,7 +19,9 @@
      it is some ten to sixty times that of what is kept.
    - Where the normals turn by less than a small part p of those widths, the rule alone serves: its
      error is of the order of p^6, which then is the estimate.
-   Where halvings run out, the bound on the cell stands as the estimate. */
+   Where halvings run out, the bound on the cell stands as the estimate. Where cells run out, the
+   triangle is done again to a coarser tolerance: all of it a little coarse beats a part untouched.
+ */
 #include "integrate/cubature.h"
 
 #include <math.h>
@@ -34,7 +36,10 @@
 #define STACK_SIZE    (3 * MOST_HALVINGS / 2 + 4)
 /* Corners of a cell: one with so many is halved along a diagonal, which leaves fewer. */
 #define CORNERS     8
-#define MOST_SPLITS (1u << 17)
+#define MOST_SPLITS (1u << 15)
+/* By how much the tolerance grows where cells run out, and until when. */
+#define COARSER     100
+#define MOST_COARSE 1e-2
 /* No cell's normals turn by more than this (rad) where a rule is trusted. */
 #define MOST_TURN 0.5
 #define HALF_TURN 3.14159265358979323846
@@ -230,7 +235,7 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
                           cell->unheard * sum->whole <= sum->tolerance * scale;
     }
     cell->trusted = turn <= MOST_TURN && diffuse && glint;
-    double part = lrcsi_most(turn * sqrt(brdf->m + 1), 0.25 * turn * steep);
+    double part = lrcsi_most(turn * sqrt(brdf->m + 1), 0.25 * turn * (brdf->m + 1) * t);
     part = lrcsi_most(part, brdf->A > 0 && glint_near ? turn / wide : 0);
     cell->rough = part < 1 ? part * part * part * part * part * part : 1;
     if (cell->trusted) {
@@ -522,7 +527,14 @@ void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double a
         level[i] = normal[i][2];
     }
     cube_cut(&whole, level, 1, &lit);
-    if (area > 0 && lit.count >= 3) {
+    if (!(area > 0) || lit.count < 3) {
+        return;
+    }
+    lrcsi_cubature start = *sum;
+    cells_add(sum, lit);
+    while (sum->splits >= MOST_SPLITS && start.tolerance < MOST_COARSE) {
+        start.tolerance *= COARSER;
+        *sum = start;
         cells_add(sum, lit);
     }
 }

@@ -10,7 +10,7 @@
 /* A sum over triangles of one surface. Areas are in any one unit. */
 typedef struct lrcsi_cubature {
     const lrcs_brdf *brdf;
-    double tolerance;      /* relative error aimed at */
+    double tolerance;      /* relative error aimed at; grows where the work would */
     double whole;          /* area of all triangles to come, or about that */
     double slip;           /* by how much a normal may be off where it is evaluated, rad */
     lrcsi_reflection most; /* bounds on the parts of f_r cos over all of them */
