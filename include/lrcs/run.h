@@ -113,7 +113,8 @@ typedef struct lrcs_facet_record {
 typedef struct lrcs_result {
     double sigma_m2, sigma_glint_m2, sigma_diffuse_m2;
     double bound_m2; /* proved: |sigma - truth| <= bound, truth being Eq. 2 over the placed
-                        facets (over the true shapes where the tessellation is known) */
+                        facets (over the true shapes where the tessellation is known), their
+                        normals curved where the scene's are: note 2 of lrcs_sigma_run */
     lrcs_budget budget;
     double estimate_m2;           /* likely error of a raster's answer; negative: none */
     double curvature_estimate_m2; /* of the cubature over curved normals, not in the bound;
@@ -145,7 +146,12 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    Returned: result; records[facet_count] unless NULL; image unless NULL: then a raster is drawn
    whatever the method, image->size > 0 asks for its size and image->facet has room for it.
    Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range).
-   Work: nothing stays in the work area. */
+   Work: nothing stays in the work area.
+   Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
+   cubature errs by about curvature_estimate_m2, which is not proved and not in the bound.
+   2. Of a facet with curved normals that is seen in part, method zbuffer knows how much is seen but
+   not where on it: the bound holds whatever part that may be. It does not fall to 0 with the
+   resolution where the glint varies over the facet; method exact has no such limit. */
 int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                    const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,
                    lrcs_facet_record *records, lrcs_image *image);

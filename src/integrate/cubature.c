@@ -17,8 +17,8 @@
    the halves of both halves: between them every direction in which the normals turn much is halved,
      which one halving does not do. The difference is the estimate; being the error of the coarser,
      it is some ten to sixty times that of what is kept.
-   - Where the normals turn by less than a small part p of those widths, the rule alone serves: its
-     error is of the order of p^6, which then is the estimate.
+   - Where the normals turn by less than a small part p of those widths, and of the way to the dark
+     edge, the rule alone serves: its error is of the order of p^6, which then is the estimate.
    Where halvings run out, the bound on the cell stands as the estimate. Where cells run out, the
    triangle is done again to a coarser tolerance: all of it a little coarse beats a part untouched.
  */
@@ -219,7 +219,7 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
     const lrcs_brdf *brdf = sum->brdf;
     double turn = cube_turn(cell);
     double cosine = cos(cell->theta);
-    double t = tan(cell->theta);
+    double t = fabs(tan(cell->theta));
     double wide = brdf->s * cosine * cosine * lrcsi_least(1, 2 * brdf->s / t);
     double steep = (brdf->m + 1) * lrcsi_least(1, t);
     int glint = !(brdf->A > 0) || turn <= wide;

@@ -74,6 +74,52 @@ static void both_parts_together_are_each_what_they_are_alone(void **state)
     }
 }
 
+/* Beside brighter surfaces an error may be theirs to measure; the estimate still holds it. */
+static void beside_others_the_error_is_larger_and_within_its_estimate(void **state)
+{
+    (void)state;
+    double looser = 0;
+    for (size_t i = 0; i < 8 * VECTORS; i++) {
+        const vector *v = &vectors[i / 8];
+        lrcs_brdf brdf = {1, 0.25, v->s, v->m};
+        double want = v->glint + 0.25 * v->diffuse;
+        lrcsi_cubature sum = lrcsi_cubature_make(&brdf, v->normal, 1e-6);
+        sum.whole = 1;
+        sum.slip = 0x1p-44;
+        sum.had = pow(10, (double)(i % 8)) * want;
+        lrcsi_cubature_add(&sum, v->normal, 1);
+        double got = lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse);
+        check_abs(got, want, sum.estimate + sum.rounding + 1e-12 * want);
+        check_most(sum.estimate, 3e-6 * (want + sum.had));
+        looser = fmax(looser, want > 0 ? sum.estimate / want : 0);
+    }
+    assert_true(looser > 1e-3);
+}
+
+/* From the dark edge, where cos^(m + 1) has no power series, to the slope z: the integral of
+   2 t (u / (1 + u))^((m + 1)/2), u = (z t)^2, over t from 0 to 1, by mpmath with 30 digits. */
+static void a_dark_edge_is_within_its_estimate(void **state)
+{
+    (void)state;
+    static const struct {
+        double z, m, want;
+    } edge[] = {{1, 0.5, 0.40164552605569989},
+                {1, 0.2, 0.47498317554918742},
+                {0.1, 0.5, 0.017984463546417887},
+                {0.1, 0.2, 0.039290064101245827}};
+    for (int i = 0; i < 40; i++) {
+        double z = edge[i % 4].z;
+        const double normal[3][3] = {{1, 0, 0}, {1, 0, z}, {1, 0, z}};
+        lrcs_brdf brdf = {0, 1, 0.2, edge[i % 4].m};
+        lrcsi_cubature sum = lrcsi_cubature_make(&brdf, normal, 1e-5);
+        sum.whole = 1;
+        sum.slip = 0x1p-44;
+        sum.had = pow(4, i / 4 - 2) * edge[i % 4].want;
+        lrcsi_cubature_add(&sum, normal, 1);
+        check_abs(lrcsi_sum_value(&sum.diffuse), edge[i % 4].want, sum.estimate + sum.rounding);
+    }
+}
+
 /* Equal normals of any length: the value of one normal. */
 static void a_flat_triangle_is_its_value_to_rounding(void **state)
 {
@@ -150,6 +196,8 @@ int main(void)
         cmocka_unit_test(the_glint_is_within_its_estimate_and_that_within_the_tolerance),
         cmocka_unit_test(the_diffuse_part_is_too),
         cmocka_unit_test(both_parts_together_are_each_what_they_are_alone),
+        cmocka_unit_test(beside_others_the_error_is_larger_and_within_its_estimate),
+        cmocka_unit_test(a_dark_edge_is_within_its_estimate),
         cmocka_unit_test(a_flat_triangle_is_its_value_to_rounding),
         cmocka_unit_test(normals_that_face_away_see_nothing),
         cmocka_unit_test(absurd_slopes_end_in_finite_work_and_an_estimate_that_tells),
