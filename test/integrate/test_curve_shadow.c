@@ -162,7 +162,7 @@ static void a_sphere_that_is_a_mesh_hides_what_the_true_one_hides_to_within_the_
     curved_cylinder(text, SIDES, RADIUS, LENGTH, 'v');
     curved_case c = curved_obj(text);
     for (int i = 0; i < 16; i++) {
-        shadow_case s = shadow_from(azimuth[i % 4], i % 3 * 10, i / 8 * 0.3);
+        shadow_case s = shadow_from(azimuth[i % 4], i % 3 * 10, i < 8 ? 0 : 0.3);
         check_shadow(&s, &c.mesh, &brdf[i / 4 % 2]);
     }
     curved_free(&c);
