@@ -18,6 +18,7 @@
 
 #include <math.h>
 
+#include "mesh/profile.h"
 #include "optics/reflect.h"
 
 /* Of a flat facet: wider than the error of its angle. */
@@ -36,10 +37,16 @@ static const lrcs_part *curved_part(const lrcs_prepared *p, uint32_t facet)
     return &p->scene->part[p->scene->facet_part[facet]];
 }
 
-/* Is it one of a curved wall's, to which the part's curvature belongs? */
-static int on_curve(const lrcs_prepared *p, uint32_t facet)
+/* The numbers of a facet's patch: a curved wall's, or those of a disc that placing may have tilted.
+ */
+static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
 {
-    return p->scene->facet_smooth[facet] != 0 && curved_part(p, facet)->curvature.turn > 0;
+    const lrcs_part *part = curved_part(p, facet);
+    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
+    if (p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0) {
+        return part->curvature;
+    }
+    return part->tilted > 0 ? lrcsi_profile_blurred(&flat, part->tilted) : flat;
 }
 
 /* A curved closed part's inside never faces the laser unhidden, whatever rounding made of it. */
@@ -124,8 +131,8 @@ double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcs_brd
                           const lrcsi_margin *margin)
 {
     const lrcs_prepared *p = view->prepared;
-    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
-    int curve = on_curve(p, facet);
+    const lrcs_curvature c = patch_curvature(p, facet);
+    int curve = c.turn > FLAT_TILT;
     int state = curved_state(view, facet, visible, margin);
     double share = margin ? margin->share[facet] : 0;
     double area = 0.5 * p->normal[facet].length;
@@ -133,13 +140,12 @@ double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcs_brd
         return state == CURVED_DARK ? area * inside_shown(view, facet, brdf, tilt, visible, margin)
                                     : 0;
     }
-    const lrcs_curvature *c = curve ? &curved_part(p, facet)->curvature : &flat;
     double cosine = state == CURVED_DARK ? tilt->cos_theta : fabs(tilt->cos_theta);
-    lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, c);
+    lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, &c);
     double error = state == CURVED_DARK ? 0 : share * stray.most;
     if (curve) {
         int partner = margin ? partner_state(view, facet, visible, margin) : state;
-        error = wall_error(&stray, c->area_error, share, state, partner);
+        error = wall_error(&stray, c.area_error, share, state, partner);
     }
     if (state == CURVED_DARK) {
         error += inside_shown(view, facet, brdf, tilt, visible, margin);

@@ -246,6 +246,26 @@ static void parts_far_apart_cost_no_more_than_alone(void **state)
     check_rel(shadow_run(&s, 1000, d, LRCS_METHOD_EXACT).budget.tessellation_m2, alone, 1e-9);
 }
 
+/* There doubles are some 1e-10 of a part apart, which tilts and resizes its facets. */
+static void parts_far_from_the_origin_count_how_placing_rounds_them(void **state)
+{
+    (void)state;
+    const lrcs_shape disc = {.kind = LRCS_SHAPE_DISC, .radius = 1e-6};
+    const lrcs_shape can = {.kind = LRCS_SHAPE_CYLINDER, .radius = 1e-6, .length = 1e-6};
+    for (int i = 0; i < 40; i++) {
+        lrcs_aspect aspect = {.deg = 2.0 * i};
+        double theta = aspect.deg * PI / 180;
+        const double d[3] = {sin(theta), 0, cos(theta)};
+        lrcs_closed truth;
+        shadow_scene s = scene_of(glossy, 0);
+        lrcs_recipe_part *part = add(&s, i % 2 ? can : disc, 1.3, -0.7, 1.9);
+        assert_int_equal(lrcs_closed_eval(&part->shape, &glossy, &aspect, &truth), LRCS_OK);
+        lrcs_result r = shadow_run(&s, 64, d, LRCS_METHOD_AUTO);
+        check_abs(r.sigma_m2, truth.sigma_m2, r.bound_m2);
+        check_most(i % 2 ? 0 : r.bound_m2, 1e-6 * r.sigma_m2);
+    }
+}
+
 static void what_is_wholly_hidden_is_exactly_nothing(void **state)
 {
     (void)state;
@@ -272,6 +292,7 @@ int main(void)
         cmocka_unit_test(a_tube_pierced_by_a_box),
         cmocka_unit_test(scenes_of_flat_parts_have_no_tessellation_error),
         cmocka_unit_test(what_is_wholly_hidden_is_exactly_nothing),
+        cmocka_unit_test(parts_far_from_the_origin_count_how_placing_rounds_them),
         cmocka_unit_test(parts_far_apart_cost_no_more_than_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
