@@ -163,13 +163,13 @@ static void scene_compare(int which, uint32_t directions)
     double size = any_size();
     nasty_transform(&plain, size, any_offset(size, 1e6), &s);
     build(&s, coarse_tolerance(), 64u << pick(4), &coarse);
-    build(&s, 1e-9, 384u << pick(2), &fine);
+    build(&s, 1e-9, 256u << pick(2), &fine);
     for (uint32_t i = 0; i < directions; i++) {
         double d[3];
         nasty_direction(&plain, d);
         lrcs_result best = look(&fine, d, LRCS_METHOD_EXACT);
         lrcs_result exact = look(&coarse, d, LRCS_METHOD_EXACT);
-        lrcs_result other = look(&coarse, d, i % 2 ? LRCS_METHOD_ZBUFFER : LRCS_METHOD_FACET);
+        lrcs_result other = look(&coarse, d, pick(2) ? LRCS_METHOD_ZBUFFER : LRCS_METHOD_FACET);
         compare(&s, began, d, &exact, &best);
         compare(&s, began, d, &other, &best);
     }
@@ -182,8 +182,8 @@ static void coarse_and_fine_agree_within_their_bounds(void **state)
 {
     (void)state;
     nasty_seed = 20;
-    for (int i = 0; i < 4 * NASTY_FAMILIES; i++) {
-        scene_compare(i % NASTY_FAMILIES, 2);
+    for (int i = 0; i < 3 * NASTY_FAMILIES; i++) {
+        scene_compare(i % NASTY_FAMILIES, 1);
     }
     assert_int_equal(failures, 0);
 }
@@ -240,7 +240,7 @@ static void rays_stay_within_the_bound(void **state)
     (void)state;
     nasty_seed = 21;
     for (int i = 0; i < 3 * NASTY_FAMILIES; i++) {
-        scene_cast(i % NASTY_FAMILIES, 2, 16);
+        scene_cast(i % NASTY_FAMILIES, 2, 10);
     }
     assert_int_equal(failures, 0);
 }

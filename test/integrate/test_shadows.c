@@ -70,14 +70,14 @@ static lrcs_result shadow_run(shadow_scene *s, uint32_t facets, const double d[3
     return result;
 }
 
-/* All methods on a coarse mesh, and exactly on finer ones, against one truth; the finest is within
-   `tight` of it. */
+/* All methods on a coarse mesh, and exactly on finer ones, against one truth; the finest, which
+   takes the longest and is left out where `tight` is 0, is within `tight` of it. */
 static void check_truth(shadow_scene *s, const double d[3], double truth, double error,
                         double tight)
 {
-    static const uint32_t facets[] = {64, 250, 1500};
+    static const uint32_t facets[] = {64, 200, 1200};
     double bound = HUGE_VAL;
-    for (size_t i = 0; i < sizeof facets / sizeof *facets; i++) {
+    for (int i = 0; i < (tight > 0 ? 3 : 2); i++) {
         int first = i == 0 ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
         for (int method = first; method <= LRCS_METHOD_EXACT; method++) {
             lrcs_result r = shadow_run(s, facets[i], d, method);
@@ -85,7 +85,7 @@ static void check_truth(shadow_scene *s, const double d[3], double truth, double
             bound = r.bound_m2;
         }
     }
-    if (truth > 0) {
+    if (tight > 0 && truth > 0) {
         check_most(bound, tight * truth);
     }
 }
@@ -115,7 +115,7 @@ static void a_sphere_over_a_plate(void **state)
         add(&s, plate, 0, 0, 0);
         const double d[3] = {sin(theta), 0, cos(theta)};
         double truth = sphere.sigma_m2 + lambertian(&glossy, theta) * (64 - PI * 0.25 / cos(theta));
-        check_truth(&s, d, truth, 1e-13 * truth, 0.1);
+        check_truth(&s, d, truth, 1e-13 * truth, i % 4 == 0 ? 0.1 : 0);
     }
 }
 
@@ -139,7 +139,7 @@ static void a_cylinder_on_a_plate(void **state)
             const double d[3] = {sin(theta), 0, cos(theta)};
             double dark = PI * 0.0625 + 2 * 0.25 * tan(theta);
             double truth = cylinder.sigma_m2 + lambertian(&glossy, theta) * (64 - dark);
-            check_truth(&s, d, truth, 1e-13 * truth, 3e-3);
+            check_truth(&s, d, truth, 1e-13 * truth, degrees == 40 ? 3e-3 : 0);
         }
     }
 }
@@ -155,8 +155,9 @@ static void check_rays(shadow_scene *s, double tight)
         cast_part(&rays, &s->part[i], &s->material.brdf, s->material.two_sided);
     }
     for (int i = 0; i < 4; i++) {
-        cast_answer truth = cast_run(&rays, d[i], 30);
-        check_truth(s, d[i], truth.sigma, 6 * truth.error + 1e-12 * truth.sigma, tight);
+        cast_answer truth = cast_run(&rays, d[i], 24);
+        check_truth(s, d[i], truth.sigma, 6 * truth.error + 1e-12 * truth.sigma,
+                    i == 2 ? tight : 0);
     }
 }
 
