@@ -75,7 +75,7 @@ static lrcs_result shadow_run(shadow_scene *s, uint32_t facets, const double d[3
 static void check_truth(shadow_scene *s, const double d[3], double truth, double error,
                         double tight)
 {
-    static const uint32_t facets[] = {64, 200, 1200};
+    static const uint32_t facets[] = {64, 200, 1500};
     double bound = HUGE_VAL;
     for (int i = 0; i < (tight > 0 ? 3 : 2); i++) {
         int first = i == 0 ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
