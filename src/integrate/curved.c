@@ -85,11 +85,45 @@ static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_vis
     return p->skip[other] ? CURVED_HIDDEN : curved_state(view, other, visible, margin);
 }
 
-/* The error of a facet on a curved wall, per unit of its area. */
-static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner)
+static int is_lit(int state)
 {
-    double lit =
-        partner == CURVED_SEEN || partner == CURVED_MIXED ? stray->part : (1 + a) * stray->apart;
+    return state == CURVED_SEEN || state == CURVED_MIXED;
+}
+
+/* The share of a facet that is hidden or in doubt, at most. */
+static double share_lost(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                         const lrcsi_margin *margin)
+{
+    lrcsi_tilt tilt = lrcsi_view_tilt(view, facet);
+    double hidden = 0;
+    if (margin->contest->contested[facet] || !(visible[facet].low > 0)) {
+        hidden = 1 + tilt.error + 8 * 0x1p-53 - visible[facet].low / tilt.projected;
+    }
+    return hidden >= 0 ? fmin(1, margin->share[facet] + hidden) : 1;
+}
+
+/* For a facet of a sector none of which is hidden or dark: what it loses of its whole patch, where
+   that is the better way, else 2. Numbers of the sector's first facet decide for both. */
+static double sector_lost(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                          const lrcs_curvature *c, const lrcsi_visible *visible,
+                          const lrcsi_margin *margin)
+{
+    uint32_t begin = curved_part(view->prepared, facet)->first_facet;
+    uint32_t first = begin + ((facet - begin) & ~UINT32_C(1));
+    lrcsi_tilt tilt = lrcsi_view_tilt(view, first);
+    lrcsi_stray stray = lrcsi_stray_make(brdf, fabs(tilt.cos_theta), tilt.tan2, c);
+    double lost = fmax(share_lost(view, first, visible, margin),
+                       share_lost(view, first + 1, visible, margin));
+    return stray.whole + (1 + c->area_error) * lost * stray.most < stray.part
+               ? share_lost(view, facet, visible, margin)
+               : 2;
+}
+
+/* The error of a facet on a curved wall, per unit of its area. `lost` as sector_lost has it. */
+static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner,
+                         double lost)
+{
+    double lit = is_lit(partner) ? stray->part : (1 + a) * stray->apart;
     if (state == CURVED_HIDDEN) {
         return (1 + a) * share * stray->most;
     }
@@ -98,6 +132,9 @@ static double wall_error(const lrcsi_stray *stray, double a, double share, int s
     }
     if (state == CURVED_DARK) {
         return (1 + a) * stray->most;
+    }
+    if (lost <= 1) {
+        return stray->whole + (1 + a) * lost * stray->most;
     }
     return fmin(lit + stray->here * (a + (1 + a) * share), (1 + a) * stray->most);
 }
@@ -145,7 +182,10 @@ double lrcsi_curved_error(const lrcsi_view *view, uint32_t facet, const lrcs_brd
     double error = state == CURVED_DARK ? 0 : share * stray.most;
     if (curve) {
         int partner = margin ? partner_state(view, facet, visible, margin) : state;
-        error = wall_error(&stray, c.area_error, share, state, partner);
+        int mixed =
+            is_lit(state) && is_lit(partner) && (state == CURVED_MIXED || partner == CURVED_MIXED);
+        double lost = mixed ? sector_lost(view, facet, brdf, &c, visible, margin) : 2;
+        error = wall_error(&stray, c.area_error, share, state, partner, lost);
     }
     if (state == CURVED_DARK) {
         error += inside_shown(view, facet, brdf, tilt, visible, margin);

@@ -139,7 +139,7 @@ static void a_cylinder_on_a_plate(void **state)
             const double d[3] = {sin(theta), 0, cos(theta)};
             double dark = PI * 0.0625 + 2 * 0.25 * tan(theta);
             double truth = cylinder.sigma_m2 + lambertian(&glossy, theta) * (64 - dark);
-            check_truth(&s, d, truth, 1e-13 * truth, degrees == 40 ? 3e-3 : 0);
+            check_truth(&s, d, truth, 1e-13 * truth, degrees == 40 ? 1e-4 : 0);
         }
     }
 }
