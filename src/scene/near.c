@@ -73,7 +73,7 @@ static double near_share(const lrcs_prepared *p, uint32_t facet, uint32_t other,
     for (int side = 0; side < 3 && slice.count > 0; side++) {
         const double *a = lrcsi_prepared_corner(p, other, side);
         const double *b = lrcsi_prepared_corner(p, other, (side + 1) % 3);
-        double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+        const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
         double out[3];
         for (int k = 0; k < 3; k++) {
             out[k] = along[(k + 1) % 3] * n[(k + 2) % 3] - along[(k + 2) % 3] * n[(k + 1) % 3];

@@ -48,6 +48,11 @@ double lrcsi_target_frame(const lrcsi_view *view, uint32_t target, uint32_t face
     return reach;
 }
 
+double lrcsi_target_place(const lrcsi_target *t, const double x[3], double out[2])
+{
+    return frame_point(t->view, lrcsi_prepared_corner(t->view->prepared, t->facet, 0), x, out);
+}
+
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
 {
     *t = (lrcsi_target){.view = view, .facet = facet};
