@@ -219,6 +219,9 @@ static void fill_flush(nasty_scene *s)
         if (kind == LRCS_SHAPE_SPHERE) {
             kind = LRCS_SHAPE_CYLINDER;
         }
+        if (kind == LRCS_SHAPE_BOX) { /* sunk ones would share a side, which rays count twice */
+            r *= 1 - 0.013 * i;
+        }
         lrcs_recipe_part *part = put(s, kind, r, r * share[pick(5)], height);
         height = kind == LRCS_SHAPE_BOX    ? 2 * height
                  : kind == LRCS_SHAPE_DISC ? 0
