@@ -116,10 +116,11 @@ typedef struct lrcs_part {
     int solid;           /* a closed outward solid by construction, up to rounding */
     double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
     double misplaced;    /* m, bound on the rounding of its placed vertices */
-    double reach;        /* m, no point of the true surface is farther from its place on the
-                            facets; 0 where the facets are the truth */
-    int articulated;     /* stands on a joint */
-    int smoothed;        /* its model has smoothing groups or vertex normals */
+    double tilted;   /* rad, bound on how placing tilts facets where reach > 0; in curvature too */
+    double reach;    /* m, no point of the true surface is farther from its place on the
+                        facets; 0 where the facets are the truth */
+    int articulated; /* stands on a joint */
+    int smoothed;    /* its model has smoothing groups or vertex normals */
 } lrcs_part;
 
 /* The scene: what the engine sees. Facets keep the order of the recipe's parts and of each

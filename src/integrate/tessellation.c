@@ -18,6 +18,7 @@
 
 #include <math.h>
 
+#include "mesh/profile.h"
 #include "optics/reflect.h"
 
 /* Of a flat facet: wider than the error of its angle. */
@@ -36,10 +37,16 @@ static const lrcs_part *patch_part(const lrcs_prepared *p, uint32_t facet)
     return &p->scene->part[p->scene->facet_part[facet]];
 }
 
-/* Is it one of a curved wall's, to which the part's curvature belongs? */
-static int on_curve(const lrcs_prepared *p, uint32_t facet)
+/* The numbers of a facet's patch: a curved wall's, or those of a disc that placing may have tilted.
+ */
+static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
 {
-    return p->scene->facet_smooth[facet] != 0 && patch_part(p, facet)->curvature.turn > 0;
+    const lrcs_part *part = patch_part(p, facet);
+    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
+    if (p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0) {
+        return part->curvature;
+    }
+    return part->tilted > 0 ? lrcsi_profile_blurred(&flat, part->tilted) : flat;
 }
 
 /* A curved closed part's inside never faces the laser unhidden, whatever rounding made of it. */
@@ -78,11 +85,45 @@ static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_vis
     return p->skip[other] ? PATCH_HIDDEN : patch_state(view, other, visible, margin);
 }
 
-/* The error of a facet on a curved wall, per unit of its area. */
-static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner)
+static int is_lit(int state)
 {
-    double lit =
-        partner == PATCH_SEEN || partner == PATCH_MIXED ? stray->part : (1 + a) * stray->apart;
+    return state == PATCH_SEEN || state == PATCH_MIXED;
+}
+
+/* The share of a facet that is hidden or in doubt, at most. */
+static double share_lost(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                         const lrcsi_margin *margin)
+{
+    lrcsi_tilt tilt = lrcsi_view_tilt(view, facet);
+    double hidden = 0;
+    if (margin->contest->contested[facet] || !(visible[facet].low > 0)) {
+        hidden = 1 + tilt.error + 8 * 0x1p-53 - visible[facet].low / tilt.projected;
+    }
+    return hidden >= 0 ? fmin(1, margin->share[facet] + hidden) : 1;
+}
+
+/* For a facet of a sector none of which is hidden or dark: what it loses of its whole patch, where
+   that is the better way, else 2. Numbers of the sector's first facet decide for both. */
+static double sector_lost(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                          const lrcs_curvature *c, const lrcsi_visible *visible,
+                          const lrcsi_margin *margin)
+{
+    uint32_t begin = patch_part(view->prepared, facet)->first_facet;
+    uint32_t first = begin + ((facet - begin) & ~UINT32_C(1));
+    lrcsi_tilt tilt = lrcsi_view_tilt(view, first);
+    lrcsi_stray stray = lrcsi_stray_make(brdf, fabs(tilt.cos_theta), tilt.tan2, c);
+    double lost = fmax(share_lost(view, first, visible, margin),
+                       share_lost(view, first + 1, visible, margin));
+    return stray.whole + (1 + c->area_error) * lost * stray.most < stray.part
+               ? share_lost(view, facet, visible, margin)
+               : 2;
+}
+
+/* The error of a facet on a curved wall, per unit of its area. `lost` as sector_lost has it. */
+static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner,
+                         double lost)
+{
+    double lit = is_lit(partner) ? stray->part : (1 + a) * stray->apart;
     if (state == PATCH_HIDDEN) {
         return (1 + a) * share * stray->most;
     }
@@ -91,6 +132,9 @@ static double wall_error(const lrcsi_stray *stray, double a, double share, int s
     }
     if (state == PATCH_DARK) {
         return (1 + a) * stray->most;
+    }
+    if (lost <= 1) {
+        return stray->whole + (1 + a) * lost * stray->most;
     }
     return fmin(lit + stray->here * (a + (1 + a) * share), (1 + a) * stray->most);
 }
@@ -124,8 +168,8 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
                                 const lrcsi_margin *margin)
 {
     const lrcs_prepared *p = view->prepared;
-    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
-    int curve = on_curve(p, facet);
+    const lrcs_curvature c = patch_curvature(p, facet);
+    int curve = c.turn > FLAT_TILT;
     int state = patch_state(view, facet, visible, margin);
     double share = margin ? margin->share[facet] : 0;
     double area = 0.5 * p->normal[facet].length;
@@ -133,13 +177,15 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
         return state == PATCH_DARK ? area * inside_shown(view, facet, brdf, tilt, visible, margin)
                                    : 0;
     }
-    const lrcs_curvature *c = curve ? &patch_part(p, facet)->curvature : &flat;
     double cosine = state == PATCH_DARK ? tilt->cos_theta : fabs(tilt->cos_theta);
-    lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, c);
+    lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, &c);
     double error = state == PATCH_DARK ? 0 : share * stray.most;
     if (curve) {
         int partner = margin ? partner_state(view, facet, visible, margin) : state;
-        error = wall_error(&stray, c->area_error, share, state, partner);
+        int mixed =
+            is_lit(state) && is_lit(partner) && (state == PATCH_MIXED || partner == PATCH_MIXED);
+        double lost = mixed ? sector_lost(view, facet, brdf, &c, visible, margin) : 2;
+        error = wall_error(&stray, c.area_error, share, state, partner, lost);
     }
     if (state == PATCH_DARK) {
         error += inside_shown(view, facet, brdf, tilt, visible, margin);

@@ -199,18 +199,6 @@ static double profile_blur(const lrcsi_profile *profile, uint32_t i)
     return blur;
 }
 
-/* The numbers for a facet tilted and resized by rounding. The turn vector changes by at most
-   gamma / sin gamma < 2 times the tilt. A facet that rounding moves by a part of itself has no
-   numbers that mean anything. */
-static lrcs_curvature curvature_blur(const lrcs_curvature *c, double blur)
-{
-    if (blur > BLUR_MOST) {
-        return (lrcs_curvature){2.0 * HALF_PI, USELESS, USELESS, sqrt(USELESS)};
-    }
-    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * HALF_PI), c->area_error + 2.0 * blur,
-                            c->lean + 2.0 * blur, c->spread + 2.0 * blur};
-}
-
 static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
 {
     strip s = strip_make(profile, i);
@@ -235,7 +223,7 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
     c.lean = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
     c.area_error = fabs(ratio - 1.0);
-    return curvature_blur(&c, profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
+    return lrcsi_profile_blurred(&c, profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
 }
 
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)
@@ -316,6 +304,18 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
         most.spread = fmax(most.spread, c.spread);
     }
     return most;
+}
+
+/* The numbers for a facet tilted and resized by rounding. The turn vector changes by at most
+   gamma / sin gamma < 2 times the tilt. A facet that rounding moves by a part of itself has no
+   numbers that mean anything. */
+lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
+{
+    if (!(blur <= BLUR_MOST)) {
+        return (lrcs_curvature){2.0 * HALF_PI, USELESS, USELESS, sqrt(USELESS)};
+    }
+    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * HALF_PI), c->area_error + 2.0 * blur,
+                            c->lean + 2.0 * blur, c->spread + 2.0 * blur};
 }
 
 /* How far a point of the unit circle goes when its sector becomes a triangle of the N-gon. */

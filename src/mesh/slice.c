@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-/* Corners of coordinates below 1 come out within some 2^-48: of a triangle this much thinner than
-   long, or this short, no share of the area is sure; of others it is to within the margin. */
-#define SLICE_THIN   1e-6
-#define SLICE_SHORT  1e-7
+/* Corners of coordinates below 1 come out within some 2^-48, which changes areas by no more than
+   that times the perimeter: of a triangle less high than this, no share of the area is sure; of
+   others it is to within the margin, 3 2^-48 / (SLICE_LOW / 2). */
+#define SLICE_LOW    1e-7
 #define SLICE_MARGIN (1.0 + 1e-6)
 
 static double slice_height(const double x[3], const double n[3], const double origin[3])
@@ -75,6 +75,6 @@ double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest)
         return 0;
     }
     double share = slice_area(slice) / whole * SLICE_MARGIN;
-    int sure = whole > SLICE_THIN * longest * longest && longest > SLICE_SHORT;
+    int sure = 2.0 * whole > SLICE_LOW * longest;
     return sure && share < 1 ? share : 1;
 }

@@ -11,6 +11,7 @@
 #include "base/range.h"
 #include "base/where.h"
 #include "base/work.h"
+#include "mesh/profile.h"
 #include "mesh/tessellate.h"
 #include "scene/bind.h"
 #include "scene/place.h"
@@ -404,18 +405,63 @@ static int is_closed(const lrcs_shape *shape)
             shape->parts == LRCS_SHAPE_ALL);
 }
 
-/* How far a shape's placed vertices may be off. The mesh's own coordinates are good to a relative
-   (16 + rings) u (src/mesh/profile.c), but for what underflows. */
-static double misplacement(const lrcs_mesh *mesh, const lrcs_divisions *divisions,
-                           const lrcsi_placer *placer)
+static double mesh_extent(const lrcs_mesh *mesh)
 {
     double most = 0.0;
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         const double *x = mesh->vertex[i].x;
         most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
     }
+    return most;
+}
+
+/* How far a shape's placed vertices may be off. The mesh's own coordinates are good to a relative
+   (16 + rings) u (src/mesh/profile.c), but for what underflows. */
+static double misplacement(double most, const lrcs_divisions *divisions, const lrcsi_placer *placer)
+{
     double error = (17.0 + (double)divisions->along) * 0x1p-53 * most + 0x1p-1022;
     return lrcsi_placer_error(placer, most + error, error);
+}
+
+/* The least altitude of a facet of the part placed last, m: its area over its longest side. */
+static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
+{
+    double least = HUGE_VAL;
+    for (uint32_t i = 0; i < part->facet_count; i++) {
+        const uint32_t *corner = scene->facet[part->first_facet + i].corner;
+        double side[3][3];
+        double square = 0.0;
+        double area = 0.0;
+        for (int k = 0; k < 9; k++) {
+            side[k / 3][k % 3] = scene->vertex[corner[(k / 3 + 1) % 3]].x[k % 3] -
+                                 scene->vertex[corner[k / 3]].x[k % 3];
+        }
+        for (int k = 0; k < 3; k++) {
+            const double *s = side[k];
+            double n = side[0][(k + 1) % 3] * side[1][(k + 2) % 3] -
+                       side[0][(k + 2) % 3] * side[1][(k + 1) % 3];
+            square = fmax(square, s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+            area += n * n;
+        }
+        least = fmin(least, sqrt(area) / sqrt(square));
+    }
+    return least;
+}
+
+/* Rounding in placing moves corners by at most e: each tilts its facet by at most e over the
+   altitude on it, and changes its area by at most that part. Facets' own numbers hold per unit of
+   their area, and patches may be larger. */
+static void tilt_placed(const scene_piece *piece, const lrcs_scene *scene, double most,
+                        lrcs_part *part)
+{
+    double e = lrcsi_placer_error(&piece->placer, most, 0.0);
+    if (part->reach > 0.0 && e > 0.0) {
+        double wide = 3.0 * (1.0 + part->curvature.area_error);
+        part->tilted = 1.000001 * wide * e / least_altitude(scene, part);
+        part->curvature = part->curvature.turn > 0.0
+                              ? lrcsi_profile_blurred(&part->curvature, part->tilted)
+                              : part->curvature;
+    }
 }
 
 /* What holds of a placed shape by construction. Curvature outlives uniform scaling only; convexity
@@ -479,10 +525,14 @@ static int add_shape(scene_builder *builder, scene_piece *piece, lrcs_work *work
                    : refuse_part(builder, status, piece->part, "a shape that can be meshed");
     }
     lrcs_part *part = &scene->part[scene->part_count];
-    part->misplaced = misplacement(&mesh, &divisions, &piece->placer);
+    double most = mesh_extent(&mesh);
+    part->misplaced = misplacement(most, &divisions, &piece->placer);
     describe_shape(piece, &curvature, lrcsi_tessellate_reach(&piece->part->shape, &divisions),
                    part);
     status = add_piece(builder, &mesh, piece, scene);
+    if (status == LRCS_OK) {
+        tilt_placed(piece, scene, most, part);
+    }
     work->used = mark;
     return status;
 }

@@ -70,14 +70,14 @@ static lrcs_result shadow_run(shadow_scene *s, uint32_t facets, const double d[3
     return result;
 }
 
-/* All methods on a coarse mesh, and exactly on finer ones, against one truth; the finest is within
-   `tight` of it. */
+/* All methods on a coarse mesh, and exactly on finer ones, against one truth; the finest, which
+   takes the longest and is left out where `tight` is 0, is within `tight` of it. */
 static void check_truth(shadow_scene *s, const double d[3], double truth, double error,
                         double tight)
 {
-    static const uint32_t facets[] = {64, 250, 1500};
+    static const uint32_t facets[] = {64, 200, 1500};
     double bound = HUGE_VAL;
-    for (size_t i = 0; i < sizeof facets / sizeof *facets; i++) {
+    for (int i = 0; i < (tight > 0 ? 3 : 2); i++) {
         int first = i == 0 ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
         for (int method = first; method <= LRCS_METHOD_EXACT; method++) {
             lrcs_result r = shadow_run(s, facets[i], d, method);
@@ -85,7 +85,7 @@ static void check_truth(shadow_scene *s, const double d[3], double truth, double
             bound = r.bound_m2;
         }
     }
-    if (truth > 0) {
+    if (tight > 0 && truth > 0) {
         check_most(bound, tight * truth);
     }
 }
@@ -115,7 +115,7 @@ static void a_sphere_over_a_plate(void **state)
         add(&s, plate, 0, 0, 0);
         const double d[3] = {sin(theta), 0, cos(theta)};
         double truth = sphere.sigma_m2 + lambertian(&glossy, theta) * (64 - PI * 0.25 / cos(theta));
-        check_truth(&s, d, truth, 1e-13 * truth, 0.1);
+        check_truth(&s, d, truth, 1e-13 * truth, i % 4 == 0 ? 0.1 : 0);
     }
 }
 
@@ -139,7 +139,7 @@ static void a_cylinder_on_a_plate(void **state)
             const double d[3] = {sin(theta), 0, cos(theta)};
             double dark = PI * 0.0625 + 2 * 0.25 * tan(theta);
             double truth = cylinder.sigma_m2 + lambertian(&glossy, theta) * (64 - dark);
-            check_truth(&s, d, truth, 1e-13 * truth, 3e-3);
+            check_truth(&s, d, truth, 1e-13 * truth, degrees == 40 ? 1e-4 : 0);
         }
     }
 }
@@ -155,8 +155,9 @@ static void check_rays(shadow_scene *s, double tight)
         cast_part(&rays, &s->part[i], &s->material.brdf, s->material.two_sided);
     }
     for (int i = 0; i < 4; i++) {
-        cast_answer truth = cast_run(&rays, d[i], 30);
-        check_truth(s, d[i], truth.sigma, 6 * truth.error + 1e-12 * truth.sigma, tight);
+        cast_answer truth = cast_run(&rays, d[i], 24);
+        check_truth(s, d[i], truth.sigma, 6 * truth.error + 1e-12 * truth.sigma,
+                    i == 2 ? tight : 0);
     }
 }
 
@@ -246,6 +247,26 @@ static void parts_far_apart_cost_no_more_than_alone(void **state)
     check_rel(shadow_run(&s, 1000, d, LRCS_METHOD_EXACT).budget.tessellation_m2, alone, 1e-9);
 }
 
+/* There doubles are some 1e-10 of a part apart, which tilts and resizes its facets. */
+static void parts_far_from_the_origin_count_how_placing_rounds_them(void **state)
+{
+    (void)state;
+    const lrcs_shape disc = {.kind = LRCS_SHAPE_DISC, .radius = 1e-6};
+    const lrcs_shape can = {.kind = LRCS_SHAPE_CYLINDER, .radius = 1e-6, .length = 1e-6};
+    for (int i = 0; i < 40; i++) {
+        lrcs_aspect aspect = {.deg = 2.0 * i};
+        double theta = aspect.deg * PI / 180;
+        const double d[3] = {sin(theta), 0, cos(theta)};
+        lrcs_closed truth;
+        shadow_scene s = scene_of(glossy, 0);
+        lrcs_recipe_part *part = add(&s, i % 2 ? can : disc, 1.3, -0.7, 1.9);
+        assert_int_equal(lrcs_closed_eval(&part->shape, &glossy, &aspect, &truth), LRCS_OK);
+        lrcs_result r = shadow_run(&s, 64, d, LRCS_METHOD_AUTO);
+        check_abs(r.sigma_m2, truth.sigma_m2, r.bound_m2);
+        check_most(i % 2 ? 0 : r.bound_m2, 1e-6 * r.sigma_m2);
+    }
+}
+
 static void what_is_wholly_hidden_is_exactly_nothing(void **state)
 {
     (void)state;
@@ -272,6 +293,7 @@ int main(void)
         cmocka_unit_test(a_tube_pierced_by_a_box),
         cmocka_unit_test(scenes_of_flat_parts_have_no_tessellation_error),
         cmocka_unit_test(what_is_wholly_hidden_is_exactly_nothing),
+        cmocka_unit_test(parts_far_from_the_origin_count_how_placing_rounds_them),
         cmocka_unit_test(parts_far_apart_cost_no_more_than_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
