@@ -83,6 +83,14 @@ bounds: $(LIB)
 BOUNDS_SCENES = 500
 BOUNDS_SEED   = 1
 
+# The tessellation bound on SHADOWS_SCENES scenes of curved shapes in contact, flush, nested, pierced:
+# a coarse mesh against a fine one, and meshes against rays over the true shapes.
+shadows: cmocka $(BUILD)/test/integrate/test_margin
+	$(BUILD)/test/integrate/test_margin $(SHADOWS_SCENES) $(SHADOWS_SEED)
+	$(BUILD)/test/integrate/test_margin $(SHADOWS_SCENES) $(SHADOWS_SEED) 24
+SHADOWS_SCENES = 280
+SHADOWS_SEED   = 1
+
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
 	$(BUILD)/test/integrate/test_large $(BIG_ROWS)
@@ -95,7 +103,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan lint purity layers fuzz bounds big clean cmocka
+.PHONY: all demo charts test asan lint purity layers fuzz bounds shadows big clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------

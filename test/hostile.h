@@ -35,6 +35,8 @@ static inline void check_mesh(const lrcs_mesh *mesh)
     for (size_t i = 0; i < mesh->facet_count; i++) {
         for (int k = 0; k < 3; k++) {
             assert_true(mesh->facet[i].corner[k] < mesh->vertex_count);
+            assert_true(!mesh->facet_normal || mesh->facet_normal[i].corner[k] == LRCS_NONE ||
+                        mesh->facet_normal[i].corner[k] < mesh->normal_count);
         }
         assert_true(mesh->facet_part[i] < mesh->part_count);
         assert_true(mesh->facet_material[i] == LRCS_NONE ||

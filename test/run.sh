@@ -2,20 +2,26 @@
 # SPDX-License-Identifier: MIT
 # Runs every test given, C programs and shell scripts, and closes with one line of counts.
 # Tests that lack what they need (models that are not part of the project) skip, and say so.
+# As many at a time as there are processors; told in the order given.
 # usage: run.sh TOOL TEST...
 tool=$1
 shift
 passed=0
 failed=0
 skipped=0
-log=$(mktemp) || exit 1
-trap 'rm -f "$log"' EXIT
+logs=$(mktemp -d) || exit 1
+trap 'rm -rf "$logs"' EXIT
+# one test: its output and its exit status, in files named after it
+one='name=$2/$(echo "$3" | tr / _)
+case $3 in
+*.sh) sh "$3" "$1" ;;
+*) "$3" ;;
+esac >"$name" 2>&1
+echo $? >"$name.status"'
+printf '%s\n' "$@" | xargs -n 1 -P "$(getconf _NPROCESSORS_ONLN)" sh -c "$one" sh "$tool" "$logs"
 for test in "$@"; do
-    case $test in
-    *.sh) sh "$test" "$tool" >"$log" 2>&1 ;;
-    *) "$test" >"$log" 2>&1 ;;
-    esac
-    status=$?
+    log=$logs/$(echo "$test" | tr / _)
+    status=$(cat "$log.status")
     good=$(grep -cE '^(\[       OK \]|ok )' "$log")
     # cmocka names a failed test twice
     bad=$(grep -E '^(\[  FAILED  \] [a-z0-9_]+$|not ok )' "$log" | sort -u | grep -c .)

@@ -140,7 +140,8 @@ int lrcs_host_polygons_make(const lrcs_host_scene *scene, const lrcs_pose *pose,
 void lrcs_host_polygons_free(lrcs_host_polygons *polygons);
 
 /* How a mesh of a curved body serves the glint of what it wears. An ESTIMATE: the turn is the
-   median angle between neighbours that share a smoothing group (engine shapes: twice the proved
+   median angle between neighbours that share a smoothing group, or in a scene built with curved
+   normals between those at the corners of facets in no group (engine shapes: twice the proved
    turn), the error that of a cylinder of such facets at broadside: (dphi/2)^2 / 6 for the chords
    and 2 exp(-(pi s / dphi)^2) for the comb. */
 typedef struct lrcs_host_glint {

@@ -39,6 +39,7 @@ enum lrcs_mesh_notice {
 typedef struct lrcs_mesh_counts {
     uint32_t vertices, facets, materials, parts;
     size_t text_bytes; /* names, with their terminators */
+    uint32_t normals;  /* vertex normals */
 } lrcs_mesh_counts;
 
 /* Facets are triangles, counter-clockwise seen from outside. Coordinates are in file units and
@@ -54,6 +55,10 @@ typedef struct lrcs_mesh {
     const char **part;         /* names, UTF-8 */
     uint32_t notices;          /* lrcs_mesh_notice bits */
     const char *material_file; /* OBJ: the file named by mtllib, or NULL */
+    /* Vertex normals as the file gives them, of any length, 0 included; both NULL without any. */
+    uint32_t normal_count;
+    lrcs_point *normal;
+    lrcs_facet *facet_normal; /* at each corner an index into normal, or LRCS_NONE */
 } lrcs_mesh;
 
 /* What is wrong or remarkable in a mesh. Edges match by bitwise equal positions (-0 equals 0).

@@ -46,11 +46,11 @@ int lrcs_3ds_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *me
    Notes: 1. `count` has no memory for names: its materials, parts and text_bytes are upper bounds,
    in which a name that comes back counts again. Vertices and facets are exact.
    2. Negative indices count back from the vertices above them; positive ones may also point
-   forward. Texture and normal indices are not looked up.
+   forward; the same holds of normals. Texture indices are not looked up.
    3. Smoothing group N sets bit (N - 1) mod 32; `s off`, `s 0` and `s` are hard, `s on` is group 1.
    4. A name is the rest of its line, blanks inside included. Of several `mtllib` the first counts,
    up to its first ".mtl" that a blank follows.
-   5. Weights and colours after the coordinates of a vertex, `l`, `p`, `vt`, `vn`, `vp`, free-form
+   5. Weights and colours after the coordinates of a vertex, `l`, `p`, `vt`, `vp`, free-form
    geometry and unknown statements are passed over. */
 int lrcs_obj_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrcs_where *where);
 int lrcs_obj_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *mesh,

@@ -49,8 +49,9 @@ enum lrcs_effect_name {
      1u << LRCS_EFFECT_GLINT | 1u << LRCS_EFFECT_DIFFUSE | 1u << LRCS_EFFECT_TWO_SIDED)
 
 typedef struct lrcs_run_options {
-    double tolerance;    /* relative, > 0: bound <= tolerance * sigma is asked for */
-    int method;          /* lrcs_method */
+    double tolerance; /* relative, > 0: bound <= tolerance * sigma is asked for, and of a cubature
+                         over curved normals that its estimate is no greater either */
+    int method;       /* lrcs_method */
     uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
     uint32_t without;    /* effects to leave out, bits 1u << LRCS_EFFECT_...: note 1 */
     uint32_t with;       /* effects to simulate, none of them in `without`: note 2 */
@@ -91,7 +92,7 @@ const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 /* Notices: true and worth knowing, not a degradation. */
 enum lrcs_notice {
     LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,  /* open or inverted mesh */
-    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* curved shapes under shadowing */
+    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape scaled unevenly, say */
 };
 const char *lrcs_notice_text(int bit);
 
@@ -112,11 +113,14 @@ typedef struct lrcs_facet_record {
 typedef struct lrcs_result {
     double sigma_m2, sigma_glint_m2, sigma_diffuse_m2;
     double bound_m2; /* proved: |sigma - truth| <= bound, truth being Eq. 2 over the placed
-                        facets (over the true shapes where the tessellation is known) */
+                        facets (over the true shapes where the tessellation is known), their
+                        normals curved where the scene's are: note 2 of lrcs_sigma_run */
     lrcs_budget budget;
-    double estimate_m2;       /* likely error of a raster's answer; negative: none */
-    double projected_area_m2; /* the whole silhouette */
-    double back_side_area_m2; /* visible projected area of one-sided back sides */
+    double estimate_m2;           /* likely error of a raster's answer; negative: none */
+    double curvature_estimate_m2; /* of the cubature over curved normals, not in the bound;
+                                     negative: all facets are flat */
+    double projected_area_m2;     /* the whole silhouette */
+    double back_side_area_m2;     /* visible projected area of one-sided back sides */
     uint32_t back_side_facets;
     int method;                /* the one used, never AUTO */
     const char *method_reason; /* why that one: constant text, "as asked" unless auto chose */
@@ -142,7 +146,12 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    Returned: result; records[facet_count] unless NULL; image unless NULL: then a raster is drawn
    whatever the method, image->size > 0 asks for its size and image->facet has room for it.
    Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range).
-   Work: nothing stays in the work area. */
+   Work: nothing stays in the work area.
+   Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
+   cubature errs by about curvature_estimate_m2, which is not proved and not in the bound.
+   2. Of a facet with curved normals that is seen in part, method zbuffer knows how much is seen but
+   not where on it: the bound holds whatever part that may be. It does not fall to 0 with the
+   resolution where the glint varies over the facet; method exact has no such limit. */
 int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                    const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,
                    lrcs_facet_record *records, lrcs_image *image);

@@ -116,7 +116,11 @@ typedef struct lrcs_part {
     int solid;           /* a closed outward solid by construction, up to rounding */
     double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
     double misplaced;    /* m, bound on the rounding of its placed vertices */
-    int articulated;     /* stands on a joint */
+    double tilted;   /* rad, bound on how placing tilts facets where reach > 0; in curvature too */
+    double reach;    /* m, no point of the true surface is farther from its place on the
+                        facets; 0 where the facets are the truth */
+    int articulated; /* stands on a joint */
+    int smoothed;    /* its model has smoothing groups or vertex normals */
 } lrcs_part;
 
 /* The scene: what the engine sees. Facets keep the order of the recipe's parts and of each
@@ -130,17 +134,34 @@ typedef struct lrcs_scene {
     uint32_t *facet_smooth;   /* smoothing groups, as in lrcs_mesh */
     lrcs_material *material;
     lrcs_part *part;
+    int normals;               /* lrcs_normals asked for */
+    lrcs_point *corner_normal; /* unit normals at corner k of facet f: [3 f + k]; three zeros for a
+                                 flat facet; NULL where all are flat */
     uint32_t unmatched; /* the first NAME or COLOUR binding that matched nothing, or LRCS_NONE */
 } lrcs_scene;
 
+/* Which facets of models get curved normals, interpolated from those at their corners. */
+enum lrcs_normals {
+    LRCS_NORMALS_FLAT = 0, /* none: Eq. 2 over facets */
+    LRCS_NORMALS_AUTO,     /* where the glint of the material calls for them: where the estimated
+                              error of flat facets exceeds the tolerance */
+    LRCS_NORMALS_SMOOTH    /* wherever a file gives vertex normals or smoothing groups */
+};
+
+/* The name ("flat", ...), or NULL. And back: LRCS_E_NAME for none. */
+const char *lrcs_normals_text(int normals);
+int lrcs_normals_find(const char *name);
+
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
-    double tolerance;    /* relative, > 0, of a shape alone; among other parts ten times this,
-                            at least 1e-4 */
+    double tolerance;    /* relative, > 0, of a shape alone; among other parts small ones may be
+                            coarser, and a sphere, dome or paraboloid is divided for ten times
+                            this, at least 1e-4 */
     uint32_t max_facets; /* a shape's most */
+    int normals;         /* lrcs_normals */
 } lrcs_build_options;
 
-lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21 */
+lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat */
 
 /* Builds the scene: vertex = translate + rotate (scale (joint (vertex))), where steps that do
    nothing are exact, and so is a scale by powers of two; mirroring flips the winding.
@@ -154,6 +175,11 @@ lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21 */
    LRCS_E_NUMBER (a place that is not finite, coordinates above 1e100 m after placing);
    LRCS_E_INDEX (a mesh with an index out of range); LRCS_E_LIMIT; as lrcs_shape_check.
    `where` has the part's line, and what is at fault in `found`.
+   Curved normals: a corner's vertex normal, placed by the inverse transpose; else, in a smoothing
+   group, the mean of the normals of the facets that share the vertex (by index) and a group, by
+   their angles there; else the facet's own. Vertex normals that all point behind their facet are
+   turned round, others that do not point in front give way to the facet's own: the winding decides.
+   Shapes stay flat: they are tessellated to the tolerance.
    Work: at most lrcs_scene_need bytes; O(vertices + facets + bindings). */
 size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
                        const lrcs_build_options *options);
@@ -161,8 +187,8 @@ int lrcs_scene_build(const lrcs_recipe *recipe, const lrcs_mesh *models,
                      const lrcs_build_options *options, lrcs_work *work, lrcs_scene *scene,
                      lrcs_where *where);
 
-/* A hash over everything that sigma depends on: placed vertices, facets, materials, sidedness
-   (FNV-1a, 64 bit; the same on every machine). */
+/* A hash over everything that sigma depends on: placed vertices, facets, materials, sidedness,
+   curved normals (FNV-1a, 64 bit; the same on every machine). */
 uint64_t lrcs_scene_hash(const lrcs_scene *scene);
 
 #endif

@@ -137,6 +137,7 @@ static const char *mesh_notice(const info_job *job, int i, char *text, size_t si
 {
     const lrcs_mesh_report *report = &job->report;
     uint32_t poor = 0;
+    uint32_t silent = 0;
     switch (i) {
     case 0:
         return report->closed || job->scene.scene.facet_count == 0
@@ -147,19 +148,27 @@ static const char *mesh_notice(const info_job *job, int i, char *text, size_t si
         return report->closed && report->volume < 0.0
                    ? "the mesh is closed but inverted (negative volume): its fronts face inwards"
                    : NULL;
+    case 2:
+        for (uint32_t k = 0; k < job->scene.scene.part_count; k++) {
+            const lrcs_part *part = &job->scene.scene.part[k];
+            silent += part->kind < 0 && !part->smoothed && part->facet_count > 0;
+        }
+        return silent > 0 ? "a model has no smoothing groups or vertex normals: whether its facets "
+                            "stand for curves is not known"
+                          : NULL;
     default:
         for (uint32_t k = 0; k < job->glint_count; k++) {
             poor += job->glint[k].error > GLINT_WARN;
         }
         snprintf(text, size,
                  "glint: %lu of %lu curved parts are too coarse for their material's slope "
-                 "(estimated error above 1 %%)",
+                 "(estimated error above 1 %%); lrcs run --normals auto curves them",
                  (unsigned long)poor, (unsigned long)job->glint_count);
         return poor > 0 ? text : NULL;
     }
 }
 
-#define MESH_NOTICES 3
+#define MESH_NOTICES 4
 
 /* ---- JSON ---- */
 
@@ -293,7 +302,7 @@ static void table_glint(const info_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
     if (job->glint_count == 0) {
-        printf("glint        no curved part with smoothing groups\n");
+        printf("glint        no curved part with smoothing groups or vertex normals\n");
         return;
     }
     printf("glint        estimates for curved parts; N: facets around a full turn\n"
@@ -346,6 +355,7 @@ static int info_command(const cli_args *args)
     info_job job = {.args = args};
     lrcs_host_options options;
     int code = cli_scene_options_read(args, &options);
+    options.build.normals = LRCS_NORMALS_SMOOTH; /* to see what the files say of them */
     code = code ? code : cli_scene_read(args, &options, &job.scene);
     code = code ? code : info_gather(&job);
     if (code == 0 && cli_value(args, "json")) {

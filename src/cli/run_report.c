@@ -67,8 +67,9 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     } else {
         lrcs_host_json_text(json, "resolution", NULL);
     }
-    lrcs_host_json_text(json, "normals", "flat");
+    lrcs_host_json_text(json, "normals", lrcs_normals_text(job->scene.scene.normals));
     known_number(json, "estimate_m2", result->estimate_m2);
+    known_number(json, "curvature_estimate_m2", result->curvature_estimate_m2);
     lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
     notices_say(job, json);
     lrcs_host_json_end(json);
@@ -145,6 +146,10 @@ static void table_sigma(const run_job *job)
     if (r->estimate_m2 >= 0.0) {
         printf("estimate     %.3g m2   likely error, not a bound\n", r->estimate_m2);
     }
+    if (r->curvature_estimate_m2 >= 0.0) {
+        printf("curvature    %.3g m2   cubature, an estimate, not in the bound\n",
+               r->curvature_estimate_m2);
+    }
     printf("silhouette   %.10g m2\n", r->projected_area_m2);
 }
 
@@ -186,7 +191,7 @@ void cli_run_table(const run_job *job)
     }
     printf(" (%s%s)\n", job->options.method == LRCS_METHOD_AUTO ? "chosen by auto: " : "",
            r->method_reason);
-    printf("simulated    normals flat\n");
+    printf("simulated    normals %s\n", lrcs_normals_text(job->scene.scene.normals));
     for (int i = 0; i < LRCS_EFFECTS; i++) {
         printf("  %-18s %-4s %s\n", lrcs_effect_text(i), r->effect[i].on ? "on" : "off",
                r->effect[i].reason);

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Whether a mesh of curved bodies is fine enough for the glint of what it wears: an estimate,
-   from the angles between neighbours that share a smoothing group. */
+   from the angles between neighbours that share a smoothing group, or between vertex normals. */
 #include "host/fail.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+#include "optics/comb.h"
 
 #define GLINT_PI 3.14159265358979323846
 
@@ -125,34 +127,36 @@ static size_t turns_list(const lrcs_scene *scene, const glint_edge *edges, size_
             turns[count++] = (glint_turn){scene->facet_part[a], scene->facet_material[a], turn};
         }
     }
-    qsort(turns, count, sizeof *turns, turn_order);
     return count;
 }
 
-static double glint_error(double turn, double s)
+/* The largest angle between the normals at a facet's corners; 0 for a flat one. */
+static double corners_turn(const lrcs_scene *scene, uint32_t facet)
 {
-    double comb = GLINT_PI * s / turn;
-    return turn * turn / 24.0 + 2.0 * exp(-comb * comb);
+    const lrcs_point *n = &scene->corner_normal[3 * (size_t)facet];
+    double most = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = n[i].x;
+        const double *b = n[(i + 1) % 3].x;
+        double chord = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+        most = fmax(most, 2.0 * asin(fmin(1.0, 0.5 * chord)));
+    }
+    return most;
 }
 
-/* The fewest facets around a full turn whose error is at most `most`; the error falls with N. */
-static double glint_around(double s, double most)
+/* Facets in no group whose corners have normals of their own turn by those. */
+static size_t corners_list(const lrcs_scene *scene, glint_turn *turns)
 {
-    double low = 2.0;
-    double high = 3.0;
-    while (glint_error(2.0 * GLINT_PI / high, s) > most && high < 1e15) {
-        low = high;
-        high *= 2.0;
-    }
-    while (high - low > 1.0) {
-        double middle = floor(0.5 * (low + high));
-        if (glint_error(2.0 * GLINT_PI / middle, s) > most) {
-            low = middle;
-        } else {
-            high = middle;
+    size_t count = 0;
+    for (uint32_t i = 0; scene->corner_normal && i < scene->facet_count; i++) {
+        const lrcs_material *material = &scene->material[scene->facet_material[i]];
+        double turn = corners_turn(scene, i);
+        if (scene->facet_smooth[i] == 0 && material->brdf.A > 0.0 && !material->omitted &&
+            turn > FLAT_TURN) {
+            turns[count++] = (glint_turn){scene->facet_part[i], scene->facet_material[i], turn};
         }
     }
-    return high;
+    return count;
 }
 
 static lrcs_host_glint glint_entry(const lrcs_scene *scene, uint32_t part, uint32_t material,
@@ -163,9 +167,9 @@ static lrcs_host_glint glint_entry(const lrcs_scene *scene, uint32_t part, uint3
                              material,
                              s,
                              turn,
-                             glint_error(turn, s),
-                             glint_around(s, 1e-2),
-                             glint_around(s, 1e-3)};
+                             lrcsi_comb_error(turn, s),
+                             lrcsi_comb_around(s, 1e-2),
+                             lrcsi_comb_around(s, 1e-3)};
 }
 
 /* One entry a run of equal part and material: the median turn. */
@@ -220,6 +224,8 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
     size_t entries = scene->part_count + (size_t)1;
     if (edges && turns) {
         turn_count = turns_list(scene, edges, edges_list(scene, edges), turns);
+        turn_count += corners_list(scene, turns + turn_count);
+        qsort(turns, turn_count, sizeof *turns, turn_order);
     }
     for (size_t i = 0; i < turn_count; i++) {
         entries += i == 0 || turns[i].part != turns[i - 1].part ||

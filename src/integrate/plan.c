@@ -73,6 +73,14 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *optio
     return plan;
 }
 
+lrcs_brdf lrcsi_plan_brdf(const lrcsi_plan *plan, const lrcs_material *material)
+{
+    lrcs_brdf brdf = material->brdf;
+    brdf.A = plan->glint == LRCSI_TERM_OUT ? 0 : brdf.A;
+    brdf.B = plan->diffuse == LRCSI_TERM_OUT ? 0 : brdf.B;
+    return brdf;
+}
+
 static lrcs_effect shadowing_effect(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
     if (plan->method == LRCS_METHOD_FACET && plan->alone) {
@@ -104,6 +112,27 @@ static lrcs_effect caster_effect(const lrcsi_view *view, const lrcsi_plan *plan)
     }
     return view->backs_cast ? (lrcs_effect){1, "not proved closed and outward"}
                             : (lrcs_effect){0, "left out on request"};
+}
+
+/* Shapes are tessellated to the tolerance, with a proof: they need none. */
+static lrcs_effect normals_effect(const lrcs_prepared *p)
+{
+    int given = 0;
+    for (uint32_t i = 0; i < p->scene->part_count; i++) {
+        given |= p->scene->part[i].smoothed;
+    }
+    switch (p->scene->normals) {
+    case LRCS_NORMALS_AUTO:
+        return p->smooth ? (lrcs_effect){1, "some facets turn too far for the glint they wear"}
+               : given   ? (lrcs_effect){0, "no model's facets turn too far for their glint"}
+                         : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
+    case LRCS_NORMALS_SMOOTH:
+        return p->smooth ? (lrcs_effect){1, "smoothing groups or vertex normals, as asked"}
+               : given   ? (lrcs_effect){0, "all smoothed facets are flat"}
+                         : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
+    default:
+        return (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
+    }
 }
 
 static lrcs_effect two_sided_effect(const lrcsi_view *view)
@@ -153,8 +182,7 @@ void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t
         term_effect(plan->glint, p->glint, effect_in(seen, LRCS_EFFECT_GLINT), &glint);
     effect[LRCS_EFFECT_DIFFUSE] =
         term_effect(plan->diffuse, p->diffuse, effect_in(seen, LRCS_EFFECT_DIFFUSE), &diffuse);
-    effect[LRCS_EFFECT_CURVED_NORMALS] =
-        (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
+    effect[LRCS_EFFECT_CURVED_NORMALS] = normals_effect(p);
     effect[LRCS_EFFECT_TWO_SIDED] = two_sided_effect(view);
     effect[LRCS_EFFECT_ARTICULATION] = p->articulated
                                            ? (lrcs_effect){1, "a part stands on a joint"}

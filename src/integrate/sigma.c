@@ -22,7 +22,11 @@ typedef struct sigma_run {
     lrcsi_view view;
     lrcsi_plan plan;
     lrcsi_contest contest;
+    lrcsi_margin margin;
+    const lrcsi_margin *doubt; /* margin, or NULL where none was made */
     lrcsi_visible *visible;
+    lrcsi_curved *curved; /* NULL: all facets are flat */
+    double tolerance;
     lrcsi_total total;
     lrcs_work *work;
     lrcs_image *image;
@@ -52,10 +56,13 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_view_need(prepared);
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
+    need =
+        lrcsi_work_add(need, prepared->smooth ? lrcsi_work_bytes(facets, sizeof(lrcsi_curved)) : 0);
     if (options->method == LRCS_METHOD_FACET && options->with == 0) {
         return need;
     }
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
     if (options->method == LRCS_METHOD_EXACT) {
         return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
     }
@@ -70,7 +77,8 @@ static double run_bound(const lrcsi_total *total)
 
 static int run_meets(const lrcsi_total *total, double tolerance)
 {
-    return run_bound(total) <= tolerance * (total->glint + total->diffuse);
+    double most = tolerance * (total->glint + total->diffuse);
+    return run_bound(total) <= most && total->curvature <= most;
 }
 
 /* Hands the raster out as a picture, row 0 on top. */
@@ -96,11 +104,20 @@ static int run_image(sigma_run *run)
     return status;
 }
 
+static void run_total(sigma_run *run, lrcs_facet_record *records)
+{
+    run->total =
+        lrcsi_total_make(&run->view, &run->plan, run->visible, run->curved, run->doubt, records);
+}
+
 static int run_facet(sigma_run *run)
 {
     double graze = run->plan.unshadowed ? run->view.prepared->graze : 1;
     lrcsi_visible_unshadowed(&run->view, graze, run->visible);
-    run->total = lrcsi_total_make(&run->view, &run->plan, run->visible, NULL);
+    if (run->curved) {
+        lrcsi_curve_shares(&run->view, &run->plan, run->visible, NULL, run->tolerance, run->curved);
+    }
+    run_total(run, NULL);
     return LRCS_OK;
 }
 
@@ -134,8 +151,8 @@ static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
     }
 }
 
-/* The sum over visible areas found by clipping or sampling. */
-static void run_sum(sigma_run *run)
+/* The sum over visible areas found by clipping (raster NULL) or sampling. */
+static void run_sum(sigma_run *run, const lrcsi_raster *raster)
 {
     if (run->plan.unshadowed) {
         fronts_are_known(&run->view, run->plan.searched, run->visible);
@@ -143,7 +160,14 @@ static void run_sum(sigma_run *run)
     if (run->view.prepared->solid && run->view.backs_cast) {
         backs_are_known(&run->view, run->visible);
     }
-    run->total = lrcsi_total_make(&run->view, &run->plan, run->visible, NULL);
+    if (run->curved && raster) { /* clipping has integrated over its pieces */
+        lrcsi_curve_shares(&run->view, &run->plan, run->visible, raster, run->tolerance,
+                           run->curved);
+    }
+    if (run->doubt) {
+        lrcsi_margin_settle(run->doubt, run->visible);
+    }
+    run_total(run, NULL);
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
@@ -165,7 +189,7 @@ static int run_raster(sigma_run *run, uint32_t size)
         for (uint32_t f = 0; f < run->view.prepared->scene->facet_count; f++) {
             run->flags |= raster.undecided[f] ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
         }
-        run_sum(run);
+        run_sum(run, &raster);
     }
     run->work->used = mark;
     return status;
@@ -175,14 +199,16 @@ static int run_raster(sigma_run *run, uint32_t size)
 static int run_exact(sigma_run *run, int method)
 {
     uint32_t starved = 0;
-    int status = lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
+    int status = run->curved ? lrcsi_curve_pieces(&run->contest, &run->plan, run->tolerance,
+                                                  run->work, run->visible, run->curved, &starved)
+                             : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
     if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
         return LRCS_E_MEMORY;
     }
     if (status == LRCS_OK) {
         run->size = 0;
         run->flags |= starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
-        run_sum(run);
+        run_sum(run, NULL);
     }
     return status;
 }
@@ -223,6 +249,12 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    /* where back sides are left out of a scene that shows some, its true curves are not known */
+    if (status == LRCS_OK && run->view.prepared->nears.reach &&
+        (run->view.backs_cast || run->view.prepared->solid)) {
+        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
+        run->doubt = &run->margin;
+    }
     if (status != LRCS_OK) {
         return status;
     }
@@ -252,6 +284,7 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
                      .bound_m2 = run_bound(t),
                      .budget = {t->visibility, t->tessellation, t->rounding},
                      .estimate_m2 = run->size != 0 ? t->likely : -1,
+                     .curvature_estimate_m2 = run->curved ? t->curvature : -1,
                      .projected_area_m2 = t->projected,
                      .back_side_area_m2 = t->back_side,
                      .back_side_facets = t->back_sides,
@@ -270,6 +303,17 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
     *result = r;
 }
 
+/* What the facets' results go to. */
+static int run_take(sigma_run *run, const lrcs_prepared *prepared)
+{
+    uint32_t facets = prepared->scene->facet_count;
+    run->visible = lrcsi_work_take(run->work, facets, sizeof *run->visible);
+    if (prepared->smooth) {
+        run->curved = lrcsi_work_take(run->work, facets, sizeof *run->curved);
+    }
+    return run->visible && (run->curved || !prepared->smooth) ? LRCS_OK : LRCS_E_MEMORY;
+}
+
 int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                    const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,
                    lrcs_facet_record *records, lrcs_image *image)
@@ -279,11 +323,10 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         return status;
     }
     size_t mark = work->used;
-    sigma_run run = {.work = work, .image = image};
+    sigma_run run = {.work = work, .image = image, .tolerance = options->tolerance};
     status = lrcsi_view_make(prepared, pose, work, &run.view);
     if (status == LRCS_OK) {
-        run.visible = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *run.visible);
-        status = run.visible ? LRCS_OK : LRCS_E_MEMORY;
+        status = run_take(&run, prepared);
     }
     if (status == LRCS_OK) {
         lrcsi_plan_backs(options, &run.view);
@@ -291,8 +334,8 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         status =
             run.plan.method == LRCS_METHOD_FACET ? run_facet(&run) : run_shadowed(&run, options);
     }
-    if (status == LRCS_OK &&
-        !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse)) {
+    if (status == LRCS_OK && !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse +
+                                       run.total.curvature)) {
         status = LRCS_E_NUMBER;
     }
     if (status == LRCS_OK && image && image->size != 0) {
@@ -300,7 +343,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {
-            lrcsi_total_make(&run.view, &run.plan, run.visible, records);
+            run_total(&run, records);
         }
         result_fill(&run, options, result);
     }

@@ -49,8 +49,8 @@ const char *lrcs_notice_text(int bit)
         return "back sides of one-sided facets are visible: the mesh is open or inverted; they "
                "contribute nothing";
     case LRCS_NOTICE_TESSELLATION_UNKNOWN:
-        return "curved shapes under shadowing: the bound refers to their facets, not to the true "
-               "curves";
+        return "a curved shape whose curvature is not known (scaled unevenly, or as small as "
+               "rounding): the bound refers to its facets, not to the true curve";
     default:
         return "unknown notice";
     }

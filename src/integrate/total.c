@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "base/sum.h"
+#include "integrate/tessellation.h"
 #include "optics/reflect.h"
 
 #define U       0x1p-53
@@ -20,19 +21,10 @@
 /* Running sums, in scaled units. */
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
-    double visibility, tessellation, rounding;
+    double visibility, tessellation, rounding, curvature;
     double likely, lean; /* of errors that add up by chance, squares; of those that lean one way */
     uint32_t seen;
 } total_sums;
-
-/* What a facet wears, as far as the plan takes it into account. */
-static lrcs_brdf brdf_planned(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet)
-{
-    lrcs_brdf brdf = lrcsi_prepared_material(view->prepared, facet)->brdf;
-    brdf.A = plan->glint == LRCSI_TERM_OUT ? 0 : brdf.A;
-    brdf.B = plan->diffuse == LRCSI_TERM_OUT ? 0 : brdf.B;
-    return brdf;
-}
 
 /* Its reflection. A term of amplitude 0 that is to be evaluated all the same is so at amplitude 1,
    and added 0 times; with no slope there is no glint to evaluate. */
@@ -89,11 +81,17 @@ static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
            (diffuse < 1 ? at->diffuse * expm1(diffuse) : brdf->B);
 }
 
+static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
+{
+    sums->seen |= brdf->A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
+    sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
+}
+
 /* One facet that reflects towards the laser. Returns its sigma. */
 static double add_reflecting(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
                              uint32_t facet, const lrcsi_tilt *tilt, const lrcsi_visible *visible)
 {
-    lrcs_brdf brdf = brdf_planned(view, plan, facet);
+    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
     lrcsi_reflection at = reflection_planned(&brdf, plan, tilt->tan2);
     double whole = FOUR_PI * 0.5 * view->prepared->normal[facet].length;
     double share = visible->area / tilt->projected;
@@ -110,25 +108,32 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, const lrc
     /* S, 4 pi, two products and the share: 8 u, with the relative error of areas */
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
                       whole * most * (at.error + reflection_vague(&brdf, tilt, &at));
-    sums->seen |= brdf.A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
-    sums->seen |= brdf.B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
+    add_seen(sums, &brdf);
     return glint + diffuse;
 }
 
-/* What the flat facets of an engine-made shape may be off, whichever way they face: part of the
-   patch behind a facet that faces away may still see the light. Caps and bases, which no smoothing
-   group marks as curved, are exact. */
-static void add_tessellation(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
-                             uint32_t facet, const lrcsi_tilt *tilt)
+/* One with curved normals, which comes summed. */
+static double add_curved(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
+                         uint32_t facet, const lrcsi_curved *curved)
 {
-    const lrcs_prepared *p = view->prepared;
-    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
-    lrcs_brdf brdf = brdf_planned(view, plan, facet);
-    double stray = lrcsi_reflect_stray(&brdf, tilt->cos_theta, tilt->tan2, &part->curvature);
-    sums->tessellation += FOUR_PI * 0.5 * p->normal[facet].length * stray;
-    if (!part->curvature_known) {
-        sums->tessellation = -HUGE_VAL;
-    }
+    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
+    add_seen(sums, &brdf);
+    lrcsi_sum_add(&sums->glint, curved->glint);
+    lrcsi_sum_add(&sums->diffuse, curved->diffuse);
+    sums->visibility += curved->visibility;
+    sums->rounding += curved->rounding;
+    sums->likely += curved->likely * curved->likely;
+    sums->curvature += curved->estimate;
+    return curved->glint + curved->diffuse;
+}
+
+/* Can what the facets err from the true shapes be bounded? Where nothing is searched, all that
+   could be hidden is in the bound. */
+static int tessellation_known(const lrcsi_view *view, const lrcsi_plan *plan,
+                              const lrcsi_margin *margin)
+{
+    return lrcsi_tessellation_known(view->prepared, plan->unshadowed) &&
+           (plan->unshadowed || margin || plan->method == LRCS_METHOD_FACET);
 }
 
 /* Is only a part of the facet visible? An area computed by clipping that cannot be told from none,
@@ -192,16 +197,18 @@ static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total
     total->rounding = lrcsi_prepared_area(p, (sums->rounding + adding) * outward);
     double likely = sqrt(sums->likely + LEANING * sums->lean * sums->lean);
     total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
+    total->curvature = lrcsi_prepared_area(p, sums->curvature);
     total->seen = sums->seen;
 }
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                             const lrcsi_visible *visible, lrcs_facet_record *records)
+                             const lrcsi_visible *visible, const lrcsi_curved *curved,
+                             const lrcsi_margin *margin, lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
     lrcsi_total total = {0};
-    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0, 0, 0};
-    if (p->curved && !plan->unshadowed) {
+    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0, 0, 0, 0};
+    if (p->curved && !tessellation_known(view, plan, margin)) {
         sums.tessellation = -HUGE_VAL;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -210,12 +217,18 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
         if (view->facing[f] != 0) {
             int reflects = lrcsi_view_reflects(view, f);
             if (reflects && visible[f].high > 0) {
-                sigma = add_reflecting(&sums, view, plan, f, &tilt, &visible[f]);
+                sigma = curved && lrcsi_curve_wanted(view, f)
+                            ? add_curved(&sums, view, plan, f, &curved[f])
+                            : add_reflecting(&sums, view, plan, f, &tilt, &visible[f]);
             }
             count_facet(&total, &sums, reflects, &tilt, &visible[f]);
         }
-        if (p->curved && plan->unshadowed && !p->skip[f] && p->scene->facet_smooth[f] != 0) {
-            add_tessellation(&sums, view, plan, f, &tilt);
+        if (p->curved && !p->skip[f]) {
+            lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, f));
+            sums.tessellation +=
+                curved && lrcsi_curve_wanted(view, f)
+                    ? (margin ? margin->share[f] * curved[f].most : 0)
+                    : FOUR_PI * lrcsi_tessellation_error(view, f, &brdf, &tilt, visible, margin);
         }
         if (records) {
             records[f] = record_of(view, f, &tilt, visible[f].area, sigma);

@@ -3,23 +3,27 @@
 #ifndef LRCSI_TOTAL_H
 #define LRCSI_TOTAL_H
 
-#include "integrate/plan.h"
-#include "visibility/visible.h"
+#include "integrate/curve.h"
+#include "visibility/margin.h"
 
 /* All in square metres. */
 typedef struct lrcsi_total {
     double glint, diffuse;
     double visibility, tessellation, rounding; /* bounds; tessellation negative: not known */
     double likely;                             /* likely error of the sampled areas */
+    double curvature;                          /* estimate of the error of curved facets */
     double projected, back_side;
     uint32_t back_sides, hidden, partial;
     uint32_t seen; /* effects that some facet calls for which may be seen: GLINT, DIFFUSE bits */
 } lrcsi_total;
 
-/* Given: the view, its plan, and the visible area of each facet. Where the plan knows every front
-   facet to be wholly visible, on the true shapes as on their meshes, tessellation can be bounded.
-   Returned: total, summed in facet order; records[facet_count] unless NULL. */
+/* Given: the view, its plan, and the visible area of each facet; where the plan does not know every
+   front facet to be wholly visible, on the true shapes as on their meshes, the margin of doubt
+   about the true shapes (NULL: none was made). Facets with curved normals come with their own
+   sums in curved[facet_count]; NULL: all are flat. Returned: total, summed in facet order;
+   records[facet_count] unless NULL. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                             const lrcsi_visible *visible, lrcs_facet_record *records);
+                             const lrcsi_visible *visible, const lrcsi_curved *curved,
+                             const lrcsi_margin *margin, lrcs_facet_record *records);
 
 #endif

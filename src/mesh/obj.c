@@ -17,6 +17,7 @@
 
 #define COORDINATE_MOST 1e100
 #define COUNT_MOST      (UINT32_MAX - 1)
+#define NO_INDEX        INT64_MAX
 
 /* A name that later facets belong to; it counts once a facet does. */
 typedef struct obj_name {
@@ -30,8 +31,8 @@ typedef struct obj_walk {
     lrcsi_lines lines;
     lrcs_where *where;
     lrcs_mesh_counts counts;
-    uint32_t vertex_limit; /* positive indices are at most this */
-    uint32_t vertex_most;  /* the largest positive index met */
+    uint32_t vertex_limit, normal_limit; /* positive indices are at most this */
+    uint32_t vertex_most, normal_most;   /* the largest positive index met */
     uint32_t notices;
     uint32_t smooth;
     obj_name part, material, library;
@@ -88,7 +89,7 @@ static void enter_material(obj_walk *w)
     }
 }
 
-static int add_facet(obj_walk *w, const uint32_t corner[3])
+static int add_facet(obj_walk *w, const lrcs_facet *corner, const lrcs_facet *normal)
 {
     if (w->counts.facets == COUNT_MOST) {
         return obj_fail(w, LRCS_E_LIMIT, "facets", "fewer than 2^32 - 1");
@@ -101,7 +102,10 @@ static int add_facet(obj_walk *w, const uint32_t corner[3])
     }
     if (w->mesh) {
         uint32_t i = w->counts.facets;
-        memcpy(w->mesh->facet[i].corner, corner, sizeof w->mesh->facet[i].corner);
+        w->mesh->facet[i] = *corner;
+        if (w->mesh->facet_normal) {
+            w->mesh->facet_normal[i] = *normal;
+        }
         w->mesh->facet_material[i] = w->material.index;
         w->mesh->facet_part[i] = w->part.index;
         w->mesh->facet_smooth[i] = w->smooth;
@@ -110,9 +114,9 @@ static int add_facet(obj_walk *w, const uint32_t corner[3])
     return LRCS_OK;
 }
 
-static int read_vertex(obj_walk *w)
+/* Three coordinates and, unused, a weight or a colour, added as one more of `count` points. */
+static int read_point(obj_walk *w, const char *item, lrcs_point *points, uint32_t *count)
 {
-    static const char item[] = "vertex coordinate";
     lrcs_point point;
     for (int k = 0; k < 3; k++) {
         lrcsi_lines from = w->lines;
@@ -125,20 +129,20 @@ static int read_vertex(obj_walk *w)
             return obj_fail(w, LRCS_E_NUMBER, item, "a magnitude of at most 1e100");
         }
     }
-    while (!lrcsi_lines_done(&w->lines)) { /* a weight or a colour */
+    while (!lrcsi_lines_done(&w->lines)) {
         double ignored = 0.0;
         int status = lrcsi_lines_number(&w->lines, item, &ignored, w->where);
         if (status != LRCS_OK) {
             return status;
         }
     }
-    if (w->counts.vertices == COUNT_MOST) {
-        return obj_fail(w, LRCS_E_LIMIT, "vertices", "fewer than 2^32 - 1");
+    if (*count == COUNT_MOST) {
+        return obj_fail(w, LRCS_E_LIMIT, item, "fewer than 2^32 - 1");
     }
-    if (w->mesh) {
-        w->mesh->vertex[w->counts.vertices] = point;
+    if (points) {
+        points[*count] = point;
     }
-    w->counts.vertices++;
+    (*count)++;
     return LRCS_OK;
 }
 
@@ -158,53 +162,72 @@ static const char *read_integer(const char *at, const char *end, int64_t *value)
     return at;
 }
 
-/* The vertex index of "v", "v/t", "v//n" or "v/t/n"; t and n are integers or missing, and not
-   looked up. Returns 0 where the word is none of these. */
-static int parse_corner(const char *word, size_t size, int64_t *index)
+/* The indices of "v", "v/t", "v//n" or "v/t/n", those that are missing left alone. Returns 0 where
+   the word is none of these. */
+static int parse_corner(const char *word, size_t size, int64_t index[3])
 {
     const char *end = word + size;
-    const char *at = read_integer(word, end, index);
-    for (int k = 0; at && at < end && *at == '/' && k < 2; k++) {
-        int64_t ignored = 0;
-        const char *after = read_integer(at + 1, end, &ignored);
+    const char *at = read_integer(word, end, &index[0]);
+    for (int k = 1; at && at < end && *at == '/' && k < 3; k++) {
+        const char *after = read_integer(at + 1, end, &index[k]);
         at = after ? after : at + 1;
     }
     return at == end;
 }
 
-static int read_corner(obj_walk *w, uint32_t *corner)
+/* From an index that the file gives to a place in a list of `count` so far. 0: there is none. */
+static int resolve(int64_t index, uint32_t count, uint32_t limit, uint32_t *most, uint32_t *place)
+{
+    if (index == 0 || index > limit || -index > (int64_t)count) {
+        return 0;
+    }
+    *place = (uint32_t)(index > 0 ? index - 1 : (int64_t)count + index);
+    *most = *place >= *most ? *place + 1 : *most;
+    return 1;
+}
+
+static int refuse_index(obj_walk *w, const lrcsi_lines *from, int64_t index, const char *item)
+{
+    w->lines = *from;
+    return obj_fail(w, LRCS_E_INDEX, item,
+                    index < 0 ? "at most as far back as there are of its kind above"
+                              : "an index from 1 to the number of its kind");
+}
+
+static int read_corner(obj_walk *w, uint32_t *corner, uint32_t *normal)
 {
     lrcsi_lines from = w->lines;
     const char *word = NULL;
     size_t size = lrcsi_lines_word(&w->lines, &word);
-    int64_t index = 0;
-    if (!parse_corner(word, size, &index)) {
+    int64_t index[3] = {0, 0, NO_INDEX};
+    if (!parse_corner(word, size, index)) {
         w->lines = from;
         return obj_fail(w, LRCS_E_SYNTAX, "face corner", "v, v/t, v//n or v/t/n");
     }
-    int64_t vertices = w->counts.vertices;
-    if (index == 0 || index > w->vertex_limit || -index > vertices) {
-        w->lines = from;
-        return obj_fail(w, LRCS_E_INDEX, "face corner",
-                        index < 0 ? "at most as far back as there are vertices above"
-                                  : "an index from 1 to the number of vertices");
+    if (!resolve(index[0], w->counts.vertices, w->vertex_limit, &w->vertex_most, corner)) {
+        return refuse_index(w, &from, index[0], "face corner");
     }
-    *corner = (uint32_t)(index > 0 ? index - 1 : vertices + index);
-    w->vertex_most = *corner >= w->vertex_most ? *corner + 1 : w->vertex_most;
+    *normal = LRCS_NONE;
+    if (index[2] != NO_INDEX &&
+        !resolve(index[2], w->counts.normals, w->normal_limit, &w->normal_most, normal)) {
+        return refuse_index(w, &from, index[2], "normal of a face corner");
+    }
     return LRCS_OK;
 }
 
 /* A polygon, fanned from its first vertex as its corners come. */
 static int read_face(obj_walk *w)
 {
-    uint32_t corner[3] = {0, 0, 0};
+    lrcs_facet corner = {{0, 0, 0}};
+    lrcs_facet normal = {{LRCS_NONE, LRCS_NONE, LRCS_NONE}};
     int count = 0; /* stays at 3 */
     while (!lrcsi_lines_done(&w->lines)) {
         int k = count < 2 ? count : 2;
-        int status = read_corner(w, &corner[k]);
+        int status = read_corner(w, &corner.corner[k], &normal.corner[k]);
         if (status == LRCS_OK && k == 2) {
-            status = add_facet(w, corner);
-            corner[1] = corner[2];
+            status = add_facet(w, &corner, &normal);
+            corner.corner[1] = corner.corner[2];
+            normal.corner[1] = normal.corner[2];
         }
         if (status != LRCS_OK) {
             return status;
@@ -259,7 +282,11 @@ static int read_statement(obj_walk *w)
     const char *word = NULL;
     size_t size = lrcsi_lines_word(&w->lines, &word);
     if (lrcsi_lines_is(word, size, "v")) {
-        return read_vertex(w);
+        return read_point(w, "vertex coordinate", w->mesh ? w->mesh->vertex : NULL,
+                          &w->counts.vertices);
+    }
+    if (lrcsi_lines_is(word, size, "vn")) {
+        return read_point(w, "vertex normal", w->mesh ? w->mesh->normal : NULL, &w->counts.normals);
     }
     if (lrcsi_lines_is(word, size, "f")) {
         return read_face(w);
@@ -293,6 +320,7 @@ static obj_walk obj_walk_make(const void *bytes, size_t size, lrcs_where *where)
     w.lines = lrcsi_lines_make(bytes, size);
     w.where = where;
     w.vertex_limit = COUNT_MOST;
+    w.normal_limit = COUNT_MOST;
     w.part.bytes = "";
     w.part.pending = 1;
     w.material.index = LRCS_NONE;
@@ -307,10 +335,12 @@ int lrcs_obj_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrc
     }
     obj_walk w = obj_walk_make(bytes, size, where);
     int status = walk_statements(&w);
-    if (status == LRCS_OK && w.vertex_most > w.counts.vertices) {
-        uint32_t limit = w.counts.vertices;
+    if (status == LRCS_OK &&
+        (w.vertex_most > w.counts.vertices || w.normal_most > w.counts.normals)) {
+        lrcs_mesh_counts limit = w.counts;
         w = obj_walk_make(bytes, size, where); /* once more, to stop at the first such index */
-        w.vertex_limit = limit;
+        w.vertex_limit = limit.vertices;
+        w.normal_limit = limit.normals;
         status = walk_statements(&w);
     }
     if (status == LRCS_OK) {

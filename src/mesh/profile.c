@@ -27,7 +27,22 @@
        x / sin x grows: spread^2 = (A/A') 2 q D;
        gamma - sin gamma <= gamma^3/6: lean = (A/A') T + turn spread^2 / 6.
    Each is evaluated to a few units of rounding; SLACK covers those. `blur` then adds what rounding
-   the vertices does to a facet's plane and area. */
+   the vertices does to a facet's plane and area.
+
+   Reach. The patch of a trapezoid goes onto it so that equal azimuth goes to equal shares of its
+   width and equal shares of area below to equal shares of area below: area is then stretched by
+   A'/A everywhere. On the trapezoid r^2 (r the radius of the true circle whose side's middle lies
+   at kappa r) grows evenly with that share, from rho1^2 at the top row to rho0^2:
+     straight walls: so does rho^2 on the patch: r = rho, and heights agree;
+     sphere: cos theta does, and rho^2 - r^2 = R^2 a (1 - a) (cos theta1 - cos theta0)^2 at share a;
+     paraboloid: w^3, w^2 = 1 + y^2, does: w^2 exceeds its chord by at most 1/8 of the largest
+   second derivative, (w0^3 - w1^3)^2 / (36 w1^4). With b that `bulge`, rho - r <= min(sqrt(b), b /
+   (2 rho1), rho0 - rho1). In height the trapezoid stands at a share beta = (r - rho1)/(rho0 - rho1)
+   from the top, which exceeds a by at most (rho0 - rho1) / (4 (rho0 + rho1)); the sphere stands at
+   a, the paraboloid between a and a + b/(rho0^2 - rho1^2); and the rows themselves stand off the
+   true circles' heights. Across, with v in -1 .. 1, (cos vh, sin vh) goes to kappa (1, v tan h):
+   off by at most max(1 - kappa, kappa - cos h) inward or outward and max(h^3/6, (mu - 1) sin h)
+   sideways, times r. A disc is the last alone. */
 #include "mesh/profile.h"
 
 #include <math.h>
@@ -47,6 +62,9 @@
    no area to multiply them with. */
 #define BLUR_MOST 0x1p-6
 #define USELESS   1e300
+/* Rounding of a reach, relative: terms are positive and good to 1e-9 even where 2^24 rings make
+   differences of neighbours small. */
+#define REACH_MARGIN (1.0 + 1e-6)
 
 /* A strip's patch and facet: areas and vector areas in any one unit. */
 typedef struct strip {
@@ -181,18 +199,6 @@ static double profile_blur(const lrcsi_profile *profile, uint32_t i)
     return blur;
 }
 
-/* The numbers for a facet tilted and resized by rounding. The turn vector changes by at most
-   gamma / sin gamma < 2 times the tilt. A facet that rounding moves by a part of itself has no
-   numbers that mean anything. */
-static lrcs_curvature curvature_blur(const lrcs_curvature *c, double blur)
-{
-    if (blur > BLUR_MOST) {
-        return (lrcs_curvature){2.0 * HALF_PI, USELESS, USELESS, sqrt(USELESS)};
-    }
-    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * HALF_PI), c->area_error + 2.0 * blur,
-                            c->lean + 2.0 * blur, c->spread + 2.0 * blur};
-}
-
 static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
 {
     strip s = strip_make(profile, i);
@@ -217,7 +223,7 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
     c.lean = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
     c.area_error = fabs(ratio - 1.0);
-    return curvature_blur(&c, profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
+    return lrcsi_profile_blurred(&c, profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
 }
 
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)
@@ -298,4 +304,100 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
         most.spread = fmax(most.spread, c.spread);
     }
     return most;
+}
+
+/* The numbers for a facet tilted and resized by rounding. The turn vector changes by at most
+   gamma / sin gamma < 2 times the tilt. A facet that rounding moves by a part of itself has no
+   numbers that mean anything. */
+lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
+{
+    if (!(blur <= BLUR_MOST)) {
+        return (lrcs_curvature){2.0 * HALF_PI, USELESS, USELESS, sqrt(USELESS)};
+    }
+    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * HALF_PI), c->area_error + 2.0 * blur,
+                            c->lean + 2.0 * blur, c->spread + 2.0 * blur};
+}
+
+/* How far a point of the unit circle goes when its sector becomes a triangle of the N-gon. */
+static double sector_reach(const lrcsi_profile *profile)
+{
+    double h = profile->half;
+    double kappa = profile->swell * cos(h);
+    double inward = fmax(1.0 - kappa, kappa - cos(h));
+    double sideways = fmax(h * h * h / 6.0, (profile->swell - 1.0) * sin(h));
+    return hypot(inward, sideways) + SLACK;
+}
+
+/* True height of row i. */
+static double profile_height(const lrcsi_profile *profile, uint32_t i)
+{
+    if (i == 0 || i == profile->strips) {
+        return i == 0 ? 0.0 : profile->height;
+    }
+    if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+        double x = profile_fraction(profile, i);
+        return profile->height * ((1.0 - x) * (1.0 + x));
+    }
+    return profile->height * cos(profile_polar(profile, i));
+}
+
+/* By how much rho^2 exceeds r^2 within strip i, at most. */
+static double strip_bulge(const lrcsi_profile *profile, uint32_t i)
+{
+    double below = lrcsi_profile_radius(profile, i);
+    double above = lrcsi_profile_radius(profile, i + 1);
+    double whole = (below - above) * (below + above);
+    if (profile_straight(profile)) {
+        return 0.0;
+    }
+    if (profile->kind != LRCS_SHAPE_PARABOLOID) {
+        double d = profile->step;
+        double fall = 2.0 * sin(profile_polar(profile, i) - 0.5 * d) * sin(0.5 * d);
+        return fmin(whole, 0.25 * profile->height * fall * profile->height * fall);
+    }
+    double y1 = profile_tangent(profile, i);
+    double y0 = profile_tangent(profile, i + 1);
+    double q = hypot(1.0, y1);
+    double p = hypot(1.0, y0);
+    double cubes = (y1 - y0) * ((y1 + y0) / (q + p)) * (q * q + q * p + p * p);
+    double unit = profile->slope > 0.0 ? profile->base / profile->slope : 0.0;
+    double rise = cubes / (p * p) * unit;
+    return fmin(whole, rise * rise / 36.0); /* fmin passes over what is no number */
+}
+
+/* How far points of strip i go, its rows standing at most `off` off their heights. */
+static double strip_reach(const lrcsi_profile *profile, uint32_t i, double off)
+{
+    double below = lrcsi_profile_radius(profile, i);
+    double above = lrcsi_profile_radius(profile, i + 1);
+    double bulge = strip_bulge(profile, i);
+    double across = fmax(below, above) * sector_reach(profile);
+    double share = 0.0;
+    if (bulge > 0.0) {
+        double out = fmin(sqrt(bulge), below - above);
+        across += above > 0.0 ? fmin(out, 0.5 * bulge / above) : out;
+    }
+    if (!profile_straight(profile) && below > above) {
+        share = 0.25 * (below - above) / (below + above);
+        if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+            share = fmax(share, bulge / (below - above) / (below + above));
+        }
+    }
+    double rise = profile_height(profile, i + 1) - profile_height(profile, i);
+    return hypot(across, off + fmin(1.0, share) * rise);
+}
+
+double lrcsi_profile_reach(const lrcsi_profile *profile)
+{
+    double most = fmax(profile->base, profile->top) * sector_reach(profile);
+    double z = 0.0;
+    double off = 0.0;
+    for (uint32_t i = 0; i < profile->strips; i++) {
+        double before = off;
+        z += lrcsi_profile_rise(profile, i);
+        off = fabs(z - profile_height(profile, i + 1));
+        most = fmax(most, strip_reach(profile, i, fmax(before, off)));
+    }
+    double size = fmax(profile->base, profile->top) + profile->height;
+    return most * REACH_MARGIN + (32.0 + 2.0 * (double)profile->strips) * UNIT * size;
 }

@@ -29,4 +29,11 @@ double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i);
 /* The numbers of lrcs_curvature, proved, over all facets of the wall. */
 lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile);
 
+/* The numbers for facets that rounding tilts by at most `blur` rad, and resizes by that part. */
+lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *curvature, double blur);
+
+/* A map of the true surface, caps included, onto the facets carries every facet's patch to it,
+   stretches area evenly over a facet, and moves no point farther than this, m. */
+double lrcsi_profile_reach(const lrcsi_profile *profile);
+
 #endif

@@ -153,7 +153,7 @@ static int stl_count_any(lrcsi_stl_walk *walk, lrcs_mesh_counts *counts)
     if (status == LRCS_OK) {
         size_t text =
             lrcsi_text_utf8((const char *)walk->bytes + walk->name.at, walk->name.size, NULL);
-        *counts = (lrcs_mesh_counts){3 * walk->facets, walk->facets, 0, 1, text};
+        *counts = (lrcs_mesh_counts){3 * walk->facets, walk->facets, 0, 1, text, 0};
     }
     return status;
 }

@@ -30,6 +30,22 @@ uint64_t lrcsi_store_mix(uint64_t key)
     return key ^ key >> 31;
 }
 
+/* Where there are normals, their blocks, no corner having one yet. 0: no room. */
+static int store_normals(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh)
+{
+    if (counts->normals == 0) {
+        return 1;
+    }
+    mesh->normal_count = counts->normals;
+    mesh->facet_normal = lrcsi_work_take(work, counts->facets, sizeof *mesh->facet_normal);
+    mesh->normal = lrcsi_work_take(work, counts->normals, sizeof *mesh->normal);
+    if (!mesh->facet_normal || !mesh->normal) {
+        return 0;
+    }
+    memset(mesh->facet_normal, 0xff, counts->facets * sizeof *mesh->facet_normal);
+    return 1;
+}
+
 int lrcsi_store_take(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh, char **text)
 {
     size_t mark = work->used;
@@ -44,9 +60,10 @@ int lrcsi_store_take(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh 
     made.facet_part = lrcsi_work_take_zero(work, counts->facets, sizeof *made.facet_part);
     made.facet_smooth = lrcsi_work_take_zero(work, counts->facets, sizeof *made.facet_smooth);
     char *names = lrcsi_work_take(work, counts->text_bytes, 1);
+    int normals = store_normals(counts, work, &made);
     made.vertex = lrcsi_work_take(work, counts->vertices, sizeof *made.vertex);
     if (!made.material || !made.part || !made.facet || !made.facet_material || !made.facet_part ||
-        !made.facet_smooth || !names || !made.vertex) {
+        !made.facet_smooth || !names || !normals || !made.vertex) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
@@ -66,6 +83,8 @@ size_t lrcs_mesh_need(const lrcs_mesh_counts *counts)
         2 * (size_t)LRCS_WORK_ALIGN, /* those three are separate blocks */
         lrcsi_work_bytes(counts->text_bytes, 1),
         lrcsi_work_bytes(counts->vertices, sizeof(lrcs_point)),
+        counts->normals ? lrcsi_work_bytes(counts->facets, sizeof(lrcs_facet)) : 0,
+        lrcsi_work_bytes(counts->normals, sizeof(lrcs_point)),
         /* scratch: names of materials and parts, or welded vertices, in a table */
         lrcsi_work_bytes(counts->materials, sizeof(const char *)),
         lrcsi_index_need(counts->materials),

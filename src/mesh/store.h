@@ -7,7 +7,7 @@
 
 /* Takes a mesh's blocks for these counts, the vertices last, so that a reader which welds can give
    the rest of them back. Materials, parts and facets are cleared: no material (LRCS_NONE), part 0,
-   hard. `text` is where counts->text_bytes of names may be written.
+   hard, no normals. `text` is where counts->text_bytes of names may be written.
    Status: LRCS_OK; LRCS_E_MEMORY (nothing taken). */
 int lrcsi_store_take(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh, char **text);
 

@@ -263,6 +263,15 @@ lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_di
     return lrcsi_profile_curvature(&profile);
 }
 
+double lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions)
+{
+    if (shape_is_plane_faced(shape)) {
+        return 0.0;
+    }
+    lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
+    return lrcsi_profile_reach(&profile);
+}
+
 /* Room for the mesh, empty; 0 where there is none. */
 static int mesh_take(const lrcs_mesh_counts *counts, const char *name, lrcs_work *work,
                      lrcs_mesh *mesh)

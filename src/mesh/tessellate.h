@@ -14,4 +14,7 @@ lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_div
 /* The curvature that lrcs_shape_mesh will report. O(along). */
 lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
+/* How far lrcsi_profile_reach says points go; 0 for plate and box. O(along). */
+double lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions);
+
 #endif

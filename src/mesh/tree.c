@@ -25,6 +25,8 @@ enum { LEAF_FACETS = 4, MORTON_BITS = 21 };
 
 #define PLANE_FILTER (10.0 * 0x1p-53)
 #define SLAB_FILTER  (6.0 * 0x1p-53)
+/* Covers the rounding of a distance's products with a direction's components, summed as |n|_1. */
+#define WITHIN_MARGIN (1.0 + 1e-9)
 
 static lrcsi_box empty_box(void)
 {
@@ -250,6 +252,20 @@ lrcsi_tree_walk lrcsi_tree_around(const lrcsi_tree *tree, const lrcs_point *vert
     return walk;
 }
 
+lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcs_point *vertex,
+                                  lrcs_facet facet, double distance)
+{
+    lrcsi_tree_walk walk = lrcsi_tree_around(tree, vertex, facet);
+    const double *n = walk.normal;
+    walk.slack = distance * WITHIN_MARGIN;
+    walk.slack_plane = walk.slack * (fabs(n[0]) + fabs(n[1]) + fabs(n[2]));
+    for (int k = 0; k < 3; k++) {
+        walk.box.low[k] -= walk.slack;
+        walk.box.high[k] += walk.slack;
+    }
+    return walk;
+}
+
 /* 1 where the plane test proves the box to lie strictly above or below. */
 static int box_is_off_plane(const lrcsi_tree_walk *w, const lrcsi_box *box)
 {
@@ -265,7 +281,7 @@ static int box_is_off_plane(const lrcsi_tree_walk *w, const lrcsi_box *box)
         most += at_low < at_high ? at_high : at_low;
         error += w->weight[k] * (fabs(low) > fabs(high) ? fabs(low) : fabs(high));
     }
-    error *= PLANE_FILTER;
+    error = PLANE_FILTER * error + w->slack_plane;
     return least > error || most < -error;
 }
 
@@ -287,7 +303,9 @@ static int node_is_candidate(const lrcsi_tree_walk *w, const lrcsi_tree_node *no
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
     widen_slab(w->corner, node->direction, &low, &high);
-    return low <= node->high && high >= node->low;
+    const double *d = node->direction;
+    double slack = w->slack * (fabs(d[0]) + fabs(d[1]) + fabs(d[2]));
+    return low - slack <= node->high && high + slack >= node->low;
 }
 
 /* The node after this one and all below it, from left to right, or 0. */

@@ -33,6 +33,7 @@ typedef struct lrcsi_tree_walk {
     lrcsi_box box;
     const double *corner[3];
     double normal[3], weight[3]; /* of its plane; weight bounds the normal's error */
+    double slack, slack_plane;   /* how near a candidate must come; the same times |normal| */
     uint32_t node;               /* 0: at the end */
     uint32_t at, end;            /* within a leaf: places in order[] */
 } lrcsi_tree_walk;
@@ -48,6 +49,10 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
 /* Starts a walk around a facet, in the tree or not. */
 lrcsi_tree_walk lrcsi_tree_around(const lrcsi_tree *tree, const lrcs_point *vertex,
                                   lrcs_facet facet);
+
+/* The same for facets that come within a distance of it. */
+lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcs_point *vertex,
+                                  lrcs_facet facet, double distance);
 
 /* The next candidate, each once, or LRCS_NONE at the end. */
 uint32_t lrcsi_tree_next(lrcsi_tree_walk *walk);

@@ -28,4 +28,23 @@ lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_e
 double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
                            const lrcs_curvature *curvature);
 
+/* How F varies over a patch, for patches that are seen in part only. All are upper bounds. */
+typedef struct lrcsi_stray {
+    double whole; /* lrcsi_reflect_stray; also where F counts on both sides, by |cos(theta)| */
+    double apart; /* |F - F(facet normal)| at any point of the patch */
+    double part;  /* | integral of F - F(facet normal) over any part of the patch | / facet area */
+    double here;  /* F(facet normal) */
+    double most;  /* F at any point of the patch */
+} lrcsi_stray;
+
+/* The same bounds for any curvature; of a flat one all but `here` and `most` may be of the size
+   of rounding. */
+lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
+                             const lrcs_curvature *curvature);
+
+/* The most that the parts of f_r cos (not cos^2) reach over the normals within `turn` of one at
+   angle theta to s_hat, both in rad, theta <= pi: proved upper bounds. `error` is 0.
+   Notes: 1. Infinite only where f_r itself nears the largest double. */
+lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn);
+
 #endif

@@ -12,7 +12,13 @@
        second   a F_i + lean |G'_i| + spread^2/2 sup max(|G''|, |cot G'|)
        first    a F_i + sqrt(1 + a) spread sup |G'|        (Cauchy-Schwarz on the integral of |t|)
        range    a F_i + (1 + a) max(sup G - F_i, F_i)      (inf G >= 0)
-   and the least of the three holds.
+   and the least of the three holds. At single points |F - F_i| is at most turn sup |G'|, and at
+   most max(sup G - F_i, F_i). Over any part of the patch h = F - F_i integrates to at most the
+   integral of its positive part, or of its negative one: with h = g . t + R, either is within (Int
+   |g . t| + |Int g . t|)/2 + Int |R|, that is |G'_i| (sqrt(1 + a) spread + lean)/2 + spread^2/2 sup
+   of the bend. Where both sides of a surface reflect, F continues as G(180 deg - theta) beyond 90
+   deg: once continuously differentiable there too, with the same suprema, so that each bound holds
+   also where some points beyond 90 deg count and others do not.
 
    With u = tan^2 theta, w = 1 + u, E = exp(-u/s^2), nu = m + 2:
        glint/A    G = w^2 E                              G' = 2 sqrt(u) (2 w^2 - w^3/s^2) E
@@ -162,18 +168,35 @@ static int range_around(double theta, double turn, tan2_range *range)
     return 1;
 }
 
-double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
-                           const lrcs_curvature *curvature)
+/* The least of the three bounds, and what holds of every single point of the patch. */
+static lrcsi_stray stray_of(const stray_size *all, const lrcs_curvature *c)
 {
-    const lrcs_curvature *c = curvature;
-    if (c->turn == 0.0 && c->area_error == 0.0 && c->lean == 0.0 && c->spread == 0.0) {
-        return 0.0;
+    double second = times(c->lean, all->slope) + times(0.5 * c->spread * c->spread, all->bend);
+    double first = times(c->spread * sqrt(1.0 + c->area_error), all->slope_most);
+    double range = fmax(all->value_most - all->value, all->value);
+    double slope = times(c->turn, all->slope_most);
+    double half = 0.5 * times(c->spread * sqrt(1.0 + c->area_error) + c->lean, all->slope) +
+                  times(0.5 * c->spread * c->spread, all->bend);
+    double least = fmin(second, first);
+    double apart = slope;
+    if (isfinite(all->value_most)) {
+        least = fmin(least, times(1.0 + c->area_error, range));
+        apart = fmin(slope, range);
     }
+    return (lrcsi_stray){(times(c->area_error, all->value) + least) * STRAY_MARGIN,
+                         apart * STRAY_MARGIN,
+                         fmin(half, times(1.0 + c->area_error, apart)) * STRAY_MARGIN,
+                         all->value * STRAY_MARGIN, all->value_most * STRAY_MARGIN};
+}
+
+lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
+                             const lrcs_curvature *curvature)
+{
     int front = cos_theta > 0.0;
     double angle = atan(sqrt(tan2));
     tan2_range range;
-    if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, c->turn, &range)) {
-        return 0.0;
+    if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, curvature->turn, &range)) {
+        return (lrcsi_stray){0.0, 0.0, 0.0, 0.0, 0.0};
     }
     stray_size all = {0.0, 0.0, 0.0, 0.0, 0.0};
     if (brdf->A > 0.0) {
@@ -184,9 +207,32 @@ double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
         stray_size part = diffuse_size(brdf->m, front, tan2, &range);
         size_add(&all, brdf->B, &part);
     }
-    double second = times(c->lean, all.slope) + times(0.5 * c->spread * c->spread, all.bend);
-    double first = times(c->spread * sqrt(1.0 + c->area_error), all.slope_most);
-    double span = times(1.0 + c->area_error, fmax(all.value_most - all.value, all.value));
-    double least = isfinite(all.value_most) ? fmin(second, fmin(first, span)) : fmin(second, first);
-    return (times(c->area_error, all.value) + least) * STRAY_MARGIN;
+    return stray_of(&all, curvature);
+}
+
+double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
+                           const lrcs_curvature *curvature)
+{
+    const lrcs_curvature *c = curvature;
+    if (c->turn == 0.0 && c->area_error == 0.0 && c->lean == 0.0 && c->spread == 0.0) {
+        return 0.0;
+    }
+    return lrcsi_stray_make(brdf, cos_theta, tan2, curvature).whole;
+}
+
+/* f_r cos is w^(5/2) E, of the family of glint terms, and w^(-(m+1)/2), which only falls. */
+lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn)
+{
+    lrcsi_reflection most = {0.0, 0.0, 0.0};
+    tan2_range range;
+    if (!range_around(theta, turn, &range)) {
+        return most;
+    }
+    if (brdf->A > 0.0) {
+        most.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, brdf->s, &range) * STRAY_MARGIN;
+    }
+    if (brdf->B > 0.0) {
+        most.diffuse = brdf->B * diffuse_sup(0.0, brdf->m + 1.0, &range) * STRAY_MARGIN;
+    }
+    return most;
 }

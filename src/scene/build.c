@@ -11,11 +11,18 @@
 #include "base/range.h"
 #include "base/where.h"
 #include "base/work.h"
+#include "mesh/profile.h"
+#include "mesh/tessellate.h"
 #include "scene/bind.h"
 #include "scene/place.h"
+#include "scene/smooth.h"
 
 /* Coordinates beyond this are refused: their squares and cubes must stay doubles. */
 #define COORDINATE_MOST 1e100
+/* How many shares a scene's tolerance is cut into at least, and how much coarser than asked a small
+   part may be at most. */
+#define SHARES_LEAST 16.0
+#define LEAVE_MOST   100.0
 
 typedef struct scene_builder {
     const lrcs_recipe *recipe;
@@ -25,6 +32,7 @@ typedef struct scene_builder {
     lrcsi_binder binder;
     uint32_t *entry; /* by worn material: its place among the scene's materials, or LRCS_NONE */
     uint32_t bare;   /* the place of "", or LRCS_NONE */
+    double area;     /* of all parts, roughly */
 } scene_builder;
 
 /* A part's mesh on its way into the scene. */
@@ -37,7 +45,7 @@ typedef struct scene_piece {
 
 lrcs_build_options lrcs_build_options_default(void)
 {
-    lrcs_build_options options = {1e-4, UINT32_C(1) << 21};
+    lrcs_build_options options = {1e-4, UINT32_C(1) << 21, LRCS_NORMALS_FLAT};
     return options;
 }
 
@@ -69,15 +77,85 @@ static int find_worn(const scene_builder *builder, const lrcs_recipe_part *part,
                                   part->material, strlen(part->material));
 }
 
-/* The tolerance that a shape is divided for. Among other parts its tessellation error is not
-   bounded (they may hide some of it), and facet-by-facet bounds are tens of times the error that
-   they hold: a tenth of the fineness then serves, and beyond 1e-4 nothing is gained that could be
-   vouched for. */
-static double shape_tolerance(const scene_builder *builder)
+/* 0 where a corner is out of range. */
+static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
+{
+    const uint32_t *corner = mesh->facet[f].corner;
+    double p[3];
+    double q[3];
+    if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count ||
+        corner[2] >= mesh->vertex_count) {
+        return 0.0;
+    }
+    for (int k = 0; k < 3; k++) {
+        p[k] = mesh->vertex[corner[1]].x[k] - mesh->vertex[corner[0]].x[k];
+        q[k] = mesh->vertex[corner[2]].x[k] - mesh->vertex[corner[0]].x[k];
+    }
+    const double n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+                         p[0] * q[1] - p[1] * q[0]};
+    return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+}
+
+/* Roughly the surface of a part, to weigh parts with; of a model, its facets'. */
+static double part_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh)
+{
+    const lrcs_shape *shape = &part->shape;
+    const double *s = shape->size;
+    double r = fmax(shape->radius, shape->radius2);
+    double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]) + 6.0 * r * (r + shape->length);
+    if (part->file) {
+        area = 0.0;
+        for (uint32_t f = 0; mesh && f < mesh->facet_count; f++) {
+            area += mesh_facet_area(mesh, f);
+        }
+    }
+    const double *scale = part->place.scale;
+    double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    return area * most * most;
+}
+
+/* How much coarser than asked a part may be, being small among the others: all of them together
+   may add as much error as the scene may have, were each as bright as its surface is large. */
+static double part_leave(const scene_builder *builder, const lrcs_recipe_part *part)
+{
+    double parts = fmax(SHARES_LEAST, builder->recipe->part_count);
+    double leave = builder->area / (part_area(part, NULL) * parts);
+    return leave > 1.0 ? fmin(leave, LEAVE_MOST) : 1.0;
+}
+
+/* The tolerance that a shape is divided for: as asked where it is alone. Among other parts its
+   leave counts; and of round bodies, whose facets cost 1/tolerance (those of straight walls its
+   root), ten times as much must do, at least 1e-4. */
+static double shape_tolerance(const scene_builder *builder, const lrcs_recipe_part *part)
 {
     double tolerance = builder->options->tolerance;
-    return builder->recipe->part_count > 1 ? lrcsi_most(lrcsi_least(10 * tolerance, 1), 1e-4)
-                                           : tolerance;
+    if (builder->recipe->part_count == 1) {
+        return tolerance;
+    }
+    tolerance = fmin(tolerance * part_leave(builder, part), fmax(1.0, tolerance));
+    int kind = part->shape.kind;
+    int is_round =
+        kind == LRCS_SHAPE_SPHERE || kind == LRCS_SHAPE_DOME || kind == LRCS_SHAPE_PARABOLOID;
+    return is_round ? fmax(fmin(10.0 * tolerance, 1.0), 1e-4) : tolerance;
+}
+
+/* Among other parts a rim casts shadows, in doubt over twice its reach, some 0.4 R (pi/N)^2, along
+   2 pi R: less than half the tolerance of the disc that it bounds where N is this. */
+static void refine_rim(const scene_builder *builder, const lrcs_recipe_part *part,
+                       lrcs_divisions *divisions, lrcs_mesh_counts *counts)
+{
+    const lrcs_shape *shape = &part->shape;
+    double corners = 3.1416 * sqrt(5.0 / shape_tolerance(builder, part));
+    if (builder->recipe->part_count == 1 || divisions->along > 1 ||
+        shape->kind == LRCS_SHAPE_PLATE || shape->kind == LRCS_SHAPE_BOX || !(corners < 1e6)) {
+        return;
+    }
+    lrcs_divisions finer = {4 * (uint32_t)(corners / 4.0 + 1.0), 1};
+    if (finer.around > divisions->around &&
+        lrcsi_tessellate_counts(shape, &finer).facets <= builder->options->max_facets) {
+        *divisions = finer;
+        *counts = lrcsi_tessellate_counts(shape, &finer);
+    }
 }
 
 /* How a shape is divided, for the material it wears. */
@@ -96,9 +174,12 @@ static int count_shape(const scene_builder *builder, const lrcs_recipe_part *par
         return status;
     }
     lrcs_material material = lrcsi_binder_bare(&builder->binder, worn);
-    lrcs_fineness fineness = {shape_tolerance(builder), material.brdf,
+    lrcs_fineness fineness = {shape_tolerance(builder, part), material.brdf,
                               builder->options->max_facets};
     status = lrcs_shape_count(&part->shape, &fineness, divisions, counts);
+    if (status == LRCS_OK) {
+        refine_rim(builder, part, divisions, counts);
+    }
     return status == LRCS_OK ? LRCS_OK
                              : refuse_part(builder, status, part,
                                            "a shape, material and "
@@ -113,20 +194,33 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
         return count_shape(builder, part, &divisions, counts);
     }
     const lrcs_mesh *mesh = &builder->models[i];
-    *counts = (lrcs_mesh_counts){mesh->vertex_count, mesh->facet_count, mesh->material_count,
-                                 mesh->part_count, 0};
+    *counts = (lrcs_mesh_counts){
+        mesh->vertex_count, mesh->facet_count, mesh->material_count, mesh->part_count, 0, 0};
     return LRCS_OK;
 }
 
 typedef struct scene_totals {
     uint64_t vertices, facets, materials;
-    size_t scratch; /* the largest mesh made on the way */
+    size_t scratch; /* the most taken on the way, by a shape's mesh or for normals */
+    int curved;     /* normals are asked for, and some model has them */
 } scene_totals;
 
-static int count_scene(const scene_builder *builder, scene_totals *totals)
+/* Does part i get normals from its file? */
+static int is_curved(const scene_builder *builder, uint32_t i)
+{
+    return builder->options->normals != LRCS_NORMALS_FLAT && builder->recipe->part[i].file &&
+           lrcsi_smooth_given(&builder->models[i]);
+}
+
+static int count_scene(scene_builder *builder, scene_totals *totals)
 {
     const lrcs_recipe *recipe = builder->recipe;
-    *totals = (scene_totals){0, 0, lrcsi_binder_wardrobe(recipe) + UINT64_C(1), 0};
+    builder->area = 0.0;
+    for (uint32_t i = 0; i < recipe->part_count; i++) {
+        builder->area +=
+            part_area(&recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
+    }
+    *totals = (scene_totals){.materials = lrcsi_binder_wardrobe(recipe) + UINT64_C(1)};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         lrcs_mesh_counts counts;
         int status = count_part(builder, i, &counts);
@@ -134,6 +228,10 @@ static int count_scene(const scene_builder *builder, scene_totals *totals)
             return status;
         }
         size_t need = recipe->part[i].file ? 0 : lrcs_mesh_need(&counts);
+        if (is_curved(builder, i)) {
+            need = lrcsi_smooth_need(&builder->models[i]);
+            totals->curved = 1;
+        }
         totals->scratch = need > totals->scratch ? need : totals->scratch;
         totals->vertices += counts.vertices;
         totals->facets += counts.facets;
@@ -155,6 +253,7 @@ static size_t array_need(const scene_totals *totals, uint32_t parts)
         lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
         lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
         lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
+        lrcsi_work_bytes(totals->curved ? (size_t)totals->facets : 0, 3 * sizeof(lrcs_point)),
         lrcsi_work_bytes((size_t)totals->materials, sizeof(lrcs_material)),
         lrcsi_work_bytes(parts, sizeof(lrcs_part)),
     };
@@ -306,23 +405,68 @@ static int is_closed(const lrcs_shape *shape)
             shape->parts == LRCS_SHAPE_ALL);
 }
 
-/* How far a shape's placed vertices may be off. The mesh's own coordinates are good to a relative
-   (16 + rings) u (src/mesh/profile.c), but for what underflows. */
-static double misplacement(const lrcs_mesh *mesh, const lrcs_divisions *divisions,
-                           const lrcsi_placer *placer)
+static double mesh_extent(const lrcs_mesh *mesh)
 {
     double most = 0.0;
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         const double *x = mesh->vertex[i].x;
         most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
     }
+    return most;
+}
+
+/* How far a shape's placed vertices may be off. The mesh's own coordinates are good to a relative
+   (16 + rings) u (src/mesh/profile.c), but for what underflows. */
+static double misplacement(double most, const lrcs_divisions *divisions, const lrcsi_placer *placer)
+{
     double error = (17.0 + (double)divisions->along) * 0x1p-53 * most + 0x1p-1022;
     return lrcsi_placer_error(placer, most + error, error);
 }
 
+/* The least altitude of a facet of the part placed last, m: its area over its longest side. */
+static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
+{
+    double least = HUGE_VAL;
+    for (uint32_t i = 0; i < part->facet_count; i++) {
+        const uint32_t *corner = scene->facet[part->first_facet + i].corner;
+        double side[3][3];
+        double square = 0.0;
+        double area = 0.0;
+        for (int k = 0; k < 9; k++) {
+            side[k / 3][k % 3] = scene->vertex[corner[(k / 3 + 1) % 3]].x[k % 3] -
+                                 scene->vertex[corner[k / 3]].x[k % 3];
+        }
+        for (int k = 0; k < 3; k++) {
+            const double *s = side[k];
+            double n = side[0][(k + 1) % 3] * side[1][(k + 2) % 3] -
+                       side[0][(k + 2) % 3] * side[1][(k + 1) % 3];
+            square = fmax(square, s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+            area += n * n;
+        }
+        least = fmin(least, sqrt(area) / sqrt(square));
+    }
+    return least;
+}
+
+/* Rounding in placing moves corners by at most e: each tilts its facet by at most e over the
+   altitude on it, and changes its area by at most that part. Facets' own numbers hold per unit of
+   their area, and patches may be larger. */
+static void tilt_placed(const scene_piece *piece, const lrcs_scene *scene, double most,
+                        lrcs_part *part)
+{
+    double e = lrcsi_placer_error(&piece->placer, most, 0.0);
+    if (part->reach > 0.0 && e > 0.0) {
+        double wide = 3.0 * (1.0 + part->curvature.area_error);
+        part->tilted = 1.000001 * wide * e / least_altitude(scene, part);
+        part->curvature = part->curvature.turn > 0.0
+                              ? lrcsi_profile_blurred(&part->curvature, part->tilted)
+                              : part->curvature;
+    }
+}
+
 /* What holds of a placed shape by construction. Curvature outlives uniform scaling only; convexity
    any affine map, and with the winding flipped the outside stays outside under a mirror. */
-static void describe_shape(const scene_piece *piece, const lrcs_curvature *curvature,
+static void describe_shape(const scene_piece *piece, const lrcs_curvature *curvature, double reach,
                            lrcs_part *part)
 {
     const lrcs_recipe_part *recipe = piece->part;
@@ -334,6 +478,7 @@ static void describe_shape(const scene_piece *piece, const lrcs_curvature *curva
     part->kind = recipe->shape.kind;
     part->curvature = *curvature;
     part->curvature_known = plane || least == most;
+    part->reach = reach > 0.0 ? 1.000001 * most * reach + 2.0 * part->misplaced : 0.0;
     part->convex_patch = 1;
     part->thinnest = least * least_extent(&recipe->shape);
     part->solid = is_closed(&recipe->shape) && part->thinnest > 0.0;
@@ -380,11 +525,27 @@ static int add_shape(scene_builder *builder, scene_piece *piece, lrcs_work *work
                    : refuse_part(builder, status, piece->part, "a shape that can be meshed");
     }
     lrcs_part *part = &scene->part[scene->part_count];
-    describe_shape(piece, &curvature, part);
-    part->misplaced = misplacement(&mesh, &divisions, &piece->placer);
+    double most = mesh_extent(&mesh);
+    part->misplaced = misplacement(most, &divisions, &piece->placer);
+    describe_shape(piece, &curvature, lrcsi_tessellate_reach(&piece->part->shape, &divisions),
+                   part);
     status = add_piece(builder, &mesh, piece, scene);
+    if (status == LRCS_OK) {
+        tilt_placed(piece, scene, most, part);
+    }
     work->used = mark;
     return status;
+}
+
+static int add_normals(const scene_builder *builder, uint32_t i, const scene_piece *piece,
+                       lrcs_work *work, lrcs_scene *scene)
+{
+    int status =
+        lrcsi_smooth_run(&builder->models[i], &piece->placer, builder->options, work, scene);
+    return status == LRCS_OK ? LRCS_OK
+           : status == LRCS_E_MEMORY
+               ? refuse_memory(builder)
+               : refuse_part(builder, status, piece->part, "normals that its mesh has");
 }
 
 static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_scene *scene)
@@ -407,7 +568,10 @@ static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_sc
     lrcs_part *part = &scene->part[scene->part_count];
     part->kind = -1;
     part->curvature_known = 1;
-    return add_piece(builder, &builder->models[i], &piece, scene);
+    part->smoothed = lrcsi_smooth_given(&builder->models[i]);
+    status = add_piece(builder, &builder->models[i], &piece, scene);
+    return status == LRCS_OK && is_curved(builder, i) ? add_normals(builder, i, &piece, work, scene)
+                                                      : status;
 }
 
 static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *work,
@@ -421,12 +585,28 @@ static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *wor
     scene->facet_part = lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_part);
     scene->facet_smooth =
         lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_smooth);
+    if (totals->curved) { /* what no part fills stays flat */
+        scene->corner_normal =
+            lrcsi_work_take_zero(work, (size_t)totals->facets, 3 * sizeof *scene->corner_normal);
+    }
     scene->material = lrcsi_work_take(work, (size_t)totals->materials, sizeof *scene->material);
     scene->part = lrcsi_work_take_zero(work, parts, sizeof *scene->part);
     return scene->vertex && scene->facet && scene->facet_material && scene->facet_part &&
-                   scene->facet_smooth && scene->material && scene->part
+                   scene->facet_smooth && scene->material && scene->part &&
+                   (scene->corner_normal || !totals->curved)
                ? LRCS_OK
                : LRCS_E_MEMORY;
+}
+
+/* No normals at all where every facet is flat. */
+static void settle_normals(lrcs_scene *scene)
+{
+    int curved = 0;
+    for (uint32_t f = 0; scene->corner_normal && f < scene->facet_count && !curved; f++) {
+        const double *x = scene->corner_normal[3 * (size_t)f].x;
+        curved = x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0;
+    }
+    scene->corner_normal = curved ? scene->corner_normal : NULL;
 }
 
 /* Everything, in an area whose `used` the caller puts back on failure. */
@@ -456,6 +636,8 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
         }
     }
     scene->unmatched = lrcsi_binder_unmatched(&builder->binder);
+    scene->normals = builder->options->normals;
+    settle_normals(scene);
     work->used = mark;
     return LRCS_OK;
 }
@@ -468,9 +650,11 @@ int lrcs_scene_build(const lrcs_recipe *recipe, const lrcs_mesh *models,
         .recipe = recipe, .models = models, .options = options, .where = where, .bare = LRCS_NONE};
     lrcs_scene made;
     size_t mark = work->used;
-    if (!(options->tolerance > 0.0) || !isfinite(options->tolerance) || options->max_facets < 64) {
+    if (!(options->tolerance > 0.0) || !isfinite(options->tolerance) || options->max_facets < 64 ||
+        !lrcs_normals_text(options->normals)) {
         return lrcsi_where_text(where, LRCS_E_ARGUMENT, 0, 0, "options",
-                                "a tolerance above 0 and at least 64 facets", "", 0);
+                                "a tolerance above 0, at least 64 facets and a kind of normals", "",
+                                0);
     }
     int status = build(&builder, work, &made);
     if (status != LRCS_OK) {

@@ -44,6 +44,11 @@ uint64_t lrcs_scene_hash(const lrcs_scene *scene)
         hash = lrcsi_fnv_bits(hash, scene->facet_material[i], 4);
         hash = lrcsi_fnv_bits(hash, scene->facet_smooth[i], 4);
     }
+    for (size_t i = 0; scene->corner_normal && i < 3 * (size_t)scene->facet_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            hash = hash_double(hash, scene->corner_normal[i].x[k]);
+        }
+    }
     for (uint32_t i = 0; i < scene->material_count; i++) {
         hash = hash_material(hash, &scene->material[i]);
     }

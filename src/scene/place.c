@@ -114,6 +114,21 @@ void lrcsi_placer_run(const lrcsi_placer *placer, const double given[3], double 
     memcpy(placed, v, sizeof v);
 }
 
+void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3])
+{
+    const double *scale = placer->place.scale;
+    double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    if (placer->turns) {
+        turn((const double(*)[3])placer->joint, normal);
+    }
+    for (int i = 0; placer->scales && i < 3; i++) {
+        normal[i] *= least / scale[i];
+    }
+    if (placer->rotates) {
+        turn((const double(*)[3])placer->place.rotate, normal);
+    }
+}
+
 /* A bound on magnitudes, and on how far they are off. */
 typedef struct placed_bound {
     double most, error;

@@ -20,6 +20,10 @@ int lrcsi_placer_make(const lrcs_place *place, const lrcs_joint *joint, lrcsi_pl
 /* translate + rotate (scale (joint (given))), rounded. */
 void lrcsi_placer_run(const lrcsi_placer *placer, const double given[3], double placed[3]);
 
+/* A normal under the same: by the inverse transpose of the linear map, so that what was outward
+   stays so, but for length. */
+void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3]);
+
 /* How far a placed point may lie from the exact image of the true one under the same matrices: a
    bound on the distance, where the true point's coordinates are at most `most` and those given are
    within `error` of them. */

@@ -36,6 +36,11 @@ static int prepare_door(const lrcs_scene *scene)
                 return LRCS_E_INDEX;
             }
         }
+        for (int k = 0; scene->corner_normal && k < 9; k++) {
+            if (!(fabs(scene->corner_normal[3 * (size_t)f + (size_t)k / 3].x[k % 3]) <= 1.0)) {
+                return LRCS_E_NUMBER;
+            }
+        }
         if (scene->facet_material[f] >= scene->material_count ||
             scene->facet_part[f] >= scene->part_count) {
             return LRCS_E_INDEX;
@@ -155,8 +160,9 @@ static void prepare_effects(lrcs_prepared *p)
         p->two_sided |= material->two_sided != 0;
         p->glint |= material->brdf.A > 0;
         p->diffuse |= material->brdf.B > 0;
-        p->curved |= part->curvature.turn > 0 || !part->curvature_known;
+        p->curved |= part->reach > 0 || !part->curvature_known;
         p->articulated |= part->articulated != 0;
+        p->smooth |= lrcsi_prepared_normals(p, f) != NULL;
     }
 }
 
@@ -216,6 +222,9 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     if (status == LRCS_OK && p->solid && p->live > 0) {
         status = lrcsi_convex_exact(p, work, &p->convex);
     }
+    if (status == LRCS_OK && p->curved && !p->convex) {
+        status = lrcsi_nears_make(p, work);
+    }
     return status;
 }
 
@@ -231,6 +240,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     size_t proof = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
     proof = lrcsi_work_add(proof, lrcsi_tree_need(scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_nears_need(scene));
     return lrcsi_work_add(need, proof);
 }
 

@@ -10,6 +10,7 @@
 
 #include "mesh/topology.h"
 #include "mesh/touch.h"
+#include "scene/near.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
    (base/exact.h) ask for that. */
@@ -40,7 +41,9 @@ struct lrcs_prepared {
     int two_sided;      /* some live facet is */
     int glint, diffuse; /* some live facet's A, B is not 0 */
     int curved;         /* some live part was tessellated from a curved shape */
+    lrcsi_nears nears;  /* where curved shapes stand among others; else nears.reach is NULL */
     int articulated;    /* some part stands on a joint */
+    int smooth;         /* some live facet has curved normals */
 };
 
 /* The material of a facet. */
@@ -53,6 +56,14 @@ static inline const lrcs_material *lrcsi_prepared_material(const lrcs_prepared *
 static inline const double *lrcsi_prepared_corner(const lrcs_prepared *p, uint32_t facet, int k)
 {
     return p->vertex[p->scene->facet[facet].corner[k]].x;
+}
+
+/* The unit normals at a facet's corners, or NULL where it is flat. */
+static inline const lrcs_point *lrcsi_prepared_normals(const lrcs_prepared *p, uint32_t facet)
+{
+    const lrcs_point *n =
+        p->scene->corner_normal ? &p->scene->corner_normal[3 * (size_t)facet] : NULL;
+    return n && (n->x[0] != 0 || n->x[1] != 0 || n->x[2] != 0) ? n : NULL;
 }
 
 /* An area in scaled units, in square metres. Exact but for overflow and underflow. */

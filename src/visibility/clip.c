@@ -137,6 +137,47 @@ void lrcsi_clip_halve(const lrcsi_clip_polygon *polygon, lrcsi_clip_polygon *lef
     polygon_split(polygon, &line, left, right);
 }
 
+/* Do all corners lie farther than `width` to one side of a line? */
+static int sides_clear(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *line, double width)
+{
+    double clear = width * hypot(line->to[0], line->to[1]);
+    int left = 1;
+    int right = 1;
+    for (uint32_t i = 0; i < polygon->count; i++) {
+        double side = line_side(line, polygon->corner[i]);
+        left &= side > clear;
+        right &= side < -clear;
+    }
+    return left || right;
+}
+
+int lrcsi_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *line,
+                     const double low[2], const double high[2], double width)
+{
+    const lrcsi_clip_region box = {.low = {low[0], low[1]}, .high = {high[0], high[1]}};
+    return !box_apart((const double(*)[2])polygon->corner, polygon->count, &box, width) &&
+           !((line->to[0] != 0 || line->to[1] != 0) && sides_clear(polygon, line, width));
+}
+
+int lrcsi_clip_middle(const lrcsi_clip_polygon *polygon, double margin, double middle[2])
+{
+    middle[0] = middle[1] = 0;
+    for (uint32_t i = 0; i < polygon->count; i++) {
+        middle[0] += polygon->corner[i][0] / polygon->count;
+        middle[1] += polygon->corner[i][1] / polygon->count;
+    }
+    for (uint32_t i = 0; i < polygon->count; i++) {
+        const double *p = polygon->corner[i];
+        const double *q = polygon->corner[i + 1 < polygon->count ? i + 1 : 0];
+        lrcsi_clip_line side = {{p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}, 0};
+        double clear = 1.01 * margin * hypot(side.to[0], side.to[1]);
+        if (clear > 0 && !(line_side(&side, middle) > clear)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 int lrcsi_clip_overlap(const lrcsi_clip_polygon *polygon, const lrcsi_clip_region *region)
 {
     if (box_apart((const double(*)[2])polygon->corner, polygon->count, region, region->width)) {

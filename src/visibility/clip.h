@@ -85,6 +85,15 @@ void lrcsi_clip_start(lrcsi_clip *clip, const lrcsi_clip_polygon *polygon);
 /* Takes a region away. 0 where the pieces would outgrow the lists; then nothing was taken. */
 int lrcsi_clip_subtract(lrcsi_clip *clip, const lrcsi_clip_region *region);
 
+/* May a segment of a line, or what else is in its box (where the line has no direction), come
+   within `width` of a piece? 0: surely not. */
+int lrcsi_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *line,
+                     const double low[2], const double high[2], double width);
+
+/* A point inside a piece, farther than `margin` from each of its sides: the mean of its corners; 0
+   where that one is not. */
+int lrcsi_clip_middle(const lrcsi_clip_polygon *polygon, double margin, double middle[2]);
+
 /* The pieces' area. */
 double lrcsi_clip_area(const lrcsi_clip *clip);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Analytic visibility of contested facets. The facet is halved until few occluders overlap a cell;
-   a cell that one of them covers is hidden, one that none overlaps is visible, and from the others
-   the few are cut out. So the work grows with the occluders near by, not with their square.
+   of a cell that nothing divides (visibility/calm.h) one sample tells all; one that an occluder
+   covers is hidden, one that none overlaps is visible, and from the others the few are cut out. So
+   the work grows with the occluders near the edges of shadows, not with the square of all.
 
    Error. In the facet's frame (visibility/target.c) corners are off by at most e = 10 u r, r the
    largest distance in space of the corners at hand from the facet's first one: R's rows are
@@ -111,6 +112,8 @@ static void cell_halve(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint3
 {
     lrcsi_occlude_cell half = {.first = cell_list(cell, kept), .count = kept};
     half.depth = cell->depth + 1;
+    half.edge_first = cell->edge_first;
+    half.edge_count = cell->edge_count;
     half.stale = 4 * (size_t)kept > 3 * (size_t)cell->count ? cell->stale + 1 : 0;
     lrcsi_clip_polygon other;
     lrcsi_clip_halve(&cell->shape, &half.shape, &other);
@@ -118,6 +121,28 @@ static void cell_halve(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint3
     o->stack[o->top++] = half;
     half.shape = other;
     o->stack[o->top++] = half;
+}
+
+/* Narrows the list of what may divide the cell. What the cell shows where nothing does, a
+   lrcsi_query_answer; undecided elsewhere. */
+static int cell_calm(lrcsi_occluding *o, lrcsi_occlude_cell *cell)
+{
+    if (cell->edge_count == LRCS_NONE) {
+        return LRCSI_QUERY_UNDECIDED;
+    }
+    uint32_t kept = lrcsi_calm_keep(&o->calm, &cell->shape, cell->edge_first, cell->edge_count);
+    cell->edge_first += kept == cell->edge_count ? 0 : cell->edge_count;
+    cell->edge_count = kept;
+    return kept == 0 ? lrcsi_calm_answer(&o->calm, &o->facets, &cell->shape)
+                     : LRCSI_QUERY_UNDECIDED;
+}
+
+/* All of the cell is visible: its one piece. */
+static void cell_show(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
+{
+    lrcsi_clip_start(&o->clip, &cell->shape);
+    o->off += U * o->target.diameter * o->target.perimeter;
+    o->area += area;
 }
 
 /* Does one cell after the other until one has shown pieces: 1; 0 where no cell is left. Each
@@ -130,7 +155,12 @@ static int occlude_cells(lrcsi_occluding *o)
         if (!(area > 0)) {
             continue; /* no area, or less than the splits' error already holds */
         }
-        uint32_t kept = cell_keep(o, &cell, area);
+        int shows = cell_calm(o, &cell);
+        if (shows == LRCSI_QUERY_VISIBLE) {
+            cell_show(o, &cell, area);
+            return 1;
+        }
+        uint32_t kept = shows == LRCSI_QUERY_HIDDEN ? LRCS_NONE : cell_keep(o, &cell, area);
         if (kept == LRCS_NONE) {
             continue;
         }
@@ -225,7 +255,8 @@ static int contested_open(lrcsi_occluding *o, uint32_t facet)
         o->list[i] = i;
     }
     if (some) {
-        o->stack[0] = (lrcsi_occlude_cell){.first = 0, .count = o->count};
+        uint32_t edges = lrcsi_calm_start(&o->calm, o->contest, &o->target);
+        o->stack[0] = (lrcsi_occlude_cell){.count = o->count, .edge_count = edges};
         lrcsi_clip_triangle((const double(*)[2])o->target.corner, &o->stack[0].shape);
         o->top = 1;
     }
@@ -310,6 +341,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_clip_need(), lrcsi_grid_facets_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_calm_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_DEPTH + 2, sizeof(lrcsi_occlude_cell)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 2 * sizeof(uint32_t) + 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_occluder)));
@@ -327,7 +359,8 @@ int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding 
     o->stack = lrcsi_work_take(work, MOST_DEPTH + 2, sizeof *o->stack);
     int status = LRCS_E_MEMORY;
     if (o->uniform && o->asked && o->candidate && o->stack &&
-        lrcsi_clip_make(work, &o->clip) == LRCS_OK) {
+        lrcsi_clip_make(work, &o->clip) == LRCS_OK &&
+        lrcsi_calm_make(contest->view->prepared, work, &o->calm) == LRCS_OK) {
         status = lrcsi_grid_facets(contest->view, work, &o->facets);
     }
     if (status == LRCS_OK) {

@@ -5,6 +5,7 @@
 #ifndef LRCSI_OCCLUDE_H
 #define LRCSI_OCCLUDE_H
 
+#include "visibility/calm.h"
 #include "visibility/clip.h"
 #include "visibility/occluder.h"
 #include "visibility/visible.h"
@@ -12,7 +13,8 @@
 /* A part of the facet that is yet to be done, and the occluders that may hide some of it. */
 typedef struct lrcsi_occlude_cell {
     lrcsi_clip_polygon shape;
-    uint32_t first, count; /* in list */
+    uint32_t first, count;           /* in list */
+    uint32_t edge_first, edge_count; /* in calm.list; LRCS_NONE: not told */
     uint32_t stale, depth;
 } lrcsi_occlude_cell;
 
@@ -30,6 +32,7 @@ typedef struct lrcsi_occluding {
 
     size_t mark;          /* of the work area, before the facet */
     lrcsi_target target;  /* of a contested facet; of others once a piece has been asked for */
+    lrcsi_calm calm;      /* what may divide it */
     lrcsi_clip clip;      /* in its list, the pieces last found */
     lrcsi_visible answer; /* of a facet that is not contested */
     int contested;

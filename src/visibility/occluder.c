@@ -298,6 +298,34 @@ static int region_make(const occlude_caster *c, double diameter, lrcsi_occluder 
     return 1;
 }
 
+/* --- contacts --------------------------------------------------------------------------------- */
+
+double lrcsi_occluder_contact(const lrcsi_target *t, uint32_t other, double low[2], double high[2])
+{
+    occlude_caster c = {.above = {1, 1, 1}};
+    lrcsi_clip_region box = {.low = {HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL}};
+    lrcsi_clip_region all = box;
+    double slip = 0;
+    c.reach = lrcsi_target_frame(t->view, t->facet, other, c.corner);
+    caster_heights(t, other, &c);
+    for (int k = 0; k < 3; k++) {
+        double at[2];
+        region_grow(&all, c.corner[k]);
+        if (c.above[k] == 0) {
+            region_grow(&box, c.corner[k]);
+        } else if (c.above[k] * c.above[(k + 1) % 3] < 0) {
+            slip = lrcsi_most(slip, side_cut(&c, k, at));
+            region_grow(&box, at);
+        }
+    }
+    int told = box.low[0] <= box.high[0] && isfinite(slip);
+    for (int k = 0; k < 2; k++) {
+        low[k] = told ? box.low[k] - slip : all.low[k];
+        high[k] = told ? box.high[k] + slip : all.high[k];
+    }
+    return c.reach;
+}
+
 /* --- one occluder ----------------------------------------------------------------------------- */
 
 int lrcsi_occluder_make(const lrcsi_target *t, uint32_t other, lrcsi_occluder *occluder)

@@ -20,4 +20,10 @@ typedef struct lrcsi_occluder {
    than the error, which is set either way, and so is the outline. */
 int lrcsi_occluder_make(const lrcsi_target *target, uint32_t other, lrcsi_occluder *occluder);
 
+/* The box of where `other`, which touches the target's inside, meets the target's plane: of all of
+   `other` where that is the same plane, or cannot be told. As computed; returns the largest
+   distance, in space, of a corner from the target's first. */
+double lrcsi_occluder_contact(const lrcsi_target *target, uint32_t other, double low[2],
+                              double high[2]);
+
 #endif

@@ -3,6 +3,7 @@
 #include "visibility/query.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "visibility/sample.h"
 
@@ -70,6 +71,14 @@ typedef struct query_line {
     uint32_t y, item, end; /* the row of cells at hand, and its items yet to be looked at */
 } query_line;
 
+/* Stands the line in its grid cells; its point is known. */
+static void line_place(query_line *line)
+{
+    view_of(line->grid->view, line->point, line->xy);
+    line->cells = lrcsi_grid_cells(line->grid, line->xy, line->xy);
+    line->y = line->cells.y0;
+}
+
 /* 0 where no point inside the facet was found. */
 static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet)
 {
@@ -78,9 +87,7 @@ static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet
     if (line->sense == 0) {
         return 0;
     }
-    view_of(facets->view, line->point, line->xy);
-    line->cells = lrcsi_grid_cells(facets, line->xy, line->xy);
-    line->y = line->cells.y0;
+    line_place(line);
     return 1;
 }
 
@@ -105,22 +112,37 @@ static uint32_t line_next(query_line *line)
     }
 }
 
-int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
+/* Is the facet hidden on its line? */
+static int line_answer(query_line *line)
 {
-    query_line line;
-    if (!line_start(&line, facets, facet)) {
-        return LRCSI_QUERY_UNDECIDED;
-    }
     int answer = LRCSI_QUERY_VISIBLE;
     uint32_t other;
-    while ((other = line_next(&line)) != LRCS_NONE) {
-        int nearer = lrcsi_sample_nearer(facets->view, other, facet, line.point, line.sense);
+    while ((other = line_next(line)) != LRCS_NONE) {
+        int nearer =
+            lrcsi_sample_nearer(line->grid->view, other, line->facet, line->point, line->sense);
         if (nearer > 0) {
             return LRCSI_QUERY_HIDDEN;
         }
         answer = nearer == 0 ? LRCSI_QUERY_UNDECIDED : answer;
     }
     return answer;
+}
+
+int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
+{
+    query_line line;
+    return line_start(&line, facets, facet) ? line_answer(&line) : LRCSI_QUERY_UNDECIDED;
+}
+
+int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3])
+{
+    query_line line = {.grid = facets, .facet = facet, .sense = 1};
+    memcpy(line.point, point, sizeof line.point);
+    if (!lrcsi_sample_covers(facets->view, facet, point)) {
+        return LRCSI_QUERY_UNDECIDED;
+    }
+    line_place(&line);
+    return line_answer(&line);
 }
 
 /* A region is named by its first facet, which is asked first; where no answer was found there, each

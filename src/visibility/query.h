@@ -14,6 +14,9 @@ enum lrcsi_query_answer {
 /* Asks at the facet's centroid, or at another inside point where that one rounds outside. */
 int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet);
 
+/* Asks at a point of the facet, rounded; undecided where the facet does not cover it. */
+int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3]);
+
 /* Asks for every uniform facet, once a region: answer[facet], a lrcsi_query_answer. */
 void lrcsi_query_uniform(const lrcsi_contest *contest, const lrcsi_grid *facets,
                          unsigned char *answer);

@@ -173,7 +173,7 @@ static int sample_corner(const lrcsi_view *view, uint32_t first, uint32_t second
         int i = n / 3;
         int j = n % 3;
         if (points_agree(lrcsi_prepared_corner(view->prepared, first, i),
-                       lrcsi_prepared_corner(view->prepared, second, j))) {
+                         lrcsi_prepared_corner(view->prepared, second, j))) {
             int side = sample_sides_at(view, first, i, second, j);
             return side != 0 ? side : -sample_sides_at(view, second, j, first, i);
         }

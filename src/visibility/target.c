@@ -48,6 +48,11 @@ double lrcsi_target_frame(const lrcsi_view *view, uint32_t target, uint32_t face
     return reach;
 }
 
+double lrcsi_target_place(const lrcsi_target *t, const double x[3], double out[2])
+{
+    return frame_point(t->view, lrcsi_prepared_corner(t->view->prepared, t->facet, 0), x, out);
+}
+
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
 {
     *t = (lrcsi_target){.view = view, .facet = facet};
@@ -98,9 +103,10 @@ void lrcsi_target_weights(const lrcsi_target *t, const double at[2], double weig
     const double *third = t->corner[(k + 2) % 3];
     double shares[3] = {0, 0, 1}; /* of corners k, k + 1, k + 2 */
     if (at[0] != third[0] || at[1] != third[1]) {
-        double to[2] = {t->corner[(k + 1) % 3][0] - from[0], t->corner[(k + 1) % 3][1] - from[1]};
-        double top[2] = {third[0] - from[0], third[1] - from[1]};
-        double p[2] = {at[0] - from[0], at[1] - from[1]};
+        const double to[2] = {t->corner[(k + 1) % 3][0] - from[0],
+                              t->corner[(k + 1) % 3][1] - from[1]};
+        const double top[2] = {third[0] - from[0], third[1] - from[1]};
+        const double p[2] = {at[0] - from[0], at[1] - from[1]};
         double square = to[0] * to[0] + to[1] * to[1];
         double height = to[0] * top[1] - to[1] * top[0];
         double foot = (to[0] * top[0] + to[1] * top[1]) / square;

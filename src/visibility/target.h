@@ -20,6 +20,9 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *tar
 /* Corner k of a facet, counted so that they run counter-clockwise in the view. */
 const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k);
 
+/* A scene point in the target's frame; returns its distance, in space, from the first corner. */
+double lrcsi_target_place(const lrcsi_target *target, const double x[3], double out[2]);
+
 /* Corners of any facet in the target's frame, counter-clockwise; returns the largest distance, in
    space, of one from the target's first. */
 double lrcsi_target_frame(const lrcsi_view *view, uint32_t target, uint32_t facet,

@@ -40,6 +40,8 @@ static void require_sound(const lrcs_mesh *mesh)
     for (uint32_t i = 0; i < mesh->facet_count; i++) {
         for (int k = 0; k < 3; k++) {
             require(mesh->facet[i].corner[k] < mesh->vertex_count);
+            require(!mesh->facet_normal || mesh->facet_normal[i].corner[k] == LRCS_NONE ||
+                    mesh->facet_normal[i].corner[k] < mesh->normal_count);
         }
         require(mesh->facet_part[i] < mesh->part_count);
         require(mesh->facet_material[i] == LRCS_NONE ||

@@ -165,7 +165,6 @@ static void arrays_and_cube_at_sixty_and_eighty_degrees(void **state)
     }
 }
 
-
 /* The last degrees before edge-on, where tan^2 / s^2 is known to less and less, then not at all:
    there the glint is nothing, and the bound may not take it for its peak. */
 static void a_plate_nearly_edge_on_keeps_a_useful_bound(void **state)

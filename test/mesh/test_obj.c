@@ -60,7 +60,8 @@ static obj_case open_good(const char *text)
     return c;
 }
 
-#define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+#define SQUARE  "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+#define NORMALS "vn 1 0 0\nvn 0 1 0\nvn 0 0 1\n"
 
 /* The corners of a file's facets, from 0, as "0,1,2 0,2,3". */
 static void check_facets(const char *text, const char *want)
@@ -102,8 +103,8 @@ static void all_forms_of_corners_are_read(void **state)
 {
     (void)state;
     check_facets(SQUARE "f 1/1 2/2 3/3\n", "0,1,2");
-    check_facets(SQUARE "f 1//1 2//2 3//3\n", "0,1,2");
-    check_facets(SQUARE "f 1/9/9 2/-7/3 3/0/+2\n", "0,1,2");
+    check_facets(SQUARE NORMALS "f 1//1 2//2 3//3\n", "0,1,2");
+    check_facets(SQUARE NORMALS "f 1/9/1 2/-7/3 3/0/+2\n", "0,1,2");
     check_facets(SQUARE "f 1/ 2// 3/4/\n", "0,1,2");
     check_facets(SQUARE "f +1 02 0000000000000000000000003\n", "0,1,2");
 }
@@ -111,7 +112,74 @@ static void all_forms_of_corners_are_read(void **state)
 static void negative_indices_count_back_from_the_face(void **state)
 {
     (void)state;
-    check_facets(SQUARE "f -4 -3 -2\nv 5 5 5\nf -1//-1 -2/-2 -5\n", "0,1,2 4,3,0");
+    check_facets(SQUARE "f -4 -3 -2\nv 5 5 5\nvn 1 0 0\nf -1//-1 -2/-2 -5\n", "0,1,2 4,3,0");
+}
+
+/* The normals' indices at the corners of every facet, "-" where a corner has none. */
+static void check_corner_normals(const char *text, uint32_t count, const char *want)
+{
+    obj_case c = open_good(text);
+    char got[256] = "";
+    assert_int_equal(c.mesh.normal_count, count);
+    for (uint32_t i = 0; i < 3 * c.mesh.facet_count; i++) {
+        uint32_t normal = c.mesh.facet_normal[i / 3].corner[i % 3];
+        char word[16] = "-";
+        if (normal != LRCS_NONE) {
+            snprintf(word, sizeof word, "%lu", (unsigned long)normal);
+        }
+        strcat(got, i == 0 ? "" : i % 3 == 0 ? " " : ",");
+        strcat(got, word);
+    }
+    assert_string_equal(got, want);
+    close_case(&c);
+}
+
+static void normals_are_read_as_they_are_given(void **state)
+{
+    (void)state;
+    static const char text[] = SQUARE "vn 0 0 2\nvn -.5 1e-3 0 7\nvn 0 0 0\nf 1//3 2//1 3//2\n";
+    obj_case c = open_good(text);
+    assert_int_equal(c.mesh.normal_count, 3);
+    check_same(c.mesh.normal[0].x[2], 2.0);
+    check_same(c.mesh.normal[1].x[0], -0.5);
+    check_same(c.mesh.normal[1].x[1], 1e-3);
+    check_same(c.mesh.normal[2].x[2], 0.0);
+    close_case(&c);
+    check_corner_normals(text, 3, "2,0,1");
+    check_corner_normals(SQUARE NORMALS "f 1/7/2 2//3 3/7 4/\n", 3, "1,2,- 1,-,-");
+    check_corner_normals(SQUARE "f 1//3 2//2 3//1\n" NORMALS "f 1//-1 2//-2 3//-3\n", 3,
+                         "2,1,0 2,1,0");
+}
+
+static void a_file_without_normals_stores_none(void **state)
+{
+    (void)state;
+    obj_case c = open_good(SQUARE "f 1 2 3\n");
+    assert_int_equal(c.mesh.normal_count, 0);
+    assert_null(c.mesh.normal);
+    assert_null(c.mesh.facet_normal);
+    close_case(&c);
+}
+
+static void indices_of_normals_out_of_range_are_refused(void **state)
+{
+    (void)state;
+    static const char item[] = "normal of a face corner";
+    check_failure(SQUARE "f 1 2//1 3\n", LRCS_E_INDEX, 36, 5, item, "2//1");
+    check_failure(SQUARE "f 1 2/1/0 3\n", LRCS_E_INDEX, 36, 5, item, "2/1/0");
+    check_failure(SQUARE "f 1 2//-1 3\nvn 0 0 1\n", LRCS_E_INDEX, 36, 5, item, "2//-1");
+    check_failure(SQUARE "f 1 2//2 3\nvn 0 0 1\n", LRCS_E_INDEX, 36, 5, item, "2//2");
+    check_failure(SQUARE "f 1 2//4294967297 3\nvn 0 0 1\n", LRCS_E_INDEX, 36, 5, item,
+                  "2//4294967297");
+}
+
+static void normals_that_are_no_numbers_are_refused(void **state)
+{
+    (void)state;
+    check_failure("vn 1 x 3\n", LRCS_E_SYNTAX, 5, 1, "vertex normal", "x");
+    check_failure("vn 1 2\n", LRCS_E_SYNTAX, 6, 1, "vertex normal", "end of line");
+    check_failure("vn 0 nan 0\n", LRCS_E_NUMBER, 5, 1, "vertex normal", "nan");
+    check_failure("vn 0 2e100 0\n", LRCS_E_NUMBER, 5, 1, "vertex normal", "2e100");
 }
 
 static void positive_indices_may_point_forward(void **state)
@@ -526,6 +594,10 @@ int main(void)
         cmocka_unit_test(polygons_are_fanned_from_their_first_vertex),
         cmocka_unit_test(all_forms_of_corners_are_read),
         cmocka_unit_test(negative_indices_count_back_from_the_face),
+        cmocka_unit_test(normals_are_read_as_they_are_given),
+        cmocka_unit_test(a_file_without_normals_stores_none),
+        cmocka_unit_test(indices_of_normals_out_of_range_are_refused),
+        cmocka_unit_test(normals_that_are_no_numbers_are_refused),
         cmocka_unit_test(positive_indices_may_point_forward),
         cmocka_unit_test(coordinates_are_read_to_the_last_bit),
         cmocka_unit_test(weights_and_vertex_colours_are_passed_over),

@@ -25,7 +25,7 @@ static void a_table_is_a_power_of_two_and_at_most_half_full(void **state)
 static void the_need_serves_at_any_alignment_and_the_blocks_are_cleared(void **state)
 {
     (void)state;
-    const lrcs_mesh_counts counts = {7, 5, 3, 2, 11};
+    const lrcs_mesh_counts counts = {7, 5, 3, 2, 11, 6};
     size_t need = lrcs_mesh_need(&counts);
     for (size_t shift = 0; shift < LRCS_WORK_ALIGN; shift++) {
         unsigned char *area = malloc(need + shift);
@@ -39,6 +39,7 @@ static void the_need_serves_at_any_alignment_and_the_blocks_are_cleared(void **s
         for (uint32_t i = 0; i < counts.facets; i++) {
             assert_int_equal(mesh.facet_material[i], LRCS_NONE);
             assert_int_equal(mesh.facet_part[i] | mesh.facet_smooth[i], 0);
+            assert_int_equal(mesh.facet_normal[i].corner[2], LRCS_NONE);
         }
         assert_int_equal(mesh.notices, 0);
         assert_null(mesh.material_file);
@@ -50,8 +51,8 @@ static void the_need_serves_at_any_alignment_and_the_blocks_are_cleared(void **s
 static void counts_beyond_memory_need_more_than_there_is(void **state)
 {
     (void)state;
-    const lrcs_mesh_counts counts = {LRCS_NONE - 1, LRCS_NONE - 1, LRCS_NONE - 1, LRCS_NONE - 1,
-                                     SIZE_MAX};
+    const lrcs_mesh_counts counts = {LRCS_NONE - 1, LRCS_NONE - 1, LRCS_NONE - 1,
+                                     LRCS_NONE - 1, SIZE_MAX,      LRCS_NONE - 1};
     assert_int_equal(lrcs_mesh_need(&counts), SIZE_MAX);
     unsigned char area[256];
     lrcs_work work = lrcs_work_make(area, sizeof area);

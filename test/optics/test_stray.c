@@ -261,6 +261,38 @@ static void a_finer_patch_strays_less(void **state)
     }
 }
 
+/* Over dense angles in the range, and never more than the largest by 1 % of a step's growth. */
+static void the_most_of_f_r_cos_is_its_largest_value_over_the_range(void **state)
+{
+    (void)state;
+    static const double slope[] = {1e-6, 0.05, 0.2, 0.8, 10};
+    static const double centre[] = {0, 0.1, 0.7, 1.5, 1.8};
+    static const double turn[] = {1e-7, 0.05, 0.3, 1.2};
+    for (int i = 0; i < 5 * 5 * 4; i++) {
+        lrcs_brdf brdf = {2, 0.25, slope[i % 5], 3};
+        double theta = centre[i / 5 % 5];
+        double half = turn[i / 25];
+        lrcsi_reflection most = lrcsi_reflect_most(&brdf, theta, half);
+        double glint = 0;
+        double diffuse = 0;
+        for (int k = 0; k <= 20000; k++) {
+            double angle = fabs(theta - half + 2 * half * k / 20000);
+            double t = tan(angle);
+            if (angle < 1.5707963) {
+                lrcsi_reflection at = lrcsi_reflect(&brdf, t * t, 0);
+                glint = fmax(glint, at.glint / cos(angle));
+                diffuse = fmax(diffuse, at.diffuse / cos(angle));
+            }
+        }
+        check_most(glint, most.glint);
+        check_most(diffuse, most.diffuse);
+        check_most(most.diffuse, diffuse * 1.001 + 1e-9);
+        if (brdf.s >= 0.05) { /* the samples see narrower peaks not at all */
+            check_most(most.glint, glint * 1.01 + 1e-300);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -270,6 +302,7 @@ int main(void)
         cmocka_unit_test(a_patch_wholly_turned_away_has_no_error),
         cmocka_unit_test(no_corner_of_the_domain_gives_nan_or_less_than_zero),
         cmocka_unit_test(a_finer_patch_strays_less),
+        cmocka_unit_test(the_most_of_f_r_cos_is_its_largest_value_over_the_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,7 +66,7 @@ static lrcs_recipe_part shape_part(int kind, double a, double b, double c)
 static int build_scene(const lrcs_recipe *recipe, const lrcs_mesh *models, void **area,
                        lrcs_scene *scene, lrcs_where *where)
 {
-    const lrcs_build_options options = {1e-2, 4096};
+    const lrcs_build_options options = {1e-2, 4096, LRCS_NORMALS_FLAT};
     size_t need = lrcs_scene_need(recipe, models, &options);
     *area = malloc(need);
     assert_non_null(*area);
@@ -371,7 +371,8 @@ static void unfit_shapes_materials_and_options_are_refused(void **state)
     part = model_part("m");
     assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_NUMBER);
     assert_string_equal(where.item, "material");
-    static const lrcs_build_options options[3] = {{0.0, 64}, {(double)NAN, 64}, {1e-3, 63}};
+    static const lrcs_build_options options[4] = {
+        {0.0, 64, 0}, {(double)NAN, 64, 0}, {1e-3, 63, 0}, {1e-3, 64, LRCS_NORMALS_SMOOTH + 1}};
     recipe.binding_count = 0;
     for (size_t i = 0; i < ROWS(options); i++) {
         lrcs_work work = lrcs_work_make(NULL, 0);
@@ -387,7 +388,7 @@ static void too_small_an_area_is_refused_until_it_suffices(void **state)
     lrcs_mesh meshes[2] = {tetra(), {0}};
     lrcs_recipe_part parts[2] = {model_part("a"), shape_part(LRCS_SHAPE_CYLINDER, 1.0, 2.0, 0.0)};
     lrcs_recipe recipe = {.part = parts, .part_count = 2};
-    const lrcs_build_options options = {1e-1, 64};
+    const lrcs_build_options options = {1e-1, 64, LRCS_NORMALS_FLAT};
     size_t need = lrcs_scene_need(&recipe, meshes, &options);
     int status = LRCS_E_MEMORY;
     for (size_t size = 0; status == LRCS_E_MEMORY && size <= need; size += 13) {

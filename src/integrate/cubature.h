@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* The integral of f_r cos(theta) over flat triangles whose normals are interpolated linearly
+   between their corners, by adaptive cubature. Its own error is an ESTIMATE. */
+#ifndef LRCSI_CUBATURE_H
+#define LRCSI_CUBATURE_H
+
+#include "base/sum.h"
+#include "optics/reflect.h"
+
+/* A sum over triangles of one surface. Areas are in any one unit. */
+typedef struct lrcsi_cubature {
+    const lrcs_brdf *brdf;
+    double tolerance;      /* relative error aimed at; grows where the work would */
+    double whole;          /* area of all triangles to come, or about that */
+    double slip;           /* by how much a normal may be off where it is evaluated, rad */
+    lrcsi_reflection most; /* bounds on the parts of f_r cos over all of them */
+    double least;          /* a diffuse f_r cos that is nowhere undercut */
+    double nothing;        /* f_r cos below this is not looked for */
+    double had;            /* f_r cos that other surfaces have to set against this one's: an error
+                              of the tolerance times this, per area, is small enough */
+    lrcsi_sum glint, diffuse;
+    double estimate; /* of the cubature's error */
+    double rounding; /* bound on the error that rounding adds to the cubature's own sum */
+    uint32_t splits;
+} lrcsi_cubature;
+
+/* An empty sum over surfaces whose normals lie between these three (as below): whole and slip
+   are the caller's to set, and nothing and had where there are other surfaces. */
+lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
+                                   double tolerance);
+
+/* f_r cos at one normal, of any length. */
+double lrcsi_cubature_at(const lrcsi_cubature *sum, const double normal[3]);
+
+/* Given: the normals at the corners, view axes (z to the laser), of about unit length; area.
+   Normals with z <= 0 see nothing of the laser and add nothing. */
+void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area);
+
+#endif

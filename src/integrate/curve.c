@@ -1,0 +1,336 @@
+/* SPDX-License-Identifier: MIT */
+/* Facets with curved normals. It decides over which region of a facet its normals are integrated,
+   and what not knowing that region may cost; how the integral is done is cubature.c.
+
+   Let F be the most that f_r cos reaches over the facet's normals, P its projected area and I the
+   integral over all of it. What is visible, V, has an area in [low, high], so
+       I - F (P - low) <= integral over V <= F high,  and it lies in [0, I].
+   Where only an area is known, any value in that interval is off by at most its longer part. Pieces
+   differ from V by an area of at most high - low, both ways, and by their corners' rounding
+   (visibility/occlude.h): F times as much.
+
+   Rounding: normals in view axes are off by 12 u (a rotation's rows, three products, two sums), by
+   4 u more at each of 64 halvings at most, and by 8 u at a rule's point: 2^-44 covers it. */
+#include "integrate/curve.h"
+
+#include <math.h>
+
+#include "base/range.h"
+#include "integrate/cubature.h"
+
+#define U          0x1p-53
+#define FOUR_PI    12.566370614359172954
+#define SLIP_WHOLE 0x1p-44
+
+/* The cubature aims at this share of the tolerance, within what rules of its order can do. */
+#define CUBATURE_SHARE 0.1
+#define CUBATURE_LEAST 1e-9
+#define CUBATURE_MOST  1e-2
+
+/* All facets wanted. What is had of them tells how little matters on the next: a dark sliver is
+   worth no more work than it can add. Each may err by its share of the sum, by area and by count:
+   all together by twice the aim. */
+typedef struct curve_all {
+    const lrcsi_view *view;
+    const lrcsi_plan *plan;
+    double tolerance;
+    double nothing;   /* f_r cos that is nothing to the brightest of them */
+    double projected; /* area of all */
+    double count;
+    double had; /* integral of f_r cos over what is visible of those done */
+} curve_all;
+
+/* A facet at work. */
+typedef struct curve_job {
+    const lrcsi_view *view;
+    uint32_t facet;
+    lrcsi_tilt tilt;
+    lrcs_brdf brdf;
+    double normal[3][3]; /* at its corners, view axes, on the side that is seen */
+    lrcsi_cubature sum;
+} curve_job;
+
+int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcs_prepared *p = view->prepared;
+    return lrcsi_prepared_normals(p, facet) && view->facing[facet] != 0 &&
+           lrcsi_view_reflects(view, facet);
+}
+
+static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
+{
+    const lrcsi_view *view = all->view;
+    const lrcs_point *n = lrcsi_prepared_normals(view->prepared, facet);
+    job->view = view;
+    job->facet = facet;
+    job->tilt = lrcsi_view_tilt(view, facet);
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double *row = view->R[k];
+            job->normal[i][k] = view->facing[facet] *
+                                (row[0] * n[i].x[0] + row[1] * n[i].x[1] + row[2] * n[i].x[2]);
+        }
+    }
+    double aim =
+        lrcsi_least(CUBATURE_MOST, lrcsi_most(CUBATURE_LEAST, CUBATURE_SHARE * all->tolerance));
+    job->brdf = lrcsi_plan_brdf(all->plan, lrcsi_prepared_material(view->prepared, facet));
+    job->sum = lrcsi_cubature_make(&job->brdf, (const double(*)[3])job->normal, aim);
+    job->sum.whole = job->tilt.projected;
+    job->sum.slip = SLIP_WHOLE;
+    job->sum.nothing = lrcsi_most(job->sum.nothing, all->nothing);
+    job->sum.had =
+        all->had > 0 ? all->had / all->projected + all->had / all->count / job->tilt.projected : 0;
+}
+
+static curve_all all_make(const lrcsi_view *view, const lrcsi_plan *plan, double tolerance)
+{
+    curve_all all = {view, plan, tolerance, 0, 0, 0, 0};
+    curve_job job;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        if (lrcsi_curve_wanted(view, f)) {
+            job_start(&job, &all, f);
+            all.nothing = job.sum.nothing;
+            all.projected += job.tilt.projected;
+            all.count++;
+        }
+    }
+    return all;
+}
+
+static void all_have(curve_all *all, const lrcsi_curved *curved)
+{
+    all->had += (curved->glint + curved->diffuse) / FOUR_PI;
+}
+
+static void job_whole(curve_job *job)
+{
+    lrcsi_cubature_add(&job->sum, (const double(*)[3])job->normal, job->tilt.projected);
+}
+
+/* The most that f_r cos reaches on the facet. */
+static double job_most(const curve_job *job)
+{
+    return job->sum.most.glint + job->sum.most.diffuse;
+}
+
+/* What has been summed, `share` of it. */
+static lrcsi_curved job_part(const curve_job *job, double share)
+{
+    const lrcsi_cubature *sum = &job->sum;
+    double factor = FOUR_PI * share;
+    lrcsi_curved part = {0, 0, 0, 0, 0, 0, 0};
+    part.glint = factor * lrcsi_sum_value(&sum->glint);
+    part.diffuse = factor * lrcsi_sum_value(&sum->diffuse);
+    part.rounding =
+        factor * sum->rounding + (job->tilt.error + 16 * U) * (part.glint + part.diffuse);
+    part.estimate = factor * sum->estimate;
+    part.most = FOUR_PI * job_most(job) * job->tilt.projected * (1 + job->tilt.error);
+    return part;
+}
+
+/* --- shares ----------------------------------------------------------------------------------- */
+
+/* f_r cos at the raster's samples of a facet: summed over those it owns, and over all. */
+static void sum_samples(const curve_job *job, const lrcsi_raster *raster, double *owned,
+                        double *covered)
+{
+    lrcsi_edges e = lrcsi_raster_edges(raster, job->facet);
+    *owned = *covered = 0;
+    for (uint32_t y = e.y0; y < e.y1; y++) {
+        for (uint32_t x = e.x0; x < e.x1; x++) {
+            double n[3] = {0, 0, 0};
+            int inside = 1;
+            for (int k = 0; k < 3;
+                 k++) { /* the value of a side is the weight of its third corner */
+                double weight = e.at[k] + e.along[k] * (x + 0.5) + e.up[k] * (y + 0.5);
+                inside = inside && weight >= 0;
+                for (int i = 0; i < 3; i++) {
+                    n[i] += weight * job->normal[(k + 2) % 3][i];
+                }
+            }
+            double value = inside ? lrcsi_cubature_at(&job->sum, n) : 0;
+            *covered += value;
+            *owned += raster->owner[(size_t)y * raster->size + x] == job->facet ? value : 0;
+        }
+    }
+}
+
+/* The share of the whole integral that is visible. By samples only as good as they know the
+   integral: by how much they miss it goes to the estimate. */
+static double visible_share(const curve_job *job, const lrcsi_raster *raster,
+                            const lrcsi_visible *visible, double *doubt)
+{
+    double share = visible->area / job->tilt.projected;
+    *doubt = 0;
+    if (!raster || visible->low == visible->high || raster->covered[job->facet] == 0) {
+        return share;
+    }
+    double owned;
+    double covered;
+    sum_samples(job, raster, &owned, &covered);
+    if (!(covered > 0)) {
+        return share;
+    }
+    double whole = lrcsi_sum_value(&job->sum.glint) + lrcsi_sum_value(&job->sum.diffuse);
+    double guess = job->tilt.projected * (covered / raster->covered[job->facet]);
+    *doubt = fabs(guess - whole);
+    return owned / covered;
+}
+
+static lrcsi_curved curve_share(curve_job *job, const lrcsi_raster *raster,
+                                const lrcsi_visible *visible)
+{
+    if (!(visible->high > 0)) {
+        return job_part(job, 0);
+    }
+    job_whole(job);
+    double whole = lrcsi_sum_value(&job->sum.glint) + lrcsi_sum_value(&job->sum.diffuse);
+    double most = job_most(job);
+    double projected = job->tilt.projected;
+    double high = visible->high < projected ? lrcsi_least(whole, most * visible->high) : whole;
+    double low =
+        visible->low < projected ? lrcsi_most(0, whole - most * (projected - visible->low)) : whole;
+    if (!(low <= high)) { /* by rounding, or the cubature's error */
+        low = high;
+    }
+    double doubt;
+    double share = visible_share(job, raster, visible, &doubt);
+    double value = lrcsi_least(high, lrcsi_most(low, share * whole));
+    lrcsi_curved part = job_part(job, whole > 0 ? value / whole : 0);
+    part.visibility = FOUR_PI * lrcsi_most(high - value, value - low);
+    part.rounding = job_part(job, 1).rounding;
+    part.likely = part.visibility > 0 ? (FOUR_PI * value / projected) * visible->likely : 0;
+    part.estimate = FOUR_PI * (job->sum.estimate + lrcsi_least(doubt, high - low));
+    return part;
+}
+
+void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
+                        const lrcsi_visible *visible, const lrcsi_raster *raster, double tolerance,
+                        lrcsi_curved *curved)
+{
+    curve_job job;
+    curve_all all = all_make(view, plan, tolerance);
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
+        if (lrcsi_curve_wanted(view, f)) {
+            job_start(&job, &all, f);
+            curved[f] = curve_share(&job, raster, &visible[f]);
+            all_have(&all, &curved[f]);
+        }
+    }
+}
+
+/* --- pieces ----------------------------------------------------------------------------------- */
+
+/* A piece, fanned from its first corner. Returns what its areas may be off by. */
+static double piece_add(curve_job *job, const lrcsi_target *target, const double (*corner)[2],
+                        uint32_t count)
+{
+    double normal[3][3]; /* of the fan's triangle at hand: corners 0, i - 1, i */
+    double off = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        double weight[3];
+        double *n = normal[i < 2 ? i : 2];
+        lrcsi_target_weights(target, corner[i], weight);
+        for (int k = 0; k < 3; k++) {
+            n[k] = weight[0] * job->normal[0][k] + weight[1] * job->normal[1][k] +
+                   weight[2] * job->normal[2][k];
+        }
+        if (i < 2) {
+            continue;
+        }
+        const double u[2] = {corner[i - 1][0] - corner[0][0], corner[i - 1][1] - corner[0][1]};
+        const double v[2] = {corner[i][0] - corner[0][0], corner[i][1] - corner[0][1]};
+        lrcsi_cubature_add(&job->sum, (const double(*)[3])normal,
+                           0.5 * (u[0] * v[1] - u[1] * v[0]));
+        off += 4 * U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
+        for (int k = 0; k < 3; k++) {
+            normal[1][k] = normal[2][k];
+        }
+    }
+    return off;
+}
+
+/* Points of pieces are off by 100 u of the reach in projection: as a share of the facet's least
+   height, and that times how far its normals lie apart, at most 2. */
+static double pieces_slip(const curve_job *job, const lrcsi_target *target)
+{
+    double height = 2 * job->tilt.projected / target->diameter;
+    return SLIP_WHOLE + 200 * U * target->reach / height;
+}
+
+/* Back sides proved never to be seen, and looked for all the same, may show nothing. */
+static lrcsi_visible facet_close(lrcsi_occluding *o, uint32_t facet)
+{
+    const lrcsi_view *view = o->contest->view;
+    lrcsi_visible visible = lrcsi_occlude_close(o);
+    visible.low = view->prepared->solid && view->facing[facet] < 0 ? 0 : visible.low;
+    return visible;
+}
+
+/* All pieces of the facet that is open, which is closed then. */
+static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visible *visible)
+{
+    const lrcsi_target *target = &o->target;
+    double off = 20 * U * target->reach * target->perimeter;
+    job->sum.slip = pieces_slip(job, target);
+    while (lrcsi_occlude_next(o)) {
+        const lrcsi_clip_list *list = &o->clip.list;
+        for (uint32_t i = 0; i < list->pieces; i++) {
+            uint32_t first = lrcsi_clip_first(list, i);
+            off += piece_add(job, target, (const double(*)[2]) & list->corner[first],
+                             list->end[i] - first);
+        }
+    }
+    *visible = facet_close(o, job->facet);
+    lrcsi_curved part = job_part(job, 1);
+    part.visibility = FOUR_PI * job_most(job) * (visible->high - visible->low + off);
+    return part;
+}
+
+/* One facet, integrated where there is a job for it. Returns 1 where it could not be opened. */
+static uint32_t facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet,
+                             lrcsi_visible *visible, lrcsi_curved *curved)
+{
+    uint32_t starved = 0;
+    if (lrcsi_occlude_open(o, facet) != LRCS_OK) {
+        double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
+        *visible = (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
+        starved = 1;
+    } else if (job && o->contested) {
+        *curved = curve_pieces(job, o, visible);
+        return 0;
+    } else {
+        while (lrcsi_occlude_next(o)) { /* the area alone is wanted */
+        }
+        *visible = facet_close(o, facet);
+    }
+    if (job) {
+        *curved = curve_share(job, NULL, visible);
+    }
+    return starved;
+}
+
+int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
+                       uint32_t *starved)
+{
+    const lrcsi_view *view = contest->view;
+    size_t mark = work->used;
+    lrcsi_occluding o;
+    curve_job job;
+    curve_all all = all_make(view, plan, tolerance);
+    int status = lrcsi_occlude_make(contest, work, &o);
+    *starved = 0;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
+        int wanted = lrcsi_curve_wanted(view, f);
+        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
+        if (wanted) {
+            job_start(&job, &all, f);
+        }
+        *starved += facet_pieces(wanted ? &job : NULL, &o, f, &visible[f], &curved[f]);
+        all_have(&all, &curved[f]);
+    }
+    work->used = mark;
+    return status;
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* Eq. 2 over facets with curved normals: 4 pi times the integral of f_r cos(theta) over what is
+   visible of each, with what visibility and rounding leave open as bounds, and what the cubature
+   leaves as an estimate. */
+#ifndef LRCSI_CURVE_H
+#define LRCSI_CURVE_H
+
+#include "integrate/plan.h"
+#include "visibility/occlude.h"
+#include "visibility/visible.h"
+
+/* One facet's part of sigma, in scaled units of area. */
+typedef struct lrcsi_curved {
+    double glint, diffuse;
+    double visibility, rounding; /* bounds */
+    double likely;               /* likely error of a sampled share; 0: none */
+    double most;                 /* bound on what all of the facet could add, were it seen */
+    double estimate;             /* of the cubature's error */
+} lrcsi_curved;
+
+/* Does the facet have curved normals, and is it on its reflecting side? */
+int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet);
+
+/* Facets of which an area is all that is known: the integral over the whole facet, times the share
+   of it that is visible; under a raster, of a facet that is seen in part, the share of its samples'
+   f_r cos.
+   Given: visible; raster, or NULL; the relative error asked for. Returned: curved[facet_count] of
+   the facets wanted. */
+void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
+                        const lrcsi_visible *visible, const lrcsi_raster *raster, double tolerance,
+                        lrcsi_curved *curved);
+
+/* Every facet by clipping, as lrcsi_occlude_all, and those wanted integrated over the pieces that
+   are visible. Status: as lrcsi_occlude_all. */
+int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
+                       uint32_t *starved);
+
+#endif

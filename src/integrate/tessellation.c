@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT */
+/* The tessellation error of one facet under shadowing. It combines how F strays over the facet's
+   patch (optics/stray.c) with where truth and facets may differ about what is seen
+   (visibility/margin.h), and decides neither.
+
+   Let U be the facet's patch and f the facet, of area S, |U| within a S of it; v and w say what is
+   seen of them, off a share b of both alike. Truth T = Int_U F v, the facets' M = F_i Int_f w.
+     seen all over, b = 0: T - M is the whole patch's stray; its numbers hold for the two facets of
+   a sector together, so both must be seen; hidden all over: M = 0, T <= (1 + a) S b sup F; else |T
+   - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
+                  <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b), and <= (1 + a) S sup F;
+         where neither facet of the sector is hidden or dark, the first term together is at most
+   what (F - F_i) integrates to over any part of both. Patches of facets that face away from the
+   laser may see it in part: T is at most their stray. On flat facets a = 0 and F = F_i. Without a
+   margin the facets count as seen: what of it may be hidden is then in the visible area's bounds,
+   for truth and facets alike. */
+#include "integrate/tessellation.h"
+
+#include <math.h>
+
+#include "mesh/profile.h"
+#include "optics/reflect.h"
+
+/* Of a flat facet: wider than the error of its angle. */
+#define FLAT_TILT 1e-12
+
+/* What is known of a facet and its patch. */
+enum patch_state {
+    PATCH_DARK,   /* no side of it that reflects faces the laser */
+    PATCH_SEEN,   /* all of it is seen, in truth too */
+    PATCH_HIDDEN, /* none of the facet is seen */
+    PATCH_MIXED
+};
+
+static const lrcs_part *patch_part(const lrcs_prepared *p, uint32_t facet)
+{
+    return &p->scene->part[p->scene->facet_part[facet]];
+}
+
+/* The numbers of a facet's patch: a curved wall's, or those of a disc that placing may have tilted.
+ */
+static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
+{
+    const lrcs_part *part = patch_part(p, facet);
+    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
+    if (p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0) {
+        return part->curvature;
+    }
+    return part->tilted > 0 ? lrcsi_profile_blurred(&flat, part->tilted) : flat;
+}
+
+/* A curved closed part's inside never faces the laser unhidden, whatever rounding made of it. */
+static int back_reflects(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcs_part *part = patch_part(view->prepared, facet);
+    return view->facing[facet] < 0 && lrcsi_view_reflects(view, facet) &&
+           !(part->reach > 0 && part->solid);
+}
+
+static int patch_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                       const lrcsi_margin *margin)
+{
+    if (margin && margin->hidden[margin->region[facet]]) {
+        return PATCH_HIDDEN;
+    }
+    if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
+        return PATCH_DARK;
+    }
+    if (!margin || (margin->share[facet] == 0 && !margin->contest->contested[facet] &&
+                    visible[facet].low > 0)) {
+        return PATCH_SEEN;
+    }
+    return visible[facet].high > 0 ? PATCH_MIXED : PATCH_HIDDEN;
+}
+
+/* The state of the other facet of the sector. The two lie side by side in a part's list, which
+   every strip of a wall begins at an even place (mesh/tessellate.c); where a strip ends in an apex,
+   its facets have sectors of their own and a neighbour stands in. */
+static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                         const lrcsi_margin *margin)
+{
+    const lrcs_prepared *p = view->prepared;
+    uint32_t first = patch_part(p, facet)->first_facet;
+    uint32_t other = first + ((facet - first) ^ 1);
+    return p->skip[other] ? PATCH_HIDDEN : patch_state(view, other, visible, margin);
+}
+
+static int is_lit(int state)
+{
+    return state == PATCH_SEEN || state == PATCH_MIXED;
+}
+
+/* The share of a facet that is hidden or in doubt, at most. */
+static double share_lost(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                         const lrcsi_margin *margin)
+{
+    lrcsi_tilt tilt = lrcsi_view_tilt(view, facet);
+    double hidden = 0;
+    if (margin->contest->contested[facet] || !(visible[facet].low > 0)) {
+        hidden = 1 + tilt.error + 8 * 0x1p-53 - visible[facet].low / tilt.projected;
+    }
+    return hidden >= 0 ? fmin(1, margin->share[facet] + hidden) : 1;
+}
+
+/* For a facet of a sector none of which is hidden or dark: what it loses of its whole patch, where
+   that is the better way, else 2. Numbers of the sector's first facet decide for both. */
+static double sector_lost(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                          const lrcs_curvature *c, const lrcsi_visible *visible,
+                          const lrcsi_margin *margin)
+{
+    uint32_t begin = patch_part(view->prepared, facet)->first_facet;
+    uint32_t first = begin + ((facet - begin) & ~UINT32_C(1));
+    lrcsi_tilt tilt = lrcsi_view_tilt(view, first);
+    lrcsi_stray stray = lrcsi_stray_make(brdf, fabs(tilt.cos_theta), tilt.tan2, c);
+    double lost = fmax(share_lost(view, first, visible, margin),
+                       share_lost(view, first + 1, visible, margin));
+    return stray.whole + (1 + c->area_error) * lost * stray.most < stray.part
+               ? share_lost(view, facet, visible, margin)
+               : 2;
+}
+
+/* The error of a facet on a curved wall, per unit of its area. `lost` as sector_lost has it. */
+static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner,
+                         double lost)
+{
+    double lit = is_lit(partner) ? stray->part : (1 + a) * stray->apart;
+    if (state == PATCH_HIDDEN) {
+        return (1 + a) * share * stray->most;
+    }
+    if (state == partner && state != PATCH_MIXED) {
+        return stray->whole;
+    }
+    if (state == PATCH_DARK) {
+        return (1 + a) * stray->most;
+    }
+    if (lost <= 1) {
+        return stray->whole + (1 + a) * lost * stray->most;
+    }
+    return fmin(lit + stray->here * (a + (1 + a) * share), (1 + a) * stray->most);
+}
+
+/* What the facets may show of a closed part's inside, by rounding. */
+static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                           const lrcsi_tilt *tilt, const lrcsi_visible *visible,
+                           const lrcsi_margin *margin)
+{
+    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
+    if (!margin || view->facing[facet] >= 0 || !lrcsi_view_reflects(view, facet) ||
+        !(visible[facet].high > 0)) {
+        return 0;
+    }
+    double most = lrcsi_stray_make(brdf, -tilt->cos_theta, tilt->tan2, &flat).most;
+    return most * fmin(1, visible[facet].high / tilt->projected);
+}
+
+int lrcsi_tessellation_known(const lrcs_prepared *p, int unshadowed)
+{
+    for (uint32_t i = 0; i < p->scene->part_count && unshadowed; i++) {
+        if (p->scene->part[i].facet_count != 0 && !p->scene->part[i].curvature_known) {
+            return 0;
+        }
+    }
+    return unshadowed || p->nears.reach != NULL;
+}
+
+double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                                const lrcsi_tilt *tilt, const lrcsi_visible *visible,
+                                const lrcsi_margin *margin)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_curvature c = patch_curvature(p, facet);
+    int curve = c.turn > FLAT_TILT;
+    int state = patch_state(view, facet, visible, margin);
+    double share = margin ? margin->share[facet] : 0;
+    double area = 0.5 * p->normal[facet].length;
+    if (share == 0 && (!curve || state == PATCH_HIDDEN)) {
+        return state == PATCH_DARK ? area * inside_shown(view, facet, brdf, tilt, visible, margin)
+                                   : 0;
+    }
+    double cosine = state == PATCH_DARK ? tilt->cos_theta : fabs(tilt->cos_theta);
+    lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, &c);
+    double error = state == PATCH_DARK ? 0 : share * stray.most;
+    if (curve) {
+        int partner = margin ? partner_state(view, facet, visible, margin) : state;
+        int mixed =
+            is_lit(state) && is_lit(partner) && (state == PATCH_MIXED || partner == PATCH_MIXED);
+        double lost = mixed ? sector_lost(view, facet, brdf, &c, visible, margin) : 2;
+        error = wall_error(&stray, c.area_error, share, state, partner, lost);
+    }
+    if (state == PATCH_DARK) {
+        error += inside_shown(view, facet, brdf, tilt, visible, margin);
+    }
+    return area * error;
+}

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+/* Cutting a triangle in space by half-spaces (Sutherland and Hodgman 1974), for areas that bound
+   something from above. It decides nothing exactly. */
+#include "mesh/slice.h"
+
+#include <math.h>
+
+/* Corners of coordinates below 1 come out within some 2^-48, which changes areas by no more than
+   that times the perimeter: of a triangle less high than this, no share of the area is sure; of
+   others it is to within the margin, 3 2^-48 / (SLICE_LOW / 2). */
+#define SLICE_LOW    1e-7
+#define SLICE_MARGIN (1.0 + 1e-6)
+
+static double slice_height(const double x[3], const double n[3], const double origin[3])
+{
+    return n[0] * (x[0] - origin[0]) + n[1] * (x[1] - origin[1]) + n[2] * (x[2] - origin[2]);
+}
+
+static void slice_add(lrcsi_slice *slice, const double p[3], const double q[3], double t)
+{
+    for (int k = 0; k < 3; k++) {
+        slice->x[slice->count][k] = p[k] + t * (q[k] - p[k]);
+    }
+    slice->count++;
+}
+
+lrcsi_slice lrcsi_slice_start(const double a[3], const double b[3], const double c[3])
+{
+    lrcsi_slice slice = {.count = 0};
+    slice_add(&slice, a, a, 0);
+    slice_add(&slice, b, b, 0);
+    slice_add(&slice, c, c, 0);
+    return slice;
+}
+
+void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[3], double most)
+{
+    lrcsi_slice left = {.count = 0};
+    for (int i = 0; i < slice->count; i++) {
+        const double *p = slice->x[i];
+        const double *q = slice->x[i + 1 < slice->count ? i + 1 : 0];
+        double hp = slice_height(p, n, origin) - most;
+        double hq = slice_height(q, n, origin) - most;
+        if (hp <= 0) {
+            slice_add(&left, p, p, 0);
+        }
+        if ((hp < 0 && hq > 0) || (hp > 0 && hq < 0)) {
+            slice_add(&left, p, q, hp / (hp - hq));
+        }
+    }
+    *slice = left;
+}
+
+/* Twice the vector area about the first corner. */
+static double slice_area(const lrcsi_slice *slice)
+{
+    double sum[3] = {0, 0, 0};
+    for (int i = 1; i + 1 < slice->count; i++) {
+        double p[3];
+        double q[3];
+        for (int k = 0; k < 3; k++) {
+            p[k] = slice->x[i][k] - slice->x[0][k];
+            q[k] = slice->x[i + 1][k] - slice->x[0][k];
+        }
+        for (int k = 0; k < 3; k++) {
+            sum[k] += p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
+        }
+    }
+    return 0.5 * sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+}
+
+double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest)
+{
+    if (slice->count < 3) {
+        return 0;
+    }
+    double share = slice_area(slice) / whole * SLICE_MARGIN;
+    int sure = 2.0 * whole > SLICE_LOW * longest;
+    return sure && share < 1 ? share : 1;
+}

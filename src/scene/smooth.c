@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: MIT */
+/* Normals at the corners of facets, from vertex normals and smoothing groups. It decides what a
+   file's data mean and which facets they make curved; integrating over them is not its business.
+
+   At a corner the vertex normal of the file goes first, placed by the inverse transpose of the
+   place's linear map, under which outward stays outward also where that mirrors. Without one, a
+   corner of a facet in a smoothing group gets the mean of the normals of the facets that share its
+   vertex (by index: welded positions share nothing) and one of its groups, weighted with their
+   angles there, so that no triangulation of flat polygons changes it. All else is hard: the facet's
+   own normal.
+
+   The winding decides which side is the front. Where all the vertex normals of a facet point
+   behind it, the file drew them for the other side, and they are turned round; any other normal
+   that does not point in front (skins of one sheet that share vertices, corners that no normal can
+   serve) gives way to the facet's own.
+
+   Nothing but + - * / and sqrt is used on normals: they are the same on every machine. */
+#include "scene/smooth.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/length.h"
+#include "base/work.h"
+#include "optics/comb.h"
+
+/* Normals this close to the facet's own leave it flat; a mean this short, relative to its weights,
+   has cancelled. */
+#define SMOOTH_FLAT   0x1p-40
+#define SMOOTH_CANCEL 0x1p-20
+
+/* Means kept by group while the corners of one vertex are done: as many as there are bits. */
+#define SMOOTH_GROUPS 32u
+
+typedef struct smooth_job {
+    const lrcs_mesh *mesh;
+    const lrcsi_placer *placer;
+    lrcs_scene *scene;
+    uint32_t base;       /* the mesh's first vertex in the scene */
+    uint32_t first;      /* its first facet */
+    lrcs_point *unit;    /* facet: its own normal; zero where degenerate */
+    uint32_t *start;     /* vertex: where its corners begin in `corner` */
+    uint32_t *corner;    /* 3 facet + k, by vertex */
+    lrcs_point *in_mean; /* corner 3 facet + k: the mean of its groups, or zero */
+} smooth_job;
+
+static double dot_of(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross_of(const double a[3], const double b[3], double c[3])
+{
+    for (int k = 0; k < 3; k++) {
+        c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+}
+
+/* To length 1, by way of the largest component, so that nothing overflows. 0: no length. */
+static int make_unit(double v[3])
+{
+    double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    if (!(most > 0.0)) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        v[k] /= most;
+    }
+    double length = lrcsi_length(v);
+    for (int k = 0; k < 3; k++) {
+        v[k] /= length;
+    }
+    return 1;
+}
+
+/* The angle between two unit vectors, rad: tan of its 64th part by halvings, and seven terms of the
+   arc tangent (tan(pi/64) < 0.05: the eighth is below 1e-19). */
+static double angle_of(const double a[3], const double b[3])
+{
+    double c[3];
+    cross_of(a, b, c);
+    double size = lrcsi_length(c);
+    double dot = dot_of(a, b);
+    double whole = sqrt(size * size + dot * dot);
+    /* tan of the half; beyond a right angle from the other side, where nothing cancels */
+    double t = dot >= 0.0 ? size / (whole + dot) : (whole - dot) / size;
+    if (!(t < 0x1p60)) {
+        return 3.14159265358979323846;
+    }
+    for (int i = 0; i < 5; i++) {
+        t = t / (1.0 + sqrt(1.0 + t * t));
+    }
+    double q = t * t;
+    double sum = 0.0;
+    for (int k = 13; k >= 1; k -= 2) {
+        sum = 1.0 / k - q * sum;
+    }
+    return 64.0 * t * sum;
+}
+
+static const double *placed(const smooth_job *job, uint32_t facet, uint32_t k)
+{
+    return job->scene->vertex[job->scene->facet[job->first + facet].corner[k % 3]].x;
+}
+
+/* The side of a facet from corner k to corner k + by, of length 1. */
+static int side_of(const smooth_job *job, uint32_t facet, uint32_t k, uint32_t by, double v[3])
+{
+    const double *from = placed(job, facet, k);
+    const double *to = placed(job, facet, k + by);
+    for (int i = 0; i < 3; i++) {
+        v[i] = to[i] - from[i];
+    }
+    return make_unit(v);
+}
+
+static void find_units(smooth_job *job)
+{
+    for (uint32_t f = 0; f < job->mesh->facet_count; f++) {
+        double u[3];
+        double v[3];
+        double *n = job->unit[f].x;
+        memset(n, 0, sizeof job->unit[f].x);
+        if (side_of(job, f, 0, 1, u) && side_of(job, f, 0, 2, v)) {
+            cross_of(u, v, n);
+            make_unit(n);
+        }
+    }
+}
+
+/* --- smoothing groups ------------------------------------------------------------------------- */
+
+/* Files every corner under its vertex. */
+static void file_corners(smooth_job *job)
+{
+    uint32_t vertices = job->mesh->vertex_count;
+    uint32_t corners = 3 * job->mesh->facet_count; /* lrcsi_smooth_run saw to it */
+    memset(job->start, 0, ((size_t)vertices + 2) * sizeof *job->start);
+    for (uint32_t i = 0; i < corners; i++) {
+        const lrcs_facet *facet = &job->scene->facet[job->first + i / 3];
+        job->start[facet->corner[i % 3] - job->base + 2]++;
+    }
+    for (uint32_t v = 0; v < vertices; v++) {
+        job->start[v + 2] += job->start[v + 1];
+    }
+    for (uint32_t i = 0; i < corners; i++) {
+        const lrcs_facet *facet = &job->scene->facet[job->first + i / 3];
+        job->corner[job->start[facet->corner[i % 3] - job->base + 1]++] = i;
+    }
+}
+
+/* The mean normal at a vertex of the facets that share one of the groups; zero where it cancels. */
+static lrcs_point group_mean(const smooth_job *job, uint32_t vertex, uint32_t groups)
+{
+    lrcs_point mean = {{0.0, 0.0, 0.0}};
+    double weight = 0.0;
+    for (uint32_t i = job->start[vertex]; i < job->start[vertex + 1]; i++) {
+        uint32_t facet = job->corner[i] / 3;
+        uint32_t k = job->corner[i] % 3;
+        double u[3];
+        double v[3];
+        if ((job->mesh->facet_smooth[facet] & groups) == 0 || !side_of(job, facet, k, 1, u) ||
+            !side_of(job, facet, k, 2, v)) {
+            continue;
+        }
+        double angle = angle_of(u, v);
+        weight += angle;
+        for (int j = 0; j < 3; j++) {
+            mean.x[j] += angle * job->unit[facet].x[j];
+        }
+    }
+    if (!(lrcsi_length(mean.x) > SMOOTH_CANCEL * weight) || !make_unit(mean.x)) {
+        memset(&mean, 0, sizeof mean);
+    }
+    return mean;
+}
+
+/* The means at one vertex, each set of groups summed once as long as they are few. */
+static void vertex_means(smooth_job *job, uint32_t vertex)
+{
+    uint32_t known[SMOOTH_GROUPS];
+    lrcs_point mean[SMOOTH_GROUPS];
+    uint32_t count = 0;
+    for (uint32_t i = job->start[vertex]; i < job->start[vertex + 1]; i++) {
+        uint32_t groups = job->mesh->facet_smooth[job->corner[i] / 3];
+        uint32_t at = 0;
+        while (at < count && known[at] != groups) {
+            at++;
+        }
+        lrcs_point found = at < count ? mean[at] : group_mean(job, vertex, groups);
+        if (at == count && count < SMOOTH_GROUPS) {
+            known[count] = groups;
+            mean[count++] = found;
+        }
+        job->in_mean[job->corner[i]] = found;
+    }
+}
+
+/* --- vertex normals --------------------------------------------------------------------------- */
+
+/* The file's normal of a corner, placed; 0 where it has none. */
+static int given_normal(const smooth_job *job, uint32_t facet, uint32_t k, double n[3])
+{
+    if (!job->mesh->facet_normal) {
+        return 0;
+    }
+    uint32_t stored = job->placer->flips ? (3 - k) % 3 : k; /* as build.c turned the winding */
+    uint32_t index = job->mesh->facet_normal[facet].corner[stored];
+    if (index == LRCS_NONE) {
+        return 0;
+    }
+    memcpy(n, job->mesh->normal[index].x, 3 * sizeof *n);
+    if (!make_unit(n)) {
+        return 0;
+    }
+    lrcsi_placer_normal(job->placer, n);
+    return make_unit(n);
+}
+
+/* --- facets ----------------------------------------------------------------------------------- */
+
+/* A facet's three normals. 0 where all are its own. */
+static int facet_normals(const smooth_job *job, uint32_t facet, lrcs_point n[3])
+{
+    const double *own = job->unit[facet].x;
+    int given[3];
+    int back = 0;
+    int count = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        given[k] = given_normal(job, facet, k, n[k].x);
+        count += given[k];
+        back += given[k] && dot_of(n[k].x, own) < 0.0;
+    }
+    int curved = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        double *x = n[k].x;
+        if (!given[k]) {
+            n[k] = job->in_mean[3 * facet + k];
+        }
+        for (int i = 0; i < 3 && given[k] && back == count; i++) {
+            x[i] = -x[i];
+        }
+        if (!(dot_of(x, own) > 0.0)) {
+            memcpy(x, own, 3 * sizeof *x);
+        }
+        const double off[3] = {x[0] - own[0], x[1] - own[1], x[2] - own[2]};
+        curved |= lrcsi_length(off) > SMOOTH_FLAT;
+    }
+    return curved;
+}
+
+/* Does the glint call for them? The turn is the largest angle between two of them. */
+static int is_called_for(const smooth_job *job, uint32_t facet, const lrcs_point n[3],
+                         const lrcs_build_options *options)
+{
+    const lrcs_scene *scene = job->scene;
+    const lrcs_brdf *brdf = &scene->material[scene->facet_material[job->first + facet]].brdf;
+    if (options->normals == LRCS_NORMALS_SMOOTH) {
+        return 1;
+    }
+    double turn = 0.0;
+    for (int k = 0; k < 3; k++) {
+        turn = fmax(turn, angle_of(n[k].x, n[(k + 1) % 3].x));
+    }
+    return brdf->A > 0.0 && turn > 0.0 && lrcsi_comb_error(turn, brdf->s) > options->tolerance;
+}
+
+static int check_normals(const lrcs_mesh *mesh)
+{
+    for (uint32_t f = 0; mesh->facet_normal && f < mesh->facet_count; f++) {
+        for (int k = 0; k < 3; k++) {
+            uint32_t index = mesh->facet_normal[f].corner[k];
+            if (index != LRCS_NONE && index >= mesh->normal_count) {
+                return LRCS_E_INDEX;
+            }
+        }
+    }
+    return LRCS_OK;
+}
+
+int lrcsi_smooth_given(const lrcs_mesh *mesh)
+{
+    for (uint32_t f = 0; f < mesh->facet_count; f++) {
+        const uint32_t *n = mesh->facet_normal ? mesh->facet_normal[f].corner : NULL;
+        if (mesh->facet_smooth[f] != 0 ||
+            (n && (n[0] != LRCS_NONE || n[1] != LRCS_NONE || n[2] != LRCS_NONE))) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+const char *lrcs_normals_text(int normals)
+{
+    static const char *const text[] = {"flat", "auto", "smooth"};
+    return normals >= 0 && normals <= LRCS_NORMALS_SMOOTH ? text[normals] : NULL;
+}
+
+int lrcs_normals_find(const char *name)
+{
+    for (int normals = 0; normals <= LRCS_NORMALS_SMOOTH; normals++) {
+        if (strcmp(name, lrcs_normals_text(normals)) == 0) {
+            return normals;
+        }
+    }
+    return LRCS_E_NAME;
+}
+
+size_t lrcsi_smooth_need(const lrcs_mesh *mesh)
+{
+    size_t facets = mesh->facet_count;
+    size_t need = lrcsi_work_bytes(facets, sizeof(lrcs_point));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 3 * sizeof(lrcs_point)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 3 * sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_work_bytes((size_t)mesh->vertex_count + 2, sizeof(uint32_t)));
+}
+
+int lrcsi_smooth_run(const lrcs_mesh *mesh, const lrcsi_placer *placer,
+                     const lrcs_build_options *options, lrcs_work *work, lrcs_scene *scene)
+{
+    size_t facets = mesh->facet_count;
+    size_t mark = work->used;
+    if (facets > UINT32_MAX / 3) {
+        return LRCS_E_LIMIT;
+    }
+    smooth_job job = {.mesh = mesh, .placer = placer, .scene = scene};
+    job.base = scene->vertex_count - mesh->vertex_count;
+    job.first = scene->facet_count - mesh->facet_count;
+    job.unit = lrcsi_work_take(work, facets, sizeof *job.unit);
+    job.in_mean = lrcsi_work_take_zero(work, facets, 3 * sizeof *job.in_mean);
+    job.corner = lrcsi_work_take(work, facets, 3 * sizeof *job.corner);
+    job.start = lrcsi_work_take(work, (size_t)mesh->vertex_count + 2, sizeof *job.start);
+    int status =
+        job.unit && job.in_mean && job.corner && job.start ? check_normals(mesh) : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        find_units(&job);
+        file_corners(&job);
+        for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+            vertex_means(&job, v);
+        }
+        for (uint32_t f = 0; f < mesh->facet_count; f++) {
+            lrcs_point *n = &scene->corner_normal[3 * ((size_t)job.first + f)];
+            if (!facet_normals(&job, f, n) || !is_called_for(&job, f, n, options)) {
+                memset(n, 0, 3 * sizeof *n);
+            }
+        }
+    }
+    work->used = mark;
+    return status;
+}

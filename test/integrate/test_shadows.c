@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: MIT */
+/* Curved shapes that shadow and touch one another: closed forms where a shadow has one (cast by a
+   sphere or a cylinder on a plate), rays over the true shapes elsewhere. Every bound holds, from
+   the coarsest mesh to a fine one. */
+#include <lrcs/lrcs.h>
+
+#include <stdlib.h>
+
+#include "caster.h"
+#include "check.h"
+
+#define PI 3.14159265358979323846
+
+static unsigned char scene_area[1u << 25];
+static unsigned char run_area[1u << 27];
+
+static const lrcs_brdf glossy = {1, 0.25, 0.2, 0.5};
+
+typedef struct shadow_scene {
+    lrcs_recipe_part part[4];
+    lrcs_recipe_material material;
+    uint32_t parts;
+} shadow_scene;
+
+static lrcs_recipe_part *add(shadow_scene *s, lrcs_shape shape, double x, double y, double z)
+{
+    lrcs_recipe_part *part = &s->part[s->parts++];
+    *part = (lrcs_recipe_part){.name = "", .shape = shape, .place = lrcs_place_default()};
+    part->place.translate[0] = x;
+    part->place.translate[1] = y;
+    part->place.translate[2] = z;
+    part->material = "skin";
+    part->wears = 0;
+    return part;
+}
+
+/* Half a turn about x. */
+static void turn_over(lrcs_recipe_part *part)
+{
+    part->place.rotate[1][1] = -1;
+    part->place.rotate[2][2] = -1;
+}
+
+static shadow_scene scene_of(lrcs_brdf brdf, int two_sided)
+{
+    shadow_scene s = {.parts = 0};
+    s.material = (lrcs_recipe_material){.name = "skin", .brdf = brdf, .two_sided = two_sided};
+    return s;
+}
+
+static lrcs_result shadow_run(shadow_scene *s, uint32_t facets, const double d[3], int method)
+{
+    lrcs_recipe recipe = {
+        .part = s->part, .part_count = s->parts, .material = &s->material, .material_count = 1};
+    lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_FLAT};
+    lrcs_run_options run = lrcs_run_options_default();
+    run.method = method;
+    run.resolution = method == LRCS_METHOD_ZBUFFER ? 300 : 0;
+    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+    lrcs_scene scene;
+    const lrcs_prepared *prepared;
+    lrcs_pose pose;
+    lrcs_result result;
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &work, &scene, NULL), LRCS_OK);
+    work = lrcs_work_make(run_area, sizeof run_area);
+    assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &result, NULL, NULL), LRCS_OK);
+    assert_true(result.budget.tessellation_m2 >= 0);
+    return result;
+}
+
+/* All methods on a coarse mesh, and exactly on finer ones, against one truth; the finest, which
+   takes the longest and is left out where `tight` is 0, is within `tight` of it. */
+static void check_truth(shadow_scene *s, const double d[3], double truth, double error,
+                        double tight)
+{
+    static const uint32_t facets[] = {64, 200, 1500};
+    double bound = HUGE_VAL;
+    for (int i = 0; i < (tight > 0 ? 3 : 2); i++) {
+        int first = i == 0 ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
+        for (int method = first; method <= LRCS_METHOD_EXACT; method++) {
+            lrcs_result r = shadow_run(s, facets[i], d, method);
+            check_abs(r.sigma_m2, truth, r.bound_m2 + error);
+            bound = r.bound_m2;
+        }
+    }
+    if (tight > 0 && truth > 0) {
+        check_most(bound, tight * truth);
+    }
+}
+
+/* --- closed forms ----------------------------------------------------------------------------- */
+
+/* 4 pi f_r cos^2 at theta. */
+static double lambertian(const lrcs_brdf *brdf, double theta)
+{
+    return 4 * PI * cast_reflect(brdf, cos(theta));
+}
+
+/* All of the sphere is lit; its shadow on the plate is an ellipse, wholly on it. */
+static void a_sphere_over_a_plate(void **state)
+{
+    (void)state;
+    const lrcs_shape ball = {.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {8, 8}};
+    static const double height[] = {0.5, 0.75, 2}; /* the first rests on the plate */
+    const lrcs_aspect any = {.deg = 0};
+    lrcs_closed sphere;
+    assert_int_equal(lrcs_closed_eval(&ball, &glossy, &any, &sphere), LRCS_OK);
+    for (int i = 0; i < 9; i++) {
+        double theta = (i % 3) * 25 * PI / 180;
+        shadow_scene s = scene_of(glossy, 0);
+        add(&s, ball, 0.125, 0.25, height[i / 3]);
+        add(&s, plate, 0, 0, 0);
+        const double d[3] = {sin(theta), 0, cos(theta)};
+        double truth = sphere.sigma_m2 + lambertian(&glossy, theta) * (64 - PI * 0.25 / cos(theta));
+        check_truth(&s, d, truth, 1e-13 * truth, i % 4 == 0 ? 0.1 : 0);
+    }
+}
+
+/* The plate's hidden part is the base and all that it sweeps over the length of the shadow. */
+static void a_cylinder_on_a_plate(void **state)
+{
+    (void)state;
+    const lrcs_shape post = {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.25, .length = 1};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {8, 8}};
+    for (int degrees = 0; degrees <= 60; degrees += 20) {
+        double theta = degrees * PI / 180;
+        lrcs_aspect aspect = {.deg = degrees};
+        lrcs_closed cylinder;
+        assert_int_equal(lrcs_closed_eval(&post, &glossy, &aspect, &cylinder), LRCS_OK);
+        for (int above = 0; above < 2; above++) { /* standing, and a little sunk */
+            shadow_scene s = scene_of(glossy, 0);
+            lrcs_recipe_part *placed = add(&s, post, 0, 0, 0);
+            placed->shape.length = above ? 1 : 1.25;
+            placed->place.translate[2] = above ? 0 : -0.25;
+            add(&s, plate, 0, 0, 0);
+            const double d[3] = {sin(theta), 0, cos(theta)};
+            double dark = PI * 0.0625 + 2 * 0.25 * tan(theta);
+            double truth = cylinder.sigma_m2 + lambertian(&glossy, theta) * (64 - dark);
+            check_truth(&s, d, truth, 1e-13 * truth, degrees == 40 ? 1e-4 : 0);
+        }
+    }
+}
+
+/* --- rays ------------------------------------------------------------------------------------- */
+
+/* From directions along axes, in planes and between, the standard error allowed for six times. */
+static void check_rays(shadow_scene *s, double tight)
+{
+    static const double d[4][3] = {{0, 0, 1}, {0, -1, 0}, {0.48, 0.64, 0.6}, {-0.6, 0, -0.8}};
+    cast_scene rays = {.seed = 1};
+    for (uint32_t i = 0; i < s->parts; i++) {
+        cast_part(&rays, &s->part[i], &s->material.brdf, s->material.two_sided);
+    }
+    for (int i = 0; i < 4; i++) {
+        cast_answer truth = cast_run(&rays, d[i], 24);
+        check_truth(s, d[i], truth.sigma, 6 * truth.error + 1e-12 * truth.sigma,
+                    i == 2 ? tight : 0);
+    }
+}
+
+static void a_nozzle_flush_on_a_box(void **state)
+{
+    (void)state;
+    shadow_scene s = scene_of(glossy, 0);
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {1, 1, 1}}, 0, 0, 0.5);
+    turn_over(add(
+        &s, (lrcs_shape){.kind = LRCS_SHAPE_FRUSTUM, .radius = 0.4, .radius2 = 0.2, .length = 1}, 0,
+        0, 0));
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 0.375}, 0, 0, 1);
+    check_rays(&s, 0.1);
+}
+
+static void the_inside_of_an_open_dish(void **state)
+{
+    (void)state;
+    shadow_scene s = scene_of((lrcs_brdf){0.1, 0.3, 0.4, 0}, 1);
+    lrcs_shape dish = {
+        .kind = LRCS_SHAPE_CONE, .parts = LRCS_SHAPE_WALL, .radius = 0.5, .length = 0.5};
+    turn_over(add(&s, dish, 0, 0, 0));
+    check_rays(&s, 0.02);
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.125}, 0.125, 0, -0.25);
+    check_rays(&s, 0.2);
+}
+
+static void tube_in_tube(void **state)
+{
+    (void)state;
+    shadow_scene s = scene_of((lrcs_brdf){0, 0.3, 1, 0}, 1);
+    lrcs_shape tube = {
+        .kind = LRCS_SHAPE_CYLINDER, .parts = LRCS_SHAPE_WALL, .radius = 0.5, .length = 1};
+    add(&s, tube, 0, 0, 0);
+    tube.radius = 0.375;
+    add(&s, tube, 0, 0, 0.25);
+    check_rays(&s, 0.05);
+}
+
+static void eclipsed_and_nested_spheres(void **state)
+{
+    (void)state;
+    shadow_scene s = scene_of(glossy, 0);
+    lrcs_shape ball = {.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+    add(&s, ball, 0, 0, 0);
+    ball.radius = 0.25;
+    add(&s, ball, 0.125, 0, 0); /* inside */
+    add(&s, ball, 0, 0, 0.75);  /* touching */
+    add(&s, ball, 0.5, 0.5, 0.5);
+    check_rays(&s, 0.4);
+}
+
+static void a_tube_pierced_by_a_box(void **state)
+{
+    (void)state;
+    shadow_scene s = scene_of(glossy, 1);
+    add(&s,
+        (lrcs_shape){.kind = LRCS_SHAPE_FRUSTUM,
+                     .parts = LRCS_SHAPE_WALL,
+                     .radius = 0.25,
+                     .radius2 = 0.5,
+                     .length = 1},
+        0, 0, 0);
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {1.5, 0.25, 0.25}}, 0, 0, 0.5);
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_DISC, .radius = 0.75}, 0, 0.25, 1.25);
+    check_rays(&s, 0.1);
+}
+
+static void scenes_of_flat_parts_have_no_tessellation_error(void **state)
+{
+    (void)state;
+    shadow_scene s = scene_of(glossy, 0);
+    const double d[3] = {0.48, 0.64, 0.6};
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {1, 1, 1}}, 0, 0, 1);
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {3, 3}}, 0, 0, 0);
+    check_same(shadow_run(&s, 64, d, LRCS_METHOD_EXACT).budget.tessellation_m2, 0);
+}
+
+static void parts_far_apart_cost_no_more_than_alone(void **state)
+{
+    (void)state;
+    shadow_scene s = scene_of(glossy, 0);
+    const double d[3] = {0, 0, 1};
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5}, 0, 0, 0);
+    double alone = shadow_run(&s, 1000, d, LRCS_METHOD_EXACT).budget.tessellation_m2;
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {3, 3}}, 5, 0, 0);
+    check_rel(shadow_run(&s, 1000, d, LRCS_METHOD_EXACT).budget.tessellation_m2, alone, 1e-9);
+}
+
+/* There doubles are some 1e-10 of a part apart, which tilts and resizes its facets. */
+static void parts_far_from_the_origin_count_how_placing_rounds_them(void **state)
+{
+    (void)state;
+    const lrcs_shape disc = {.kind = LRCS_SHAPE_DISC, .radius = 1e-6};
+    const lrcs_shape can = {.kind = LRCS_SHAPE_CYLINDER, .radius = 1e-6, .length = 1e-6};
+    for (int i = 0; i < 40; i++) {
+        lrcs_aspect aspect = {.deg = 2.0 * i};
+        double theta = aspect.deg * PI / 180;
+        const double d[3] = {sin(theta), 0, cos(theta)};
+        lrcs_closed truth;
+        shadow_scene s = scene_of(glossy, 0);
+        lrcs_recipe_part *part = add(&s, i % 2 ? can : disc, 1.3, -0.7, 1.9);
+        assert_int_equal(lrcs_closed_eval(&part->shape, &glossy, &aspect, &truth), LRCS_OK);
+        lrcs_result r = shadow_run(&s, 64, d, LRCS_METHOD_AUTO);
+        check_abs(r.sigma_m2, truth.sigma_m2, r.bound_m2);
+        check_most(i % 2 ? 0 : r.bound_m2, 1e-6 * r.sigma_m2);
+    }
+}
+
+static void what_is_wholly_hidden_is_exactly_nothing(void **state)
+{
+    (void)state;
+    shadow_scene s = scene_of(glossy, 0);
+    const double d[3] = {0.1, 0.2, 1};
+    add(&s, (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5}, 0, 0, -1);
+    turn_over(add(&s, (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {3, 3}}, 0, 0, 0));
+    for (int method = LRCS_METHOD_ZBUFFER; method <= LRCS_METHOD_EXACT; method++) {
+        lrcs_result r = shadow_run(&s, 1000, d, method);
+        check_same(r.sigma_m2, 0);
+        check_same(r.bound_m2, 0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_sphere_over_a_plate),
+        cmocka_unit_test(a_cylinder_on_a_plate),
+        cmocka_unit_test(a_nozzle_flush_on_a_box),
+        cmocka_unit_test(the_inside_of_an_open_dish),
+        cmocka_unit_test(tube_in_tube),
+        cmocka_unit_test(eclipsed_and_nested_spheres),
+        cmocka_unit_test(a_tube_pierced_by_a_box),
+        cmocka_unit_test(scenes_of_flat_parts_have_no_tessellation_error),
+        cmocka_unit_test(what_is_wholly_hidden_is_exactly_nothing),
+        cmocka_unit_test(parts_far_from_the_origin_count_how_placing_rounds_them),
+        cmocka_unit_test(parts_far_apart_cost_no_more_than_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,367 @@
+/* SPDX-License-Identifier: MIT */
+/* Random scenes of curved shapes among others, by families: anywhere, on a lattice, in contact,
+   flush, nested with thin gaps, piercing, with a glint on a shadow's edge. And directions to look
+   from that spare none of them. */
+#ifndef TEST_NASTY_H
+#define TEST_NASTY_H
+
+#include <lrcs/lrcs.h>
+
+#include <math.h>
+
+#define NASTY_PARTS 5
+#define NASTY_PI    3.14159265358979323846
+
+enum nasty_family {
+    NASTY_ANYWHERE,
+    NASTY_LATTICE,
+    NASTY_RESTING,
+    NASTY_FLUSH,
+    NASTY_NESTED,
+    NASTY_PIERCED,
+    NASTY_GLINT,
+    NASTY_FAMILIES
+};
+
+static const char *const nasty_name[NASTY_FAMILIES] = {
+    "anywhere", "lattice", "resting", "flush", "nested", "pierced", "glint on edge"};
+
+/* `aim` is where a glint meets an edge, or the light runs along a wall. */
+typedef struct nasty_scene {
+    lrcs_recipe_part part[NASTY_PARTS];
+    lrcs_recipe_material material[2];
+    lrcs_recipe recipe;
+    double aim[3];
+    int family;
+} nasty_scene;
+
+static uint64_t nasty_seed = 1;
+
+/* Marsaglia 2003, xorshift64. */
+static uint32_t pick(uint32_t below)
+{
+    nasty_seed ^= nasty_seed << 13;
+    nasty_seed ^= nasty_seed >> 7;
+    nasty_seed ^= nasty_seed << 17;
+    return (uint32_t)((nasty_seed >> 33) % below);
+}
+
+static double between(double low, double high)
+{
+    return low + (high - low) * pick(1u << 30) / (double)(1u << 30);
+}
+
+/* On a lattice, so that things touch, or anywhere. */
+static double length_of(int lattice)
+{
+    return lattice ? 0.25 * (1 + pick(4)) : between(0.1, 1.0);
+}
+
+/* --- turns ------------------------------------------------------------------------------------ */
+
+static const double quarter[4][9] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},
+                                     {1, 0, 0, 0, 0, -1, 0, 1, 0},
+                                     {0, 0, 1, 0, 1, 0, -1, 0, 0},
+                                     {1, 0, 0, 0, -1, 0, 0, 0, -1}};
+
+static void turn_by(lrcs_recipe_part *part, const double of[9])
+{
+    for (int i = 0; i < 9; i++) {
+        part->place.rotate[i / 3][i % 3] = of[i];
+    }
+}
+
+static void turn_anyhow(lrcs_recipe_part *part)
+{
+    double q[4];
+    double square = 0;
+    for (int i = 0; i < 4; i++) {
+        q[i] = between(-1, 1);
+        square += q[i] * q[i];
+    }
+    for (int i = 0; i < 4; i++) {
+        q[i] /= sqrt(square);
+    }
+    const double w = q[0];
+    const double x = q[1];
+    const double y = q[2];
+    const double z = q[3];
+    const double of[9] = {
+        1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+        2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+        2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+    turn_by(part, of);
+}
+
+/* --- parts ------------------------------------------------------------------------------------ */
+
+static lrcs_recipe_part *put(nasty_scene *s, int kind, double a, double b, double c)
+{
+    lrcs_recipe_part *part = &s->part[s->recipe.part_count++];
+    *part = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+    lrcs_shape *shape = &part->shape;
+    shape->kind = kind;
+    shape->parts = (int)pick(2);
+    if (kind == LRCS_SHAPE_PLATE || kind == LRCS_SHAPE_BOX) {
+        shape->size[0] = 2 * a;
+        shape->size[1] = 2 * b;
+        shape->size[2] = kind == LRCS_SHAPE_BOX ? 2 * c : 0;
+    } else {
+        shape->radius = a;
+        shape->radius2 = kind == LRCS_SHAPE_FRUSTUM ? b : 0;
+        shape->length = kind >= LRCS_SHAPE_CYLINDER ? c : 0;
+    }
+    part->wears = (int)pick(2);
+    part->material = part->wears ? "two" : "one";
+    return part;
+}
+
+static void move(lrcs_recipe_part *part, double x, double y, double z)
+{
+    part->place.translate[0] = x;
+    part->place.translate[1] = y;
+    part->place.translate[2] = z;
+}
+
+/* Not quite touching, touching, or sunk. */
+static double gap(void)
+{
+    static const double any[] = {0, 0, 0, 1e-12, 1e-6, 1e-3, 0.02, -1e-12, -1e-6, -1e-3, -0.02};
+    return any[pick(sizeof any / sizeof *any)];
+}
+
+static void fill_anyhow(nasty_scene *s, int lattice, double spread)
+{
+    uint32_t parts = 1 + pick(4);
+    for (uint32_t i = 0; i < parts; i++) {
+        int kind = (int)pick(LRCS_SHAPE_KINDS);
+        double a = length_of(lattice);
+        double b = length_of(lattice);
+        lrcs_recipe_part *part = put(s, kind, a, b, length_of(lattice));
+        if (pick(3) == 0) {
+            turn_anyhow(part);
+        } else {
+            turn_by(part, quarter[pick(4)]);
+        }
+        for (int k = 0; k < 3; k++) {
+            part->place.translate[k] =
+                lattice ? 0.25 * ((int)pick(9) - 4) : between(-spread, spread);
+        }
+    }
+}
+
+/* What lies or stands on the plane z = 0, its place along x. */
+static void rest_one(nasty_scene *s, double x, double r)
+{
+    double length = length_of(0);
+    double above = gap();
+    lrcs_recipe_part *part;
+    switch (pick(5)) {
+    case 0:
+        move(put(s, LRCS_SHAPE_SPHERE, r, 0, 0), x, 0, r + above);
+        break;
+    case 1: /* along a line */
+        part = put(s, LRCS_SHAPE_CYLINDER, r, 0, length);
+        turn_by(part, quarter[1]);
+        move(part, x, 0.5 * length, r + above);
+        break;
+    case 2: { /* on its slant */
+        double al = atan(r / length);
+        const double of[9] = {-sin(al), 0, cos(al), 0, 1, 0, -cos(al), 0, -sin(al)};
+        part = put(s, LRCS_SHAPE_CONE, r, 0, length);
+        turn_by(part, of);
+        move(part, x, 0, length * sin(al) + above);
+        break;
+    }
+    case 3: /* on a point */
+        part = put(s, pick(2) ? LRCS_SHAPE_CONE : LRCS_SHAPE_PARABOLOID, r, 0, length);
+        turn_by(part, quarter[3]);
+        move(part, x, 0, length + above);
+        break;
+    default:
+        move(put(s, LRCS_SHAPE_DISC + (int)pick(LRCS_SHAPE_KINDS - LRCS_SHAPE_DISC), r, 0.7 * r,
+                 length),
+             x, 0, above);
+    }
+}
+
+static void fill_resting(nasty_scene *s)
+{
+    double r = length_of(1) * 0.5;
+    switch (pick(3)) {
+    case 0:
+        put(s, LRCS_SHAPE_PLATE, between(1, 2), between(1, 2), 0);
+        break;
+    case 1:
+        move(put(s, LRCS_SHAPE_BOX, 1, 1, 0.5), 0, 0, -0.5);
+        break;
+    default: /* a cylinder's top */
+        move(put(s, LRCS_SHAPE_CYLINDER, 1.25, 0, 0.5), 0, 0, -0.5);
+    }
+    rest_one(s, 0, r);
+    rest_one(s, 2 * r + gap(), r);
+    if (pick(2)) { /* across both, should they lie */
+        lrcs_recipe_part *part = put(s, LRCS_SHAPE_CYLINDER, 0.2, 0, 1.5);
+        turn_by(part, quarter[2]);
+        move(part, -0.5, 0, 2 * r + 0.2 + gap());
+    }
+}
+
+/* One upon the other, with rims that agree or not, either way up. */
+static void fill_flush(nasty_scene *s)
+{
+    static const double share[] = {1, 1, 0.5, 1.5, 0.999};
+    double z = 0;
+    for (uint32_t i = 0; i < 2 + pick(2); i++) {
+        double height = length_of(1);
+        double r = 0.5 * share[pick(5)];
+        int kind = LRCS_SHAPE_BOX + (int)pick(LRCS_SHAPE_KINDS - LRCS_SHAPE_BOX);
+        if (kind == LRCS_SHAPE_SPHERE) {
+            kind = LRCS_SHAPE_CYLINDER;
+        }
+        if (kind == LRCS_SHAPE_BOX) { /* sunk ones would share a side, which rays count twice */
+            r *= 1 - 0.013 * i;
+        }
+        lrcs_recipe_part *part = put(s, kind, r, r * share[pick(5)], height);
+        height = kind == LRCS_SHAPE_BOX    ? 2 * height
+                 : kind == LRCS_SHAPE_DISC ? 0
+                 : kind == LRCS_SHAPE_DOME ? r
+                                           : height;
+        int over = kind != LRCS_SHAPE_BOX && pick(3) == 0;
+        turn_by(part, quarter[over ? 3 : 0]);
+        move(part, 0, 0, kind == LRCS_SHAPE_BOX ? z + 0.5 * height : over ? z + height : z);
+        z += height + (kind == LRCS_SHAPE_DISC ? 0.01 : 0) + (pick(2) ? gap() : 0);
+    }
+}
+
+/* About one axis, thin gaps between. */
+static void fill_nested(nasty_scene *s)
+{
+    static const double thin[] = {0.3, 0.1, 0.03, 1e-2, 1e-3, 1e-6};
+    int kind = LRCS_SHAPE_SPHERE + (int)pick(LRCS_SHAPE_KINDS - LRCS_SHAPE_SPHERE);
+    double r = 1;
+    double length = length_of(0) * 2;
+    for (uint32_t i = 0; i < 2 + pick(2); i++) {
+        lrcs_recipe_part *part = put(s, kind, r, 0.6 * r, length);
+        part->shape.parts = pick(4) ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
+        if (pick(2)) {
+            move(part, 0, 0, 0.25 * ((int)pick(5) - 2));
+        }
+        r *= 1 - thin[pick(6)];
+        if (pick(4) == 0) {
+            kind = LRCS_SHAPE_DISC + (int)pick(LRCS_SHAPE_KINDS - LRCS_SHAPE_DISC);
+        }
+    }
+    if (pick(2)) {
+        move(put(s, LRCS_SHAPE_BOX, 1.5, 0.1, 0.1), 0, 0, between(0, 0.5));
+    }
+}
+
+/* The edge of a ball or a disc's shadow runs through the spot that glints at `aim`. */
+static void fill_glint(nasty_scene *s)
+{
+    double r = between(0.1, 0.6);
+    double azimuth = between(0, 2 * NASTY_PI);
+    double height = between(-0.9, 0.9);
+    double across = sqrt(1 - height * height);
+    int ball = pick(2) != 0;
+    s->aim[0] = ball ? across * cos(azimuth) : across;
+    s->aim[1] = ball ? across * sin(azimuth) : 0;
+    s->aim[2] = height;
+    const double aside[3] = {-s->aim[1], s->aim[0], 0};
+    double spot = 1;
+    if (ball) {
+        put(s, LRCS_SHAPE_SPHERE, 1, 0, 0);
+    } else { /* a wall glints along a line where the light is square to it */
+        s->aim[0] = 1;
+        s->aim[2] = 0;
+        move(put(s, LRCS_SHAPE_CYLINDER, 1, 0, 1), 0, 0, -0.5);
+    }
+    lrcs_recipe_part *part = put(s, pick(2) ? LRCS_SHAPE_SPHERE : LRCS_SHAPE_BOX, r, r, r);
+    double off = (pick(2) ? r : r * between(0.9, 1.1)) / (ball ? across : 1);
+    double far = spot + between(0.5, 1.5);
+    move(part, far * s->aim[0] + off * aside[0], far * s->aim[1] + off * aside[1],
+         far * s->aim[2] + off * aside[2]);
+}
+
+/* --- scenes and directions -------------------------------------------------------------------- */
+
+static void nasty_dress(nasty_scene *s)
+{
+    static const double slope[] = {0.02, 0.05, 0.1, 0.15, 0.3, 0.8, 2};
+    int glint = s->family == NASTY_GLINT;
+    for (int i = 0; i < 2; i++) {
+        lrcs_brdf brdf = {pick(3) || glint ? between(0, 1) : 0, pick(3) ? between(0, 1) : 0,
+                          slope[pick(glint ? 3 : 7)], pick(2) ? 0 : between(0, pick(4) ? 5 : 50)};
+        s->material[i] =
+            (lrcs_recipe_material){.name = i ? "two" : "one", .brdf = brdf, .two_sided = i};
+    }
+}
+
+/* A scene of a family, some metres large. */
+static void nasty_make(nasty_scene *s, int family)
+{
+    *s = (nasty_scene){.family = family, .aim = {1, 0, 0}};
+    s->recipe = (lrcs_recipe){.part = s->part, .material = s->material, .material_count = 2};
+    switch (family) {
+    case NASTY_RESTING:
+        fill_resting(s);
+        break;
+    case NASTY_FLUSH:
+        fill_flush(s);
+        break;
+    case NASTY_NESTED:
+        fill_nested(s);
+        break;
+    case NASTY_GLINT:
+        fill_glint(s);
+        break;
+    default:
+        fill_anyhow(s, family == NASTY_LATTICE, family == NASTY_PIERCED ? 0.1 : 1);
+    }
+    nasty_dress(s);
+}
+
+/* The same scene `size` times as large, mirrored through the origin where size < 0, and moved:
+   how it looks from -d where mirrored, else from d, does not change. */
+static void nasty_transform(const nasty_scene *from, double size, double offset, nasty_scene *s)
+{
+    *s = *from;
+    s->recipe.part = s->part;
+    s->recipe.material = s->material;
+    for (uint32_t i = 0; i < s->recipe.part_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            s->part[i].place.scale[k] *= size;
+            s->part[i].place.translate[k] = size * s->part[i].place.translate[k] + offset;
+        }
+    }
+}
+
+/* Along axes and diagonals, nearly so, along the first part's wall, at the aim, or anywhere. */
+static void nasty_direction(const nasty_scene *s, double d[3])
+{
+    static const double off[] = {0, 0, 1e-2, 1e-4, 1e-7, 1e-10, 1e-14};
+    uint32_t how = pick(s->family == NASTY_GLINT ? 3 : 5);
+    double slip = off[pick(7)];
+    const lrcs_recipe_part *part = &s->part[pick(s->recipe.part_count)];
+    double fall = part->shape.radius - part->shape.radius2;
+    double rise = part->shape.length * (pick(2) ? 1 : -1);
+    double square = 0;
+    while (square == 0) {
+        for (int k = 0; k < 3; k++) {
+            d[k] = how == 0   ? between(-1, 1)
+                   : how == 1 ? s->aim[k]
+                   : how == 2 ? s->aim[k] + between(-0.03, 0.03)
+                   : how == 3 ? (double)pick(3) - 1
+                              : part->place.rotate[k][0] * fall - part->place.rotate[k][2] * rise;
+            d[k] += slip * between(-1, 1);
+        }
+        square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        how = square == 0 ? 0 : how;
+    }
+    for (int k = 0; k < 3; k++) {
+        d[k] /= sqrt(square);
+    }
+}
+
+#endif
