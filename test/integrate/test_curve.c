@@ -367,7 +367,6 @@ static void the_work_area_is_enough_and_less_is_refused_or_falls_back(void **sta
         options.method = methods[i];
         options.resolution = 16;
         size_t need = lrcs_sigma_need(c.prepared, &options);
-        int good = 0;
         for (size_t size = 0; size <= need; size += size + 4999 < need ? 4999 : need - size + 1) {
             unsigned char *area = malloc(size + 1);
             lrcs_work work = lrcs_work_make(area, size);
@@ -375,7 +374,6 @@ static void the_work_area_is_enough_and_less_is_refused_or_falls_back(void **sta
             int status = lrcs_sigma_run(c.prepared, &pose, &options, &work, &result, NULL, NULL);
             assert_true(status == LRCS_OK || (status == LRCS_E_MEMORY && result.sigma_m2 == -7));
             assert_int_equal(work.used, 0);
-            good += status == LRCS_OK;
             free(area);
         }
         unsigned char *area = malloc(need);
