@@ -16,6 +16,19 @@ enum cli_exit {
 /* What --json says it is. */
 #define CLI_SCHEMA 1
 
+/* The pose options, which cli_pose_read reads: their part of a help text and of an option list. */
+#define CLI_POSE_HELP                                                                              \
+    "pose: one of these; without any, the laser stands on +z\n"                                    \
+    "  --direction x,y,z     to the laser, body frame, any length\n"                               \
+    "  --azel AZ,EL          the same as azimuth and elevation, deg\n"                             \
+    "  --euler SEQ:a,b,c     deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"           \
+    "  --quaternion w,x,y,z  body to observation frame\n"
+#define CLI_POSE_OPTIONS                                                                           \
+    {"direction", 1, 0}, {"azel", 1, 0}, {"euler", 1, 0},                                          \
+    {                                                                                              \
+        "quaternion", 1, 0                                                                         \
+    }
+
 typedef struct cli_option {
     const char *name; /* without its dashes; NULL ends a list */
     int has_value;

@@ -11,13 +11,7 @@ static const char converge_help[] =
     "Runs SCENE from one pose with every method and resolution, and engine-made shapes at every\n"
     "fineness, and compares error, proved bound and time. The truth is the closed form where the\n"
     "scene is a single shape, not turned or scaled, else exact on the finest mesh.\n"
-    "\n"
-    "pose: one of these; without any, the laser stands on +z\n"
-    "  --direction x,y,z     to the laser, body frame, any length\n"
-    "  --azel AZ,EL          the same as azimuth and elevation, deg\n"
-    "  --euler SEQ:a,b,c     deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"
-    "  --quaternion w,x,y,z  body to observation frame\n"
-    "\n"
+    "\n" CLI_POSE_HELP "\n"
     "options\n"
     "  --csv FILE.csv        one row for every setting ('-': instead of the table)\n"
     "  --plot FILE           error against time; FILE.svg or FILE.png; repeatable\n"
@@ -35,10 +29,9 @@ static const char converge_help[] =
     "  lrcs converge examples/cylinder.toml --azel 0,30 --plot cylinder.png\n";
 
 static const cli_option converge_options[] = {
-    {"direction", 1, 0}, {"azel", 1, 0},    {"euler", 1, 0}, {"quaternion", 1, 0},
-    {"csv", 1, 0},       {"plot", 1, 1},    {"unit", 1, 0},  {"material", 1, 1},
-    {"json", 0, 0},      {"seconds", 1, 0}, {"help", 0, 0},  {"keep-transparent", 0, 0},
-    {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,           {"csv", 1, 0},  {"plot", 1, 1},    {"unit", 1, 0},
+    {"material", 1, 1},         {"json", 0, 0}, {"seconds", 1, 0}, {"help", 0, 0},
+    {"keep-transparent", 0, 0}, {NULL, 0, 0}};
 
 /* ---- options ---- */
 

@@ -11,13 +11,7 @@ static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"
     "\n"
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
-    "\n"
-    "pose: one of these; without any, the laser stands on +z\n"
-    "  --direction x,y,z     to the laser, body frame, any length\n"
-    "  --azel AZ,EL          the same as azimuth and elevation, deg\n"
-    "  --euler SEQ:a,b,c     deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"
-    "  --quaternion w,x,y,z  body to observation frame\n"
-    "\n"
+    "\n" CLI_POSE_HELP "\n"
     "options\n"
     "  --tolerance REL       relative error asked for (1e-4); exit 3 where the bound, or the "
     "estimate\n"
@@ -49,11 +43,10 @@ static const char run_help[] =
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
 static const cli_option run_options[] = {
-    {"direction", 1, 0}, {"azel", 1, 0},   {"euler", 1, 0},      {"quaternion", 1, 0},
-    {"tolerance", 1, 0}, {"method", 1, 0}, {"unit", 1, 0},       {"resolution", 1, 0},
-    {"material", 1, 1},  {"json", 0, 0},   {"facets", 1, 0},     {"keep-transparent", 0, 0},
-    {"polygons", 1, 0},  {"image", 1, 0},  {"image-size", 1, 0}, {"explain", 0, 0},
-    {"normals", 1, 0},   {"help", 0, 0},   {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,           {"tolerance", 1, 0}, {"method", 1, 0}, {"unit", 1, 0},
+    {"resolution", 1, 0},       {"material", 1, 1},  {"json", 0, 0},   {"facets", 1, 0},
+    {"keep-transparent", 0, 0}, {"polygons", 1, 0},  {"image", 1, 0},  {"image-size", 1, 0},
+    {"explain", 0, 0},          {"normals", 1, 0},   {"help", 0, 0},   {NULL, 0, 0}};
 
 /* ---- options ---- */
 

@@ -260,10 +260,8 @@ static double pieces_slip(const curve_job *job, const lrcsi_target *target)
 }
 
 /* Back sides proved never to be seen, and looked for all the same, may show nothing. */
-static lrcsi_visible facet_close(lrcsi_occluding *o, uint32_t facet)
+static lrcsi_visible facet_known(const lrcsi_view *view, uint32_t facet, lrcsi_visible visible)
 {
-    const lrcsi_view *view = o->contest->view;
-    lrcsi_visible visible = lrcsi_occlude_close(o);
     visible.low = view->prepared->solid && view->facing[facet] < 0 ? 0 : visible.low;
     return visible;
 }
@@ -282,7 +280,7 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
                              list->end[i] - first);
         }
     }
-    *visible = facet_close(o, job->facet);
+    *visible = facet_known(job->view, job->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = job_part(job, 1);
     part.visibility = FOUR_PI * job_most(job) * (visible->high - visible->low + off);
     return part;
@@ -292,18 +290,16 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
 static uint32_t facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet,
                              lrcsi_visible *visible, lrcsi_curved *curved)
 {
+    const lrcsi_view *view = o->contest->view;
     uint32_t starved = 0;
     if (lrcsi_occlude_open(o, facet) != LRCS_OK) {
-        double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
-        *visible = (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
+        *visible = lrcsi_occlude_unknown(view, facet);
         starved = 1;
     } else if (job && o->contested) {
         *curved = curve_pieces(job, o, visible);
         return 0;
     } else {
-        while (lrcsi_occlude_next(o)) { /* the area alone is wanted */
-        }
-        *visible = facet_close(o, facet);
+        *visible = facet_known(view, facet, lrcsi_occlude_area(o));
     }
     if (job) {
         *curved = curve_share(job, NULL, visible);

@@ -279,6 +279,12 @@ static lrcsi_visible clipped_area(const lrcsi_occluding *o)
                            lrcsi_least(whole, left + o->doubt + error), 0, 0};
 }
 
+lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet)
+{
+    double whole = lrcsi_view_tilt(view, facet).projected;
+    return (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
+}
+
 static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
 {
     double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
@@ -288,7 +294,7 @@ static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
     case LRCSI_QUERY_VISIBLE:
         return (lrcsi_visible){whole, whole, whole, 0, 0};
     default:
-        return (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
+        return lrcsi_occlude_unknown(o->contest->view, facet);
     }
 }
 
@@ -333,6 +339,13 @@ lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o)
 {
     o->work->used = o->mark;
     return o->contested ? clipped_area(o) : o->answer;
+}
+
+lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
+{
+    while (occlude_cells(o)) {
+    }
+    return lrcsi_occlude_close(o);
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
@@ -381,12 +394,9 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
     *starved = 0;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         if (lrcsi_occlude_open(&o, f) == LRCS_OK) {
-            while (occlude_cells(&o)) {
-            }
-            visible[f] = lrcsi_occlude_close(&o);
+            visible[f] = lrcsi_occlude_area(&o);
         } else {
-            double whole = lrcsi_view_tilt(view, f).projected;
-            visible[f] = (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
+            visible[f] = lrcsi_occlude_unknown(view, f);
             ++*starved;
         }
     }

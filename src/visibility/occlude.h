@@ -64,6 +64,12 @@ int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet);
 int lrcsi_occlude_next(lrcsi_occluding *o);
 lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o);
 
+/* Closes a facet of which only the area is wanted, and no piece has been asked for. */
+lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o);
+
+/* What a facet shows of which nothing is known. */
+lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet);
+
 /* Every facet: uniform ones by one exact sample, contested ones by clipping unless one sheet hides
    all of them. A facet whose occluders find no memory may show anything: *starved counts those. One
    that falls into more pieces than the lists hold is bounded by what was reached.
