@@ -4,6 +4,7 @@
 #   make charts     accuracy against time, for the README
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan lint purity layers fuzz    further checks
+#   make bench      what every stage costs on this machine
 
 # --- settings ------------------------------------------------------------------------------------
 CC       = gcc
@@ -91,6 +92,13 @@ shadows: cmocka $(BUILD)/test/integrate/test_margin
 SHADOWS_SCENES = 280
 SHADOWS_SEED   = 1
 
+# What every stage costs on this machine, a generated satellite at four sizes (BENCH_FLAGS=--quick: two).
+bench: $(LIB)
+	@mkdir -p $(BUILD)/test/bench
+	$(CC) $(STD) $(OPT) $(WARN) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -o $(BUILD)/test/bench/bench test/bench/bench.c $(LIB) $(LDLIBS)
+	$(BUILD)/test/bench/bench $(BENCH_FLAGS)
+BENCH_FLAGS =
+
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
 	$(BUILD)/test/integrate/test_large $(BIG_ROWS)
@@ -103,7 +111,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan lint purity layers fuzz bounds shadows big clean cmocka
+.PHONY: all demo charts test asan lint purity layers fuzz bounds shadows bench big clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
