@@ -4,7 +4,7 @@
 #   make charts     accuracy against time, for the README
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan lint purity layers fuzz    further checks
-#   make bench      what every stage costs on this machine
+#   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
 CC       = gcc
@@ -32,6 +32,8 @@ TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
 EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
 LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
+BENCH_DIR = $(BUILD)/test/bench
+BENCH_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/bench.c %/scaling.c,$(wildcard test/bench/*.c)))
 
 # --- targets -------------------------------------------------------------------------------------
 all: $(TOOL) $(LIB)
@@ -47,7 +49,7 @@ charts: $(TOOL)
 	$(TOOL) converge examples/cylinder.toml --azel 0,30 --plot examples/converge_cylinder.svg
 	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
 
-test: cmocka $(TOOL) $(TESTS) $(EXAMPLES)
+test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
 
 asan: cmocka
@@ -92,12 +94,18 @@ shadows: cmocka $(BUILD)/test/integrate/test_margin
 SHADOWS_SCENES = 280
 SHADOWS_SEED   = 1
 
-# What every stage costs on this machine, a generated satellite at four sizes (BENCH_FLAGS=--quick: two).
-bench: $(LIB)
-	@mkdir -p $(BUILD)/test/bench
-	$(CC) $(STD) $(OPT) $(WARN) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -o $(BUILD)/test/bench/bench test/bench/bench.c $(LIB) $(LDLIBS)
-	$(BUILD)/test/bench/bench $(BENCH_FLAGS)
-BENCH_FLAGS =
+# What every stage and every pose costs on this machine: a generated satellite, a convex body and
+# real models, as tables, $(BENCH_DIR)/bench.csv and bench.svg (BENCH_FLAGS=--quick: a minute).
+bench: $(BENCH_DIR)/bench
+	$(BENCH_DIR)/bench $(BENCH_FLAGS) --csv $(BENCH_DIR)/bench.csv --plot $(BENCH_DIR)/bench.svg \
+	    --scratch $(BENCH_DIR)/scratch.stl $(BENCH_MODELS)
+BENCH_FLAGS  =
+BENCH_MODELS = $(wildcard ../shared/models/*.3ds ../shared/models/*.obj ../shared/models/*.stl)
+
+# How time and memory grow with facets, pixels and depth: exponents, and the worst cases.
+scaling: $(BENCH_DIR)/scaling
+	$(BENCH_DIR)/scaling $(SCALING_FLAGS)
+SCALING_FLAGS =
 
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
@@ -111,7 +119,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan lint purity layers fuzz bounds shadows bench big clean cmocka
+.PHONY: all demo charts test asan lint purity layers fuzz bounds shadows bench scaling big clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -155,5 +163,10 @@ $(BUILD)/test/%.o: test/%.c
 $(BUILD)/test/%: $(BUILD)/test/%.o $(LIB)
 	$(CC) -o $@ $< $(LIB) -lcmocka $(LDLIBS)
 
-.SECONDARY: $(TEST_SRC:%.c=$(BUILD)/%.o)
--include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d)
+# The benchmarks tell how they were built.
+$(BENCH_DIR)/measure.o: override CFLAGS += -DBENCH_BUILD='"$(CC) $(STD) $(OPT)"'
+$(BENCH_DIR)/%: $(BENCH_DIR)/%.o $(BENCH_OBJ) $(LIB)
+	$(CC) -o $@ $< $(BENCH_OBJ) $(LIB) $(LDLIBS)
+
+.SECONDARY: $(BENCH_OBJ) $(TEST_SRC:%.c=$(BUILD)/%.o)
+-include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d)
