@@ -61,7 +61,6 @@ typedef struct lrcs_fit {
     uint32_t angles; /* how many different angles they have, counted up to 4 */
     double least_deg, most_deg; /* the smallest and the largest of them, without sign */
     uint32_t starts;            /* starting points of the descent */
-    uint32_t agreeing;          /* those that ended in this fit */
 } lrcs_fit;
 
 /* A reading beside the fit, in the reading's unit. */

@@ -10,6 +10,7 @@
 #include "base/degrees.h"
 #include "base/range.h"
 #include "base/work.h"
+#include "optics/fit_presence.h"
 #include "optics/fit_profile.h"
 #include "optics/fit_search.h"
 #include "optics/special.h"
@@ -30,8 +31,11 @@
 #define FIT_TRIMS 20 /* rounds of setting outliers aside */
 #define FIT_LOOKS 4  /* fits after a profile that met a better one */
 
-/* A start ended in the fit where its sum of squares is the same but for the descent's end. */
+/* Errors that follow the fit stay where the sum of squares does so far. */
 #define FIT_SAME 1e-6
+
+/* The variance that rounding leaves of readings that fit exactly, relative to their squares. */
+#define FIT_ROUNDING 0x1p-100
 
 lrcs_fit_options lrcs_fit_options_default(void)
 {
@@ -130,88 +134,145 @@ static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *o
 
 /* ---- the fit ---- */
 
+typedef struct fit_job {
+    lrcsi_fit_data data;
+    int noise;
+    lrcsi_fit_spot start[LRCSI_FIT_STARTS];
+    uint32_t starts;
+    uint32_t kept;
+    lrcsi_fit_spot whole; /* the best fit of all four parameters */
+    lrcsi_fit_spot best;  /* that, or the best without a part that does not stand out */
+    int absent[2];        /* A or B that does not */
+    double error;         /* standard deviation of a weighted residual */
+    double rise;          /* of the sum of squares at the limits of confidence */
+    lrcsi_fit_spread spread;
+    double limit[LRCS_FIT_PARAMETERS][2];
+} fit_job;
+
 /* All starts brought down softly, the best of them first: by the sum of absolute residuals, in
    which a few outliers do not decide. */
-static uint32_t starts_make(lrcsi_fit_data *data, int noise, lrcsi_fit_spot start[LRCSI_FIT_STARTS])
+static void starts_make(fit_job *job)
 {
-    uint32_t count = lrcsi_fit_search(data, start);
     uint32_t best = 0;
     double least = HUGE_VAL;
-    for (uint32_t i = 0; i < count; i++) {
-        double sum = lrcsi_fit_soften(data, noise, &start[i]);
+    job->starts = lrcsi_fit_search(&job->data, job->start);
+    for (uint32_t i = 0; i < job->starts; i++) {
+        double sum = lrcsi_fit_soften(&job->data, job->noise, &job->start[i]);
         best = sum < least ? i : best;
         least = lrcsi_least(sum, least);
     }
-    lrcsi_fit_spot first = start[best];
-    start[best] = start[0];
-    start[0] = first;
-    return count;
+    lrcsi_fit_spot first = job->start[best];
+    job->start[best] = job->start[0];
+    job->start[0] = first;
+}
+
+/* The lowest end of all starts, with A or B held at 0 where `without` names it. */
+static void starts_descend(const fit_job *job, unsigned without, lrcsi_fit_spot *best)
+{
+    for (uint32_t i = 0; i <= job->starts; i++) {
+        lrcsi_fit_spot spot = i < job->starts ? job->start[i] : job->whole;
+        for (int k = 0; k < 2; k++) {
+            spot.at[k] = without & (1u << k) ? 0.0 : spot.at[k];
+        }
+        lrcsi_fit_descend(&job->data, without, &spot);
+        *best = i == 0 || spot.square < best->square ? spot : *best;
+    }
+}
+
+static void kept_count(fit_job *job)
+{
+    job->kept = 0;
+    for (uint32_t i = 0; i < job->data.count; i++) {
+        job->kept += job->data.weight[i] > 0.0;
+    }
 }
 
 /* Least squares over the readings that are kept: outliers and errors follow the fit until they
    stay. */
-static void fit_settle(lrcsi_fit_data *data, int noise, lrcsi_fit_spot *best)
+static void whole_settle(fit_job *job)
 {
-    lrcsi_fit_noise(data, noise, best);
+    lrcsi_fit_spot *spot = &job->whole;
+    lrcsi_fit_noise(&job->data, job->noise, spot);
     for (int i = 0; i < FIT_TRIMS; i++) {
-        int changed = lrcsi_fit_trim(data, best);
-        double before = best->square;
-        lrcsi_fit_descend(data, 0, best);
-        lrcsi_fit_noise(data, noise, best);
-        int moved = fabs(best->square - before) > FIT_SAME * before;
-        if (!changed && (noise != LRCS_FIT_RELATIVE || !moved)) {
+        int changed = lrcsi_fit_trim(&job->data, spot);
+        double before = spot->square;
+        lrcsi_fit_descend(&job->data, 0, spot);
+        lrcsi_fit_noise(&job->data, job->noise, spot);
+        int moved = fabs(spot->square - before) > FIT_SAME * before;
+        if (!changed && (job->noise != LRCS_FIT_RELATIVE || !moved)) {
             break;
+        }
+    }
+    starts_descend(job, 0, spot);
+    kept_count(job);
+}
+
+/* The fit that is reported: without the part that the readings miss less, where they do not miss
+   it; or without the other. */
+static void parts_choose(fit_job *job)
+{
+    lrcsi_fit_spot without[2];
+    int known = job->noise == LRCS_FIT_GIVEN &&
+                job->whole.square < (double)(job->kept - LRCS_FIT_PARAMETERS);
+    for (int k = 0; k < 2; k++) {
+        starts_descend(job, 1u << k, &without[k]);
+        job->absent[k] = 0;
+    }
+    job->best = job->whole;
+    int less = without[1].square < without[0].square;
+    for (int i = 0; i < 2; i++) {
+        int part = i == 0 ? less : !less;
+        if (!lrcsi_fit_presence(&job->data, part, &without[part], job->whole.square, job->kept,
+                                known)) {
+            job->absent[part] = 1;
+            job->best = without[part];
+            return;
         }
     }
 }
 
-/* Whether other starts end lower on the readings kept; how many end in the same place. */
-static uint32_t starts_compare(const lrcsi_fit_data *data, const lrcsi_fit_spot *start,
-                               uint32_t count, lrcsi_fit_spot *best)
-{
-    double end[LRCSI_FIT_STARTS];
-    uint32_t agreeing = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        lrcsi_fit_spot spot = start[i];
-        lrcsi_fit_descend(data, 0, &spot);
-        end[i] = spot.square;
-        *best = spot.square < best->square * (1.0 - FIT_SAME) ? spot : *best;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        agreeing += end[i] <= best->square * (1.0 + FIT_SAME) + 0x1p-80;
-    }
-    return agreeing;
-}
-
-/* The standard deviation of a weighted residual, and the rise of the sum of squares at the limits
-   of confidence. */
-static double fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_spot *best,
-                        uint32_t kept, double *rise)
+/* What the residuals say of the errors, each part that is there taking two parameters. */
+static void errors_estimate(fit_job *job)
 {
     double size = 0.0;
-    uint32_t freedom = kept - LRCS_FIT_PARAMETERS;
-    for (uint32_t i = 0; i < data->count; i++) {
-        size += data->weight[i] * data->weight[i] * data->y[i] * data->y[i];
+    int parts = 2 - job->absent[0] - job->absent[1];
+    uint32_t freedom = job->kept - 2 * (uint32_t)parts;
+    for (uint32_t i = 0; i < job->data.count; i++) {
+        double y = job->data.weight[i] * job->data.y[i];
+        size += y * y;
     }
-    double rounding = 0x1p-100 * size / kept;
-    double variance = lrcsi_most(best->square / freedom, rounding);
-    double t = lrcsi_special_student(freedom);
-    int known = noise == LRCS_FIT_GIVEN && variance < 1.0;
-    double t_known = lrcsi_special_student(UINT32_MAX);
-    *rise = known ? t_known * t_known : variance * t * t;
-    return sqrt(variance);
+    double rounding = FIT_ROUNDING * size / job->kept;
+    double variance = lrcsi_most(job->best.square / freedom, rounding);
+    int known = job->noise == LRCS_FIT_GIVEN && variance < 1.0;
+    double t = lrcsi_special_student(known ? UINT32_MAX : freedom);
+    job->error = sqrt(variance);
+    job->rise = (known ? 1.0 : variance) * t * t;
+}
+
+static void fit_make(fit_job *job)
+{
+    int done = 0;
+    starts_make(job);
+    job->whole = job->start[0];
+    for (int look = 0; look < FIT_LOOKS && !done; look++) {
+        whole_settle(job);
+        parts_choose(job);
+        errors_estimate(job);
+        int known = job->noise == LRCS_FIT_GIVEN && job->error < 1.0;
+        job->spread = lrcsi_fit_spread_make(&job->data, &job->best, known ? 1.0 : job->error);
+        done = lrcsi_fit_profile(&job->data, &job->spread, job->rise, &job->best, &job->whole,
+                                 job->limit);
+    }
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        if (job->absent[p % 2]) {
+            job->spread.error[p] = HUGE_VAL;
+            job->limit[p][0] = p < LRCS_FIT_S ? 0.0 : -HUGE_VAL;
+            job->limit[p][1] = p < LRCS_FIT_S ? job->limit[p][1] : HUGE_VAL;
+        }
+    }
 }
 
 /* ---- the account ---- */
-
-static uint32_t kept_count(const lrcsi_fit_data *data)
-{
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < data->count; i++) {
-        kept += data->weight[i] > 0.0;
-    }
-    return kept;
-}
 
 /* The range of the angles that are kept, and how many there are, up to as many as parameters. */
 static void angles_count(const lrcs_fit_reading *reading, const lrcsi_fit_data *data, lrcs_fit *fit)
@@ -244,55 +305,50 @@ static double parameter_value(int p, double at, double unit)
 
 static int parameter_verdict(int p, const double limit[2], int absent)
 {
-    int open_below = limit[0] == -HUGE_VAL || (limit[0] == 0.0 && p != LRCS_FIT_M);
-    int open_above = limit[1] == HUGE_VAL;
+    int open = limit[0] == -HUGE_VAL || (limit[0] == 0.0 && p < LRCS_FIT_S);
     if (p >= LRCS_FIT_S && absent) {
         return LRCS_FIT_MOOT;
     }
-    if (open_above) {
-        return limit[0] > 0.0 || (p == LRCS_FIT_S && !open_below) ? LRCS_FIT_AT_LEAST
-                                                                  : LRCS_FIT_FREE;
+    if (limit[1] == HUGE_VAL) {
+        return open || (p == LRCS_FIT_M && limit[0] == 0.0) ? LRCS_FIT_FREE : LRCS_FIT_AT_LEAST;
     }
-    return !open_below ? LRCS_FIT_DETERMINED : p < LRCS_FIT_S ? LRCS_FIT_ABSENT : LRCS_FIT_AT_MOST;
+    return !open ? LRCS_FIT_DETERMINED : p < LRCS_FIT_S ? LRCS_FIT_ABSENT : LRCS_FIT_AT_MOST;
 }
 
-static void parameters_fill(const lrcsi_fit_spot *best, const lrcsi_fit_spread *spread,
-                            double limit[LRCS_FIT_PARAMETERS][2], double unit, lrcs_fit *fit)
+static void parameters_fill(const fit_job *job, double unit, lrcs_fit *fit)
 {
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        int part = p < LRCS_FIT_S ? p : p - LRCS_FIT_S;
-        int absent = limit[part][0] == 0.0;
-        lrcs_fit_parameter *one = &fit->parameter[p];
-        double by_coordinate = p < LRCS_FIT_S    ? unit
-                               : p == LRCS_FIT_S ? exp(best->at[p])
-                                                 : exp(best->at[p]); /* of s, of 1 + m */
-        one->value =
-            p >= LRCS_FIT_S && best->at[part] == 0.0 ? 0.0 : parameter_value(p, best->at[p], unit);
-        one->error = spread->error[p] * by_coordinate;
-        one->low = lrcsi_most(0.0, parameter_value(p, limit[p][0], unit));
-        one->high = parameter_value(p, limit[p][1], unit);
-        one->verdict = parameter_verdict(p, limit[p], absent);
+        int part = p % 2;
+        double at = job->best.at[p];
+        int none = job->best.at[part] == 0.0;
+        double by_coordinate = p < LRCS_FIT_S ? unit : exp(at); /* s and 1 + m are exp */
+        fit->parameter[p] = (lrcs_fit_parameter){
+            .value = none ? 0.0 : parameter_value(p, at, unit),
+            .error = job->spread.error[p] * by_coordinate,
+            .low = lrcsi_most(0.0, parameter_value(p, job->limit[p][0], unit)),
+            .high = parameter_value(p, job->limit[p][1], unit),
+            .verdict = parameter_verdict(p, job->limit[p], job->limit[part][0] == 0.0)};
     }
-    memcpy(fit->correlation, spread->correlation, sizeof fit->correlation);
+    memcpy(fit->correlation, job->spread.correlation, sizeof fit->correlation);
     fit->brdf = (lrcs_brdf){fit->parameter[LRCS_FIT_A].value, fit->parameter[LRCS_FIT_B].value,
                             fit->parameter[LRCS_FIT_S].value, fit->parameter[LRCS_FIT_M].value};
 }
 
-/* Fills rms; and the points, in the readings' unit. */
-static void points_fill(const lrcsi_fit_data *data, const lrcsi_fit_spot *best, double noise,
-                        double scale, double unit, lrcs_fit *fit, lrcs_fit_point *point)
+/* The residuals, and their root mean square over those kept, in the readings' unit. */
+static double points_fill(const fit_job *job, double scale, lrcs_fit_point *point)
 {
+    const lrcsi_fit_data *data = &job->data;
     double square = 0.0;
-    lrcsi_fit_rests(data, best);
+    lrcsi_fit_rests(data, &job->best);
     for (uint32_t i = 0; i < data->count; i++) {
         int keep = data->weight[i] > 0.0;
         square += keep ? data->rest[i] * data->rest[i] : 0.0;
         if (point) {
             point[i] = (lrcs_fit_point){scale * (data->y[i] - data->rest[i]), scale * data->rest[i],
-                                        data->rest[i] * data->inverse[i] / noise, !keep};
+                                        data->rest[i] * data->inverse[i] / job->error, !keep};
         }
     }
-    fit->rms = sqrt(square / fit->kept) * unit;
+    return scale * sqrt(square / job->kept);
 }
 
 int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit_options *options,
@@ -300,39 +356,23 @@ int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit
 {
     double largest = 0.0;
     size_t mark = work->used;
-    lrcsi_fit_data data;
+    fit_job job;
     int status = readings_check(reading, count, options, &largest);
-    status = status == LRCS_OK ? data_take(work, count, &data) : status;
+    status = status == LRCS_OK ? data_take(work, count, &job.data) : status;
     work->used = mark;
     if (status != LRCS_OK) {
         return status;
     }
-    int exponent = ilogb(largest);
-    double scale = ldexp(1.0, exponent);
-    double unit = options->unit * scale;
-    data_fill(reading, options, scale, &data);
-
-    lrcsi_fit_spot start[LRCSI_FIT_STARTS];
-    lrcsi_fit_spread spread;
-    double limit[LRCS_FIT_PARAMETERS][2];
-    double rise = 0.0;
-    double noise = 0.0;
-    int done = 0;
-    fit->starts = starts_make(&data, options->noise, start);
-    lrcsi_fit_spot best = start[0];
-    for (int look = 0; look < FIT_LOOKS && !done; look++) {
-        fit_settle(&data, options->noise, &best);
-        fit->agreeing = starts_compare(&data, start, fit->starts, &best);
-        fit->kept = kept_count(&data);
-        noise = fit_noise(&data, options->noise, &best, fit->kept, &rise);
-        spread = lrcsi_fit_spread_make(&data, &best, noise);
-        done = lrcsi_fit_profile(&data, &spread, rise, &best, limit);
-    }
-    double by_unit = options->noise == LRCS_FIT_ABSOLUTE ? unit : 1.0;
-    fit->noise = noise * by_unit;
-    angles_count(reading, &data, fit);
-    parameters_fill(&best, &spread, limit, unit, fit);
-    points_fill(&data, &best, noise, scale, unit, fit, point);
+    double scale = ldexp(1.0, ilogb(largest));
+    job.noise = options->noise;
+    data_fill(reading, options, scale, &job.data);
+    fit_make(&job);
+    fit->starts = job.starts;
+    fit->kept = job.kept;
+    fit->noise = job.error * (job.noise == LRCS_FIT_ABSOLUTE ? scale * options->unit : 1.0);
+    fit->rms = points_fill(&job, scale, point) * options->unit;
+    angles_count(reading, &job.data, fit);
+    parameters_fill(&job, scale * options->unit, fit);
     return LRCS_OK;
 }
 
@@ -343,8 +383,8 @@ const char *lrcs_fit_verdict_text(int parameter, int verdict)
     case LRCS_FIT_DETERMINED:
         return "determined";
     case LRCS_FIT_ABSENT:
-        return glint ? "cannot be told from 0: no glint stands out of the readings"
-                     : "cannot be told from 0: no diffuse part stands out of the readings";
+        return glint ? "may be 0: no glint is needed to explain the readings"
+                     : "may be 0: no diffuse part is needed to explain the readings";
     case LRCS_FIT_MOOT:
         return glint ? "not determined: there may be no glint"
                      : "not determined: there may be no diffuse part";

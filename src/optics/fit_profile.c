@@ -12,6 +12,8 @@
 #define PROFILE_STRIDES 60
 #define PROFILE_CUTS    24
 
+#define PROFILE_SHAPES 12
+
 /* A limit is found where the root of the rise is right to this. */
 #define PROFILE_NEAR 1e-4
 
@@ -82,24 +84,53 @@ typedef struct profile_walk {
     const lrcsi_fit_data *data;
     int parameter;
     double rise;
-    const lrcsi_fit_spot *best;
+    const lrcsi_fit_spot *best, *whole;
     lrcsi_fit_spot last; /* the least at the last place where the readings did not object */
     lrcsi_fit_spot low;  /* the least of all met */
 } profile_walk;
 
+/* Descends from a spot with the walk's parameter at x; the lower end stays in *least. */
+static void walk_descend(const profile_walk *walk, double x, const lrcsi_fit_spot *from,
+                         lrcsi_fit_spot *least)
+{
+    lrcsi_fit_spot spot = *from;
+    spot.at[walk->parameter] = x;
+    lrcsi_fit_descend(walk->data, 1u << walk->parameter, &spot);
+    *least = spot.square < least->square ? spot : *least;
+}
+
+/* The best of some shapes of a part with the walk's parameter at x: a glint may hide between
+   readings or grow wide, and there may be a hill between. A and m ask for the glint's shape, B and
+   s for that of the diffuse part. */
+static lrcsi_fit_spot walk_shape(const profile_walk *walk, double x)
+{
+    int p = walk->parameter;
+    int shape = p == LRCS_FIT_A || p == LRCS_FIT_M ? LRCS_FIT_S : LRCS_FIT_M;
+    unsigned fixed = 1u << p | 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
+    double least = walk->data->least[shape];
+    double most = walk->data->most[shape];
+    lrcsi_fit_spot best = walk->last;
+    best.square = HUGE_VAL;
+    for (int k = 0; k <= PROFILE_SHAPES; k++) {
+        lrcsi_fit_normal normal;
+        lrcsi_fit_spot spot = walk->last;
+        spot.at[p] = x;
+        spot.at[shape] = least + (most - least) * k / PROFILE_SHAPES;
+        lrcsi_fit_settle(walk->data, fixed, &spot, &normal);
+        best = spot.square < best.square ? spot : best;
+    }
+    return best;
+}
+
 /* The root of the rise at a place, 1 where it is the limit. */
 static double walk_rise(profile_walk *walk, double x, lrcsi_fit_spot *spot)
 {
-    unsigned fixed = 1u << walk->parameter;
-    lrcsi_fit_spot other = *walk->best;
     *spot = walk->last;
-    spot->at[walk->parameter] = x;
-    other.at[walk->parameter] = x;
-    lrcsi_fit_descend(walk->data, fixed, spot);
-    lrcsi_fit_descend(walk->data, fixed, &other);
-    if (other.square < spot->square) {
-        *spot = other;
-    }
+    spot->square = HUGE_VAL;
+    walk_descend(walk, x, &walk->last, spot);
+    walk_descend(walk, x, walk->whole, spot);
+    lrcsi_fit_spot from = walk_shape(walk, x);
+    walk_descend(walk, x, &from, spot);
     if (spot->square < walk->low.square) {
         walk->low = *spot;
     }
@@ -161,11 +192,12 @@ static double walk_limit(profile_walk *walk, double stride, int direction)
 }
 
 int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
-                      lrcsi_fit_spot *best, double limit[LRCS_FIT_PARAMETERS][2])
+                      const lrcsi_fit_spot *best, lrcsi_fit_spot *whole,
+                      double limit[LRCS_FIT_PARAMETERS][2])
 {
-    lrcsi_fit_spot low = *best;
+    lrcsi_fit_spot low = *whole;
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        profile_walk walk = {data, p, rise, best, *best, low};
+        profile_walk walk = {data, p, rise, best, whole, *best, low};
         double most = p < LRCS_FIT_S ? HUGE_VAL : 0.5;
         double stride = lrcsi_least(2.0 * spread->error[p], most);
         stride = stride > 0.0 && stride < HUGE_VAL ? stride : 0.1;
@@ -173,7 +205,7 @@ int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread
         limit[p][1] = walk_limit(&walk, stride, 1);
         low = walk.low;
     }
-    int lower = best->square - low.square > PROFILE_LOWER * rise;
-    *best = lower ? low : *best;
+    int lower = whole->square - low.square > PROFILE_LOWER * rise;
+    *whole = lower ? low : *whole;
     return !lower;
 }

@@ -15,12 +15,16 @@ typedef struct lrcsi_fit_spread {
 lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, const lrcsi_fit_spot *best,
                                        double noise);
 
-/* The coordinates at which the sum of squares, least over the others, has grown by `rise`.
-   Given: best, a local minimum; spread at it.
-   Returned: limit[p][0] below and [p][1] above; -HUGE_VAL, HUGE_VAL where it grows by less all the
-   way to the end of the search (0 is the end for A, B and log(1 + m), and is returned as 0).
-   Status: 1; or 0 where a lower sum was met on the way: that spot is then in *best. */
+/* The coordinates at which the sum of squares, least over the others, exceeds that at `best` by
+   `rise`.
+   Given: best, the least that is reported; whole, the least of all, which is that or lower; spread
+   at best.
+   Returned: limit[p][0] below and [p][1] above; -HUGE_VAL, HUGE_VAL where the sum exceeds it
+   nowhere to the end of the search (but for A, B and log(1 + m) that end is 0 below, and 0 is
+   returned).
+   Status: 1; or 0 where a sum below `whole` was met on the way: that spot is then in *whole. */
 int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
-                      lrcsi_fit_spot *best, double limit[LRCS_FIT_PARAMETERS][2]);
+                      const lrcsi_fit_spot *best, lrcsi_fit_spot *whole,
+                      double limit[LRCS_FIT_PARAMETERS][2]);
 
 #endif
