@@ -124,5 +124,6 @@ extern const cli_command cli_info_command;
 extern const cli_command cli_shape_command;
 extern const cli_command cli_verify_command;
 extern const cli_command cli_converge_command;
+extern const cli_command cli_fit_command;
 
 #endif
