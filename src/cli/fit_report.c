@@ -73,15 +73,15 @@ static void outliers_print(const fit_material *material)
 {
     uint32_t named = 0;
     uint32_t outliers = material->count - material->fit.kept;
-    printf("readings   %lu from %.6g to %.6g deg, %lu outliers set aside",
+    printf("readings   %lu from %.6g to %.6g deg, outliers set aside: %lu",
            (unsigned long)material->count, material->fit.least_deg, material->fit.most_deg,
            (unsigned long)outliers);
     for (uint32_t i = 0; i < material->count && named < REPORT_LINES_MOST; i++) {
         if (material->point[i].outlier) {
-            printf("%s%lu", named++ ? ", " : ": lines ", (unsigned long)material->line[i]);
+            printf("%s%lu", named++ ? ", " : " (line ", (unsigned long)material->line[i]);
         }
     }
-    printf("%s\n", named < outliers ? ", ..." : "");
+    printf("%s%s\n", named < outliers ? ", ..." : "", outliers ? ")" : "");
 }
 
 /* A number right-aligned, or a word for one that there is not. */

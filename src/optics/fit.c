@@ -259,13 +259,14 @@ static void fit_make(fit_job *job)
         parts_choose(job);
         errors_estimate(job);
         int known = job->noise == LRCS_FIT_GIVEN && job->error < 1.0;
-        job->spread = lrcsi_fit_spread_make(&job->data, &job->best, known ? 1.0 : job->error);
+        unsigned gone = (job->absent[0] ? 1u << LRCS_FIT_A | 1u << LRCS_FIT_S : 0u) |
+                        (job->absent[1] ? 1u << LRCS_FIT_B | 1u << LRCS_FIT_M : 0u);
+        job->spread = lrcsi_fit_spread_make(&job->data, gone, &job->best, known ? 1.0 : job->error);
         done = lrcsi_fit_profile(&job->data, &job->spread, job->rise, &job->best, &job->whole,
                                  job->limit);
     }
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         if (job->absent[p % 2]) {
-            job->spread.error[p] = HUGE_VAL;
             job->limit[p][0] = p < LRCS_FIT_S ? 0.0 : -HUGE_VAL;
             job->limit[p][1] = p < LRCS_FIT_S ? job->limit[p][1] : HUGE_VAL;
         }
