@@ -87,6 +87,7 @@ static void slope_fill(const lrcsi_fit_data *data, lrcsi_fit_spot *spot, lrcsi_f
         double rest = data->weight[i] * data->y[i] -
                       spot->at[LRCS_FIT_A] * data->column[LRCS_FIT_A][i] -
                       spot->at[LRCS_FIT_B] * data->column[LRCS_FIT_B][i];
+        data->rest[i] = rest;
         spot->square += rest * rest;
         for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
             sum[j] += data->column[j][i] * rest;
@@ -134,12 +135,11 @@ static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
     return alone[0] > alone[1] ? 1u : 2u;
 }
 
-void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
-                      lrcsi_fit_normal *normal)
+void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
+                          lrcsi_fit_normal *normal)
 {
     unsigned free = 3u & ~fixed;
     double step[2];
-    lrcsi_fit_columns(data, spot);
     gram_fill(data, normal);
     for (int k = 0; k < 2; k++) {
         spot->at[k] = free & (1u << k) ? 0.0 : spot->at[k];
@@ -153,6 +153,13 @@ void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot
         }
         slope_fill(data, spot, normal);
     }
+}
+
+void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
+                      lrcsi_fit_normal *normal)
+{
+    lrcsi_fit_columns(data, spot);
+    lrcsi_fit_amplitudes(data, fixed, spot, normal);
 }
 
 /* ---- s and m ---- */
