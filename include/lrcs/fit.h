@@ -11,14 +11,15 @@
 typedef struct lrcs_fit_reading {
     double angle_deg; /* between line of sight and normal, -90 < angle_deg < 90; sign ignored */
     double value;     /* what was read, in the unit that the options state; may be negative */
-    double sigma;     /* its standard error in the same unit; read only with LRCS_FIT_GIVEN */
+    double sigma;     /* its standard error in the same unit; read only where it is given */
 } lrcs_fit_reading;
 
 /* How large the errors of readings are to one another. */
 enum lrcs_fit_noise {
     LRCS_FIT_ABSOLUTE, /* the same for all */
     LRCS_FIT_RELATIVE, /* in proportion to what is measured, down to 1e-4 of its largest */
-    LRCS_FIT_GIVEN     /* each reading's sigma */
+    LRCS_FIT_GIVEN,    /* each reading's sigma */
+    LRCS_FIT_WEIGHTED  /* each reading's sigma, but for a common factor that is not known */
 };
 
 typedef struct lrcs_fit_options {

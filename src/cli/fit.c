@@ -22,7 +22,7 @@ static const char fit_help[] =
     "The first line names the columns, in any order: angle_deg (-90 .. 90, the sign has no "
     "effect),\n"
     "brdf (also reading or value), and where there are any sigma (standard error, unit of brdf),\n"
-    "weight (1/sigma^2) and material (or sample), each of which is fitted by itself. Without "
+    "weight (like 1/sigma^2) and material (or sample), each of which is fitted by itself. Without "
     "names:\n"
     "angle, brdf and perhaps sigma.\n"
     "\n"
@@ -246,10 +246,11 @@ static int materials_make(fit_job *job)
 static int readings_check(fit_job *job)
 {
     const cli_args *args = job->args;
-    if (job->readings.has_sigma && cli_value(args, "noise")) {
+    int given = job->readings.noise != LRCS_FIT_ABSOLUTE;
+    if (given && cli_value(args, "noise")) {
         return cli_usage(args->command, "--noise: the readings have errors of their own");
     }
-    job->options.noise = job->readings.has_sigma ? LRCS_FIT_GIVEN : job->options.noise;
+    job->options.noise = given ? job->readings.noise : job->options.noise;
     for (int i = 0; i < args->given_count; i++) {
         if (is_chart(&args->given[i]) && job->readings.name_count > 1 && !cli_value(args, "name")) {
             return cli_usage(args->command,

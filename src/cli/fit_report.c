@@ -43,18 +43,6 @@ fit_statement cli_fit_statement(const lrcs_fit *fit, int parameter)
     return statement;
 }
 
-static int job_is_relative(const fit_job *job)
-{
-    return job->options.noise == LRCS_FIT_RELATIVE;
-}
-
-static const char *noise_text(const fit_job *job)
-{
-    return job->options.noise == LRCS_FIT_GIVEN ? "given with the readings"
-           : job_is_relative(job)               ? "taken as relative"
-                                                : "taken as absolute, the same for all";
-}
-
 /* ---- the table ---- */
 
 static void unit_print(const fit_job *job)
@@ -134,13 +122,19 @@ static void statements_print(const lrcs_fit *fit)
 
 static void residuals_print(const fit_job *job, const lrcs_fit *fit)
 {
-    printf("residuals  rms %.4g 1/sr; errors %s: ", fit->rms, noise_text(job));
-    if (job->options.noise == LRCS_FIT_GIVEN) {
-        printf("reduced chi-square %.4g\n", fit->noise * fit->noise);
-    } else if (job_is_relative(job)) {
-        printf("%.3g %% a reading\n", 100.0 * fit->noise);
-    } else {
-        printf("%.4g 1/sr a reading\n", fit->noise);
+    printf("residuals  rms %.4g 1/sr; errors ", fit->rms);
+    switch (job->options.noise) {
+    case LRCS_FIT_GIVEN:
+        printf("given: reduced chi-square %.4g\n", fit->noise * fit->noise);
+        break;
+    case LRCS_FIT_WEIGHTED:
+        printf("by weight\n");
+        break;
+    case LRCS_FIT_RELATIVE:
+        printf("taken as relative: %.3g %% a reading\n", 100.0 * fit->noise);
+        break;
+    default:
+        printf("taken as the same for all: %.4g 1/sr a reading\n", fit->noise);
     }
 }
 
@@ -297,7 +291,7 @@ static void material_json(const fit_job *job, const fit_material *material, lrcs
 
 void cli_fit_json(const fit_job *job)
 {
-    static const char *const noise[] = {"absolute", "relative", "given"};
+    static const char *const noise[] = {"absolute", "relative", "given", "weighted"};
     lrcs_host_json json = lrcs_host_json_make(stdout);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
     lrcs_host_json_count(&json, "schema", CLI_SCHEMA);

@@ -56,7 +56,7 @@ size_t lrcs_fit_need(uint32_t count)
 
 static int reading_is_good(const lrcs_fit_reading *reading, const lrcs_fit_options *options)
 {
-    int given = options->noise == LRCS_FIT_GIVEN;
+    int given = options->noise == LRCS_FIT_GIVEN || options->noise == LRCS_FIT_WEIGHTED;
     return fabs(reading->angle_deg) < 90.0 && isfinite(reading->value) &&
            isfinite(options->unit * reading->value) &&
            (!given || (reading->sigma > 0.0 && isfinite(reading->sigma)));
@@ -67,7 +67,7 @@ static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
 {
     *largest = 0.0;
     if (!(options->unit > 0.0 && isfinite(options->unit)) || options->noise < LRCS_FIT_ABSOLUTE ||
-        options->noise > LRCS_FIT_GIVEN) {
+        options->noise > LRCS_FIT_WEIGHTED) {
         return LRCS_E_ARGUMENT;
     }
     double most = 0.0;
@@ -112,6 +112,19 @@ static void data_limits(lrcsi_fit_data *data)
     memcpy(data->most, most, sizeof most);
 }
 
+/* 1 / (the error expected of a reading) at first sight. */
+static double error_inverse(const lrcs_fit_reading *reading, int noise, double y, double scale)
+{
+    switch (noise) {
+    case LRCS_FIT_ABSOLUTE:
+        return 1.0;
+    case LRCS_FIT_RELATIVE:
+        return 1.0 / lrcsi_most(fabs(y), FIT_FIRST_SHARE);
+    default:
+        return scale / reading->sigma;
+    }
+}
+
 /* Readings by the power of two below the largest: exact, and no square overflows. */
 static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *options,
                       double scale, lrcsi_fit_data *data)
@@ -124,10 +137,7 @@ static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *o
         data->log_w[i] = log1p(data->u[i]);
         data->factor[i] = options->cosine ? cosine : 1.0;
         data->y[i] = reading[i].value / scale;
-        data->inverse[i] = options->noise == LRCS_FIT_GIVEN ? scale / reading[i].sigma
-                           : options->noise == LRCS_FIT_RELATIVE
-                               ? 1.0 / lrcsi_most(fabs(data->y[i]), FIT_FIRST_SHARE)
-                               : 1.0;
+        data->inverse[i] = error_inverse(&reading[i], options->noise, data->y[i], scale);
     }
     data_limits(data);
 }

@@ -57,15 +57,16 @@ static void node_weigh(const lrcsi_fit_data *data, double mean)
 /* The least sum of absolute residuals for the s and m of a node. */
 static double node_least(const lrcsi_fit_data *data, const lrcsi_fit_spot *node)
 {
+    const unsigned shapes = 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
     lrcsi_fit_spot spot = *node;
     lrcsi_fit_normal normal;
     memcpy(data->weight, data->inverse, data->count * sizeof *data->weight);
     lrcsi_fit_columns(data, &spot);
-    lrcsi_fit_amplitudes(data, 0, &spot, &normal);
+    lrcsi_fit_amplitudes(data, shapes, &spot, &normal);
     double sum = node_sum(data);
     for (int pass = 1; pass < SEARCH_PASSES; pass++) {
         node_weigh(data, sum / data->count);
-        lrcsi_fit_amplitudes(data, 0, &spot, &normal);
+        lrcsi_fit_amplitudes(data, shapes, &spot, &normal);
         sum = node_sum(data);
     }
     return sum;

@@ -39,7 +39,8 @@ void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot);
 void lrcsi_fit_rests(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot);
 
 /* The best A and B >= 0 for the columns as they are, but for those in `fixed` (bits 1 << index),
-   which stay; the sum of squares and the sums there, and in rest[] the weighted residuals. */
+   which stay; the sum of squares and the sums there (of A and B alone where s and m are fixed), and
+   in rest[] the weighted residuals. */
 void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
                           lrcsi_fit_normal *normal);
 
