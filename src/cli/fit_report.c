@@ -120,10 +120,12 @@ static void statements_print(const lrcs_fit *fit)
     }
 }
 
-static void residuals_print(const fit_job *job, const lrcs_fit *fit)
+static void residuals_print(const fit_job *job, const fit_material *material)
 {
+    const lrcs_fit *fit = &material->fit;
+    const char *taken = job->noise_asked ? "taken" : "likelier";
     printf("residuals  rms %.4g 1/sr; errors ", fit->rms);
-    switch (job->options.noise) {
+    switch (material->noise) {
     case LRCS_FIT_GIVEN:
         printf("given: reduced chi-square %.4g\n", fit->noise * fit->noise);
         break;
@@ -131,10 +133,10 @@ static void residuals_print(const fit_job *job, const lrcs_fit *fit)
         printf("by weight\n");
         break;
     case LRCS_FIT_RELATIVE:
-        printf("taken as relative: %.3g %% a reading\n", 100.0 * fit->noise);
+        printf("%s relative: %.3g %% a reading\n", taken, 100.0 * fit->noise);
         break;
     default:
-        printf("taken as the same for all: %.4g 1/sr a reading\n", fit->noise);
+        printf("%s the same for all: %.4g 1/sr a reading\n", taken, fit->noise);
     }
 }
 
@@ -181,7 +183,7 @@ void cli_fit_table(const fit_job *job)
         putchar('\n');
         outliers_print(material);
         unit_print(job);
-        residuals_print(job, &material->fit);
+        residuals_print(job, material);
         parameters_print(&material->fit);
         putchar('\n');
         statements_print(&material->fit);
@@ -265,10 +267,11 @@ static void outliers_json(const fit_material *material, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
-static void material_json(const fit_job *job, const fit_material *material, lrcs_host_json *json)
+static void material_json(const fit_material *material, lrcs_host_json *json)
 {
     const lrcs_fit *fit = &material->fit;
-    int given = job->options.noise == LRCS_FIT_GIVEN;
+    static const char *const noise[] = {"absolute", "relative", "given", "weighted"};
+    int given = material->noise == LRCS_FIT_GIVEN;
     lrcs_host_json_begin(json, NULL, LRCS_HOST_OBJECT);
     lrcs_host_json_text(json, "material", material->name);
     lrcs_host_json_begin(json, "parameters", LRCS_HOST_OBJECT);
@@ -284,6 +287,7 @@ static void material_json(const fit_job *job, const fit_material *material, lrcs
     lrcs_host_json_number(json, "least_deg", fit->least_deg);
     lrcs_host_json_number(json, "most_deg", fit->most_deg);
     lrcs_host_json_number(json, "rms_per_sr", fit->rms);
+    lrcs_host_json_text(json, "errors", noise[material->noise]);
     lrcs_host_json_number(json, "noise", fit->noise);
     lrcs_host_json_number(json, "reduced_chi2", given ? fit->noise * fit->noise : (double)NAN);
     lrcs_host_json_end(json);
@@ -291,17 +295,15 @@ static void material_json(const fit_job *job, const fit_material *material, lrcs
 
 void cli_fit_json(const fit_job *job)
 {
-    static const char *const noise[] = {"absolute", "relative", "given", "weighted"};
     lrcs_host_json json = lrcs_host_json_make(stdout);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
     lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
     lrcs_host_json_text(&json, "version", lrcs_version());
     lrcs_host_json_number(&json, "unit_per_sr", job->options.unit);
     lrcs_host_json_bool(&json, "cosine", job->options.cosine);
-    lrcs_host_json_text(&json, "errors", noise[job->options.noise]);
     lrcs_host_json_begin(&json, "fits", LRCS_HOST_ARRAY);
     for (uint32_t i = 0; i < job->materials; i++) {
-        material_json(job, &job->material[i], &json);
+        material_json(&job->material[i], &json);
     }
     lrcs_host_json_end(&json);
     lrcs_host_json_begin(&json, "notices", LRCS_HOST_ARRAY);

@@ -389,27 +389,27 @@ int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit
 
 const char *lrcs_fit_verdict_text(int parameter, int verdict)
 {
-    int glint = parameter == LRCS_FIT_A || parameter == LRCS_FIT_S;
-    switch (verdict) {
-    case LRCS_FIT_DETERMINED:
-        return "determined";
-    case LRCS_FIT_ABSENT:
-        return glint ? "may be 0: no glint is needed to explain the readings"
-                     : "may be 0: no diffuse part is needed to explain the readings";
-    case LRCS_FIT_MOOT:
-        return glint ? "not determined: there may be no glint"
-                     : "not determined: there may be no diffuse part";
-    case LRCS_FIT_AT_MOST:
-        return glint
-                   ? "not determined but for an upper limit: too few readings on the glint's flank"
-                   : "not determined but for an upper limit";
-    case LRCS_FIT_AT_LEAST:
-        return glint ? "not determined but for a lower limit: the readings begin beyond the glint"
-                     : "not determined but for a lower limit: the readings end too early";
-    case LRCS_FIT_FREE:
-        return glint ? "not determined: a glint narrower than the readings reach would not show"
-                     : "not determined: the readings do not limit it";
-    default:
-        return "unknown verdict";
-    }
+    static const char *const text[][LRCS_FIT_PARAMETERS] = {
+        [LRCS_FIT_DETERMINED] = {"determined", "determined", "determined", "determined"},
+        [LRCS_FIT_ABSENT] = {"may be 0: no glint is needed to explain the readings",
+                             "may be 0: no diffuse part is needed to explain the readings"},
+        [LRCS_FIT_MOOT] = {[LRCS_FIT_S] = "not determined: there may be no glint",
+                           [LRCS_FIT_M] = "not determined: there may be no diffuse part"},
+        [LRCS_FIT_AT_MOST] = {[LRCS_FIT_S] = "not determined, only limited above: the glint may be "
+                                             "narrower, too few readings are on its flank"},
+        [LRCS_FIT_AT_LEAST] = {"not determined, only limited below: the readings begin on the "
+                               "glint's flank",
+                               "not determined, only limited below: the readings begin too far "
+                               "from the normal",
+                               "not determined, only limited below: so wide a glint looks diffuse",
+                               "not determined, only limited below: the diffuse part may be as "
+                               "narrow as a glint"},
+        [LRCS_FIT_FREE] = {"not determined: a glint narrower than the readings reach would not "
+                           "show",
+                           "not determined: the readings begin too far from the normal",
+                           "not determined: the readings do not limit it",
+                           "not determined: the readings do not limit it"}};
+    int known = parameter >= 0 && parameter < LRCS_FIT_PARAMETERS && verdict >= 0 &&
+                verdict <= LRCS_FIT_FREE;
+    return known && text[verdict][parameter] ? text[verdict][parameter] : "unknown verdict";
 }

@@ -56,6 +56,17 @@ recovers weights_of_0_leave_out weight.csv
 recovers outliers outliers.txt
 same outliers_are_named_by_line "$(printf '%s\n' "$out" | sed -n 's/.*"outlier_lines": //p')" '[31, 32],'
 
+run fit "$root/examples/foil.csv" --json
+same example_has_three_outliers "$(printf '%s\n' "$out" | sed -n 's/.*"outlier_lines": //p')" '[14, 49, 66],'
+same example_has_relative_errors "$(printf '%s\n' "$out" | grep -c '"errors": "relative"')" 1
+same example_holds_its_material "$(awk -v a="$(parameter A low)" -v b="$(parameter A high)" -v c="$(parameter m low)" \
+    -v d="$(parameter m high)" 'BEGIN { print (a < 1 && b > 1 && c < 0.5 && d > 0.5) }')" 1
+awk 'NR > 1 { srand(NR); print $1, $2 + 0.01 * (rand() - 0.5) }' blanks.txt >even.txt
+run fit even.txt
+same errors_that_are_the_same_for_all_are_seen "$(printf '%s\n' "$out" | grep -c 'errors likelier the same for all')" 1
+run fit even.txt --noise relative
+same errors_are_what_was_asked "$(printf '%s\n' "$out" | grep -c 'errors taken relative')" 1
+
 # ---- units ----
 brdf 1 0.25 0.2 0.5 -70 75 5 3.20570678937734 >panel.txt # pi / 0.98
 recovers readings_against_a_panel panel.txt --panel 0.98
@@ -83,7 +94,7 @@ run fit lambert.txt --json
 same json_exits_3_too "$rc" 3
 same json_has_no_limit_for_s "$(parameter s high)" null
 same json_names_the_open "$(parameter s determined) $(parameter B determined)" "false true"
-same json_keys_in_order "$(keys)" "schema version unit_per_sr cosine errors fits notices "
+same json_keys_in_order "$(keys)" "schema version unit_per_sr cosine fits notices "
 brdf 1 0.25 0.1 0.5 30 75 1 | awk '{ srand(NR); print $1, $2 + 0.002 * (rand() - 0.5) }' >beyond.txt
 run fit beyond.txt
 same hidden_glint_is_said "$(printf '%s\n' "$out" | grep -c '^A not determined: a glint narrower .* from 30 to 75 deg')" 1
@@ -143,7 +154,7 @@ same any_bytes_are_refused "$rc $out" "1 "
 usage_error fit_without_data "DATA.csv is missing" fit
 usage_error panel_of_0 "found '0'" fit blanks.txt --panel 0
 usage_error panel_in_percent "found '99'" fit blanks.txt --panel 99
-usage_error unknown_noise "absolute or relative, found 'gauss'" fit blanks.txt --noise gauss
+usage_error unknown_noise "absolute, relative or auto, found 'gauss'" fit blanks.txt --noise gauss
 usage_error noise_beside_given_errors "errors of their own" fit sigma.txt --noise relative
 usage_error plot_of_another_kind "expected FILE.svg or FILE.png" fit blanks.txt --plot p.pdf
 usage_error residuals_of_another_kind "expected FILE.svg or FILE.png" fit blanks.txt --residuals r
