@@ -19,6 +19,7 @@
 #include <math.h>
 
 #include "base/dd.h"
+#include "base/range.h"
 
 #define REFLECT_GLINT_UNITS   24.0
 #define REFLECT_DIFFUSE_UNITS 28.0
@@ -51,7 +52,7 @@ static lrcsi_dd glint_exponent(double u, double s)
 static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
 {
     lrcsi_dd x = glint_exponent(u, brdf->s);
-    reflect_part part = {0.0, REFLECT_GLINT_UNITS * REFLECT_UNIT, 2.0 * fmin(u, 1.0) + x.hi};
+    reflect_part part = {0.0, REFLECT_GLINT_UNITS * REFLECT_UNIT, 2.0 * lrcsi_least(u, 1.0) + x.hi};
     if (x.hi < REFLECT_X_FAR) {
         double q = (1.0 + u) * (exp(-0.5 * x.hi) * (1.0 - 0.5 * x.lo));
         part.value = brdf->A * q * q;
@@ -70,11 +71,11 @@ static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
     double ratio = w.lo / w.hi;
     double d = quarter_m * ratio;
     /* where -d exceeds 400, pow has underflowed: w.hi >= 1 + 2^-52, |w.lo| <= 2^-53 w.hi */
-    double r = pow(w.hi, -quarter_m) * (fabs(d) < 0x1p-30 ? 1.0 - d : exp(fmin(-d, 400.0)));
+    double r = pow(w.hi, -quarter_m) * (fabs(d) < 0x1p-30 ? 1.0 - d : exp(lrcsi_least(-d, 400.0)));
     reflect_part part;
     part.value = brdf->B * r * r / w.hi * (1.0 - ratio);
-    part.relative = REFLECT_UNIT * (REFLECT_DIFFUSE_UNITS + 10.0 * fmin(fabs(d), 1e4));
-    part.flank = (2.0 * quarter_m + 1.0) * fmin(u, 1.0);
+    part.relative = REFLECT_UNIT * (REFLECT_DIFFUSE_UNITS + 10.0 * lrcsi_least(fabs(d), 1e4));
+    part.flank = (2.0 * quarter_m + 1.0) * lrcsi_least(u, 1.0);
     return part;
 }
 
@@ -117,7 +118,7 @@ lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_e
     double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
     if (brdf->A > 0.0 && isfinite(tan2)) {
         reflect_part glint = reflect_glint(brdf, tan2);
-        out.glint = fmin(glint.value, DBL_MAX);
+        out.glint = lrcsi_least(glint.value, DBL_MAX);
         out.error = part_is_plain(&glint, e) ? part_error(&glint, e)
                                              : part_error_all(&glint, glint_most(brdf, low, high));
     }

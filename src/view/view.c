@@ -13,9 +13,9 @@
 
 #define U 0x1p-53
 
-/* N . d. Products and sums are split into what doubles hold of them and what they lose, and only the
-   sum of the lost parts is rounded: with P = sum |N_k d_k|, at most |N| |d|, three pairs of up to
-   2 u P and their products 3 u^2 P, the pairs' sums 4 u^2 P, those of the sums' own lost parts
+/* N . d. Products and sums are split into what doubles hold of them and what they lose, and only
+   the sum of the lost parts is rounded: with P = sum |N_k d_k|, at most |N| |d|, three pairs of up
+   to 2 u P and their products 3 u^2 P, the pairs' sums 4 u^2 P, those of the sums' own lost parts
    2 u^2 P, the two together 4 u^2 P. Off by at most N's own error times |d|, 14 u^2 |N| |d|, and
    the last rounding, u |N . d|. */
 static double normal_dot(const lrcsi_normal *n, const double *d)
@@ -25,8 +25,8 @@ static double normal_dot(const lrcsi_normal *n, const double *d)
     lrcsi_dd z = lrcsi_dd_two_product(n->high[2], d[2]);
     lrcsi_dd xy = lrcsi_dd_two_sum(x.hi, y.hi);
     lrcsi_dd xyz = lrcsi_dd_two_sum(xy.hi, z.hi);
-    double low = ((x.lo + n->low[0] * d[0]) + (y.lo + n->low[1] * d[1])) +
-                 (z.lo + n->low[2] * d[2]);
+    double low =
+        ((x.lo + n->low[0] * d[0]) + (y.lo + n->low[1] * d[1])) + (z.lo + n->low[2] * d[2]);
     return xyz.hi + (low + (xy.lo + xyz.lo));
 }
 
@@ -153,11 +153,16 @@ void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
+    uint32_t front = 0; /* in registers: a char, which facings are, may stand anywhere */
+    uint32_t back = 0;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        view->facing[f] = p->skip[f] ? 0 : facing_of(view, f);
-        view->front += view->facing[f] > 0;
-        view->back += view->facing[f] < 0;
+        signed char facing = p->skip[f] ? 0 : facing_of(view, f);
+        view->facing[f] = facing;
+        front += facing > 0;
+        back += facing < 0;
     }
+    view->front = front;
+    view->back = back;
 }
 
 /* The square over the projected box's longer side, centred. */
@@ -183,22 +188,18 @@ static void view_window(lrcsi_view *view)
     }
 }
 
-size_t lrcsi_view_need(const lrcs_prepared *prepared)
+size_t lrcsi_view_face_need(const lrcs_prepared *prepared)
 {
-    return lrcsi_work_add(lrcsi_work_bytes(prepared->scene->facet_count, 1),
-                          lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcs_point)));
+    return lrcsi_work_bytes(prepared->scene->facet_count, 1);
 }
 
-int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view)
 {
     lrcsi_view v = {.prepared = prepared};
     v.backs_cast = v.backs_reflect = !prepared->solid;
-    size_t mark = work->used;
     v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
-    v.point = lrcsi_work_take(work, prepared->scene->vertex_count, sizeof *v.point);
-    if (!v.facing || !v.point) {
-        work->used = mark;
+    if (!v.facing) {
         return LRCS_E_MEMORY;
     }
     double square = 0;
@@ -210,18 +211,51 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
         }
     }
     v.length = sqrt(square);
+    view_facings(&v);
+    *view = v;
+    return LRCS_OK;
+}
+
+int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
+{
+    const lrcs_prepared *p = view->prepared;
+    view->point = lrcsi_work_take(work, p->scene->vertex_count, sizeof *view->point);
+    if (!view->point) {
+        return LRCS_E_MEMORY;
+    }
     /* A coordinate is three products of |R| <= 1 with a rounded difference: 6 u times the reach,
        and R's own rows are off by a few u; a lifted point adds u of the centre. */
     double reach = 0;
     for (int k = 0; k < 3; k++) {
-        reach = lrcsi_most(reach, fabs(prepared->centre[k]));
+        reach = lrcsi_most(reach, fabs(p->centre[k]));
     }
-    v.off = 32 * U * (prepared->radius + reach);
-    view_facings(&v);
-    for (uint32_t i = 0; i < prepared->scene->vertex_count; i++) {
-        view_point(&v, prepared->vertex[i].x, v.point[i].x);
+    view->off = 32 * U * (p->radius + reach);
+    for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
+        view_point(view, p->vertex[i].x, view->point[i].x);
     }
-    view_window(&v);
+    view_window(view);
+    return LRCS_OK;
+}
+
+size_t lrcsi_view_need(const lrcs_prepared *prepared)
+{
+    return lrcsi_work_add(lrcsi_view_face_need(prepared),
+                          lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcs_point)));
+}
+
+int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+                    lrcsi_view *view)
+{
+    lrcsi_view v;
+    size_t mark = work->used;
+    int status = lrcsi_view_face(prepared, pose, work, &v);
+    if (status == LRCS_OK) {
+        status = lrcsi_view_project(work, &v);
+    }
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
     *view = v;
     return LRCS_OK;
 }

@@ -34,9 +34,15 @@ typedef struct lrcsi_view {
     int backs_reflect;    /* they reflect, where their material is two-sided */
 } lrcsi_view;
 
-size_t lrcsi_view_need(const lrcs_prepared *prepared);
+/* A view without coordinates (point, off and the window), which method facet does without: they
+   follow by lrcsi_view_project. Status: LRCS_OK; LRCS_E_MEMORY. It stays in the work area. */
+size_t lrcsi_view_face_need(const lrcs_prepared *prepared);
+int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+                    lrcsi_view *view);
+int lrcsi_view_project(lrcs_work *work, lrcsi_view *view);
 
-/* Status: LRCS_OK; LRCS_E_MEMORY. The view stays in the work area. */
+/* Both: a whole view. */
+size_t lrcsi_view_need(const lrcs_prepared *prepared);
 int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view);
 
