@@ -25,8 +25,10 @@
 #define REFLECT_DIFFUSE_UNITS 28.0
 #define REFLECT_UNIT          0x1p-53
 
-/* Beyond this x, exp(-x/2) nears underflow and q^2 may not: the exponents are added instead. */
-#define REFLECT_X_FAR 1400.0
+/* Beyond this x, exp(-x/2) nears underflow and q^2 may not: the exponents are added instead. And
+   beyond that, their sum is below -1500 for every u that is a double: exp gives 0. */
+#define REFLECT_X_FAR  1400.0
+#define REFLECT_X_NONE 3000.0
 
 /* One part and its relative error, `flank` being |d log(part) / d log(u)| at most. */
 typedef struct reflect_part {
@@ -58,7 +60,7 @@ static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
         part.value = brdf->A * q * q;
         part.relative += x.lo == 0.0 ? 4.0 * REFLECT_UNIT * x.hi : 0.0;
     } else {
-        part.value = brdf->A * exp(2.0 * log1p(u) - x.hi);
+        part.value = x.hi > REFLECT_X_NONE ? 0.0 : brdf->A * exp(2.0 * log1p(u) - x.hi);
         part.relative += 16.0 * REFLECT_UNIT * x.hi;
     }
     return part;
@@ -104,6 +106,14 @@ static double part_error(const reflect_part *part, double e)
     return part->value * delta * (1.0 + delta);
 }
 
+/* Is a glint that is not plain its own bound? Where tan^2 is exact only underflow spoils it: where
+   the value is at most 2^-900 (A q) q loses 2^-1074 q and 2^-1074, and q < 2^-200; A exp() loses 2^-1074 A; beyond
+   x = 2^48, where `relative` is of no use, nothing is left. All of this is below 2^-1000. */
+static int glint_is_most(const lrcs_brdf *brdf, const reflect_part *glint, double e)
+{
+    return e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500 && brdf->A <= 0x1p70;
+}
+
 /* For a bound `most` on the part: twice, for its own underflow and rounding. */
 static double part_error_all(const reflect_part *part, double most)
 {
@@ -120,7 +130,9 @@ lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_e
         reflect_part glint = reflect_glint(brdf, tan2);
         out.glint = lrcsi_least(glint.value, DBL_MAX);
         out.error = part_is_plain(&glint, e) ? part_error(&glint, e)
-                                             : part_error_all(&glint, glint_most(brdf, low, high));
+                    : glint_is_most(brdf, &glint, e)
+                        ? part_error_all(&glint, glint.value)
+                        : part_error_all(&glint, glint_most(brdf, low, high));
     }
     if (brdf->B > 0.0 && isfinite(tan2)) {
         reflect_part diffuse = reflect_diffuse(brdf, tan2);
