@@ -253,26 +253,37 @@ static double facet_tessellation(const total_job *job, uint32_t facet, const lrc
            lrcsi_tessellation_error(job->view, facet, &brdf, tilt, job->visible, job->margin);
 }
 
-static void add_facet(total_job *job, uint32_t facet, lrcs_facet_record *record)
+static void add_facet(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
+                      lrcs_facet_record *record)
 {
     const lrcsi_view *view = job->view;
-    lrcsi_tilt tilt = lrcsi_view_tilt(view, facet);
-    lrcsi_visible visible = facet_visible(job, facet, &tilt);
+    lrcsi_visible visible = facet_visible(job, facet, tilt);
     double sigma = 0;
     if (view->facing[facet] != 0) {
         int reflects = lrcsi_view_reflects(view, facet);
         if (reflects && visible.high > 0) {
             sigma = job->curved && lrcsi_curve_wanted(view, facet)
                         ? add_curved(job, facet)
-                        : add_reflecting(job, facet, &tilt, &visible);
+                        : add_reflecting(job, facet, tilt, &visible);
         }
-        count_facet(job, reflects, &tilt, &visible);
+        count_facet(job, reflects, tilt, &visible);
     }
     if (view->prepared->curved && !view->prepared->skip[facet]) {
-        job->sums.tessellation += facet_tessellation(job, facet, &tilt);
+        job->sums.tessellation += facet_tessellation(job, facet, tilt);
     }
     if (record) {
-        *record = record_of(view, facet, &tilt, visible.area, sigma);
+        *record = record_of(view, facet, tilt, visible.area, sigma);
+    }
+}
+
+/* The next facets in order, their incidence computed side by side. */
+static void add_facets(total_job *job, const uint32_t *facet, uint32_t count,
+                       lrcs_facet_record *records)
+{
+    lrcsi_tilt tilt[LRCSI_TILTS];
+    lrcsi_view_tilts(job->view, facet, count, tilt);
+    for (uint32_t i = 0; i < count; i++) {
+        add_facet(job, facet[i], &tilt[i], records ? &records[facet[i]] : NULL);
     }
 }
 
@@ -286,12 +297,21 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     if (p->curved && !tessellation_known(&job)) {
         job.sums.tessellation = -HUGE_VAL;
     }
+    uint32_t facet[LRCSI_TILTS];
+    uint32_t count = 0;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         if (p->curved || records || may_show(&job, f)) {
-            add_facet(&job, f, records ? &records[f] : NULL);
+            facet[count++] = f;
         } else {
             job.total.hidden += lrcsi_view_reflects(view, f) ? 1 : 0;
         }
+        if (count == LRCSI_TILTS) {
+            add_facets(&job, facet, count, records);
+            count = 0;
+        }
+    }
+    if (count > 0) {
+        add_facets(&job, facet, count, records);
     }
     total_finish(&job);
     return job.total;
