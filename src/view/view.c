@@ -65,12 +65,9 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
     const double *d = view->direction;
-    double dot = 0;
-    double size = 0;
-    for (int k = 0; k < 3; k++) {
-        dot += n->high[k] * d[k];
-        size += fabs(n->high[k] * d[k]);
-    }
+    const double part[3] = {n->high[0] * d[0], n->high[1] * d[1], n->high[2] * d[2]};
+    double dot = part[0] + part[1] + part[2];
+    double size = fabs(part[0]) + fabs(part[1]) + fabs(part[2]);
     if (fabs(dot) > 8 * U * size + 2 * n->error * view->length) {
         return dot > 0 ? 1 : -1;
     }
