@@ -239,6 +239,9 @@ static lrcsi_stray stray_of(const stray_size *all, const lrcs_curvature *c)
 lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
                              const lrcs_curvature *curvature)
 {
+    if (cos_theta < -(curvature->turn + 0x1p-40)) { /* below -sin(turn): all of it faces away */
+        return (lrcsi_stray){0.0, 0.0, 0.0, 0.0, 0.0};
+    }
     int front = cos_theta > 0.0;
     double angle = atan(sqrt(tan2));
     tan2_range range;
