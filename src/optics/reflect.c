@@ -123,26 +123,43 @@ static double part_error_all(const reflect_part *part, double most)
     return 2.0 * fmax(part->value, most) + 0x1p-1000;
 }
 
+/* tan^2 is in [tan2 / (1 + e), tan2 / (1 - e)], or anywhere. */
+static double glint_error(const lrcs_brdf *brdf, const reflect_part *glint, double tan2, double e)
+{
+    if (part_is_plain(glint, e)) {
+        return part_error(glint, e);
+    }
+    if (glint_is_most(brdf, glint, e)) {
+        return part_error_all(glint, glint->value);
+    }
+    double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
+    double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
+    return part_error_all(glint, glint_most(brdf, low, high));
+}
+
+/* The diffuse part only falls. */
+static double diffuse_error(const lrcs_brdf *brdf, const reflect_part *diffuse, double tan2,
+                            double e)
+{
+    if (part_is_plain(diffuse, e)) {
+        return part_error(diffuse, e);
+    }
+    double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
+    return part_error_all(diffuse, reflect_diffuse(brdf, low).value);
+}
+
 lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error)
 {
     lrcsi_reflection out = {0.0, 0.0, 0.0};
-    double e = tan2_error;
-    double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
-    double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
     if (brdf->A > 0.0 && isfinite(tan2)) {
         reflect_part glint = reflect_glint(brdf, tan2);
         out.glint = lrcsi_least(glint.value, DBL_MAX);
-        out.error = part_is_plain(&glint, e) ? part_error(&glint, e)
-                    : glint_is_most(brdf, &glint, e)
-                        ? part_error_all(&glint, glint.value)
-                        : part_error_all(&glint, glint_most(brdf, low, high));
+        out.error = glint_error(brdf, &glint, tan2, tan2_error);
     }
     if (brdf->B > 0.0 && isfinite(tan2)) {
         reflect_part diffuse = reflect_diffuse(brdf, tan2);
         out.diffuse = diffuse.value;
-        out.error += part_is_plain(&diffuse, e)
-                         ? part_error(&diffuse, e)
-                         : part_error_all(&diffuse, reflect_diffuse(brdf, low).value);
+        out.error += diffuse_error(brdf, &diffuse, tan2, tan2_error);
     }
     return out;
 }
