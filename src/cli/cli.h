@@ -118,6 +118,10 @@ void cli_column(const char *text, int width);
 /* "notice: ..." for each, on `out`. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
 
+/* On stdout: the manual page, and completion for bash. */
+void cli_manual_page(const cli_command *const *command, size_t count, const char *overview);
+void cli_manual_completion(const cli_command *const *command, size_t count);
+
 /* The commands. */
 extern const cli_command cli_run_command;
 extern const cli_command cli_info_command;
