@@ -133,7 +133,7 @@ $(LIB): $(CORE_OBJ) $(HOST_OBJ)
 
 $(BUILD)/src/cli/%.o: src/cli/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -MMD -MP -c -o $@ $<
 
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
