@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static const char sweep_help[] =
     "usage: lrcs sweep SCENE WHAT [options]\n"
@@ -21,6 +22,11 @@ static const char sweep_help[] =
     "                        standard error (as if they were random: an estimate)\n"
     "  --poses FILE.csv      rows of time,w,x,y,z (quaternion, body to observation) or of\n"
     "                        time,x,y,z (direction to the laser, body frame)\n"
+    "  --joint PART:RANGE    the joint's angle, deg; several parts as NAME,NAME or '*' turn "
+    "together\n"
+    "  --vary MATERIAL.KEY:RANGE  A, B, s or m of a material\n"
+    "  --vary PART.KEY:RANGE   of a shape: size_x, size_y, size_z, radius, radius2, length (m) or\n"
+    "                        half_angle_deg; shapes are tessellated anew for every value\n"
     "\n"
     "output\n"
     "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: shape of the map, then "
@@ -43,13 +49,16 @@ static const char sweep_help[] =
     "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy\n"
     "  lrcs sweep demo --sphere 1000\n"
     "  lrcs sweep demo --azel 90,0 --rotate x:0:360:1 --json\n"
+    "  lrcs sweep demo --joint '*:0:90:5' --azel 50,40\n"
+    "  lrcs sweep demo --vary foil.s:0.02:0.5:0.02 --az 0:90:1 -o foil.npy\n"
     "  lrcs sweep demo --poses track.csv -o track.jsonl --resume\n"
     "  lrcs sweep demo --az 0:360:1 --el -90:90:1 --shard 3/16 -o map.3.csv\n";
 
 static const cli_option sweep_options[] = {
-    CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"az", 1, 0},   {"el", 1, 0},
-    {"rotate", 1, 0}, {"sphere", 1, 0},     {"poses", 1, 0},   {"o", 1, 0},    {"json", 0, 0},
-    {"resume", 0, 0}, {"shard", 1, 0},      {"jobs", 1, 0},    {"help", 0, 0}, {NULL, 0, 0}};
+    CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"az", 1, 0},     {"el", 1, 0},
+    {"joint", 1, 1},  {"vary", 1, 1},       {"rotate", 1, 0},  {"sphere", 1, 0}, {"poses", 1, 0},
+    {"o", 1, 0},      {"json", 0, 0},       {"resume", 0, 0},  {"shard", 1, 0},  {"jobs", 1, 0},
+    {"help", 0, 0},   {NULL, 0, 0}};
 
 #define JOBS_MOST 1024.0
 
@@ -69,20 +78,30 @@ typedef struct sweep_job {
 /* Set by a signal: the sweep ends after the poses that are running. */
 static volatile sig_atomic_t sweep_stop;
 
+/* The first Ctrl-C, or a batch system's warning, ends the sweep in order; one that comes seconds
+   later ends it at once. (Some that send signals send them twice, to a process and to its group.)
+ */
 static void stop_signal(int number)
 {
-    (void)number;
+    static volatile time_t since;
+    time_t now = time(NULL);
+    if (sweep_stop && now - since > 1) {
+        signal(number, SIG_DFL);
+        raise(number);
+    }
+    since = sweep_stop ? since : now;
     sweep_stop = 1;
 }
 
-/* The first Ctrl-C, or a batch system's warning, ends the sweep in order; the second one as ever.
- */
+/* What the shell has told to ignore them stays so. */
 static void signals_watch(void)
 {
     struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_handler = stop_signal;
-    action.sa_flags = (int)SA_RESETHAND | SA_RESTART;
+    action.sa_flags = SA_RESTART;
+    sigaddset(&action.sa_mask, SIGINT);
+    sigaddset(&action.sa_mask, SIGTERM);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
 }
@@ -125,30 +144,38 @@ static int job_files_check(const sweep_job *job)
 
 /* ---- the head ---- */
 
-static void head_add(sweep_head *head, const char *key, const char *text)
+/* An option given again stands beside the first. Returns 0 where its text has no room. */
+static int head_add(sweep_head *head, const char *key, const char *text)
 {
-    if (head->options == sizeof head->option / sizeof head->option[0]) {
-        return;
+    const size_t room = sizeof head->option[0].text;
+    uint32_t at = 0;
+    while (at < head->options && strcmp(head->option[at].key, key) != 0) {
+        at++;
     }
-    head->option[head->options].key = key;
-    char *at = head->option[head->options++].text;
-    snprintf(at, sizeof head->option[0].text, "%s", text);
-    for (; *at; at++) {
-        *at = (unsigned char)*at < 0x20 || *at == 0x7f ? '?' : *at;
+    char *end = head->option[at].text + strlen(head->option[at].text);
+    const char *between = at < head->options ? " and " : "";
+    head->option[at].key = key;
+    head->options += at == head->options;
+    size_t left = room - (size_t)(end - head->option[at].text);
+    int size = snprintf(end, left, "%s%s", between, text);
+    for (; *end; end++) {
+        *end = (unsigned char)*end < 0x20 || *end == 0x7f ? '?' : *end;
     }
+    return size >= 0 && (size_t)size < left;
 }
 
 /* What rows depend on beside the scene, which its hash stands for. */
-static void head_options(sweep_job *job)
+static int head_options(sweep_job *job)
 {
-    static const char *const said[] = {"az",        "el",   "rotate", "sphere",
-                                       "direction", "azel", "euler",  "quaternion"};
+    static const char *const said[] = {"az",   "el",        "rotate", "sphere", "joint",
+                                       "vary", "direction", "azel",   "euler",  "quaternion"};
     const cli_args *args = job->args;
     char text[64];
     for (int i = 0; i < args->given_count; i++) {
         for (size_t k = 0; k < sizeof said / sizeof said[0]; k++) {
-            if (strcmp(args->given[i].name, said[k]) == 0) {
-                head_add(&job->head, said[k], args->given[i].value);
+            if (strcmp(args->given[i].name, said[k]) == 0 &&
+                !head_add(&job->head, said[k], args->given[i].value)) {
+                return cli_usage(args->command, "--%s: too long", said[k]);
             }
         }
     }
@@ -162,9 +189,10 @@ static void head_options(sweep_job *job)
     snprintf(text, sizeof text, "%lu", (unsigned long)job->options.resolution);
     head_add(&job->head, "resolution", job->options.resolution ? text : "auto");
     head_add(&job->head, "normals", lrcs_normals_text(job->load.build.normals));
+    return 0;
 }
 
-static void head_make(sweep_job *job)
+static int head_make(sweep_job *job)
 {
     const sweep_plan *plan = &job->plan;
     sweep_head *head = &job->head;
@@ -178,7 +206,7 @@ static void head_make(sweep_job *job)
     if (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK || head->dimensions == 0) {
         head->shape[head->dimensions++] = plan->kind == SWEEP_FIXED ? 1 : plan->poses;
     }
-    head_options(job);
+    return head_options(job);
 }
 
 /* ---- the rows ---- */
@@ -205,27 +233,55 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
     return status;
 }
 
-static int job_run(sweep_job *job)
+/* The rows up to `end`, all of one scene. */
+static int scene_rows(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
 {
     lrcs_host_error error;
     lrcs_host_sweep sweep = {.first = job->file.next,
-                             .count = job->plan.end - job->file.next,
+                             .count = end - job->file.next,
                              .threads = job->threads,
                              .pose = job_pose,
                              .take = job_take,
                              .context = job,
                              .cancel = &sweep_stop};
-    if (sweep.count == 0) {
+    if (lrcs_host_sweep_run(scene, &job->options, &sweep, NULL, &error) == LRCS_OK) {
         return 0;
     }
-    if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        return cli_failed(&error);
+    cli_progress_clear(&job->progress);
+    return cli_failed(&error);
+}
+
+/* One scene after another; the rows of one stand together. */
+static int scenes_rows(sweep_job *job)
+{
+    int code = 0;
+    while (code == 0 && job->file.next < job->plan.end) {
+        lrcs_host_scene scene;
+        uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
+        memset(&scene, 0, sizeof scene);
+        code = cli_scene_of_row(&job->plan, job->file.next, &job->scene, &job->load.build, &scene);
+        if (code == 0) {
+            code = scene_rows(job, &scene, end < job->plan.end ? end : job->plan.end);
+        }
+        lrcs_host_scene_free(&scene);
     }
+    return code;
+}
+
+static int job_run(sweep_job *job)
+{
+    lrcs_host_error error;
+    int code = 0;
     job->progress =
         cli_progress_make(job->file.next - job->plan.first, job->plan.end - job->plan.first);
-    int status = lrcs_host_sweep_run(&job->scene, &job->options, &sweep, NULL, &error);
+    if (job->plan.scene_axes > 0) {
+        code = scenes_rows(job);
+    } else if (job->file.next < job->plan.end) {
+        code = lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
+        code = code ? code : scene_rows(job, &job->scene, job->plan.end);
+    }
     cli_progress_clear(&job->progress);
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    return code;
 }
 
 /* ---- the command ---- */
@@ -239,7 +295,7 @@ static void job_say(const sweep_job *job)
             fprintf(stderr, "notice: %s\n", lrcs_notice_text((int)bit));
         }
     }
-    if (job->plan.kind == SWEEP_SPHERE && tally->rows == job->plan.rows) {
+    if (cli_plan_has_mean(&job->plan) && tally->rows == job->plan.rows) {
         fprintf(stderr, "mean of sigma %.10g m2, standard error %.3g m2, mean bound %.3g m2\n",
                 tally->mean, cli_tally_error(tally), tally->bound / (double)tally->rows);
     }
@@ -262,7 +318,7 @@ static int job_rows(sweep_job *job)
     }
     signals_watch();
     code = job_run(job);
-    int closed = cli_file_close(&job->file, &job->plan, code == 0, job->plan.kind == SWEEP_SPHERE);
+    int closed = cli_file_close(&job->file, &job->plan, code == 0);
     if (code != 0 && job->file.path && closed == 0) {
         fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
                 job->file.partial, (unsigned long long)(job->file.next - job->plan.first),
@@ -287,11 +343,12 @@ static int sweep_command(const cli_args *args)
     job->args = args;
     int code = job_read(job);
     code = code ? code : cli_scene_read(args, &job->load, &job->scene);
+    code = code ? code : cli_scene_axes_check(args, &job->plan, &job->scene);
     code = code ? code : job_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
-        head_make(job);
-        code = job_rows(job);
+        code = head_make(job);
+        code = code ? code : job_rows(job);
     }
     cli_file_free(&job->file);
     cli_plan_free(&job->plan);

@@ -82,6 +82,25 @@ void cli_plan_free(sweep_plan *plan);
 void cli_plan_values(const sweep_plan *plan, uint64_t row, double value[SWEEP_COLUMNS]);
 int cli_plan_pose(const sweep_plan *plan, uint64_t row, lrcs_pose *pose);
 
+/* ---- what changes the scene ---- */
+
+/* --joint and --vary, before what changes the pose. 0 or CLI_USAGE. */
+int cli_scene_axes_read(const cli_args *args, sweep_plan *plan);
+
+/* Do parts, materials and values fit the scene? 0 or CLI_USAGE. */
+int cli_scene_axes_check(const cli_args *args, const sweep_plan *plan, const lrcs_host_scene *base);
+
+/* The scene of a row, from the one that was read, which must outlive it. 0 or CLI_FAILED. */
+int cli_scene_of_row(const sweep_plan *plan, uint64_t row, const lrcs_host_scene *base,
+                     const lrcs_build_options *build, lrcs_host_scene *scene);
+
+/* Adds an axis, NULL-terminated or not. 0 or CLI_USAGE. */
+int cli_axis_add(const cli_args *args, sweep_plan *plan, const char *option, const char *name,
+                 const char *text, size_t size);
+
+/* Do all rows together have a mean: one --sphere of one scene? */
+int cli_plan_has_mean(const sweep_plan *plan);
+
 /* Position of a row along an axis. */
 uint64_t cli_plan_place(const sweep_plan *plan, uint64_t row, uint32_t axis);
 
@@ -104,7 +123,7 @@ typedef struct sweep_head {
     uint32_t dimensions;
     struct {
         const char *key;
-        char text[160];
+        char text[1200];
     } option[24];
     uint32_t options;
 } sweep_head;
@@ -176,7 +195,7 @@ int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
                  lrcs_host_error *error);
 
 /* Ends: with all rows FILE.partial becomes FILE, else it stays as it is. 0 or CLI_FAILED. */
-int cli_file_close(sweep_file *file, const sweep_plan *plan, int all, int has_mean);
+int cli_file_close(sweep_file *file, const sweep_plan *plan, int all);
 void cli_file_free(sweep_file *file);
 
 /* Seconds on a clock that only goes forward. */

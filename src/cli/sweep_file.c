@@ -261,13 +261,13 @@ static int map_make(const sweep_file *file)
     return remove(file->partial) == 0 ? 0 : file_refuse(file->partial, "remove");
 }
 
-int cli_file_close(sweep_file *file, const sweep_plan *plan, int all, int has_mean)
+int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
 {
     lrcs_host_error error;
     if (!file->stream) {
         return 0;
     }
-    if (all && has_mean && file->tally.rows == plan->rows) {
+    if (all && cli_plan_has_mean(plan) && file->tally.rows == plan->rows) {
         cli_rows_mean(file->stream, file->format, &file->tally);
     }
     int good = fflush(file->stream) == 0 && !ferror(file->stream);

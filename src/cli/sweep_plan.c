@@ -11,8 +11,8 @@
 
 /* ---- axes ---- */
 
-static int axis_add(const cli_args *args, sweep_plan *plan, const char *option, const char *name,
-                    const char *text, size_t size)
+int cli_axis_add(const cli_args *args, sweep_plan *plan, const char *option, const char *name,
+                 const char *text, size_t size)
 {
     if (plan->axes == SWEEP_AXES) {
         return cli_usage(args->command, "at most %d axes", SWEEP_AXES);
@@ -36,15 +36,15 @@ static int azel_axes(const cli_args *args, sweep_plan *plan)
     for (int i = 0; i < args->given_count && code == 0; i++) {
         const cli_given *one = &args->given[i];
         if (strcmp(one->name, "az") == 0 || strcmp(one->name, "el") == 0) {
-            code = axis_add(args, plan, one->name, one->name[0] == 'a' ? "az_deg" : "el_deg",
-                            one->value, strlen(one->value));
+            code = cli_axis_add(args, plan, one->name, one->name[0] == 'a' ? "az_deg" : "el_deg",
+                                one->value, strlen(one->value));
         }
     }
     if (code == 0 && !cli_value(args, "az")) {
-        code = axis_add(args, plan, "az", "az_deg", "0", 1);
+        code = cli_axis_add(args, plan, "az", "az_deg", "0", 1);
     }
     if (code == 0 && !cli_value(args, "el")) {
-        code = axis_add(args, plan, "el", "el_deg", "0", 1);
+        code = cli_axis_add(args, plan, "el", "el_deg", "0", 1);
     }
     return code;
 }
@@ -74,7 +74,7 @@ static int euler_axes(const cli_args *args, sweep_plan *plan)
             return cli_usage(args->command, "--euler: expected three angles or ranges, found '%s'",
                              text);
         }
-        code = axis_add(args, plan, "euler", name[i], at, size);
+        code = cli_axis_add(args, plan, "euler", name[i], at, size);
         at += size + 1;
     }
     return code;
@@ -102,7 +102,7 @@ static int rotate_axes(const cli_args *args, sweep_plan *plan)
     }
     const char *range = text[size] ? text + size + 1 : text + size;
     int code = cli_pose_read(args, &plan->base);
-    return code ? code : axis_add(args, plan, "rotate", "rotate_deg", range, strlen(range));
+    return code ? code : cli_axis_add(args, plan, "rotate", "rotate_deg", range, strlen(range));
 }
 
 /* ---- which kind ---- */
@@ -237,6 +237,7 @@ int cli_plan_read(const cli_args *args, sweep_plan *plan)
 {
     memset(plan, 0, sizeof *plan);
     int code = ways_check(args);
+    code = code ? code : cli_scene_axes_read(args, plan);
     code = code ? code : poses_read(args, plan);
     code = code ? code : rows_count(args, plan);
     code = code ? code : shard_read(args, plan);
@@ -248,6 +249,11 @@ void cli_plan_free(sweep_plan *plan)
 {
     free(plan->track.row);
     plan->track.row = NULL;
+}
+
+int cli_plan_has_mean(const sweep_plan *plan)
+{
+    return plan->kind == SWEEP_SPHERE && plan->rows == plan->poses;
 }
 
 /* ---- one row ---- */
