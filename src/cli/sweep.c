@@ -79,8 +79,7 @@ typedef struct sweep_job {
 static volatile sig_atomic_t sweep_stop;
 
 /* The first Ctrl-C, or a batch system's warning, ends the sweep in order; one that comes seconds
-   later ends it at once. (Some that send signals send them twice, to a process and to its group.)
- */
+   later ends it at once. (A signal may come twice, to a process and to its group.) */
 static void stop_signal(int number)
 {
     static volatile time_t since;
@@ -93,17 +92,22 @@ static void stop_signal(int number)
     sweep_stop = 1;
 }
 
-/* What the shell has told to ignore them stays so. */
+/* A signal that the shell has told to ignore stays ignored. */
 static void signals_watch(void)
 {
+    static const int number[] = {SIGINT, SIGTERM};
     struct sigaction action;
+    struct sigaction before;
     memset(&action, 0, sizeof action);
     action.sa_handler = stop_signal;
     action.sa_flags = SA_RESTART;
     sigaddset(&action.sa_mask, SIGINT);
     sigaddset(&action.sa_mask, SIGTERM);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    for (size_t i = 0; i < sizeof number / sizeof number[0]; i++) {
+        if (sigaction(number[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
+            sigaction(number[i], &action, NULL);
+        }
+    }
 }
 
 /* ---- options ---- */
