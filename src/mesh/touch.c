@@ -372,7 +372,7 @@ static int append_touch(uint32_t other, int kind, lrcs_work *work, lrcsi_touches
 static int collect_touches(const touch_search *search, uint32_t f, lrcs_work *work,
                            lrcsi_touches *t)
 {
-    lrcsi_tree_walk walk = lrcsi_tree_around(&search->tree, search->vertex, search->facet[f]);
+    lrcsi_tree_walk walk = lrcsi_tree_around(&search->tree, search->facet[f]);
     touch_facet inside = corners_of(search->vertex, search->facet[f]);
     make_inside(&inside);
     uint32_t other;
@@ -414,8 +414,8 @@ static int touches_build(touch_search *search, uint32_t facet_count, const unsig
     t->rim = lrcsi_work_take_zero(work, facet_count, 1);
     size_t mark = work->used;
     if (!t->first || !t->rim ||
-        lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, work, &search->tree) !=
-            LRCS_OK) {
+        lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, NULL, work,
+                        &search->tree) != LRCS_OK) {
         return LRCS_E_MEMORY;
     }
     t->touch = lrcsi_work_take(work, TOUCH_BLOCK, sizeof *t->touch);

@@ -180,10 +180,10 @@ static void candidates_come_once_each(void **state)
     make_soup(500, 0.0, skip);
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_tree tree;
-    assert_int_equal(lrcsi_tree_make(vertex, facet, 500, NULL, &work, &tree), LRCS_OK);
+    assert_int_equal(lrcsi_tree_make(vertex, facet, 500, NULL, NULL, &work, &tree), LRCS_OK);
     for (uint32_t f = 0; f < 500; f += 17) {
         memset(met, 0, sizeof met);
-        lrcsi_tree_walk walk = lrcsi_tree_around(&tree, vertex, facet[f]);
+        lrcsi_tree_walk walk = lrcsi_tree_around(&tree, facet[f]);
         for (uint32_t g = lrcsi_tree_next(&walk); g != LRCS_NONE; g = lrcsi_tree_next(&walk)) {
             assert_true(g < 500 && !met[g]);
             met[g] = 1;
