@@ -247,12 +247,12 @@ static int cut_meets_inside(const touch_facet *f, const touch_facet *t, const in
     return above && below;
 }
 
-/* How t touches the inside of f, which has its plane and axis. *rim: 0 where t meets the rim of f
-   in corners of f only, or along a side that both have; 1 where it may do more. */
+/* Steps 1 to 3: how t touches the inside of f, which has its plane and axis. *rim: 0 where t meets
+   the rim of f in corners of f only, or along a side that both have; 1 where it may do more. */
 static int touch_kind(const touch_facet *f, const touch_facet *t, int *rim)
 {
     *rim = 0;
-    if (surely_on_one_side(f, t) || separated_along_axis(f, t, rim)) {
+    if (separated_along_axis(f, t, rim)) {
         return LRCSI_TOUCH_NONE;
     }
     int side[3];
@@ -273,7 +273,7 @@ int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet othe
     touch_facet t = corners_of(vertex, other);
     int rim;
     make_inside(&f);
-    return touch_kind(&f, &t, &rim);
+    return surely_on_one_side(&f, &t) ? LRCSI_TOUCH_NONE : touch_kind(&f, &t, &rim);
 }
 
 int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
@@ -381,6 +381,9 @@ static int collect_touches(const touch_search *search, uint32_t f, lrcs_work *wo
             continue;
         }
         touch_facet candidate = corners_of(search->vertex, search->facet[other]);
+        if (surely_on_one_side(&inside, &candidate) || lrcsi_tree_corner(&walk, other)) {
+            continue; /* corners of both, or what lies between them, are all that they share */
+        }
         int rim;
         int kind = touch_kind(&inside, &candidate, &rim);
         t->rim[f] |= rim != 0;

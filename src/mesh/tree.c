@@ -343,11 +343,11 @@ static int is_below(const double m[3], const double corner[3], const double x[3]
 /* Tilted by this about the corner, a plane along a side has all of the side above it. */
 #define FAN_TILT 0x1p-20
 
-/* The plane at corner v of facet v b c along the side to b: across the facet's plane. */
-static lrcsi_tree_fan fan_make(const double *v, const double *b, const double *c,
-                               const double normal[3])
+/* The plane at corner v of facet v b c along the side to b, across the facet's plane. Returns 0
+   where it is not proved to lie below the facet. */
+static int fan_plane(const double *v, const double *b, const double *c, const double normal[3],
+                     double m[3])
 {
-    lrcsi_tree_fan fan = {{0, 0, 0}, 0};
     double along[3];
     double inward = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -356,41 +356,72 @@ static lrcsi_tree_fan fan_make(const double *v, const double *b, const double *c
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
-        fan.m[k] = normal[i] * along[j] - normal[j] * along[i];
-        inward += fan.m[k] * (c[k] - v[k]);
+        m[k] = normal[i] * along[j] - normal[j] * along[i];
+        inward += m[k] * (c[k] - v[k]);
     }
     double length = sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
-    double size = sqrt(fan.m[0] * fan.m[0] + fan.m[1] * fan.m[1] + fan.m[2] * fan.m[2]);
+    double size = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
     for (int k = 0; k < 3; k++) {
-        fan.m[k] = (inward < 0.0 ? -fan.m[k] : fan.m[k]) / size + FAN_TILT * along[k] / length;
-        fan.m[k] = fabs(fan.m[k]) < 0x1p-100 ? 0.0 : fan.m[k];
+        m[k] = (inward < 0.0 ? -m[k] : m[k]) / size + FAN_TILT * along[k] / length;
+        m[k] = fabs(m[k]) < 0x1p-100 ? 0.0 : m[k];
     }
-    fan.known = is_below(fan.m, v, b, -1.0) && is_below(fan.m, v, c, -1.0);
+    return is_below(m, v, b, -1.0) && is_below(m, v, c, -1.0);
+}
+
+/* The planes at the walk's corner k. */
+static const lrcsi_tree_fan *fan_at(lrcsi_tree_walk *w, int k)
+{
+    lrcsi_tree_fan *fan = &w->fan[k];
+    const double *v = w->corner[k];
+    const double *next = w->corner[(k + 1) % 3];
+    const double *last = w->corner[(k + 2) % 3];
+    if (!fan->made) {
+        fan->made = 1;
+        fan->known[0] = fan_plane(v, next, last, w->normal, fan->m[0]);
+        fan->known[1] = fan_plane(v, last, next, w->normal, fan->m[1]);
+    }
     return fan;
 }
 
-/* Have facets that all have the walk's corner k, the others of their corners being in the box, but
-   that corner in common with the walk's facet? */
-static int corner_is_all(const lrcsi_tree_walk *w, int k, const lrcsi_box *box)
+/* Have all facets of a node but its hub in common with the walk's? */
+static int hub_is_all(lrcsi_tree_walk *w, const lrcsi_tree_node *node)
 {
-    for (int side = 0; side < 2; side++) {
-        const lrcsi_tree_fan *fan = &w->fan[k][side];
+    int k = 0;
+    while (k < 3 && w->own[k] != node->hub) {
+        k++;
+    }
+    const lrcsi_tree_fan *fan = k < 3 ? fan_at(w, k) : NULL;
+    for (int side = 0; side < 2 && fan; side++) {
         double highest[3];
-        for (int i = 0; i < 3 && fan->known; i++) {
-            highest[i] = fan->m[i] > 0.0 ? box->high[i] : box->low[i];
+        for (int i = 0; i < 3; i++) {
+            highest[i] = fan->m[side][i] > 0.0 ? node->box.high[i] : node->box.low[i];
         }
-        if (fan->known && is_below(fan->m, w->corner[k], highest, 1.0)) {
+        if (fan->known[side] && is_below(fan->m[side], w->corner[k], highest, 1.0)) {
             return 1;
         }
     }
     return 0;
 }
 
-/* Have all facets of a node but a corner in common with the walk's? */
-static int hub_is_all(const lrcsi_tree_walk *w, const lrcsi_tree_node *node)
+int lrcsi_tree_corner(lrcsi_tree_walk *w, uint32_t candidate)
 {
-    for (int k = 0; k < 3 && node->hub != LRCS_NONE; k++) {
-        if (w->own[k] == node->hub && corner_is_all(w, k, &node->box)) {
+    const uint32_t *c = w->tree->facet[candidate].corner;
+    int shared = 0;
+    int own = 0;
+    int its = 0;
+    for (int i = 0; i < 9; i++) {
+        if (w->own[i / 3] == c[i % 3]) {
+            own = i / 3;
+            its = i % 3;
+            shared++;
+        }
+    }
+    const lrcsi_tree_fan *fan = shared == 1 ? fan_at(w, own) : NULL;
+    for (int side = 0; side < 2 && fan; side++) {
+        const double *v = w->corner[own];
+        if (fan->known[side] &&
+            is_below(fan->m[side], v, w->tree->vertex[c[(its + 1) % 3]].x, 1.0) &&
+            is_below(fan->m[side], v, w->tree->vertex[c[(its + 2) % 3]].x, 1.0)) {
             return 1;
         }
     }
@@ -404,11 +435,7 @@ lrcsi_tree_walk lrcsi_tree_around(const lrcsi_tree *tree, lrcs_facet facet)
     facet_corners(tree->vertex, &facet, walk.corner);
     facet_normal(walk.corner, walk.normal, walk.weight);
     for (int k = 0; k < 3; k++) {
-        const double *next = walk.corner[(k + 1) % 3];
-        const double *last = walk.corner[(k + 2) % 3];
         walk.own[k] = facet.corner[k];
-        walk.fan[k][0] = fan_make(walk.corner[k], next, last, walk.normal);
-        walk.fan[k][1] = fan_make(walk.corner[k], last, next, walk.normal);
     }
     return walk;
 }
@@ -460,12 +487,20 @@ static int box_is_candidate(const lrcsi_tree_walk *w, const lrcsi_box *box)
     return !box_is_off_plane(w, box);
 }
 
-static int node_is_candidate(const lrcsi_tree_walk *w, const lrcsi_tree_node *node)
+static int node_is_candidate(lrcsi_tree_walk *w, const lrcsi_tree_node *node)
 {
-    lrcsi_box box = node_box(w->tree, node);
-    if ((node->group == w->without && node->group != LRCS_NONE) || !box_is_candidate(w, &box) ||
-        hub_is_all(w, node)) {
+    if (node->group == w->without && node->group != LRCS_NONE) {
         return 0;
+    }
+    if (node->hub == LRCS_NONE) {
+        if (!box_is_candidate(w, &node->box)) {
+            return 0;
+        }
+    } else {
+        lrcsi_box box = node_box(w->tree, node);
+        if (!box_is_candidate(w, &box) || hub_is_all(w, node)) {
+            return 0;
+        }
     }
     double low = HUGE_VAL;
     double high = -HUGE_VAL;

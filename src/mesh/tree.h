@@ -31,11 +31,12 @@ typedef struct lrcsi_tree {
     lrcsi_tree_node *node; /* 2 leaves, the first unused; empty ones have low > high */
 } lrcsi_tree;
 
-/* A plane through a corner of a facet that has the rest of it above: above where m . (x - corner)
-   is positive. */
+/* Two planes through a corner of a facet that have the rest of it above, one along either side:
+   above is where m . (x - corner) is positive. */
 typedef struct lrcsi_tree_fan {
-    double m[3];
-    int known; /* 0: none was found */
+    double m[2][3];
+    int known[2]; /* 0: none was found */
+    int made;     /* 0: not yet looked for */
 } lrcsi_tree_fan;
 
 /* One walk over the facets whose boxes meet that of a facet and are not proved to lie strictly to
@@ -46,7 +47,7 @@ typedef struct lrcsi_tree_walk {
     lrcsi_box box;
     const double *corner[3];
     uint32_t own[3];             /* the corners; LRCS_NONE in a walk within a distance */
-    lrcsi_tree_fan fan[3][2];    /* at each corner, along either side */
+    lrcsi_tree_fan fan[3];       /* at each corner */
     double normal[3], weight[3]; /* of its plane; weight bounds the normal's error */
     double slack, slack_plane;   /* how near a candidate must come; the same times |normal| */
     uint32_t without;            /* a group of which no candidate is wanted, or LRCS_NONE */
@@ -74,5 +75,8 @@ lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, lrcs_facet facet, doub
 
 /* The next candidate, each once, or LRCS_NONE at the end. */
 uint32_t lrcsi_tree_next(lrcsi_tree_walk *walk);
+
+/* 1 where a candidate is proved to have but a corner in common with the walk's facet. */
+int lrcsi_tree_corner(lrcsi_tree_walk *walk, uint32_t candidate);
 
 #endif
