@@ -29,7 +29,7 @@
 #include "base/sort.h"
 #include "base/work.h"
 
-enum { LEAF_FACETS = 4, MORTON_BITS = 21 };
+enum { LEAF_FACETS = 8, MORTON_BITS = 21 };
 
 #define PLANE_FILTER (10.0 * 0x1p-53)
 #define SLAB_FILTER  (6.0 * 0x1p-53)
