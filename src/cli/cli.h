@@ -103,6 +103,9 @@ void cli_scene_options_free(lrcs_host_options *options);
    matches nothing is a usage error. */
 int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 
+/* Do shapes that the engine meshes stand in the scene, so that a tolerance changes it? */
+int cli_has_curved_shapes(const lrcs_scene *scene);
+
 /* The name of a scene's material for people: "(default)" where it has none. */
 const char *cli_material_name(const lrcs_material *material);
 
@@ -114,6 +117,10 @@ void cli_column(const char *text, int width);
 
 /* "notice: ..." for each, on `out`. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
+
+/* On stdout: the manual page, and completion for bash. */
+void cli_manual_page(const cli_command *const *command, size_t count, const char *overview);
+void cli_manual_completion(const cli_command *const *command, size_t count);
 
 /* The commands. */
 extern const cli_command cli_run_command;

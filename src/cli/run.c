@@ -7,6 +7,9 @@
 
 #define RASTER_MOST 16384.0
 
+/* What stopping may take beyond a time budget. */
+#define BUDGET_GRACE_MS 20.0
+
 static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"
     "\n"
@@ -16,6 +19,10 @@ static const char run_help[] =
     "  --tolerance REL       relative error asked for (1e-4); exit 3 where the bound, or the "
     "estimate\n"
     "                        that curved normals add, exceeds it\n"
+    "  --time-budget MS      in its place: the best bound that MS milliseconds buy, loading and\n"
+    "                        preparing included; tries rasters and tolerances, and says which\n"
+    "                        options give the same answer again. Ends early where nothing is left\n"
+    "                        to gain, or a --tolerance is met; exit 3 where it took longer\n"
     "  --method M            auto (default), facet, zbuffer or exact\n"
     "  --resolution N        raster N x N (default: from the tolerance)\n"
     "  --normals N           flat (default); smooth: curved, from smoothing groups and vertex "
@@ -39,14 +46,17 @@ static const char run_help[] =
     "  lrcs run demo --image demo.png\n"
     "  lrcs run demo --azel 30,-20 --json\n"
     "  lrcs run demo --azel 30,-20 --explain\n"
+    "  lrcs run demo --azel 30,-20 --time-budget 200\n"
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
 static const cli_option run_options[] = {
-    CLI_POSE_OPTIONS,           {"tolerance", 1, 0}, {"method", 1, 0}, {"unit", 1, 0},
-    {"resolution", 1, 0},       {"material", 1, 1},  {"json", 0, 0},   {"facets", 1, 0},
-    {"keep-transparent", 0, 0}, {"polygons", 1, 0},  {"image", 1, 0},  {"image-size", 1, 0},
-    {"explain", 0, 0},          {"normals", 1, 0},   {"help", 0, 0},   {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,   {"tolerance", 1, 0},  {"method", 1, 0},
+    {"unit", 1, 0},     {"resolution", 1, 0}, {"material", 1, 1},
+    {"json", 0, 0},     {"facets", 1, 0},     {"keep-transparent", 0, 0},
+    {"polygons", 1, 0}, {"image", 1, 0},      {"image-size", 1, 0},
+    {"explain", 0, 0},  {"normals", 1, 0},    {"time-budget", 1, 0},
+    {"help", 0, 0},     {NULL, 0, 0}};
 
 /* ---- options ---- */
 
@@ -84,7 +94,8 @@ static int options_read(run_job *job)
     code = code ? code : cli_whole(args, "resolution", 1.0, RASTER_MOST, &job->options.resolution);
     code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
-    job->load.build.tolerance = job->options.tolerance;
+    job->load.build.tolerance = job->asked = job->options.tolerance;
+    code = code ? code : cli_run_budget_read(job);
     job->explain = cli_value(args, "explain") != NULL;
     return code ? code : normals_read(job);
 }
@@ -112,7 +123,7 @@ static int run_room(run_job *job)
 static int run_pose(run_job *job)
 {
     lrcs_host_error error;
-    if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
+    if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
     int status =
@@ -128,16 +139,40 @@ static int run_pose(run_job *job)
     if (status != LRCS_OK) {
         return cli_failed(&error);
     }
-    job->met = !(job->result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
     return 0;
 }
 
+/* A search for the best settings comes with their result; files need the run itself. */
 static int run_scene(run_job *job)
 {
+    int searched = job->budget.asked_ms > 0.0;
+    int files = job->facets || job->polygons_path || job->image_path;
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
-    code = code ? code : run_room(job);
-    return code ? code : run_pose(job);
+    code = code == 0 && searched ? cli_run_budget(job) : code;
+    if (code == 0 && (files || !searched)) {
+        code = run_room(job);
+        code = code ? code : run_pose(job);
+    }
+    return code;
+}
+
+int cli_run_meets(const lrcs_result *result, double tolerance)
+{
+    double most = tolerance * result->sigma_m2;
+    return tolerance > 0.0 && result->bound_m2 <= most && result->curvature_estimate_m2 <= most;
+}
+
+/* The flag of a result that was searched for speaks of a tolerance that was tried. */
+static void run_judge(run_job *job)
+{
+    uint32_t *flags = &job->result.flags;
+    if (job->budget.asked_ms > 0.0) {
+        int missed = job->asked > 0.0 && !cli_run_meets(&job->result, job->asked);
+        *flags &= ~(uint32_t)LRCS_FLAG_TOLERANCE_NOT_MET;
+        *flags |= missed ? LRCS_FLAG_TOLERANCE_NOT_MET : 0u;
+    }
+    job->met = !(*flags & LRCS_FLAG_TOLERANCE_NOT_MET);
 }
 
 /* ---- the command ---- */
@@ -160,7 +195,8 @@ static int run_outputs(run_job *job)
     }
     int judged = job->options.method == LRCS_METHOD_AUTO || cli_value(job->args, "tolerance");
     int short_of_memory = (job->result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
-    return (judged && !job->met) || short_of_memory ? CLI_DEGRADED : CLI_DONE;
+    int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
+    return (judged && !job->met) || short_of_memory || late ? CLI_DEGRADED : CLI_DONE;
 }
 
 static int run_command(const cli_args *args)
@@ -170,7 +206,10 @@ static int run_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job);
     code = code ? code : run_scene(&job);
-    code = code ? code : run_outputs(&job);
+    if (code == 0) {
+        run_judge(&job);
+        code = run_outputs(&job);
+    }
     free(job.records);
     free(job.image.facet);
     lrcs_host_polygons_free(&job.polygons);

@@ -20,20 +20,6 @@
    one way, which the plain count of their samples does not. */
 #define FEW 16u
 
-/* --- nothing hides anything ------------------------------------------------------------------- */
-
-void lrcsi_visible_unshadowed(const lrcsi_view *view, double graze, lrcsi_visible *visible)
-{
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
-        if (lrcsi_grid_casts(view, f)) {
-            lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
-            visible[f].area = visible[f].high = tilt.projected;
-            visible[f].low = fabs(tilt.cos_theta) > graze ? tilt.projected : 0;
-        }
-    }
-}
-
 /* --- pixels where visibility may change ------------------------------------------------------- */
 
 /* The pixels that a facet may touch, and which of them are mixed. */
