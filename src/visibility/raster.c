@@ -9,6 +9,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/grid.h"
 #include "visibility/sample.h"
 
 #define U 0x1p-53
@@ -23,24 +24,20 @@ void lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2
 /* First pixel whose centre is not left of `x` less its error, kept within 0 .. size. */
 static uint32_t pixel_from(const lrcsi_raster *raster, double x)
 {
-    double pixel = ceil(x - 0.5 - raster->off);
-    return pixel <= 0 ? 0 : pixel >= raster->size ? raster->size : (uint32_t)pixel;
+    double least = lrcsi_least(lrcsi_most(x - 0.5 - raster->off, 0), raster->size);
+    uint32_t pixel = (uint32_t)least;
+    return pixel < least ? pixel + 1 : pixel;
 }
 
 /* One past the last pixel whose centre is not right of `x` plus its error. */
 static uint32_t pixel_to(const lrcsi_raster *raster, double x)
 {
-    double pixel = floor(x - 0.5 + raster->off) + 1;
-    return pixel <= 0 ? 0 : pixel >= raster->size ? raster->size : (uint32_t)pixel;
+    return (uint32_t)lrcsi_least(lrcsi_most(x + 0.5 + raster->off, 0), raster->size);
 }
 
-/* The facet's corners in pixels, and the pixels that it may cover and touch. */
-static void edges_box(const lrcsi_raster *r, uint32_t facet, double p[3][2], lrcsi_edges *e)
+/* The box of the corners, and the pixels that the facet may cover and touch. */
+static void edges_box(const lrcsi_raster *r, double p[3][2], lrcsi_edges *e)
 {
-    const uint32_t *corner = r->view->prepared->scene->facet[facet].corner;
-    for (int k = 0; k < 3; k++) {
-        lrcsi_raster_point(r, corner[k], p[k]);
-    }
     double x0 = lrcsi_least(p[0][0], lrcsi_least(p[1][0], p[2][0]));
     double x1 = lrcsi_most(p[0][0], lrcsi_most(p[1][0], p[2][0]));
     double y0 = lrcsi_least(p[0][1], lrcsi_least(p[1][1], p[2][1]));
@@ -60,24 +57,23 @@ static void edges_box(const lrcsi_raster *r, uint32_t facet, double p[3][2], lrc
    half perimeter h and the margin of a pixel, the cross product is off by at most 4 off (h + 2).
    Roundings add 2 u N h for `at`, u N h for the differences and 5 u N h for the value, together at
    most off h. */
-static void edges_sides(int facing, double p[3][2], lrcsi_edges *e)
+lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
 {
+    lrcsi_edges e;
+    const uint32_t *corner = raster->view->prepared->scene->facet[facet].corner;
+    double p[3][2];
+    for (int k = 0; k < 3; k++) {
+        lrcsi_raster_point(raster, corner[k], p[k]);
+    }
+    edges_box(raster, p, &e);
     for (int k = 0; k < 3; k++) {
         const double *a = p[k];
         const double *b = p[(k + 1) % 3];
-        e->along[k] = -facing * (b[1] - a[1]);
-        e->up[k] = facing * (b[0] - a[0]);
-        e->at[k] = -(e->along[k] * a[0] + e->up[k] * a[1]);
-        e->over[k] = fabs(e->along[k]) > 0x1p-1000 ? 1 / e->along[k] : 0;
+        e.along[k] = -raster->view->facing[facet] * (b[1] - a[1]);
+        e.up[k] = raster->view->facing[facet] * (b[0] - a[0]);
+        e.at[k] = -(e.along[k] * a[0] + e.up[k] * a[1]);
+        e.over[k] = fabs(e.along[k]) > 0x1p-1000 ? 1 / e.along[k] : 0;
     }
-}
-
-lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
-{
-    double p[3][2];
-    lrcsi_edges e;
-    edges_box(raster, facet, p, &e);
-    edges_sides(raster->view->facing[facet], p, &e);
     return e;
 }
 
@@ -261,14 +257,26 @@ void lrcsi_raster_want(lrcsi_raster *raster, uint32_t facet)
     }
 }
 
-/* Is some sample that the facet may cover wanted? */
-static int box_wanted(const lrcsi_raster *r, const lrcsi_edges *e)
+static uint32_t tile_of(const lrcsi_raster *r, double pixel)
 {
-    if (e->x0 >= e->x1) {
-        return 0;
+    double tile = pixel * (1.0 / LRCSI_RASTER_TILE);
+    return (uint32_t)lrcsi_least(r->tiles - 1, lrcsi_most(tile, 0));
+}
+
+/* Is a tile wanted that the facet may touch? */
+static int facet_wanted(const lrcsi_raster *r, uint32_t facet)
+{
+    double low[2];
+    double high[2];
+    lrcsi_grid_box(r->view, r->view->prepared->scene->facet[facet].corner, 3, low, high);
+    uint32_t tile[2][2];
+    for (int k = 0; k < 2; k++) {
+        tile[k][0] = tile_of(r, (low[k] - r->view->low[k]) * r->scale - r->off);
+        tile[k][1] = tile_of(r, (high[k] - r->view->low[k]) * r->scale + r->off);
     }
-    for (uint32_t y = e->y0; y < e->y1; y = (y / LRCSI_RASTER_TILE + 1) * LRCSI_RASTER_TILE) {
-        if (tile_next(r, y, e->x0, e->x1, 1) < e->x1) {
+    for (uint32_t y = tile[1][0]; y <= tile[1][1]; y++) {
+        const unsigned char *row = r->wanted + (size_t)y * r->tiles;
+        if (memchr(row + tile[0][0], 1, tile[0][1] - tile[0][0] + 1)) {
             return 1;
         }
     }
@@ -299,14 +307,13 @@ static void claim_row(const raster_job *job, uint32_t y)
 
 void lrcsi_raster_claim(lrcsi_raster *raster, uint32_t facet)
 {
+    if (!facet_wanted(raster, facet)) {
+        return;
+    }
     raster_job job = {.raster = raster, .facet = facet};
-    double p[3][2];
-    edges_box(raster, facet, p, &job.edges);
-    if (box_wanted(raster, &job.edges)) {
-        edges_sides(raster->view->facing[facet], p, &job.edges);
-        for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
-            claim_row(&job, y);
-        }
+    job.edges = lrcsi_raster_edges(raster, facet);
+    for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
+        claim_row(&job, y);
     }
 }
 

@@ -15,12 +15,6 @@
 
 #include "base/range.h"
 
-/* Where side k passes a limit, so that pixel x has its centre there. */
-static double side_crossing(const lrcsi_edges *e, int k, double row, double limit)
-{
-    return (limit - row) * e->over[k] - 0.5;
-}
-
 static double side_row(const lrcsi_edges *e, int k, uint32_t y)
 {
     return e->at[k] + e->up[k] * (y + 0.5);
@@ -31,10 +25,19 @@ static double side_bend(const lrcsi_edges *e, int k, double square)
     return 0.5 * square * (fabs(e->along[k]) + fabs(e->up[k]));
 }
 
-/* None of it: at the right end, so that what may be is split there into before and after. */
-static lrcsi_span span_of(double from, double to, uint32_t end)
+/* Of a number from 0 to 2^32. */
+static double round_up(double x)
 {
-    return to > from ? (lrcsi_span){(uint32_t)from, (uint32_t)to} : (lrcsi_span){end, end};
+    uint32_t down = (uint32_t)x;
+    return down < x ? down + 1.0 : down;
+}
+
+/* Both within what was looked at, the fraction of either yet to be dropped. */
+static lrcsi_span span_of(double from, double to)
+{
+    uint32_t x0 = (uint32_t)from;
+    uint32_t x1 = (uint32_t)to;
+    return (lrcsi_span){x0 < x1 ? x0 : x1, x1};
 }
 
 lrcsi_span lrcsi_span_meets(const lrcsi_edges *edges, double square, uint32_t y, uint32_t x0,
@@ -45,15 +48,16 @@ lrcsi_span lrcsi_span_meets(const lrcsi_edges *edges, double square, uint32_t y,
     for (int k = 0; k < 3; k++) {
         double row = side_row(edges, k, y);
         double limit = -edges->off - side_bend(edges, k, square);
+        double x = (limit - row) * edges->over[k];
         if (edges->over[k] > 0) {
-            from = lrcsi_most(from, ceil(side_crossing(edges, k, row, limit)));
+            from = lrcsi_most(from, x - 0.5);
         } else if (edges->over[k] < 0) {
-            to = lrcsi_least(to, floor(side_crossing(edges, k, row, limit)) + 1);
+            to = lrcsi_least(to, x + 0.5);
         } else if (row < limit) {
-            return span_of(0, 0, x1);
+            to = x0;
         }
     }
-    return span_of(from, to, x1);
+    return span_of(round_up(lrcsi_least(from, x1)), lrcsi_most(to, x0));
 }
 
 lrcsi_span lrcsi_span_holds(const lrcsi_edges *edges, double square, uint32_t y, lrcsi_span within)
@@ -63,13 +67,14 @@ lrcsi_span lrcsi_span_holds(const lrcsi_edges *edges, double square, uint32_t y,
     for (int k = 0; k < 3; k++) {
         double row = side_row(edges, k, y);
         double limit = edges->off + side_bend(edges, k, square);
+        double x = (limit - row) * edges->over[k];
         if (edges->over[k] > 0) {
-            from = lrcsi_most(from, floor(side_crossing(edges, k, row, limit)) + 1);
+            from = lrcsi_most(from, x + 0.5);
         } else if (edges->over[k] < 0) {
-            to = lrcsi_least(to, ceil(side_crossing(edges, k, row, limit)));
+            to = lrcsi_least(to, x - 0.5);
         } else if (!(row > limit)) {
-            return span_of(0, 0, within.x1);
+            to = within.x0;
         }
     }
-    return span_of(from, to, within.x1);
+    return span_of(lrcsi_least(from, within.x1), round_up(lrcsi_most(to, within.x0)));
 }
