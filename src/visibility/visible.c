@@ -47,6 +47,7 @@ typedef struct mark_row {
 
 /* The pixels that a facet may touch, and which of them are mixed. */
 typedef struct pixel_marks {
+    const lrcsi_known *known;
     lrcsi_raster *raster;
     lrcsi_edges edges;    /* of the facet */
     double corner[3][2];  /* its corners, in pixels, counter-clockwise */
@@ -187,16 +188,45 @@ static int span_has(lrcsi_span span, uint32_t x)
     return x >= span.x0 && x < span.x1;
 }
 
-/* How much of a pixel the facet covers, in pixels. Corners are off by the raster's error, so this
-   is off by at most the length of the cut, below 6, times that. */
+/* The part of a unit square where a linear function that is `value` at its centre, and changes by
+   most >= least >= 0 along its sides, is positive. */
+static double square_share(double value, double most, double least)
+{
+    double from = fabs(value);
+    double rest = 0.5 * (most + least) - from;
+    double less = rest >= least ? 0.5 - from / most
+                  : rest > 0    ? 0.5 * (rest / most) * (rest / least)
+                                : 0;
+    return value > 0 ? 1 - less : less;
+}
+
+/* How much of a pixel the facet surely covers, in pixels. Where just one side passes: a value that
+   is too large by off moves the line by off / |gradient|, and the area by that times its length in
+   the pixel, below 1.5; roundings are below 8 u, and off is at least 64 u N h. Else corners are off
+   by the raster's error, and the area by at most the length of the cut, below 6, times that. */
 static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
 {
     if (span_has(m->row[y].whole, x)) {
         return 1;
     }
-    const double low[2] = {x, y};
-    double share = lrcsi_clip_box_area((const double(*)[2])m->corner, low);
-    return lrcsi_most(0, share - 8 * m->raster->off);
+    const lrcsi_edges *e = &m->edges;
+    int sides = 0;
+    double share = 0;
+    for (int k = 0; k < 3; k++) {
+        double along = fabs(e->along[k]);
+        double up = fabs(e->up[k]);
+        double value = e->at[k] + e->along[k] * (x + 0.5) + e->up[k] * (y + 0.5);
+        if (!(value - 0.5 * (along + up) > e->off)) {
+            double most = lrcsi_most(along, up);
+            sides++;
+            share = square_share(value, most, lrcsi_least(along, up)) - 2 * e->off / most;
+        }
+    }
+    if (sides != 1) {
+        const double low[2] = {x, y};
+        share = lrcsi_clip_box_area((const double(*)[2])m->corner, low) - 8 * m->raster->off;
+    }
+    return lrcsi_most(0, share);
 }
 
 /* Does a sample on the facet tell what the pixel shows of it? Then *shows. Coordinates below 0 wrap
@@ -247,14 +277,26 @@ static void mark_pure(pixel_marks *m, uint32_t facet)
     }
 }
 
+/* Puts the event edges that cross a facet into contest->crossing; returns how many they are. */
+static uint32_t known_crossings(const lrcsi_known *known, uint32_t facet)
+{
+    if (facet >= known->listed) {
+        return lrcsi_contest_crossings(known->contest, facet);
+    }
+    uint32_t first = known->first[facet];
+    uint32_t count = known->first[facet + 1] - first;
+    memcpy(known->contest->crossing, known->crossing + first, count * sizeof *known->crossing);
+    return count;
+}
+
 /* Marks where the visibility of a contested facet may change. Returns how many event edges cross
    it; they stand in contest->crossing. */
-static uint32_t mark_changes(pixel_marks *m, lrcsi_contest *contest, uint32_t facet)
+static uint32_t mark_changes(pixel_marks *m, uint32_t facet)
 {
     marks_start(m, facet);
-    uint32_t crossings = lrcsi_contest_crossings(contest, facet);
+    uint32_t crossings = known_crossings(m->known, facet);
     for (uint32_t i = 0; i < crossings; i++) {
-        mark_edge(m, contest->crossing[i]);
+        mark_edge(m, m->known->contest->crossing[i]);
     }
     mark_touches(m, facet);
     return crossings;
@@ -279,7 +321,7 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *
     double hidden = 0;
     lrcsi_drift drift = {HUGE_VAL, 0};
     if (!raster->undecided[facet]) {
-        uint32_t crossings = mark_changes(marks, contest, facet);
+        uint32_t crossings = mark_changes(marks, facet);
         drift = lrcsi_drift_facet(contest, crossings, raster, facet);
         count_certain(marks, facet, &shown, &hidden);
     }
@@ -298,21 +340,53 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *
     return v;
 }
 
-/* --- all facets ------------------------------------------------------------------------------- */
+/* --- what is known ---------------------------------------------------------------------------- */
+
+/* Room for crossings: more than ordinary scenes have. Those of facets beyond it are searched for
+   whenever they are needed. */
+static size_t known_room(const lrcs_prepared *prepared)
+{
+    return 4 * (size_t)prepared->scene->facet_count;
+}
 
 size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
 {
-    return lrcsi_work_add(lrcsi_work_bytes(prepared->scene->facet_count, 1),
-                          lrcsi_grid_facets_need(prepared));
+    size_t facets = prepared->scene->facet_count;
+    size_t need = lrcsi_work_bytes(facets, 1);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets + 1, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(known_room(prepared), sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
+}
+
+static void known_list(lrcsi_known *k)
+{
+    const lrcs_prepared *p = k->contest->view->prepared;
+    size_t room = known_room(p);
+    uint32_t used = 0;
+    for (k->first[0] = 0; k->listed < p->scene->facet_count; k->first[++k->listed] = used) {
+        if (k->contest->contested[k->listed] && k->answer[k->listed] == LRCSI_QUERY_UNDECIDED) {
+            uint32_t count = lrcsi_contest_crossings(k->contest, k->listed);
+            if (count > room - used) {
+                return;
+            }
+            memcpy(k->crossing + used, k->contest->crossing, count * sizeof *k->crossing);
+            used += count;
+        }
+    }
 }
 
 int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *known)
 {
     size_t mark = work->used;
-    uint32_t count = contest->view->prepared->scene->facet_count;
+    const lrcs_prepared *p = contest->view->prepared;
+    uint32_t count = p->scene->facet_count;
     lrcsi_known k = {.contest = contest};
     k.answer = lrcsi_work_take(work, count, 1);
-    int status = k.answer ? lrcsi_grid_facets(contest->view, work, &k.facets) : LRCS_E_MEMORY;
+    k.first = lrcsi_work_take(work, (size_t)count + 1, sizeof *k.first);
+    k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
+    int status = k.answer && k.first && k.crossing
+                     ? lrcsi_grid_facets(contest->view, work, &k.facets)
+                     : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
@@ -323,9 +397,12 @@ int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *kn
             k.answer[f] = LRCSI_QUERY_UNDECIDED;
         }
     }
+    known_list(&k);
     *known = k;
     return LRCS_OK;
 }
+
+/* --- all facets ------------------------------------------------------------------------------- */
 
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
@@ -374,7 +451,7 @@ static void visible_fill(const lrcsi_known *known, pixel_marks *marks, lrcsi_vis
     uint32_t count = contest->view->prepared->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
         if (contest->contested[f] && raster->owned[f] != 0 && !raster->undecided[f]) {
-            mark_changes(marks, contest, f);
+            mark_changes(marks, f);
             mark_pure(marks, f);
         }
     }
@@ -398,7 +475,7 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
         return status;
     }
     size_t end = work->used;
-    pixel_marks marks = {.raster = raster};
+    pixel_marks marks = {.known = known, .raster = raster};
     marks.mixed = lrcsi_work_take(work, (size_t)size * size, 1);
     marks.row = lrcsi_work_take(work, size, sizeof *marks.row);
     if (!marks.mixed || !marks.row) {

@@ -26,6 +26,10 @@ typedef struct lrcsi_known {
     lrcsi_grid facets;
     unsigned char *answer; /* facet: a lrcsi_query_answer; hidden where it casts nothing; undecided
                               where samples are to tell */
+    uint32_t listed;       /* the event edges that cross facet f < listed are
+                              crossing[first[f] .. first[f + 1]), of contested ones that samples are
+                              to tell of */
+    uint32_t *first, *crossing;
 } lrcsi_known;
 
 /* Bytes for that: an upper bound for ordinary scenes. */
