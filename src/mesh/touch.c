@@ -247,12 +247,12 @@ static int cut_meets_inside(const touch_facet *f, const touch_facet *t, const in
     return above && below;
 }
 
-/* How t touches the inside of f, which has its plane and axis. *rim: 0 where t meets the rim of f
-   in corners of f only, or along a side that both have; 1 where it may do more. */
+/* Steps 1 to 3: how t touches the inside of f, which has its plane and axis. *rim: 0 where t meets
+   the rim of f in corners of f only, or along a side that both have; 1 where it may do more. */
 static int touch_kind(const touch_facet *f, const touch_facet *t, int *rim)
 {
     *rim = 0;
-    if (surely_on_one_side(f, t) || separated_along_axis(f, t, rim)) {
+    if (separated_along_axis(f, t, rim)) {
         return LRCSI_TOUCH_NONE;
     }
     int side[3];
@@ -273,7 +273,7 @@ int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet othe
     touch_facet t = corners_of(vertex, other);
     int rim;
     make_inside(&f);
-    return touch_kind(&f, &t, &rim);
+    return surely_on_one_side(&f, &t) ? LRCSI_TOUCH_NONE : touch_kind(&f, &t, &rim);
 }
 
 int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
@@ -372,7 +372,7 @@ static int append_touch(uint32_t other, int kind, lrcs_work *work, lrcsi_touches
 static int collect_touches(const touch_search *search, uint32_t f, lrcs_work *work,
                            lrcsi_touches *t)
 {
-    lrcsi_tree_walk walk = lrcsi_tree_around(&search->tree, search->vertex, search->facet[f]);
+    lrcsi_tree_walk walk = lrcsi_tree_around(&search->tree, search->facet[f]);
     touch_facet inside = corners_of(search->vertex, search->facet[f]);
     make_inside(&inside);
     uint32_t other;
@@ -381,6 +381,9 @@ static int collect_touches(const touch_search *search, uint32_t f, lrcs_work *wo
             continue;
         }
         touch_facet candidate = corners_of(search->vertex, search->facet[other]);
+        if (surely_on_one_side(&inside, &candidate) || lrcsi_tree_corner(&walk, other)) {
+            continue; /* corners of both, or what lies between them, are all that they share */
+        }
         int rim;
         int kind = touch_kind(&inside, &candidate, &rim);
         t->rim[f] |= rim != 0;
@@ -414,8 +417,8 @@ static int touches_build(touch_search *search, uint32_t facet_count, const unsig
     t->rim = lrcsi_work_take_zero(work, facet_count, 1);
     size_t mark = work->used;
     if (!t->first || !t->rim ||
-        lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, work, &search->tree) !=
-            LRCS_OK) {
+        lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, NULL, work,
+                        &search->tree) != LRCS_OK) {
         return LRCS_E_MEMORY;
     }
     t->touch = lrcsi_work_take(work, TOUCH_BLOCK, sizeof *t->touch);

@@ -23,20 +23,6 @@
 
 #define U 0x1p-53
 
-/* --- nothing hides anything ------------------------------------------------------------------- */
-
-void lrcsi_visible_unshadowed(const lrcsi_view *view, double graze, lrcsi_visible *visible)
-{
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
-        if (lrcsi_grid_casts(view, f)) {
-            lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
-            visible[f].area = visible[f].high = tilt.projected;
-            visible[f].low = fabs(tilt.cos_theta) > graze ? tilt.projected : 0;
-        }
-    }
-}
-
 /* --- pixels where visibility may change ------------------------------------------------------- */
 
 /* A row of pixels: those that a facet may touch; of these, those whose centre it surely covers, and

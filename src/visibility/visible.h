@@ -4,6 +4,8 @@
 #ifndef LRCSI_VISIBLE_H
 #define LRCSI_VISIBLE_H
 
+#include <math.h>
+
 #include "visibility/contest.h"
 #include "visibility/raster.h"
 
@@ -15,10 +17,13 @@ typedef struct lrcsi_visible {
     double lean;   /* the part of it that has a sign, too much being positive */
 } lrcsi_visible;
 
-/* Every facet is wholly visible, front or back, except that back sides show nothing where
-   they do not cast (view->backs_cast). Certain for |cos(theta)| > graze; below it the area is an
-   upper bound (low is 0). graze = 1 makes all of them so. */
-void lrcsi_visible_unshadowed(const lrcsi_view *view, double graze, lrcsi_visible *visible);
+/* A facet that nothing is known to hide: all of it is visible, certainly so for |cos(theta)| >
+   graze; below it the area is an upper bound (low is 0). graze = 1 makes every facet so. */
+static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_tilt *tilt, double graze)
+{
+    double low = fabs(tilt->cos_theta) > graze ? tilt->projected : 0;
+    return (lrcsi_visible){tilt->projected, low, tilt->projected, 0, 0};
+}
 
 /* What exact queries tell of facets before any sample is taken. */
 typedef struct lrcsi_known {
