@@ -4,7 +4,7 @@
 #   make charts     accuracy against time, for the README
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
-#   make asan lint purity layers fuzz    further checks
+#   make asan tsan lint purity layers fuzz    further checks
 #   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
@@ -17,7 +17,8 @@ WARN     = -Wall -Wextra -Werror -Wshadow -Wconversion -Wsign-conversion -Wstric
            -Wmissing-prototypes -Wold-style-definition -Wcast-qual -Wcast-align -Wwrite-strings \
            -Wpointer-arith -Wformat=2 -Wundef -Wvla -Wswitch-enum -Wdouble-promotion
 CFLAGS   =
-LDLIBS   = -lm
+THREADS  = -pthread
+LDLIBS   = $(THREADS) -lm
 
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
@@ -54,8 +55,14 @@ test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scalin
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
 
 asan: cmocka
-	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) -lm" test
+	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) $(THREADS) -lm" test
 SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+
+# The threads under ThreadSanitizer.
+tsan: cmocka
+	$(MAKE) BUILD=$(BUILD)/tsan OPT="-O1 -g" CFLAGS=-fsanitize=thread LDLIBS="-fsanitize=thread $(THREADS) -lm" \
+	    $(BUILD)/tsan/test/host/test_sweep
+	$(BUILD)/tsan/test/host/test_sweep
 
 lint: $(BUILD)/demo.inc
 	sh test/lint.sh $(BUILD)
@@ -147,7 +154,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan lint purity layers fuzz bounds shadows bench scaling big install uninstall clean cmocka
+.PHONY: all demo charts test asan tsan lint purity layers fuzz bounds shadows bench scaling big install uninstall clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -176,11 +183,11 @@ $(BUILD)/lrcs.pc: include/lrcs/status.h Makefile
 
 $(BUILD)/src/cli/%.o: src/cli/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -MMD -MP -c -o $@ $<
 
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
 
 # The built-in scene, as the bytes of a C array.
 $(BUILD)/demo.inc: examples/satellite.toml

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const cli_command *const main_commands[] = {&cli_run_command, &cli_info_command,
-                                                   &cli_shape_command, &cli_verify_command,
-                                                   &cli_converge_command};
+static const cli_command *const main_commands[] = {
+    &cli_run_command,      &cli_info_command,  &cli_shape_command, &cli_verify_command,
+    &cli_converge_command, &cli_sweep_command, &cli_merge_command};
 
 #define MAIN_COMMANDS (sizeof main_commands / sizeof main_commands[0])
 
@@ -21,6 +21,8 @@ static const char main_help[] =
     "  shape KIND      sigma of a simple body from its closed form\n"
     "  verify          the engine against closed forms, or on hard cases, on this machine\n"
     "  converge SCENE  what accuracy costs in time: every method against the truth\n"
+    "  sweep SCENE     sigma over attitudes, joints, materials: tables and maps, in threads\n"
+    "  merge FILE...   the shards of a sweep made whole\n"
     "  help COMMAND    options, units and examples of one command; --man: all as a manual page;\n"
     "                  --bash: completion for bash\n"
     "\n"
