@@ -2,8 +2,9 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make charts     accuracy against time, for the README
+#   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
-#   make asan lint purity layers fuzz    further checks
+#   make asan tsan lint purity layers fuzz    further checks
 #   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
@@ -16,7 +17,8 @@ WARN     = -Wall -Wextra -Werror -Wshadow -Wconversion -Wsign-conversion -Wstric
            -Wmissing-prototypes -Wold-style-definition -Wcast-qual -Wcast-align -Wwrite-strings \
            -Wpointer-arith -Wformat=2 -Wundef -Wvla -Wswitch-enum -Wdouble-promotion
 CFLAGS   =
-LDLIBS   = -lm
+THREADS  = -pthread
+LDLIBS   = $(THREADS) -lm
 
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
@@ -53,8 +55,14 @@ test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scalin
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
 
 asan: cmocka
-	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) -lm" test
+	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) $(THREADS) -lm" test
 SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+
+# The threads under ThreadSanitizer.
+tsan: cmocka
+	$(MAKE) BUILD=$(BUILD)/tsan OPT="-O1 -g" CFLAGS=-fsanitize=thread LDLIBS="-fsanitize=thread $(THREADS) -lm" \
+	    $(BUILD)/tsan/test/host/test_sweep
+	$(BUILD)/tsan/test/host/test_sweep
 
 lint: $(BUILD)/demo.inc
 	sh test/lint.sh $(BUILD)
@@ -112,6 +120,33 @@ big: cmocka $(BUILD)/test/integrate/test_large
 	$(BUILD)/test/integrate/test_large $(BIG_ROWS)
 BIG_ROWS = 1600
 
+# What goes where: the tool with its manual page and bash completion, the library for static and
+# shared linking, its headers and its pkg-config file.
+PREFIX   = /usr/local
+DESTDIR  =
+VERSION := $(shell sed -n 's/.*LRCS_VERSION_TEXT *"\(.*\)"/\1/p' include/lrcs/status.h)
+SONAME  := liblrcs.so.$(firstword $(subst ., ,$(VERSION)))
+SHARED   = $(BUILD)/liblrcs.so.$(VERSION)
+TO       = $(DESTDIR)$(PREFIX)
+MANUAL   = $(TO)/share/man/man1/lrcs.1
+COMPLETE = $(TO)/share/bash-completion/completions/lrcs
+
+install: $(TOOL) $(LIB) $(SHARED) $(BUILD)/lrcs.pc
+	install -d $(TO)/bin $(TO)/lib/pkgconfig $(TO)/include/lrcs $(dir $(MANUAL)) $(dir $(COMPLETE))
+	install -m 755 $(TOOL) $(TO)/bin/lrcs
+	install -m 644 include/lrcs/*.h $(TO)/include/lrcs
+	install -m 644 $(LIB) $(SHARED) $(TO)/lib
+	ln -sf liblrcs.so.$(VERSION) $(TO)/lib/$(SONAME)
+	ln -sf $(SONAME) $(TO)/lib/liblrcs.so
+	install -m 644 $(BUILD)/lrcs.pc $(TO)/lib/pkgconfig
+	$(TOOL) help --man >$(MANUAL)
+	$(TOOL) help --bash >$(COMPLETE)
+
+uninstall:
+	rm -f $(TO)/bin/lrcs $(TO)/lib/liblrcs.a $(TO)/lib/liblrcs.so $(TO)/lib/liblrcs.so.* \
+	    $(TO)/lib/pkgconfig/lrcs.pc $(MANUAL) $(COMPLETE)
+	rm -rf $(TO)/include/lrcs
+
 clean:
 	rm -rf $(BUILD)
 
@@ -119,7 +154,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan lint purity layers fuzz bounds shadows bench scaling big clean cmocka
+.PHONY: all demo charts test asan tsan lint purity layers fuzz bounds shadows bench scaling big install uninstall clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -132,13 +167,27 @@ $(LIB): $(CORE_OBJ) $(HOST_OBJ)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
+# The same objects once more as position-independent code; only lrcs_ names are to be seen.
+$(SHARED): $(LIB)
+	$(MAKE) BUILD=$(BUILD)/pic CFLAGS="$(CFLAGS) -fPIC" $(BUILD)/pic/liblrcs.a
+	echo '{ global: lrcs_*; local: *; };' >$(BUILD)/lrcs.map
+	$(CC) -shared -o $@ -Wl,-soname,$(SONAME) -Wl,--version-script,$(BUILD)/lrcs.map \
+	    -Wl,--whole-archive $(BUILD)/pic/liblrcs.a -Wl,--no-whole-archive $(LDLIBS)
+
+$(BUILD)/lrcs.pc: include/lrcs/status.h Makefile
+	@mkdir -p $(@D)
+	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$${prefix}/lib' '' \
+	    'Name: lrcs' 'Description: laser radar cross-section of a facet mesh, with a proved bound' \
+	    'Version: $(VERSION)' 'Cflags: -I$${includedir}' 'Libs: -L$${libdir} -llrcs' \
+	    'Libs.private: $(LDLIBS)' >$@
+
 $(BUILD)/src/cli/%.o: src/cli/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -MMD -MP -c -o $@ $<
 
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
 
 # The built-in scene, as the bytes of a C array.
 $(BUILD)/demo.inc: examples/satellite.toml

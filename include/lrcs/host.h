@@ -109,6 +109,13 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
 
+/* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with their
+   models, and may differ in all else: places, joints, shapes, materials. `base` and the recipe's
+   texts must outlive the scene; scene->recipe stays empty. Status: as above. */
+int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
+                         const lrcs_build_options *build, lrcs_host_scene *scene,
+                         lrcs_host_error *error);
+
 /* Would writing `path` replace a file that the scene was read from, under whatever name or link?
    Status: LRCS_OK; LRCS_E_ARGUMENT: it would, and the sentence names both. */
 int lrcs_host_output_check(const char *path, const lrcs_host_scene *scene, lrcs_host_error *error);

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RASTER_MOST 16384.0
-
 /* What stopping may take beyond a time budget. */
 #define BUDGET_GRACE_MS 20.0
 
@@ -15,24 +13,12 @@ static const char run_help[] =
     "\n"
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
     "\n" CLI_POSE_HELP "\n"
-    "options\n"
-    "  --tolerance REL       relative error asked for (1e-4); exit 3 where the bound, or the "
-    "estimate\n"
-    "                        that curved normals add, exceeds it\n"
-    "  --time-budget MS      in its place: the best bound that MS milliseconds buy, loading and\n"
+    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best bound that "
+                                  "MS milliseconds buy, loading and\n"
     "                        preparing included; tries rasters and tolerances, and says which\n"
     "                        options give the same answer again. Ends early where nothing is left\n"
-    "                        to gain, or a --tolerance is met; exit 3 where it took longer\n"
-    "  --method M            auto (default), facet, zbuffer or exact\n"
-    "  --resolution N        raster N x N (default: from the tolerance)\n"
-    "  --normals N           flat (default); smooth: curved, from smoothing groups and vertex "
-    "normals;\n"
-    "                        auto: only where flat facets are too coarse for their glint\n"
-    "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
-    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name or '#RRGGBB', all else if\n"
-    "                        missing; BRDF is A,B,s,m (1/sr, 1/sr, slope, exponent) or a library\n"
-    "                        material\n"
-    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "                        to gain, or a --tolerance is met; exit 3 where it took "
+    "longer\n" CLI_SCENE_HELP
     "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
     "                        where it is off; runs the pose for some 2 s more, or once for each\n"
     "  --json                the result as JSON, notices included\n"
@@ -51,53 +37,23 @@ static const char run_help[] =
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
 static const cli_option run_options[] = {
-    CLI_POSE_OPTIONS,   {"tolerance", 1, 0},  {"method", 1, 0},
-    {"unit", 1, 0},     {"resolution", 1, 0}, {"material", 1, 1},
-    {"json", 0, 0},     {"facets", 1, 0},     {"keep-transparent", 0, 0},
-    {"polygons", 1, 0}, {"image", 1, 0},      {"image-size", 1, 0},
-    {"explain", 0, 0},  {"normals", 1, 0},    {"time-budget", 1, 0},
-    {"help", 0, 0},     {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS,  CLI_SCENE_OPTIONS, {"json", 0, 0},
+    {"facets", 1, 0},  {"polygons", 1, 0},    {"image", 1, 0},   {"image-size", 1, 0},
+    {"explain", 0, 0}, {"time-budget", 1, 0}, {"help", 0, 0},    {NULL, 0, 0}};
 
 /* ---- options ---- */
-
-static int normals_read(run_job *job)
-{
-    const char *normals = cli_value(job->args, "normals");
-    int found = normals ? lrcs_normals_find(normals) : LRCS_NORMALS_FLAT;
-    if (found < 0) {
-        return cli_usage(job->args->command, "--normals: expected flat, auto or smooth, found '%s'",
-                         normals);
-    }
-    job->load.build.normals = found;
-    return 0;
-}
 
 static int options_read(run_job *job)
 {
     const cli_args *args = job->args;
-    const char *method = cli_value(args, "method");
-    job->options = lrcs_run_options_default();
     int code = cli_pose_read(args, &job->pose);
-    code = code ? code : cli_number(args, "tolerance", &job->options.tolerance);
-    if (code == 0 && !(job->options.tolerance > 0.0)) {
-        return cli_usage(args->command, "--tolerance: expected a relative error > 0, found '%s'",
-                         cli_value(args, "tolerance"));
-    }
-    if (code == 0 && method) {
-        job->options.method = lrcs_method_find(method);
-        if (job->options.method < 0) {
-            return cli_usage(args->command,
-                             "--method: expected auto, facet, zbuffer or exact, found '%s'",
-                             method);
-        }
-    }
-    code = code ? code : cli_whole(args, "resolution", 1.0, RASTER_MOST, &job->options.resolution);
+    code = code ? code : cli_accuracy_read(args, &job->options);
     code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->asked = job->options.tolerance;
     code = code ? code : cli_run_budget_read(job);
     job->explain = cli_value(args, "explain") != NULL;
-    return code ? code : normals_read(job);
+    return code ? code : cli_normals_read(args, &job->load);
 }
 
 /* ---- the run ---- */
@@ -193,7 +149,7 @@ static int run_outputs(run_job *job)
             cli_run_table(job);
         }
     }
-    int judged = job->options.method == LRCS_METHOD_AUTO || cli_value(job->args, "tolerance");
+    int judged = cli_tolerance_judged(job->args, &job->options);
     int short_of_memory = (job->result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
     int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
     return (judged && !job->met) || short_of_memory || late ? CLI_DEGRADED : CLI_DONE;

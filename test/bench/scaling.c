@@ -95,26 +95,45 @@ static lrcs_pose pose_of(const scaling_series *series, int i)
     return pose;
 }
 
-static void method_measure(const scaling_series *series, const lrcs_prepared *prepared, int method,
-                           scaling_point *point)
+/* All poses in an area of `size` bytes; the first failure, or LRCS_OK. */
+static int poses_measure(const scaling_series *series, const lrcs_prepared *prepared,
+                         const lrcs_run_options *options, size_t size, scaling_point *point)
 {
     bench_times times = {.count = 0};
-    lrcs_run_options options = lrcs_run_options_default();
-    options.method = method;
-    options.resolution = method == LRCS_METHOD_ZBUFFER ? series->resolution : 0;
-    size_t need = lrcs_sigma_need(prepared, &options);
-    void *bytes = bench_memory(need);
-    lrcs_work work = lrcs_work_make(bytes, need);
-    for (int i = 0; i < POSES; i++) {
+    void *bytes = bench_memory(size);
+    lrcs_work work = lrcs_work_make(bytes, size);
+    int status = LRCS_OK;
+    for (int i = 0; i < POSES && status == LRCS_OK; i++) {
         lrcs_pose pose = pose_of(series, i);
         double start = bench_now_ms();
-        bench_check(lrcs_sigma_run(prepared, &pose, &options, &work, &point->result, NULL, NULL),
-                    lrcs_method_text(method));
+        status = lrcs_sigma_run(prepared, &pose, options, &work, &point->result, NULL, NULL);
         bench_add(&times, bench_now_ms() - start);
     }
     point->ms = bench_quantile(&times, 0.5);
     point->bytes = (double)work.peak;
     free(bytes);
+    return status;
+}
+
+/* In an area that grows until it serves; says where what the library asks for does not. */
+static void method_measure(const scaling_series *series, const lrcs_prepared *prepared, int method,
+                           scaling_point *point)
+{
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = method;
+    options.resolution = method == LRCS_METHOD_ZBUFFER ? series->resolution : 0;
+    size_t need = lrcs_sigma_need(prepared, &options);
+    size_t size = need;
+    int status = poses_measure(series, prepared, &options, size, point);
+    while (status == LRCS_E_MEMORY || (point->result.flags & LRCS_FLAG_MEMORY_FALLBACK)) {
+        size *= 2;
+        status = poses_measure(series, prepared, &options, size, point);
+    }
+    bench_check(status, lrcs_method_text(method));
+    if (size > need) {
+        printf("(%s of %.0f: %.2f of the bytes that lrcs_sigma_need says)\n",
+               lrcs_method_text(method), point->size, point->bytes / (double)need);
+    }
 }
 
 /* One more scene of a series, `size` being what grows. */
