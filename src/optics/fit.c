@@ -182,7 +182,7 @@ static void starts_descend(const fit_job *job, unsigned without, lrcsi_fit_spot 
     for (uint32_t i = 0; i <= job->starts; i++) {
         lrcsi_fit_spot spot = i < job->starts ? job->start[i] : job->whole;
         for (int k = 0; k < 2; k++) {
-            spot.at[k] = without & (1u << k) ? 0.0 : spot.at[k];
+            spot.at[k] = (without & (1u << k)) ? 0.0 : spot.at[k];
         }
         lrcsi_fit_descend(&job->data, without, &spot);
         *best = i == 0 || spot.square < best->square ? spot : *best;
