@@ -152,7 +152,7 @@ void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_
     for (int pass = 0; pass < 2 && active; pass++) { /* the second takes away rounding */
         amplitude_step(normal, active, step);
         for (int k = 0; k < 2; k++) {
-            spot->at[k] = lrcsi_most(0.0, spot->at[k] + step[k]);
+            spot->at[k] = lrcsi_least(data->most[k], lrcsi_most(0.0, spot->at[k] + step[k]));
         }
         slope_fill(data, order, spot, normal);
     }
