@@ -98,38 +98,68 @@ lrcsi_clip_line lrcsi_clip_halving(const lrcsi_clip_polygon *polygon)
                              {wide ? 0 : 1, wide ? 1 : 0}};
 }
 
-/* Every direction in which all corners lie beyond the segment serves; tried are the two across it,
-   and the two along it. */
+/* Every direction in which all corners lie beyond the segment parts them; tried are the two across
+   it, and the two along it. */
 int lrcsi_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
                      double width)
 {
     const double *to = segment->to;
     double clear = width * line_length(segment);
     double end = to[0] * to[0] + to[1] * to[1] + clear;
-    int left = 1;
-    int right = 1;
+    double least = HUGE_VAL;
+    double most = -HUGE_VAL;
     int before = 1;
     int behind = 1;
-    for (uint32_t i = 0; i < polygon->count && (left || right || before || behind); i++) {
+    for (uint32_t i = 0; i < polygon->count; i++) {
         const double *p = polygon->corner[i];
         double side = lrcsi_clip_side(segment, p);
         double along = to[0] * (p[0] - segment->at[0]) + to[1] * (p[1] - segment->at[1]);
-        left &= side > clear;
-        right &= side < -clear;
+        least = lrcsi_least(least, side);
+        most = lrcsi_most(most, side);
         before &= along < -clear;
         behind &= along > end;
     }
-    return !(left || right || before || behind);
+    return before || behind || least > clear || most < -clear ? LRCSI_CLIP_APART
+           : least < 0 && most > 0                            ? LRCSI_CLIP_CROSSES
+                                                              : LRCSI_CLIP_BESIDE;
 }
 
-/* Corners that rounding has put next to each other have sides between them that point anywhere. The
-   nearest point of the rim may lie on such a side; then it is as near, but for their lengths, to
-   the end of one that counts: one so long that rounding turns it by 1 % at most. */
-double lrcsi_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2])
+static void range_grow(double range[2], double x)
 {
-    double counts = 0x1p-44 * lrcsi_clip_perimeter(polygon);
-    double short_ones = 0;
-    double clear = HUGE_VAL;
+    range[0] = lrcsi_least(range[0], x);
+    range[1] = lrcsi_most(range[1], x);
+}
+
+double lrcsi_clip_within(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
+                         double width)
+{
+    const double *to = segment->to;
+    double square = to[0] * to[0] + to[1] * to[1];
+    double strip = width * line_length(segment);
+    double range[2] = {HUGE_VAL, -HUGE_VAL};
+    for (uint32_t i = 0; i < polygon->count; i++) {
+        lrcsi_clip_line edge = polygon_side(polygon, i);
+        double from = lrcsi_clip_side(segment, edge.at);
+        double along =
+            to[0] * (edge.at[0] - segment->at[0]) + to[1] * (edge.at[1] - segment->at[1]);
+        double rise = to[0] * edge.to[1] - to[1] * edge.to[0];
+        double run = to[0] * edge.to[0] + to[1] * edge.to[1];
+        if (fabs(from) <= strip) {
+            range_grow(range, along);
+        }
+        for (int k = -1; k <= 1; k += 2) {
+            double t = (k * strip - from) / rise;
+            if (t > 0 && t < 1) {
+                range_grow(range, along + t * run);
+            }
+        }
+    }
+    double within = lrcsi_least(range[1], square) - lrcsi_most(range[0], 0);
+    return within > 0 ? within / sqrt(square) : 0;
+}
+
+void lrcsi_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2])
+{
     middle[0] = middle[1] = 0;
     for (uint32_t i = 0; i < polygon->count; i++) {
         middle[0] += polygon->corner[i][0];
@@ -137,11 +167,21 @@ double lrcsi_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2])
     }
     middle[0] /= polygon->count;
     middle[1] /= polygon->count;
+}
+
+/* Corners that rounding has put next to each other have sides between them that point anywhere. The
+   nearest point of the rim may lie on such a side; then it is as near, but for their lengths, to
+   the end of one that counts: one so long that rounding turns it by 1 % at most. */
+double lrcsi_clip_clear(const lrcsi_clip_polygon *polygon, const double at[2])
+{
+    double counts = 0x1p-44 * lrcsi_clip_perimeter(polygon);
+    double short_ones = 0;
+    double clear = HUGE_VAL;
     for (uint32_t i = 0; i < polygon->count; i++) {
         lrcsi_clip_line side = polygon_side(polygon, i);
         double length = line_length(&side);
         if (length > counts) {
-            clear = lrcsi_least(clear, lrcsi_clip_side(&side, middle) / length);
+            clear = lrcsi_least(clear, lrcsi_clip_side(&side, at) / length);
         } else {
             short_ones += length;
         }

@@ -39,12 +39,25 @@ lrcsi_clip_line lrcsi_clip_halving(const lrcsi_clip_polygon *polygon);
 /* The area that a counter-clockwise triangle has in the unit square at `low`. */
 double lrcsi_clip_box_area(const double corner[3][2], const double low[2]);
 
-/* May a segment come within `width` of a piece? 0: surely not, seen along or across it. */
+enum lrcsi_clip_place {
+    LRCSI_CLIP_APART,  /* no point of the segment within the width of the piece */
+    LRCSI_CLIP_BESIDE, /* all of the piece on one side of the segment's line, as computed */
+    LRCSI_CLIP_CROSSES /* neither is sure */
+};
+
+/* How a segment stands to a piece: a lrcsi_clip_place. */
 int lrcsi_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
                      double width);
 
-/* The mean of a piece's corners; returns how far inside it lies, lower bound: at least so far from
-   every side. */
-double lrcsi_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2]);
+/* The length of that part of a segment along which the piece comes within `width` of its line, as
+   computed. */
+double lrcsi_clip_within(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
+                         double width);
+
+/* The mean of a piece's corners. */
+void lrcsi_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2]);
+
+/* How far inside a piece a point lies, lower bound: at least so far from every side. */
+double lrcsi_clip_clear(const lrcsi_clip_polygon *polygon, const double at[2]);
 
 #endif

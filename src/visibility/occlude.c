@@ -34,15 +34,19 @@
 
 #define U 0x1p-53
 
-/* Cells that more cuts divide are halved, unless so many halvings in a row have not relieved them
-   of a quarter. */
-#define LEAF_CUTS  12u
-#define LEAF_STALE 3u
+/* Cells that more cuts divide are halved, until that does not relieve one of a quarter of them. */
+#define LEAF_CUTS 12u
 /* Halvings at most: a cell is then below 2^-48 of its facet. */
 #define MOST_DEPTH 48u
+/* A cell is thin whose sample stands nearer to a side than this of its perimeter; in others strips
+   reach FAR widths beyond the ends of segments. */
+#define THIN 0x1p-10
+#define FAR  0x1p12
 /* A cell without place for a sample whose area is more than so many margins wide is only odd in
    shape: it is halved. */
 #define NARROW 64.0
+/* A cell no larger than so many margins is left in doubt. */
+#define SMALL 64.0
 /* Cells that wait at most. Of two, that with the sample comes first: the other has all the room. */
 #define MOST_WAITING 256u
 /* Cells that a facet may be cut into: so many, and so many a cut. */
@@ -65,13 +69,24 @@ static int cell_look(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t *she
         return LRCSI_COVER_NONE;
     }
     lrcsi_cover_place place;
-    place.clear = lrcsi_clip_middle(&cell->shape, place.at) - cell_margin(o, cell->inset);
+    lrcsi_clip_middle(&cell->shape, place.at);
+    place.clear = lrcsi_clip_clear(&cell->shape, place.at) - cell_margin(o, cell->inset);
     int answer = lrcsi_cover_sample(&o->cover, &o->cuts, cell->count, &place, sheet);
     cell->at[0] = place.at[0];
     cell->at[1] = place.at[1];
     cell->sure = !place.guess;
     cell->lit = answer == LRCSI_COVER_NONE && cell->sure;
     return answer;
+}
+
+/* Charges a cell that is told by a sample with what the strips beyond the ends of segments may
+   cost. Upper bound, and 0 but for thin cells. */
+static void cell_charge(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
+{
+    double perimeter = lrcsi_clip_perimeter(&cell->shape);
+    if (!(lrcsi_clip_clear(&cell->shape, cell->at) > THIN * perimeter)) {
+        o->off += lrcsi_least(area, cell->cuts * cell->inset * perimeter);
+    }
 }
 
 /* All of the cell is visible: a piece. */
@@ -81,6 +96,21 @@ static void cell_show(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double
     o->off += U * o->target.diameter * o->target.perimeter;
     o->area += area;
     o->doubt[1] += cell->sure ? 0 : area;
+}
+
+/* Strikes a cut from the cell's list, and charges its strip. */
+static void cell_drop(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t which, double area)
+{
+    uint32_t *list = o->cuts.list;
+    uint32_t index = list[which];
+    const lrcsi_cut *cut = &o->cuts.cut[index];
+    double length = lrcsi_clip_within(&cell->shape, &cut->line, 2 * cut->width);
+    o->off += lrcsi_least(area, 2 * cut->width * (length + FAR * cut->width));
+    cell->count--;
+    list[which] = list[cell->count];
+    list[cell->count] = index;
+    cell->cuts++;
+    cell->inset = lrcsi_most(cell->inset, cut->width);
 }
 
 /* Puts a part of a cell on the stack, known to be visible at `at` if that stands clear within. */
@@ -121,64 +151,71 @@ static int cell_halve(lrcsi_occluding *o, lrcsi_occlude_cell *cell)
 {
     lrcsi_clip_line line = lrcsi_clip_halving(&cell->shape);
     cell->depth++;
-    cell->stale++;
     return cell->depth <= MOST_DEPTH && cell_split(o, cell, &line, 0);
 }
 
-/* Where in the list a cut stands at which a sheet ends; any will do where there is no sheet. */
+/* Where in the list the cut stands that passes nearest to the cell's place, of those at which a
+   sheet ends; of all where there is no sheet, or none is its own. */
 static uint32_t cell_choose(const lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
                             uint32_t sheet)
 {
-    uint32_t i = 0;
-    while (sheet != LRCS_NONE && i + 1 < cell->count &&
-           !lrcsi_cut_ends(&o->cuts.cut[o->cuts.list[i]], sheet)) {
-        i++;
+    uint32_t best = 0;
+    double nearest = HUGE_VAL;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[i]];
+        if (sheet == LRCS_NONE || lrcsi_cut_ends(cut, sheet)) {
+            double far = fabs(lrcsi_clip_side(&cut->line, cell->at)) /
+                         (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
+            best = far < nearest ? i : best;
+            nearest = lrcsi_least(far, nearest);
+        }
     }
-    return i;
+    return best;
 }
 
 /* Cuts a cell along one of its cuts, which its parts are rid of. */
 static int cell_cut(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t which, double area)
 {
-    uint32_t *list = o->cuts.list;
-    const lrcsi_cut *cut = &o->cuts.cut[list[which]];
-    uint32_t last = cell->count - 1;
     lrcsi_occlude_cell rest = *cell;
-    rest.count = last;
-    rest.inset = lrcsi_most(cell->inset, cut->width);
-    uint32_t index = list[which];
-    list[which] = list[last];
-    list[last] = index;
-    double strip = cut->width * lrcsi_clip_perimeter(&cell->shape);
-    o->off += lrcsi_least(strip, area);
+    const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[which]];
+    cell_drop(o, &rest, which, area);
     return cell_split(o, &rest, &cut->line, cut->width);
 }
 
 /* Divides a cell that a sheet hides in part (LRCS_NONE: of which some is visible). 0 where that is
-   not possible. */
+   not possible, or the cell is too small to be worth it. */
 static int cell_divide(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t sheet, double area)
 {
-    uint32_t count = sheet == LRCS_NONE ? cell->count : lrcsi_cuts_of(&o->cuts, cell->count, sheet);
-    int halves = count > LEAF_CUTS && cell->stale < LEAF_STALE;
+    int halves = cell->count > LEAF_CUTS && !cell->slice;
+    if (lrcsi_clip_perimeter(&cell->shape) < SMALL * cell_margin(o, cell->inset)) {
+        return 0;
+    }
     return (halves && cell_halve(o, cell)) ||
            cell_cut(o, cell, cell_choose(o, cell, sheet), area) || cell_halve(o, cell);
 }
 
-/* Narrows the list of what may divide the cell. */
-static void cell_keep(lrcsi_occluding *o, lrcsi_occlude_cell *cell)
+/* Narrows the list to what may divide the cell; what passes beside it is charged and dropped. */
+static void cell_keep(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
 {
-    uint32_t count = lrcsi_cuts_keep(&o->cuts, &cell->shape, cell->count);
-    cell->stale = 4 * (size_t)count > 3 * (size_t)cell->count ? cell->stale : 0;
-    cell->count = count;
+    uint32_t before = cell->count;
+    cell->count = lrcsi_cuts_keep(&o->cuts, &cell->shape, cell->count);
+    for (uint32_t i = cell->count; i-- > 0;) {
+        const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[i]];
+        if (lrcsi_clip_meets(&cell->shape, &cut->line, cut->width) == LRCSI_CLIP_BESIDE) {
+            cell_drop(o, cell, i, area);
+        }
+    }
+    cell->slice ^= cell->depth > 0 && 4 * (size_t)cell->count > 3 * (size_t)before;
 }
 
 /* Does one cell: 1 where it has shown a piece. Else it is hidden, divided, or in doubt. */
 static int cell_do(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
 {
     uint32_t sheet = LRCS_NONE;
-    cell_keep(o, cell);
+    cell_keep(o, cell, area);
     int answer = cell_look(o, cell, &sheet);
     if (answer == LRCSI_COVER_ALL && cell->sure) {
+        cell_charge(o, cell, area);
         return 0;
     }
     if (cell->count > 0 && answer != LRCSI_COVER_ALL) {
@@ -192,6 +229,7 @@ static int cell_do(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
         return 0;
     }
     if (answer == LRCSI_COVER_NONE) {
+        cell_charge(o, cell, area);
         cell_show(o, cell, area);
         return 1;
     }

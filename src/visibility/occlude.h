@@ -13,9 +13,10 @@
 typedef struct lrcsi_occlude_cell {
     lrcsi_clip_polygon shape;
     uint32_t count; /* the cuts that may divide it are among the first so many of the list */
-    uint32_t stale; /* halvings in a row that relieved it of few cuts */
+    int slice;      /* it was last relieved by a cut, not by halving, or should be */
     uint32_t depth; /* halvings in all */
-    double inset;   /* the widest of the cuts along which it was cut */
+    uint32_t cuts;  /* so many were made, or passed it by */
+    double inset;   /* the widest of those */
     double at[2];   /* a place in it, */
     int lit;        /* where that is known to be visible */
     int sure;       /* all samples so far stood clear of what they tell of */

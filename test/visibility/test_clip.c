@@ -94,12 +94,15 @@ static void the_middle_knows_how_far_inside_it_lies(void **state)
     (void)state;
     double middle[2];
     lrcsi_clip_polygon p = triangle(9, 9);
-    double clear = lrcsi_clip_middle(&p, middle);
+    lrcsi_clip_middle(&p, middle);
+    double clear = lrcsi_clip_clear(&p, middle);
     check_rel(middle[0], 3.0, 1e-15);
     check_rel(middle[1], 3.0, 1e-15);
     assert_true(clear > 1.4 && clear <= 3 / sqrt(2)); /* nearest is the hypotenuse */
     p = triangle(9, 0x1p-40);
-    assert_true(lrcsi_clip_middle(&p, middle) < 0x1p-40 / 3);
+    lrcsi_clip_middle(&p, middle);
+    assert_true(lrcsi_clip_clear(&p, middle) < 0x1p-40 / 3);
+    assert_true(lrcsi_clip_clear(&p, (const double[2]){1, 1}) < 0);
 }
 
 /* Two corners that are one but for rounding: the side between them points away from all. */
@@ -109,7 +112,8 @@ static void a_side_made_by_rounding_does_not_count(void **state)
     double middle[2];
     lrcsi_clip_polygon p = {.count = 4,
                             .corner = {{0, 0}, {8, 0}, {8 - 0x1p-50, -0x1p-50}, {0, 8}}};
-    assert_true(lrcsi_clip_middle(&p, middle) > 0.5);
+    lrcsi_clip_middle(&p, middle);
+    assert_true(lrcsi_clip_clear(&p, middle) > 0.5);
 }
 
 static void a_box_shows_its_part_of_a_triangle(void **state)
