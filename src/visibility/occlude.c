@@ -40,8 +40,8 @@
 #define MOST_DEPTH 48u
 /* A cell is thin whose sample stands nearer to a side than this of its perimeter; in others strips
    reach FAR widths beyond the ends of segments. */
-#define THIN 0x1p-10
-#define FAR  0x1p12
+#define THIN 0x1p-20
+#define FAR  0x1p22
 /* A cell without place for a sample whose area is more than so many margins wide is only odd in
    shape: it is halved. */
 #define NARROW 64.0
