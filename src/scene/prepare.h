@@ -10,6 +10,7 @@
 
 #include "mesh/topology.h"
 #include "mesh/touch.h"
+#include "scene/across.h"
 #include "scene/near.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
@@ -30,6 +31,7 @@ struct lrcs_prepared {
     unsigned char *skip; /* facet: 1 where degenerate or omitted; it takes part in nothing */
     lrcsi_normal *normal;
     lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
+    lrcsi_across across;     /* live facets across the sides of live facets */
     lrcsi_touches touches;   /* between facets that are not skipped */
     double centre[3];        /* of the box around the live facets */
     double radius;           /* no live vertex is farther from the centre in any coordinate */

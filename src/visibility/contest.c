@@ -3,187 +3,134 @@
    contested facets show of themselves is decided elsewhere. */
 #include "visibility/contest.h"
 
+#include <math.h>
+
 #include "base/exact.h"
-#include "base/join.h"
 #include "base/work.h"
 #include "visibility/sample.h"
 
-/* --- event edges ------------------------------------------------------------------------------ */
-
-enum edge_kind { EDGE_IDLE, EDGE_JOINS, EDGE_EVENT };
-
-/* What an edge is in this view; where it joins two facets that continue each other, they are in
-   pair. Facets that cannot hide anything do not count. */
-static int edge_kind_of(const lrcsi_view *view, const lrcsi_edge *edge, uint32_t pair[2])
-{
-    const lrcsi_edge_use *use = view->prepared->topology.use + edge->first_use;
-    uint32_t count = 0;
-    uint32_t forward = 0;
-    int facing = 0;
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        if (lrcsi_grid_casts(view, use[i].facet)) {
-            pair[count < 2 ? count : 1] = use[i].facet;
-            count++;
-            forward += use[i].forward;
-            facing += view->facing[use[i].facet];
-        }
-    }
-    return count == 0                                  ? EDGE_IDLE
-           : count == 2 && forward == 1 && facing != 0 ? EDGE_JOINS
-                                                       : EDGE_EVENT;
-}
-
-/* Lists the event edges and joins facets into sheets. */
-static void contest_edges(lrcsi_contest *contest)
-{
-    const lrcsi_topology *topology = &contest->view->prepared->topology;
-    for (uint32_t e = 0; e < topology->edge_count; e++) {
-        uint32_t pair[2];
-        int kind = edge_kind_of(contest->view, &topology->edge[e], pair);
-        if (kind == EDGE_JOINS) {
-            lrcsi_join(contest->sheet, pair[0], pair[1]);
-        } else if (kind == EDGE_EVENT) {
-            contest->event[contest->event_count++] = e;
-        }
-    }
-}
-
-/* Joins uniform facets into regions. */
-static void contest_regions(lrcsi_contest *contest, const unsigned char *lone)
-{
-    const lrcsi_topology *topology = &contest->view->prepared->topology;
-    for (uint32_t e = 0; e < topology->edge_count; e++) {
-        uint32_t pair[2];
-        if (edge_kind_of(contest->view, &topology->edge[e], pair) == EDGE_JOINS && !lone[pair[0]] &&
-            !lone[pair[1]]) {
-            lrcsi_join(contest->region, pair[0], pair[1]);
-        }
-    }
-}
-
-static uint32_t *contest_singles(const lrcsi_view *view, lrcs_work *work)
-{
-    uint32_t facets = view->prepared->scene->facet_count;
-    uint32_t *single = lrcsi_work_take(work, facets, sizeof *single);
-    for (uint32_t f = 0; f < facets && single; f++) {
-        single[f] = f;
-    }
-    return single;
-}
-
-static void contest_roots(uint32_t *join, uint32_t facets)
-{
-    for (uint32_t f = 0; f < facets; f++) {
-        join[f] = lrcsi_join_root(join, f);
-    }
-}
-
-/* Room for as many events as there are edges, given back but for what they need. */
-static int contest_events(lrcsi_contest *contest, lrcs_work *work)
-{
-    const lrcs_prepared *p = contest->view->prepared;
-    size_t mark = work->used;
-    contest->event = lrcsi_work_take(work, p->topology.edge_count, sizeof *contest->event);
-    if (!contest->event) {
-        return LRCS_E_MEMORY;
-    }
-    contest_edges(contest);
-    contest_roots(contest->sheet, p->scene->facet_count);
-    uint32_t count = contest->event_count;
-    work->used = mark;
-    contest->event = lrcsi_work_take(work, count, sizeof *contest->event);
-    contest->seen = lrcsi_work_take_zero(work, count, sizeof *contest->seen);
-    contest->crossing = lrcsi_work_take(work, count, sizeof *contest->crossing);
-    if (!contest->event || !contest->seen || !contest->crossing) {
-        return LRCS_E_MEMORY;
-    }
-    return lrcsi_grid_edges(contest->view, contest->event, count, work, &contest->grid);
-}
+#define U 0x1p-53
 
 /* --- crossings -------------------------------------------------------------------------------- */
 
-/* An edge and a facet whose boxes lie apart beyond the view's error. */
-static int boxes_apart(const lrcsi_view *view, const lrcsi_edge *edge, const double low[2],
-                       const double high[2])
+/* A facet that asks which event edges cross it, and its box, widened by the view's error and by
+   what the edges' boxes are rounded. */
+typedef struct contest_ask {
+    uint32_t facet;
+    int facing;
+    const uint32_t *corner;
+    double low[2], high[2];
+} contest_ask;
+
+static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
 {
-    const double *a = view->point[edge->low].x;
-    const double *b = view->point[edge->high].x;
-    double off = 2 * view->off;
+    contest_ask ask = {
+        facet, view->facing[facet], view->prepared->scene->facet[facet].corner, {0, 0}, {0, 0}};
+    /* of floats below 2 radii in magnitude: 2^-23 radii */
+    double wide = 2 * view->off + 0x1p-23 * view->prepared->radius;
+    lrcsi_grid_box(view, ask.corner, 3, ask.low, ask.high);
     for (int k = 0; k < 2; k++) {
-        if ((a[k] > high[k] + off && b[k] > high[k] + off) ||
-            (a[k] < low[k] - off && b[k] < low[k] - off)) {
-            return 1;
-        }
+        ask.low[k] -= wide;
+        ask.high[k] += wide;
     }
-    return 0;
+    return ask;
+}
+
+/* Which way vertices a, b, c turn: from view coordinates where their error allows, else exactly.
+   Differences are off by 2.2 of the view's errors, e, rounding included, and their products by
+   e (|p| + |q| + 2 e) and a rounding that is less: 4 e leaves room. */
+static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
+{
+    if (c == a || c == b) {
+        return 0;
+    }
+    const double *at = view->point[a].x;
+    const double p[2] = {view->point[b].x[0] - at[0], view->point[b].x[1] - at[1]};
+    const double q[2] = {view->point[c].x[0] - at[0], view->point[c].x[1] - at[1]};
+    double turn = p[0] * q[1] - p[1] * q[0];
+    double size = fabs(p[0]) + fabs(p[1]) + fabs(q[0]) + fabs(q[1]);
+    if (fabs(turn) > 4 * view->off * (size + 4 * view->off)) {
+        return turn > 0 ? 1 : -1;
+    }
+    const lrcs_point *v = view->prepared->vertex;
+    return lrcsi_exact_turn(v[a].x, v[b].x, v[c].x, view->direction);
 }
 
 /* Does the segment p q cross the open inside of the facet, in projection? Two convex figures of
    the plane are apart just if some line along a side of either parts them. *along: it lies on the
    line of a side that parts them. */
-static int segment_crosses(const lrcsi_view *view, uint32_t facet, const double *p, const double *q,
+static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t p, uint32_t q,
                            int *along)
 {
-    const double *corner[3];
-    const double *d = view->direction;
-    int facing = view->facing[facet];
     for (int k = 0; k < 3; k++) {
-        corner[k] = lrcsi_prepared_corner(view->prepared, facet, k);
-    }
-    for (int k = 0; k < 3; k++) {
-        const double *a = corner[k];
-        const double *b = corner[(k + 1) % 3];
-        int of_p = facing * lrcsi_exact_turn(a, b, p, d);
-        int of_q = facing * lrcsi_exact_turn(a, b, q, d);
+        uint32_t a = ask->corner[k];
+        uint32_t b = ask->corner[(k + 1) % 3];
+        int of_p = ask->facing * vertex_turn(view, a, b, p);
+        int of_q = ask->facing * vertex_turn(view, a, b, q);
         if (of_p <= 0 && of_q <= 0) {
-            *along = of_p == 0 && of_q == 0;
+            *along |= of_p == 0 && of_q == 0;
             return 0;
         }
     }
     int left = 0;
     int right = 0;
     for (int k = 0; k < 3; k++) {
-        int side = lrcsi_exact_turn(p, q, corner[k], d);
+        int side = vertex_turn(view, p, q, ask->corner[k]);
         left |= side > 0;
         right |= side < 0;
     }
     return left && right;
 }
 
-/* Is some of the segment nearer the laser than the facet's plane? */
-static int segment_nearer(const lrcsi_view *view, uint32_t facet, const double *p, const double *q)
+/* Is the vertex nearer the laser than the facet's plane? From the normal where its error allows
+   (see facing_of in view/view.c; differences are below 4 in norm), else exactly. */
+static int vertex_nearer(const lrcsi_view *view, const contest_ask *ask, uint32_t vertex)
 {
-    const double *a = lrcsi_prepared_corner(view->prepared, facet, 0);
-    const double *b = lrcsi_prepared_corner(view->prepared, facet, 1);
-    const double *c = lrcsi_prepared_corner(view->prepared, facet, 2);
-    int facing = view->facing[facet];
-    return facing * lrcsi_exact_side(a, b, c, p) > 0 || facing * lrcsi_exact_side(a, b, c, q) > 0;
-}
-
-static int edge_crosses(const lrcsi_view *view, uint32_t facet, uint32_t edge, const double low[2],
-                        const double high[2], int *along)
-{
-    *along = 0;
-    const lrcs_prepared *p = view->prepared;
-    const uint32_t *own = p->topology.facet_edge[facet].corner;
-    const lrcsi_edge *e = &p->topology.edge[edge];
-    if (edge == own[0] || edge == own[1] || edge == own[2] || boxes_apart(view, e, low, high)) {
+    const lrcsi_normal *n = &view->prepared->normal[ask->facet];
+    if (vertex == ask->corner[0] || vertex == ask->corner[1] || vertex == ask->corner[2]) {
         return 0;
     }
-    const double *a = p->vertex[e->low].x;
-    const double *b = p->vertex[e->high].x;
-    return segment_crosses(view, facet, a, b, along) && segment_nearer(view, facet, a, b);
+    const lrcs_point *v = view->prepared->vertex;
+    const double *a = v[ask->corner[0]].x;
+    const double *x = v[vertex].x;
+    double dot = 0;
+    double size = 0;
+    for (int k = 0; k < 3; k++) {
+        double term = n->high[k] * (x[k] - a[k]);
+        dot += term;
+        size += fabs(term);
+    }
+    if (fabs(dot) > 8 * U * size + 8 * n->error) {
+        return (dot > 0) == (ask->facing > 0);
+    }
+    return ask->facing * lrcsi_exact_side(a, v[ask->corner[1]].x, v[ask->corner[2]].x, x) > 0;
+}
+
+static int edge_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t edge, int *along)
+{
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t *own = p->topology.facet_edge[ask->facet].corner;
+    const lrcsi_edge *e = &p->topology.edge[edge];
+    if (edge == own[0] || edge == own[1] || edge == own[2]) {
+        return 0;
+    }
+    return (vertex_nearer(view, ask, e->low) || vertex_nearer(view, ask, e->high)) &&
+           segment_crosses(view, ask, e->low, e->high, along);
+}
+
+/* The boxes of the event and of the facet lie apart beyond the view's error. */
+static int boxes_apart(const lrcsi_contest_edge *event, const contest_ask *ask)
+{
+    return (double)event->low[0] > ask->high[0] || (double)event->high[0] < ask->low[0] ||
+           (double)event->low[1] > ask->high[1] || (double)event->high[1] < ask->low[1];
 }
 
 /* At most `most` of them, so that one who only wants to know whether there are any can stop. */
 static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t most)
 {
     const lrcsi_grid *grid = &contest->grid;
-    double low[2];
-    double high[2];
-    lrcsi_grid_box(contest->view, contest->view->prepared->scene->facet[facet].corner, 3, low,
-                   high);
-    lrcsi_cells cells = lrcsi_grid_cells(grid, low, high);
+    contest_ask ask = contest_ask_of(contest->view, facet);
+    lrcsi_cells cells = lrcsi_grid_cells(grid, ask.low, ask.high);
     uint32_t count = 0;
     contest->asked++;
     contest->along = 0;
@@ -191,16 +138,14 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
         uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
         uint32_t end = grid->first[(size_t)y * grid->size + cells.x1];
         for (; i < end && count < most; i++) { /* a row's cells lie one behind the other */
-            uint32_t event = grid->item[i];
-            if (contest->seen[event] == contest->asked) {
+            lrcsi_contest_edge *event = &contest->event[grid->item[i]];
+            if (boxes_apart(event, &ask) || event->asked == contest->asked) {
                 continue;
             }
-            contest->seen[event] = contest->asked;
-            int along;
-            if (edge_crosses(contest->view, facet, contest->event[event], low, high, &along)) {
-                contest->crossing[count++] = contest->event[event];
+            event->asked = contest->asked;
+            if (edge_crosses(contest->view, &ask, event->edge, &contest->along)) {
+                contest->crossing[count++] = event->edge;
             }
-            contest->along |= along;
         }
     }
     return count;
@@ -232,27 +177,72 @@ static int touch_contests(const lrcsi_view *view, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
+/* Events where they lie, and their grid: of a cell or so for every facet that casts, so that most
+   facets meet no event's cell and need no further look. */
+static int contest_events(lrcsi_contest *c, uint32_t casting, lrcs_work *work)
+{
+    const lrcsi_view *view = c->view;
+    uint32_t count = c->events.count;
+    c->event = lrcsi_work_take(work, count, sizeof *c->event);
+    c->crossing = lrcsi_work_take(work, count, sizeof *c->crossing);
+    if (!c->event || !c->crossing) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        lrcsi_contest_edge *event = &c->event[i];
+        const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
+        double low[2];
+        double high[2];
+        lrcsi_grid_box(view, (const uint32_t[2]){edge->low, edge->high}, 2, low, high);
+        *event = (lrcsi_contest_edge){
+            {(float)low[0], (float)low[1]}, {(float)high[0], (float)high[1]}, c->events.edge[i], 0};
+    }
+    return lrcsi_grid_edges(view, c->events.edge, count, casting, work, &c->grid);
+}
+
+/* Which way the facets face that can hide something, and how many they are. */
+static uint32_t contest_cast(const lrcsi_view *view, signed char *cast)
+{
+    uint32_t count = view->prepared->scene->facet_count;
+    uint32_t casting = 0;
+    for (uint32_t f = 0; f < count; f++) {
+        cast[f] = lrcsi_grid_casts(view, f) ? view->facing[f] : 0;
+        casting += cast[f] != 0;
+    }
+    cast[count] = 0;
+    return casting;
+}
+
+/* Which facets are contested, and which of the others are alone in their region. */
+static void contest_decide(lrcsi_contest *c)
+{
+    const lrcs_prepared *p = c->view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (c->kin[f] != 0) {
+            c->contested[f] = touch_contests(c->view, f) || contest_find(c, f, 1) > 0;
+            c->contested_count += c->contested[f];
+            if (c->contested[f] || c->along || p->touches.rim[f]) {
+                c->kin[f] = 0;
+            }
+        }
+    }
+}
+
+void lrcsi_contest_regions(const lrcsi_contest *contest)
+{
+    lrcsi_events_join(contest->view, contest->kin, contest->region);
+}
+
 size_t lrcsi_contest_need(const lrcs_prepared *prepared)
 {
     size_t edges = prepared->topology.edge_count;
     size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_work_bytes(3 * edges, sizeof(uint32_t));
-    need = lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(2 * facets, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(2 * facets, 1));
-}
-
-/* Which facets are contested, and which of the others are alone in their region. */
-static void contest_decide(lrcsi_contest *c, unsigned char *lone)
-{
-    const lrcs_prepared *p = c->view->prepared;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        if (lrcsi_grid_casts(c->view, f)) {
-            c->contested[f] = touch_contests(c->view, f) || contest_find(c, f, 1) > 0;
-            c->contested_count += c->contested[f];
-            lone[f] = c->contested[f] || c->along || p->touches.rim[f];
-        }
-    }
+    need = lrcsi_work_add(need, lrcsi_events_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_contest_edge)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
 }
 
 int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *contest)
@@ -261,19 +251,21 @@ int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *c
     uint32_t count = view->prepared->scene->facet_count;
     lrcsi_contest c = {.view = view};
     c.contested = lrcsi_work_take_zero(work, count, 1);
-    c.sheet = contest_singles(view, work);
-    c.region = contest_singles(view, work);
-    int status = c.contested && c.sheet && c.region ? contest_events(&c, work) : LRCS_E_MEMORY;
-    size_t end = work->used;
-    unsigned char *lone = status == LRCS_OK ? lrcsi_work_take_zero(work, count, 1) : NULL;
-    if (!lone) {
-        work->used = mark;
-        return status == LRCS_OK ? LRCS_E_MEMORY : status;
+    c.kin = lrcsi_work_take(work, (size_t)count + 1, 1);
+    c.sheet = lrcsi_work_take(work, count, sizeof *c.sheet);
+    c.region = lrcsi_work_take(work, count, sizeof *c.region);
+    int status = LRCS_E_MEMORY;
+    if (c.contested && c.kin && c.sheet && c.region) {
+        uint32_t casting = contest_cast(view, c.kin);
+        status = lrcsi_events_make(view, c.kin, work, &c.events);
+        status = status == LRCS_OK ? contest_events(&c, casting, work) : status;
     }
-    contest_decide(&c, lone);
-    contest_regions(&c, lone);
-    contest_roots(c.region, count);
-    work->used = end;
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    lrcsi_events_join(view, c.kin, c.sheet);
+    contest_decide(&c);
     *contest = c;
     return LRCS_OK;
 }

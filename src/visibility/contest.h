@@ -3,9 +3,7 @@
 
    Along a path over the inside of a facet i, the number of surfaces in front of it can change only
    where the path crosses, in projection,
-     (1) an event edge nearer than i: one whose facets do not continue each other, that is, not
-         exactly two, in opposite directions, both facing the same way (contours, rims, and edges
-         of three or more facets); or
+     (1) an event edge (visibility/event.h) nearer than i; or
      (2) a point where another facet touches the inside of i itself (mesh/touch.h); a coplanar
          facet that i beats hides nothing.
    A facet that meets neither is uniform: one exact sample tells whether all of it is visible. The
@@ -22,20 +20,29 @@
 #ifndef LRCSI_CONTEST_H
 #define LRCSI_CONTEST_H
 
+#include "visibility/event.h"
 #include "visibility/grid.h"
+
+/* An event edge's box in the view, rounded (so many of them are passed over that their size
+   matters), and who asked about it last. */
+typedef struct lrcsi_contest_edge {
+    float low[2], high[2];
+    uint32_t edge;
+    uint32_t asked;
+} lrcsi_contest_edge;
 
 typedef struct lrcsi_contest {
     const lrcsi_view *view;
-    uint32_t *event; /* topology edges that are event edges in this view */
-    uint32_t event_count;
-    uint32_t
-        *sheet; /* facet -> its sheet, named by one of its facets; itself if it casts nothing */
-    uint32_t *region;   /* facet -> the region of uniform facets that it is in, likewise named */
-    lrcsi_grid grid;    /* of events */
-    uint32_t *seen;     /* scratch: event -> the search that last met it */
-    uint32_t asked;     /* scratch: searches so far */
-    int along;          /* scratch: the last search met an event along a side of the facet */
-    uint32_t *crossing; /* scratch: what lrcsi_contest_crossings found */
+    lrcsi_events events;
+    lrcsi_contest_edge *event; /* one for each */
+    lrcsi_grid grid;           /* of events */
+    uint32_t asked;            /* scratch: searches so far */
+    int along;                 /* scratch: the last search met an event along a side of the facet */
+    uint32_t *crossing;        /* scratch: what lrcsi_contest_crossings found */
+    uint32_t *sheet;  /* facet -> its sheet, named by its first facet; itself if it casts nothing */
+    uint32_t *region; /* facet -> the region of uniform facets that it is in, likewise named, once
+                         lrcsi_contest_regions has been called */
+    signed char *kin; /* facet: its facing where it may be seen like its neighbours, else 0 */
     unsigned char *contested; /* facet: 1 contested; 0 uniform, or of no area in this view */
     uint32_t contested_count;
 } lrcsi_contest;
@@ -46,6 +53,9 @@ size_t lrcsi_contest_need(const lrcs_prepared *prepared);
 /* Decides every facet that faces either way (front ones only where back sides are never seen).
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The result stays in the work area. */
 int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *contest);
+
+/* Names the regions. */
+void lrcsi_contest_regions(const lrcsi_contest *contest);
 
 /* The event edges that cross the inside of a facet, nearer than it somewhere: their count; the
    topology edges are then in contest->crossing. */

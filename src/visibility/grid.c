@@ -8,48 +8,13 @@
 #include "base/range.h"
 #include "base/work.h"
 
-/* Cells along a side at most; otherwise as many cells as items. */
+/* Cells along a side at most. */
 #define MOST_CELLS 2048
 
-/* The cell of a view coordinate, kept within 0 .. size - 1. */
-static uint32_t cell_of(const lrcsi_grid *grid, double x, int axis)
-{
-    double cell = floor((x - grid->view->low[axis]) * grid->scale);
-    return cell <= 0 ? 0 : cell >= grid->size ? grid->size - 1 : (uint32_t)cell;
-}
-
-lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const double low[2], const double high[2])
-{
-    double off = 2 * grid->view->off;
-    lrcsi_cells cells;
-    cells.x0 = cell_of(grid, low[0] - off, 0);
-    cells.x1 = cell_of(grid, high[0] + off, 0) + 1;
-    cells.y0 = cell_of(grid, low[1] - off, 1);
-    cells.y1 = cell_of(grid, high[1] + off, 1) + 1;
-    return cells;
-}
-
-void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex, int count, double low[2],
-                    double high[2])
-{
-    for (int k = 0; k < 2; k++) {
-        low[k] = high[k] = view->point[vertex[0]].x[k];
-        for (int i = 1; i < count; i++) {
-            low[k] = lrcsi_least(low[k], view->point[vertex[i]].x[k]);
-            high[k] = lrcsi_most(high[k], view->point[vertex[i]].x[k]);
-        }
-    }
-}
-
-int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
-{
-    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_cast);
-}
-
-size_t lrcsi_grid_need(size_t items, size_t entries)
+size_t lrcsi_grid_need(size_t cells, size_t entries)
 {
     const size_t most = (size_t)MOST_CELLS * MOST_CELLS;
-    size_t cells = items < most ? items : most;
+    cells = cells < most ? cells : most;
     return lrcsi_work_add(lrcsi_work_bytes(cells + 1, sizeof(uint32_t)),
                           lrcsi_work_bytes(entries, sizeof(uint32_t)));
 }
@@ -60,11 +25,12 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
     return lrcsi_grid_need(facets, 16 * facets + 65536);
 }
 
-static int grid_start(const lrcsi_view *view, uint32_t items, lrcs_work *work, lrcsi_grid *grid)
+static int grid_start(const lrcsi_view *view, uint32_t cells, lrcs_work *work, lrcsi_grid *grid)
 {
-    double size = lrcsi_least(MOST_CELLS, lrcsi_most(1, sqrt((double)items)));
+    double size = lrcsi_least(MOST_CELLS, lrcsi_most(1, sqrt((double)cells)));
     grid->view = view;
     grid->size = (uint32_t)size;
+    grid->last = grid->size - 1.0;
     grid->scale = view->side > 0 ? grid->size / view->side : 0;
     grid->first =
         lrcsi_work_take_zero(work, (size_t)grid->size * grid->size + 1, sizeof *grid->first);
@@ -139,21 +105,25 @@ static void grid_put_edge(lrcsi_grid *grid, const lrcsi_edge *edge, uint32_t ite
     double high[2];
     lrcsi_grid_box(grid->view, ends, 2, low, high);
     lrcsi_cells cells = lrcsi_grid_cells(grid, low, high);
+    if (cells.y1 - cells.y0 == 1) {
+        grid_put(grid, cells.y0, cells.x0, cells.x1, item);
+        return;
+    }
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         double range[2];
         segment_row(grid, grid->view->point[edge->low].x, grid->view->point[edge->high].x, y,
                     range);
         double off = 4 * grid->view->off;
-        grid_put(grid, y, cell_of(grid, range[0] - off, 0), cell_of(grid, range[1] + off, 0) + 1,
-                 item);
+        grid_put(grid, y, lrcsi_grid_cell(grid, range[0] - off, 0),
+                 lrcsi_grid_cell(grid, range[1] + off, 0) + 1, item);
     }
 }
 
-int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, lrcs_work *work,
-                     lrcsi_grid *grid)
+int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, uint32_t cells,
+                     lrcs_work *work, lrcsi_grid *grid)
 {
     lrcsi_grid g = {.view = view};
-    int status = grid_start(view, count, work, &g);
+    int status = grid_start(view, cells, work, &g);
     for (int pass = 0; pass < 2 && status == LRCS_OK; pass++) {
         for (uint32_t i = 0; i < count; i++) {
             grid_put_edge(&g, &view->prepared->topology.edge[edge[i]], i);

@@ -4,12 +4,14 @@
 #ifndef LRCSI_GRID_H
 #define LRCSI_GRID_H
 
+#include "base/range.h"
 #include "view/view.h"
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
     uint32_t size;   /* cells along each side */
     double scale;    /* cells per scaled unit */
+    double last;     /* size - 1 */
     uint32_t *first; /* size * size + 1 */
     uint32_t *item;  /* those of cell c: item[first[c] .. first[c + 1]) */
 } lrcsi_grid;
@@ -19,20 +21,44 @@ typedef struct lrcsi_cells {
     uint32_t x0, x1, y0, y1;
 } lrcsi_cells;
 
+/* The cell of a view coordinate, kept within 0 .. size - 1. */
+static inline uint32_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axis)
+{
+    double cell = (x - grid->view->low[axis]) * grid->scale;
+    return (uint32_t)lrcsi_least(grid->last, lrcsi_most(0, cell));
+}
+
 /* The cells that the box low .. high of view coordinates touches. */
-lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const double low[2], const double high[2]);
+static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const double low[2],
+                                           const double high[2])
+{
+    double off = 2 * grid->view->off;
+    return (lrcsi_cells){.x0 = lrcsi_grid_cell(grid, low[0] - off, 0),
+                         .x1 = lrcsi_grid_cell(grid, high[0] + off, 0) + 1,
+                         .y0 = lrcsi_grid_cell(grid, low[1] - off, 1),
+                         .y1 = lrcsi_grid_cell(grid, high[1] + off, 1) + 1};
+}
 
 /* The box of some points of the view. */
-void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex, int count, double low[2],
-                    double high[2]);
+static inline void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex, int count,
+                                  double low[2], double high[2])
+{
+    for (int k = 0; k < 2; k++) {
+        low[k] = high[k] = view->point[vertex[0]].x[k];
+        for (int i = 1; i < count; i++) {
+            low[k] = lrcsi_least(low[k], view->point[vertex[i]].x[k]);
+            high[k] = lrcsi_most(high[k], view->point[vertex[i]].x[k]);
+        }
+    }
+}
 
-/* A grid of edges: item i stands for topology edge `edge[i]`. Cells along the edge only.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
-int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, lrcs_work *work,
-                     lrcsi_grid *grid);
+/* A grid of `cells` cells or so, of edges: item i stands for topology edge `edge[i]`. Cells along
+   the edge only. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
+int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, uint32_t cells,
+                     lrcs_work *work, lrcsi_grid *grid);
 
-/* Bytes for a grid of so many items that stand in so many cells together. */
-size_t lrcsi_grid_need(size_t items, size_t entries);
+/* Bytes for a grid of so many cells that list so many items together. */
+size_t lrcsi_grid_need(size_t cells, size_t entries);
 
 /* Bytes for a grid of facets, an upper bound for ordinary scenes. */
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
@@ -41,6 +67,9 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 int lrcsi_grid_facets(const lrcsi_view *view, lrcs_work *work, lrcsi_grid *grid);
 
 /* Can the facet hide anything in this view? */
-int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet);
+static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
+{
+    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_cast);
+}
 
 #endif

@@ -150,6 +150,7 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
 void lrcsi_query_uniform(const lrcsi_contest *contest, const lrcsi_grid *facets,
                          unsigned char *answer)
 {
+    lrcsi_contest_regions(contest);
     for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count; f++) {
         uint32_t first = contest->region[f];
         answer[f] = LRCSI_QUERY_HIDDEN;

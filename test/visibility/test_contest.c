@@ -19,6 +19,7 @@ static void look_from(double x, double y, double z)
     assert_int_equal(lrcs_pose_from_direction((const double[3]){x, y, z}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
     assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+    lrcsi_contest_regions(&contest);
     assert_int_equal(lrcsi_grid_facets(&view, &work, &facets), LRCS_OK);
 }
 
@@ -36,7 +37,7 @@ static void body_alone_is_uncontested(void **state)
     scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
     look_from(1, 2, 3);
     assert_int_equal(contest.contested_count, 0);
-    assert_int_equal(contest.event_count, 6); /* the contour of a box is a hexagon */
+    assert_int_equal(contest.events.count, 6); /* the contour of a box is a hexagon */
     for (uint32_t f = 0; f < 12; f++) {
         assert_true(view.facing[f] <= 0 || lrcsi_query_facet(&facets, f) == LRCSI_QUERY_VISIBLE);
     }
@@ -51,7 +52,7 @@ static void rims_in_front_contest_what_they_cross(void **state)
     square(0, 0, 0, 4);
     square(2.5, 0.5, 1, 1);
     look_from(0, 0, 1);
-    assert_int_equal(contest.event_count, 8);
+    assert_int_equal(contest.events.count, 8);
     assert_true(contest.contested[0]);
     assert_false(contest.contested[1]);
     assert_int_equal(lrcsi_contest_crossings(&contest, 0), 4);
@@ -244,8 +245,8 @@ static void grids_list_every_item_wherever_it_stands(void **state)
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 20);
     scene_box(&scene, (const double[3]){-3, -0.1, -0.1}, (const double[3]){3, 0.1, 0.2});
     look_from(0.3, 0.2, 1);
-    for (uint32_t e = 0; e < contest.event_count; e++) {
-        const lrcsi_edge *edge = &view.prepared->topology.edge[contest.event[e]];
+    for (uint32_t e = 0; e < contest.events.count; e++) {
+        const lrcsi_edge *edge = &view.prepared->topology.edge[contest.events.edge[e]];
         const double *a = view.point[edge->low].x;
         const double *b = view.point[edge->high].x;
         for (int i = 0; i <= 32; i++) {

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: MIT */
+/* Telling event edges from those across which a surface goes on, by which way their facets face.
+   What they cross is decided elsewhere. */
+#include "visibility/event.h"
+
+#include "base/join.h"
+#include "base/work.h"
+#include "visibility/grid.h"
+
+/* --- odd edges -------------------------------------------------------------------------------- */
+
+enum edge_kind { EDGE_IDLE, EDGE_JOINS, EDGE_EVENT };
+
+/* What an edge is; where it joins two facets, they are in pair. */
+static int edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
+{
+    const lrcsi_topology *t = &view->prepared->topology;
+    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
+    uint32_t count = 0;
+    uint32_t forward = 0;
+    int facing = 0;
+    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
+        if (lrcsi_grid_casts(view, use[i].facet)) {
+            pair[count < 2 ? count : 1] = use[i].facet;
+            count++;
+            forward += use[i].forward;
+            facing += view->facing[use[i].facet];
+        }
+    }
+    return count == 0                                  ? EDGE_IDLE
+           : count == 2 && forward == 1 && facing != 0 ? EDGE_JOINS
+                                                       : EDGE_EVENT;
+}
+
+/* --- all edges -------------------------------------------------------------------------------- */
+
+/* A bit for each edge, so that those found come out in order and once, and in little memory. */
+enum { MARK_BITS = 32 };
+
+static size_t mark_words(const lrcs_prepared *p)
+{
+    return ((size_t)p->topology.edge_count + MARK_BITS - 1) / MARK_BITS;
+}
+
+static void mark_edge_event(uint32_t *mark, uint32_t edge)
+{
+    mark[edge / MARK_BITS] |= (uint32_t)1 << edge % MARK_BITS;
+}
+
+/* Across a plain edge (scene/across.h) two facets continue each other where both cast and face the
+   same way; where one casts, it finds the event. */
+static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
+{
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        const uint32_t *across = p->across.facet[f].corner;
+        for (int k = 0; k < 3 && cast[f] != 0; k++) {
+            if (cast[across[k]] != cast[f]) {
+                mark_edge_event(mark, p->topology.facet_edge[f].corner[k]);
+            }
+        }
+    }
+}
+
+static void mark_odd(const lrcsi_view *view, uint32_t *mark)
+{
+    const lrcsi_across *across = &view->prepared->across;
+    for (uint32_t i = 0; i < across->odd_count; i++) {
+        uint32_t pair[2];
+        if (edge_kind_of(view, across->odd[i], pair) == EDGE_EVENT) {
+            mark_edge_event(mark, across->odd[i]);
+        }
+    }
+}
+
+static uint32_t mark_list(const uint32_t *mark, size_t words, uint32_t *edge)
+{
+    uint32_t count = 0;
+    for (size_t w = 0; w < words; w++) {
+        uint32_t e = (uint32_t)(w * MARK_BITS);
+        for (uint32_t left = mark[w]; left != 0; left >>= 1) {
+            edge[count] = e++;
+            count += left & 1;
+        }
+    }
+    return count;
+}
+
+size_t lrcsi_events_need(const lrcs_prepared *prepared)
+{
+    return lrcsi_work_add(lrcsi_work_bytes(mark_words(prepared), sizeof(uint32_t)),
+                          lrcsi_work_bytes(prepared->topology.edge_count, sizeof(uint32_t)));
+}
+
+/* Room for as many events as there are edges, given back but for what they need. */
+int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
+                      lrcsi_events *events)
+{
+    const lrcs_prepared *p = view->prepared;
+    size_t mark = work->used;
+    uint32_t *marks = lrcsi_work_take_zero(work, mark_words(p), sizeof *marks);
+    size_t end = work->used;
+    uint32_t *edge = lrcsi_work_take(work, p->topology.edge_count, sizeof *edge);
+    if (!marks || !edge) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
+    }
+    mark_plain(p, cast, marks);
+    mark_odd(view, marks);
+    events->count = mark_list(marks, mark_words(p), edge);
+    work->used = end;
+    events->edge = lrcsi_work_take(work, events->count, sizeof *edge);
+    return LRCS_OK;
+}
+
+/* --- groups ----------------------------------------------------------------------------------- */
+
+void lrcsi_events_join(const lrcsi_view *view, const signed char *kin, uint32_t *group)
+{
+    const lrcs_prepared *p = view->prepared;
+    uint32_t count = p->scene->facet_count;
+    for (uint32_t f = 0; f < count; f++) {
+        group[f] = f;
+        for (int k = 0; k < 3 && kin[f] != 0; k++) {
+            uint32_t other = p->across.facet[f].corner[k];
+            if (other < f && kin[other] == kin[f] && group[other] != group[f]) {
+                lrcsi_join(group, other, f);
+            }
+        }
+    }
+    for (uint32_t i = 0; i < p->across.odd_count; i++) {
+        uint32_t pair[2];
+        if (edge_kind_of(view, p->across.odd[i], pair) == EDGE_JOINS && kin[pair[0]] != 0 &&
+            kin[pair[1]] != 0) {
+            lrcsi_join(group, pair[0], pair[1]);
+        }
+    }
+    lrcsi_join_settle(group, count);
+}
