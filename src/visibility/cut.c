@@ -4,12 +4,12 @@
 
    In the facet's frame, with d its diameter and r the largest distance in space of a segment's ends
    from its first corner, ends are off by 10 u r (visibility/target.h), those of a contact by 16 u r
-   and its slip; the line through them by 2 u r more. The side of a line on which a point lies is
-   told wrong within 4 u (r + d) of it. A point put where a line cuts a side of a cell lies within
-   that and 8 u d of the line. So a shape that is not told to come near a segment, by WIDTH (r + d)
-   and the slip, does not meet it; and where a cell was cut along a segment, or lies on one side of
-   its line as computed, the segment lies within that width of the line, on the one side of which
-   all of the cell lies but for a strip as wide (24 u and 30 u of r + d would do).
+   and its slip (visibility/contact.h); the line through them by 2 u r more. The side of a line on
+   which a point lies is told wrong within 4 u (r + d) of it. A point put where a line cuts a side
+   of a cell lies within that and 8 u d of the line. So a segment that is told to be farther from a
+   shape than WIDTH (r + d) and the slip does not meet it; and where a cell was cut along a segment,
+   or lies on one side of its line as computed, the segment lies within that width of the line, and
+   all of the cell on one side but for as much (24 u of r + d would do, and 30 u for a contact).
 
    A contact with a facet in one plane with the target divides along the outline of that facet: on
    either side of it the facet hides all or nothing. So it is taken where the line of a contact is

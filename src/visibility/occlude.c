@@ -3,27 +3,34 @@
    (visibility/cut.c) until nothing divides a cell: then one exact sample tells all of it
    (visibility/cover.c). A sample taken on the way may tell that one sheet hides all of a cell,
    whatever else divides it, and where not, along which sheet's edges to cut. So the work grows
-   with what is visible, not with what is hidden behind it. A cell that many divide is halved
-   first: they meet few of the small ones.
+   with what is visible, not with what is hidden behind it. A cell that many divide is halved first:
+   they meet few of the small ones.
 
    Error. In the facet's frame (visibility/target.c) corners are off by at most e = 10 u r, r the
    facet's reach: R's rows are orthonormal to 4 u; a rounded difference, three products and two
    sums. Let p be the perimeter of the facet's projection, d its diameter. Its own corners move its
    rim by e: 2 e p, charged once.
 
-   Along each segment that it was cut along, or beside, a cell has a strip in which the segment may
-   truly lie, of its width to either side of the line (visibility/cut.c): what a cell of perimeter
-   q has of it is below width q, and below its area. It is charged at each cut, and serves all cells
-   that come of it. What is left of a cell lies on one side of all those lines, is convex, meets no
-   event, and so is seen alike. The sample stands in it: farther from the cell's sides than two
-   widths of any of the strips, and than it may be off itself: 100 u of the reach
-   (visibility/target.h), and 8 u for coordinates below 1. A cell too narrow for that counts as in
-   doubt.
+   A cell is cut along the line of a segment, or lies on one side of it; then the segment lies
+   within its width w of the line, and the cell, and all that come of it, on one side but for w
+   (visibility/cut.c). Let P be the place of a sample, clear of the cell's sides by c > 2 w and what
+   it may be off itself, and x any point of the cell. The way straight from x to P crosses the
+   segment only if x lies in its strip, within w of the line: P does not. Then it is out of the
+   strip after 2 w / c of its length, so that x lies no farther along the line beyond the segment
+   than 2 w / c of the cell's diameter: 2^20 w, where the cell is not thin. So what the segment may
+   change is in a strip 2 w wide and as long as the segment's part there and FAR w; that, or the
+   cell's area if less, is charged as the segment is struck from the cell's list, and serves all
+   cells that come of it. In a thin cell the whole strip of each is charged. Everything else of a
+   cell is seen as P is: what still divides the cell where one sheet hides it does not divide that
+   sheet.
+
+   A cell of which the sample is a guess, or that could not be divided further, counts as in doubt:
+   the bounds let all of it be visible, or hidden.
 
    A split puts two corners on the sides of a piece to within 5 u d. Both parts share them, so that
    only the two sides bend, by 5 u d d' of area in a cell of diameter d'; and there are two more
-   triangles to sum areas from, 7 u d'^2: together below 8 u d q. Adding up the cells costs u d p
-   each. A cell that could not be finished counts whole. */
+   triangles to sum areas from, 7 u d'^2: together below 8 u d q, q the cell's perimeter. Adding up
+   the cells costs u d p each. */
 #include "visibility/occlude.h"
 
 #include <math.h>
@@ -61,11 +68,24 @@ static double cell_margin(const lrcsi_occluding *o, double inset)
     return 2 * inset + 16 * U * o->target.diameter;
 }
 
+/* How far the point of a sample may be from its place. */
+static double cell_off(const lrcsi_occluding *o)
+{
+    return 100 * U * o->target.reach + 8 * U;
+}
+
+/* Is the cell known to be visible at a place that stands clear within it? */
+static int cell_lit(const lrcsi_occluding *o, const lrcsi_occlude_cell *cell)
+{
+    return cell->lit &&
+           lrcsi_clip_clear(&cell->shape, cell->at) > cell_margin(o, cell->inset) + cell_off(o);
+}
+
 /* What is known of a cell at a place in it, a lrcsi_cover_answer; where that is a guess, it is not
    sure. */
 static int cell_look(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t *sheet)
 {
-    if (cell->lit) {
+    if (cell_lit(o, cell)) {
         return LRCSI_COVER_NONE;
     }
     lrcsi_cover_place place;
@@ -80,11 +100,12 @@ static int cell_look(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t *she
 }
 
 /* Charges a cell that is told by a sample with what the strips beyond the ends of segments may
-   cost. Upper bound, and 0 but for thin cells. */
+   cost, if it is thin. */
 static void cell_charge(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
 {
     double perimeter = lrcsi_clip_perimeter(&cell->shape);
-    if (!(lrcsi_clip_clear(&cell->shape, cell->at) > THIN * perimeter)) {
+    double clear = lrcsi_clip_clear(&cell->shape, cell->at) - cell_off(o);
+    if (!(clear > THIN * perimeter)) {
         o->off += lrcsi_least(area, cell->cuts * cell->inset * perimeter);
     }
 }
@@ -113,7 +134,7 @@ static void cell_drop(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t whi
     cell->inset = lrcsi_most(cell->inset, cut->width);
 }
 
-/* Puts a part of a cell on the stack, known to be visible at `at` if that stands clear within. */
+/* Puts a part of a cell on the stack. */
 static void cell_push(lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
                       const lrcsi_clip_polygon *shape, int lit)
 {
@@ -125,10 +146,10 @@ static void cell_push(lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
     }
 }
 
-/* Puts both sides of a line through a cell on the stack in its stead, that with the sample on top;
-   the line may be off by so much. 0 where there is no room. */
+/* Puts both sides of a line through a cell on the stack in its stead, that with the sample on top.
+   0 where there is no room. */
 static int cell_split(lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
-                      const lrcsi_clip_line *line, double width)
+                      const lrcsi_clip_line *line)
 {
     lrcsi_clip_polygon left;
     lrcsi_clip_polygon right;
@@ -136,14 +157,11 @@ static int cell_split(lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
         !lrcsi_clip_split(&cell->shape, line, &left, &right)) {
         return 0;
     }
-    double perimeter = lrcsi_clip_perimeter(&cell->shape);
-    double side = lrcsi_clip_side(line, cell->at);
-    double clear = cell_margin(o, width) + 100 * U * o->target.reach + 8 * U;
-    int lit = cell->lit && fabs(side) > clear * (fabs(line->to[0]) + fabs(line->to[1]));
+    int on_left = lrcsi_clip_side(line, cell->at) > 0;
     o->cells--;
-    o->off += 8 * U * o->target.diameter * perimeter;
-    cell_push(o, cell, side > 0 ? &right : &left, 0);
-    cell_push(o, cell, side > 0 ? &left : &right, lit);
+    o->off += 8 * U * o->target.diameter * lrcsi_clip_perimeter(&cell->shape);
+    cell_push(o, cell, on_left ? &right : &left, 0);
+    cell_push(o, cell, on_left ? &left : &right, cell->lit);
     return 1;
 }
 
@@ -151,7 +169,7 @@ static int cell_halve(lrcsi_occluding *o, lrcsi_occlude_cell *cell)
 {
     lrcsi_clip_line line = lrcsi_clip_halving(&cell->shape);
     cell->depth++;
-    return cell->depth <= MOST_DEPTH && cell_split(o, cell, &line, 0);
+    return cell->depth <= MOST_DEPTH && cell_split(o, cell, &line);
 }
 
 /* Where in the list the cut stands that passes nearest to the cell's place, of those at which a
@@ -179,7 +197,7 @@ static int cell_cut(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t
     lrcsi_occlude_cell rest = *cell;
     const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[which]];
     cell_drop(o, &rest, which, area);
-    return cell_split(o, &rest, &cut->line, cut->width);
+    return cell_split(o, &rest, &cut->line);
 }
 
 /* Divides a cell that a sheet hides in part (LRCS_NONE: of which some is visible). 0 where that is
