@@ -306,15 +306,14 @@ lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet)
 
 static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
 {
-    double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
-    switch (o->uniform[facet]) {
-    case LRCSI_QUERY_HIDDEN:
+    if (o->uniform[facet] == LRCSI_QUERY_HIDDEN) {
         return (lrcsi_visible){0, 0, 0, 0, 0};
-    case LRCSI_QUERY_VISIBLE:
-        return (lrcsi_visible){whole, whole, whole, 0, 0};
-    default:
+    }
+    if (o->uniform[facet] == LRCSI_QUERY_UNDECIDED) {
         return lrcsi_occlude_unknown(o->contest->view, facet);
     }
+    double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
+    return (lrcsi_visible){whole, whole, whole, 0, 0};
 }
 
 int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
