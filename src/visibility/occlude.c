@@ -273,7 +273,7 @@ static int occlude_cells(lrcsi_occluding *o)
 /* --- one facet -------------------------------------------------------------------------------- */
 
 /* Readies a contested facet: all of it as the first cell. */
-static int contested_open(lrcsi_occluding *o, uint32_t facet)
+static int cells_open(lrcsi_occluding *o, uint32_t facet)
 {
     lrcsi_target_make(o->contest->view, facet, &o->target);
     o->area = o->doubt[0] = o->doubt[1] = o->off = 0;
@@ -288,7 +288,7 @@ static int contested_open(lrcsi_occluding *o, uint32_t facet)
     return status;
 }
 
-static lrcsi_visible contested_area(const lrcsi_occluding *o)
+static lrcsi_visible cells_area(const lrcsi_occluding *o)
 {
     double whole = lrcsi_view_tilt(o->contest->view, o->target.facet).projected;
     double own = 20 * U * o->target.reach + 32 * U * o->target.diameter;
@@ -333,7 +333,7 @@ int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
         return LRCS_OK;
     }
     o->contested = !lrcsi_query_screened(contest, &o->cover.facets, facet);
-    int status = o->contested ? contested_open(o, facet) : LRCS_OK;
+    int status = o->contested ? cells_open(o, facet) : LRCS_OK;
     if (status != LRCS_OK) {
         o->work->used = o->mark;
     }
@@ -354,7 +354,7 @@ int lrcsi_occlude_next(lrcsi_occluding *o)
 lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o)
 {
     o->work->used = o->mark;
-    return o->contested ? contested_area(o) : o->answer;
+    return o->contested ? cells_area(o) : o->answer;
 }
 
 lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
