@@ -110,13 +110,14 @@ static void cell_charge(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, doub
     }
 }
 
-/* All of the cell is visible: a piece. */
-static void cell_show(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
+/* All of the cell is visible: a piece, unless that is a guess: 1 or 0. */
+static int cell_show(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
 {
     o->piece = cell->shape;
     o->off += U * o->target.diameter * o->target.perimeter;
     o->area += area;
     o->doubt[1] += cell->sure ? 0 : area;
+    return cell->sure;
 }
 
 /* Strikes a cut from the cell's list, and charges its strip. */
@@ -248,8 +249,7 @@ static int cell_do(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
     }
     if (answer == LRCSI_COVER_NONE) {
         cell_charge(o, cell, area);
-        cell_show(o, cell, area);
-        return 1;
+        return cell_show(o, cell, area);
     }
     o->doubt[0] += area;
     return 0;
