@@ -228,8 +228,10 @@ static void case_measure(bench_case *c, int convex, bench_times *load)
     size_t size = pose_need(c);
     void *bytes = bench_memory(size);
     c->work = lrcs_work_make(bytes, size);
-    if (!convex) {
+    if (!convex && (c->size >= 0 || c->job->extent == EXTENT_FULL)) {
         measure_stages(c);
+    }
+    if (!convex) {
         measure_methods(c);
     }
     measure_facet(c, convex);
