@@ -27,6 +27,7 @@
    matters), and who asked about it last. */
 typedef struct lrcsi_contest_edge {
     float low[2], high[2];
+    float near; /* the z of its nearer end */
     uint32_t edge;
     uint32_t asked;
 } lrcsi_contest_edge;
@@ -36,6 +37,7 @@ typedef struct lrcsi_contest {
     lrcsi_events events;
     lrcsi_contest_edge *event; /* one for each */
     lrcsi_grid grid;           /* of events */
+    lrcsi_cells *cells;        /* facet -> the cells of the grid that it touches, if it casts */
     uint32_t asked;            /* scratch: searches so far */
     int along;                 /* scratch: the last search met an event along a side of the facet */
     uint32_t *crossing;        /* scratch: what lrcsi_contest_crossings found */

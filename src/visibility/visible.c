@@ -373,8 +373,9 @@ int lrcsi_visible_sampled(lrcsi_contest *contest, const lrcsi_raster *raster, lr
     pixel_marks marks = {.raster = raster};
     marks.mixed = lrcsi_work_take(work, pixels, 1);
     marks.pure = lrcsi_work_take_zero(work, pixels, 1);
-    int status =
-        marks.mixed && marks.pure ? lrcsi_grid_facets(contest->view, work, &facets) : LRCS_E_MEMORY;
+    int status = marks.mixed && marks.pure
+                     ? lrcsi_grid_facets(&contest->grid, contest->cells, NULL, work, &facets)
+                     : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
         visible_fill(contest, &facets, &marks, visible);
     }

@@ -20,7 +20,8 @@ static void look_from(double x, double y, double z)
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
     assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
     lrcsi_contest_regions(&contest);
-    assert_int_equal(lrcsi_grid_facets(&view, &work, &facets), LRCS_OK);
+    assert_int_equal(lrcsi_grid_facets(&contest.grid, contest.cells, NULL, &work, &facets),
+                     LRCS_OK);
 }
 
 /* A level square, front up: corner at (x, y, z). */
@@ -116,7 +117,7 @@ static void roof(void)
 static int region_answer(uint32_t facet)
 {
     static unsigned char answer[SCENE_FACETS];
-    lrcsi_query_uniform(&contest, &facets, answer);
+    assert_int_equal(lrcsi_query_uniform(&contest, &work, &facets, answer), LRCS_OK);
     return answer[facet];
 }
 
