@@ -2,9 +2,10 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make charts     accuracy against time, for the README
+#   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
-#   make asan lint purity layers fuzz    further checks
-#   make bench      what every stage costs on this machine
+#   make asan tsan lint purity layers fuzz    further checks
+#   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
 CC       = gcc
@@ -16,7 +17,8 @@ WARN     = -Wall -Wextra -Werror -Wshadow -Wconversion -Wsign-conversion -Wstric
            -Wmissing-prototypes -Wold-style-definition -Wcast-qual -Wcast-align -Wwrite-strings \
            -Wpointer-arith -Wformat=2 -Wundef -Wvla -Wswitch-enum -Wdouble-promotion
 CFLAGS   =
-LDLIBS   = -lm
+THREADS  = -pthread
+LDLIBS   = $(THREADS) -lm
 
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
@@ -32,6 +34,8 @@ TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
 EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
 LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
+BENCH_DIR = $(BUILD)/test/bench
+BENCH_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/bench.c %/scaling.c,$(wildcard test/bench/*.c)))
 
 # --- targets -------------------------------------------------------------------------------------
 all: $(TOOL) $(LIB)
@@ -47,12 +51,18 @@ charts: $(TOOL)
 	$(TOOL) converge examples/cylinder.toml --azel 0,30 --plot examples/converge_cylinder.svg
 	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
 
-test: cmocka $(TOOL) $(TESTS) $(EXAMPLES)
+test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
 
 asan: cmocka
-	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) -lm" test
+	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) $(THREADS) -lm" test
 SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+
+# The threads under ThreadSanitizer.
+tsan: cmocka
+	$(MAKE) BUILD=$(BUILD)/tsan OPT="-O1 -g" CFLAGS=-fsanitize=thread LDLIBS="-fsanitize=thread $(THREADS) -lm" \
+	    $(BUILD)/tsan/test/host/test_sweep
+	$(BUILD)/tsan/test/host/test_sweep
 
 lint: $(BUILD)/demo.inc
 	sh test/lint.sh $(BUILD)
@@ -92,17 +102,50 @@ shadows: cmocka $(BUILD)/test/integrate/test_margin
 SHADOWS_SCENES = 280
 SHADOWS_SEED   = 1
 
-# What every stage costs on this machine, a generated satellite at four sizes (BENCH_FLAGS=--quick: two).
-bench: $(LIB)
-	@mkdir -p $(BUILD)/test/bench
-	$(CC) $(STD) $(OPT) $(WARN) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -o $(BUILD)/test/bench/bench test/bench/bench.c $(LIB) $(LDLIBS)
-	$(BUILD)/test/bench/bench $(BENCH_FLAGS)
-BENCH_FLAGS =
+# What every stage and every pose costs on this machine: a generated satellite, a convex body and
+# real models, as tables, $(BENCH_DIR)/bench.csv and bench.svg (BENCH_FLAGS=--quick: a minute).
+bench: $(BENCH_DIR)/bench
+	$(BENCH_DIR)/bench $(BENCH_FLAGS) --csv $(BENCH_DIR)/bench.csv --plot $(BENCH_DIR)/bench.svg \
+	    --scratch $(BENCH_DIR)/scratch.stl $(BENCH_MODELS)
+BENCH_FLAGS  =
+BENCH_MODELS = $(wildcard ../shared/models/*.3ds ../shared/models/*.obj ../shared/models/*.stl)
+
+# How time and memory grow with facets, pixels and depth: exponents, and the worst cases.
+scaling: $(BENCH_DIR)/scaling
+	$(BENCH_DIR)/scaling $(SCALING_FLAGS)
+SCALING_FLAGS =
 
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
 	$(BUILD)/test/integrate/test_large $(BIG_ROWS)
 BIG_ROWS = 1600
+
+# What goes where: the tool with its manual page and bash completion, the library for static and
+# shared linking, its headers and its pkg-config file.
+PREFIX   = /usr/local
+DESTDIR  =
+VERSION := $(shell sed -n 's/.*LRCS_VERSION_TEXT *"\(.*\)"/\1/p' include/lrcs/status.h)
+SONAME  := liblrcs.so.$(firstword $(subst ., ,$(VERSION)))
+SHARED   = $(BUILD)/liblrcs.so.$(VERSION)
+TO       = $(DESTDIR)$(PREFIX)
+MANUAL   = $(TO)/share/man/man1/lrcs.1
+COMPLETE = $(TO)/share/bash-completion/completions/lrcs
+
+install: $(TOOL) $(LIB) $(SHARED) $(BUILD)/lrcs.pc
+	install -d $(TO)/bin $(TO)/lib/pkgconfig $(TO)/include/lrcs $(dir $(MANUAL)) $(dir $(COMPLETE))
+	install -m 755 $(TOOL) $(TO)/bin/lrcs
+	install -m 644 include/lrcs/*.h $(TO)/include/lrcs
+	install -m 644 $(LIB) $(SHARED) $(TO)/lib
+	ln -sf liblrcs.so.$(VERSION) $(TO)/lib/$(SONAME)
+	ln -sf $(SONAME) $(TO)/lib/liblrcs.so
+	install -m 644 $(BUILD)/lrcs.pc $(TO)/lib/pkgconfig
+	$(TOOL) help --man >$(MANUAL)
+	$(TOOL) help --bash >$(COMPLETE)
+
+uninstall:
+	rm -f $(TO)/bin/lrcs $(TO)/lib/liblrcs.a $(TO)/lib/liblrcs.so $(TO)/lib/liblrcs.so.* \
+	    $(TO)/lib/pkgconfig/lrcs.pc $(MANUAL) $(COMPLETE)
+	rm -rf $(TO)/include/lrcs
 
 clean:
 	rm -rf $(BUILD)
@@ -111,7 +154,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan lint purity layers fuzz bounds shadows bench big clean cmocka
+.PHONY: all demo charts test asan tsan lint purity layers fuzz bounds shadows bench scaling big install uninstall clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -124,13 +167,27 @@ $(LIB): $(CORE_OBJ) $(HOST_OBJ)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
+# The same objects once more as position-independent code; only lrcs_ names are to be seen.
+$(SHARED): $(LIB)
+	$(MAKE) BUILD=$(BUILD)/pic CFLAGS="$(CFLAGS) -fPIC" $(BUILD)/pic/liblrcs.a
+	echo '{ global: lrcs_*; local: *; };' >$(BUILD)/lrcs.map
+	$(CC) -shared -o $@ -Wl,-soname,$(SONAME) -Wl,--version-script,$(BUILD)/lrcs.map \
+	    -Wl,--whole-archive $(BUILD)/pic/liblrcs.a -Wl,--no-whole-archive $(LDLIBS)
+
+$(BUILD)/lrcs.pc: include/lrcs/status.h Makefile
+	@mkdir -p $(@D)
+	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$${prefix}/lib' '' \
+	    'Name: lrcs' 'Description: laser radar cross-section of a facet mesh, with a proved bound' \
+	    'Version: $(VERSION)' 'Cflags: -I$${includedir}' 'Libs: -L$${libdir} -llrcs' \
+	    'Libs.private: $(LDLIBS)' >$@
+
 $(BUILD)/src/cli/%.o: src/cli/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -MMD -MP -c -o $@ $<
 
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
 
 # The built-in scene, as the bytes of a C array.
 $(BUILD)/demo.inc: examples/satellite.toml
@@ -155,5 +212,10 @@ $(BUILD)/test/%.o: test/%.c
 $(BUILD)/test/%: $(BUILD)/test/%.o $(LIB)
 	$(CC) -o $@ $< $(LIB) -lcmocka $(LDLIBS)
 
-.SECONDARY: $(TEST_SRC:%.c=$(BUILD)/%.o)
--include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d)
+# The benchmarks tell how they were built.
+$(BENCH_DIR)/measure.o: override CFLAGS += -DBENCH_BUILD='"$(CC) $(STD) $(OPT)"'
+$(BENCH_DIR)/%: $(BENCH_DIR)/%.o $(BENCH_OBJ) $(LIB)
+	$(CC) -o $@ $< $(BENCH_OBJ) $(LIB) $(LDLIBS)
+
+.SECONDARY: $(BENCH_OBJ) $(TEST_SRC:%.c=$(BUILD)/%.o)
+-include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d)

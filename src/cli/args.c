@@ -79,6 +79,12 @@ const char *cli_nearest(const char *text, const char *best, const char *candidat
     return !best || name_distance(text, candidate) < name_distance(text, best) ? candidate : best;
 }
 
+/* The dashes of an option's name. */
+static const char *dashes_of(const char *name)
+{
+    return name[1] ? "--" : "-";
+}
+
 static int unknown_option(const cli_command *command, const char *word, size_t size)
 {
     char name[NAME_MOST];
@@ -91,8 +97,9 @@ static int unknown_option(const cli_command *command, const char *word, size_t s
     for (const cli_option *option = command->option; option->name; option++) {
         best = cli_nearest(name, best, option->name);
     }
-    return cli_usage(command, "unknown option '%.*s'; the nearest is --%s", (int)size, word,
-                     best ? best : "help");
+    best = best ? best : "help";
+    return cli_usage(command, "unknown option '%.*s'; the nearest is %s%s", (int)size, word,
+                     dashes_of(best), best);
 }
 
 static const cli_option *option_find(const cli_command *command, const char *name, size_t size)
@@ -113,28 +120,31 @@ static int option_read(cli_args *args, int count, char **word, int *i)
     const char *at = word[*i];
     const char *equals = strchr(at, '=');
     size_t size = equals ? (size_t)(equals - at) : strlen(at);
+    size_t dashes = strncmp(at, "--", 2) == 0 ? 2 : 1;
     const cli_option *option =
-        size > 2 && strncmp(at, "--", 2) == 0 ? option_find(command, at + 2, size - 2) : NULL;
+        (size == 2) == (dashes == 1) ? option_find(command, at + dashes, size - dashes) : NULL;
     if (!option) {
         return unknown_option(command, at, size);
     }
     if (!option->repeats && cli_value(args, option->name)) {
-        return cli_usage(command, "--%s is given twice", option->name);
+        return cli_usage(command, "%s%s is given twice", dashes_of(option->name), option->name);
     }
     const char *value = NULL;
     if (!option->has_value && equals) {
-        return cli_usage(command, "--%s takes no value, found '%s'", option->name, equals + 1);
+        return cli_usage(command, "%s%s takes no value, found '%s'", dashes_of(option->name),
+                         option->name, equals + 1);
     }
     if (option->has_value && equals) {
         value = equals + 1;
     } else if (option->has_value) {
         if (*i + 1 >= count || strncmp(word[*i + 1], "--", 2) == 0) {
-            return cli_usage(command, "--%s needs a value", option->name);
+            return cli_usage(command, "%s%s needs a value", dashes_of(option->name), option->name);
         }
         value = word[++*i];
     }
     if (value && !*value) {
-        return cli_usage(command, "--%s needs a value, found an empty one", option->name);
+        return cli_usage(command, "%s%s needs a value, found an empty one", dashes_of(option->name),
+                         option->name);
     }
     args->given[args->given_count++] = (cli_given){option->name, value};
     return 0;
@@ -155,6 +165,9 @@ int cli_args_read(const cli_command *command, int count, char **word, cli_args *
             }
         } else if (!command->operand) {
             return cli_usage(command, "takes no operand, found '%s'", word[i]);
+        } else if (strstr(command->operand, "...")) {
+            args->operand = word[i];
+            args->given[args->given_count++] = (cli_given){"", word[i]};
         } else if (args->operand) {
             return cli_usage(command, "one %s is expected, found '%s' and '%s'", command->operand,
                              args->operand, word[i]);

@@ -29,8 +29,37 @@ enum cli_exit {
         "quaternion", 1, 0                                                                         \
     }
 
+/* What a run's accuracy is asked with (cli_accuracy_read, cli_normals_read), and what a scene is
+   read with (cli_scene_options_read), likewise. */
+#define CLI_ACCURACY_HELP                                                                          \
+    "  --tolerance REL       relative error asked for (1e-4); exit 3 where the bound, or the "     \
+    "estimate\n"                                                                                   \
+    "                        that curved normals add, exceeds it\n"                                \
+    "  --method M            auto (default), facet, zbuffer or exact\n"                            \
+    "  --resolution N        raster N x N (default: from the tolerance)\n"                         \
+    "  --normals N           flat (default); smooth: curved, from smoothing groups and vertex "    \
+    "normals;\n"                                                                                   \
+    "                        auto: only where flat facets are too coarse for their glint\n"
+#define CLI_ACCURACY_OPTIONS                                                                       \
+    {"tolerance", 1, 0}, {"method", 1, 0}, {"resolution", 1, 0},                                   \
+    {                                                                                              \
+        "normals", 1, 0                                                                            \
+    }
+#define CLI_SCENE_HELP                                                                             \
+    "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"    \
+    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name or '#RRGGBB', all else if\n"  \
+    "                        missing; BRDF is A,B,s,m (1/sr, 1/sr, slope, exponent) or a "         \
+    "library\n"                                                                                    \
+    "                        material\n"                                                           \
+    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+#define CLI_SCENE_OPTIONS                                                                          \
+    {"unit", 1, 0}, {"material", 1, 1},                                                            \
+    {                                                                                              \
+        "keep-transparent", 0, 0                                                                   \
+    }
+
 typedef struct cli_option {
-    const char *name; /* without its dashes; NULL ends a list */
+    const char *name; /* without its dashes, of which one letter has one; NULL ends a list */
     int has_value;
     int repeats;
 } cli_option;
@@ -39,7 +68,8 @@ typedef struct cli_args cli_args;
 
 typedef struct cli_command {
     const char *name;
-    const char *operand; /* the one thing that is not an option, "SCENE"; NULL for none */
+    const char *operand; /* what is not an option, "SCENE"; "FILE..." may be several, which are
+                            given without a name; NULL for none */
     const char *operand_hint;
     const char *help;
     const cli_option *option;
@@ -90,6 +120,13 @@ int cli_finish(int code);
 /* The pose that the options ask for; 0 or CLI_USAGE. */
 int cli_pose_read(const cli_args *args, lrcs_pose *pose);
 
+/* --tolerance, --method and --resolution; --normals. 0 or CLI_USAGE. */
+int cli_accuracy_read(const cli_args *args, lrcs_run_options *options);
+int cli_normals_read(const cli_args *args, lrcs_host_options *load);
+
+/* Does a tolerance that is not met count? Not where a method was forced and none was asked for. */
+int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options);
+
 /* Four numbers A,B,s,m or a library material's name; 0 or CLI_USAGE. `option` is for messages. */
 int cli_brdf_read(const cli_command *command, const char *text, const char *option,
                   lrcs_brdf *brdf);
@@ -103,6 +140,9 @@ void cli_scene_options_free(lrcs_host_options *options);
    matches nothing is a usage error. */
 int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 
+/* Do shapes that the engine meshes stand in the scene, so that a tolerance changes it? */
+int cli_has_curved_shapes(const lrcs_scene *scene);
+
 /* The name of a scene's material for people: "(default)" where it has none. */
 const char *cli_material_name(const lrcs_material *material);
 
@@ -115,11 +155,18 @@ void cli_column(const char *text, int width);
 /* "notice: ..." for each, on `out`. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
 
+/* On stdout: the manual page, and completion for bash. */
+void cli_manual_page(const cli_command *const *command, size_t count, const char *overview);
+void cli_manual_completion(const cli_command *const *command, size_t count);
+
 /* The commands. */
 extern const cli_command cli_run_command;
 extern const cli_command cli_info_command;
 extern const cli_command cli_shape_command;
 extern const cli_command cli_verify_command;
 extern const cli_command cli_converge_command;
+extern const cli_command cli_sweep_command;
+extern const cli_command cli_merge_command;
+extern const cli_command cli_fit_command;
 
 #endif

@@ -61,22 +61,12 @@ static int mesh_read(converge_job *job, int digits)
     return 0;
 }
 
-static int has_curved_shapes(const lrcs_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->part_count; i++) {
-        const lrcs_part *part = &scene->part[i];
-        if (part->kind >= 0 && (part->curvature.turn > 0.0 || !part->curvature_known)) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
 /* Keeps every mesh that differs; where there is but one, no tolerance made it. */
 int cli_converge_meshes(converge_job *job)
 {
     int code = mesh_read(job, 1);
-    int finest = code == 0 && has_curved_shapes(&job->mesh[0].scene.scene) ? CONVERGE_MESHES : 1;
+    int finest =
+        code == 0 && cli_has_curved_shapes(&job->mesh[0].scene.scene) ? CONVERGE_MESHES : 1;
     for (int digits = 2; digits <= finest && code == 0 && !job->left_out[0]; digits++) {
         progress_say("meshes");
         code = mesh_read(job, digits);

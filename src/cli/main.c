@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const cli_command *const main_commands[] = {&cli_run_command, &cli_info_command,
-                                                   &cli_shape_command, &cli_verify_command,
-                                                   &cli_converge_command};
+static const cli_command *const main_commands[] = {
+    &cli_run_command,      &cli_info_command,  &cli_shape_command, &cli_verify_command,
+    &cli_converge_command, &cli_sweep_command, &cli_merge_command, &cli_fit_command};
 
 #define MAIN_COMMANDS (sizeof main_commands / sizeof main_commands[0])
 
@@ -21,7 +21,11 @@ static const char main_help[] =
     "  shape KIND      sigma of a simple body from its closed form\n"
     "  verify          the engine against closed forms, or on hard cases, on this machine\n"
     "  converge SCENE  what accuracy costs in time: every method against the truth\n"
-    "  help COMMAND    options, units and examples of one command\n"
+    "  sweep SCENE     sigma over attitudes, joints, materials: tables and maps, in threads\n"
+    "  merge FILE...   the shards of a sweep made whole\n"
+    "  fit DATA.csv    a material's A, B, s, m from measured BRDF against angle\n"
+    "  help COMMAND    options, units and examples of one command; --man: all as a manual page;\n"
+    "                  --bash: completion for bash\n"
     "\n"
     "SCENE is a .3ds, .obj or .stl model, a scene file (.toml), or 'demo', which is built in.\n"
     "Options take '--name value' or '--name=value'. --version prints the version.\n"
@@ -74,10 +78,26 @@ static int is_help(const char *word)
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
 }
 
+/* What make install puts where manuals and completions belong. */
+static int help_written(const char *word)
+{
+    if (strcmp(word, "--man") == 0) {
+        cli_manual_page(main_commands, MAIN_COMMANDS, main_help);
+    } else if (strcmp(word, "--bash") == 0) {
+        cli_manual_completion(main_commands, MAIN_COMMANDS);
+    } else {
+        return cli_usage(NULL, "help: expected a command, --man or --bash, found '%s'", word);
+    }
+    return cli_finish(CLI_DONE);
+}
+
 static int help_command(int count, char **word)
 {
     if (count == 0 || is_help(word[0])) {
         return help_print(NULL);
+    }
+    if (word[0][0] == '-') {
+        return help_written(word[0]);
     }
     const cli_command *command = command_find(word[0]);
     return command ? help_print(command) : unknown_command(word[0]);

@@ -183,3 +183,14 @@ int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_
     }
     return scene->scene.unmatched == LRCS_NONE ? 0 : unmatched_binding(args->command, scene);
 }
+
+int cli_has_curved_shapes(const lrcs_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        const lrcs_part *part = &scene->part[i];
+        if (part->kind >= 0 && (part->curvature.turn > 0.0 || !part->curvature_known)) {
+            return 1;
+        }
+    }
+    return 0;
+}

@@ -5,27 +5,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RASTER_MOST 16384.0
+/* What stopping may take beyond a time budget. */
+#define BUDGET_GRACE_MS 20.0
 
 static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"
     "\n"
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
     "\n" CLI_POSE_HELP "\n"
-    "options\n"
-    "  --tolerance REL       relative error asked for (1e-4); exit 3 where the bound, or the "
-    "estimate\n"
-    "                        that curved normals add, exceeds it\n"
-    "  --method M            auto (default), facet, zbuffer or exact\n"
-    "  --resolution N        raster N x N (default: from the tolerance)\n"
-    "  --normals N           flat (default); smooth: curved, from smoothing groups and vertex "
-    "normals;\n"
-    "                        auto: only where flat facets are too coarse for their glint\n"
-    "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
-    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name or '#RRGGBB', all else if\n"
-    "                        missing; BRDF is A,B,s,m (1/sr, 1/sr, slope, exponent) or a library\n"
-    "                        material\n"
-    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best bound that "
+                                  "MS milliseconds buy, loading and\n"
+    "                        preparing included; tries rasters and tolerances, and says which\n"
+    "                        options give the same answer again. Ends early where nothing is left\n"
+    "                        to gain, or a --tolerance is met; exit 3 where it took "
+    "longer\n" CLI_SCENE_HELP
     "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
     "                        where it is off; runs the pose for some 2 s more, or once for each\n"
     "  --json                the result as JSON, notices included\n"
@@ -39,54 +32,28 @@ static const char run_help[] =
     "  lrcs run demo --image demo.png\n"
     "  lrcs run demo --azel 30,-20 --json\n"
     "  lrcs run demo --azel 30,-20 --explain\n"
+    "  lrcs run demo --azel 30,-20 --time-budget 200\n"
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
 static const cli_option run_options[] = {
-    CLI_POSE_OPTIONS,           {"tolerance", 1, 0}, {"method", 1, 0}, {"unit", 1, 0},
-    {"resolution", 1, 0},       {"material", 1, 1},  {"json", 0, 0},   {"facets", 1, 0},
-    {"keep-transparent", 0, 0}, {"polygons", 1, 0},  {"image", 1, 0},  {"image-size", 1, 0},
-    {"explain", 0, 0},          {"normals", 1, 0},   {"help", 0, 0},   {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS,  CLI_SCENE_OPTIONS, {"json", 0, 0},
+    {"facets", 1, 0},  {"polygons", 1, 0},    {"image", 1, 0},   {"image-size", 1, 0},
+    {"explain", 0, 0}, {"time-budget", 1, 0}, {"help", 0, 0},    {NULL, 0, 0}};
 
 /* ---- options ---- */
-
-static int normals_read(run_job *job)
-{
-    const char *normals = cli_value(job->args, "normals");
-    int found = normals ? lrcs_normals_find(normals) : LRCS_NORMALS_FLAT;
-    if (found < 0) {
-        return cli_usage(job->args->command, "--normals: expected flat, auto or smooth, found '%s'",
-                         normals);
-    }
-    job->load.build.normals = found;
-    return 0;
-}
 
 static int options_read(run_job *job)
 {
     const cli_args *args = job->args;
-    const char *method = cli_value(args, "method");
-    job->options = lrcs_run_options_default();
     int code = cli_pose_read(args, &job->pose);
-    code = code ? code : cli_number(args, "tolerance", &job->options.tolerance);
-    if (code == 0 && !(job->options.tolerance > 0.0)) {
-        return cli_usage(args->command, "--tolerance: expected a relative error > 0, found '%s'",
-                         cli_value(args, "tolerance"));
-    }
-    if (code == 0 && method) {
-        job->options.method = lrcs_method_find(method);
-        if (job->options.method < 0) {
-            return cli_usage(args->command,
-                             "--method: expected auto, facet, zbuffer or exact, found '%s'",
-                             method);
-        }
-    }
-    code = code ? code : cli_whole(args, "resolution", 1.0, RASTER_MOST, &job->options.resolution);
+    code = code ? code : cli_accuracy_read(args, &job->options);
     code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
-    job->load.build.tolerance = job->options.tolerance;
+    job->load.build.tolerance = job->asked = job->options.tolerance;
+    code = code ? code : cli_run_budget_read(job);
     job->explain = cli_value(args, "explain") != NULL;
-    return code ? code : normals_read(job);
+    return code ? code : cli_normals_read(args, &job->load);
 }
 
 /* ---- the run ---- */
@@ -112,7 +79,7 @@ static int run_room(run_job *job)
 static int run_pose(run_job *job)
 {
     lrcs_host_error error;
-    if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
+    if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
     int status =
@@ -128,16 +95,40 @@ static int run_pose(run_job *job)
     if (status != LRCS_OK) {
         return cli_failed(&error);
     }
-    job->met = !(job->result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
     return 0;
 }
 
+/* A search for the best settings comes with their result; files need the run itself. */
 static int run_scene(run_job *job)
 {
+    int searched = job->budget.asked_ms > 0.0;
+    int files = job->facets || job->polygons_path || job->image_path;
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
-    code = code ? code : run_room(job);
-    return code ? code : run_pose(job);
+    code = code == 0 && searched ? cli_run_budget(job) : code;
+    if (code == 0 && (files || !searched)) {
+        code = run_room(job);
+        code = code ? code : run_pose(job);
+    }
+    return code;
+}
+
+int cli_run_meets(const lrcs_result *result, double tolerance)
+{
+    double most = tolerance * result->sigma_m2;
+    return tolerance > 0.0 && result->bound_m2 <= most && result->curvature_estimate_m2 <= most;
+}
+
+/* The flag of a result that was searched for speaks of a tolerance that was tried. */
+static void run_judge(run_job *job)
+{
+    uint32_t *flags = &job->result.flags;
+    if (job->budget.asked_ms > 0.0) {
+        int missed = job->asked > 0.0 && !cli_run_meets(&job->result, job->asked);
+        *flags &= ~(uint32_t)LRCS_FLAG_TOLERANCE_NOT_MET;
+        *flags |= missed ? LRCS_FLAG_TOLERANCE_NOT_MET : 0u;
+    }
+    job->met = !(*flags & LRCS_FLAG_TOLERANCE_NOT_MET);
 }
 
 /* ---- the command ---- */
@@ -158,9 +149,10 @@ static int run_outputs(run_job *job)
             cli_run_table(job);
         }
     }
-    int judged = job->options.method == LRCS_METHOD_AUTO || cli_value(job->args, "tolerance");
+    int judged = cli_tolerance_judged(job->args, &job->options);
     int short_of_memory = (job->result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
-    return (judged && !job->met) || short_of_memory ? CLI_DEGRADED : CLI_DONE;
+    int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
+    return (judged && !job->met) || short_of_memory || late ? CLI_DEGRADED : CLI_DONE;
 }
 
 static int run_command(const cli_args *args)
@@ -170,7 +162,10 @@ static int run_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job);
     code = code ? code : run_scene(&job);
-    code = code ? code : run_outputs(&job);
+    if (code == 0) {
+        run_judge(&job);
+        code = run_outputs(&job);
+    }
     free(job.records);
     free(job.image.facet);
     lrcs_host_polygons_free(&job.polygons);

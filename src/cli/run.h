@@ -19,6 +19,15 @@ typedef struct run_explained {
     run_explained_effect effect[LRCS_EFFECTS];
 } run_explained;
 
+/* --time-budget: what was asked for and what came of it. */
+typedef struct run_budget {
+    double asked_ms; /* 0: no budget */
+    double start;    /* of the command, by the clock that does not jump */
+    double spent_ms; /* until the answer stood */
+    int answered;
+    char same[128]; /* the options that give the same answer again */
+} run_budget;
+
 /* All that a run is made of, and all that it makes. */
 typedef struct run_job {
     const cli_args *args;
@@ -33,9 +42,11 @@ typedef struct run_job {
     lrcs_image image;
     lrcs_host_polygons polygons;
     double seconds;
+    double asked; /* tolerance; 0: none, a time budget in its place */
     int met;
     int explain; /* asked for */
     run_explained explained;
+    run_budget budget;
 } run_job;
 
 /* The options of output files, as 0 or CLI_USAGE; once the scene is read, that none of them would
@@ -52,6 +63,16 @@ int cli_run_outputs_stdout(const run_job *job);
 int cli_run_explain(run_job *job);
 void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json);
 void cli_run_explain_table(const run_job *job);
+
+/* Is a result as good as a tolerance, by its bound and by the estimate of what curved normals add?
+   None, 0, is never met. */
+int cli_run_meets(const lrcs_result *result, double tolerance);
+
+/* --time-budget: its value, as 0 or CLI_USAGE; and on a scene just read for the coarsest tolerance,
+   the search: then result and seconds stand, and options and scene are those that give them again.
+   0, CLI_FAILED or CLI_USAGE. */
+int cli_run_budget_read(run_job *job);
+int cli_run_budget(run_job *job);
 
 /* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
    for people. */

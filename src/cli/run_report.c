@@ -59,9 +59,21 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_number(json, "sigma_dbsm",
                           result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN);
     lrcs_host_json_begin(json, "tolerance", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(json, "asked", job->options.tolerance);
-    lrcs_host_json_bool(json, "met", job->met);
+    if (job->asked > 0.0) {
+        lrcs_host_json_number(json, "asked", job->asked);
+        lrcs_host_json_bool(json, "met", job->met);
+    } else {
+        lrcs_host_json_text(json, "asked", NULL);
+        lrcs_host_json_text(json, "met", NULL);
+    }
     lrcs_host_json_end(json);
+    if (job->budget.asked_ms > 0.0) {
+        lrcs_host_json_begin(json, "time_budget", LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_number(json, "asked_ms", job->budget.asked_ms);
+        lrcs_host_json_number(json, "spent_ms", job->budget.spent_ms);
+        lrcs_host_json_text(json, "same_as", job->budget.same);
+        lrcs_host_json_end(json);
+    }
     if (result->resolution != 0) {
         lrcs_host_json_count(json, "resolution", result->resolution);
     } else {
@@ -135,7 +147,10 @@ static void table_sigma(const run_job *job)
     if (r->sigma_m2 > 0.0) {
         printf("   %.2g of sigma", r->bound_m2 / r->sigma_m2);
     }
-    printf("; tolerance %g %s\n", job->options.tolerance, job->met ? "met" : "NOT met");
+    if (job->asked > 0.0) {
+        printf("; tolerance %g %s", job->asked, job->met ? "met" : "NOT met");
+    }
+    putchar('\n');
     printf("  visibility %.3g m2\n", r->budget.visibility_m2);
     if (r->budget.tessellation_m2 >= 0.0) {
         printf("  tessellation %.3g m2\n", r->budget.tessellation_m2);
@@ -203,6 +218,10 @@ void cli_run_table(const run_job *job)
         if (bits & 1u) {
             printf("flag         %s\n", lrcs_flag_text((int)bit));
         }
+    }
+    if (job->budget.asked_ms > 0.0) {
+        printf("time budget  %g ms, of which %.3g were spent; the same again: %s\n",
+               job->budget.asked_ms, job->budget.spent_ms, job->budget.same);
     }
     printf("time         load %.3g ms, prepare %.3g ms, pose %.3g ms\n",
            1e3 * job->scene.seconds_load, 1e3 * job->scene.seconds_prepare, 1e3 * job->seconds);

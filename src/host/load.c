@@ -309,20 +309,35 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
     return LRCS_OK;
 }
 
-int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
-                         lrcs_host_scene *scene, lrcs_host_error *error)
+/* A scene of a recipe that is the caller's, and of models that are (or NULL). */
+static int scene_from(const lrcs_recipe *recipe, lrcs_mesh *model, const lrcs_build_options *build,
+                      lrcs_host_scene *scene, lrcs_host_error *error)
 {
     double start = lrcsi_host_seconds();
     memset(scene, 0, sizeof *scene);
     scene->recipe = *recipe;
-    scene->model = lrcsi_host_take(scene, (size_t)recipe->part_count + 1, sizeof *scene->model);
+    scene->model =
+        model ? model : lrcsi_host_take(scene, (size_t)recipe->part_count + 1, sizeof *model);
     int status = scene->model ? scene_from_recipe(scene, "scene", build, error)
                               : lrcsi_host_fail_memory(error, sizeof *scene->model);
     if (status != LRCS_OK) {
         lrcs_host_scene_free(scene);
         return status;
     }
-    memset(&scene->recipe, 0, sizeof scene->recipe); /* the caller's */
+    memset(&scene->recipe, 0, sizeof scene->recipe);
     scene->seconds_load = lrcsi_host_seconds() - start;
     return LRCS_OK;
+}
+
+int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
+                         lrcs_host_scene *scene, lrcs_host_error *error)
+{
+    return scene_from(recipe, NULL, build, scene, error);
+}
+
+int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
+                         const lrcs_build_options *build, lrcs_host_scene *scene,
+                         lrcs_host_error *error)
+{
+    return scene_from(recipe, base->model, build, scene, error);
 }

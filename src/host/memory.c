@@ -46,6 +46,13 @@ char *lrcsi_host_copy(lrcs_host_scene *scene, const char *text, size_t size)
     return copy;
 }
 
+/* What a step that did not fit is given next. */
+static size_t step_grown(size_t need, const lrcs_work *work)
+{
+    size_t twice = need <= SIZE_MAX / 2 ? 2 * need : SIZE_MAX;
+    return work->peak > twice ? work->peak : twice;
+}
+
 int lrcsi_host_step_run(void **blocks, size_t need, lrcsi_host_step *step, void *context,
                         lrcs_host_error *error)
 {
@@ -57,15 +64,40 @@ int lrcsi_host_step_run(void **blocks, size_t need, lrcsi_host_step *step, void 
         }
         lrcs_work work = lrcs_work_make(block + 1, need);
         status = step(context, &work);
-        if (status == LRCS_OK && blocks) {
+        if (status == LRCS_OK) {
             block_own(blocks, block);
         } else {
             free(block);
         }
-        size_t twice = need <= SIZE_MAX / 2 ? 2 * need : SIZE_MAX;
-        need = work.peak > twice ? work.peak : twice;
+        need = step_grown(need, &work);
     }
     return status;
+}
+
+int lrcsi_host_area_run(lrcsi_host_area *area, size_t need, lrcsi_host_step *step, void *context,
+                        lrcs_host_error *error)
+{
+    int status = LRCS_E_MEMORY;
+    for (int i = 0; i < STEP_TRIES && status == LRCS_E_MEMORY; i++) {
+        if (need > area->size) {
+            lrcsi_host_area_free(area);
+            area->bytes = malloc(need);
+            area->size = area->bytes ? need : 0;
+        }
+        if (need > area->size) {
+            return lrcsi_host_fail_memory(error, need);
+        }
+        lrcs_work work = lrcs_work_make(area->bytes, need);
+        status = step(context, &work);
+        need = step_grown(need, &work);
+    }
+    return status;
+}
+
+void lrcsi_host_area_free(lrcsi_host_area *area)
+{
+    free(area->bytes);
+    *area = (lrcsi_host_area){NULL, 0};
 }
 
 double lrcsi_host_seconds(void)

@@ -15,11 +15,22 @@ char *lrcsi_host_copy(lrcs_host_scene *scene, const char *text, size_t size);
 typedef int lrcsi_host_step(void *context, lrcs_work *work);
 
 /* Runs a step in a work area of `need` bytes, and again in larger ones while it says
-   LRCS_E_MEMORY and work->peak asks for more. Where the area outlives the step it joins the list
-   of blocks; else (blocks NULL) it is freed.
+   LRCS_E_MEMORY and work->peak asks for more. After LRCS_OK the area joins the list of blocks.
    Status: the step's; LRCS_E_SYSTEM where the heap has no more. */
 int lrcsi_host_step_run(void **blocks, size_t need, lrcsi_host_step *step, void *context,
                         lrcs_host_error *error);
+
+/* Memory kept from one step to the next, for what none of them leaves behind. Zero it first. */
+typedef struct lrcsi_host_area {
+    void *bytes;
+    size_t size;
+} lrcsi_host_area;
+
+/* The same in an area that only grows. Each call begins with a work area of `need` bytes all the
+   same, so that what a step gives does not depend on the steps before it. */
+int lrcsi_host_area_run(lrcsi_host_area *area, size_t need, lrcsi_host_step *step, void *context,
+                        lrcs_host_error *error);
+void lrcsi_host_area_free(lrcsi_host_area *area);
 
 /* Frees a list of blocks. */
 void lrcsi_host_free(void *blocks);

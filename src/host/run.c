@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A scene's preparation and runs, with work areas from the heap. It decides how much memory is
    tried, and measures the time; what a coarser raster costs in bound is the core's. */
-#include "host/memory.h"
+#include "host/run.h"
 
 #include <stdlib.h>
 
@@ -56,12 +56,10 @@ static int run_sigma(void *context, lrcs_work *work)
     return degraded && step->tries-- > 0 && heap_holds(work) ? LRCS_E_MEMORY : status;
 }
 
-int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
-                        const lrcs_run_options *options, lrcs_result *result,
-                        lrcs_facet_record *records, lrcs_image *image, double *seconds,
-                        lrcs_host_error *error)
+/* The bytes to begin with: less than asked is a coarser raster, and a flag. */
+static size_t sigma_room(const lrcs_host_scene *scene, const lrcs_run_options *options,
+                         const lrcs_image *image, const lrcsi_host_area *area)
 {
-    sigma_step step = {scene->prepared, pose, options, result, records, image, 6};
     size_t need = lrcs_sigma_need(scene->prepared, options);
     if (image) { /* its raster comes after the run's own */
         lrcs_run_options draw = {.tolerance = options->tolerance,
@@ -70,16 +68,39 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
         size_t more = lrcs_sigma_need(scene->prepared, &draw);
         need = more > need ? more : need;
     }
-    void *probe = malloc(need); /* less than asked is a coarser raster, and a flag */
+    if (need <= area->size) {
+        return need;
+    }
+    void *probe = malloc(need);
     while (!probe && need > ((size_t)1 << 20)) {
         need /= 2;
         probe = malloc(need);
     }
     free(probe);
+    return need;
+}
+
+int lrcsi_host_sigma(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                     const lrcs_run_options *options, lrcsi_host_area *area, lrcs_result *result,
+                     lrcs_facet_record *records, lrcs_image *image, lrcs_host_error *error)
+{
+    sigma_step step = {scene->prepared, pose, options, result, records, image, 6};
+    size_t need = sigma_room(scene, options, image, area);
+    int status = lrcsi_host_area_run(area, need, run_sigma, &step, error);
+    return run_fail(error, status, "sigma");
+}
+
+int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                        const lrcs_run_options *options, lrcs_result *result,
+                        lrcs_facet_record *records, lrcs_image *image, double *seconds,
+                        lrcs_host_error *error)
+{
+    lrcsi_host_area area = {NULL, 0};
     double start = lrcsi_host_seconds();
-    int status = lrcsi_host_step_run(NULL, need, run_sigma, &step, error);
+    int status = lrcsi_host_sigma(scene, pose, options, &area, result, records, image, error);
     if (seconds) {
         *seconds = lrcsi_host_seconds() - start;
     }
-    return run_fail(error, status, "sigma");
+    lrcsi_host_area_free(&area);
+    return status;
 }

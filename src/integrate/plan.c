@@ -65,6 +65,7 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *optio
     const lrcs_prepared *p = view->prepared;
     lrcsi_plan plan = {0};
     plan.unshadowed = p->convex;
+    plan.graze = p->convex ? p->graze : 1;
     plan.alone = p->convex && (!view->backs_cast || view->front == 0 || view->back == 0);
     plan.searched = effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING);
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);

@@ -16,9 +16,10 @@ enum lrcsi_term {
 typedef struct lrcsi_plan {
     int method;         /* FACET, ZBUFFER or EXACT: the first to try */
     const char *reason; /* why that one */
-    int unshadowed;     /* proved: in this view front facets above prepared->graze are not hidden */
-    int alone;          /* proved: nor does any facet hide a back side */
-    int searched;       /* what hides them is looked for all the same */
+    int unshadowed; /* proved: in this view front facets with cos(theta) > graze are not hidden */
+    double graze;   /* of the scene where unshadowed, else 1 */
+    int alone;      /* proved: nor does any facet hide a back side */
+    int searched;   /* what hides them is looked for all the same */
     int glint, diffuse; /* lrcsi_term */
 } lrcsi_plan;
 

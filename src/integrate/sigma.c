@@ -54,19 +54,19 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
 {
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
     size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_view_need(prepared);
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
-    need =
-        lrcsi_work_add(need, prepared->smooth ? lrcsi_work_bytes(facets, sizeof(lrcsi_curved)) : 0);
+    size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible));
+    size_t curved = prepared->smooth ? lrcsi_work_bytes(facets, sizeof(lrcsi_curved)) : 0;
     if (options->method == LRCS_METHOD_FACET && options->with == 0) {
-        return need;
+        return lrcsi_work_add(lrcsi_view_face_need(prepared),
+                              prepared->smooth ? lrcsi_work_add(areas, curved) : 0);
     }
+    size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_work_add(areas, curved));
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
     need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
     if (options->method == LRCS_METHOD_EXACT) {
         return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
     }
-    need = lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
+    need = lrcsi_work_add(need, lrcsi_visible_known_need(prepared));
     return lrcsi_work_add(need, lrcsi_visible_need(prepared, size));
 }
 
@@ -95,8 +95,12 @@ static void image_fill(const lrcsi_raster *raster, lrcs_image *image)
 static int run_image(sigma_run *run)
 {
     lrcsi_raster raster;
+    lrcsi_view view = run->view;
     size_t mark = run->work->used;
-    int status = lrcsi_raster_make(&run->view, run->image->size, run->work, &raster);
+    int status = view.point ? LRCS_OK : lrcsi_view_project(run->work, &view);
+    if (status == LRCS_OK) {
+        status = lrcsi_raster_make(&view, run->image->size, run->work, &raster);
+    }
     if (status == LRCS_OK) {
         image_fill(&raster, run->image);
     }
@@ -110,11 +114,17 @@ static void run_total(sigma_run *run, lrcs_facet_record *records)
         lrcsi_total_make(&run->view, &run->plan, run->visible, run->curved, run->doubt, records);
 }
 
+/* Areas are written down for curved normals only: the sum takes them from the plan. */
 static int run_facet(sigma_run *run)
 {
-    double graze = run->plan.unshadowed ? run->view.prepared->graze : 1;
-    lrcsi_visible_unshadowed(&run->view, graze, run->visible);
     if (run->curved) {
+        const lrcsi_view *view = &run->view;
+        for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+            lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
+            run->visible[f] = lrcsi_grid_casts(view, f)
+                                  ? lrcsi_visible_unshadowed(&tilt, run->plan.graze)
+                                  : (lrcsi_visible){0, 0, 0, 0, 0};
+        }
         lrcsi_curve_shares(&run->view, &run->plan, run->visible, NULL, run->tolerance, run->curved);
     }
     run_total(run, NULL);
@@ -124,14 +134,13 @@ static int run_facet(sigma_run *run)
 /* On a convex surface samples serve the back sides only: fronts are known. Where they were searched
    all the same, what is known joins what was found: bodies convex by construction are not searched
    for contacts, so that the search alone proves nothing of them. */
-static void fronts_are_known(const lrcsi_view *view, int searched, lrcsi_visible *visible)
+static void fronts_are_known(const lrcsi_view *view, const lrcsi_plan *plan, lrcsi_visible *visible)
 {
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (view->facing[f] > 0) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
-            double low = tilt.cos_theta > view->prepared->graze ? tilt.projected : 0;
-            lrcsi_visible known = {tilt.projected, low, tilt.projected, 0, 0};
-            if (searched) {
+            lrcsi_visible known = lrcsi_visible_unshadowed(&tilt, plan->graze);
+            if (plan->searched) {
                 known.area = visible[f].area;
                 known.low = lrcsi_least(known.low, visible[f].low);
                 known.likely = visible[f].likely;
@@ -155,7 +164,7 @@ static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
 static void run_sum(sigma_run *run, const lrcsi_raster *raster)
 {
     if (run->plan.unshadowed) {
-        fronts_are_known(&run->view, run->plan.searched, run->visible);
+        fronts_are_known(&run->view, &run->plan, run->visible);
     }
     if (run->view.prepared->solid && run->view.backs_cast) {
         backs_are_known(&run->view, run->visible);
@@ -171,17 +180,13 @@ static void run_sum(sigma_run *run, const lrcsi_raster *raster)
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
-static int run_raster(sigma_run *run, uint32_t size)
+static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
 {
     lrcsi_raster raster;
     size_t mark = run->work->used;
     int status = LRCS_E_MEMORY;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        run->work->used = mark;
-        status = lrcsi_raster_make(&run->view, size, run->work, &raster);
-        if (status == LRCS_OK) {
-            status = lrcsi_visible_sampled(&run->contest, &raster, run->work, run->visible);
-        }
+        status = lrcsi_visible_sampled(known, size, run->work, &raster, run->visible);
         run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
     }
     if (status == LRCS_OK) {
@@ -227,13 +232,20 @@ static uint32_t next_size(const sigma_run *run, double tolerance)
 
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
-    int status = run_raster(run, options->resolution != 0 ? options->resolution : FIRST_SIZE);
+    lrcsi_known known;
+    size_t mark = run->work->used;
+    int status = lrcsi_visible_known(&run->contest, run->work, &known);
+    if (status == LRCS_OK) {
+        status =
+            run_raster(run, &known, options->resolution != 0 ? options->resolution : FIRST_SIZE);
+    }
     while (status == LRCS_OK && options->resolution == 0 && run->size < LAST_SIZE &&
            !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) && run->contest.contested_count != 0 &&
            !run_meets(&run->total, options->tolerance)) {
         uint32_t size = next_size(run, options->tolerance);
-        status = run_raster(run, size > run->size ? size : LAST_SIZE);
+        status = run_raster(run, &known, size > run->size ? size : LAST_SIZE);
     }
+    run->work->used = mark;
     return status;
 }
 
@@ -248,7 +260,10 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
    was asked for or not. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
-    int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    int status = lrcsi_view_project(run->work, &run->view);
+    if (status == LRCS_OK) {
+        status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    }
     /* where back sides are left out of a scene that shows some, its true curves are not known */
     if (status == LRCS_OK && run->view.prepared->nears.reach &&
         (run->view.backs_cast || run->view.prepared->solid)) {
@@ -304,14 +319,14 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
 }
 
 /* What the facets' results go to. */
-static int run_take(sigma_run *run, const lrcs_prepared *prepared)
+static int run_take(sigma_run *run)
 {
-    uint32_t facets = prepared->scene->facet_count;
-    run->visible = lrcsi_work_take(run->work, facets, sizeof *run->visible);
-    if (prepared->smooth) {
-        run->curved = lrcsi_work_take(run->work, facets, sizeof *run->curved);
-    }
-    return run->visible && (run->curved || !prepared->smooth) ? LRCS_OK : LRCS_E_MEMORY;
+    const lrcs_prepared *p = run->view.prepared;
+    uint32_t facets = p->scene->facet_count;
+    int areas = run->plan.method != LRCS_METHOD_FACET || p->smooth;
+    run->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *run->visible) : NULL;
+    run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
+    return (run->visible || !areas) && (run->curved || !p->smooth) ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
@@ -324,13 +339,13 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     size_t mark = work->used;
     sigma_run run = {.work = work, .image = image, .tolerance = options->tolerance};
-    status = lrcsi_view_make(prepared, pose, work, &run.view);
-    if (status == LRCS_OK) {
-        status = run_take(&run, prepared);
-    }
+    status = lrcsi_view_face(prepared, pose, work, &run.view);
     if (status == LRCS_OK) {
         lrcsi_plan_backs(options, &run.view);
         run.plan = lrcsi_plan_make(&run.view, options);
+        status = run_take(&run);
+    }
+    if (status == LRCS_OK) {
         status =
             run.plan.method == LRCS_METHOD_FACET ? run_facet(&run) : run_shadowed(&run, options);
     }

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "base/range.h"
 #include "base/sum.h"
 #include "integrate/tessellation.h"
 #include "optics/reflect.h"
@@ -25,6 +26,17 @@ typedef struct total_sums {
     double likely, lean; /* of errors that add up by chance, squares; of those that lean one way */
     uint32_t seen;
 } total_sums;
+
+/* What the sum is over, and what has come together. */
+typedef struct total_job {
+    const lrcsi_view *view;
+    const lrcsi_plan *plan;
+    const lrcsi_visible *visible; /* NULL: all that nothing is known to hide */
+    const lrcsi_curved *curved;   /* NULL: all facets are flat */
+    const lrcsi_margin *margin;   /* NULL: none was made */
+    lrcsi_total total;
+    total_sums sums;
+} total_job;
 
 /* Its reflection. A term of amplitude 0 that is to be evaluated all the same is so at amplitude 1,
    and added 0 times; with no slope there is no glint to evaluate. */
@@ -63,6 +75,13 @@ static double glint_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt)
     return most.glint + most.error;
 }
 
+/* e^x - 1, for 0 <= x < 1. Of a small x, as it nearly always is, two terms are as good as libm's.
+ */
+static double growth(double x)
+{
+    return x < 0x1p-30 ? x + 0.5 * x * x : expm1(x);
+}
+
 /* How far f_r cos^2 may be off for want of knowing tan^2. With u = tan^2 known to a relative r,
    log of the glint moves by at most r (2 min(u, 1) + u / s^2), of the diffuse part by at most
    r (m + 2)/2 min(u, 1); where these are no small numbers, each part is bounded itself. Near
@@ -74,11 +93,11 @@ static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
         double most = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
         return tilt->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : most;
     }
-    double bent = fmin(tilt->tan2, 1);
+    double bent = lrcsi_least(tilt->tan2, 1);
     double glint = brdf->A > 0 ? tilt->stretch * (2 * bent + tilt->tan2 / brdf->s / brdf->s) : 0;
     double diffuse = tilt->stretch * (0.5 * brdf->m + 1) * bent;
-    return (glint < 1 ? at->glint * expm1(glint) : glint_vague(brdf, tilt)) +
-           (diffuse < 1 ? at->diffuse * expm1(diffuse) : brdf->B);
+    return (glint < 1 ? at->glint * growth(glint) : glint_vague(brdf, tilt)) +
+           (diffuse < 1 ? at->diffuse * growth(diffuse) : brdf->B);
 }
 
 static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
@@ -88,15 +107,17 @@ static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
 }
 
 /* One facet that reflects towards the laser. Returns its sigma. */
-static double add_reflecting(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
-                             uint32_t facet, const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+static double add_reflecting(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
+                             const lrcsi_visible *visible)
 {
-    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
-    lrcsi_reflection at = reflection_planned(&brdf, plan, tilt->tan2);
-    double whole = FOUR_PI * 0.5 * view->prepared->normal[facet].length;
+    const lrcs_prepared *p = job->view->prepared;
+    total_sums *sums = &job->sums;
+    lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, facet));
+    lrcsi_reflection at = reflection_planned(&brdf, job->plan, tilt->tan2);
+    double whole = FOUR_PI * 0.5 * p->normal[facet].length;
     double share = visible->area / tilt->projected;
     double most = visible->high / tilt->projected;
-    double doubt = fmax(visible->area - visible->low, visible->high - visible->area);
+    double doubt = lrcsi_most(visible->area - visible->low, visible->high - visible->area);
     double per_area = whole * (at.glint + at.diffuse) / tilt->projected;
     double glint = whole * at.glint * share;
     double diffuse = whole * at.diffuse * share;
@@ -113,10 +134,12 @@ static double add_reflecting(total_sums *sums, const lrcsi_view *view, const lrc
 }
 
 /* One with curved normals, which comes summed. */
-static double add_curved(total_sums *sums, const lrcsi_view *view, const lrcsi_plan *plan,
-                         uint32_t facet, const lrcsi_curved *curved)
+static double add_curved(total_job *job, uint32_t facet)
 {
-    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
+    const lrcsi_curved *curved = &job->curved[facet];
+    total_sums *sums = &job->sums;
+    lrcs_brdf brdf =
+        lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(job->view->prepared, facet));
     add_seen(sums, &brdf);
     lrcsi_sum_add(&sums->glint, curved->glint);
     lrcsi_sum_add(&sums->diffuse, curved->diffuse);
@@ -129,11 +152,11 @@ static double add_curved(total_sums *sums, const lrcsi_view *view, const lrcsi_p
 
 /* Can what the facets err from the true shapes be bounded? Where nothing is searched, all that
    could be hidden is in the bound. */
-static int tessellation_known(const lrcsi_view *view, const lrcsi_plan *plan,
-                              const lrcsi_margin *margin)
+static int tessellation_known(const total_job *job)
 {
-    return lrcsi_tessellation_known(view->prepared, plan->unshadowed) &&
-           (plan->unshadowed || margin || plan->method == LRCS_METHOD_FACET);
+    int unshadowed = job->plan->unshadowed;
+    return lrcsi_tessellation_known(job->view->prepared, unshadowed) &&
+           (unshadowed || job->margin || job->plan->method == LRCS_METHOD_FACET);
 }
 
 /* Is only a part of the facet visible? An area computed by clipping that cannot be told from none,
@@ -151,16 +174,16 @@ static int nothing_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
            (visible->area < tilt->projected && visible->low <= 0 && !partly_visible(tilt, visible));
 }
 
-static void count_facet(lrcsi_total *total, total_sums *sums, int reflects, const lrcsi_tilt *tilt,
+static void count_facet(total_job *job, int reflects, const lrcsi_tilt *tilt,
                         const lrcsi_visible *visible)
 {
-    lrcsi_sum_add(&sums->projected, visible->area);
+    lrcsi_sum_add(&job->sums.projected, visible->area);
     if (reflects) {
-        total->hidden += nothing_visible(tilt, visible) ? 1 : 0;
-        total->partial += partly_visible(tilt, visible) ? 1 : 0;
+        job->total.hidden += nothing_visible(tilt, visible) ? 1 : 0;
+        job->total.partial += partly_visible(tilt, visible) ? 1 : 0;
     } else if (visible->area > 0) {
-        lrcsi_sum_add(&sums->back_side, visible->area);
-        total->back_sides++;
+        lrcsi_sum_add(&job->sums.back_side, visible->area);
+        job->total.back_sides++;
     }
 }
 
@@ -179,9 +202,11 @@ static lrcs_facet_record record_of(const lrcsi_view *view, uint32_t facet, const
 }
 
 /* To square metres; the compensated sums' own error goes to rounding. */
-static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total_sums *sums)
+static void total_finish(total_job *job)
 {
-    const lrcs_prepared *p = view->prepared;
+    const lrcs_prepared *p = job->view->prepared;
+    const total_sums *sums = &job->sums;
+    lrcsi_total *total = &job->total;
     double glint = lrcsi_sum_value(&sums->glint);
     double diffuse = lrcsi_sum_value(&sums->diffuse);
     double count = p->scene->facet_count;
@@ -201,39 +226,93 @@ static void total_finish(lrcsi_total *total, const lrcsi_view *view, const total
     total->seen = sums->seen;
 }
 
+/* What is visible of a facet. */
+static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)
+{
+    if (job->visible) {
+        return job->visible[facet];
+    }
+    return lrcsi_grid_casts(job->view, facet) ? lrcsi_visible_unshadowed(tilt, job->plan->graze)
+                                              : (lrcsi_visible){0, 0, 0, 0, 0};
+}
+
+/* Could any of it be visible? Most facets of a closed body cannot, and cost no arithmetic. */
+static int may_show(const total_job *job, uint32_t facet)
+{
+    return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_casts(job->view, facet);
+}
+
+static double facet_tessellation(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
+        return job->margin ? job->margin->share[facet] * job->curved[facet].most : 0;
+    }
+    lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, facet));
+    return FOUR_PI *
+           lrcsi_tessellation_error(job->view, facet, &brdf, tilt, job->visible, job->margin);
+}
+
+static void add_facet(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
+                      lrcs_facet_record *record)
+{
+    const lrcsi_view *view = job->view;
+    lrcsi_visible visible = facet_visible(job, facet, tilt);
+    double sigma = 0;
+    if (view->facing[facet] != 0) {
+        int reflects = lrcsi_view_reflects(view, facet);
+        if (reflects && visible.high > 0) {
+            sigma = job->curved && lrcsi_curve_wanted(view, facet)
+                        ? add_curved(job, facet)
+                        : add_reflecting(job, facet, tilt, &visible);
+        }
+        count_facet(job, reflects, tilt, &visible);
+    }
+    if (view->prepared->curved && !view->prepared->skip[facet]) {
+        job->sums.tessellation += facet_tessellation(job, facet, tilt);
+    }
+    if (record) {
+        *record = record_of(view, facet, tilt, visible.area, sigma);
+    }
+}
+
+/* The next facets in order, their incidence computed side by side. */
+static void add_facets(total_job *job, const uint32_t *facet, uint32_t count,
+                       lrcs_facet_record *records)
+{
+    lrcsi_tilt tilt[LRCSI_TILTS];
+    lrcsi_view_tilts(job->view, facet, count, tilt);
+    for (uint32_t i = 0; i < count; i++) {
+        add_facet(job, facet[i], &tilt[i], records ? &records[facet[i]] : NULL);
+    }
+}
+
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_visible *visible, const lrcsi_curved *curved,
                              const lrcsi_margin *margin, lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
-    lrcsi_total total = {0};
-    total_sums sums = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0, 0, 0, 0, 0, 0, 0};
-    if (p->curved && !tessellation_known(view, plan, margin)) {
-        sums.tessellation = -HUGE_VAL;
+    total_job job = {
+        .view = view, .plan = plan, .visible = visible, .curved = curved, .margin = margin};
+    if (p->curved && !tessellation_known(&job)) {
+        job.sums.tessellation = -HUGE_VAL;
     }
+    uint32_t facet[LRCSI_TILTS];
+    uint32_t count = 0;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
-        double sigma = 0;
-        if (view->facing[f] != 0) {
-            int reflects = lrcsi_view_reflects(view, f);
-            if (reflects && visible[f].high > 0) {
-                sigma = curved && lrcsi_curve_wanted(view, f)
-                            ? add_curved(&sums, view, plan, f, &curved[f])
-                            : add_reflecting(&sums, view, plan, f, &tilt, &visible[f]);
-            }
-            count_facet(&total, &sums, reflects, &tilt, &visible[f]);
+        if (p->curved || records || may_show(&job, f)) {
+            facet[count++] = f;
+        } else {
+            job.total.hidden += lrcsi_view_reflects(view, f) ? 1 : 0;
         }
-        if (p->curved && !p->skip[f]) {
-            lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, f));
-            sums.tessellation +=
-                curved && lrcsi_curve_wanted(view, f)
-                    ? (margin ? margin->share[f] * curved[f].most : 0)
-                    : FOUR_PI * lrcsi_tessellation_error(view, f, &brdf, &tilt, visible, margin);
-        }
-        if (records) {
-            records[f] = record_of(view, f, &tilt, visible[f].area, sigma);
+        if (count == LRCSI_TILTS) {
+            add_facets(&job, facet, count, records);
+            count = 0;
         }
     }
-    total_finish(&total, view, &sums);
-    return total;
+    if (count > 0) {
+        add_facets(&job, facet, count, records);
+    }
+    total_finish(&job);
+    return job.total;
 }

@@ -17,7 +17,8 @@ typedef struct lrcsi_total {
     uint32_t seen; /* effects that some facet calls for which may be seen: GLINT, DIFFUSE bits */
 } lrcsi_total;
 
-/* Given: the view, its plan, and the visible area of each facet; where the plan does not know every
+/* Given: the view, its plan, and the visible area of each facet (NULL: by method facet, whose plan
+   tells them); where the plan does not know every
    front facet to be wholly visible, on the true shapes as on their meshes, the margin of doubt
    about the true shapes (NULL: none was made). Facets with curved normals come with their own
    sums in curved[facet_count]; NULL: all are flat. Returned: total, summed in facet order;

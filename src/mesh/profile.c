@@ -42,7 +42,8 @@
    a, the paraboloid between a and a + b/(rho0^2 - rho1^2); and the rows themselves stand off the
    true circles' heights. Across, with v in -1 .. 1, (cos vh, sin vh) goes to kappa (1, v tan h):
    off by at most max(1 - kappa, kappa - cos h) inward or outward and max(h^3/6, (mu - 1) sin h)
-   sideways, times r. A disc is the last alone. */
+   sideways, times r. A disc is the last alone; that map keeps areas everywhere, so that it serves
+   facets of a disc however its polygon is cut into them. */
 #include "mesh/profile.h"
 
 #include <math.h>

@@ -17,12 +17,16 @@
 #define ALONG_MOST  (1u << 24)
 #define WALL_SMOOTH 1u /* smoothing group of a curved wall; flat parts are hard */
 
+/* A disc of many sides is no fan of slivers that all meet in its middle: rings lead there, each
+   with about an eighth of the sides of the one outside it. */
+#define RING_LEAST 64u /* sides from which on a ring is put inside */
+#define RINGS_MOST 10
+
 /* A mesh under construction: the row placed last, and which way is up. */
 typedef struct row_builder {
     lrcs_mesh *mesh;
-    uint32_t around;
     uint32_t first;  /* first vertex of the last row */
-    uint32_t count;  /* its vertices: 0 none yet, 1 a point, else `around` */
+    uint32_t count;  /* its vertices: 0 none yet, 1 a point, else a polygon's */
     double mirror;   /* 1, or -1: z negated and facets turned */
     uint32_t smooth; /* group of the facets to come */
 } row_builder;
@@ -110,11 +114,46 @@ static void row_facet(const row_builder *row, uint32_t a, uint32_t b, uint32_t c
     }
 }
 
+/* The corner of a polygon of `few` corners that is nearest to the middle of side k of `many`. */
+static uint32_t ring_nearest(uint32_t k, uint32_t many, uint32_t few)
+{
+    return (uint32_t)(((2 * (uint64_t)k + 1) * few + many) / (2 * (uint64_t)many)) % few;
+}
+
+/* Joins the last row to one with fewer corners, or with more: each side of the longer row goes to
+   the nearest corner of the shorter. Of two polygons about one centre, the shorter one inside, the
+   facets do not overlap: a side's ends lie, seen from the centre, between that corner and one of
+   its neighbours, so that they are beyond the side that joins those two. */
+static void row_zip(const row_builder *row, uint32_t first, uint32_t count)
+{
+    int inward = row->count > count;
+    uint32_t many = inward ? row->count : count;
+    uint32_t few = inward ? count : row->count;
+    uint32_t outer = inward ? row->first : first;
+    uint32_t inner = inward ? first : row->first;
+    for (uint32_t k = 0; k < many; k++) {
+        uint32_t next = k + 1 < many ? k + 1 : 0;
+        uint32_t at = ring_nearest(k, many, few);
+        uint32_t then = ring_nearest(next, many, few);
+        uint32_t a = outer + k;
+        uint32_t b = outer + next;
+        row_facet(row, inward ? a : b, inward ? b : a, inner + at);
+        if (then != at) {
+            row_facet(row, b, inner + (inward ? then : at), inner + (inward ? at : then));
+        }
+    }
+}
+
 /* Joins the last row to the one that starts at `first` with `count` vertices. */
 static void row_join(const row_builder *row, uint32_t first, uint32_t count)
 {
-    for (uint32_t k = 0; k < row->around; k++) {
-        uint32_t next = k + 1 < row->around ? k + 1 : 0;
+    if (row->count > 1 && count > 1 && row->count != count) {
+        row_zip(row, first, count);
+        return;
+    }
+    uint32_t around = row->count > count ? row->count : count;
+    for (uint32_t k = 0; k < around; k++) {
+        uint32_t next = k + 1 < around ? k + 1 : 0;
         if (row->count > 1) {
             row_facet(row, row->first + k, row->first + next, count > 1 ? first + next : first);
         }
@@ -124,17 +163,16 @@ static void row_join(const row_builder *row, uint32_t first, uint32_t count)
     }
 }
 
-/* Adds a row: a point on the axis, or a polygon of the circle of radius r. */
-static void row_add(row_builder *row, double r, double z, int point)
+/* Adds a row: a point on the axis (count 1), or a polygon of the circle of radius r. */
+static void row_add(row_builder *row, double r, double z, uint32_t count)
 {
     lrcs_mesh *mesh = row->mesh;
     uint32_t first = mesh->vertex_count;
-    uint32_t count = point ? 1 : row->around;
     for (uint32_t k = 0; k < count; k++) {
         double c = 0.0;
         double s = 0.0;
-        if (!point) {
-            turn_fraction(k, row->around, &c, &s);
+        if (count > 1) {
+            turn_fraction(k, count, &c, &s);
         }
         mesh_vertex(mesh, r * c, r * s, row->mirror * z);
     }
@@ -145,15 +183,56 @@ static void row_add(row_builder *row, double r, double z, int point)
     row->count = count;
 }
 
+/* The rings inside a polygon of `around` sides, the widest first: their corners, and their radii as
+   parts of the polygon's. A ring is half as wide as its own sides are long. Returns how many. */
+static int ring_list(uint32_t around, uint32_t corners[RINGS_MOST], double radius[RINGS_MOST])
+{
+    int rings = 0;
+    double r = 1.0;
+    while (around >= RING_LEAST && rings < RINGS_MOST) {
+        around = 4 * ((around + 16) / 32);
+        r *= 1.0 - 0.5 * TURN_2PI / around;
+        corners[rings] = around;
+        radius[rings++] = r;
+    }
+    return rings;
+}
+
+/* From the row placed last, a polygon of radius r, to a point in its middle. */
+static void disc_close(row_builder *row, double r, double z)
+{
+    uint32_t corners[RINGS_MOST];
+    double radius[RINGS_MOST];
+    int rings = ring_list(row->count, corners, radius);
+    for (int i = 0; i < rings; i++) {
+        row_add(row, r * radius[i], z, corners[i]);
+    }
+    row_add(row, 0.0, z, 1);
+}
+
+/* The same from the point out to a polygon of `around` corners, which is the row placed last
+   then. */
+static void disc_open(row_builder *row, double r, double z, uint32_t around)
+{
+    uint32_t corners[RINGS_MOST];
+    double radius[RINGS_MOST];
+    row_add(row, 0.0, z, 1);
+    for (int i = ring_list(around, corners, radius); i > 0; i--) {
+        row_add(row, r * radius[i - 1], z, corners[i - 1]);
+    }
+    row_add(row, r, z, around);
+}
+
 /* Rows 1 .. strips of the wall above the row placed last, at z = 0. */
 static double wall_add(row_builder *row, const lrcsi_profile *profile, int apex)
 {
+    uint32_t around = row->count;
     lrcsi_dd z = {0.0, 0.0};
     for (uint32_t i = 0; i < profile->strips; i++) {
         z = lrcsi_dd_add(z, (lrcsi_dd){lrcsi_profile_rise(profile, i), 0.0});
         int last = i + 1 == profile->strips;
         row_add(row, profile->swell * lrcsi_profile_radius(profile, i + 1), lrcsi_dd_value(z),
-                last && apex);
+                last && apex ? 1 : around);
     }
     return lrcsi_dd_value(z);
 }
@@ -162,23 +241,28 @@ static void revolve(const lrcs_shape *shape, const lrcs_divisions *divisions, lr
 {
     lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
     uint32_t caps = shape_caps(shape);
-    row_builder row = {mesh, divisions->around, 0, 0, 1.0, 0};
+    double base = profile.swell * profile.base;
+    row_builder row = {mesh, 0, 0, 1.0, 0};
     if (caps > 0) {
-        row_add(&row, 0.0, 0.0, 1);
+        disc_open(&row, base, 0.0, divisions->around);
+    } else {
+        row_add(&row, base, 0.0, divisions->around);
     }
-    row_add(&row, profile.swell * profile.base, 0.0, 0);
     uint32_t rim = row.first;
     row.smooth = WALL_SMOOTH;
     double top = wall_add(&row, &profile, shape_has_apex(shape));
     if (shape->kind == LRCS_SHAPE_SPHERE) {
         row.first = rim;
-        row.count = row.around;
+        row.count = divisions->around;
         row.mirror = -1.0;
         wall_add(&row, &profile, 1);
     }
     row.smooth = 0;
     if (caps == 2 || shape->kind == LRCS_SHAPE_DISC) {
-        row_add(&row, 0.0, top, 1);
+        double r = shape->kind == LRCS_SHAPE_DISC
+                       ? base
+                       : profile.swell * lrcsi_profile_radius(&profile, profile.strips);
+        disc_close(&row, r, top);
     }
 }
 
@@ -208,6 +292,21 @@ static void make_box(const double size[3], lrcs_mesh *mesh)
     }
 }
 
+/* Vertices inside a disc's rim, and its facets: each ring adds as many as its two rows have
+   corners, the middle as many as the last row. */
+static void disc_counts(uint32_t around, uint64_t *vertices, uint64_t *facets)
+{
+    uint32_t corners[RINGS_MOST];
+    double radius[RINGS_MOST];
+    int rings = ring_list(around, corners, radius);
+    *vertices = 1;
+    *facets = around;
+    for (int i = 0; i < rings; i++) {
+        *vertices += corners[i];
+        *facets += 2 * (uint64_t)corners[i];
+    }
+}
+
 /* Vertices and facets of a body of revolution. */
 static void revolved_counts(const lrcs_shape *shape, const lrcs_divisions *divisions,
                             uint64_t *vertices, uint64_t *facets)
@@ -216,8 +315,11 @@ static void revolved_counts(const lrcs_shape *shape, const lrcs_divisions *divis
     uint64_t strips = shape->kind == LRCS_SHAPE_DISC ? 0 : divisions->along;
     uint64_t caps = shape_caps(shape) + (shape->kind == LRCS_SHAPE_DISC ? 1u : 0u);
     uint64_t apex = shape_has_apex(shape) ? 1 : 0;
-    *vertices = around * (1 + strips - apex) + apex + caps;
-    *facets = around * (2 * strips - apex + caps);
+    uint64_t inside = 0;
+    uint64_t cap = 0;
+    disc_counts(divisions->around, &inside, &cap);
+    *vertices = around * (1 + strips - apex) + apex + caps * inside;
+    *facets = around * (2 * strips - apex) + caps * cap;
     if (shape->kind == LRCS_SHAPE_SPHERE) {
         *vertices = 2 * *vertices - around;
         *facets *= 2;

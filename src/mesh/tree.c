@@ -10,6 +10,14 @@
    at the corner where the computed value is least proves that the whole box lies above the
    plane; |n_k| <= (1 + 4u) w_k covers the last two.
 
+   Fan test. A facet F = v b c, and facets T that have the corner v too. For any vector m with
+   m . (b - v) > 0 and m . (c - v) > 0, and m . (x - v) < 0 for the other corners x of T, F lies
+   above the plane through v and T below it, so that v is all they have in common. Thus m need not
+   be accurate; the signs must be right. Differences, products and sums round 4 times: 10 u of the
+   sum of magnitudes is above the error. Components of m are zero or 2^-100 .. 1, so that nothing
+   underflows. A box is below where its highest corner is. So the facets about the tip of a cone or
+   the middle of a disc, whose boxes all meet, do not all become candidates of each other.
+
    Slab test. The direction d of a node is the rounded sum of its facets' normals, taken as it is;
    d . x errs by 3 u sum |d_k x_k|, and widening the result by e rounds once more: e = 6 u of that
    sum serves. */
@@ -21,7 +29,7 @@
 #include "base/sort.h"
 #include "base/work.h"
 
-enum { LEAF_FACETS = 4, MORTON_BITS = 21 };
+enum { LEAF_FACETS = 8, MORTON_BITS = 21 };
 
 #define PLANE_FILTER (10.0 * 0x1p-53)
 #define SLAB_FILTER  (6.0 * 0x1p-53)
@@ -94,6 +102,13 @@ static uint32_t leaves_for(uint32_t count)
     return leaves;
 }
 
+/* Behind the last place of a leaf that is not empty. */
+static uint32_t leaf_end(const lrcsi_tree *tree, uint32_t leaf)
+{
+    uint32_t first = leaf * LEAF_FACETS;
+    return tree->count - first < LEAF_FACETS ? tree->count : first + LEAF_FACETS;
+}
+
 /* The normal of a facet, and for each component the sum of its two terms' magnitudes. */
 static void facet_normal(const double *const corner[3], double normal[3], double weight[3])
 {
@@ -136,38 +151,111 @@ static void facet_corners(const lrcs_point *vertex, const lrcs_facet *facet,
     }
 }
 
-/* Boxes and directions of leaves from their facets, then of nodes from their children. */
-static void fill_nodes(const lrcsi_tree *tree, const lrcs_point *vertex, const lrcs_facet *facet)
+/* ---- what the facets below a node have in common ---- */
+
+static int node_is_empty(const lrcsi_tree_node *node)
 {
-    for (uint32_t i = 0; i < 2 * tree->leaves; i++) {
-        tree->node[i] = (lrcsi_tree_node){empty_box(), {0, 0, 0}, HUGE_VAL, -HUGE_VAL};
+    return node->box.low[0] > node->box.high[0];
+}
+
+/* All of a node's box. */
+static lrcsi_box node_box(const lrcsi_tree *tree, const lrcsi_tree_node *node)
+{
+    lrcsi_box box = node->box;
+    if (node->hub != LRCS_NONE) {
+        const double *x = tree->vertex[node->hub].x;
+        grow_box(&box, x, x);
     }
-    for (uint32_t i = 0; i < tree->count; i++) {
-        lrcsi_tree_node *leaf = &tree->node[tree->leaves + i / LEAF_FACETS];
+    return box;
+}
+
+/* Has a facet the corner v, and another one? */
+static int facet_is_about(const lrcs_facet *facet, uint32_t v)
+{
+    const uint32_t *c = facet->corner;
+    return (c[0] == v || c[1] == v || c[2] == v) && (c[0] != v || c[1] != v || c[2] != v);
+}
+
+/* A corner of all the facets order[first .. end), or LRCS_NONE. */
+static uint32_t common_corner(const lrcsi_tree *tree, uint32_t first, uint32_t end)
+{
+    for (int k = 0; k < 3; k++) {
+        uint32_t v = tree->facet[tree->order[first]].corner[k];
+        uint32_t i = first;
+        while (i < end && facet_is_about(&tree->facet[tree->order[i]], v)) {
+            i++;
+        }
+        if (i == end) {
+            return v;
+        }
+    }
+    return LRCS_NONE;
+}
+
+static void fill_leaf(const lrcsi_tree *tree, uint32_t leaf, const uint32_t *group)
+{
+    lrcsi_tree_node *node = &tree->node[tree->leaves + leaf];
+    uint32_t first = leaf * LEAF_FACETS;
+    uint32_t end = leaf_end(tree, leaf);
+    node->hub = common_corner(tree, first, end);
+    node->group = group ? group[tree->order[first]] : LRCS_NONE;
+    for (uint32_t i = first; i < end; i++) {
+        const lrcs_facet *facet = &tree->facet[tree->order[i]];
         const double *corner[3];
         double normal[3];
         double weight[3];
-        facet_corners(vertex, &facet[tree->order[i]], corner);
+        facet_corners(tree->vertex, facet, corner);
         facet_normal(corner, normal, weight);
         for (int k = 0; k < 3; k++) {
-            leaf->direction[k] += normal[k];
+            node->direction[k] += normal[k];
+            if (facet->corner[k] != node->hub) {
+                grow_box(&node->box, corner[k], corner[k]);
+            }
         }
-        grow_box(&leaf->box, tree->box[i].low, tree->box[i].high);
-    }
-    for (uint32_t i = 2 * tree->leaves - 1; i > 1; i--) {
-        grow_box(&tree->node[i / 2].box, tree->node[i].box.low, tree->node[i].box.high);
-        for (int k = 0; k < 3; k++) {
-            tree->node[i / 2].direction[k] += tree->node[i].direction[k];
+        if (group && group[tree->order[i]] != node->group) {
+            node->group = LRCS_NONE;
         }
     }
 }
 
+/* A node from its children, of which the right one may be empty. */
+static void fill_parent(const lrcsi_tree *tree, uint32_t parent)
+{
+    lrcsi_tree_node *node = &tree->node[parent];
+    const lrcsi_tree_node *left = &tree->node[2 * (size_t)parent];
+    const lrcsi_tree_node *right = left + 1;
+    int alone = node_is_empty(right);
+    node->hub = alone || left->hub == right->hub ? left->hub : LRCS_NONE;
+    node->group = alone || left->group == right->group ? left->group : LRCS_NONE;
+    for (const lrcsi_tree_node *child = left; child <= right; child++) {
+        lrcsi_box box = node->hub == LRCS_NONE ? node_box(tree, child) : child->box;
+        grow_box(&node->box, box.low, box.high);
+        for (int k = 0; k < 3; k++) {
+            node->direction[k] += child->direction[k];
+        }
+    }
+}
+
+static void fill_nodes(const lrcsi_tree *tree, const uint32_t *group)
+{
+    for (uint32_t i = 0; i < 2 * tree->leaves; i++) {
+        tree->node[i] =
+            (lrcsi_tree_node){empty_box(), {0, 0, 0}, HUGE_VAL, -HUGE_VAL, LRCS_NONE, LRCS_NONE};
+    }
+    for (uint32_t leaf = 0; leaf * LEAF_FACETS < tree->count; leaf++) {
+        fill_leaf(tree, leaf, group);
+    }
+    for (uint32_t i = tree->leaves - 1; i > 0; i--) {
+        fill_parent(tree, i);
+    }
+}
+
 /* Slabs of all nodes, once their directions are known. */
-static void fill_slabs(const lrcsi_tree *tree, const lrcs_point *vertex, const lrcs_facet *facet)
+static void fill_slabs(const lrcsi_tree *tree)
 {
     for (uint32_t i = 0; i < tree->count; i++) {
         const double *corner[3];
-        facet_corners(vertex, &facet[tree->order[i]], corner);
+        facet_corners(tree->vertex, &tree->facet[tree->order[i]], corner);
         for (uint32_t n = tree->leaves + i / LEAF_FACETS; n > 0; n /= 2) {
             lrcsi_tree_node *node = &tree->node[n];
             widen_slab(corner, node->direction, &node->low, &node->high);
@@ -213,10 +301,11 @@ size_t lrcsi_tree_need(uint32_t facet_count)
 }
 
 int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                    const unsigned char *skip, lrcs_work *work, lrcsi_tree *tree)
+                    const unsigned char *skip, const uint32_t *group, lrcs_work *work,
+                    lrcsi_tree *tree)
 {
     size_t mark = work->used;
-    lrcsi_tree made = {0, 1, NULL, NULL, NULL};
+    lrcsi_tree made = {.vertex = vertex, .facet = facet};
     made.order = lrcsi_work_take(work, facet_count, sizeof *made.order);
     for (uint32_t f = 0; f < facet_count && made.order; f++) {
         if (!skip || !skip[f]) {
@@ -237,29 +326,156 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
     for (uint32_t i = 0; i < made.count; i++) {
         made.box[i] = facet_box(vertex, &facet[made.order[i]]);
     }
-    fill_nodes(&made, vertex, facet);
-    fill_slabs(&made, vertex, facet);
+    fill_nodes(&made, group);
+    fill_slabs(&made);
     *tree = made;
     return LRCS_OK;
 }
 
-lrcsi_tree_walk lrcsi_tree_around(const lrcsi_tree *tree, const lrcs_point *vertex,
-                                  lrcs_facet facet)
+/* ---- facets that have a corner in common ---- */
+
+/* m . (x - corner) is surely negative; with m turned round, surely positive. */
+static int is_below(const double m[3], const double corner[3], const double x[3], double turn)
 {
-    lrcsi_tree_walk walk = {.tree = tree, .box = facet_box(vertex, &facet), .node = 1};
-    facet_corners(vertex, &facet, walk.corner);
+    double height = 0.0;
+    double error = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double term = m[k] * (x[k] - corner[k]);
+        height += term;
+        error += fabs(term);
+    }
+    return turn * height < -PLANE_FILTER * error;
+}
+
+/* Tilted by this about the corner, a plane along a side has all of the side above it. */
+#define FAN_TILT 0x1p-20
+
+/* The plane at corner v of facet v b c along the side to b, across the facet's plane. Returns 0
+   where it is not proved to lie below the facet. */
+static int fan_plane(const double *v, const double *b, const double *c, const double normal[3],
+                     double m[3])
+{
+    double along[3];
+    double inward = 0.0;
+    for (int k = 0; k < 3; k++) {
+        along[k] = b[k] - v[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        m[k] = normal[i] * along[j] - normal[j] * along[i];
+        inward += m[k] * (c[k] - v[k]);
+    }
+    double length = sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+    double size = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+    for (int k = 0; k < 3; k++) {
+        m[k] = (inward < 0.0 ? -m[k] : m[k]) / size + FAN_TILT * along[k] / length;
+        m[k] = fabs(m[k]) < 0x1p-100 ? 0.0 : m[k];
+    }
+    return is_below(m, v, b, -1.0) && is_below(m, v, c, -1.0);
+}
+
+/* The planes at the walk's corner k. */
+static const lrcsi_tree_fan *fan_at(lrcsi_tree_walk *w, int k)
+{
+    lrcsi_tree_fan *fan = &w->fan[k];
+    const double *v = w->corner[k];
+    const double *next = w->corner[(k + 1) % 3];
+    const double *last = w->corner[(k + 2) % 3];
+    if (!fan->made) {
+        fan->made = 1;
+        fan->known[0] = fan_plane(v, next, last, w->normal, fan->m[0]);
+        fan->known[1] = fan_plane(v, last, next, w->normal, fan->m[1]);
+    }
+    return fan;
+}
+
+/* Have all facets of a node but its hub in common with the walk's? */
+static int hub_is_all(lrcsi_tree_walk *w, const lrcsi_tree_node *node)
+{
+    int k = 0;
+    while (k < 3 && w->own[k] != node->hub) {
+        k++;
+    }
+    const lrcsi_tree_fan *fan = k < 3 ? fan_at(w, k) : NULL;
+    for (int side = 0; side < 2 && fan; side++) {
+        double highest[3];
+        for (int i = 0; i < 3; i++) {
+            highest[i] = fan->m[side][i] > 0.0 ? node->box.high[i] : node->box.low[i];
+        }
+        if (fan->known[side] && is_below(fan->m[side], w->corner[k], highest, 1.0)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int lrcsi_tree_corner(lrcsi_tree_walk *w, uint32_t candidate)
+{
+    const uint32_t *c = w->tree->facet[candidate].corner;
+    int shared = 0;
+    int own = 0;
+    int its = 0;
+    for (int i = 0; i < 9; i++) {
+        if (w->own[i / 3] == c[i % 3]) {
+            own = i / 3;
+            its = i % 3;
+            shared++;
+        }
+    }
+    const lrcsi_tree_fan *fan = shared == 1 ? fan_at(w, own) : NULL;
+    for (int side = 0; side < 2 && fan; side++) {
+        const double *v = w->corner[own];
+        if (fan->known[side] &&
+            is_below(fan->m[side], v, w->tree->vertex[c[(its + 1) % 3]].x, 1.0) &&
+            is_below(fan->m[side], v, w->tree->vertex[c[(its + 2) % 3]].x, 1.0)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The node after this one and all below it, from left to right, or 0. */
+static uint32_t node_after(uint32_t node)
+{
+    while (node & 1) {
+        node >>= 1;
+    }
+    return node ? node + 1 : 0;
+}
+
+static lrcsi_tree_walk walk_start(const lrcsi_tree *tree, lrcs_facet facet)
+{
+    lrcsi_tree_walk walk = {.tree = tree, .without = LRCS_NONE, .node = 1};
+    walk.box = facet_box(tree->vertex, &facet);
+    facet_corners(tree->vertex, &facet, walk.corner);
     facet_normal(walk.corner, walk.normal, walk.weight);
+    for (int k = 0; k < 3; k++) {
+        walk.own[k] = facet.corner[k];
+    }
     return walk;
 }
 
-lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcs_point *vertex,
-                                  lrcs_facet facet, double distance)
+lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t place)
 {
-    lrcsi_tree_walk walk = lrcsi_tree_around(tree, vertex, facet);
+    lrcsi_tree_walk walk = walk_start(tree, tree->facet[tree->order[place]]);
+    uint32_t leaf = place / LEAF_FACETS;
+    walk.at = place + 1;
+    walk.end = leaf_end(tree, leaf);
+    walk.node = node_after(tree->leaves + leaf);
+    return walk;
+}
+
+lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, lrcs_facet facet, double distance,
+                                  uint32_t without)
+{
+    lrcsi_tree_walk walk = walk_start(tree, facet);
     const double *n = walk.normal;
+    walk.without = without;
     walk.slack = distance * WITHIN_MARGIN;
     walk.slack_plane = walk.slack * (fabs(n[0]) + fabs(n[1]) + fabs(n[2]));
     for (int k = 0; k < 3; k++) {
+        walk.own[k] = LRCS_NONE;
         walk.box.low[k] -= walk.slack;
         walk.box.high[k] += walk.slack;
     }
@@ -295,10 +511,20 @@ static int box_is_candidate(const lrcsi_tree_walk *w, const lrcsi_box *box)
     return !box_is_off_plane(w, box);
 }
 
-static int node_is_candidate(const lrcsi_tree_walk *w, const lrcsi_tree_node *node)
+static int node_is_candidate(lrcsi_tree_walk *w, const lrcsi_tree_node *node)
 {
-    if (!box_is_candidate(w, &node->box)) {
+    if (node->group == w->without && node->group != LRCS_NONE) {
         return 0;
+    }
+    if (node->hub == LRCS_NONE) {
+        if (!box_is_candidate(w, &node->box)) {
+            return 0;
+        }
+    } else {
+        lrcsi_box box = node_box(w->tree, node);
+        if (!box_is_candidate(w, &box) || hub_is_all(w, node)) {
+            return 0;
+        }
     }
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
@@ -306,15 +532,6 @@ static int node_is_candidate(const lrcsi_tree_walk *w, const lrcsi_tree_node *no
     const double *d = node->direction;
     double slack = w->slack * (fabs(d[0]) + fabs(d[1]) + fabs(d[2]));
     return low - slack <= node->high && high + slack >= node->low;
-}
-
-/* The node after this one and all below it, from left to right, or 0. */
-static uint32_t node_after(uint32_t node)
-{
-    while (node & 1) {
-        node >>= 1;
-    }
-    return node ? node + 1 : 0;
 }
 
 /* Moves to the facets of the next leaf that holds candidates; 0 at the end. */
@@ -331,7 +548,7 @@ static int next_leaf(lrcsi_tree_walk *w)
         w->node = node_after(node);
         if (candidate) {
             w->at = (node - tree->leaves) * LEAF_FACETS;
-            w->end = tree->count - w->at < LEAF_FACETS ? tree->count : w->at + LEAF_FACETS;
+            w->end = leaf_end(tree, node - tree->leaves);
             return 1;
         }
     }

@@ -24,6 +24,8 @@
 #define PLAN_NODES   48
 #define PLAN_AIM     0.8  /* of the tolerance: aspects between the sampled ones may err more */
 #define PLAN_SAMPLE  1e-2 /* the tolerance at which dome and paraboloid are sampled */
+#define PLAN_GUESS   16.0 /* quarters of a turn's facets tried first */
+#define PLAN_TRIES   8    /* guesses at most */
 #define FACETS_LEAST 64u
 
 /* A material on a curved wall, and how coarse the wall is. */
@@ -239,19 +241,25 @@ static uint32_t plan_most(const lrcs_shape *shape, uint32_t max_facets)
     return 4 * good;
 }
 
-/* The least `around` up to `most` that meets the tolerance, or `most`. */
+/* The least `around` up to `most` that meets the tolerance, or `most`: guessed from what an error
+   that falls as 1 / around^2 would need, and where guesses do not close in, by bisection. */
 static uint32_t plan_least(const lrcs_shape *shape, const lrcs_brdf *brdf, double tolerance,
                            uint32_t most)
 {
     uint32_t bad = AROUND_LEAST / 4 - 1;
     uint32_t good = most / 4;
-    while (good - bad > 1) {
-        uint32_t middle = bad + (good - bad) / 2;
-        if (plan_error(shape, brdf, 4 * middle) <= tolerance) {
-            good = middle;
+    double guess = PLAN_GUESS;
+    for (int tries = 0; good - bad > 1; tries++) {
+        uint32_t halfway = bad + (good - bad) / 2;
+        uint32_t at = tries > PLAN_TRIES || !(guess < good) ? halfway : (uint32_t)ceil(guess);
+        at = at <= bad ? bad + 1 : at >= good ? good - 1 : at;
+        double error = plan_error(shape, brdf, 4 * at);
+        if (error <= tolerance) {
+            good = at;
         } else {
-            bad = middle;
+            bad = at;
         }
+        guess = at * sqrt(error / tolerance);
     }
     return 4 * good;
 }

@@ -7,22 +7,17 @@
 
 #include <lrcs/read.h>
 
-#include "base/degrees.h"
 #include "base/range.h"
 #include "base/where.h"
 #include "base/work.h"
-#include "mesh/profile.h"
-#include "mesh/tessellate.h"
 #include "scene/bind.h"
+#include "scene/fineness.h"
 #include "scene/place.h"
+#include "scene/shaped.h"
 #include "scene/smooth.h"
 
 /* Coordinates beyond this are refused: their squares and cubes must stay doubles. */
 #define COORDINATE_MOST 1e100
-/* How many shares a scene's tolerance is cut into at least, and how much coarser than asked a small
-   part may be at most. */
-#define SHARES_LEAST 16.0
-#define LEAVE_MOST   100.0
 
 typedef struct scene_builder {
     const lrcs_recipe *recipe;
@@ -32,7 +27,8 @@ typedef struct scene_builder {
     lrcsi_binder binder;
     uint32_t *entry; /* by worn material: its place among the scene's materials, or LRCS_NONE */
     uint32_t bare;   /* the place of "", or LRCS_NONE */
-    double area;     /* of all parts, roughly */
+    lrcsi_fineness fineness;
+    lrcs_divisions *divisions; /* of each part that is a shape; NULL: only counted */
 } scene_builder;
 
 /* A part's mesh on its way into the scene. */
@@ -77,87 +73,6 @@ static int find_worn(const scene_builder *builder, const lrcs_recipe_part *part,
                                   part->material, strlen(part->material));
 }
 
-/* 0 where a corner is out of range. */
-static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
-{
-    const uint32_t *corner = mesh->facet[f].corner;
-    double p[3];
-    double q[3];
-    if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count ||
-        corner[2] >= mesh->vertex_count) {
-        return 0.0;
-    }
-    for (int k = 0; k < 3; k++) {
-        p[k] = mesh->vertex[corner[1]].x[k] - mesh->vertex[corner[0]].x[k];
-        q[k] = mesh->vertex[corner[2]].x[k] - mesh->vertex[corner[0]].x[k];
-    }
-    const double n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
-                         p[0] * q[1] - p[1] * q[0]};
-    return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-}
-
-/* Roughly the surface of a part, to weigh parts with; of a model, its facets'. */
-static double part_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh)
-{
-    const lrcs_shape *shape = &part->shape;
-    const double *s = shape->size;
-    double r = fmax(shape->radius, shape->radius2);
-    double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]) + 6.0 * r * (r + shape->length);
-    if (part->file) {
-        area = 0.0;
-        for (uint32_t f = 0; mesh && f < mesh->facet_count; f++) {
-            area += mesh_facet_area(mesh, f);
-        }
-    }
-    const double *scale = part->place.scale;
-    double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
-    return area * most * most;
-}
-
-/* How much coarser than asked a part may be, being small among the others: all of them together
-   may add as much error as the scene may have, were each as bright as its surface is large. */
-static double part_leave(const scene_builder *builder, const lrcs_recipe_part *part)
-{
-    double parts = fmax(SHARES_LEAST, builder->recipe->part_count);
-    double leave = builder->area / (part_area(part, NULL) * parts);
-    return leave > 1.0 ? fmin(leave, LEAVE_MOST) : 1.0;
-}
-
-/* The tolerance that a shape is divided for: as asked where it is alone. Among other parts its
-   leave counts; and of round bodies, whose facets cost 1/tolerance (those of straight walls its
-   root), ten times as much must do, at least 1e-4. */
-static double shape_tolerance(const scene_builder *builder, const lrcs_recipe_part *part)
-{
-    double tolerance = builder->options->tolerance;
-    if (builder->recipe->part_count == 1) {
-        return tolerance;
-    }
-    tolerance = fmin(tolerance * part_leave(builder, part), fmax(1.0, tolerance));
-    int kind = part->shape.kind;
-    int is_round =
-        kind == LRCS_SHAPE_SPHERE || kind == LRCS_SHAPE_DOME || kind == LRCS_SHAPE_PARABOLOID;
-    return is_round ? fmax(fmin(10.0 * tolerance, 1.0), 1e-4) : tolerance;
-}
-
-/* Among other parts a rim casts shadows, in doubt over twice its reach, some 0.4 R (pi/N)^2, along
-   2 pi R: less than half the tolerance of the disc that it bounds where N is this. */
-static void refine_rim(const scene_builder *builder, const lrcs_recipe_part *part,
-                       lrcs_divisions *divisions, lrcs_mesh_counts *counts)
-{
-    const lrcs_shape *shape = &part->shape;
-    double corners = 3.1416 * sqrt(5.0 / shape_tolerance(builder, part));
-    if (builder->recipe->part_count == 1 || divisions->along > 1 ||
-        shape->kind == LRCS_SHAPE_PLATE || shape->kind == LRCS_SHAPE_BOX || !(corners < 1e6)) {
-        return;
-    }
-    lrcs_divisions finer = {4 * (uint32_t)(corners / 4.0 + 1.0), 1};
-    if (finer.around > divisions->around &&
-        lrcsi_tessellate_counts(shape, &finer).facets <= builder->options->max_facets) {
-        *divisions = finer;
-        *counts = lrcsi_tessellate_counts(shape, &finer);
-    }
-}
-
 /* How a shape is divided, for the material it wears. */
 static int count_shape(const scene_builder *builder, const lrcs_recipe_part *part,
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
@@ -174,12 +89,7 @@ static int count_shape(const scene_builder *builder, const lrcs_recipe_part *par
         return status;
     }
     lrcs_material material = lrcsi_binder_bare(&builder->binder, worn);
-    lrcs_fineness fineness = {shape_tolerance(builder, part), material.brdf,
-                              builder->options->max_facets};
-    status = lrcs_shape_count(&part->shape, &fineness, divisions, counts);
-    if (status == LRCS_OK) {
-        refine_rim(builder, part, divisions, counts);
-    }
+    status = lrcsi_fineness_divide(&builder->fineness, part, &material.brdf, divisions, counts);
     return status == LRCS_OK ? LRCS_OK
                              : refuse_part(builder, status, part,
                                            "a shape, material and "
@@ -191,7 +101,11 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
     const lrcs_recipe_part *part = &builder->recipe->part[i];
     lrcs_divisions divisions;
     if (!part->file) {
-        return count_shape(builder, part, &divisions, counts);
+        int status = count_shape(builder, part, &divisions, counts);
+        if (builder->divisions) {
+            builder->divisions[i] = divisions;
+        }
+        return status;
     }
     const lrcs_mesh *mesh = &builder->models[i];
     *counts = (lrcs_mesh_counts){
@@ -215,10 +129,11 @@ static int is_curved(const scene_builder *builder, uint32_t i)
 static int count_scene(scene_builder *builder, scene_totals *totals)
 {
     const lrcs_recipe *recipe = builder->recipe;
-    builder->area = 0.0;
+    builder->fineness = (lrcsi_fineness){builder->options->tolerance, builder->options->max_facets,
+                                         recipe->part_count, 0.0};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
-        builder->area +=
-            part_area(&recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
+        builder->fineness.area += lrcsi_fineness_area(
+            &recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
     }
     *totals = (scene_totals){.materials = lrcsi_binder_wardrobe(recipe) + UINT64_C(1)};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
@@ -274,6 +189,7 @@ size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
     scene_totals totals;
     count_scene(&builder, &totals); /* where it fails, so will building: before it needs more */
     size_t need = array_need(&totals, recipe->part_count);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(recipe->part_count, sizeof(lrcs_divisions)));
     need = lrcsi_work_add(need, lrcsi_binder_need(recipe));
     need = lrcsi_work_add(need, lrcsi_work_bytes(lrcsi_binder_wardrobe(recipe), sizeof(uint32_t)));
     return lrcsi_work_add(need, totals.scratch);
@@ -371,119 +287,6 @@ static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene
     return LRCS_OK;
 }
 
-/* The least of a shape's extents, in its own units; 0 for what is flat. */
-static double least_extent(const lrcs_shape *shape)
-{
-    double sine;
-    double cosine;
-    double length = shape->length;
-    double across = 2.0 * fmax(shape->radius, shape->radius2);
-    switch (shape->kind) {
-    case LRCS_SHAPE_PLATE:
-    case LRCS_SHAPE_DISC:
-        return 0.0;
-    case LRCS_SHAPE_BOX:
-        return fmin(shape->size[0], fmin(shape->size[1], shape->size[2]));
-    case LRCS_SHAPE_SPHERE:
-        return across;
-    case LRCS_SHAPE_DOME:
-        return shape->radius;
-    default:
-        if (shape->half_angle_deg > 0.0) {
-            lrcsi_degrees_sincos(shape->half_angle_deg, &sine, &cosine);
-            length = shape->radius * cosine / sine;
-        }
-        return fmin(across, length);
-    }
-}
-
-/* 1 where a shape's surface is closed: it has caps or needs none. */
-static int is_closed(const lrcs_shape *shape)
-{
-    return shape->kind == LRCS_SHAPE_BOX || shape->kind == LRCS_SHAPE_SPHERE ||
-           (shape->kind != LRCS_SHAPE_PLATE && shape->kind != LRCS_SHAPE_DISC &&
-            shape->parts == LRCS_SHAPE_ALL);
-}
-
-static double mesh_extent(const lrcs_mesh *mesh)
-{
-    double most = 0.0;
-    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        const double *x = mesh->vertex[i].x;
-        most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
-    }
-    return most;
-}
-
-/* How far a shape's placed vertices may be off. The mesh's own coordinates are good to a relative
-   (16 + rings) u (src/mesh/profile.c), but for what underflows. */
-static double misplacement(double most, const lrcs_divisions *divisions, const lrcsi_placer *placer)
-{
-    double error = (17.0 + (double)divisions->along) * 0x1p-53 * most + 0x1p-1022;
-    return lrcsi_placer_error(placer, most + error, error);
-}
-
-/* The least altitude of a facet of the part placed last, m: its area over its longest side. */
-static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
-{
-    double least = HUGE_VAL;
-    for (uint32_t i = 0; i < part->facet_count; i++) {
-        const uint32_t *corner = scene->facet[part->first_facet + i].corner;
-        double side[3][3];
-        double square = 0.0;
-        double area = 0.0;
-        for (int k = 0; k < 9; k++) {
-            side[k / 3][k % 3] = scene->vertex[corner[(k / 3 + 1) % 3]].x[k % 3] -
-                                 scene->vertex[corner[k / 3]].x[k % 3];
-        }
-        for (int k = 0; k < 3; k++) {
-            const double *s = side[k];
-            double n = side[0][(k + 1) % 3] * side[1][(k + 2) % 3] -
-                       side[0][(k + 2) % 3] * side[1][(k + 1) % 3];
-            square = fmax(square, s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-            area += n * n;
-        }
-        least = fmin(least, sqrt(area) / sqrt(square));
-    }
-    return least;
-}
-
-/* Rounding in placing moves corners by at most e: each tilts its facet by at most e over the
-   altitude on it, and changes its area by at most that part. Facets' own numbers hold per unit of
-   their area, and patches may be larger. */
-static void tilt_placed(const scene_piece *piece, const lrcs_scene *scene, double most,
-                        lrcs_part *part)
-{
-    double e = lrcsi_placer_error(&piece->placer, most, 0.0);
-    if (part->reach > 0.0 && e > 0.0) {
-        double wide = 3.0 * (1.0 + part->curvature.area_error);
-        part->tilted = 1.000001 * wide * e / least_altitude(scene, part);
-        part->curvature = part->curvature.turn > 0.0
-                              ? lrcsi_profile_blurred(&part->curvature, part->tilted)
-                              : part->curvature;
-    }
-}
-
-/* What holds of a placed shape by construction. Curvature outlives uniform scaling only; convexity
-   any affine map, and with the winding flipped the outside stays outside under a mirror. */
-static void describe_shape(const scene_piece *piece, const lrcs_curvature *curvature, double reach,
-                           lrcs_part *part)
-{
-    const lrcs_recipe_part *recipe = piece->part;
-    const double *scale = recipe->place.scale;
-    double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
-    double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
-    int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->lean == 0.0 &&
-                curvature->spread == 0.0;
-    part->kind = recipe->shape.kind;
-    part->curvature = *curvature;
-    part->curvature_known = plane || least == most;
-    part->reach = reach > 0.0 ? 1.000001 * most * reach + 2.0 * part->misplaced : 0.0;
-    part->convex_patch = 1;
-    part->thinnest = least * least_extent(&recipe->shape);
-    part->solid = is_closed(&recipe->shape) && part->thinnest > 0.0;
-}
-
 /* --- parts --------------------------------------------------------------------------------- */
 
 static int add_piece(scene_builder *builder, const lrcs_mesh *mesh, scene_piece *piece,
@@ -507,31 +310,24 @@ static int add_piece(scene_builder *builder, const lrcs_mesh *mesh, scene_piece 
     return status;
 }
 
-static int add_shape(scene_builder *builder, scene_piece *piece, lrcs_work *work, lrcs_scene *scene)
+static int add_shape(scene_builder *builder, scene_piece *piece, const lrcs_divisions *divisions,
+                     lrcs_work *work, lrcs_scene *scene)
 {
     size_t mark = work->used;
-    lrcs_divisions divisions;
-    lrcs_mesh_counts counts;
     lrcs_mesh mesh;
     lrcs_curvature curvature;
-    int status = count_shape(builder, piece->part, &divisions, &counts);
-    if (status != LRCS_OK) {
-        return status;
-    }
-    status = lrcs_shape_mesh(&piece->part->shape, &divisions, work, &mesh, &curvature);
+    int status = lrcs_shape_mesh(&piece->part->shape, divisions, work, &mesh, &curvature);
     if (status != LRCS_OK) {
         return status == LRCS_E_MEMORY
                    ? refuse_memory(builder)
                    : refuse_part(builder, status, piece->part, "a shape that can be meshed");
     }
     lrcs_part *part = &scene->part[scene->part_count];
-    double most = mesh_extent(&mesh);
-    part->misplaced = misplacement(most, &divisions, &piece->placer);
-    describe_shape(piece, &curvature, lrcsi_tessellate_reach(&piece->part->shape, &divisions),
-                   part);
+    double extent = lrcsi_shaped_extent(&mesh);
+    lrcsi_shaped_describe(&piece->part->shape, divisions, &curvature, &piece->placer, extent, part);
     status = add_piece(builder, &mesh, piece, scene);
     if (status == LRCS_OK) {
-        tilt_placed(piece, scene, most, part);
+        lrcsi_shaped_tilt(&piece->placer, scene, extent, part);
     }
     work->used = mark;
     return status;
@@ -563,7 +359,7 @@ static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_sc
                            "a finite place, no scale of 0, a joint's axis of some length");
     }
     if (!piece.part->file) {
-        return add_shape(builder, &piece, work, scene);
+        return add_shape(builder, &piece, &builder->divisions[i], work, scene);
     }
     lrcs_part *part = &scene->part[scene->part_count];
     part->kind = -1;
@@ -616,6 +412,10 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
     uint32_t wardrobe = lrcsi_binder_wardrobe(recipe);
     scene_totals totals;
     builder->binder = lrcsi_binder_plain(recipe);
+    builder->divisions = lrcsi_work_take(work, recipe->part_count, sizeof *builder->divisions);
+    if (!builder->divisions) {
+        return refuse_memory(builder);
+    }
     int status = count_scene(builder, &totals);
     if (status != LRCS_OK) {
         return status;

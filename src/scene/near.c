@@ -115,7 +115,7 @@ static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree,
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
     double within = 2 * (p->nears.reach[part] + p->nears.most) + LRCSI_NEAR_OFF;
-    lrcsi_tree_walk walk = lrcsi_tree_within(tree, p->vertex, scene->facet[facet], within);
+    lrcsi_tree_walk walk = lrcsi_tree_within(tree, scene->facet[facet], within, part);
     int status = LRCS_OK;
     uint32_t other;
     while (status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
@@ -137,7 +137,8 @@ static int nears_find(lrcs_prepared *p, lrcs_work *work)
     const lrcs_scene *scene = p->scene;
     lrcsi_tree tree;
     size_t mark = work->used;
-    int status = lrcsi_tree_make(p->vertex, scene->facet, scene->facet_count, p->skip, work, &tree);
+    int status = lrcsi_tree_make(p->vertex, scene->facet, scene->facet_count, p->skip,
+                                 scene->facet_part, work, &tree);
     for (uint32_t f = 0; f < scene->facet_count && status == LRCS_OK; f++) {
         if (!p->skip[f] && p->nears.reach[scene->facet_part[f]] > 0) {
             status = near_around(p, f, &tree, work);

@@ -13,30 +13,44 @@
 
 #define U 0x1p-53
 
-/* N . d in double-double. Off by at most N's own error times |d|, and 3 products of 3 u^2 with two
-   sums of 3 u^2 each: 12 u^2 |N| |d| sqrt(3). */
-static lrcsi_dd normal_dot(const lrcsi_normal *n, const double *d)
+/* N . d, N being high + low. Products and sums are split into what doubles hold of them and what
+   they lose, and only the sum of the lost parts is rounded: with P = sum |N_k d_k|, at most
+   |N| |d|, the three pairs of up to 2 u P and their products 3 u^2 P, the pairs' sums 4 u^2 P,
+   those of the sums' own lost parts 2 u^2 P, the two together 4 u^2 P. Off by at most N's own error
+   times |d|, 14 u^2 |N| |d|, and the last rounding, u |N . d|. */
+static inline double normal_dot(const double *high, const double *low, const double *d)
 {
-    lrcsi_dd sum = {0, 0};
-    for (int k = 0; k < 3; k++) {
-        sum = lrcsi_dd_add(sum, lrcsi_dd_scale((lrcsi_dd){n->high[k], n->low[k]}, d[k]));
-    }
-    return sum;
+    lrcsi_dd x = lrcsi_dd_two_product(high[0], d[0]);
+    lrcsi_dd y = lrcsi_dd_two_product(high[1], d[1]);
+    lrcsi_dd z = lrcsi_dd_two_product(high[2], d[2]);
+    lrcsi_dd xy = lrcsi_dd_two_sum(x.hi, y.hi);
+    lrcsi_dd xyz = lrcsi_dd_two_sum(xy.hi, z.hi);
+    double lost = ((x.lo + low[0] * d[0]) + (y.lo + low[1] * d[1])) + (z.lo + low[2] * d[2]);
+    return xyz.hi + (lost + (xy.lo + xyz.lo));
 }
 
-/* |N x d|, from components in double-double: each off by at most 9 u^2 |N| |d| beyond N's own
-   error, together with the norm's rounding at most 16 u^2 |N| |d| + 3 u |N x d|. */
-static double normal_cross(const lrcsi_normal *n, const double *d)
+/* N_i d_j - N_j d_i in the same way: with Q = |N_i d_j| + |N_j d_i|, the products' lost parts and
+   that of their difference 3 u^2 Q, N's low parts 2 u^2 Q, all together 3 u^2 Q: 8 u^2 Q and the
+   last rounding. The three Q of N x d are at most sqrt(2) |N| |d| in norm: |N x d| is off by at
+   most N's own error times |d|, 12 u^2 |N| |d|, and 3.5 u |N x d| for the last roundings and the
+   norm's. */
+static inline double normal_turn(const double *high, const double *low, const double *d, int i,
+                                 int j)
 {
-    double component[3];
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3;
-        int j = (k + 2) % 3;
-        lrcsi_dd a = lrcsi_dd_scale((lrcsi_dd){n->high[i], n->low[i]}, d[j]);
-        lrcsi_dd b = lrcsi_dd_scale((lrcsi_dd){n->high[j], n->low[j]}, d[i]);
-        component[k] = lrcsi_dd_value(lrcsi_dd_sub(a, b));
-    }
-    return lrcsi_length(component);
+    lrcsi_dd p = lrcsi_dd_two_product(high[i], d[j]);
+    lrcsi_dd q = lrcsi_dd_two_product(high[j], d[i]);
+    lrcsi_dd s = lrcsi_dd_two_sum(p.hi, -q.hi);
+    return s.hi + (((p.lo - q.lo) + s.lo) + (low[i] * d[j] - low[j] * d[i]));
+}
+
+/* N . d and N x d. */
+static inline double normal_products(const double *high, const double *low, const double *d,
+                                     double *cross)
+{
+    cross[0] = normal_turn(high, low, d, 1, 2);
+    cross[1] = normal_turn(high, low, d, 2, 0);
+    cross[2] = normal_turn(high, low, d, 0, 1);
+    return normal_dot(high, low, d);
 }
 
 /* The absolute error of both, per unit of |d|. */
@@ -51,12 +65,9 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
     const double *d = view->direction;
-    double dot = 0;
-    double size = 0;
-    for (int k = 0; k < 3; k++) {
-        dot += n->high[k] * d[k];
-        size += fabs(n->high[k] * d[k]);
-    }
+    const double part[3] = {n->high[0] * d[0], n->high[1] * d[1], n->high[2] * d[2]};
+    double dot = part[0] + part[1] + part[2];
+    double size = fabs(part[0]) + fabs(part[1]) + fabs(part[2]);
     if (fabs(dot) > 8 * U * size + 2 * n->error * view->length) {
         return dot > 0 ? 1 : -1;
     }
@@ -80,7 +91,8 @@ static double grazing_dot(const lrcsi_view *view, uint32_t facet)
 /* tan^2 = |N x d|^2 / (N . d)^2. Near normal incidence the cross product drowns in its own error
    and only an upper bound of tan^2 is known; near grazing the dot product does, and is taken
    exactly, to 2 u. */
-lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
+static lrcsi_tilt tilt_make(const lrcsi_view *view, uint32_t facet, double dot,
+                            const double cross_product[3])
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
     int facing = view->facing[facet];
@@ -89,9 +101,9 @@ lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
         return tilt;
     }
     double off = normal_off(n) * view->length;
-    double dot = fabs(lrcsi_dd_value(normal_dot(n, view->direction)));
     double dot_off = off;
-    double cross = normal_cross(n, view->direction);
+    dot = fabs(dot);
+    double cross = lrcsi_length(cross_product);
     if (!(dot > GRAZING_DOT * off)) {
         dot = fabs(grazing_dot(view, facet));
         dot_off = 2 * U * dot;
@@ -115,10 +127,50 @@ lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
     return tilt;
 }
 
-int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
+lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
 {
-    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_reflect &&
-                                       lrcsi_prepared_material(view->prepared, facet)->two_sided);
+    const lrcsi_normal *n = &view->prepared->normal[facet];
+    double cross[3];
+    double dot = normal_products(n->high, n->low, view->direction, cross);
+    return tilt_make(view, facet, dot, cross);
+}
+
+/* Normals side by side, component by component: so compilers handle two or more at once. Idle
+   places repeat the first facet, that the count be a constant. */
+typedef struct normal_lanes {
+    double high[3][LRCSI_TILTS], low[3][LRCSI_TILTS];
+    double dot[LRCSI_TILTS], cross[3][LRCSI_TILTS];
+} normal_lanes;
+
+static void lanes_multiply(normal_lanes *lanes, const double *d)
+{
+    for (uint32_t i = 0; i < LRCSI_TILTS; i++) {
+        const double high[3] = {lanes->high[0][i], lanes->high[1][i], lanes->high[2][i]};
+        const double low[3] = {lanes->low[0][i], lanes->low[1][i], lanes->low[2][i]};
+        double cross[3];
+        lanes->dot[i] = normal_products(high, low, d, cross);
+        lanes->cross[0][i] = cross[0];
+        lanes->cross[1][i] = cross[1];
+        lanes->cross[2][i] = cross[2];
+    }
+}
+
+void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
+                      lrcsi_tilt *tilt)
+{
+    normal_lanes lanes;
+    for (uint32_t i = 0; i < LRCSI_TILTS; i++) {
+        const lrcsi_normal *n = &view->prepared->normal[facet[i < count ? i : 0]];
+        for (int k = 0; k < 3; k++) {
+            lanes.high[k][i] = n->high[k];
+            lanes.low[k][i] = n->low[k];
+        }
+    }
+    lanes_multiply(&lanes, view->direction);
+    for (uint32_t i = 0; i < count; i++) {
+        const double cross[3] = {lanes.cross[0][i], lanes.cross[1][i], lanes.cross[2][i]};
+        tilt[i] = tilt_make(view, facet[i], lanes.dot[i], cross);
+    }
 }
 
 static void view_point(const lrcsi_view *view, const double *x, double *out)
@@ -142,11 +194,16 @@ void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
+    uint32_t front = 0; /* in registers: a char, which facings are, may stand anywhere */
+    uint32_t back = 0;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        view->facing[f] = p->skip[f] ? 0 : facing_of(view, f);
-        view->front += view->facing[f] > 0;
-        view->back += view->facing[f] < 0;
+        signed char facing = p->skip[f] ? 0 : facing_of(view, f);
+        view->facing[f] = facing;
+        front += facing > 0;
+        back += facing < 0;
     }
+    view->front = front;
+    view->back = back;
 }
 
 /* The square over the projected box's longer side, centred. */
@@ -172,22 +229,18 @@ static void view_window(lrcsi_view *view)
     }
 }
 
-size_t lrcsi_view_need(const lrcs_prepared *prepared)
+size_t lrcsi_view_face_need(const lrcs_prepared *prepared)
 {
-    return lrcsi_work_add(lrcsi_work_bytes(prepared->scene->facet_count, 1),
-                          lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcs_point)));
+    return lrcsi_work_bytes(prepared->scene->facet_count, 1);
 }
 
-int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view)
 {
     lrcsi_view v = {.prepared = prepared};
     v.backs_cast = v.backs_reflect = !prepared->solid;
-    size_t mark = work->used;
     v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
-    v.point = lrcsi_work_take(work, prepared->scene->vertex_count, sizeof *v.point);
-    if (!v.facing || !v.point) {
-        work->used = mark;
+    if (!v.facing) {
         return LRCS_E_MEMORY;
     }
     double square = 0;
@@ -199,18 +252,51 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
         }
     }
     v.length = sqrt(square);
+    view_facings(&v);
+    *view = v;
+    return LRCS_OK;
+}
+
+int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
+{
+    const lrcs_prepared *p = view->prepared;
+    view->point = lrcsi_work_take(work, p->scene->vertex_count, sizeof *view->point);
+    if (!view->point) {
+        return LRCS_E_MEMORY;
+    }
     /* A coordinate is three products of |R| <= 1 with a rounded difference: 6 u times the reach,
        and R's own rows are off by a few u; a lifted point adds u of the centre. */
     double reach = 0;
     for (int k = 0; k < 3; k++) {
-        reach = lrcsi_most(reach, fabs(prepared->centre[k]));
+        reach = lrcsi_most(reach, fabs(p->centre[k]));
     }
-    v.off = 32 * U * (prepared->radius + reach);
-    view_facings(&v);
-    for (uint32_t i = 0; i < prepared->scene->vertex_count; i++) {
-        view_point(&v, prepared->vertex[i].x, v.point[i].x);
+    view->off = 32 * U * (p->radius + reach);
+    for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
+        view_point(view, p->vertex[i].x, view->point[i].x);
     }
-    view_window(&v);
+    view_window(view);
+    return LRCS_OK;
+}
+
+size_t lrcsi_view_need(const lrcs_prepared *prepared)
+{
+    return lrcsi_work_add(lrcsi_view_face_need(prepared),
+                          lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcs_point)));
+}
+
+int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+                    lrcsi_view *view)
+{
+    lrcsi_view v;
+    size_t mark = work->used;
+    int status = lrcsi_view_face(prepared, pose, work, &v);
+    if (status == LRCS_OK) {
+        status = lrcsi_view_project(work, &v);
+    }
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
     *view = v;
     return LRCS_OK;
 }

@@ -34,17 +34,33 @@ typedef struct lrcsi_view {
     int backs_reflect;    /* they reflect, where their material is two-sided */
 } lrcsi_view;
 
-size_t lrcsi_view_need(const lrcs_prepared *prepared);
+/* A view without coordinates (point, off and the window), which method facet does without: they
+   follow by lrcsi_view_project. Status: LRCS_OK; LRCS_E_MEMORY. It stays in the work area. */
+size_t lrcsi_view_face_need(const lrcs_prepared *prepared);
+int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+                    lrcsi_view *view);
+int lrcsi_view_project(lrcs_work *work, lrcsi_view *view);
 
-/* Status: LRCS_OK; LRCS_E_MEMORY. The view stays in the work area. */
+/* Both: a whole view. */
+size_t lrcsi_view_need(const lrcs_prepared *prepared);
 int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view);
 
 /* Does a facet send light back, if seen? */
-int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet);
+static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
+{
+    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_reflect &&
+                                       lrcsi_prepared_material(view->prepared, facet)->two_sided);
+}
 
 /* The incidence of a facet that is not skipped. */
 lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet);
+
+/* Those of up to LRCSI_TILTS facets, the same to the last bit, in half the time.
+   Returned: tilt[count]. */
+#define LRCSI_TILTS 32u
+void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
+                      lrcsi_tilt *tilt);
 
 /* The point (x, y) of the view plane, on the plane through the scene's centre, in scaled scene
    coordinates, rounded: the sample line through it along the direction is exact by definition. */

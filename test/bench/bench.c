@@ -1,333 +1,400 @@
 /* SPDX-License-Identifier: MIT */
-/* What every stage costs on this machine: the generated satellite at four sizes and the models
-   named on the command line, medians over several directions; per facet, per pixel and in bytes,
-   beside what memory alone would cost (reading the mesh once, writing a frame once). usage: bench
-   [--quick] [--csv FILE] [MODEL ..] */
-#include <stdio.h>
-#include <string.h>
-#include <time.h>
-
+/* What every stage and every whole pose costs on this machine: a generated satellite and a convex
+   body at the sizes of the published comparison, and the models named on the command line. Medians
+   over directions all around; beside each the time that memory alone would take, measured in the
+   same run, and the targets of the project. It decides what is measured; usage: bench [--quick |
+   --tiny] [--csv FILE] [--plot FILE.svg] [--scratch FILE.stl] [MODEL ..] */
 #include <lrcs/host.h>
 
-#include "base/work.h"
-#include "integrate/plan.h"
-#include "integrate/total.h"
-#include "satellite.h"
-#include "visibility/occlude.h"
+#include <stdlib.h>
+#include <string.h>
 
-enum { REPEATS = 9, STAGES_MOST = 32 };
+#include "bench/rows.h"
+#include "bench/scenes.h"
+#include "bench/stages.h"
 
-/* One measured stage: its median, and what it is shared among. */
-typedef struct bench_stage {
-    const char *name;
-    double ms;
-    double pixels; /* 0: per facet only */
-    size_t bytes;  /* of work area that it takes; 0: not said */
-} bench_stage;
+/* How much is measured. */
+enum bench_extent { EXTENT_TINY, EXTENT_QUICK, EXTENT_FULL };
 
-/* One scene under measurement. */
+typedef struct bench_job {
+    int extent;
+    const char *csv, *plot;
+    const char *scratch; /* a model file that may be written, for load */
+    bench_table table;
+} bench_job;
+
+/* The published comparison's sizes; one smaller for the tool's own test. */
+enum { SIZES = 5 };
+static const uint32_t satellite_sizes[SIZES] = {2, 5, 19, 64, 192};
+static const uint32_t cushion_sizes[SIZES] = {4, 12, 49, 165, 499};
+
+/* Targets in ms for whole poses of the satellite at those sizes: 0, none was set. */
+static const double zbuffer_targets[SIZES] = {0, 0.4, 1.5, 6, 45};
+static const double exact_targets[SIZES] = {0, 1, 8, 100, 0};
+
+/* A scene under measurement. */
 typedef struct bench_case {
+    bench_job *job;
     const char *name;
     const lrcs_scene *scene;
     const lrcs_prepared *prepared;
-    lrcs_work work;
-    bench_stage stage[STAGES_MOST];
-    int stages;
-    uint32_t contested;
+    lrcs_work work;     /* of poses */
+    lrcs_result result; /* of the last one */
+    double read;        /* the mesh once, ms */
+    int size;           /* of SIZES, where generated; -1 */
 } bench_case;
 
-static double seconds(void)
+/* ---- how often ---- */
+
+/* Larger scenes are measured less often. */
+static int directions_of(const bench_case *c)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    int few = c->job->extent == EXTENT_TINY ? 1 : 3;
+    return c->job->extent < EXTENT_FULL || c->scene->facet_count > 1000000 ? few : BENCH_DIRECTIONS;
 }
 
-static double median(double *x, int count)
+static int rounds_of(const bench_case *c)
 {
-    for (int i = 1; i < count; i++) {
-        for (int k = i; k > 0 && x[k - 1] > x[k]; k--) {
-            double swap = x[k];
-            x[k] = x[k - 1];
-            x[k - 1] = swap;
+    return c->job->extent > EXTENT_TINY && c->scene->facet_count <= 50000 ? 3 : 1;
+}
+
+static int rasters_of(const bench_case *c)
+{
+    return c->job->extent == EXTENT_FULL ? BENCH_RASTERS : 2;
+}
+
+/* ---- one scene ---- */
+
+static bench_row *case_row(const bench_case *c, const char *stage, bench_times *times)
+{
+    return bench_row_add(&c->job->table, c->name, c->scene, stage, times);
+}
+
+static double frame_ms(const bench_case *c, uint32_t size)
+{
+    char stage[BENCH_NAME];
+    snprintf(stage, sizeof stage, "write frame %lu", (unsigned long)size);
+    for (uint32_t i = c->job->table.count; i-- > 0;) {
+        if (strcmp(c->job->table.row[i].stage, stage) == 0) {
+            return c->job->table.row[i].ms;
         }
     }
-    return 0.5 * (x[(count - 1) / 2] + x[count / 2]);
+    return 0;
 }
 
-static void stage_add(bench_case *b, const char *name, double ms, double pixels, size_t bytes)
+/* The limits first: reading as warm as a pose finds the mesh, that is from memory where it is too
+   large for the caches. */
+static void measure_limits(bench_case *c)
 {
-    b->stage[b->stages++] = (bench_stage){name, ms, pixels, bytes};
-}
-
-/* Directions all around, none of them special. */
-static lrcs_pose pose_of(int repeat)
-{
-    lrcs_pose pose;
-    lrcs_pose_from_azel(137.508 * repeat + 10, 70.0 * sin(2.4 * repeat + 0.5), &pose);
-    return pose;
-}
-
-static void check(int status, const char *what)
-{
-    if (status != LRCS_OK) {
-        fprintf(stderr, "bench: %s: %s\n", what, lrcs_status_text(status));
-        exit(1);
+    bench_times read = {.count = 0};
+    for (int i = 0; i < BENCH_DIRECTIONS; i++) {
+        bench_add(&read, bench_read_mesh(c->scene));
     }
-}
-
-/* --- memory alone ----------------------------------------------------------------------------- */
-
-static volatile double bench_sink;
-static void *(*volatile bench_write)(void *, int, size_t) = memset; /* not to be left out */
-
-static void measure_memory(bench_case *b)
-{
-    double read[REPEATS];
-    double write[REPEATS];
-    const double *vertex = &b->scene->vertex[0].x[0];
-    size_t frame = (size_t)1024 * 1024 * 12;
-    unsigned char *bytes = malloc(frame);
-    for (int i = 0; i < REPEATS && bytes; i++) {
-        double start = seconds();
-        double sum = 0;
-        for (size_t k = 0; k < 3 * (size_t)b->scene->vertex_count; k++) {
-            sum += vertex[k];
+    c->read = case_row(c, "read mesh", &read)->ms;
+    for (int raster = 0; raster < rasters_of(c); raster++) {
+        char stage[BENCH_NAME];
+        uint32_t size = bench_raster_size(raster);
+        bench_times write = {.count = 0};
+        void *frame = bench_memory(bench_frame_bytes(size));
+        bench_write_frame(size, frame); /* the system hands out its pages */
+        for (int i = 0; i < BENCH_DIRECTIONS; i++) {
+            bench_add(&write, bench_write_frame(size, frame));
         }
-        for (size_t f = 0; f < b->scene->facet_count; f++) {
-            sum += b->scene->facet[f].corner[f % 3];
-        }
-        bench_sink = sum;
-        read[i] = seconds() - start;
-        start = seconds();
-        bench_write(bytes, i, frame);
-        bench_sink = bytes[frame / 2];
-        write[i] = seconds() - start;
+        free(frame);
+        snprintf(stage, sizeof stage, "write frame %lu", (unsigned long)size);
+        bench_row *row = case_row(c, stage, &write);
+        row->pixels = (uint64_t)size * size;
+        row->bytes = bench_frame_bytes(size);
     }
-    free(bytes);
-    stage_add(b, "(read the mesh once)", 1e3 * median(read, REPEATS), 0, 0);
-    stage_add(b, "(write a 1024 frame)", 1e3 * median(write, REPEATS), 1024.0 * 1024, frame);
 }
 
-/* --- stages of a pose ------------------------------------------------------------------------- */
-
-/* A view and its contested facets, with room for the areas. */
-typedef struct bench_view {
-    lrcsi_view view;
-    lrcsi_contest contest;
-    lrcsi_visible *visible;
-} bench_view;
-
-static void view_start(bench_case *b, int repeat, bench_view *v)
+/* The prepared scene stays in the area given back. */
+static void *measure_prepare(bench_case *c)
 {
-    lrcs_pose pose = pose_of(repeat);
-    v->visible = lrcsi_work_take(&b->work, b->scene->facet_count, sizeof *v->visible);
-    check(lrcsi_view_make(b->prepared, &pose, &b->work, &v->view), "view");
-    check(lrcsi_contest_make(&v->view, &b->work, &v->contest), "contest");
-}
-
-static void measure_view(bench_case *b, int repeats)
-{
-    double view[REPEATS];
-    double contest[REPEATS];
-    uint64_t contested = 0;
-    for (int i = 0; i < repeats; i++) {
-        size_t mark = b->work.used;
-        lrcs_pose pose = pose_of(i);
-        bench_view v;
-        double start = seconds();
-        check(lrcsi_view_make(b->prepared, &pose, &b->work, &v.view), "view");
-        view[i] = seconds() - start;
-        start = seconds();
-        check(lrcsi_contest_make(&v.view, &b->work, &v.contest), "contest");
-        contest[i] = seconds() - start;
-        contested += v.contest.contested_count;
-        b->work.used = mark;
+    bench_times times = {.count = 0};
+    size_t need = lrcs_prepare_need(c->scene);
+    void *bytes = bench_memory(need);
+    lrcs_work work;
+    for (int i = 0; i < rounds_of(c); i++) {
+        work = lrcs_work_make(bytes, need);
+        double start = bench_now_ms();
+        bench_check(lrcs_prepare_run(c->scene, &work, &c->prepared), "prepare");
+        bench_add(&times, bench_now_ms() - start);
     }
-    b->contested = (uint32_t)(contested / (uint64_t)repeats);
-    stage_add(b, "cull and project", 1e3 * median(view, repeats), 0, lrcsi_view_need(b->prepared));
-    stage_add(b, "find contested", 1e3 * median(contest, repeats), 0,
-              lrcsi_contest_need(b->prepared));
+    bench_row *row = case_row(c, "prepare", &times);
+    row->bytes = work.peak;
+    row->limit = c->read;
+    return bytes;
 }
 
-static void measure_raster(bench_case *b, int repeats, uint32_t size)
+static void stage_row_add(bench_case *c, bench_stages *stages, int stage, const char *name,
+                          uint32_t size)
 {
-    static char name[8][2][32];
-    static int names;
-    double raster[REPEATS];
-    double areas[REPEATS];
-    size_t bytes = 0;
-    for (int i = 0; i < repeats; i++) {
-        size_t mark = b->work.used;
-        lrcsi_raster r;
-        bench_view v;
-        view_start(b, i, &v);
-        size_t before = b->work.used;
-        double start = seconds();
-        check(lrcsi_raster_make(&v.view, size, &b->work, &r), "raster");
-        raster[i] = seconds() - start;
-        bytes = b->work.used - before;
-        start = seconds();
-        check(lrcsi_visible_sampled(&v.contest, &r, &b->work, v.visible), "areas");
-        areas[i] = seconds() - start;
-        b->work.used = mark;
+    char text[BENCH_NAME];
+    snprintf(text, sizeof text, size ? "%s %lu" : "%s", name, (unsigned long)size);
+    bench_row *row = case_row(c, text, &stages->times[stage]);
+    row->bytes = stages->bytes[stage];
+    row->pixels = (uint64_t)size * size;
+    row->limit = c->read + (size ? frame_ms(c, size) : 0);
+}
+
+static void measure_stages(bench_case *c)
+{
+    bench_stages warm = {.poses = 0};
+    bench_stages stages = {.poses = 0};
+    lrcs_pose pose = bench_pose(0);
+    bench_stages_run(c->prepared, &pose, rasters_of(c), &c->work, &warm);
+    for (int i = 0; i < directions_of(c) * rounds_of(c); i++) {
+        pose = bench_pose(i % directions_of(c));
+        bench_stages_run(c->prepared, &pose, rasters_of(c), &c->work, &stages);
     }
-    int at = names++ % 8;
-    snprintf(name[at][0], sizeof name[at][0], "raster %u", size);
-    snprintf(name[at][1], sizeof name[at][1], "areas of raster %u", size);
-    double pixels = (double)size * size;
-    stage_add(b, name[at][0], 1e3 * median(raster, repeats), pixels, bytes);
-    stage_add(b, name[at][1], 1e3 * median(areas, repeats), pixels, 0);
-}
-
-static void measure_exact(bench_case *b, int repeats)
-{
-    double exact[REPEATS];
-    double sum[REPEATS];
-    for (int i = 0; i < repeats; i++) {
-        size_t mark = b->work.used;
-        bench_view v;
-        view_start(b, i, &v);
-        uint32_t starved;
-        lrcs_run_options options = lrcs_run_options_default();
-        lrcsi_plan plan = lrcsi_plan_make(&v.view, &options);
-        double start = seconds();
-        check(lrcsi_occlude_all(&v.contest, &b->work, v.visible, &starved), "exact");
-        exact[i] = seconds() - start;
-        start = seconds();
-        bench_sink = lrcsi_total_make(&v.view, &plan, v.visible, NULL, NULL, NULL).diffuse;
-        sum[i] = seconds() - start;
-        b->work.used = mark;
+    stage_row_add(c, &stages, BENCH_CULL, "cull", 0);
+    stage_row_add(c, &stages, BENCH_CONTEST, "contest", 0);
+    for (int raster = 0; raster < rasters_of(c); raster++) {
+        stage_row_add(c, &stages, BENCH_RASTER + raster, "raster", bench_raster_size(raster));
+        stage_row_add(c, &stages, BENCH_AREAS + raster, "areas of", bench_raster_size(raster));
     }
-    stage_add(b, "exact areas", 1e3 * median(exact, repeats), 0, lrcsi_occlude_need(b->prepared));
-    stage_add(b, "sum", 1e3 * median(sum, repeats), 0, 0);
+    stage_row_add(c, &stages, BENCH_EXACT, "exact", 0);
+    stage_row_add(c, &stages, BENCH_SUM, "sum", 0);
+    printf("%s: %.0f facets contested in the mean\n", c->name,
+           (double)stages.contested / stages.poses);
 }
 
-static void measure_pose(bench_case *b, int repeats, const char *name, int method, uint32_t size)
+static bench_row *measure_pose(bench_case *c, const char *name, int method, uint32_t size)
 {
-    double time[REPEATS];
+    bench_times times = {.count = 0};
     lrcs_run_options options = lrcs_run_options_default();
     options.method = method;
     options.resolution = size;
-    for (int i = 0; i < repeats; i++) {
-        lrcs_pose pose = pose_of(i);
-        lrcs_result result;
-        double start = seconds();
-        check(lrcs_sigma_run(b->prepared, &pose, &options, &b->work, &result, NULL, NULL), name);
-        time[i] = seconds() - start;
-    }
-    stage_add(b, name, 1e3 * median(time, repeats), (double)size * size,
-              lrcs_sigma_need(b->prepared, &options));
-}
-
-/* --- one scene -------------------------------------------------------------------------------- */
-
-static size_t work_size(const lrcs_scene *scene, int quick)
-{
-    size_t pixels = quick ? (size_t)1024 * 1024 : (size_t)4096 * 4096;
-    return lrcs_prepare_need(scene) + 900 * (size_t)scene->facet_count + 16 * pixels +
-           ((size_t)64 << 20);
-}
-
-static void case_print(const bench_case *b, FILE *csv)
-{
-    double facets = b->scene->facet_count;
-    printf("\n%s: %.0f facets, %u contested\n", b->name, facets, b->contested);
-    printf("  %-22s %10s %10s %10s %12s\n", "stage", "ms", "ns/facet", "ns/pixel", "work bytes");
-    for (int i = 0; i < b->stages; i++) {
-        const bench_stage *s = &b->stage[i];
-        char pixel[32] = "-";
-        char bytes[32] = "-";
-        if (s->pixels > 0) {
-            snprintf(pixel, sizeof pixel, "%.2f", 1e6 * s->ms / s->pixels);
-        }
-        if (s->bytes > 0) {
-            snprintf(bytes, sizeof bytes, "%zu", s->bytes);
-        }
-        printf("  %-22s %10.3f %10.1f %10s %12s\n", s->name, s->ms, 1e6 * s->ms / facets, pixel,
-               bytes);
-        if (csv) {
-            fprintf(csv, "%s,%.0f,%u,%s,%.6g,%.6g,%s,%s\n", b->name, facets, b->contested, s->name,
-                    s->ms, 1e6 * s->ms / facets, s->pixels > 0 ? pixel : "",
-                    s->bytes > 0 ? bytes : "");
+    c->work.peak = 0;
+    for (int i = -1; i < directions_of(c) * rounds_of(c); i++) {
+        lrcs_pose pose = bench_pose(i < 0 ? 0 : i % directions_of(c));
+        double start = bench_now_ms();
+        bench_check(lrcs_sigma_run(c->prepared, &pose, &options, &c->work, &c->result, NULL, NULL),
+                    name);
+        if (i >= 0) {
+            bench_add(&times, bench_now_ms() - start);
         }
     }
-    fflush(stdout);
+    bench_row *row = case_row(c, name, &times);
+    row->bytes = c->work.peak;
+    row->pixels = (uint64_t)size * size;
+    row->limit = c->read + (size ? frame_ms(c, size) : 0);
+    return row;
 }
 
-/* Everything about a scene that is loaded; `load` is in milliseconds, negative if not measured. */
-static void scene_measure(const char *name, const lrcs_scene *scene, double load, int quick,
-                          FILE *csv)
+/* The facet pose; its target is for convex bodies, which must be known for what they are. */
+static void measure_facet(bench_case *c, int convex)
 {
-    int repeats = scene->facet_count > 100000 ? 3 : REPEATS;
-    size_t size = work_size(scene, quick);
-    void *bytes = malloc(size);
-    check(bytes ? LRCS_OK : LRCS_E_MEMORY, name);
-    bench_case b = {.name = name, .scene = scene, .work = lrcs_work_make(bytes, size)};
-    measure_memory(&b);
-    if (load >= 0) {
-        stage_add(&b, "load", load, 0, 0);
+    bench_row *row = measure_pose(c, "pose facet", LRCS_METHOD_FACET, 0);
+    if (convex) {
+        row->target = 2 * c->read;
+        bench_check(c->result.effect[LRCS_EFFECT_SELF_SHADOWING].on ? LRCS_E_ARGUMENT : LRCS_OK,
+                    "a convex body");
     }
-    double start = seconds();
-    check(lrcs_prepare_run(scene, &b.work, &b.prepared), "prepare");
-    stage_add(&b, "prepare", 1e3 * (seconds() - start), 0, b.work.peak);
-    measure_view(&b, repeats);
-    for (uint32_t n = 512; n <= (quick ? 1024u : 4096u); n *= 2) {
-        measure_raster(&b, repeats, n);
+    if (c->size >= 0 || convex) {
+        bench_check(c->result.effect[LRCS_EFFECT_BACK_FACE_CASTERS].on ? LRCS_E_ARGUMENT : LRCS_OK,
+                    "a closed body");
     }
-    measure_exact(&b, repeats);
-    measure_pose(&b, repeats, "pose, facet", LRCS_METHOD_FACET, 0);
-    measure_pose(&b, repeats, "pose, zbuffer 1024", LRCS_METHOD_ZBUFFER, 1024);
-    measure_pose(&b, repeats, "pose, exact", LRCS_METHOD_EXACT, 0);
-    case_print(&b, csv);
+}
+
+static void measure_methods(bench_case *c)
+{
+    bench_row *row = measure_pose(c, "pose zbuffer 1024", LRCS_METHOD_ZBUFFER, 1024);
+    row->target = c->size >= 0 ? zbuffer_targets[c->size] : 0;
+    row = measure_pose(c, "pose exact", LRCS_METHOD_EXACT, 0);
+    row->target = c->size >= 0 ? exact_targets[c->size] : 0;
+}
+
+/* Room for the stages of a pose, which stand beside one another. */
+static size_t pose_need(const bench_case *c)
+{
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = LRCS_METHOD_EXACT;
+    size_t need = lrcs_sigma_need(c->prepared, &options);
+    options.method = LRCS_METHOD_ZBUFFER;
+    options.resolution = bench_raster_size(rasters_of(c) - 1);
+    return need + lrcs_sigma_need(c->prepared, &options);
+}
+
+static void case_measure(bench_case *c, int convex, bench_times *load)
+{
+    uint32_t first = c->job->table.count;
+    measure_limits(c);
+    if (load->count > 0) {
+        case_row(c, "load", load)->limit = c->read;
+    }
+    void *prepared = measure_prepare(c);
+    size_t size = pose_need(c);
+    void *bytes = bench_memory(size);
+    c->work = lrcs_work_make(bytes, size);
+    if (!convex) {
+        measure_stages(c);
+        measure_methods(c);
+    }
+    measure_facet(c, convex);
+    bench_table_scene(&c->job->table, first);
     free(bytes);
+    free(prepared);
 }
 
-static void satellite_measure(uint32_t n, int quick, FILE *csv)
+/* ---- which scenes ---- */
+
+/* Binary STL, 32 bits little-endian a number whatever the machine. */
+static void put_word(FILE *out, uint32_t word)
 {
-    char name[32];
-    satellite s;
-    satellite_make(&s, n);
-    snprintf(name, sizeof name, "satellite %u", s.scene.facet_count);
-    scene_measure(name, &s.scene, -1, quick, csv);
-    satellite_free(&s);
+    for (int k = 0; k < 4; k++) {
+        fputc((int)(word >> 8 * k & 0xff), out);
+    }
 }
 
-static void model_measure(const char *path, int quick, FILE *csv)
+static void stl_write(const lrcs_scene *scene, FILE *out)
+{
+    static const char head[80] = "a generated satellite";
+    fwrite(head, 1, sizeof head, out);
+    put_word(out, scene->facet_count);
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        for (int k = 0; k < 12; k++) {
+            const double *x = scene->vertex[scene->facet[f].corner[k < 3 ? 0 : k / 3 - 1]].x;
+            float coordinate = k < 3 ? 0.0f : (float)x[k % 3];
+            uint32_t word;
+            memcpy(&word, &coordinate, sizeof word);
+            put_word(out, word);
+        }
+        fputc(0, out);
+        fputc(0, out);
+    }
+}
+
+/* Reads a model file `count` times. The scene read last stays. */
+static void model_load(const char *path, int count, lrcs_host_scene *scene, bench_times *load)
 {
     lrcs_host_options options = lrcs_host_options_default();
-    lrcs_host_scene scene = {0};
     lrcs_host_error error;
-    if (lrcs_host_scene_read(path, &options, &scene, &error) != LRCS_OK) {
+    for (int i = 0; i < count; i++) {
+        lrcs_host_scene_free(scene);
+        *scene = (lrcs_host_scene){.blocks = NULL};
+        if (lrcs_host_scene_read(path, &options, scene, &error) != LRCS_OK) {
+            fprintf(stderr, "bench: %s\n", error.text);
+            exit(1);
+        }
+        bench_add(load, 1e3 * scene->seconds_load);
+    }
+}
+
+/* What loading the scene from an STL file takes. */
+static void scratch_load(const bench_case *c, bench_times *load)
+{
+    lrcs_host_scene scene = {.blocks = NULL};
+    FILE *out = c->job->scratch ? fopen(c->job->scratch, "wb") : NULL;
+    if (!out) {
+        return;
+    }
+    stl_write(c->scene, out);
+    if (fclose(out) == 0) {
+        model_load(c->job->scratch, rounds_of(c), &scene, load);
+    }
+    lrcs_host_scene_free(&scene);
+    remove(c->job->scratch);
+}
+
+static void measure_made(bench_job *job, int size, int convex)
+{
+    char name[BENCH_NAME];
+    bench_scene made;
+    bench_times load = {.count = 0};
+    if (convex) {
+        bench_cushion(&made, cushion_sizes[size]);
+    } else {
+        bench_satellite(&made, satellite_sizes[size]);
+    }
+    snprintf(name, sizeof name, "%s %lu", convex ? "convex" : "satellite",
+             (unsigned long)made.scene.facet_count);
+    bench_case c = {.job = job, .name = name, .scene = &made.scene, .size = convex ? -1 : size};
+    if (!convex) {
+        scratch_load(&c, &load);
+    }
+    case_measure(&c, convex, &load);
+    bench_scene_free(&made);
+}
+
+static void measure_model(bench_job *job, const char *path)
+{
+    const char *name = strrchr(path, '/');
+    lrcs_host_scene scene = {.blocks = NULL};
+    bench_times load = {.count = 0};
+    model_load(path, job->extent == EXTENT_TINY ? 1 : 3, &scene, &load);
+    bench_case c = {.job = job, .name = name ? name + 1 : path, .scene = &scene.scene, .size = -1};
+    case_measure(&c, 0, &load);
+    lrcs_host_scene_free(&scene);
+}
+
+/* ---- the whole ---- */
+
+/* Options stand before models. Returned: the first model's place. */
+static int arguments_read(bench_job *job, int count, char **argument)
+{
+    int i = 1;
+    for (; i < count && strncmp(argument[i], "--", 2) == 0; i++) {
+        const char **value = strcmp(argument[i], "--csv") == 0       ? &job->csv
+                             : strcmp(argument[i], "--plot") == 0    ? &job->plot
+                             : strcmp(argument[i], "--scratch") == 0 ? &job->scratch
+                                                                     : NULL;
+        if (strcmp(argument[i], "--quick") == 0 || strcmp(argument[i], "--tiny") == 0) {
+            job->extent = argument[i][2] == 'q' ? EXTENT_QUICK : EXTENT_TINY;
+        } else if (value && i + 1 < count) {
+            *value = argument[++i];
+        } else {
+            fprintf(stderr, "usage: bench [--quick | --tiny] [--csv FILE] [--plot FILE.svg] "
+                            "[--scratch FILE.stl] [MODEL ..]\n");
+            exit(2);
+        }
+    }
+    return i;
+}
+
+static void output_write(const bench_table *table, const char *path, int chart)
+{
+    lrcs_host_output output;
+    lrcs_host_error error;
+    if (!path) {
+        return;
+    }
+    int status = lrcs_host_output_open(path, &output, &error);
+    if (status == LRCS_OK) {
+        if (chart) {
+            bench_table_chart(table, "satellite ", "convex ", output.stream);
+        } else {
+            bench_table_csv(table, output.stream);
+        }
+        status = lrcs_host_output_close(&output, 1, &error);
+    }
+    if (status != LRCS_OK) {
         fprintf(stderr, "bench: %s\n", error.text);
         exit(1);
     }
-    const char *name = strrchr(path, '/');
-    scene_measure(name ? name + 1 : path, &scene.scene, 1e3 * scene.seconds_load, quick, csv);
-    lrcs_host_scene_free(&scene);
+    printf("%s: written\n", path);
 }
 
 int main(int count, char **argument)
 {
-    static const uint32_t sizes[] = {5, 19, 64, 192};
-    int quick = 0;
-    FILE *csv = NULL;
-    int first = 1;
-    for (; first < count && strncmp(argument[first], "--", 2) == 0; first++) {
-        if (strcmp(argument[first], "--csv") == 0 && first + 1 < count) {
-            csv = fopen(argument[++first], "w");
-        } else {
-            quick = 1;
-        }
+    static bench_job job = {.extent = EXTENT_FULL};
+    int model = arguments_read(&job, count, argument);
+    int first = job.extent == EXTENT_TINY ? 0 : 1;
+    int end = job.extent == EXTENT_TINY ? 2 : job.extent == EXTENT_QUICK ? 3 : SIZES;
+    bench_machine(stdout, "");
+    for (int size = first; size < end; size++) {
+        measure_made(&job, size, 0);
+        measure_made(&job, size, 1);
     }
-    if (csv) {
-        fprintf(csv, "scene,facets,contested,stage,ms,ns_per_facet,ns_per_pixel,bytes\n");
+    if (model == count) {
+        printf("\nmodels: none given, skipped\n");
     }
-    for (int i = 0; i < (quick ? 2 : 4); i++) {
-        satellite_measure(sizes[i], quick, csv);
+    for (; model < count; model++) {
+        measure_model(&job, argument[model]);
     }
-    for (; first < count; first++) {
-        model_measure(argument[first], quick, csv);
-    }
-    return csv && fclose(csv) != 0;
+    bench_table_poses(&job.table);
+    output_write(&job.table, job.csv, 0);
+    output_write(&job.table, job.plot, 1);
+    return 0;
 }

@@ -237,6 +237,31 @@ static void polygons_are_symmetric_to_the_bit_and_start_on_x(void **state)
     }
 }
 
+/* As fans they would be n/pi times as long as high, and all would meet in the middle. */
+static void discs_of_many_sides_have_no_slivers(void **state)
+{
+    (void)state;
+    const uint32_t arounds[] = {64, 100, 516, 1000, 4096};
+    lrcs_shape disc = {.kind = LRCS_SHAPE_DISC, .radius = 0.7};
+    for (size_t i = 0; i < sizeof arounds / sizeof arounds[0]; i++) {
+        uint32_t n = arounds[i];
+        lrcs_mesh mesh = make(&disc, n, 1, NULL);
+        check_rel(group_area(&mesh, 0), pi * 0.49, 1e-13);
+        assert_true(mesh.facet_count < 1.4 * n);
+        for (uint32_t f = 0; f < mesh.facet_count; f++) {
+            double u[3];
+            double v[3];
+            double w[3];
+            minus(corner(&mesh, f, 1), corner(&mesh, f, 0), u);
+            minus(corner(&mesh, f, 2), corner(&mesh, f, 0), v);
+            minus(corner(&mesh, f, 2), corner(&mesh, f, 1), w);
+            double longest = fmax(dot(u, u), fmax(dot(v, v), dot(w, w)));
+            double twice = u[0] * v[1] - u[1] * v[0]; /* of the area, from above */
+            check_most(longest / twice, 24.0);
+        }
+    }
+}
+
 static void a_sphere_is_symmetric_about_its_equator_which_lies_at_zero(void **state)
 {
     (void)state;
@@ -495,6 +520,7 @@ int main(void)
         cmocka_unit_test(solids_are_closed_manifolds_that_face_outward),
         cmocka_unit_test(solids_are_convex_up_to_rounding),
         cmocka_unit_test(polygons_are_symmetric_to_the_bit_and_start_on_x),
+        cmocka_unit_test(discs_of_many_sides_have_no_slivers),
         cmocka_unit_test(a_sphere_is_symmetric_about_its_equator_which_lies_at_zero),
         cmocka_unit_test(plane_faced_bodies_and_discs_have_no_curvature),
         cmocka_unit_test(curvature_bounds_every_patch_and_is_nearly_reached),

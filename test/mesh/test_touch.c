@@ -48,12 +48,18 @@ static void check_kinds(const lrcs_point *v, const pair_case *c)
     }
 }
 
-/* A rim that is met is never missed. *sure counts those not met and told so. */
-static void check_rims(const lrcs_point *v, const pair_case *c, int *sure)
+/* A rim that is met is never missed, whether corners in one place are one vertex or two. *sure
+   counts those not met and told so. */
+static void check_rims(const lrcs_point *v, const pair_case *c, int welded, int *sure)
 {
-    static const lrcs_facet both[2] = {{{0, 1, 2}}, {{3, 4, 5}}};
+    lrcs_facet both[2] = {first_three, last_three};
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_touches t;
+    for (uint32_t i = 0; i < 9 && welded; i++) {
+        if (memcmp(&v[i / 3], &v[3 + i % 3], sizeof *v) == 0) {
+            both[1].corner[i % 3] = i / 3;
+        }
+    }
     assert_int_equal(lrcsi_touches_make(v, both, 2, NULL, NULL, &work, &t), LRCS_OK);
     assert_true(t.rim[0] >= c->b_on_a);
     assert_true(t.rim[1] >= c->a_on_b);
@@ -64,6 +70,7 @@ static void pairs_agree_with_rational_clipping(void **state)
 {
     (void)state;
     int sure = 0;
+    int sure_welded = 0;
     int clean = 0;
     for (int n = 0; n < PAIRS; n++) {
         lrcs_point v[6];
@@ -71,11 +78,13 @@ static void pairs_agree_with_rational_clipping(void **state)
             v[i / 3].x[i % 3] = pair_cases[n].x[i];
         }
         check_kinds(v, &pair_cases[n]);
-        check_rims(v, &pair_cases[n], &sure);
+        check_rims(v, &pair_cases[n], 0, &sure);
+        check_rims(v, &pair_cases[n], 1, &sure_welded);
         clean += !pair_cases[n].b_on_a + !pair_cases[n].a_on_b;
     }
     assert_true(PAIRS >= 4000);
     assert_true(clean >= 1000 && 2 * sure > clean); /* most of the clean ones are told */
+    assert_true(sure_welded >= sure);
 }
 
 /* The same under an integer map that tilts and shears, far from the origin, times a power of
@@ -172,24 +181,114 @@ static void the_tree_misses_no_contact(void **state)
     }
 }
 
-static void candidates_come_once_each(void **state)
+/* Facets between few vertices: most share corners with many others, and many cross. */
+static void facets_about_common_corners_are_told_apart_exactly(void **state)
 {
     (void)state;
     static unsigned char skip[MOST];
-    static unsigned char met[MOST];
-    make_soup(500, 0.0, skip);
+    for (uint32_t round = 0; round < 24; round++) {
+        uint32_t vertices = 6 + 4 * round;
+        uint32_t hubs = 1 + round % 3;
+        for (uint32_t v = 0; v < vertices; v++) {
+            for (int k = 0; k < 3; k++) { /* some on a lattice, some in one plane */
+                double x = next_number() - 0.5;
+                vertex[v].x[k] = round % 4 == 3 && k == 2 ? 0.25 : round % 2 ? floor(9 * x) : x;
+            }
+        }
+        for (uint32_t f = 0; f < 200; f++) {
+            for (uint32_t c = 0; c < 3; c++) {
+                facet[f].corner[c] = (uint32_t)(next_number() * (c == f % 3 ? hubs : vertices));
+            }
+            const uint32_t *c = facet[f].corner;
+            skip[f] = (unsigned char)lrcsi_exact_collinear(vertex[c[0]].x, vertex[c[1]].x,
+                                                           vertex[c[2]].x);
+        }
+        check_against_all_pairs(200, skip);
+    }
+}
+
+/* A cone, tilted, over its base: slivers about its tip and about the middle of its base. */
+static void facets_of_a_fan_are_not_all_candidates_of_each_other(void **state)
+{
+    (void)state;
+    enum { N = 1400 };
+    for (uint32_t i = 0; i < N + 2; i++) {
+        double turn = 2.0 * 3.14159265358979 * i / N;
+        double x = i < N ? cos(turn) : 0.0;
+        double y = i < N ? sin(turn) : 0.0;
+        double z = i == N ? 1.5 : 0.0;
+        vertex[i] = (lrcs_point){{0.8 * x - 0.6 * z, y, 0.6 * x + 0.8 * z}};
+    }
+    for (uint32_t i = 0; i < N; i++) {
+        facet[i] = (lrcs_facet){{N, i, (i + 1) % N}};
+        facet[N + i] = (lrcs_facet){{N + 1, (i + 1) % N, i}};
+    }
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_tree tree;
-    assert_int_equal(lrcsi_tree_make(vertex, facet, 500, NULL, &work, &tree), LRCS_OK);
-    for (uint32_t f = 0; f < 500; f += 17) {
-        memset(met, 0, sizeof met);
-        lrcsi_tree_walk walk = lrcsi_tree_around(&tree, vertex, facet[f]);
-        for (uint32_t g = lrcsi_tree_next(&walk); g != LRCS_NONE; g = lrcsi_tree_next(&walk)) {
-            assert_true(g < 500 && !met[g]);
-            met[g] = 1;
+    uint32_t candidates = 0;
+    assert_int_equal(lrcsi_tree_make(vertex, facet, 2 * N, NULL, NULL, &work, &tree), LRCS_OK);
+    for (uint32_t place = 0; place < 2 * N; place++) {
+        lrcsi_tree_walk walk = lrcsi_tree_after(&tree, place);
+        while (lrcsi_tree_next(&walk) != LRCS_NONE) {
+            candidates++;
         }
-        assert_true(met[f]);
     }
+    assert_true(candidates >= 3 * N && candidates < N * (N / 8));
+}
+
+/* Candidates of a group may be left out, all others within a distance may not. */
+static void a_walk_without_a_group_misses_no_other(void **state)
+{
+    (void)state;
+    static unsigned char skip[MOST];
+    static unsigned char met[2][MOST];
+    static uint32_t group[MOST];
+    make_soup(500, 0.0, skip);
+    for (uint32_t f = 0; f < 500; f++) {
+        group[f] = vertex[3 * f].x[0] < 0.5 ? 3 : f % 2;
+    }
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_tree tree;
+    assert_int_equal(lrcsi_tree_make(vertex, facet, 500, NULL, group, &work, &tree), LRCS_OK);
+    uint32_t left_out = 0;
+    for (uint32_t f = 0; f < 500; f += 7) {
+        memset(met, 0, sizeof met);
+        for (int pass = 0; pass < 2; pass++) {
+            lrcsi_tree_walk walk =
+                lrcsi_tree_within(&tree, facet[f], 0.05, pass == 0 ? LRCS_NONE : 3);
+            for (uint32_t g = lrcsi_tree_next(&walk); g != LRCS_NONE; g = lrcsi_tree_next(&walk)) {
+                met[pass][g] = 1;
+            }
+        }
+        for (uint32_t g = 0; g < 500; g++) {
+            assert_true(met[1][g] == met[0][g] || group[g] == 3);
+            left_out += met[1][g] != met[0][g];
+        }
+    }
+    assert_true(left_out > 0);
+}
+
+static void pairs_of_candidates_come_once_each(void **state)
+{
+    (void)state;
+    enum { N = 500 };
+    static unsigned char skip[MOST];
+    static unsigned char met[N][N];
+    make_soup(N, 0.0, skip);
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_tree tree;
+    uint32_t pairs = 0;
+    assert_int_equal(lrcsi_tree_make(vertex, facet, N, NULL, NULL, &work, &tree), LRCS_OK);
+    for (uint32_t place = 0; place < N; place++) {
+        uint32_t f = tree.order[place];
+        lrcsi_tree_walk walk = lrcsi_tree_after(&tree, place);
+        for (uint32_t g = lrcsi_tree_next(&walk); g != LRCS_NONE; g = lrcsi_tree_next(&walk)) {
+            assert_true(g < N && g != f && !met[f][g] && !met[g][f]);
+            met[f][g] = 1;
+            pairs++;
+        }
+    }
+    assert_true(pairs > 10 && pairs < N * (N - 1) / 2);
 }
 
 /* A closed surface without self-contact, its top gridded: neighbours share edges and corners. */
@@ -316,7 +415,10 @@ int main(void)
         cmocka_unit_test(pairs_agree_with_rational_clipping),
         cmocka_unit_test(affine_images_keep_their_contacts),
         cmocka_unit_test(the_tree_misses_no_contact),
-        cmocka_unit_test(candidates_come_once_each),
+        cmocka_unit_test(facets_about_common_corners_are_told_apart_exactly),
+        cmocka_unit_test(facets_of_a_fan_are_not_all_candidates_of_each_other),
+        cmocka_unit_test(a_walk_without_a_group_misses_no_other),
+        cmocka_unit_test(pairs_of_candidates_come_once_each),
         cmocka_unit_test(neighbours_on_a_closed_surface_do_not_touch),
         cmocka_unit_test(a_strut_touches_the_plate_and_not_the_other_way),
         cmocka_unit_test(a_plate_one_ulp_above_another_does_not_touch),

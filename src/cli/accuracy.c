@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+/* How accurate a run is asked to be, and by which method, as the command line says it. */
+#include "cli/cli.h"
+
+#define RASTER_MOST 16384.0
+
+int cli_accuracy_read(const cli_args *args, lrcs_run_options *options)
+{
+    const char *method = cli_value(args, "method");
+    *options = lrcs_run_options_default();
+    int code = cli_number(args, "tolerance", &options->tolerance);
+    if (code == 0 && !(options->tolerance > 0.0)) {
+        return cli_usage(args->command, "--tolerance: expected a relative error > 0, found '%s'",
+                         cli_value(args, "tolerance"));
+    }
+    if (code == 0 && method) {
+        options->method = lrcs_method_find(method);
+        if (options->method < 0) {
+            return cli_usage(args->command,
+                             "--method: expected auto, facet, zbuffer or exact, found '%s'",
+                             method);
+        }
+    }
+    return code ? code : cli_whole(args, "resolution", 1.0, RASTER_MOST, &options->resolution);
+}
+
+int cli_normals_read(const cli_args *args, lrcs_host_options *load)
+{
+    const char *normals = cli_value(args, "normals");
+    int found = normals ? lrcs_normals_find(normals) : LRCS_NORMALS_FLAT;
+    if (found < 0) {
+        return cli_usage(args->command, "--normals: expected flat, auto or smooth, found '%s'",
+                         normals);
+    }
+    load->build.normals = found;
+    return 0;
+}
+
+int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options)
+{
+    return options->method == LRCS_METHOD_AUTO || cli_value(args, "tolerance") != NULL;
+}

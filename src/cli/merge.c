@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs merge: the shards of a sweep, made whole. The rows go over byte by byte, so that the file is
+   the one that a single sweep would have made. */
+#include "cli/sweep.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char merge_help[] =
+    "usage: lrcs merge FILE... -o OUT\n"
+    "\n"
+    "Joins the files that lrcs sweep --shard made, in any order, into the file that one sweep "
+    "would\n"
+    "have made, byte for byte. All must be of one sweep, and hold every row once.\n"
+    "\n"
+    "options\n"
+    "  -o OUT                FILE.csv or FILE.jsonl, as the shards are; or FILE.npy; '-' for\n"
+    "                        standard output\n"
+    "\n"
+    "examples\n"
+    "  lrcs merge map.1.csv map.2.csv map.3.csv -o map.csv\n"
+    "  lrcs merge map.*.csv -o map.npy\n";
+
+static const cli_option merge_options[] = {{"o", 1, 0}, {"help", 0, 0}, {NULL, 0, 0}};
+
+typedef struct merge_shard {
+    const char *path;
+    lrcs_host_file file;
+    sweep_text text;
+    uint64_t first, rows;
+} merge_shard;
+
+static int shard_refuse(const merge_shard *shard, const char *what)
+{
+    fprintf(stderr, "lrcs: %s: %s\n", shard->path, what);
+    return CLI_FAILED;
+}
+
+/* Where its rows stand; they must follow one another. */
+static int shard_rows(merge_shard *shard)
+{
+    sweep_text text = shard->text;
+    sweep_row row;
+    const char *line;
+    size_t size;
+    while (cli_text_next(&text, &row, &line, &size)) {
+        shard->first = shard->rows == 0 ? row.index : shard->first;
+        if (row.index != shard->first + shard->rows) {
+            return shard_refuse(shard, "its rows are not in order");
+        }
+        shard->rows++;
+    }
+    int mean = shard->rows == text.rows && text.has_mean;
+    if (text.at < text.end && !mean) {
+        return shard_refuse(shard, "ends in what is no row: was its sweep stopped? --resume");
+    }
+    return 0;
+}
+
+static int shard_read(merge_shard *shard, const merge_shard *first)
+{
+    lrcs_host_error error;
+    if (lrcs_host_file_read(shard->path, &shard->file, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    if (cli_text_open((const char *)shard->file.bytes, shard->file.size, &shard->text) != 0) {
+        return shard_refuse(shard, "expected rows of lrcs sweep, CSV or JSON lines");
+    }
+    if (shard->text.head_size != first->text.head_size ||
+        memcmp(shard->text.head, first->text.head, first->text.head_size) != 0) {
+        return shard_refuse(shard, "is of another sweep (its first lines differ from those of the "
+                                   "first file)");
+    }
+    return shard_rows(shard);
+}
+
+static int by_first(const void *a, const void *b)
+{
+    const merge_shard *x = a;
+    const merge_shard *y = b;
+    int empty = (x->rows != 0) - (y->rows != 0); /* those without rows before all others */
+    return empty ? empty : (x->first > y->first) - (x->first < y->first);
+}
+
+/* Every row once. */
+static int shards_check(const merge_shard *shard, int count)
+{
+    uint64_t next = 0;
+    for (int i = 0; i < count; i++) {
+        if (shard[i].rows > 0 && shard[i].first < next) {
+            return shard_refuse(&shard[i], "holds rows that another file holds");
+        }
+        if (shard[i].rows > 0 && shard[i].first > next) {
+            break;
+        }
+        next += shard[i].rows;
+    }
+    if (next != shard[0].text.rows) {
+        fprintf(stderr, "lrcs: row %llu of %llu is in none of the files\n",
+                (unsigned long long)next, (unsigned long long)shard[0].text.rows);
+        return CLI_FAILED;
+    }
+    return 0;
+}
+
+static void shards_write(FILE *out, int npy, const merge_shard *shard, int count)
+{
+    const sweep_text *head = &shard[0].text;
+    sweep_tally tally = {0};
+    sweep_row row;
+    const char *line;
+    size_t size;
+    if (npy) {
+        cli_npy_head(out, head);
+    } else {
+        fwrite(head->head, 1, head->head_size, out);
+    }
+    for (int i = 0; i < count; i++) {
+        sweep_text text = shard[i].text;
+        while (cli_text_next(&text, &row, &line, &size)) {
+            cli_tally_add(&tally, &row);
+            if (npy) {
+                cli_npy_row(out, &row);
+            } else {
+                fwrite(line, 1, size, out);
+            }
+        }
+    }
+    if (head->has_mean && !npy) {
+        cli_rows_mean(out, head->format, &tally);
+    }
+}
+
+/* The form of OUT is that of the shards, or a map. 0 or CLI_USAGE. */
+static int out_check(const cli_args *args, const sweep_file *file, const merge_shard *shard,
+                     int count)
+{
+    static const char *const name[] = {"CSV", "JSON lines"};
+    int format = shard[0].text.format;
+    if (file->path && !file->npy && file->format != format) {
+        return cli_usage(args->command, "-o %s: the shards are %s", file->path, name[format]);
+    }
+    for (int i = 0; file->path && i < count; i++) {
+        if (lrcs_host_output_same(file->path, shard[i].path)) {
+            return cli_usage(args->command, "-o %s: would overwrite a shard", file->path);
+        }
+    }
+    return 0;
+}
+
+static int merge_write(const sweep_file *file, const merge_shard *shard, int count)
+{
+    lrcs_host_error error;
+    lrcs_host_output out;
+    if (lrcs_host_output_open(file->path ? file->path : "-", &out, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    shards_write(out.stream, file->npy, shard, count);
+    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? CLI_DONE : cli_failed(&error);
+}
+
+static int merge_shards(const cli_args *args, const sweep_file *file, merge_shard *shard)
+{
+    int count = 0;
+    int code = 0;
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        if (args->given[i].name[0] == '\0') {
+            shard[count].path = args->given[i].value;
+            code = shard_read(&shard[count], &shard[0]);
+            count++;
+        }
+    }
+    code = code ? code : out_check(args, file, shard, count);
+    if (code != 0) {
+        return code;
+    }
+    qsort(shard, (size_t)count, sizeof *shard, by_first);
+    code = shards_check(shard, count);
+    return code ? code : merge_write(file, shard, count);
+}
+
+static int merge_command(const cli_args *args)
+{
+    sweep_file file;
+    if (!cli_value(args, "o")) {
+        return cli_usage(args->command, "-o OUT is missing");
+    }
+    int code = cli_file_read(args, &file);
+    merge_shard *shard = calloc((size_t)args->given_count + 1, sizeof *shard);
+    if (code == 0 && !shard) {
+        fprintf(stderr, "lrcs: out of memory\n");
+        code = CLI_FAILED;
+    }
+    code = code ? code : merge_shards(args, &file, shard);
+    for (int i = 0; shard && i < args->given_count; i++) {
+        lrcs_host_file_free(&shard[i].file);
+    }
+    free(shard);
+    cli_file_free(&file);
+    return code;
+}
+
+const cli_command cli_merge_command = {
+    "merge",    "FILE...",     "give the files that lrcs sweep --shard made",
+    merge_help, merge_options, merge_command};

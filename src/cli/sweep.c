@@ -1,0 +1,367 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs sweep: sigma over attitudes and over what can change in a scene. */
+#include "cli/sweep.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static const char sweep_help[] =
+    "usage: lrcs sweep SCENE WHAT [options]\n"
+    "\n"
+    "Computes sigma (m2) and its bound for every combination of what varies. Rows come in order,\n"
+    "the axis given last fastest, and are the same bytes for any number of threads.\n"
+    "\n"
+    "what varies: RANGE is A:B:STEP, both ends included, or one number; steps do not drift\n"
+    "  --az RANGE, --el RANGE  azimuth and elevation of the laser, deg, body frame\n"
+    "  --euler SEQ:a,b,c     deg, each a RANGE; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c)\n"
+    "  --rotate AXIS:RANGE   the body turns about its axis x, y, z or u,v,w, deg; from the pose "
+    "of\n"
+    "                        --direction, --azel, --euler or --quaternion, else laser on +z\n"
+    "  --sphere N            N near-uniform directions, and the mean of sigma over them with its\n"
+    "                        standard error (as if they were random: an estimate)\n"
+    "  --poses FILE.csv      rows of time,w,x,y,z (quaternion, body to observation) or of\n"
+    "                        time,x,y,z (direction to the laser, body frame)\n"
+    "  --joint PART:RANGE    the joint's angle, deg; several parts as NAME,NAME or '*' turn "
+    "together\n"
+    "  --vary MATERIAL.KEY:RANGE  A, B, s or m of a material\n"
+    "  --vary PART.KEY:RANGE   of a shape: size_x, size_y, size_z, radius, radius2, length (m) or\n"
+    "                        half_angle_deg; shapes are tessellated anew for every value\n"
+    "\n"
+    "output\n"
+    "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: shape of the map, then "
+    "sigma\n"
+    "                        and bound); without it CSV on standard output\n"
+    "  --json                JSON lines on standard output\n"
+    "  --resume              go on with what an earlier sweep left in FILE.partial (Ctrl-C, a "
+    "kill,\n"
+    "                        a full disk); nothing to do where FILE is whole\n"
+    "  --shard K/N           only the K-th of N parts of the rows; lrcs merge joins the files\n"
+    "  --jobs N              threads (one for each processor)\n"
+    "\n"
+    "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
+    "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, flags. Exit 3 where a row "
+    "misses\n"
+    "the tolerance; stderr says how many.\n"
+    "\n"
+    "examples\n"
+    "  lrcs sweep demo --az 0:360:1 --el 0 -o cut.csv\n"
+    "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy\n"
+    "  lrcs sweep demo --sphere 1000\n"
+    "  lrcs sweep demo --azel 90,0 --rotate x:0:360:1 --json\n"
+    "  lrcs sweep demo --joint '*:0:90:5' --azel 50,40\n"
+    "  lrcs sweep demo --vary foil.s:0.02:0.5:0.02 --az 0:90:1 -o foil.npy\n"
+    "  lrcs sweep demo --poses track.csv -o track.jsonl --resume\n"
+    "  lrcs sweep demo --az 0:360:1 --el -90:90:1 --shard 3/16 -o map.3.csv\n";
+
+static const cli_option sweep_options[] = {
+    CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"az", 1, 0},     {"el", 1, 0},
+    {"joint", 1, 1},  {"vary", 1, 1},       {"rotate", 1, 0},  {"sphere", 1, 0}, {"poses", 1, 0},
+    {"o", 1, 0},      {"json", 0, 0},       {"resume", 0, 0},  {"shard", 1, 0},  {"jobs", 1, 0},
+    {"help", 0, 0},   {NULL, 0, 0}};
+
+#define JOBS_MOST 1024.0
+
+typedef struct sweep_job {
+    const cli_args *args;
+    sweep_plan plan;
+    sweep_head head;
+    sweep_file file;
+    sweep_progress progress;
+    lrcs_run_options options;
+    lrcs_host_options load;
+    lrcs_host_scene scene;
+    uint32_t threads;
+    uint32_t notices; /* of all results, bits */
+} sweep_job;
+
+/* Set by a signal: the sweep ends after the poses that are running. */
+static volatile sig_atomic_t sweep_stop;
+
+/* The first Ctrl-C, or a batch system's warning, ends the sweep in order; one that comes seconds
+   later ends it at once. (A signal may come twice, to a process and to its group.) */
+static void stop_signal(int number)
+{
+    static volatile time_t since;
+    time_t now = time(NULL);
+    if (sweep_stop && now - since > 1) {
+        signal(number, SIG_DFL);
+        raise(number);
+    }
+    since = sweep_stop ? since : now;
+    sweep_stop = 1;
+}
+
+/* A signal that the shell has told to ignore stays ignored. */
+static void signals_watch(void)
+{
+    static const int number[] = {SIGINT, SIGTERM};
+    struct sigaction action;
+    struct sigaction before;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = stop_signal;
+    action.sa_flags = SA_RESTART;
+    sigaddset(&action.sa_mask, SIGINT);
+    sigaddset(&action.sa_mask, SIGTERM);
+    for (size_t i = 0; i < sizeof number / sizeof number[0]; i++) {
+        if (sigaction(number[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
+            sigaction(number[i], &action, NULL);
+        }
+    }
+}
+
+/* ---- options ---- */
+
+static int job_read(sweep_job *job)
+{
+    const cli_args *args = job->args;
+    int code = cli_file_read(args, &job->file);
+    code = code ? code : cli_whole(args, "jobs", 1.0, JOBS_MOST, &job->threads);
+    code = code ? code : cli_accuracy_read(args, &job->options);
+    code = code ? code : cli_scene_options_read(args, &job->load);
+    code = code ? code : cli_normals_read(args, &job->load);
+    code = code ? code : cli_plan_read(args, &job->plan);
+    job->load.build.tolerance = job->options.tolerance;
+    if (code == 0 && job->file.npy && cli_value(args, "shard")) {
+        return cli_usage(args->command,
+                         "--shard writes .csv or .jsonl; lrcs merge makes the .npy of them");
+    }
+    return code;
+}
+
+/* No output may replace a file that is read. */
+static int job_files_check(const sweep_job *job)
+{
+    lrcs_host_error error;
+    const char *poses = cli_value(job->args, "poses");
+    for (int i = 0; job->file.path && i < 2; i++) {
+        const char *path = i == 0 ? job->file.path : job->file.partial;
+        if (lrcs_host_output_check(path, &job->scene, &error) != LRCS_OK) {
+            return cli_usage(job->args->command, "-o %s", error.text);
+        }
+        if (poses && lrcs_host_output_same(path, poses)) {
+            return cli_usage(job->args->command, "-o %s: would overwrite the poses", path);
+        }
+    }
+    return 0;
+}
+
+/* ---- the head ---- */
+
+/* An option given again stands beside the first. Returns 0 where its text has no room. */
+static int head_add(sweep_head *head, const char *key, const char *text)
+{
+    const size_t room = sizeof head->option[0].text;
+    uint32_t at = 0;
+    while (at < head->options && strcmp(head->option[at].key, key) != 0) {
+        at++;
+    }
+    char *end = head->option[at].text + strlen(head->option[at].text);
+    const char *between = at < head->options ? " and " : "";
+    head->option[at].key = key;
+    head->options += at == head->options;
+    size_t left = room - (size_t)(end - head->option[at].text);
+    int size = snprintf(end, left, "%s%s", between, text);
+    for (; *end; end++) {
+        *end = (unsigned char)*end < 0x20 || *end == 0x7f ? '?' : *end;
+    }
+    return size >= 0 && (size_t)size < left;
+}
+
+/* What rows depend on beside the scene, which its hash stands for. */
+static int head_options(sweep_job *job)
+{
+    static const char *const said[] = {"az",   "el",        "rotate", "sphere", "joint",
+                                       "vary", "direction", "azel",   "euler",  "quaternion"};
+    const cli_args *args = job->args;
+    char text[64];
+    for (int i = 0; i < args->given_count; i++) {
+        for (size_t k = 0; k < sizeof said / sizeof said[0]; k++) {
+            if (strcmp(args->given[i].name, said[k]) == 0 &&
+                !head_add(&job->head, said[k], args->given[i].value)) {
+                return cli_usage(args->command, "--%s: too long", said[k]);
+            }
+        }
+    }
+    if (job->plan.kind == SWEEP_TRACK) {
+        snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)job->plan.track.hash);
+        head_add(&job->head, "poses", text);
+    }
+    lrcs_host_number_text(job->options.tolerance, text);
+    head_add(&job->head, "tolerance", text);
+    head_add(&job->head, "method", lrcs_method_text(job->options.method));
+    snprintf(text, sizeof text, "%lu", (unsigned long)job->options.resolution);
+    head_add(&job->head, "resolution", job->options.resolution ? text : "auto");
+    head_add(&job->head, "normals", lrcs_normals_text(job->load.build.normals));
+    return 0;
+}
+
+static int head_make(sweep_job *job)
+{
+    const sweep_plan *plan = &job->plan;
+    sweep_head *head = &job->head;
+    head->scene_hash = lrcs_scene_hash(&job->scene.scene);
+    head->rows = plan->rows;
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        if (plan->axis[i].range.count > 1) {
+            head->shape[head->dimensions++] = plan->axis[i].range.count;
+        }
+    }
+    if (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK || head->dimensions == 0) {
+        head->shape[head->dimensions++] = plan->kind == SWEEP_FIXED ? 1 : plan->poses;
+    }
+    return head_options(job);
+}
+
+/* ---- the rows ---- */
+
+static int job_pose(void *context, uint64_t index, lrcs_pose *pose)
+{
+    const sweep_job *job = context;
+    return cli_plan_pose(&job->plan, index, pose);
+}
+
+static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const lrcs_result *result,
+                    lrcs_host_error *error)
+{
+    sweep_job *job = context;
+    (void)pose;
+    sweep_row row = {.index = index,
+                     .sigma_m2 = result->sigma_m2,
+                     .bound_m2 = result->bound_m2,
+                     .flags = result->flags};
+    cli_plan_values(&job->plan, index, row.value);
+    job->notices |= result->notices;
+    int status = cli_file_put(&job->file, &job->plan, &row, error);
+    cli_progress_show(&job->progress, job->file.next - job->plan.first);
+    return status;
+}
+
+/* The rows up to `end`, all of one scene. */
+static int scene_rows(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
+{
+    lrcs_host_error error;
+    lrcs_host_sweep sweep = {.first = job->file.next,
+                             .count = end - job->file.next,
+                             .threads = job->threads,
+                             .pose = job_pose,
+                             .take = job_take,
+                             .context = job,
+                             .cancel = &sweep_stop};
+    if (lrcs_host_sweep_run(scene, &job->options, &sweep, NULL, &error) == LRCS_OK) {
+        return 0;
+    }
+    cli_progress_clear(&job->progress);
+    return cli_failed(&error);
+}
+
+/* One scene after another; the rows of one stand together. */
+static int scenes_rows(sweep_job *job)
+{
+    int code = 0;
+    while (code == 0 && job->file.next < job->plan.end) {
+        lrcs_host_scene scene;
+        uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
+        memset(&scene, 0, sizeof scene);
+        code = cli_scene_of_row(&job->plan, job->file.next, &job->scene, &job->load.build, &scene);
+        if (code == 0) {
+            code = scene_rows(job, &scene, end < job->plan.end ? end : job->plan.end);
+        }
+        lrcs_host_scene_free(&scene);
+    }
+    return code;
+}
+
+static int job_run(sweep_job *job)
+{
+    lrcs_host_error error;
+    int code = 0;
+    job->progress =
+        cli_progress_make(job->file.next - job->plan.first, job->plan.end - job->plan.first);
+    if (job->plan.scene_axes > 0) {
+        code = scenes_rows(job);
+    } else if (job->file.next < job->plan.end) {
+        code = lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
+        code = code ? code : scene_rows(job, &job->scene, job->plan.end);
+    }
+    cli_progress_clear(&job->progress);
+    return code;
+}
+
+/* ---- the command ---- */
+
+/* For people; the rows say all of it too. */
+static void job_say(const sweep_job *job)
+{
+    const sweep_tally *tally = &job->file.tally;
+    for (uint32_t bits = job->notices, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
+        if (bits & 1u) {
+            fprintf(stderr, "notice: %s\n", lrcs_notice_text((int)bit));
+        }
+    }
+    if (cli_plan_has_mean(&job->plan) && tally->rows == job->plan.rows) {
+        fprintf(stderr, "mean of sigma %.10g m2, standard error %.3g m2, mean bound %.3g m2\n",
+                tally->mean, cli_tally_error(tally), tally->bound / (double)tally->rows);
+    }
+    if (tally->missed > 0) {
+        fprintf(stderr, "lrcs: %llu of %llu rows miss the tolerance %g\n",
+                (unsigned long long)tally->missed, (unsigned long long)tally->rows,
+                job->options.tolerance);
+    }
+    if (tally->starved > 0) {
+        fprintf(stderr, "lrcs: %llu of %llu rows were short of memory\n",
+                (unsigned long long)tally->starved, (unsigned long long)tally->rows);
+    }
+}
+
+static int job_rows(sweep_job *job)
+{
+    int code = cli_file_open(job->args, &job->file, &job->head, &job->plan);
+    if (code != 0) {
+        return code;
+    }
+    signals_watch();
+    code = job_run(job);
+    int closed = cli_file_close(&job->file, &job->plan, code == 0);
+    if (code != 0 && job->file.path && closed == 0) {
+        fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
+                job->file.partial, (unsigned long long)(job->file.next - job->plan.first),
+                (unsigned long long)(job->plan.end - job->plan.first));
+    }
+    code = code ? code : closed;
+    if (code != 0) {
+        return code;
+    }
+    job_say(job);
+    int missed = job->file.tally.missed > 0 && cli_tolerance_judged(job->args, &job->options);
+    return missed || job->file.tally.starved > 0 ? CLI_DEGRADED : CLI_DONE;
+}
+
+static int sweep_command(const cli_args *args)
+{
+    sweep_job *job = calloc(1, sizeof *job);
+    if (!job) {
+        fprintf(stderr, "lrcs: out of memory\n");
+        return CLI_FAILED;
+    }
+    job->args = args;
+    int code = job_read(job);
+    code = code ? code : cli_scene_read(args, &job->load, &job->scene);
+    code = code ? code : cli_scene_axes_check(args, &job->plan, &job->scene);
+    code = code ? code : job_files_check(job);
+    if (code == 0) {
+        cli_notices_print(stderr, &job->scene.notices);
+        code = head_make(job);
+        code = code ? code : job_rows(job);
+    }
+    cli_file_free(&job->file);
+    cli_plan_free(&job->plan);
+    lrcs_host_scene_free(&job->scene);
+    cli_scene_options_free(&job->load);
+    free(job);
+    return code;
+}
+
+const cli_command cli_sweep_command = {
+    "sweep",    "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
+    sweep_help, sweep_options, sweep_command};

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: MIT */
+/* A sweep between its command line, its rows and its files. */
+#ifndef LRCS_CLI_SWEEP_H
+#define LRCS_CLI_SWEEP_H
+
+#include "cli/cli.h"
+
+#include <lrcs/sweep.h>
+
+#define SWEEP_AXES    8
+#define SWEEP_COLUMNS 12
+
+/* ---- ranges ---- */
+
+/* A, A + STEP, .. as whole multiples of a power of ten: value i is the double nearest to the
+   decimal number, and no step drifts. */
+typedef struct sweep_range {
+    int64_t first, step; /* (first + i step) / 10^decimals */
+    uint64_t count;
+    int decimals;
+} sweep_range;
+
+/* Reads "A:B:STEP", both ends included where the steps meet them, or "A" alone. NULL, or what is
+   wrong with it. */
+const char *cli_range_read(const char *text, size_t size, sweep_range *range);
+double cli_range_at(const sweep_range *range, uint64_t i);
+
+/* ---- tracks ---- */
+
+/* Attitudes from a CSV file. */
+typedef struct sweep_track {
+    double (*row)[5]; /* time; direction x, y, z, or quaternion w, x, y, z */
+    uint64_t count;
+    int quaternions;
+    uint64_t hash; /* of the file's bytes */
+} sweep_track;
+
+/* 0, CLI_FAILED or CLI_USAGE with the message printed. */
+int cli_track_read(const cli_command *command, const char *path, sweep_track *track);
+
+/* ---- the plan: which rows there are ---- */
+
+enum sweep_kind {
+    SWEEP_FIXED, /* one pose: the scene varies */
+    SWEEP_AZEL,
+    SWEEP_EULER,
+    SWEEP_ROTATE,
+    SWEEP_SPHERE,
+    SWEEP_TRACK
+};
+
+/* One thing that varies: the last axis fastest, what changes the scene before what changes the
+   pose. */
+typedef struct sweep_axis {
+    const char *option; /* "az", ... */
+    char name[128];     /* its column */
+    sweep_range range;
+    char whom[100]; /* of a scene's axis: part or material */
+    int key;        /* what of it */
+} sweep_axis;
+
+typedef struct sweep_plan {
+    sweep_axis axis[SWEEP_AXES];
+    uint32_t axes, scene_axes;
+    int kind;
+    lrcs_pose base;
+    char sequence[4];    /* SWEEP_EULER */
+    double about[3];     /* SWEEP_ROTATE */
+    sweep_track track;   /* SWEEP_TRACK */
+    uint64_t poses;      /* of each scene */
+    uint64_t rows;       /* of all scenes */
+    uint64_t first, end; /* those of this shard */
+    uint32_t columns;    /* values of a row */
+    const char *column[SWEEP_COLUMNS];
+} sweep_plan;
+
+/* 0, CLI_FAILED or CLI_USAGE with the message printed. The caller frees it in any case. */
+int cli_plan_read(const cli_args *args, sweep_plan *plan);
+void cli_plan_free(sweep_plan *plan);
+
+/* The values of a row, and its pose. */
+void cli_plan_values(const sweep_plan *plan, uint64_t row, double value[SWEEP_COLUMNS]);
+int cli_plan_pose(const sweep_plan *plan, uint64_t row, lrcs_pose *pose);
+
+/* ---- what changes the scene ---- */
+
+/* --joint and --vary, before what changes the pose. 0 or CLI_USAGE. */
+int cli_scene_axes_read(const cli_args *args, sweep_plan *plan);
+
+/* Do parts, materials and values fit the scene? 0 or CLI_USAGE. */
+int cli_scene_axes_check(const cli_args *args, const sweep_plan *plan, const lrcs_host_scene *base);
+
+/* The scene of a row, from the one that was read, which must outlive it. 0 or CLI_FAILED. */
+int cli_scene_of_row(const sweep_plan *plan, uint64_t row, const lrcs_host_scene *base,
+                     const lrcs_build_options *build, lrcs_host_scene *scene);
+
+/* Adds an axis, NULL-terminated or not. 0 or CLI_USAGE. */
+int cli_axis_add(const cli_args *args, sweep_plan *plan, const char *option, const char *name,
+                 const char *text, size_t size);
+
+/* Do all rows together have a mean: one --sphere of one scene? */
+int cli_plan_has_mean(const sweep_plan *plan);
+
+/* Position of a row along an axis. */
+uint64_t cli_plan_place(const sweep_plan *plan, uint64_t row, uint32_t axis);
+
+/* ---- rows ---- */
+
+enum sweep_format { SWEEP_CSV, SWEEP_JSONL, SWEEP_NPY };
+
+typedef struct sweep_row {
+    uint64_t index;
+    double value[SWEEP_COLUMNS];
+    double sigma_m2, bound_m2;
+    uint32_t flags;
+} sweep_row;
+
+/* What the first line says: nothing in it depends on the machine, the number of threads or the
+   shard. */
+typedef struct sweep_head {
+    uint64_t scene_hash, rows;
+    uint64_t shape[SWEEP_AXES + 1]; /* of a map */
+    uint32_t dimensions;
+    struct {
+        const char *key;
+        char text[1200];
+    } option[24];
+    uint32_t options;
+} sweep_head;
+
+/* What all rows say together. */
+typedef struct sweep_tally {
+    uint64_t rows, missed, starved; /* missed: the tolerance; starved: short of memory */
+    double mean, square, bound;     /* of sigma; sum of squared deviations; sum of bounds */
+} sweep_tally;
+
+void cli_tally_add(sweep_tally *tally, const sweep_row *row);
+/* sigma's standard error, as if directions were drawn at random. */
+double cli_tally_error(const sweep_tally *tally);
+
+/* The first lines, one row, and for --sphere the last line. */
+void cli_rows_head(FILE *out, int format, const sweep_head *head, const sweep_plan *plan);
+void cli_rows_put(FILE *out, int format, const sweep_plan *plan, const sweep_row *row);
+void cli_rows_mean(FILE *out, int format, const sweep_tally *tally);
+
+/* ---- rows that were written ---- */
+
+/* A file of rows in memory. */
+typedef struct sweep_text {
+    int format;       /* SWEEP_CSV or SWEEP_JSONL, by its first byte */
+    const char *head; /* its first lines */
+    size_t head_size;
+    const char *at, *end; /* what follows */
+    uint64_t rows;        /* of the whole sweep */
+    uint64_t shape[SWEEP_AXES + 1];
+    uint32_t dimensions;
+    int has_mean; /* one --sphere */
+} sweep_text;
+
+/* 0, or -1 where the bytes are no rows of a sweep. */
+int cli_text_open(const char *bytes, size_t size, sweep_text *text);
+
+/* The next whole row, of which value stays as it is; line and line_size say where it stands.
+   1; 0 at the end, or before what is no row. */
+int cli_text_next(sweep_text *text, sweep_row *row, const char **line, size_t *line_size);
+
+/* A NumPy array of shape (.., 2), sigma and bound: its head, and each row in order. */
+void cli_npy_head(FILE *out, const sweep_text *text);
+void cli_npy_row(FILE *out, const sweep_row *row);
+
+/* ---- files ---- */
+
+/* Where rows go: to standard output, or to FILE.partial, which becomes FILE when it is whole and is
+   valid at every line before. */
+typedef struct sweep_file {
+    int format;           /* of the rows: SWEEP_CSV or SWEEP_JSONL */
+    int npy;              /* they become a map at the end */
+    int whole;            /* FILE is there already, and is what would be made */
+    char *path, *partial; /* NULL: standard output */
+    FILE *stream;
+    uint64_t next; /* the first row that is still to come */
+    sweep_tally tally;
+    double flushed; /* when rows were last handed to the system, s */
+} sweep_file;
+
+/* What -o and --json ask for; 0 or CLI_USAGE. */
+int cli_file_read(const cli_args *args, sweep_file *file);
+
+/* Begins, or goes on where --resume finds rows of the same head. 0 or CLI_FAILED. */
+int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head,
+                  const sweep_plan *plan);
+
+/* One more row. Status: LRCS_OK; LRCS_E_SYSTEM where it could not be written. */
+int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
+                 lrcs_host_error *error);
+
+/* Ends: with all rows FILE.partial becomes FILE, else it stays as it is. 0 or CLI_FAILED. */
+int cli_file_close(sweep_file *file, const sweep_plan *plan, int all);
+void cli_file_free(sweep_file *file);
+
+/* Seconds on a clock that only goes forward. */
+double cli_seconds(void);
+
+/* ---- progress ---- */
+
+/* A bar with the time left, on stderr where that is a terminal. */
+typedef struct sweep_progress {
+    int on;
+    uint64_t first, total;
+    double begun, shown; /* s */
+} sweep_progress;
+
+sweep_progress cli_progress_make(uint64_t first, uint64_t total);
+void cli_progress_show(sweep_progress *progress, uint64_t done);
+void cli_progress_clear(const sweep_progress *progress);
+
+#endif

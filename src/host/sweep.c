@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+/* Many poses over one prepared scene. It decides what each thread keeps (a work area of its own)
+   and how a pose that fails is told; in which order poses are run is the crew's (host/crew). */
+#include <lrcs/sweep.h>
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "host/crew.h"
+#include "host/run.h"
+
+#define SWEEP_THREADS 1024u
+
+typedef struct sweep_slot {
+    lrcs_pose pose;
+    lrcs_result result;
+    int status;
+    lrcs_host_error error; /* where the status says so */
+} sweep_slot;
+
+typedef struct sweep_run {
+    const lrcs_host_scene *scene;
+    const lrcs_run_options *options;
+    const lrcs_host_sweep *sweep;
+    lrcsi_host_area *area; /* one for each thread */
+    lrcs_host_error *error;
+} sweep_run;
+
+static void sweep_work(void *context, uint32_t member, uint64_t index, void *slot)
+{
+    const sweep_run *run = context;
+    sweep_slot *one = slot;
+    one->status = run->sweep->pose(run->sweep->context, index, &one->pose);
+    if (one->status != LRCS_OK) {
+        lrcsi_host_fail(&one->error, one->status, "%s", lrcs_status_text(one->status));
+        return;
+    }
+    one->status = lrcsi_host_sigma(run->scene, &one->pose, run->options, &run->area[member],
+                                   &one->result, NULL, NULL, &one->error);
+}
+
+static int sweep_take(void *context, uint64_t index, const void *slot)
+{
+    const sweep_run *run = context;
+    const sweep_slot *one = slot;
+    if (one->status != LRCS_OK) {
+        return lrcsi_host_fail(run->error, one->status, "pose %llu: %.1000s",
+                               (unsigned long long)index, one->error.text);
+    }
+    return run->sweep->take(run->sweep->context, index, &one->pose, &one->result, run->error);
+}
+
+/* No more threads than poses. */
+static uint32_t sweep_threads(const lrcs_host_sweep *sweep)
+{
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    uint64_t threads = sweep->threads != 0 ? sweep->threads
+                       : processors > 0    ? (uint64_t)processors
+                                           : 1;
+    threads = threads < SWEEP_THREADS ? threads : SWEEP_THREADS;
+    threads = threads < sweep->count ? threads : sweep->count;
+    return threads > 0 ? (uint32_t)threads : 1;
+}
+
+int lrcs_host_sweep_run(const lrcs_host_scene *scene, const lrcs_run_options *options,
+                        const lrcs_host_sweep *sweep, uint64_t *done, lrcs_host_error *error)
+{
+    uint64_t taken = 0;
+    sweep_run run = {scene, options, sweep, NULL, error};
+    lrcsi_crew crew = {.first = sweep->first,
+                       .count = sweep->count,
+                       .members = sweep_threads(sweep),
+                       .slot_size = sizeof(sweep_slot),
+                       .context = &run,
+                       .work = sweep_work,
+                       .take = sweep_take,
+                       .cancel = sweep->cancel};
+    int status;
+    if (!scene->prepared || sweep->threads > SWEEP_THREADS ||
+        sweep->count > UINT64_MAX - sweep->first) {
+        status =
+            lrcsi_host_fail(error, LRCS_E_ARGUMENT, "sweep: %s", lrcs_status_text(LRCS_E_ARGUMENT));
+    } else if (!(run.area = calloc(crew.members, sizeof *run.area))) {
+        status = lrcsi_host_fail_memory(error, crew.members * sizeof *run.area);
+    } else {
+        status = lrcsi_crew_run(&crew, &taken, error);
+    }
+    if (status == LRCS_E_CANCELLED) {
+        lrcsi_host_fail(error, status, "stopped after %llu of %llu poses",
+                        (unsigned long long)taken, (unsigned long long)sweep->count);
+    }
+    for (uint32_t i = 0; run.area && i < crew.members; i++) {
+        lrcsi_host_area_free(&run.area[i]);
+    }
+    free(run.area);
+    if (done) {
+        *done = taken;
+    }
+    return status;
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+/* How finely a shape is divided that stands among other parts: coarser where it is small among
+   them, finer where its rim casts shadows. It chooses, and proves nothing: what the facets err is
+   found pose by pose on the mesh. */
+#include "scene/fineness.h"
+
+#include <math.h>
+
+#include "mesh/tessellate.h"
+
+/* How many shares a scene's tolerance is cut into at least, and how much coarser than asked a small
+   part may be at most. */
+#define SHARES_LEAST 16.0
+#define LEAVE_MOST   100.0
+
+/* 0 where a corner is out of range. */
+static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
+{
+    const uint32_t *corner = mesh->facet[f].corner;
+    double p[3];
+    double q[3];
+    if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count ||
+        corner[2] >= mesh->vertex_count) {
+        return 0.0;
+    }
+    for (int k = 0; k < 3; k++) {
+        p[k] = mesh->vertex[corner[1]].x[k] - mesh->vertex[corner[0]].x[k];
+        q[k] = mesh->vertex[corner[2]].x[k] - mesh->vertex[corner[0]].x[k];
+    }
+    const double n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+                         p[0] * q[1] - p[1] * q[0]};
+    return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+}
+
+double lrcsi_fineness_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh)
+{
+    const lrcs_shape *shape = &part->shape;
+    const double *s = shape->size;
+    double r = fmax(shape->radius, shape->radius2);
+    double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]) + 6.0 * r * (r + shape->length);
+    if (part->file) {
+        area = 0.0;
+        for (uint32_t f = 0; mesh && f < mesh->facet_count; f++) {
+            area += mesh_facet_area(mesh, f);
+        }
+    }
+    const double *scale = part->place.scale;
+    double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    return area * most * most;
+}
+
+/* How much coarser than asked a part may be, being small among the others: all of them together
+   may add as much error as the scene may have, were each as bright as its surface is large. */
+static double part_leave(const lrcsi_fineness *fineness, const lrcs_recipe_part *part)
+{
+    double parts = fmax(SHARES_LEAST, fineness->parts);
+    double leave = fineness->area / (lrcsi_fineness_area(part, NULL) * parts);
+    return leave > 1.0 ? fmin(leave, LEAVE_MOST) : 1.0;
+}
+
+/* The tolerance that a shape is divided for: as asked where it is alone. Among other parts its
+   leave counts; and of round bodies, whose facets cost 1/tolerance (those of straight walls its
+   root), ten times as much must do, at least 1e-4. */
+static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_part *part)
+{
+    double tolerance = fineness->tolerance;
+    if (fineness->parts == 1) {
+        return tolerance;
+    }
+    tolerance = fmin(tolerance * part_leave(fineness, part), fmax(1.0, tolerance));
+    int kind = part->shape.kind;
+    int is_round =
+        kind == LRCS_SHAPE_SPHERE || kind == LRCS_SHAPE_DOME || kind == LRCS_SHAPE_PARABOLOID;
+    return is_round ? fmax(fmin(10.0 * tolerance, 1.0), 1e-4) : tolerance;
+}
+
+/* Among other parts a rim casts shadows, in doubt over twice its reach, some 0.4 R (pi/N)^2, along
+   2 pi R: less than half the tolerance of the disc that it bounds where N is this. */
+static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
+                       lrcs_divisions *divisions, lrcs_mesh_counts *counts)
+{
+    const lrcs_shape *shape = &part->shape;
+    double corners = 3.1416 * sqrt(5.0 / shape_tolerance(fineness, part));
+    if (fineness->parts == 1 || divisions->along > 1 || shape->kind == LRCS_SHAPE_PLATE ||
+        shape->kind == LRCS_SHAPE_BOX || !(corners < 1e6)) {
+        return;
+    }
+    lrcs_divisions finer = {4 * (uint32_t)(corners / 4.0 + 1.0), 1};
+    if (finer.around > divisions->around &&
+        lrcsi_tessellate_counts(shape, &finer).facets <= fineness->max_facets) {
+        *divisions = finer;
+        *counts = lrcsi_tessellate_counts(shape, &finer);
+    }
+}
+
+int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
+                          const lrcs_brdf *brdf, lrcs_divisions *divisions,
+                          lrcs_mesh_counts *counts)
+{
+    const lrcs_fineness wanted = {shape_tolerance(fineness, part), *brdf, fineness->max_facets};
+    int status = lrcs_shape_count(&part->shape, &wanted, divisions, counts);
+    if (status == LRCS_OK) {
+        refine_rim(fineness, part, divisions, counts);
+    }
+    return status;
+}

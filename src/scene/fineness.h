@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* How finely a shape is divided that stands among other parts. */
+#ifndef LRCSI_FINENESS_H
+#define LRCSI_FINENESS_H
+
+#include <lrcs/scene.h>
+
+typedef struct lrcsi_fineness {
+    double tolerance;
+    uint32_t max_facets, parts;
+    double area; /* of all parts, by lrcsi_fineness_area */
+} lrcsi_fineness;
+
+/* Roughly the surface of a part, to weigh parts with; of a model, its facets'. */
+double lrcsi_fineness_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh);
+
+/* Status: LRCS_OK; as lrcs_shape_count. */
+int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
+                          const lrcs_brdf *brdf, lrcs_divisions *divisions,
+                          lrcs_mesh_counts *counts);
+
+#endif

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* What holds of a placed shape by construction: how far its facets and corners stray, whether it is
+   closed and convex. */
+#include "scene/shaped.h"
+
+#include <math.h>
+
+#include "base/degrees.h"
+#include "mesh/profile.h"
+#include "mesh/tessellate.h"
+
+/* The least of a shape's extents, in its own units; 0 for what is flat. */
+static double least_extent(const lrcs_shape *shape)
+{
+    double sine;
+    double cosine;
+    double length = shape->length;
+    double across = 2.0 * fmax(shape->radius, shape->radius2);
+    switch (shape->kind) {
+    case LRCS_SHAPE_PLATE:
+    case LRCS_SHAPE_DISC:
+        return 0.0;
+    case LRCS_SHAPE_BOX:
+        return fmin(shape->size[0], fmin(shape->size[1], shape->size[2]));
+    case LRCS_SHAPE_SPHERE:
+        return across;
+    case LRCS_SHAPE_DOME:
+        return shape->radius;
+    default:
+        if (shape->half_angle_deg > 0.0) {
+            lrcsi_degrees_sincos(shape->half_angle_deg, &sine, &cosine);
+            length = shape->radius * cosine / sine;
+        }
+        return fmin(across, length);
+    }
+}
+
+/* 1 where a shape's surface is closed: it has caps or needs none. */
+static int is_closed(const lrcs_shape *shape)
+{
+    return shape->kind == LRCS_SHAPE_BOX || shape->kind == LRCS_SHAPE_SPHERE ||
+           (shape->kind != LRCS_SHAPE_PLATE && shape->kind != LRCS_SHAPE_DISC &&
+            shape->parts == LRCS_SHAPE_ALL);
+}
+
+double lrcsi_shaped_extent(const lrcs_mesh *mesh)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        const double *x = mesh->vertex[i].x;
+        most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
+    }
+    return most;
+}
+
+/* How far a shape's placed vertices may be off. The mesh's own coordinates are good to a relative
+   (16 + rings) u (src/mesh/profile.c), but for what underflows. */
+static double misplacement(double most, const lrcs_divisions *divisions, const lrcsi_placer *placer)
+{
+    double error = (17.0 + (double)divisions->along) * 0x1p-53 * most + 0x1p-1022;
+    return lrcsi_placer_error(placer, most + error, error);
+}
+
+/* The least altitude of a facet of the part placed last, m: its area over its longest side. */
+static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
+{
+    double least = HUGE_VAL;
+    for (uint32_t i = 0; i < part->facet_count; i++) {
+        const uint32_t *corner = scene->facet[part->first_facet + i].corner;
+        double side[3][3];
+        double square = 0.0;
+        double area = 0.0;
+        for (int k = 0; k < 9; k++) {
+            side[k / 3][k % 3] = scene->vertex[corner[(k / 3 + 1) % 3]].x[k % 3] -
+                                 scene->vertex[corner[k / 3]].x[k % 3];
+        }
+        for (int k = 0; k < 3; k++) {
+            const double *s = side[k];
+            double n = side[0][(k + 1) % 3] * side[1][(k + 2) % 3] -
+                       side[0][(k + 2) % 3] * side[1][(k + 1) % 3];
+            square = fmax(square, s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+            area += n * n;
+        }
+        least = fmin(least, sqrt(area) / sqrt(square));
+    }
+    return least;
+}
+
+/* Rounding in placing moves corners by at most e: each tilts its facet by at most e over the
+   altitude on it, and changes its area by at most that part. Facets' own numbers hold per unit of
+   their area, and patches may be larger. */
+void lrcsi_shaped_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double most,
+                       lrcs_part *part)
+{
+    double e = lrcsi_placer_error(placer, most, 0.0);
+    if (part->reach > 0.0 && e > 0.0) {
+        double wide = 3.0 * (1.0 + part->curvature.area_error);
+        part->tilted = 1.000001 * wide * e / least_altitude(scene, part);
+        part->curvature = part->curvature.turn > 0.0
+                              ? lrcsi_profile_blurred(&part->curvature, part->tilted)
+                              : part->curvature;
+    }
+}
+
+/* What holds of a placed shape by construction. Curvature outlives uniform scaling only; convexity
+   any affine map, and with the winding flipped the outside stays outside under a mirror. */
+void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
+                           const lrcs_curvature *curvature, const lrcsi_placer *placer,
+                           double extent, lrcs_part *part)
+{
+    const double *scale = placer->place.scale;
+    double reach = lrcsi_tessellate_reach(shape, divisions);
+    double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->lean == 0.0 &&
+                curvature->spread == 0.0;
+    part->misplaced = misplacement(extent, divisions, placer);
+    part->kind = shape->kind;
+    part->curvature = *curvature;
+    part->curvature_known = plane || least == most;
+    part->reach = reach > 0.0 ? 1.000001 * most * reach + 2.0 * part->misplaced : 0.0;
+    part->convex_patch = 1;
+    part->thinnest = least * least_extent(shape);
+    part->solid = is_closed(shape) && part->thinnest > 0.0;
+}

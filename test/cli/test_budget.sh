@@ -1,0 +1,64 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# lrcs run --time-budget: whatever it finds in its time, the options that it names give again.
+. "$(dirname "$0")/check.sh"
+
+cd "$scratch" || exit 1
+printf '[[part]]\nname = "a"\nshape = "box"\nsize = [1, 2, 3]\nmaterial = "paint-white"\n' >box.toml
+cat box.toml >pair.toml
+printf '[[part]]\nname = "b"\nshape = "box"\nsize = [3, 1, 1]\ntranslate = [0.3, 0.2, -4]\n' >>pair.toml
+cat box.toml >round.toml
+printf '[[part]]\nname = "c"\nshape = "cylinder"\nradius = 0.5\nlength = 1\ntranslate = [0, 0, -4]\n' >>round.toml
+
+# ---- wrong arguments ----
+for bad in 0 -5 nan x ''; do
+    usage_error "a_budget_of_'${bad}'_is_refused" "--time-budget" run box.toml --time-budget "$bad"
+done
+usage_error the_method_is_not_for_both_to_choose "leave out --method" run box.toml --time-budget 9 --method exact
+usage_error the_raster_is_not_for_both_to_choose "leave out --resolution" run box.toml --time-budget 9 --resolution 64
+usage_error the_budget_does_not_explain "leave out --explain" run box.toml --time-budget 9 --explain
+
+# ---- answers, and the same again ----
+# numbers: what two runs of the same settings agree in.
+numbers() { printf '%s\n' "$out" | grep -E '"(scene_hash|sigma_m2|sigma_glint_m2|bound_m2|projected_area_m2|method|resolution|facets|direction)":'; }
+# again NAME SCENE: the options named by the JSON in $out give the same numbers.
+again() {
+    same_as=$(printf '%s\n' "$out" | sed -n 's/.*"same_as": "\([^"]*\)".*/\1/p')
+    found=$(numbers)
+    # shellcheck disable=SC2086 # options are words
+    run run "$2" --direction 1,1,1 --json $same_as
+    same "$1" "$(numbers)" "$found"
+}
+for scene in box pair round; do
+    for budget in 0.001 1000; do
+        run run $scene.toml --direction 1,1,1 --time-budget $budget --json
+        again "a_budget_of_${budget}_on_${scene}_gives_what_it_names" $scene.toml
+    done
+done
+
+run run box.toml --direction 1,1,1 --time-budget 60000 --json
+same it_ends_where_nothing_is_left_to_gain "$rc" 0
+same no_tolerance_was_asked_for "$(value tolerance)" '{"asked": null, "met": null}'
+run run pair.toml --direction 1,1,1 --json
+bound=$(value bound_m2)
+run run pair.toml --direction 1,1,1 --time-budget 60000 --json
+same the_best_of_plane_facets_is_exact "$(value bound_m2)" "$bound"
+
+# ---- a tolerance beside it ----
+run run round.toml --direction 1,1,1 --time-budget 60000 --tolerance 0.01 --json
+same a_tolerance_that_is_met_ends_it "$rc $(value tolerance)" '0 {"asked": 0.01, "met": true}'
+again and_that_is_what_it_names round.toml
+run run pair.toml --direction 1,1,1 --time-budget 60000 --tolerance 1e-300 --json
+same a_tolerance_out_of_reach_exits_3 "$rc $(printf '%s' "$out" | grep -c tolerance_not_met)" "3 1"
+run run pair.toml --direction 1,1,1 --time-budget 60000
+same no_flag_without_a_tolerance "$(printf '%s\n' "$out" | grep -c '^flag')" 0
+same the_table_names_the_options "$(printf '%s\n' "$out" | grep -cE '^time budget  60000 ms, of which [0-9.e+]+ were spent; the same again: --method exact$')" 1
+
+# ---- files come from the settings found ----
+run run round.toml --direction 1,1,1 --time-budget 60000 --tolerance 0.01 --facets budget.csv --json
+same_as=$(printf '%s\n' "$out" | sed -n 's/.*"same_as": "\([^"]*\)".*/\1/p')
+# shellcheck disable=SC2086
+run run round.toml --direction 1,1,1 --facets again.csv --json $same_as
+same files_are_those_of_the_settings_named "$(cmp budget.csv again.csv && wc -l <budget.csv | tr -d ' ')" "$(wc -l <again.csv | tr -d ' ')"
+failure a_missing_scene_is_said_once "cannot open" run nowhere.toml --time-budget 100
+finish

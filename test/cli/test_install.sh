@@ -1,0 +1,58 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# make install and uninstall, and what is installed at work.
+. "$(dirname "$0")/check.sh"
+
+cd "$root" || exit 1
+build=$(dirname "$tool")
+build=${build#"$root"/} # by the name that it was built under, which its dependencies are kept by
+# make's own variables stay out: this is a user's make, not a part of the test's.
+unset MAKEFLAGS MFLAGS MAKELEVEL
+to=$scratch/root
+install_to() { make -s BUILD="$build" DESTDIR="$to" PREFIX=/opt/lrcs "$1" >"$scratch/log" 2>&1; }
+
+install_to install
+same make_install_works "$?: $(cat "$scratch/log")" "0: "
+at=$to/opt/lrcs
+same the_tool_is_installed "$("$at/bin/lrcs" --version)" "$("$tool" --version)"
+same all_headers_are_installed "$(ls "$at/include/lrcs")" "$(ls include/lrcs)"
+
+# ---- the library, as another project would take it ----
+if command -v pkg-config >/dev/null; then
+    flags=$(PKG_CONFIG_PATH=$at/lib/pkgconfig pkg-config --define-variable=prefix="$at" --cflags --libs lrcs)
+    # shellcheck disable=SC2086 # flags are words
+    "${CC:-cc}" -o "$scratch/embed" examples/embed.c $flags -lm
+    same a_program_links_by_pkg_config "$?" 0
+    same it_asks_for_the_soname "$(readelf -d "$scratch/embed" | grep -c 'liblrcs\.so\.[0-9]*\]')" 1
+    same shared_and_static_say_the_same "$(LD_LIBRARY_PATH=$at/lib "$scratch/embed")" "$("$build/examples/embed")"
+else
+    ok a_program_links_by_pkg_config "# SKIP no pkg-config"
+fi
+same only_public_names_are_exported "$(nm -D --defined-only "$at/lib/liblrcs.so" | grep -cv ' lrcs_')" 0
+
+# ---- the manual page and the completion ----
+if command -v groff >/dev/null; then
+    same the_manual_page_is_free_of_warnings "$(groff -man -Tascii -ww "$at/share/man/man1/lrcs.1" 2>&1 >/dev/null)" ""
+else
+    ok the_manual_page_is_free_of_warnings "# SKIP no groff"
+fi
+for command in $("$tool" --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | grep -vx -e help -e lrcs); do
+    same "the_manual_tells_of_$command" "$(grep -c "^\.SS $command\$" "$at/share/man/man1/lrcs.1")" 1
+done
+if command -v bash >/dev/null; then
+    # complete WORDS...: what completion offers for the last of them.
+    complete() {
+        bash -c '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _lrcs; echo "${COMPREPLY[*]}"' \
+            "$at/share/bash-completion/completions/lrcs" lrcs "$@"
+    }
+    same completion_offers_commands "$(complete ve)" verify
+    same completion_offers_options "$(complete run demo --tol)" --tolerance
+    same completion_offers_values "$(complete run demo --method ex)" exact
+    same completion_offers_values_after_an_equals_sign "$(complete run demo --method = fa)" facet
+    same completion_offers_files "$(complete info READM)" README.md
+fi
+
+install_to uninstall
+same uninstall_leaves_no_file "$(find "$to" -type f -o -type l)" ""
+usage_error help_names_what_it_writes "--man or --bash" help --roff
+finish
