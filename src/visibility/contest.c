@@ -45,8 +45,9 @@ static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
 }
 
 /* Which way vertices a, b, c turn: from view coordinates where their error allows, else exactly.
-   Differences are off by 2.2 of the view's errors, e, rounding included, and their products by
-   e (|p| + |q| + 2 e) and a rounding that is less: 4 e leaves room. */
+   With e for that error: differences are off by 2.2 e, rounding included (e is 32 u of the reach),
+   and so p x q by 2.2 e (|p| + |q| + 4.4 e) in the 1-norm, and by 3 u of its products, which are
+   below 4 reaches times |p|: another 0.4 e |p|. */
 static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
 {
     if (c == a || c == b) {
@@ -90,8 +91,9 @@ static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint3
     return left && right;
 }
 
-/* Is the vertex nearer the laser than the facet's plane? From the normal where its error allows
-   (see facing_of in view/view.c; differences are below 4 in norm), else exactly. */
+/* Is the vertex nearer the laser than the facet's plane? From the normal, else exactly. Taking its
+   high part, a difference, a product and two sums cost 5 u of the terms; the normal's own error
+   counts with the difference, below 4 in norm; and UNDERFLOW is more than products can lose. */
 static int vertex_nearer(const lrcsi_view *view, const contest_ask *ask, uint32_t vertex)
 {
     const lrcsi_normal *n = &view->prepared->normal[ask->facet];
@@ -108,7 +110,7 @@ static int vertex_nearer(const lrcsi_view *view, const contest_ask *ask, uint32_
         dot += term;
         size += fabs(term);
     }
-    if (fabs(dot) > 8 * U * size + 8 * n->error) {
+    if (fabs(dot) > 8 * U * size + 8 * n->error + UNDERFLOW) {
         return (dot > 0) == (ask->facing > 0);
     }
     return ask->facing * lrcsi_exact_side(a, v[ask->corner[1]].x, v[ask->corner[2]].x, x) > 0;
@@ -126,7 +128,8 @@ static int edge_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t
            segment_crosses(view, ask, e->low, e->high, along);
 }
 
-/* The boxes of the event and of the facet lie apart beyond the view's error. */
+/* The boxes of the event and of the facet lie apart beyond the view's error, in the view or in
+   depth: an edge that is farther than all of the facet is not nearer where it passes over it. */
 static int boxes_apart(const lrcsi_contest_edge *event, const contest_ask *ask)
 {
     return (double)event->near < ask->far || (double)event->low[0] > ask->high[0] ||
@@ -262,7 +265,7 @@ size_t lrcsi_contest_need(const lrcs_prepared *prepared)
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_contest_edge)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, 8 * edges + 8192));
 }
 
 /* Grids have a cell or so for every facet that faces either way: then most facets meet no event's
