@@ -9,9 +9,8 @@
 #include "base/work.h"
 #include "visibility/sample.h"
 
-#define U          0x1p-53
-#define MASK_CELLS 4
-#define GRID_DIV   1
+#define U         0x1p-53
+#define UNDERFLOW 0x1p-1000
 
 /* --- crossings -------------------------------------------------------------------------------- */
 
