@@ -15,8 +15,9 @@
    (2). They form regions, of which one sample tells all.
 
    Edges that are no event edges join facets into sheets, which end at event edges only. A sheet in
-   front of one point of facet i, none of whose edges crosses i and none of whose facets touches its
-   inside, is in front of all of it: then i is hidden, however contested (visibility/query.h). */
+   front of one point of facet i, none of whose edges crosses i nearer than it and none of whose
+   facets touches its inside, is in front of all of it: then i is hidden, however contested
+   (visibility/query.h). */
 #ifndef LRCSI_CONTEST_H
 #define LRCSI_CONTEST_H
 
