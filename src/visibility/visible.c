@@ -405,14 +405,36 @@ static void known_draw(const lrcsi_known *known, lrcsi_raster *raster)
     }
 }
 
-static lrcsi_visible known_area(const lrcsi_view *view, int answer, uint32_t facet)
+/* All or nothing of a facet: what is known of those that samples are not to tell of. */
+static void known_areas(const lrcsi_known *known, lrcsi_visible *visible)
 {
-    if (answer == LRCSI_QUERY_HIDDEN) {
-        return (lrcsi_visible){0, 0, 0, 0, 0};
+    const lrcsi_view *view = known->contest->view;
+    uint32_t facets = view->prepared->scene->facet_count;
+    uint32_t seen[LRCSI_TILTS];
+    lrcsi_tilt tilt[LRCSI_TILTS];
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < facets; f++) {
+        visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
+        if (known->answer[f] == LRCSI_QUERY_VISIBLE) {
+            seen[count++] = f;
+        }
+        if (count == LRCSI_TILTS || f + 1 == facets) {
+            lrcsi_view_tilts(view, seen, count, tilt);
+            while (count-- > 0) {
+                double area = tilt[count].projected;
+                visible[seen[count]] = (lrcsi_visible){area, area, area, 0, 0};
+            }
+            count = 0;
+        }
     }
-    double area = lrcsi_view_tilt(view, facet).projected;
-    return answer == LRCSI_QUERY_VISIBLE ? (lrcsi_visible){area, area, area, 0, 0}
-                                         : (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
+}
+
+/* A uniform facet of which no query could tell. */
+static lrcsi_visible unknown_area(lrcsi_raster *raster, uint32_t facet)
+{
+    double area = lrcsi_view_tilt(raster->view, facet).projected;
+    raster->undecided[facet] = 1;
+    return (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
 }
 
 static void visible_fill(const lrcsi_known *known, pixel_marks *marks, lrcsi_visible *visible)
@@ -426,13 +448,12 @@ static void visible_fill(const lrcsi_known *known, pixel_marks *marks, lrcsi_vis
             mark_pure(marks, f);
         }
     }
+    known_areas(known, visible);
     for (uint32_t f = 0; f < count; f++) {
-        int answer = known->answer[f];
-        if (contest->contested[f] && answer == LRCSI_QUERY_UNDECIDED) {
-            visible[f] = contested_area(contest, raster, &known->facets, marks, f);
-        } else {
-            visible[f] = known_area(contest->view, answer, f);
-            raster->undecided[f] |= answer == LRCSI_QUERY_UNDECIDED;
+        if (known->answer[f] == LRCSI_QUERY_UNDECIDED) {
+            visible[f] = contest->contested[f]
+                             ? contested_area(contest, raster, &known->facets, marks, f)
+                             : unknown_area(raster, f);
         }
     }
 }
