@@ -5,6 +5,7 @@
 
 cd "$root" || exit 1
 build=$(dirname "$tool")
+build=${build#"$root"/} # by the name that it was built under, which its dependencies are kept by
 # make's own variables stay out: this is a user's make, not a part of the test's.
 unset MAKEFLAGS MFLAGS MAKELEVEL
 to=$scratch/root
