@@ -192,7 +192,7 @@ void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet)
     job.edges = lrcsi_raster_edges(raster, facet);
     job.plane = lrcsi_raster_plane(raster, facet);
     for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
-        lrcsi_spans row = lrcsi_span_row(&job.edges, y);
+        lrcsi_row row = lrcsi_span_row(&job.edges, y);
         draw_doubtful(&job, y, row.may.x0, row.sure.x0);
         draw_run(&job, y, row.sure.x0, row.sure.x1);
         draw_doubtful(&job, y, row.sure.x1, row.may.x1);
@@ -245,7 +245,7 @@ void lrcsi_raster_want(lrcsi_raster *raster, uint32_t facet)
     lrcsi_edges e = lrcsi_raster_edges(raster, facet);
     uint32_t last = raster->size - 1;
     for (uint32_t y = e.bottom; y < e.top; y++) {
-        lrcsi_span row = lrcsi_span_row(&e, y).touched;
+        lrcsi_pixels row = lrcsi_span_row(&e, y).touched;
         if (row.x0 < row.x1) {
             uint32_t x0 = row.x0 > 2 ? row.x0 - 2 : 0;
             uint32_t x1 = row.x1 + 2 < raster->size ? row.x1 + 2 : raster->size;
@@ -287,7 +287,7 @@ static void claim_row(const raster_job *job, uint32_t y)
     if (tile_next(r, y, job->edges.x0, job->edges.x1, 1) == job->edges.x1) {
         return;
     }
-    lrcsi_spans row = lrcsi_span_row(&job->edges, y);
+    lrcsi_row row = lrcsi_span_row(&job->edges, y);
     uint32_t x = tile_next(r, y, row.may.x0, row.may.x1, 1);
     while (x < row.may.x1) {
         uint32_t end = tile_next(r, y, x, row.may.x1, 0);

@@ -16,7 +16,7 @@
 
 #include "base/range.h"
 
-/* Where spans begin and end, fractions yet to be dropped; in the order of lrcsi_spans. */
+/* Where spans begin and end, fractions yet to be dropped; in the order of lrcsi_row. */
 enum { TOUCHED, MAY, SURE, WHOLE, KINDS };
 typedef struct span_ends {
     double from[KINDS], to[KINDS];
@@ -75,25 +75,25 @@ static void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, double cy)
 }
 
 /* Both within x0 .. x1, and whole numbers but for one fraction to be dropped. */
-static lrcsi_span span_of(double from, double to)
+static lrcsi_pixels span_of(double from, double to)
 {
     uint32_t x0 = (uint32_t)from;
     uint32_t x1 = (uint32_t)to;
-    return (lrcsi_span){x0 < x1 ? x0 : x1, x1};
+    return (lrcsi_pixels){x0 < x1 ? x0 : x1, x1};
 }
 
-static lrcsi_span outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
+static lrcsi_pixels outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
 {
     return span_of(round_up(lrcsi_least(ends->from[kind], x1)), lrcsi_most(ends->to[kind], x0));
 }
 
-static lrcsi_span inner_span(const span_ends *ends, int kind, lrcsi_span outer)
+static lrcsi_pixels inner_span(const span_ends *ends, int kind, lrcsi_pixels outer)
 {
     return span_of(lrcsi_most(lrcsi_least(ends->from[kind], outer.x1), outer.x0),
                    round_up(lrcsi_least(lrcsi_most(ends->to[kind], outer.x0), outer.x1)));
 }
 
-lrcsi_spans lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
+lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
 {
     span_ends ends;
     for (int i = 0; i < KINDS; i++) {
@@ -103,7 +103,7 @@ lrcsi_spans lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
     for (int k = 0; k < 3; k++) {
         ends_narrow(&ends, edges, k, y + 0.5);
     }
-    lrcsi_spans row;
+    lrcsi_row row;
     row.touched = outer_span(&ends, TOUCHED, edges->left, edges->right);
     row.may = outer_span(&ends, MAY, edges->x0, edges->x1);
     row.sure = inner_span(&ends, SURE, row.may);

@@ -18,27 +18,27 @@ typedef struct lrcsi_edges {
 } lrcsi_edges;
 
 /* Pixels x0 <= x < x1 of a row; none where they are equal. */
-typedef struct lrcsi_span {
+typedef struct lrcsi_pixels {
     uint32_t x0, x1;
-} lrcsi_span;
+} lrcsi_pixels;
 
-static inline int lrcsi_span_has(lrcsi_span span, uint32_t x)
+static inline int lrcsi_span_has(lrcsi_pixels span, uint32_t x)
 {
     return x >= span.x0 && x < span.x1;
 }
 
 /* A row of pixels. The last three lie one within the other. */
-typedef struct lrcsi_spans {
-    lrcsi_span touched; /* all that the facet may touch */
-    lrcsi_span may;     /* all whose centre it may cover */
-    lrcsi_span sure;    /* those whose centre it surely covers, */
-    lrcsi_span whole;   /* and those of which it surely covers all: none is missing but by less than
-                           the error of an edge function */
-} lrcsi_spans;
+typedef struct lrcsi_row {
+    lrcsi_pixels touched; /* all that the facet may touch */
+    lrcsi_pixels may;     /* all whose centre it may cover */
+    lrcsi_pixels sure;    /* those whose centre it surely covers, */
+    lrcsi_pixels whole; /* and those of which it surely covers all: none is missing but by less than
+                         the error of an edge function */
+} lrcsi_row;
 
 /* Fills in over, near and far of edges whose other numbers are known. */
 void lrcsi_span_prepare(lrcsi_edges *edges);
 
-lrcsi_spans lrcsi_span_row(const lrcsi_edges *edges, uint32_t y);
+lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y);
 
 #endif

@@ -31,7 +31,7 @@ typedef struct pixel_marks {
     lrcsi_raster *raster;
     lrcsi_edges edges;    /* of the facet */
     double corner[3][2];  /* its corners, in pixels, counter-clockwise */
-    lrcsi_spans *row;     /* row of the raster, of those touched */
+    lrcsi_row *row;       /* row of the raster, of those touched */
     unsigned char *mixed; /* pixel of the raster, of those touched: visibility may change in it */
 } pixel_marks;
 
@@ -49,7 +49,7 @@ static void marks_start(pixel_marks *m, uint32_t facet)
         lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], m->corner[k]);
     }
     for (uint32_t y = e.bottom; y < e.top; y++) {
-        lrcsi_spans row = m->row[y] = lrcsi_span_row(&e, y);
+        lrcsi_row row = m->row[y] = lrcsi_span_row(&e, y);
         memset(m->mixed + marks_at(m, row.touched.x0, y), 0, row.touched.x1 - row.touched.x0);
     }
 }
@@ -99,7 +99,7 @@ static void mark_edge(pixel_marks *m, uint32_t edge)
 /* Marks the pixels of a row, both facets' own, where a height is not surely above or below 0, it
    being row + along (x + 1/2) to within slack. Division finds whom to ask, as safely as two pixels
    to either side and 8 roundings are; where it gives no number, all are asked. */
-static void mark_level(pixel_marks *m, uint32_t y, lrcsi_span other, double row, double along,
+static void mark_level(pixel_marks *m, uint32_t y, lrcsi_pixels other, double row, double along,
                        double slack)
 {
     double x0 = lrcsi_most(m->row[y].touched.x0, other.x0);
@@ -379,7 +379,7 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
     return lrcsi_work_add(lrcsi_raster_need(prepared, size),
                           lrcsi_work_add(lrcsi_work_bytes((size_t)size * size, 1),
-                                         lrcsi_work_bytes(size, sizeof(lrcsi_spans))));
+                                         lrcsi_work_bytes(size, sizeof(lrcsi_row))));
 }
 
 /* Facets proved hidden own no samples; those proved visible own all of theirs. Only the tiles of
@@ -418,7 +418,7 @@ static void known_areas(const lrcsi_known *known, lrcsi_visible *visible)
         if (known->answer[f] == LRCSI_QUERY_VISIBLE) {
             seen[count++] = f;
         }
-        if (count == LRCSI_TILTS || f + 1 == facets) {
+        if (count == LRCSI_TILTS || (count > 0 && f + 1 == facets)) {
             lrcsi_view_tilts(view, seen, count, tilt);
             while (count-- > 0) {
                 double area = tilt[count].projected;

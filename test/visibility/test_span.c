@@ -74,7 +74,7 @@ static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
     e.x1 = (uint32_t)x1;
     e.left = (uint32_t)(x0 > 0 ? x0 - 1 : 0);
     e.right = (uint32_t)(x1 < N ? x1 + 1 : N);
-    lrcsi_spans row = lrcsi_span_row(&e, (uint32_t)y);
+    lrcsi_row row = lrcsi_span_row(&e, (uint32_t)y);
     for (uint32_t x = 0; x < N; x++) {
         int among = x >= e.x0 && x < e.x1;
         int about = x >= e.left && x < e.right;
@@ -129,7 +129,7 @@ static void what_is_within_the_error_is_not_sure(void **state)
     lrcsi_edges e = edges_of(corner);
     e.x1 = e.right = N;
     for (uint32_t y = 10; y < 50; y++) {
-        lrcsi_spans row = lrcsi_span_row(&e, y);
+        lrcsi_row row = lrcsi_span_row(&e, y);
         assert_int_equal(row.may.x0, 10);
         assert_int_equal(row.sure.x0, 11);
         assert_int_equal(row.touched.x0, 10);
