@@ -236,7 +236,7 @@ static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const l
                                               : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
-/* Could any of it be visible? Most facets of a closed body cannot, and cost no arithmetic. */
+/* Could any of it be visible? The back sides of a closed body cannot, and cost no arithmetic. */
 static int may_show(const total_job *job, uint32_t facet)
 {
     return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_casts(job->view, facet);
