@@ -146,73 +146,6 @@ static int job_files_check(const sweep_job *job)
     return 0;
 }
 
-/* ---- the head ---- */
-
-/* An option given again stands beside the first. Returns 0 where its text has no room. */
-static int head_add(sweep_head *head, const char *key, const char *text)
-{
-    const size_t room = sizeof head->option[0].text;
-    uint32_t at = 0;
-    while (at < head->options && strcmp(head->option[at].key, key) != 0) {
-        at++;
-    }
-    char *end = head->option[at].text + strlen(head->option[at].text);
-    const char *between = at < head->options ? " and " : "";
-    head->option[at].key = key;
-    head->options += at == head->options;
-    size_t left = room - (size_t)(end - head->option[at].text);
-    int size = snprintf(end, left, "%s%s", between, text);
-    for (; *end; end++) {
-        *end = (unsigned char)*end < 0x20 || *end == 0x7f ? '?' : *end;
-    }
-    return size >= 0 && (size_t)size < left;
-}
-
-/* What rows depend on beside the scene, which its hash stands for. */
-static int head_options(sweep_job *job)
-{
-    static const char *const said[] = {"az",   "el",        "rotate", "sphere", "joint",
-                                       "vary", "direction", "azel",   "euler",  "quaternion"};
-    const cli_args *args = job->args;
-    char text[64];
-    for (int i = 0; i < args->given_count; i++) {
-        for (size_t k = 0; k < sizeof said / sizeof said[0]; k++) {
-            if (strcmp(args->given[i].name, said[k]) == 0 &&
-                !head_add(&job->head, said[k], args->given[i].value)) {
-                return cli_usage(args->command, "--%s: too long", said[k]);
-            }
-        }
-    }
-    if (job->plan.kind == SWEEP_TRACK) {
-        snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)job->plan.track.hash);
-        head_add(&job->head, "poses", text);
-    }
-    lrcs_host_number_text(job->options.tolerance, text);
-    head_add(&job->head, "tolerance", text);
-    head_add(&job->head, "method", lrcs_method_text(job->options.method));
-    snprintf(text, sizeof text, "%lu", (unsigned long)job->options.resolution);
-    head_add(&job->head, "resolution", job->options.resolution ? text : "auto");
-    head_add(&job->head, "normals", lrcs_normals_text(job->load.build.normals));
-    return 0;
-}
-
-static int head_make(sweep_job *job)
-{
-    const sweep_plan *plan = &job->plan;
-    sweep_head *head = &job->head;
-    head->scene_hash = lrcs_scene_hash(&job->scene.scene);
-    head->rows = plan->rows;
-    for (uint32_t i = 0; i < plan->axes; i++) {
-        if (plan->axis[i].range.count > 1) {
-            head->shape[head->dimensions++] = plan->axis[i].range.count;
-        }
-    }
-    if (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK || head->dimensions == 0) {
-        head->shape[head->dimensions++] = plan->kind == SWEEP_FIXED ? 1 : plan->poses;
-    }
-    return head_options(job);
-}
-
 /* ---- the rows ---- */
 
 static int job_pose(void *context, uint64_t index, lrcs_pose *pose)
@@ -351,7 +284,7 @@ static int sweep_command(const cli_args *args)
     code = code ? code : job_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
-        code = head_make(job);
+        code = cli_head_make(args, &job->plan, &job->options, &job->scene.scene, &job->head);
         code = code ? code : job_rows(job);
     }
     cli_file_free(&job->file);

@@ -128,6 +128,10 @@ typedef struct sweep_head {
     uint32_t options;
 } sweep_head;
 
+/* 0 or CLI_USAGE. */
+int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
+                  const lrcs_scene *scene, sweep_head *head);
+
 /* What all rows say together. */
 typedef struct sweep_tally {
     uint64_t rows, missed, starved; /* missed: the tolerance; starved: short of memory */

@@ -81,7 +81,7 @@ same two_parameters_of_one_material "$(rows 4-6 base.toml --vary gold.s:0.1 --va
 run run base.toml --tolerance 1e-3 --azel 40,30 --json --material gold=1,0.1,0.1,1
 same on_top_of_the_command_line "$(rows 3 base.toml --vary gold.s:0.1 --azel 40,30 --material gold=1,0.1,0.7,1)" "$(value sigma_m2)"
 run sweep base.toml --vary gold.s:0.1:0.2:0.1 --vary tank.radius:0.3 --joint 'wing, right:1:2:1' --azel 40,30 --json --tolerance 1e-2
-same the_head_says_each "$(printf '%s\n' "$out" | head -1 | grep -c '"rows": 4, "shape": \[2, 2\], "vary": "gold.s:0.1:0.2:0.1 and tank.radius:0.3", "joint": "wing, right:1:2:1", "azel": "40,30"')" 1
+same the_head_says_each "$(printf '%s\n' "$out" | head -1 | grep -c '"rows": 4, "shape": \[2, 2\], "columns": \["gold.s", "tank.radius", "wing, right.joint_deg"\], "vary": "gold.s:0.1:0.2:0.1 and tank.radius:0.3", "joint": "wing, right:1:2:1", "azel": "40,30"')" 1
 run sweep base.toml --joint 'wing, right:1:2:1' --azel 40,30 --tolerance 1e-2
 same a_column_with_a_comma_is_quoted "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f2,3)" '"wing, right.joint_deg"'
 
