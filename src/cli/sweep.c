@@ -170,14 +170,21 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
     return status;
 }
 
-/* The rows up to `end`, all of one scene. */
-static int scene_rows(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
+static int job_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs_host_error *error)
+{
+    const sweep_job *job = context;
+    return cli_scene_of_row(&job->plan, index, &job->scene, &job->load.build, scene, error);
+}
+
+/* The rows up to `end`: all of one scene, or (NULL) each of its own. */
+static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
 {
     lrcs_host_error error;
     lrcs_host_sweep sweep = {.first = job->file.next,
                              .count = end - job->file.next,
                              .threads = job->threads,
                              .pose = job_pose,
+                             .scene = scene ? NULL : job_scene,
                              .take = job_take,
                              .context = job,
                              .cancel = &sweep_stop};
@@ -188,18 +195,19 @@ static int scene_rows(sweep_job *job, const lrcs_host_scene *scene, uint64_t end
     return cli_failed(&error);
 }
 
-/* One scene after another; the rows of one stand together. */
-static int scenes_rows(sweep_job *job)
+/* One scene after another, the poses of each in threads. */
+static int scenes_run(sweep_job *job)
 {
     int code = 0;
     while (code == 0 && job->file.next < job->plan.end) {
         lrcs_host_scene scene;
+        lrcs_host_error error;
         uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
         memset(&scene, 0, sizeof scene);
-        code = cli_scene_of_row(&job->plan, job->file.next, &job->scene, &job->load.build, &scene);
-        if (code == 0) {
-            code = scene_rows(job, &scene, end < job->plan.end ? end : job->plan.end);
+        if (job_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
+            return cli_failed(&error);
         }
+        code = rows_run(job, &scene, end < job->plan.end ? end : job->plan.end);
         lrcs_host_scene_free(&scene);
     }
     return code;
@@ -212,10 +220,10 @@ static int job_run(sweep_job *job)
     job->progress =
         cli_progress_make(job->file.next - job->plan.first, job->plan.end - job->plan.first);
     if (job->plan.scene_axes > 0) {
-        code = scenes_rows(job);
+        code = job->plan.poses > 1 ? scenes_run(job) : rows_run(job, NULL, job->plan.end);
     } else if (job->file.next < job->plan.end) {
         code = lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
-        code = code ? code : scene_rows(job, &job->scene, job->plan.end);
+        code = code ? code : rows_run(job, &job->scene, job->plan.end);
     }
     cli_progress_clear(&job->progress);
     return code;
@@ -256,7 +264,7 @@ static int job_rows(sweep_job *job)
     signals_watch();
     code = job_run(job);
     int closed = cli_file_close(&job->file, &job->plan, code == 0);
-    if (code != 0 && job->file.path && closed == 0) {
+    if (code != 0 && job->file.next > job->plan.first && job->file.path && closed == 0) {
         fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
                 job->file.partial, (unsigned long long)(job->file.next - job->plan.first),
                 (unsigned long long)(job->plan.end - job->plan.first));

@@ -281,7 +281,9 @@ int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
     }
     file->stream = NULL;
     if (!all) {
-        return 0;
+        return file->next > plan->first || remove(file->partial) == 0
+                   ? 0
+                   : file_refuse(file->partial, "remove");
     }
     if (file->npy) {
         return map_make(file);

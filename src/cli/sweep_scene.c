@@ -283,13 +283,14 @@ static void recipe_set(lrcs_recipe *recipe, uint32_t bound, const sweep_axis *ax
 }
 
 int cli_scene_of_row(const sweep_plan *plan, uint64_t row, const lrcs_host_scene *base,
-                     const lrcs_build_options *build, lrcs_host_scene *scene)
+                     const lrcs_build_options *build, lrcs_host_scene *scene,
+                     lrcs_host_error *error)
 {
-    lrcs_host_error error = {"out of memory"};
     lrcs_recipe recipe = base->recipe;
     uint32_t bound = recipe.binding_count;
     recipe.part = calloc((size_t)recipe.part_count + 1, sizeof *recipe.part);
     recipe.binding = calloc((size_t)bound + SWEEP_AXES, sizeof *recipe.binding);
+    snprintf(error->text, sizeof error->text, "out of memory");
     int status = LRCS_E_SYSTEM;
     if (recipe.part && recipe.binding) {
         memcpy(recipe.part, base->recipe.part, recipe.part_count * sizeof *recipe.part);
@@ -300,12 +301,15 @@ int cli_scene_of_row(const sweep_plan *plan, uint64_t row, const lrcs_host_scene
             double value = cli_range_at(&plan->axis[i].range, cli_plan_place(plan, row, i));
             recipe_set(&recipe, bound, &plan->axis[i], value, &base->scene);
         }
-        status = lrcs_host_scene_vary(base, &recipe, build, scene, &error);
+        status = lrcs_host_scene_vary(base, &recipe, build, scene, error);
     }
     if (status == LRCS_OK) {
-        status = lrcs_host_scene_prepare(scene, &error);
+        status = lrcs_host_scene_prepare(scene, error);
+        if (status != LRCS_OK) {
+            lrcs_host_scene_free(scene);
+        }
     }
     free(recipe.binding);
     free(recipe.part);
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    return status;
 }
