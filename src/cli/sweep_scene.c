@@ -15,25 +15,25 @@ enum scene_key { SCENE_JOINT, SCENE_MATERIAL, SCENE_SHAPE };
 #define KIND(kind) (1u << LRCS_SHAPE_##kind)
 static const struct {
     const char *name;
-    int key;
     size_t offset;
+    int key;
     unsigned kinds;
 } scene_keys[] = {
-    {"joint_deg", SCENE_JOINT, 0, 0},
-    {"A", SCENE_MATERIAL, offsetof(lrcs_brdf, A), 0},
-    {"B", SCENE_MATERIAL, offsetof(lrcs_brdf, B), 0},
-    {"s", SCENE_MATERIAL, offsetof(lrcs_brdf, s), 0},
-    {"m", SCENE_MATERIAL, offsetof(lrcs_brdf, m), 0},
-    {"size_x", SCENE_SHAPE, offsetof(lrcs_shape, size), KIND(PLATE) | KIND(BOX)},
-    {"size_y", SCENE_SHAPE, offsetof(lrcs_shape, size) + sizeof(double), KIND(PLATE) | KIND(BOX)},
-    {"size_z", SCENE_SHAPE, offsetof(lrcs_shape, size) + 2 * sizeof(double), KIND(BOX)},
-    {"radius", SCENE_SHAPE, offsetof(lrcs_shape, radius),
+    {"joint_deg", 0, SCENE_JOINT, 0},
+    {"A", offsetof(lrcs_brdf, A), SCENE_MATERIAL, 0},
+    {"B", offsetof(lrcs_brdf, B), SCENE_MATERIAL, 0},
+    {"s", offsetof(lrcs_brdf, s), SCENE_MATERIAL, 0},
+    {"m", offsetof(lrcs_brdf, m), SCENE_MATERIAL, 0},
+    {"size_x", offsetof(lrcs_shape, size), SCENE_SHAPE, KIND(PLATE) | KIND(BOX)},
+    {"size_y", offsetof(lrcs_shape, size) + sizeof(double), SCENE_SHAPE, KIND(PLATE) | KIND(BOX)},
+    {"size_z", offsetof(lrcs_shape, size) + 2 * sizeof(double), SCENE_SHAPE, KIND(BOX)},
+    {"radius", offsetof(lrcs_shape, radius), SCENE_SHAPE,
      KIND(DISC) | KIND(SPHERE) | KIND(DOME) | KIND(CYLINDER) | KIND(CONE) | KIND(FRUSTUM) |
          KIND(PARABOLOID)},
-    {"radius2", SCENE_SHAPE, offsetof(lrcs_shape, radius2), KIND(FRUSTUM)},
+    {"radius2", offsetof(lrcs_shape, radius2), SCENE_SHAPE, KIND(FRUSTUM)},
     {"length", SCENE_SHAPE, offsetof(lrcs_shape, length),
      KIND(CYLINDER) | KIND(CONE) | KIND(FRUSTUM) | KIND(PARABOLOID)},
-    {"half_angle_deg", SCENE_SHAPE, offsetof(lrcs_shape, half_angle_deg), KIND(CONE)}};
+    {"half_angle_deg", offsetof(lrcs_shape, half_angle_deg), SCENE_SHAPE, KIND(CONE)}};
 
 #define SCENE_KEYS (int)(sizeof scene_keys / sizeof scene_keys[0])
 

@@ -103,6 +103,12 @@ for other in whole.3 joined again; do
     if cmp -s whole.1.csv $other.csv; then ok "the_same_bytes_in_$other"; else not_ok "the_same_bytes_in_$other"; fi
 done
 
+# One pose a scene: the scenes themselves are built in threads.
+for jobs in 1 3; do
+    "$tool" sweep base.toml --joint '*:0:60:5' --azel 40,30 --tolerance 1e-2 --jobs $jobs >jobs.$jobs 2>/dev/null
+done
+same scenes_in_threads_are_the_same_bytes "$(wc -l <jobs.1 | tr -d ' ') $(cmp jobs.1 jobs.3 && echo same)" "15 same"
+
 usage_error a_part_without_a_joint "no part 'bus' has a joint; the nearest is" sweep base.toml --joint bus:0:1:1
 usage_error a_scene_without_joints "no part of the scene has a joint" sweep fin.obj --joint fin:0:1:1
 usage_error a_joint_without_a_range "expected PART:A:B:STEP" sweep base.toml --joint tank
