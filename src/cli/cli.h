@@ -10,7 +10,8 @@ enum cli_exit {
     CLI_DONE = 0,
     CLI_FAILED = 1,
     CLI_USAGE = 2,
-    CLI_DEGRADED = 3 /* done, but the tolerance was not met or memory forced a fallback */
+    CLI_DEGRADED = 3 /* done, but the tolerance was not met, memory forced a fallback, or readings
+                        leave a parameter open */
 };
 
 /* What --json says it is. */
@@ -91,6 +92,9 @@ struct cli_args {
 /* Reads the words after the command's name. 0, or CLI_USAGE with the message printed. The
    caller frees args->given in any case. */
 int cli_args_read(const cli_command *command, int count, char **word, cli_args *args);
+
+/* What stands before an option's name: two dashes, or one before a single letter. */
+const char *cli_dashes(const char *name);
 
 /* The value of an option ("" for one without), or NULL where it was not given. */
 const char *cli_value(const cli_args *args, const char *name);

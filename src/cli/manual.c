@@ -42,7 +42,9 @@ static const char roff_end[] =
     ".TP\n.B 0\ndone\n"
     ".TP\n.B 1\nfailed\n"
     ".TP\n.B 2\nusage: the command line is not one that the tool knows\n"
-    ".TP\n.B 3\ndone, but the tolerance was not met, or memory forced a coarser answer\n"
+    ".TP\n.B 3\ndone, but the tolerance was not met, memory forced a coarser answer, or "
+    "readings\nleave a "
+    "parameter open\n"
     ".SH SOURCE\n"
     "Eq. 2 and the four\\-parameter BRDF: Han et al. (2014). Bounds are proved for the mesh and "
     "the\n"
@@ -70,6 +72,7 @@ static const char *option_words(const char *name)
     return strcmp(name, "method") == 0    ? "auto facet zbuffer exact"
            : strcmp(name, "normals") == 0 ? "flat auto smooth"
            : strcmp(name, "unit") == 0    ? "mm cm m in ft"
+           : strcmp(name, "noise") == 0   ? "auto absolute relative"
                                           : NULL;
 }
 
@@ -77,7 +80,7 @@ static void completion_command(const cli_command *command)
 {
     printf("        %s) words='", command->name);
     for (const cli_option *o = command->option; o->name; o++) {
-        printf("--%s ", o->name);
+        printf("%s%s ", cli_dashes(o->name), o->name);
     }
     puts("' ;;");
 }
@@ -86,17 +89,17 @@ static void completion_values(const cli_command *command)
 {
     for (const cli_option *o = command->option; o->name; o++) {
         if (option_words(o->name)) {
-            printf("        %s,--%s) values='%s' ;;\n", command->name, o->name,
+            printf("        %s,%s%s) values='%s' ;;\n", command->name, cli_dashes(o->name), o->name,
                    option_words(o->name));
         } else if (strcmp(o->name, "material") == 0) {
             const lrcs_brdf_entry *entry;
-            printf("        %s,--%s) values='", command->name, o->name);
+            printf("        %s,%s%s) values='", command->name, cli_dashes(o->name), o->name);
             for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
                 printf("%s ", entry->name);
             }
             puts("' ;;");
         } else if (o->has_value) {
-            printf("        %s,--%s) values=' ' ;;\n", command->name, o->name);
+            printf("        %s,%s%s) values=' ' ;;\n", command->name, cli_dashes(o->name), o->name);
         }
     }
 }

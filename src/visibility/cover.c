@@ -43,8 +43,7 @@ int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover
     *cover = (lrcsi_cover){.contest = contest};
     cover->asked = lrcsi_work_take_zero(work, count, sizeof *cover->asked);
     cover->candidate = lrcsi_work_take(work, count, sizeof *cover->candidate);
-    return cover->asked && cover->candidate ? lrcsi_grid_facets(contest->view, work, &cover->facets)
-                                            : LRCS_E_MEMORY;
+    return cover->asked && cover->candidate ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 /* --- candidates ------------------------------------------------------------------------------- */

@@ -34,8 +34,8 @@ typedef struct lrcsi_cover {
 
 size_t lrcsi_cover_need(const lrcs_prepared *prepared);
 
-/* What serves all facets of a view; it stays in the work area.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
+/* What serves all facets of a view, but for the grid of facets, which is the caller's to make; it
+   stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover);
 
 /* Lists what may hide some of a facet. */

@@ -385,8 +385,9 @@ int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding 
     int status =
         o->uniform && o->stack ? lrcsi_cover_make(contest, work, &o->cover) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        lrcsi_query_uniform(contest, &o->cover.facets, o->uniform);
-    } else {
+        status = lrcsi_query_uniform(contest, work, &o->cover.facets, o->uniform);
+    }
+    if (status != LRCS_OK) {
         work->used = mark;
     }
     return status;
