@@ -69,7 +69,7 @@ static double height_finely(const lrcsi_target *t, const double *x, double *off)
 
 /* 1 all corners of `other` lie in front of the facet's plane or on it, -1 behind, 0 neither or all
    on it. */
-static int side_of(const lrcsi_view *view, uint32_t facet, uint32_t other)
+static int contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
 {
     int front = 0;
     int behind = 0;
@@ -83,8 +83,8 @@ static int side_of(const lrcsi_view *view, uint32_t facet, uint32_t other)
 
 int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
 {
-    int side = side_of(view, facet, other);
-    return side != 0 ? side : -side_of(view, other, facet);
+    int side = contact_side(view, facet, other);
+    return side != 0 ? side : -contact_side(view, other, facet);
 }
 
 /* Where, in projection, side p q of one facet and side r s of another cross: 1 the latter is nearer

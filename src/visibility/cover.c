@@ -237,7 +237,7 @@ static void line_lift(cover_line *line)
 /* What hides the target on a line: a lrcsi_cover_answer, or LINE_AGAIN where it must be asked
    another way. Candidates that hide all of a cell come to stand first. */
 #define LINE_AGAIN (-1)
-static int line_answer(const cover_line *line, lrcsi_cover *cover, uint32_t *sheet)
+static int line_tells(const cover_line *line, lrcsi_cover *cover, uint32_t *sheet)
 {
     int answer = LRCSI_COVER_NONE;
     uint32_t fewest = LRCS_NONE;
@@ -276,11 +276,11 @@ int lrcsi_cover_sample(lrcsi_cover *cover, const lrcsi_cuts *cuts, uint32_t coun
     cover_line line = {.cuts = cuts, .count = count, .at = {place->at[0], place->at[1]}};
     line.xy[0] = origin[0] + place->at[0];
     line.xy[1] = origin[1] + place->at[1];
-    int answer = place->clear > 0 ? line_answer(&line, cover, sheet) : LINE_AGAIN;
+    int answer = place->clear > 0 ? line_tells(&line, cover, sheet) : LINE_AGAIN;
     if (answer == LINE_AGAIN) {
         line_lift(&line);
         line.way = place->clear > line.off ? LINE_EXACT : LINE_GUESSED;
-        answer = line_answer(&line, cover, sheet);
+        answer = line_tells(&line, cover, sheet);
     }
     place->guess = line.way == LINE_GUESSED;
     return answer;

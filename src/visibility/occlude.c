@@ -57,8 +57,8 @@
 /* Cells that wait at most. Of two, that with the sample comes first: the other has all the room. */
 #define MOST_WAITING 256u
 /* Cells that a facet may be cut into: so many, and so many a cut. */
-#define MOST_CELLS     4096u
-#define MOST_CELLS_CUT 256u
+#define PARTS_MOST  4096u
+#define PARTS_A_CUT 256u
 
 /* --- cells ------------------------------------------------------------------------------------ */
 
@@ -280,7 +280,7 @@ static int cells_open(lrcsi_occluding *o, uint32_t facet)
     int status = lrcsi_cuts_make(o->contest, &o->target, o->work, &o->cuts);
     if (status == LRCS_OK) {
         lrcsi_cover_start(&o->cover, &o->target);
-        o->cells = MOST_CELLS + (uint64_t)MOST_CELLS_CUT * o->cuts.count;
+        o->cells = PARTS_MOST + (uint64_t)PARTS_A_CUT * o->cuts.count;
         o->stack[0] = (lrcsi_occlude_cell){.count = o->cuts.count};
         lrcsi_clip_triangle((const double(*)[2])o->target.corner, &o->stack[0].shape);
         o->top = 1;
