@@ -137,7 +137,7 @@ static void sum_samples(const curve_job *job, const lrcsi_raster *raster, double
     lrcsi_edges e = lrcsi_raster_edges(raster, job->facet);
     *owned = *covered = 0;
     for (uint32_t y = e.y0; y < e.y1; y++) {
-        lrcsi_span row = lrcsi_span_meets(&e, LRCSI_SPAN_CENTRE, y, e.x0, e.x1);
+        lrcsi_pixels row = lrcsi_span_row(&e, y).may;
         for (uint32_t x = row.x0; x < row.x1; x++) {
             double n[3] = {0, 0, 0};
             int inside = 1;
@@ -274,12 +274,7 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
     double off = 20 * U * target->reach * target->perimeter;
     job->sum.slip = pieces_slip(job, target);
     while (lrcsi_occlude_next(o)) {
-        const lrcsi_clip_list *list = &o->clip.list;
-        for (uint32_t i = 0; i < list->pieces; i++) {
-            uint32_t first = lrcsi_clip_first(list, i);
-            off += piece_add(job, target, (const double(*)[2]) & list->corner[first],
-                             list->end[i] - first);
-        }
+        off += piece_add(job, target, (const double(*)[2])o->piece.corner, o->piece.count);
     }
     *visible = facet_known(job->view, job->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = job_part(job, 1);

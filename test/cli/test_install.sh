@@ -49,6 +49,7 @@ if command -v bash >/dev/null; then
     same completion_offers_options "$(complete run demo --tol)" --tolerance
     same completion_offers_values "$(complete run demo --method ex)" exact
     same completion_offers_values_after_an_equals_sign "$(complete run demo --method = fa)" facet
+    same completion_offers_one_letter_options "$(complete sweep demo -o 2>&1 | tr ' ' '\n' | grep -x -e -o)" -o
     same completion_offers_files "$(complete info READM)" README.md
 fi
 
