@@ -20,4 +20,8 @@ typedef struct lrcsi_drift {
 lrcsi_drift lrcsi_drift_facet(const lrcsi_contest *contest, uint32_t crossings,
                               const lrcsi_raster *raster, uint32_t facet);
 
+/* A facet that shares its samples with its neighbours (visibility/share.h), of which that share is
+   seen. */
+lrcsi_drift lrcsi_drift_row(const lrcsi_raster *raster, uint32_t facet, double share);
+
 #endif

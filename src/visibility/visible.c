@@ -4,7 +4,7 @@
    sample on the facet tells which, exactly, and one in a neighbouring such pixel does too, since
    the facet's part of both is connected. And where a pixel is known to be covered by one visible
    facet, all others are hidden there. Those pixels bound the area from below and above; the
-   estimate between the bounds is the share of samples. */
+   area between the bounds comes from the samples (visibility/share.h). */
 #include "visibility/visible.h"
 
 #include <math.h>
@@ -15,10 +15,7 @@
 #include "visibility/drift.h"
 #include "visibility/query.h"
 #include "visibility/sample.h"
-
-/* The share of fewer samples than this is biased: a row of facets thinner than a pixel then leans
-   one way, which the plain count of their samples does not. */
-#define FEW 16u
+#include "visibility/share.h"
 
 /* --- pixels where visibility may change ------------------------------------------------------- */
 
@@ -245,41 +242,30 @@ static uint32_t mark_changes(pixel_marks *m, lrcsi_contest *contest, uint32_t fa
     return crossings;
 }
 
-/* The share of its samples that a facet owns; one query where it has none. */
-static double sampled_share(const lrcsi_raster *raster, const lrcsi_grid *facets, uint32_t facet)
-{
-    static const double share[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
-    if (raster->covered[facet] != 0) {
-        return (double)raster->owned[facet] / raster->covered[facet];
-    }
-    return share[lrcsi_query_facet(facets, facet)];
-}
-
 /* Pixel areas are side^2 / N^2 to a few roundings; 1e-12 of them is given away. */
-static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *raster,
-                                    const lrcsi_grid *facets, pixel_marks *marks, uint32_t facet)
+static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_sharing *sharing,
+                                    pixel_marks *marks, uint32_t facet)
 {
+    const lrcsi_raster *raster = sharing->raster;
     double area = lrcsi_view_tilt(contest->view, facet).projected;
+    double pixel = raster->pixel * raster->pixel;
+    lrcsi_share share = lrcsi_share_facet(sharing, facet, area);
     double shown = 0;
     double hidden = 0;
     lrcsi_drift drift = {HUGE_VAL, 0};
     if (!raster->undecided[facet]) {
         uint32_t crossings = mark_changes(marks, contest, facet);
-        drift = lrcsi_drift_facet(contest, crossings, raster, facet);
+        drift = share.row ? lrcsi_drift_row(raster, facet, share.share)
+                          : lrcsi_drift_facet(contest, crossings, raster, facet);
         count_certain(marks, facet, &shown, &hidden);
     }
-    double pixel = raster->pixel * raster->pixel;
     lrcsi_visible v;
     v.low = lrcsi_least(area, shown * pixel * (1 - 1e-12));
     v.high = lrcsi_most(v.low, area - hidden * pixel * (1 - 1e-12));
-    v.area = lrcsi_least(v.high, lrcsi_most(v.low, area * sampled_share(raster, facets, facet)));
+    lrcsi_share_keep(sharing, facet, area, &share, &v);
     double gap = v.high - v.low;
     v.likely = lrcsi_least(gap, sqrt(drift.square) * pixel);
-    v.lean = drift.lean * pixel;
-    if (raster->covered[facet] < FEW) {
-        v.lean += v.area - raster->owned[facet] * pixel;
-    }
-    v.lean = lrcsi_least(gap, lrcsi_most(-gap, v.lean));
+    v.lean = lrcsi_least(gap, lrcsi_most(-gap, drift.lean * pixel));
     return v;
 }
 
@@ -306,8 +292,9 @@ static lrcsi_visible uniform_area(const lrcsi_view *view, const lrcsi_raster *ra
 
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    return lrcsi_work_add(lrcsi_work_bytes((size_t)size * size, 2),
-                          lrcsi_grid_facets_need(prepared));
+    size_t need = lrcsi_work_bytes((size_t)size * size, 2);
+    need = lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
+    return lrcsi_work_add(need, lrcsi_share_need(prepared));
 }
 
 /* The pixels of which one facet is known to hold all. */
@@ -328,7 +315,7 @@ static void mark_all_pure(lrcsi_contest *contest, pixel_marks *marks, const lrcs
     }
 }
 
-static void visible_fill(lrcsi_contest *contest, const lrcsi_grid *facets, pixel_marks *marks,
+static void visible_fill(lrcsi_contest *contest, const lrcsi_sharing *sharing, pixel_marks *marks,
                          lrcsi_visible *visible)
 {
     const lrcsi_view *view = contest->view;
@@ -336,7 +323,7 @@ static void visible_fill(lrcsi_contest *contest, const lrcsi_grid *facets, pixel
     for (uint32_t f = 0; f < count; f++) {
         visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
         if (lrcsi_grid_casts(view, f) && !contest->contested[f]) {
-            visible[f] = uniform_area(view, marks->raster, facets, f);
+            visible[f] = uniform_area(view, marks->raster, sharing->facets, f);
         }
     }
     if (contest->contested_count == 0) {
@@ -344,10 +331,11 @@ static void visible_fill(lrcsi_contest *contest, const lrcsi_grid *facets, pixel
     }
     mark_all_pure(contest, marks, visible);
     for (uint32_t f = 0; f < count; f++) {
-        if (contest->contested[f] && !lrcsi_query_screened(contest, facets, f)) {
-            visible[f] = contested_area(contest, marks->raster, facets, marks, f);
+        if (contest->contested[f] && !lrcsi_query_screened(contest, sharing->facets, f)) {
+            visible[f] = contested_area(contest, sharing, marks, f);
         }
     }
+    lrcsi_share_settle(sharing, visible);
 }
 
 int lrcsi_visible_sampled(lrcsi_contest *contest, const lrcsi_raster *raster, lrcs_work *work,
@@ -356,13 +344,17 @@ int lrcsi_visible_sampled(lrcsi_contest *contest, const lrcsi_raster *raster, lr
     size_t mark = work->used;
     size_t pixels = (size_t)raster->size * raster->size;
     lrcsi_grid facets;
+    lrcsi_sharing sharing;
     pixel_marks marks = {.raster = raster};
     marks.mixed = lrcsi_work_take(work, pixels, 1);
     marks.pure = lrcsi_work_take_zero(work, pixels, 1);
     int status =
         marks.mixed && marks.pure ? lrcsi_grid_facets(contest->view, work, &facets) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        visible_fill(contest, &facets, &marks, visible);
+        status = lrcsi_share_make(contest, raster, &facets, work, &sharing);
+    }
+    if (status == LRCS_OK) {
+        visible_fill(contest, &sharing, &marks, visible);
     }
     work->used = mark;
     return status;

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT */
+/* From samples to the area of a contested facet. Many samples give it the share of them that it
+   owns, so that its own sides, which miscount owned and covered samples alike, do not matter. Of
+   few, in a row of facets thinner than a pixel that one edge cuts all alike, those shares would
+   err one way. There a facet takes the samples that it owns, as they are, and only of the rest of
+   its area the share of its samples and its neighbours' together; what lies beyond its bounds is
+   passed on within its sheet, so that the row together shows what its samples show. Facets smaller
+   than a pixel are too many to need any of this: their shares, or a query at the middle of each,
+   err less than pixels do. Nothing here depends on the order of facets. The bounds are not its
+   business, nor how far the areas may be off. */
+#include "visibility/share.h"
+
+#include "base/range.h"
+#include "base/work.h"
+#include "visibility/query.h"
+
+/* Fewer samples than this are few. */
+#define FEW 16u
+
+size_t lrcsi_share_need(const lrcs_prepared *prepared)
+{
+    return lrcsi_work_bytes(prepared->scene->facet_count, sizeof(lrcsi_share_rest));
+}
+
+int lrcsi_share_make(const lrcsi_contest *contest, const lrcsi_raster *raster,
+                     const lrcsi_grid *facets, lrcs_work *work, lrcsi_sharing *sharing)
+{
+    *sharing = (lrcsi_sharing){contest, raster, facets, NULL};
+    sharing->rest = lrcsi_work_take_zero(work, contest->view->prepared->scene->facet_count,
+                                         sizeof *sharing->rest);
+    return sharing->rest ? LRCS_OK : LRCS_E_MEMORY;
+}
+
+/* Adds up the samples of a facet's neighbours in its sheet. Returns how many neighbours. */
+static uint32_t share_neighbours(const lrcsi_sharing *s, uint32_t facet, double *owned,
+                                 double *covered)
+{
+    const lrcsi_topology *topology = &s->contest->view->prepared->topology;
+    uint32_t count = 0;
+    for (int k = 0; k < 3; k++) {
+        const lrcsi_edge *edge = &topology->edge[topology->facet_edge[facet].corner[k]];
+        for (uint32_t i = 0; i < edge->uses; i++) {
+            uint32_t other = topology->use[edge->first_use + i].facet;
+            if (other != facet && s->contest->sheet[other] == s->contest->sheet[facet]) {
+                *owned += s->raster->owned[other];
+                *covered += s->raster->covered[other];
+                count++;
+            }
+        }
+    }
+    return count;
+}
+
+/* Does the facet share its samples? The samples that decide its share, its own or with its
+   neighbours' together, go to *owned and *covered. */
+static int share_row(const lrcsi_sharing *s, uint32_t facet, double area, double *owned,
+                     double *covered)
+{
+    *owned = s->raster->owned[facet];
+    *covered = s->raster->covered[facet];
+    if (s->raster->covered[facet] >= FEW || area <= s->raster->pixel * s->raster->pixel) {
+        return 0;
+    }
+    double all_owned = *owned;
+    double all_covered = *covered;
+    if (share_neighbours(s, facet, &all_owned, &all_covered) < 2) {
+        return 0; /* two facets are no row */
+    }
+    *owned = all_owned;
+    *covered = all_covered;
+    return 1;
+}
+
+lrcsi_share lrcsi_share_facet(const lrcsi_sharing *s, uint32_t facet, double area)
+{
+    static const double answer[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
+    double owned;
+    double covered;
+    lrcsi_share share;
+    share.row = share_row(s, facet, area, &owned, &covered);
+    share.share = covered > 0 ? owned / covered : answer[lrcsi_query_facet(s->facets, facet)];
+    return share;
+}
+
+void lrcsi_share_keep(const lrcsi_sharing *s, uint32_t facet, double area, const lrcsi_share *share,
+                      lrcsi_visible *visible)
+{
+    double pixel = s->raster->pixel * s->raster->pixel;
+    double wanted = area * share->share;
+    if (share->row) {
+        wanted += (s->raster->owned[facet] - share->share * s->raster->covered[facet]) * pixel;
+    }
+    visible->area = lrcsi_least(visible->high, lrcsi_most(visible->low, wanted));
+    if (share->row) {
+        lrcsi_share_rest *sheet = &s->rest[s->contest->sheet[facet]];
+        sheet->rest += wanted - visible->area;
+        sheet->above += visible->high - visible->area;
+        sheet->below += visible->area - visible->low;
+    }
+}
+
+/* What a facet is given of its sheet's rest: in proportion to the room that it has. */
+static double share_given(const lrcsi_share_rest *sheet, const lrcsi_visible *v)
+{
+    if (sheet->rest > 0) {
+        return (v->high - v->area) * (sheet->rest < sheet->above ? sheet->rest / sheet->above : 1);
+    }
+    if (sheet->rest < 0) {
+        return (v->area - v->low) * (-sheet->rest < sheet->below ? sheet->rest / sheet->below : -1);
+    }
+    return 0;
+}
+
+void lrcsi_share_settle(const lrcsi_sharing *s, lrcsi_visible *visible)
+{
+    const lrcsi_view *view = s->contest->view;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        const lrcsi_share_rest *sheet = &s->rest[s->contest->sheet[f]];
+        lrcsi_visible *v = &visible[f];
+        double samples[2];
+        if (s->contest->contested[f] && sheet->rest != 0 && v->high > v->low &&
+            share_row(s, f, lrcsi_view_tilt(view, f).projected, &samples[0], &samples[1])) {
+            double area = v->area + share_given(sheet, v);
+            v->area = lrcsi_least(v->high, lrcsi_most(v->low, area));
+        }
+    }
+}
