@@ -16,13 +16,13 @@
 
 /* Squares of guesses, in pixels: four times the mean square of errors, calibrated
    (test/hostile). */
-#define PARTED    1.2 /* of a facet that owns some of its samples, not all: for the ends of lines */
-#define STRAY     1.4 /* for each square of how far the sum of a line strays */
+#define PARTED    0.9 /* of a facet that owns some of its samples, not all: for the ends of lines */
+#define STRAY     1.8 /* for each square of how far the sum of a line strays */
 #define SIDES     1.0 /* for that of its own sides, times share (1 - share) */
 #define ALIKE     0.72 /* of one that owns all of its samples, or none */
 #define SMALL     0.8  /* of either at most so much, times the square of its area */
 #define UNSAMPLED 0.36 /* of one that has no samples, likewise */
-#define ROW       0.2  /* of one that shares its samples, times its width */
+#define ROW       0.4  /* of one that shares its samples, times its width */
 #define ROW_SEEN  4.8  /* and so much more, times its width and share (1 - share) */
 
 /* A facet on the raster. */

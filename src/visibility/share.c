@@ -1,21 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /* From samples to the area of a contested facet. Many samples give it the share of them that it
    owns, so that its own sides, which miscount owned and covered samples alike, do not matter. Of
-   few, in a row of facets thinner than a pixel that one edge cuts all alike, those shares would
-   err one way. There a facet takes the samples that it owns, as they are, and only of the rest of
-   its area the share of its samples and its neighbours' together; what lies beyond its bounds is
-   passed on within its sheet, so that the row together shows what its samples show. Facets smaller
-   than a pixel are too many to need any of this: their shares, or a query at the middle of each,
-   err less than pixels do. Nothing here depends on the order of facets. The bounds are not its
-   business, nor how far the areas may be off. */
+   few, in a row of facets thinner than a pixel or two that an edge cuts all alike, those shares
+   would err one way. There a facet takes the samples that it owns, as they are, and only of the
+   rest of its area the share of its samples and its neighbours' together; what its bounds cut off
+   is passed on within its sheet, so that the row together shows what its samples show. Small
+   facets need none of this: their shares, or a query in the middle of each, err less than pixels
+   do. Nothing here depends on the order of facets. The bounds are not its business, nor how far
+   the areas may be off. */
 #include "visibility/share.h"
+
+#include <math.h>
 
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/query.h"
 
-/* Fewer samples than this are few. */
-#define FEW 16u
+/* Fewer samples than this are few, and of a long facet fewer than pixels along it. */
+#define FEW 16.0
+
+/* A facet whose longest side is shorter, in pixels, is small. */
+#define SMALL_SIDE 4.0
 
 size_t lrcsi_share_need(const lrcs_prepared *prepared)
 {
@@ -51,14 +56,25 @@ static uint32_t share_neighbours(const lrcsi_sharing *s, uint32_t facet, double 
     return count;
 }
 
+/* The longest side of a facet, in pixels. */
+static double share_longest(const lrcsi_raster *raster, uint32_t facet)
+{
+    lrcsi_edges e = lrcsi_raster_edges(raster, facet);
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        square = lrcsi_most(square, e.along[k] * e.along[k] + e.up[k] * e.up[k]);
+    }
+    return sqrt(square);
+}
+
 /* Does the facet share its samples? The samples that decide its share, its own or with its
    neighbours' together, go to *owned and *covered. */
-static int share_row(const lrcsi_sharing *s, uint32_t facet, double area, double *owned,
-                     double *covered)
+static int share_row(const lrcsi_sharing *s, uint32_t facet, double *owned, double *covered)
 {
     *owned = s->raster->owned[facet];
     *covered = s->raster->covered[facet];
-    if (s->raster->covered[facet] >= FEW || area <= s->raster->pixel * s->raster->pixel) {
+    double longest = share_longest(s->raster, facet);
+    if (longest < SMALL_SIDE || *covered >= lrcsi_most(FEW, longest)) {
         return 0;
     }
     double all_owned = *owned;
@@ -71,13 +87,13 @@ static int share_row(const lrcsi_sharing *s, uint32_t facet, double area, double
     return 1;
 }
 
-lrcsi_share lrcsi_share_facet(const lrcsi_sharing *s, uint32_t facet, double area)
+lrcsi_share lrcsi_share_facet(const lrcsi_sharing *s, uint32_t facet)
 {
     static const double answer[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
     double owned;
     double covered;
     lrcsi_share share;
-    share.row = share_row(s, facet, area, &owned, &covered);
+    share.row = share_row(s, facet, &owned, &covered);
     share.share = covered > 0 ? owned / covered : answer[lrcsi_query_facet(s->facets, facet)];
     return share;
 }
@@ -119,7 +135,7 @@ void lrcsi_share_settle(const lrcsi_sharing *s, lrcsi_visible *visible)
         lrcsi_visible *v = &visible[f];
         double samples[2];
         if (s->contest->contested[f] && sheet->rest != 0 && v->high > v->low &&
-            share_row(s, f, lrcsi_view_tilt(view, f).projected, &samples[0], &samples[1])) {
+            share_row(s, f, &samples[0], &samples[1])) {
             double area = v->area + share_given(sheet, v);
             v->area = lrcsi_least(v->high, lrcsi_most(v->low, area));
         }

@@ -30,10 +30,10 @@ size_t lrcsi_share_need(const lrcs_prepared *prepared);
 int lrcsi_share_make(const lrcsi_contest *contest, const lrcsi_raster *raster,
                      const lrcsi_grid *facets, lrcs_work *work, lrcsi_sharing *sharing);
 
-/* Asks about a contested facet of the given projected area. */
-lrcsi_share lrcsi_share_facet(const lrcsi_sharing *sharing, uint32_t facet, double area);
+/* Asks about a contested facet. */
+lrcsi_share lrcsi_share_facet(const lrcsi_sharing *sharing, uint32_t facet);
 
-/* Its area between visible->low and visible->high, put into visible->area. */
+/* Puts its area, of the projected area given, between visible->low and visible->high. */
 void lrcsi_share_keep(const lrcsi_sharing *sharing, uint32_t facet, double area,
                       const lrcsi_share *share, lrcsi_visible *visible);
 

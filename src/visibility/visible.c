@@ -249,7 +249,7 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_sharing 
     const lrcsi_raster *raster = sharing->raster;
     double area = lrcsi_view_tilt(contest->view, facet).projected;
     double pixel = raster->pixel * raster->pixel;
-    lrcsi_share share = lrcsi_share_facet(sharing, facet, area);
+    lrcsi_share share = lrcsi_share_facet(sharing, facet);
     double shown = 0;
     double hidden = 0;
     lrcsi_drift drift = {HUGE_VAL, 0};
