@@ -16,7 +16,7 @@
 #include "base/work.h"
 #include "visibility/query.h"
 
-/* Fewer samples than this are few, and of a long facet fewer than pixels along it. */
+/* Fewer samples than this are few, and of a long facet fewer than four for each pixel along it. */
 #define FEW 16.0
 
 /* A facet whose longest side is shorter, in pixels, is small. */
@@ -69,12 +69,12 @@ static double share_longest(const lrcsi_raster *raster, uint32_t facet)
 
 /* Does the facet share its samples? The samples that decide its share, its own or with its
    neighbours' together, go to *owned and *covered. */
-static int share_row(const lrcsi_sharing *s, uint32_t facet, double *owned, double *covered)
+static int share_row(const lrcsi_sharing *s, uint32_t facet, double longest, double *owned,
+                     double *covered)
 {
     *owned = s->raster->owned[facet];
     *covered = s->raster->covered[facet];
-    double longest = share_longest(s->raster, facet);
-    if (longest < SMALL_SIDE || *covered >= lrcsi_most(FEW, longest)) {
+    if (longest < SMALL_SIDE || *covered >= lrcsi_most(FEW, 4 * longest)) {
         return 0;
     }
     double all_owned = *owned;
@@ -93,7 +93,8 @@ lrcsi_share lrcsi_share_facet(const lrcsi_sharing *s, uint32_t facet)
     double owned;
     double covered;
     lrcsi_share share;
-    share.row = share_row(s, facet, &owned, &covered);
+    share.longest = share_longest(s->raster, facet);
+    share.row = share_row(s, facet, share.longest, &owned, &covered);
     share.share = covered > 0 ? owned / covered : answer[lrcsi_query_facet(s->facets, facet)];
     return share;
 }
@@ -109,22 +110,23 @@ void lrcsi_share_keep(const lrcsi_sharing *s, uint32_t facet, double area, const
     visible->area = lrcsi_least(visible->high, lrcsi_most(visible->low, wanted));
     if (share->row) {
         lrcsi_share_rest *sheet = &s->rest[s->contest->sheet[facet]];
-        sheet->rest += wanted - visible->area;
-        sheet->above += visible->high - visible->area;
-        sheet->below += visible->area - visible->low;
+        sheet->owned += s->raster->owned[facet];
+        sheet->covered += s->raster->covered[facet];
+        sheet->area += area;
+        sheet->kept += visible->area;
+        sheet->low += visible->low;
+        sheet->high += visible->high;
     }
 }
 
-/* What a facet is given of its sheet's rest: in proportion to the room that it has. */
-static double share_given(const lrcsi_share_rest *sheet, const lrcsi_visible *v)
+/* A facet's area once its sheet shows what its samples show: what is missing or too much is taken
+   up in proportion to the room that each has. */
+static double share_settled(const lrcsi_share_rest *sheet, const lrcsi_visible *v)
 {
-    if (sheet->rest > 0) {
-        return (v->high - v->area) * (sheet->rest < sheet->above ? sheet->rest / sheet->above : 1);
-    }
-    if (sheet->rest < 0) {
-        return (v->area - v->low) * (-sheet->rest < sheet->below ? sheet->rest / sheet->below : -1);
-    }
-    return 0;
+    double rest = sheet->area * sheet->owned / sheet->covered - sheet->kept;
+    double room = rest > 0 ? sheet->high - sheet->kept : sheet->kept - sheet->low;
+    double part = fabs(rest) < room ? fabs(rest) / room : 1;
+    return v->area + part * ((rest > 0 ? v->high : v->low) - v->area);
 }
 
 void lrcsi_share_settle(const lrcsi_sharing *s, lrcsi_visible *visible)
@@ -134,10 +136,9 @@ void lrcsi_share_settle(const lrcsi_sharing *s, lrcsi_visible *visible)
         const lrcsi_share_rest *sheet = &s->rest[s->contest->sheet[f]];
         lrcsi_visible *v = &visible[f];
         double samples[2];
-        if (s->contest->contested[f] && sheet->rest != 0 && v->high > v->low &&
-            share_row(s, f, &samples[0], &samples[1])) {
-            double area = v->area + share_given(sheet, v);
-            v->area = lrcsi_least(v->high, lrcsi_most(v->low, area));
+        if (s->contest->contested[f] && sheet->covered > 0 && v->high > v->low &&
+            share_row(s, f, share_longest(s->raster, f), &samples[0], &samples[1])) {
+            v->area = lrcsi_least(v->high, lrcsi_most(v->low, share_settled(sheet, v)));
         }
     }
 }

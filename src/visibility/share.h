@@ -5,10 +5,10 @@
 
 #include "visibility/visible.h"
 
-/* Of the facets of one sheet that share samples, in scaled units. */
+/* Sums over the facets of one sheet that share samples; areas in scaled units. */
 typedef struct lrcsi_share_rest {
-    double rest;         /* what their bounds cut off, and is still to be given: signed */
-    double above, below; /* how much they could be given, and give back */
+    double owned, covered, area;
+    double kept, low, high; /* what they were given so far, and their bounds */
 } lrcsi_share_rest;
 
 typedef struct lrcsi_sharing {
@@ -20,8 +20,9 @@ typedef struct lrcsi_sharing {
 
 /* What is known of one facet. */
 typedef struct lrcsi_share {
-    int row;      /* it shares its samples with its neighbours */
-    double share; /* visible: of its samples, or of theirs together */
+    int row;        /* it shares its samples with its neighbours */
+    double share;   /* visible: of its samples, or of theirs together */
+    double longest; /* its longest side, in pixels */
 } lrcsi_share;
 
 size_t lrcsi_share_need(const lrcs_prepared *prepared);

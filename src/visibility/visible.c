@@ -255,7 +255,7 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_sharing 
     lrcsi_drift drift = {HUGE_VAL, 0};
     if (!raster->undecided[facet]) {
         uint32_t crossings = mark_changes(marks, contest, facet);
-        drift = share.row ? lrcsi_drift_row(raster, facet, share.share)
+        drift = share.row ? lrcsi_drift_row(raster, facet, share.longest, share.share)
                           : lrcsi_drift_facet(contest, crossings, raster, facet);
         count_certain(marks, facet, &shown, &hidden);
     }
