@@ -165,6 +165,32 @@ typedef struct lrcs_host_glint {
 int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint32_t *count,
                           lrcs_host_error *error);
 
+/* ---- readings to fit ---- */
+
+/* Readings from a table of text, several materials in one file allowed. */
+typedef struct lrcs_host_readings {
+    lrcs_fit_reading *reading; /* in the file's order; sigma is 0 where the file has none */
+    uint32_t *material;        /* of each reading, an index of `name` */
+    uint32_t *line;            /* and its line, from 1 */
+    uint32_t count;
+    char **name; /* in the order of their first reading; one "" where the file names none */
+    uint32_t name_count;
+    int has_sigma;
+    lrcs_host_notices notices; /* columns not used, lines left out */
+} lrcs_host_readings;
+
+/* Reads a table: a line for each reading, fields apart by commas, semicolons, tabs or blanks (the
+   first of these in the first line), in quotes or not; empty lines and lines from '#' on count
+   for nothing. A first line whose first field is no number names the columns, in any order: angle
+   or theta (deg), brdf, reading or value, and where there are any sigma (or error, std), weight
+   (1/sigma^2; 0 leaves the line out), material (or sample); other columns are not used. Without
+   it they are angle, brdf and, where there is a third, sigma. A line whose value is empty, "nan" or
+   "NA" is left out.
+   Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_SYNTAX, _NUMBER, _NAME, _EMPTY: the sentence names the
+   line, what was found there and what was expected. On failure there is nothing to free. */
+int lrcs_host_readings_read(const char *path, lrcs_host_readings *readings, lrcs_host_error *error);
+void lrcs_host_readings_free(lrcs_host_readings *readings);
+
 /* ---- writers: none looks at write errors, lrcs_host_output_close does ---- */
 
 /* The per-facet table of a run: header and one row for every facet. */
@@ -228,12 +254,13 @@ enum lrcs_host_marker {
     LRCS_HOST_SQUARE,
     LRCS_HOST_TRIANGLE,
     LRCS_HOST_DIAMOND,
-    LRCS_HOST_CROSS
+    LRCS_HOST_CROSS,
+    LRCS_HOST_NO_MARKER
 };
-enum lrcs_host_dash { LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED };
+enum lrcs_host_dash { LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED, LRCS_HOST_NO_LINE };
 
-/* Points joined in their order. Those that an axis cannot show (not finite, beyond 1e288; log: not
-   above 1e-288) are left out. */
+/* Points joined in their order, but for LRCS_HOST_NO_LINE. Those that an axis cannot show (not
+   finite, beyond 1e288; log: not above 1e-288) are left out. */
 typedef struct lrcs_host_series {
     const char *name; /* in the legend */
     uint32_t count;

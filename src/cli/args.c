@@ -79,8 +79,7 @@ const char *cli_nearest(const char *text, const char *best, const char *candidat
     return !best || name_distance(text, candidate) < name_distance(text, best) ? candidate : best;
 }
 
-/* The dashes of an option's name. */
-static const char *dashes_of(const char *name)
+const char *cli_dashes(const char *name)
 {
     return name[1] ? "--" : "-";
 }
@@ -99,7 +98,7 @@ static int unknown_option(const cli_command *command, const char *word, size_t s
     }
     best = best ? best : "help";
     return cli_usage(command, "unknown option '%.*s'; the nearest is %s%s", (int)size, word,
-                     dashes_of(best), best);
+                     cli_dashes(best), best);
 }
 
 static const cli_option *option_find(const cli_command *command, const char *name, size_t size)
@@ -127,24 +126,24 @@ static int option_read(cli_args *args, int count, char **word, int *i)
         return unknown_option(command, at, size);
     }
     if (!option->repeats && cli_value(args, option->name)) {
-        return cli_usage(command, "%s%s is given twice", dashes_of(option->name), option->name);
+        return cli_usage(command, "%s%s is given twice", cli_dashes(option->name), option->name);
     }
     const char *value = NULL;
     if (!option->has_value && equals) {
-        return cli_usage(command, "%s%s takes no value, found '%s'", dashes_of(option->name),
+        return cli_usage(command, "%s%s takes no value, found '%s'", cli_dashes(option->name),
                          option->name, equals + 1);
     }
     if (option->has_value && equals) {
         value = equals + 1;
     } else if (option->has_value) {
         if (*i + 1 >= count || strncmp(word[*i + 1], "--", 2) == 0) {
-            return cli_usage(command, "%s%s needs a value", dashes_of(option->name), option->name);
+            return cli_usage(command, "%s%s needs a value", cli_dashes(option->name), option->name);
         }
         value = word[++*i];
     }
     if (value && !*value) {
-        return cli_usage(command, "%s%s needs a value, found an empty one", dashes_of(option->name),
-                         option->name);
+        return cli_usage(command, "%s%s needs a value, found an empty one",
+                         cli_dashes(option->name), option->name);
     }
     args->given[args->given_count++] = (cli_given){option->name, value};
     return 0;

@@ -92,6 +92,9 @@ struct cli_args {
    caller frees args->given in any case. */
 int cli_args_read(const cli_command *command, int count, char **word, cli_args *args);
 
+/* What stands before an option's name: two dashes, or one before a single letter. */
+const char *cli_dashes(const char *name);
+
 /* The value of an option ("" for one without), or NULL where it was not given. */
 const char *cli_value(const cli_args *args, const char *name);
 
@@ -167,5 +170,6 @@ extern const cli_command cli_verify_command;
 extern const cli_command cli_converge_command;
 extern const cli_command cli_sweep_command;
 extern const cli_command cli_merge_command;
+extern const cli_command cli_fit_command;
 
 #endif

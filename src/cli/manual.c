@@ -77,7 +77,7 @@ static void completion_command(const cli_command *command)
 {
     printf("        %s) words='", command->name);
     for (const cli_option *o = command->option; o->name; o++) {
-        printf("--%s ", o->name);
+        printf("%s%s ", cli_dashes(o->name), o->name);
     }
     puts("' ;;");
 }
@@ -86,17 +86,17 @@ static void completion_values(const cli_command *command)
 {
     for (const cli_option *o = command->option; o->name; o++) {
         if (option_words(o->name)) {
-            printf("        %s,--%s) values='%s' ;;\n", command->name, o->name,
+            printf("        %s,%s%s) values='%s' ;;\n", command->name, cli_dashes(o->name), o->name,
                    option_words(o->name));
         } else if (strcmp(o->name, "material") == 0) {
             const lrcs_brdf_entry *entry;
-            printf("        %s,--%s) values='", command->name, o->name);
+            printf("        %s,%s%s) values='", command->name, cli_dashes(o->name), o->name);
             for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
                 printf("%s ", entry->name);
             }
             puts("' ;;");
         } else if (o->has_value) {
-            printf("        %s,--%s) values=' ' ;;\n", command->name, o->name);
+            printf("        %s,%s%s) values=' ' ;;\n", command->name, cli_dashes(o->name), o->name);
         }
     }
 }

@@ -14,7 +14,7 @@ static const char run_help[] =
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
     "\n" CLI_POSE_HELP "\n"
     "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best bound that "
-                                  "MS milliseconds buy, loading and\n"
+    "MS milliseconds buy, loading and\n"
     "                        preparing included; tries rasters and tolerances, and says which\n"
     "                        options give the same answer again. Ends early where nothing is left\n"
     "                        to gain, or a --tolerance is met; exit 3 where it took "

@@ -146,73 +146,6 @@ static int job_files_check(const sweep_job *job)
     return 0;
 }
 
-/* ---- the head ---- */
-
-/* An option given again stands beside the first. Returns 0 where its text has no room. */
-static int head_add(sweep_head *head, const char *key, const char *text)
-{
-    const size_t room = sizeof head->option[0].text;
-    uint32_t at = 0;
-    while (at < head->options && strcmp(head->option[at].key, key) != 0) {
-        at++;
-    }
-    char *end = head->option[at].text + strlen(head->option[at].text);
-    const char *between = at < head->options ? " and " : "";
-    head->option[at].key = key;
-    head->options += at == head->options;
-    size_t left = room - (size_t)(end - head->option[at].text);
-    int size = snprintf(end, left, "%s%s", between, text);
-    for (; *end; end++) {
-        *end = (unsigned char)*end < 0x20 || *end == 0x7f ? '?' : *end;
-    }
-    return size >= 0 && (size_t)size < left;
-}
-
-/* What rows depend on beside the scene, which its hash stands for. */
-static int head_options(sweep_job *job)
-{
-    static const char *const said[] = {"az",   "el",        "rotate", "sphere", "joint",
-                                       "vary", "direction", "azel",   "euler",  "quaternion"};
-    const cli_args *args = job->args;
-    char text[64];
-    for (int i = 0; i < args->given_count; i++) {
-        for (size_t k = 0; k < sizeof said / sizeof said[0]; k++) {
-            if (strcmp(args->given[i].name, said[k]) == 0 &&
-                !head_add(&job->head, said[k], args->given[i].value)) {
-                return cli_usage(args->command, "--%s: too long", said[k]);
-            }
-        }
-    }
-    if (job->plan.kind == SWEEP_TRACK) {
-        snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)job->plan.track.hash);
-        head_add(&job->head, "poses", text);
-    }
-    lrcs_host_number_text(job->options.tolerance, text);
-    head_add(&job->head, "tolerance", text);
-    head_add(&job->head, "method", lrcs_method_text(job->options.method));
-    snprintf(text, sizeof text, "%lu", (unsigned long)job->options.resolution);
-    head_add(&job->head, "resolution", job->options.resolution ? text : "auto");
-    head_add(&job->head, "normals", lrcs_normals_text(job->load.build.normals));
-    return 0;
-}
-
-static int head_make(sweep_job *job)
-{
-    const sweep_plan *plan = &job->plan;
-    sweep_head *head = &job->head;
-    head->scene_hash = lrcs_scene_hash(&job->scene.scene);
-    head->rows = plan->rows;
-    for (uint32_t i = 0; i < plan->axes; i++) {
-        if (plan->axis[i].range.count > 1) {
-            head->shape[head->dimensions++] = plan->axis[i].range.count;
-        }
-    }
-    if (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK || head->dimensions == 0) {
-        head->shape[head->dimensions++] = plan->kind == SWEEP_FIXED ? 1 : plan->poses;
-    }
-    return head_options(job);
-}
-
 /* ---- the rows ---- */
 
 static int job_pose(void *context, uint64_t index, lrcs_pose *pose)
@@ -237,14 +170,21 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
     return status;
 }
 
-/* The rows up to `end`, all of one scene. */
-static int scene_rows(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
+static int job_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs_host_error *error)
+{
+    const sweep_job *job = context;
+    return cli_scene_of_row(&job->plan, index, &job->scene, &job->load.build, scene, error);
+}
+
+/* The rows up to `end`: all of one scene, or (NULL) each of its own. */
+static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
 {
     lrcs_host_error error;
     lrcs_host_sweep sweep = {.first = job->file.next,
                              .count = end - job->file.next,
                              .threads = job->threads,
                              .pose = job_pose,
+                             .scene = scene ? NULL : job_scene,
                              .take = job_take,
                              .context = job,
                              .cancel = &sweep_stop};
@@ -255,18 +195,19 @@ static int scene_rows(sweep_job *job, const lrcs_host_scene *scene, uint64_t end
     return cli_failed(&error);
 }
 
-/* One scene after another; the rows of one stand together. */
-static int scenes_rows(sweep_job *job)
+/* One scene after another, the poses of each in threads. */
+static int scenes_run(sweep_job *job)
 {
     int code = 0;
     while (code == 0 && job->file.next < job->plan.end) {
         lrcs_host_scene scene;
+        lrcs_host_error error;
         uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
         memset(&scene, 0, sizeof scene);
-        code = cli_scene_of_row(&job->plan, job->file.next, &job->scene, &job->load.build, &scene);
-        if (code == 0) {
-            code = scene_rows(job, &scene, end < job->plan.end ? end : job->plan.end);
+        if (job_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
+            return cli_failed(&error);
         }
+        code = rows_run(job, &scene, end < job->plan.end ? end : job->plan.end);
         lrcs_host_scene_free(&scene);
     }
     return code;
@@ -279,10 +220,10 @@ static int job_run(sweep_job *job)
     job->progress =
         cli_progress_make(job->file.next - job->plan.first, job->plan.end - job->plan.first);
     if (job->plan.scene_axes > 0) {
-        code = scenes_rows(job);
+        code = job->plan.poses > 1 ? scenes_run(job) : rows_run(job, NULL, job->plan.end);
     } else if (job->file.next < job->plan.end) {
         code = lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
-        code = code ? code : scene_rows(job, &job->scene, job->plan.end);
+        code = code ? code : rows_run(job, &job->scene, job->plan.end);
     }
     cli_progress_clear(&job->progress);
     return code;
@@ -323,7 +264,7 @@ static int job_rows(sweep_job *job)
     signals_watch();
     code = job_run(job);
     int closed = cli_file_close(&job->file, &job->plan, code == 0);
-    if (code != 0 && job->file.path && closed == 0) {
+    if (code != 0 && job->file.next > job->plan.first && job->file.path && closed == 0) {
         fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
                 job->file.partial, (unsigned long long)(job->file.next - job->plan.first),
                 (unsigned long long)(job->plan.end - job->plan.first));
@@ -351,7 +292,7 @@ static int sweep_command(const cli_args *args)
     code = code ? code : job_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
-        code = head_make(job);
+        code = cli_head_make(args, &job->plan, &job->options, &job->scene.scene, &job->head);
         code = code ? code : job_rows(job);
     }
     cli_file_free(&job->file);

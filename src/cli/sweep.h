@@ -90,9 +90,11 @@ int cli_scene_axes_read(const cli_args *args, sweep_plan *plan);
 /* Do parts, materials and values fit the scene? 0 or CLI_USAGE. */
 int cli_scene_axes_check(const cli_args *args, const sweep_plan *plan, const lrcs_host_scene *base);
 
-/* The scene of a row, from the one that was read, which must outlive it. 0 or CLI_FAILED. */
+/* The scene of a row, prepared, from the one that was read, which must outlive it; in any thread.
+   Status: as lrcs_host_scene_vary and lrcs_host_scene_prepare. */
 int cli_scene_of_row(const sweep_plan *plan, uint64_t row, const lrcs_host_scene *base,
-                     const lrcs_build_options *build, lrcs_host_scene *scene);
+                     const lrcs_build_options *build, lrcs_host_scene *scene,
+                     lrcs_host_error *error);
 
 /* Adds an axis, NULL-terminated or not. 0 or CLI_USAGE. */
 int cli_axis_add(const cli_args *args, sweep_plan *plan, const char *option, const char *name,
@@ -127,6 +129,10 @@ typedef struct sweep_head {
     } option[24];
     uint32_t options;
 } sweep_head;
+
+/* 0 or CLI_USAGE. */
+int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
+                  const lrcs_scene *scene, sweep_head *head);
 
 /* What all rows say together. */
 typedef struct sweep_tally {
@@ -194,7 +200,8 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
 int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
                  lrcs_host_error *error);
 
-/* Ends: with all rows FILE.partial becomes FILE, else it stays as it is. 0 or CLI_FAILED. */
+/* Ends: with all rows FILE.partial becomes FILE; with some it stays as it is, with none it goes.
+   0 or CLI_FAILED. */
 int cli_file_close(sweep_file *file, const sweep_plan *plan, int all);
 void cli_file_free(sweep_file *file);
 

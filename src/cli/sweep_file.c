@@ -186,6 +186,7 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
 {
     struct stat about;
     size_t size = 0;
+    int resume = cli_value(args, "resume") != NULL;
     int code = 0;
     file->next = plan->first;
     if (!file->path) {
@@ -198,11 +199,9 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
         fprintf(stderr, "lrcs: out of memory\n");
         return CLI_FAILED;
     }
-    if (!cli_value(args, "resume")) {
-        code = partial_begin(file, text, size);
-    } else if (stat(file->partial, &about) == 0) {
+    if (resume && stat(file->partial, &about) == 0) {
         code = partial_continue(file, plan, text, size);
-    } else if (!file_is_whole(file, plan, text, size)) {
+    } else if (!resume || !file_is_whole(file, plan, text, size)) {
         code = partial_begin(file, text, size);
     }
     free(text);
@@ -281,7 +280,9 @@ int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
     }
     file->stream = NULL;
     if (!all) {
-        return 0;
+        return file->next > plan->first || remove(file->partial) == 0
+                   ? 0
+                   : file_refuse(file->partial, "remove");
     }
     if (file->npy) {
         return map_make(file);

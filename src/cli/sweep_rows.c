@@ -88,7 +88,7 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 
 /* ---- JSON lines ---- */
 
-static void jsonl_head(FILE *out, const sweep_head *head)
+static void jsonl_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
 {
     char hash[17];
     lrcs_host_json json = lrcs_host_json_make(out);
@@ -102,6 +102,11 @@ static void jsonl_head(FILE *out, const sweep_head *head)
     lrcs_host_json_begin(&json, "shape", LRCS_HOST_ROW_ARRAY);
     for (uint32_t i = 0; i < head->dimensions; i++) {
         lrcs_host_json_count(&json, NULL, head->shape[i]);
+    }
+    lrcs_host_json_end(&json);
+    lrcs_host_json_begin(&json, "columns", LRCS_HOST_ROW_ARRAY);
+    for (uint32_t i = 0; i < plan->columns; i++) {
+        lrcs_host_json_text(&json, NULL, plan->column[i]);
     }
     lrcs_host_json_end(&json);
     for (uint32_t i = 0; i < head->options; i++) {
@@ -137,7 +142,7 @@ static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 void cli_rows_head(FILE *out, int format, const sweep_head *head, const sweep_plan *plan)
 {
     if (format == SWEEP_JSONL) {
-        jsonl_head(out, head);
+        jsonl_head(out, head, plan);
     } else {
         csv_head(out, head, plan);
     }

@@ -15,25 +15,25 @@ enum scene_key { SCENE_JOINT, SCENE_MATERIAL, SCENE_SHAPE };
 #define KIND(kind) (1u << LRCS_SHAPE_##kind)
 static const struct {
     const char *name;
-    int key;
     size_t offset;
+    int key;
     unsigned kinds;
 } scene_keys[] = {
-    {"joint_deg", SCENE_JOINT, 0, 0},
-    {"A", SCENE_MATERIAL, offsetof(lrcs_brdf, A), 0},
-    {"B", SCENE_MATERIAL, offsetof(lrcs_brdf, B), 0},
-    {"s", SCENE_MATERIAL, offsetof(lrcs_brdf, s), 0},
-    {"m", SCENE_MATERIAL, offsetof(lrcs_brdf, m), 0},
-    {"size_x", SCENE_SHAPE, offsetof(lrcs_shape, size), KIND(PLATE) | KIND(BOX)},
-    {"size_y", SCENE_SHAPE, offsetof(lrcs_shape, size) + sizeof(double), KIND(PLATE) | KIND(BOX)},
-    {"size_z", SCENE_SHAPE, offsetof(lrcs_shape, size) + 2 * sizeof(double), KIND(BOX)},
-    {"radius", SCENE_SHAPE, offsetof(lrcs_shape, radius),
+    {"joint_deg", 0, SCENE_JOINT, 0},
+    {"A", offsetof(lrcs_brdf, A), SCENE_MATERIAL, 0},
+    {"B", offsetof(lrcs_brdf, B), SCENE_MATERIAL, 0},
+    {"s", offsetof(lrcs_brdf, s), SCENE_MATERIAL, 0},
+    {"m", offsetof(lrcs_brdf, m), SCENE_MATERIAL, 0},
+    {"size_x", offsetof(lrcs_shape, size), SCENE_SHAPE, KIND(PLATE) | KIND(BOX)},
+    {"size_y", offsetof(lrcs_shape, size) + sizeof(double), SCENE_SHAPE, KIND(PLATE) | KIND(BOX)},
+    {"size_z", offsetof(lrcs_shape, size) + 2 * sizeof(double), SCENE_SHAPE, KIND(BOX)},
+    {"radius", offsetof(lrcs_shape, radius), SCENE_SHAPE,
      KIND(DISC) | KIND(SPHERE) | KIND(DOME) | KIND(CYLINDER) | KIND(CONE) | KIND(FRUSTUM) |
          KIND(PARABOLOID)},
-    {"radius2", SCENE_SHAPE, offsetof(lrcs_shape, radius2), KIND(FRUSTUM)},
+    {"radius2", offsetof(lrcs_shape, radius2), SCENE_SHAPE, KIND(FRUSTUM)},
     {"length", SCENE_SHAPE, offsetof(lrcs_shape, length),
      KIND(CYLINDER) | KIND(CONE) | KIND(FRUSTUM) | KIND(PARABOLOID)},
-    {"half_angle_deg", SCENE_SHAPE, offsetof(lrcs_shape, half_angle_deg), KIND(CONE)}};
+    {"half_angle_deg", offsetof(lrcs_shape, half_angle_deg), SCENE_SHAPE, KIND(CONE)}};
 
 #define SCENE_KEYS (int)(sizeof scene_keys / sizeof scene_keys[0])
 
@@ -283,13 +283,14 @@ static void recipe_set(lrcs_recipe *recipe, uint32_t bound, const sweep_axis *ax
 }
 
 int cli_scene_of_row(const sweep_plan *plan, uint64_t row, const lrcs_host_scene *base,
-                     const lrcs_build_options *build, lrcs_host_scene *scene)
+                     const lrcs_build_options *build, lrcs_host_scene *scene,
+                     lrcs_host_error *error)
 {
-    lrcs_host_error error = {"out of memory"};
     lrcs_recipe recipe = base->recipe;
     uint32_t bound = recipe.binding_count;
     recipe.part = calloc((size_t)recipe.part_count + 1, sizeof *recipe.part);
     recipe.binding = calloc((size_t)bound + SWEEP_AXES, sizeof *recipe.binding);
+    snprintf(error->text, sizeof error->text, "out of memory");
     int status = LRCS_E_SYSTEM;
     if (recipe.part && recipe.binding) {
         memcpy(recipe.part, base->recipe.part, recipe.part_count * sizeof *recipe.part);
@@ -300,12 +301,15 @@ int cli_scene_of_row(const sweep_plan *plan, uint64_t row, const lrcs_host_scene
             double value = cli_range_at(&plan->axis[i].range, cli_plan_place(plan, row, i));
             recipe_set(&recipe, bound, &plan->axis[i], value, &base->scene);
         }
-        status = lrcs_host_scene_vary(base, &recipe, build, scene, &error);
+        status = lrcs_host_scene_vary(base, &recipe, build, scene, error);
     }
     if (status == LRCS_OK) {
-        status = lrcs_host_scene_prepare(scene, &error);
+        status = lrcs_host_scene_prepare(scene, error);
+        if (status != LRCS_OK) {
+            lrcs_host_scene_free(scene);
+        }
     }
     free(recipe.binding);
     free(recipe.part);
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    return status;
 }

@@ -270,6 +270,9 @@ static void marker_draw(const chart_plan *plan, const lrcs_host_series *series, 
     lrcsi_spot corner[25];
     uint32_t colour = chart_colours[series->colour & 7];
     const lrcsi_ink ink = {colour, 1.4, {0.0, 0.0}};
+    if (series->marker == LRCS_HOST_NO_MARKER) {
+        return;
+    }
     if (series->marker == LRCS_HOST_CROSS) {
         chart_stroke(plan, at.x - CHART_MARK, at.y - CHART_MARK, at.x + CHART_MARK,
                      at.y + CHART_MARK, colour, 1.7);
@@ -292,12 +295,13 @@ static void run_draw(const chart_plan *plan, const lrcs_host_series *series, con
                      uint32_t count)
 {
     const lrcsi_ink ink = series_ink(series);
-    if (count > 1) {
+    int joined = series->dash != LRCS_HOST_NO_LINE;
+    if (count > 1 && joined) {
         plan->pen->line(plan->pen, spot, count, &ink);
     }
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_board_spot(plan->board, spot[i], CHART_OUTLINE);
-        lrcsi_board_line(plan->board, spot[i > 0 ? i - 1 : 0], spot[i]);
+        lrcsi_board_line(plan->board, spot[i > 0 && joined ? i - 1 : i], spot[i]);
     }
 }
 
@@ -366,7 +370,9 @@ static void chart_legend(const chart_plan *plan)
         const lrcs_host_series *series = &chart->series[i];
         const lrcsi_ink ink = series_ink(series);
         const lrcsi_spot sample[2] = {{x, y}, {x + LEGEND_SAMPLE, y}};
-        plan->pen->line(plan->pen, sample, 2, &ink);
+        if (series->dash != LRCS_HOST_NO_LINE) {
+            plan->pen->line(plan->pen, sample, 2, &ink);
+        }
         marker_draw(plan, series, (lrcsi_spot){x + 0.5 * LEGEND_SAMPLE, y});
         words.text = series->name;
         words.at = (lrcsi_spot){x + LEGEND_SAMPLE + 8.0, y + TEXT_DROP * CHART_SMALL};

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Many poses over one prepared scene. It decides what each thread keeps (a work area of its own)
-   and how a pose that fails is told; in which order poses are run is the crew's (host/crew). */
+/* Many poses over one prepared scene, or each over its own. It decides what each thread keeps (a
+   work area of its own) and how a pose that fails is told; in which order poses are run is the
+   crew's (host/crew). */
 #include <lrcs/sweep.h>
 
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "host/crew.h"
@@ -26,17 +28,33 @@ typedef struct sweep_run {
     lrcs_host_error *error;
 } sweep_run;
 
+/* Status: that of the first step that fails, with its sentence. */
+static int sweep_one(const sweep_run *run, uint32_t member, uint64_t index, sweep_slot *one)
+{
+    const lrcs_host_sweep *sweep = run->sweep;
+    lrcs_host_scene own;
+    int status = sweep->pose(sweep->context, index, &one->pose);
+    if (status != LRCS_OK) {
+        return lrcsi_host_fail(&one->error, status, "%s", lrcs_status_text(status));
+    }
+    if (!sweep->scene) {
+        return lrcsi_host_sigma(run->scene, &one->pose, run->options, &run->area[member],
+                                &one->result, NULL, NULL, &one->error);
+    }
+    memset(&own, 0, sizeof own);
+    status = sweep->scene(sweep->context, index, &own, &one->error);
+    if (status == LRCS_OK) {
+        status = lrcsi_host_sigma(&own, &one->pose, run->options, &run->area[member], &one->result,
+                                  NULL, NULL, &one->error);
+        lrcs_host_scene_free(&own);
+    }
+    return status;
+}
+
 static void sweep_work(void *context, uint32_t member, uint64_t index, void *slot)
 {
-    const sweep_run *run = context;
     sweep_slot *one = slot;
-    one->status = run->sweep->pose(run->sweep->context, index, &one->pose);
-    if (one->status != LRCS_OK) {
-        lrcsi_host_fail(&one->error, one->status, "%s", lrcs_status_text(one->status));
-        return;
-    }
-    one->status = lrcsi_host_sigma(run->scene, &one->pose, run->options, &run->area[member],
-                                   &one->result, NULL, NULL, &one->error);
+    one->status = sweep_one(context, member, index, one);
 }
 
 static int sweep_take(void *context, uint64_t index, const void *slot)
@@ -76,7 +94,7 @@ int lrcs_host_sweep_run(const lrcs_host_scene *scene, const lrcs_run_options *op
                        .take = sweep_take,
                        .cancel = sweep->cancel};
     int status;
-    if (!scene->prepared || sweep->threads > SWEEP_THREADS ||
+    if ((!sweep->scene && !scene->prepared) || sweep->threads > SWEEP_THREADS ||
         sweep->count > UINT64_MAX - sweep->first) {
         status =
             lrcsi_host_fail(error, LRCS_E_ARGUMENT, "sweep: %s", lrcs_status_text(LRCS_E_ARGUMENT));

@@ -137,7 +137,8 @@ static void sum_samples(const curve_job *job, const lrcsi_raster *raster, double
     lrcsi_edges e = lrcsi_raster_edges(raster, job->facet);
     *owned = *covered = 0;
     for (uint32_t y = e.y0; y < e.y1; y++) {
-        for (uint32_t x = e.x0; x < e.x1; x++) {
+        lrcsi_pixels row = lrcsi_span_row(&e, y).may;
+        for (uint32_t x = row.x0; x < row.x1; x++) {
             double n[3] = {0, 0, 0};
             int inside = 1;
             for (int k = 0; k < 3;

@@ -66,7 +66,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     if (options->method == LRCS_METHOD_EXACT) {
         return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
     }
-    need = lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
+    need = lrcsi_work_add(need, lrcsi_visible_known_need(prepared));
     return lrcsi_work_add(need, lrcsi_visible_need(prepared, size));
 }
 
@@ -180,17 +180,13 @@ static void run_sum(sigma_run *run, const lrcsi_raster *raster)
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
-static int run_raster(sigma_run *run, uint32_t size)
+static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
 {
     lrcsi_raster raster;
     size_t mark = run->work->used;
     int status = LRCS_E_MEMORY;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        run->work->used = mark;
-        status = lrcsi_raster_make(&run->view, size, run->work, &raster);
-        if (status == LRCS_OK) {
-            status = lrcsi_visible_sampled(&run->contest, &raster, run->work, run->visible);
-        }
+        status = lrcsi_visible_sampled(known, size, run->work, &raster, run->visible);
         run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
     }
     if (status == LRCS_OK) {
@@ -236,13 +232,20 @@ static uint32_t next_size(const sigma_run *run, double tolerance)
 
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
-    int status = run_raster(run, options->resolution != 0 ? options->resolution : FIRST_SIZE);
+    lrcsi_known known;
+    size_t mark = run->work->used;
+    int status = lrcsi_visible_known(&run->contest, run->work, &known);
+    if (status == LRCS_OK) {
+        status =
+            run_raster(run, &known, options->resolution != 0 ? options->resolution : FIRST_SIZE);
+    }
     while (status == LRCS_OK && options->resolution == 0 && run->size < LAST_SIZE &&
            !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) && run->contest.contested_count != 0 &&
            !run_meets(&run->total, options->tolerance)) {
         uint32_t size = next_size(run, options->tolerance);
-        status = run_raster(run, size > run->size ? size : LAST_SIZE);
+        status = run_raster(run, &known, size > run->size ? size : LAST_SIZE);
     }
+    run->work->used = mark;
     return status;
 }
 

@@ -23,7 +23,6 @@
 #include "mesh/touch.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/exact.h"
 #include "base/work.h"
@@ -43,8 +42,14 @@ typedef struct touch_facet {
 /* 10 u, as in mesh/tree.c. */
 #define TOUCH_FILTER (10.0 * 0x1p-53)
 
-/* Entries are taken from the work area in blocks that follow one another without gaps. */
-enum { TOUCH_BLOCK = LRCS_WORK_ALIGN / sizeof(lrcsi_touch) };
+/* A contact as it is found: `other` meets the inside of `facet`. */
+typedef struct touch_found {
+    uint32_t facet, other, kind;
+} touch_found;
+
+/* They are taken from the work area in blocks that follow one another without gaps. */
+enum { FOUND_BLOCK = 4 };
+_Static_assert(FOUND_BLOCK * sizeof(touch_found) % LRCS_WORK_ALIGN == 0, "no gaps");
 
 static touch_facet corners_of(const lrcs_point *vertex, lrcs_facet facet)
 {
@@ -317,131 +322,174 @@ static int touches_side(const touch_facet *f, const touch_facet *t)
 }
 
 /* Sinks entry `i` of a heap of n, largest on top. */
-static void sink_touch(lrcsi_touch *touch, size_t i, size_t n)
+static void sink_found(touch_found *found, size_t i, size_t n)
 {
     for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
-        if (child + 1 < n && touch[child + 1].other > touch[child].other) {
+        if (child + 1 < n && found[child + 1].other > found[child].other) {
             child++;
         }
-        if (touch[i].other >= touch[child].other) {
+        if (found[i].other >= found[child].other) {
             return;
         }
-        lrcsi_touch t = touch[i];
-        touch[i] = touch[child];
-        touch[child] = t;
+        touch_found t = found[i];
+        found[i] = found[child];
+        found[child] = t;
         i = child;
     }
 }
 
 /* Heap sort by `other`, in place. */
-static void sort_touches(lrcsi_touch *touch, size_t n)
+static void sort_found(touch_found *found, size_t n)
 {
     for (size_t i = n / 2; i > 0; i--) {
-        sink_touch(touch, i - 1, n);
+        sink_found(found, i - 1, n);
     }
     for (size_t last = n; last > 1; last--) {
-        lrcsi_touch t = touch[0];
-        touch[0] = touch[last - 1];
-        touch[last - 1] = t;
-        sink_touch(touch, 0, last - 1);
+        touch_found t = found[0];
+        found[0] = found[last - 1];
+        found[last - 1] = t;
+        sink_found(found, 0, last - 1);
     }
 }
 
-/* The facets among which contacts are sought. */
+/* The facets among which contacts are sought, and those found. */
 typedef struct touch_search {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
     const uint32_t *piece; /* or NULL */
     lrcsi_tree tree;
+    touch_found *found; /* above the tree */
+    uint32_t count;
+    lrcs_work *work;
+    lrcsi_touches *touches;
 } touch_search;
 
-/* Appends a contact to the growing list. */
-static int append_touch(uint32_t other, int kind, lrcs_work *work, lrcsi_touches *t)
+static int append_found(touch_search *search, touch_found found)
 {
-    if (t->count == LRCS_NONE - 1) {
+    if (search->count == LRCS_NONE - 1) {
         return LRCS_E_LIMIT;
     }
-    if (t->count % TOUCH_BLOCK == 0 && !lrcsi_work_take(work, TOUCH_BLOCK, sizeof(lrcsi_touch))) {
-        return LRCS_E_MEMORY;
+    if (search->count % FOUND_BLOCK == 0) {
+        touch_found *block = lrcsi_work_take(search->work, FOUND_BLOCK, sizeof *block);
+        search->found = search->count == 0 ? block : search->found;
+        if (!block) {
+            return LRCS_E_MEMORY;
+        }
     }
-    t->touch[t->count++] = (lrcsi_touch){other, (uint32_t)kind};
+    search->found[search->count++] = found;
     return LRCS_OK;
 }
 
-/* The contacts inside one facet, and whether its own piece meets it there or inside a side. */
-static int collect_touches(const touch_search *search, uint32_t f, lrcs_work *work,
-                           lrcsi_touches *t)
+/* What `other` does to `facet`, one of a pair that may have more in common than corners. */
+static int meet_one(touch_search *search, uint32_t facet, const touch_facet *f, uint32_t other,
+                    const touch_facet *t)
 {
-    lrcsi_tree_walk walk = lrcsi_tree_around(&search->tree, search->facet[f]);
-    touch_facet inside = corners_of(search->vertex, search->facet[f]);
-    make_inside(&inside);
+    lrcsi_touches *touches = search->touches;
+    int rim;
+    int kind = touch_kind(f, t, &rim);
+    touches->rim[facet] |= rim != 0;
+    if (search->piece && !touches->self && search->piece[facet] == search->piece[other]) {
+        touches->self = kind != LRCSI_TOUCH_NONE || touches_side(f, t);
+    }
+    return kind == LRCSI_TOUCH_NONE
+               ? LRCS_OK
+               : append_found(search, (touch_found){facet, other, (uint32_t)kind});
+}
+
+/* A pair is left alone where all that it has in common are corners of both or what lies between
+   them: neither then meets the other's inside or rim. */
+static int meet_pairs(touch_search *search, uint32_t place)
+{
+    uint32_t facet = search->tree.order[place];
+    lrcsi_tree_walk walk = lrcsi_tree_after(&search->tree, place);
+    touch_facet f = corners_of(search->vertex, search->facet[facet]);
+    int status = LRCS_OK;
     uint32_t other;
-    while ((other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
-        if (other == f) {
+    make_inside(&f);
+    while (status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
+        touch_facet t = corners_of(search->vertex, search->facet[other]);
+        if (surely_on_one_side(&f, &t) || lrcsi_tree_corner(&walk, other)) {
             continue;
         }
-        touch_facet candidate = corners_of(search->vertex, search->facet[other]);
-        if (surely_on_one_side(&inside, &candidate) || lrcsi_tree_corner(&walk, other)) {
-            continue; /* corners of both, or what lies between them, are all that they share */
+        make_inside(&t);
+        if (surely_on_one_side(&t, &f)) {
+            continue;
         }
-        int rim;
-        int kind = touch_kind(&inside, &candidate, &rim);
-        t->rim[f] |= rim != 0;
-        if (search->piece && !t->self && search->piece[f] == search->piece[other]) {
-            t->self = kind != LRCSI_TOUCH_NONE || touches_side(&inside, &candidate);
-        }
-        int status = kind == LRCSI_TOUCH_NONE ? LRCS_OK : append_touch(other, kind, work, t);
-        if (status != LRCS_OK) {
-            return status;
+        status = meet_one(search, facet, &f, other, &t);
+        if (status == LRCS_OK) {
+            status = meet_one(search, other, &t, facet, &f);
         }
     }
-    sort_touches(t->touch + t->first[f], t->count - t->first[f]);
+    return status;
+}
+
+/* Orders what was found by facet, in place, each entry going where its facet's next one belongs;
+   then by other. */
+static int order_found(const touch_search *search, uint32_t facet_count)
+{
+    uint32_t *first = search->touches->first;
+    uint32_t *next = lrcsi_work_take(search->work, facet_count, sizeof *next);
+    if (!next) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < search->count; i++) {
+        first[search->found[i].facet + 1]++;
+    }
+    for (uint32_t f = 0; f < facet_count; f++) {
+        next[f] = first[f];
+        first[f + 1] += first[f];
+    }
+    for (uint32_t f = 0; f < facet_count; f++) {
+        while (next[f] < first[f + 1]) {
+            touch_found *here = &search->found[next[f]];
+            touch_found moved = *here;
+            *here = search->found[next[moved.facet]];
+            search->found[next[moved.facet]++] = moved;
+        }
+        sort_found(search->found + first[f], first[f + 1] - first[f]);
+    }
     return LRCS_OK;
 }
 
 size_t lrcsi_touches_need(uint32_t facet_count, size_t count)
 {
-    size_t need = lrcsi_work_bytes((size_t)facet_count + 1, sizeof(uint32_t));
+    size_t need = 2 * lrcsi_work_bytes((size_t)facet_count + 1, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facet_count, 1));
     need = lrcsi_work_add(need, lrcsi_tree_need(facet_count));
     return lrcsi_work_add(
-        need, lrcsi_work_bytes(lrcsi_work_add(count, TOUCH_BLOCK), sizeof(lrcsi_touch)));
+        need, lrcsi_work_bytes(lrcsi_work_add(count, FOUND_BLOCK), sizeof(touch_found)));
 }
 
-/* Everything but the release on failure. The list grows above the tree and moves down at the
-   end. */
-static int touches_build(touch_search *search, uint32_t facet_count, const unsigned char *skip,
-                         lrcs_work *work, lrcsi_touches *t)
+/* Everything but the release on failure. What is found grows above the tree, and moves down, less
+   the facets' numbers, at the end. */
+static int touches_build(touch_search *search, uint32_t facet_count, const unsigned char *skip)
 {
-    t->first = lrcsi_work_take(work, (size_t)facet_count + 1, sizeof *t->first);
+    lrcs_work *work = search->work;
+    lrcsi_touches *t = search->touches;
+    t->first = lrcsi_work_take_zero(work, (size_t)facet_count + 1, sizeof *t->first);
     t->rim = lrcsi_work_take_zero(work, facet_count, 1);
     size_t mark = work->used;
-    if (!t->first || !t->rim ||
-        lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, NULL, work,
-                        &search->tree) != LRCS_OK) {
+    if (!t->first || !t->rim) {
         return LRCS_E_MEMORY;
     }
-    t->touch = lrcsi_work_take(work, TOUCH_BLOCK, sizeof *t->touch);
-    if (!t->touch) {
-        return LRCS_E_MEMORY;
+    int status = lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, NULL, work,
+                                 &search->tree);
+    for (uint32_t i = 0; status == LRCS_OK && i < search->tree.count; i++) {
+        status = meet_pairs(search, i);
     }
-    work->used -= LRCS_WORK_ALIGN; /* the first block is taken with the first entry */
-    for (uint32_t f = 0; f < facet_count; f++) {
-        t->first[f] = t->count;
-        int status = skip && skip[f] ? LRCS_OK : collect_touches(search, f, work, t);
-        if (status != LRCS_OK) {
-            return status;
-        }
+    if (status == LRCS_OK) {
+        status = order_found(search, facet_count);
     }
-    t->first[facet_count] = t->count;
-    const lrcsi_touch *above = t->touch;
+    if (status != LRCS_OK) {
+        return status;
+    }
     work->used = mark;
-    t->touch = lrcsi_work_take(work, t->count, sizeof *t->touch);
-    if (!t->touch) {
-        return LRCS_E_MEMORY;
+    t->touch = lrcsi_work_take(work, search->count, sizeof *t->touch);
+    for (t->count = 0; t->touch && t->count < search->count; t->count++) {
+        touch_found found = search->found[t->count];
+        t->touch[t->count] = (lrcsi_touch){found.other, found.kind};
     }
-    memmove(t->touch, above, t->count * sizeof *t->touch);
-    return LRCS_OK;
+    return t->touch ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 int lrcsi_touches_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
@@ -450,8 +498,9 @@ int lrcsi_touches_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32
 {
     size_t mark = work->used;
     lrcsi_touches made = {0};
-    touch_search search = {.vertex = vertex, .facet = facet, .piece = piece};
-    int status = touches_build(&search, facet_count, skip, work, &made);
+    touch_search search = {
+        .vertex = vertex, .facet = facet, .piece = piece, .work = work, .touches = &made};
+    int status = touches_build(&search, facet_count, skip);
     if (status != LRCS_OK) {
         work->used = mark;
         return status;

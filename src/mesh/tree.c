@@ -102,6 +102,13 @@ static uint32_t leaves_for(uint32_t count)
     return leaves;
 }
 
+/* Behind the last place of a leaf that is not empty. */
+static uint32_t leaf_end(const lrcsi_tree *tree, uint32_t leaf)
+{
+    uint32_t first = leaf * LEAF_FACETS;
+    return tree->count - first < LEAF_FACETS ? tree->count : first + LEAF_FACETS;
+}
+
 /* The normal of a facet, and for each component the sum of its two terms' magnitudes. */
 static void facet_normal(const double *const corner[3], double normal[3], double weight[3])
 {
@@ -189,7 +196,7 @@ static void fill_leaf(const lrcsi_tree *tree, uint32_t leaf, const uint32_t *gro
 {
     lrcsi_tree_node *node = &tree->node[tree->leaves + leaf];
     uint32_t first = leaf * LEAF_FACETS;
-    uint32_t end = first + LEAF_FACETS < tree->count ? first + LEAF_FACETS : tree->count;
+    uint32_t end = leaf_end(tree, leaf);
     node->hub = common_corner(tree, first, end);
     node->group = group ? group[tree->order[first]] : LRCS_NONE;
     for (uint32_t i = first; i < end; i++) {
@@ -428,7 +435,16 @@ int lrcsi_tree_corner(lrcsi_tree_walk *w, uint32_t candidate)
     return 0;
 }
 
-lrcsi_tree_walk lrcsi_tree_around(const lrcsi_tree *tree, lrcs_facet facet)
+/* The node after this one and all below it, from left to right, or 0. */
+static uint32_t node_after(uint32_t node)
+{
+    while (node & 1) {
+        node >>= 1;
+    }
+    return node ? node + 1 : 0;
+}
+
+static lrcsi_tree_walk walk_start(const lrcsi_tree *tree, lrcs_facet facet)
 {
     lrcsi_tree_walk walk = {.tree = tree, .without = LRCS_NONE, .node = 1};
     walk.box = facet_box(tree->vertex, &facet);
@@ -440,14 +456,22 @@ lrcsi_tree_walk lrcsi_tree_around(const lrcsi_tree *tree, lrcs_facet facet)
     return walk;
 }
 
+lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t place)
+{
+    lrcsi_tree_walk walk = walk_start(tree, tree->facet[tree->order[place]]);
+    uint32_t leaf = place / LEAF_FACETS;
+    walk.at = place + 1;
+    walk.end = leaf_end(tree, leaf);
+    walk.node = node_after(tree->leaves + leaf);
+    return walk;
+}
+
 lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, lrcs_facet facet, double distance,
                                   uint32_t without)
 {
-    lrcsi_tree_walk walk = {.tree = tree, .without = without, .node = 1};
-    walk.box = facet_box(tree->vertex, &facet);
-    facet_corners(tree->vertex, &facet, walk.corner);
-    facet_normal(walk.corner, walk.normal, walk.weight);
+    lrcsi_tree_walk walk = walk_start(tree, facet);
     const double *n = walk.normal;
+    walk.without = without;
     walk.slack = distance * WITHIN_MARGIN;
     walk.slack_plane = walk.slack * (fabs(n[0]) + fabs(n[1]) + fabs(n[2]));
     for (int k = 0; k < 3; k++) {
@@ -510,15 +534,6 @@ static int node_is_candidate(lrcsi_tree_walk *w, const lrcsi_tree_node *node)
     return low - slack <= node->high && high + slack >= node->low;
 }
 
-/* The node after this one and all below it, from left to right, or 0. */
-static uint32_t node_after(uint32_t node)
-{
-    while (node & 1) {
-        node >>= 1;
-    }
-    return node ? node + 1 : 0;
-}
-
 /* Moves to the facets of the next leaf that holds candidates; 0 at the end. */
 static int next_leaf(lrcsi_tree_walk *w)
 {
@@ -533,7 +548,7 @@ static int next_leaf(lrcsi_tree_walk *w)
         w->node = node_after(node);
         if (candidate) {
             w->at = (node - tree->leaves) * LEAF_FACETS;
-            w->end = tree->count - w->at < LEAF_FACETS ? tree->count : w->at + LEAF_FACETS;
+            w->end = leaf_end(tree, node - tree->leaves);
             return 1;
         }
     }

@@ -65,11 +65,12 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
                     const unsigned char *skip, const uint32_t *group, lrcs_work *work,
                     lrcsi_tree *tree);
 
-/* Starts a walk around a facet, in the tree or not, of the same vertices. */
-lrcsi_tree_walk lrcsi_tree_around(const lrcsi_tree *tree, lrcs_facet facet);
+/* Starts a walk around facet order[place], among those after it: each pair comes up once. */
+lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t place);
 
-/* The same for facets that come within a distance of it, those at its corners too, those of a group
-   (LRCS_NONE: of none) left out where whole nodes are of it. */
+/* A walk among all facets, for those that come within a distance of one, in the tree or not; those
+   at its corners too; those of a group (LRCS_NONE: of none) left out where whole nodes are of
+   it. */
 lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, lrcs_facet facet, double distance,
                                   uint32_t without);
 

@@ -10,6 +10,7 @@
 
    Rounding, in units of 2^-53, libm within 2 ulp (4 units):
    glint    1 + u: 1, exp: 4, its correction 1 - x'/2 and two products: 4; squared: 18; times A: 2
+            far out: log1p, below x/1.9: 4, x/2: 2, their difference: 1; squared: 8 x
    diffuse  pow: 4, correction: 4, their product: 1; squared: 18; 1 - w'/w, products, quotient: 5;
             and d = (m/4) w'/w, doubled: at most 4 d for its rounding, 2 d for its second order
    These are first order; the constants below leave room for the rest. */
@@ -25,8 +26,8 @@
 #define REFLECT_DIFFUSE_UNITS 28.0
 #define REFLECT_UNIT          0x1p-53
 
-/* Beyond this x, exp(-x/2) nears underflow and q^2 may not: the exponents are added instead. And
-   beyond that, their sum is below -1500 for every u that is a double: exp gives 0. */
+/* Beyond this x, exp(-x/2) nears underflow and q may not: the exponents are added instead. And
+   beyond that, their sum is below -790 for every u that is a double: exp gives 0. */
 #define REFLECT_X_FAR  1400.0
 #define REFLECT_X_NONE 3000.0
 
@@ -55,14 +56,15 @@ static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
 {
     lrcsi_dd x = glint_exponent(u, brdf->s);
     reflect_part part = {0.0, REFLECT_GLINT_UNITS * REFLECT_UNIT, 2.0 * lrcsi_least(u, 1.0) + x.hi};
+    double q = 0.0;
     if (x.hi < REFLECT_X_FAR) {
-        double q = (1.0 + u) * (exp(-0.5 * x.hi) * (1.0 - 0.5 * x.lo));
-        part.value = brdf->A * q * q;
+        q = (1.0 + u) * (exp(-0.5 * x.hi) * (1.0 - 0.5 * x.lo));
         part.relative += x.lo == 0.0 ? 4.0 * REFLECT_UNIT * x.hi : 0.0;
     } else {
-        part.value = x.hi > REFLECT_X_NONE ? 0.0 : brdf->A * exp(2.0 * log1p(u) - x.hi);
+        q = x.hi < REFLECT_X_NONE ? exp(log1p(u) - 0.5 * x.hi) : 0.0;
         part.relative += 16.0 * REFLECT_UNIT * x.hi;
     }
+    part.value = brdf->A * q * q;
     return part;
 }
 
@@ -106,12 +108,13 @@ static double part_error(const reflect_part *part, double e)
     return part->value * delta * (1.0 + delta);
 }
 
-/* Is a glint that is not plain its own bound? Where tan^2 is exact only underflow spoils it: where
-   the value is at most 2^-900 (A q) q loses 2^-1074 q and 2^-1074, and q < 2^-200; A exp() loses 2^-1074 A; beyond
-   x = 2^48, where `relative` is of no use, nothing is left. All of this is below 2^-1000. */
+/* Is a glint that is not plain its own bound? Where tan^2 is exact only underflow spoils it. A
+   value of at most 2^-900 has q < 2^-200 for these A, so that (A q) q loses 2^-1074 q and 2^-1074;
+   a q below 2^-1022, good to 2^-1074, makes it lose 2^-1071. `relative` is above 1 only where
+   nothing is left of truth and value. All of this is below 2^-1000. */
 static int glint_is_most(const lrcs_brdf *brdf, const reflect_part *glint, double e)
 {
-    return e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500 && brdf->A <= 0x1p70;
+    return e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500;
 }
 
 /* For a bound `most` on the part: twice, for its own underflow and rounding. */
@@ -120,26 +123,43 @@ static double part_error_all(const reflect_part *part, double most)
     return 2.0 * fmax(part->value, most) + 0x1p-1000;
 }
 
+/* tan^2 is in [tan2 / (1 + e), tan2 / (1 - e)], or anywhere. */
+static double glint_error(const lrcs_brdf *brdf, const reflect_part *glint, double tan2, double e)
+{
+    if (part_is_plain(glint, e)) {
+        return part_error(glint, e);
+    }
+    if (glint_is_most(brdf, glint, e)) {
+        return part_error_all(glint, glint->value);
+    }
+    double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
+    double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
+    return part_error_all(glint, glint_most(brdf, low, high));
+}
+
+/* The diffuse part only falls. */
+static double diffuse_error(const lrcs_brdf *brdf, const reflect_part *diffuse, double tan2,
+                            double e)
+{
+    if (part_is_plain(diffuse, e)) {
+        return part_error(diffuse, e);
+    }
+    double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
+    return part_error_all(diffuse, reflect_diffuse(brdf, low).value);
+}
+
 lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error)
 {
     lrcsi_reflection out = {0.0, 0.0, 0.0};
-    double e = tan2_error;
-    double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
-    double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
     if (brdf->A > 0.0 && isfinite(tan2)) {
         reflect_part glint = reflect_glint(brdf, tan2);
         out.glint = lrcsi_least(glint.value, DBL_MAX);
-        out.error = part_is_plain(&glint, e) ? part_error(&glint, e)
-                    : glint_is_most(brdf, &glint, e)
-                        ? part_error_all(&glint, glint.value)
-                        : part_error_all(&glint, glint_most(brdf, low, high));
+        out.error = glint_error(brdf, &glint, tan2, tan2_error);
     }
     if (brdf->B > 0.0 && isfinite(tan2)) {
         reflect_part diffuse = reflect_diffuse(brdf, tan2);
         out.diffuse = diffuse.value;
-        out.error += part_is_plain(&diffuse, e)
-                         ? part_error(&diffuse, e)
-                         : part_error_all(&diffuse, reflect_diffuse(brdf, low).value);
+        out.error += diffuse_error(brdf, &diffuse, tan2, tan2_error);
     }
     return out;
 }

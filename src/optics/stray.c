@@ -42,9 +42,16 @@
 #define STRAY_TINY    0x1p-1009 /* above e^-700: stands for what is below it */
 #define SLOPE_HUGE    1e75      /* s beyond: peaks lie past every finite u met here */
 
-/* An interval of u = tan^2(theta); high may be infinite. */
+/* A u = tan^2(theta), and the logarithms of it that every term there is made of: taken when first
+   asked for, for they are most of the work. */
+typedef struct tan2_point {
+    double u, log_u, log_w;
+    int known;
+} tan2_point;
+
+/* An interval of u; high may be infinite. */
 typedef struct tan2_range {
-    double low, high;
+    tan2_point low, high;
 } tan2_range;
 
 /* Bounds on |.| of G and its derivatives, at the facet's normal and over the patch. */
@@ -65,77 +72,117 @@ static double times(double a, double b)
     return a > 0.0 && b > 0.0 ? a * b : 0.0;
 }
 
-/* u^a w^b exp(-u/s^2) / s^(2c) at a finite u. */
-static double glint_term(double a, double b, double c, double s, double u)
+static tan2_point tan2_at(double u)
 {
-    if (u == 0.0 && a > 0.0) {
+    return (tan2_point){u, 0.0, 0.0, 0};
+}
+
+/* At a finite u; log_u is 0 where u is. */
+static void point_know(tan2_point *at)
+{
+    if (!at->known) {
+        at->log_w = log1p(at->u);
+        at->log_u = at->u > 0.0 ? log(at->u) : 0.0;
+        at->known = 1;
+    }
+}
+
+/* The point of a range that is nearest to u: one of its ends, or *inside. */
+static tan2_point *range_nearest(tan2_range *range, double u, tan2_point *inside)
+{
+    if (!(u > range->low.u)) {
+        return &range->low;
+    }
+    if (!(u < range->high.u)) {
+        return &range->high;
+    }
+    *inside = tan2_at(u);
+    return inside;
+}
+
+/* The glint's slope, and the logarithm of it where that is asked for. */
+typedef struct glint_slope {
+    double s, log_s;
+} glint_slope;
+
+/* u^a w^b exp(-u/s^2) / s^(2c) at a finite u. */
+static double glint_term(double a, double b, double c, const glint_slope *slope, tan2_point *at)
+{
+    if (at->u == 0.0 && a > 0.0) {
         return 0.0;
     }
-    double x = b * log1p(u) - u / s / s - 2.0 * c * log(s);
-    return exp_above(a > 0.0 ? x + a * log(u) : x);
+    point_know(at);
+    double x = b * at->log_w - at->u / slope->s / slope->s - 2.0 * c * slope->log_s;
+    return exp_above(x + a * at->log_u);
 }
 
 /* Its supremum over a range. */
-static double glint_sup(double a, double b, double c, double s, const tan2_range *range)
+static double glint_sup(double a, double b, double c, const glint_slope *slope, tan2_range *range)
 {
     double peak = HUGE_VAL;
-    if (s < SLOPE_HUGE) {
-        double s2 = s * s;
+    if (slope->s < SLOPE_HUGE) {
+        double s2 = slope->s * slope->s;
         double beta = (a + b) * s2 - 1.0;
         double root = sqrt(beta * beta + 4.0 * a * s2);
         peak = beta > 0.0 ? 0.5 * (beta + root) : a > 0.0 ? 2.0 * a * s2 / (root - beta) : 0.0;
     }
-    double u = fmin(fmax(peak, range->low), range->high);
-    return isfinite(u) ? glint_term(a, b, c, s, u) : HUGE_VAL;
+    tan2_point inside;
+    tan2_point *at = range_nearest(range, peak, &inside);
+    return isfinite(at->u) ? glint_term(a, b, c, slope, at) : HUGE_VAL;
 }
 
-static stray_size glint_size(double s, int front, double tan2, const tan2_range *range)
+static stray_size glint_size(double s, int front, tan2_point *here, tan2_range *range)
 {
+    const glint_slope slope = {s, log(s)};
     stray_size size = {0.0, 0.0, 0.0, 0.0, 0.0};
-    if (front && isfinite(tan2)) {
-        double up = 4.0 * glint_term(0.5, 2.0, 0.0, s, tan2);
-        double down = 2.0 * glint_term(0.5, 3.0, 1.0, s, tan2);
+    if (front && isfinite(here->u)) {
+        double up = 4.0 * glint_term(0.5, 2.0, 0.0, &slope, here);
+        double down = 2.0 * glint_term(0.5, 3.0, 1.0, &slope, here);
         double more = fmax(up, down);
-        size.value = glint_term(0.0, 2.0, 0.0, s, tan2);
+        size.value = glint_term(0.0, 2.0, 0.0, &slope, here);
         size.slope = isfinite(more) ? fabs(up - down) + 1e-10 * more : more;
     }
-    size.value_most = glint_sup(0.0, 2.0, 0.0, s, range);
-    size.slope_most =
-        fmax(4.0 * glint_sup(0.5, 2.0, 0.0, s, range), 2.0 * glint_sup(0.5, 3.0, 1.0, s, range));
-    double level = fmax(4.0 * size.value_most, 2.0 * glint_sup(0.0, 3.0, 1.0, s, range));
-    double up = 4.0 * glint_sup(0.0, 3.0, 0.0, s, range) +
-                16.0 * glint_sup(1.0, 2.0, 0.0, s, range) +
-                4.0 * glint_sup(1.0, 4.0, 2.0, s, range);
-    double down =
-        2.0 * glint_sup(0.0, 4.0, 1.0, s, range) + 20.0 * glint_sup(1.0, 3.0, 1.0, s, range);
+    size.value_most = glint_sup(0.0, 2.0, 0.0, &slope, range);
+    size.slope_most = fmax(4.0 * glint_sup(0.5, 2.0, 0.0, &slope, range),
+                           2.0 * glint_sup(0.5, 3.0, 1.0, &slope, range));
+    double level = fmax(4.0 * size.value_most, 2.0 * glint_sup(0.0, 3.0, 1.0, &slope, range));
+    double up = 4.0 * glint_sup(0.0, 3.0, 0.0, &slope, range) +
+                16.0 * glint_sup(1.0, 2.0, 0.0, &slope, range) +
+                4.0 * glint_sup(1.0, 4.0, 2.0, &slope, range);
+    double down = 2.0 * glint_sup(0.0, 4.0, 1.0, &slope, range) +
+                  20.0 * glint_sup(1.0, 3.0, 1.0, &slope, range);
     size.bend = fmax(level, fmax(up, down));
     return size;
 }
 
-/* u^a w^(-nu/2) at its supremum, its peak at u = a / (nu/2 - a). */
-static double diffuse_sup(double a, double nu, const tan2_range *range)
+/* u^a w^(-nu/2). */
+static double diffuse_term(double a, double nu, tan2_point *at)
 {
-    double u = range->low;
-    if (a > 0.0) {
-        u = fmin(fmax(a / (0.5 * nu - a), range->low), range->high);
-    }
-    if (u == 0.0 && a > 0.0) {
+    if (at->u == 0.0 && a > 0.0) {
         return 0.0;
     }
-    if (!isfinite(u)) {
+    if (!isfinite(at->u)) {
         return 1.0; /* a <= 1 <= nu/2: u^a <= w^(nu/2) */
     }
-    return exp_above((a > 0.0 ? a * log(u) : 0.0) - 0.5 * nu * log1p(u));
+    point_know(at);
+    return exp_above(a * at->log_u - 0.5 * nu * at->log_w);
 }
 
-static stray_size diffuse_size(double m, int front, double tan2, const tan2_range *range)
+/* Its supremum over a range: its peak is at u = a / (nu/2 - a), for a = 0 at 0. */
+static double diffuse_sup(double a, double nu, tan2_range *range)
+{
+    tan2_point inside;
+    double peak = a > 0.0 ? a / (0.5 * nu - a) : 0.0;
+    return diffuse_term(a, nu, range_nearest(range, peak, &inside));
+}
+
+static stray_size diffuse_size(double m, int front, tan2_point *here, tan2_range *range)
 {
     double nu = m + 2.0;
     stray_size size = {0.0, 0.0, 0.0, 0.0, 0.0};
-    if (front && isfinite(tan2)) {
-        tan2_range here = {tan2, tan2};
-        size.value = diffuse_sup(0.0, nu, &here);
-        size.slope = nu * diffuse_sup(0.5, nu, &here);
+    if (front && isfinite(here->u)) {
+        size.value = diffuse_term(0.0, nu, here);
+        size.slope = nu * diffuse_term(0.5, nu, here);
     }
     size.value_most = diffuse_sup(0.0, nu, range);
     size.slope_most = nu * diffuse_sup(0.5, nu, range);
@@ -163,8 +210,8 @@ static int range_around(double theta, double turn, tan2_range *range)
     }
     double near = low > 0.0 ? tan(low) : 0.0;
     double far = high < HALF_PI_BELOW ? tan(high) : HUGE_VAL;
-    range->low = near * near * (1.0 - 8.0 * STRAY_UNIT);
-    range->high = far * far * (1.0 + 8.0 * STRAY_UNIT);
+    range->low = tan2_at(near * near * (1.0 - 8.0 * STRAY_UNIT));
+    range->high = tan2_at(far * far * (1.0 + 8.0 * STRAY_UNIT));
     return 1;
 }
 
@@ -192,19 +239,23 @@ static lrcsi_stray stray_of(const stray_size *all, const lrcs_curvature *c)
 lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
                              const lrcs_curvature *curvature)
 {
+    if (cos_theta < -(curvature->turn + 0x1p-40)) { /* below -sin(turn): all of it faces away */
+        return (lrcsi_stray){0.0, 0.0, 0.0, 0.0, 0.0};
+    }
     int front = cos_theta > 0.0;
     double angle = atan(sqrt(tan2));
     tan2_range range;
     if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, curvature->turn, &range)) {
         return (lrcsi_stray){0.0, 0.0, 0.0, 0.0, 0.0};
     }
+    tan2_point here = tan2_at(tan2);
     stray_size all = {0.0, 0.0, 0.0, 0.0, 0.0};
     if (brdf->A > 0.0) {
-        stray_size part = glint_size(brdf->s, front, tan2, &range);
+        stray_size part = glint_size(brdf->s, front, &here, &range);
         size_add(&all, brdf->A, &part);
     }
     if (brdf->B > 0.0) {
-        stray_size part = diffuse_size(brdf->m, front, tan2, &range);
+        stray_size part = diffuse_size(brdf->m, front, &here, &range);
         size_add(&all, brdf->B, &part);
     }
     return stray_of(&all, curvature);
@@ -229,7 +280,8 @@ lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double 
         return most;
     }
     if (brdf->A > 0.0) {
-        most.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, brdf->s, &range) * STRAY_MARGIN;
+        const glint_slope slope = {brdf->s, 0.0}; /* a term with c = 0 asks for no logarithm */
+        most.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, &slope, &range) * STRAY_MARGIN;
     }
     if (brdf->B > 0.0) {
         most.diffuse = brdf->B * diffuse_sup(0.0, brdf->m + 1.0, &range) * STRAY_MARGIN;

@@ -173,12 +173,6 @@ void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t co
     }
 }
 
-int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
-{
-    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_reflect &&
-                                       lrcsi_prepared_material(view->prepared, facet)->two_sided);
-}
-
 static void view_point(const lrcsi_view *view, const double *x, double *out)
 {
     double p[3];

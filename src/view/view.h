@@ -47,7 +47,11 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
                     lrcsi_view *view);
 
 /* Does a facet send light back, if seen? */
-int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet);
+static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
+{
+    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_reflect &&
+                                       lrcsi_prepared_material(view->prepared, facet)->two_sided);
+}
 
 /* The incidence of a facet that is not skipped. */
 lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet);

@@ -64,7 +64,7 @@ static int drift_shows(const drift_facet *d, int axis, double along, double acro
     if (!(x >= 0 && y >= 0 && x < r->size && y < r->size)) {
         return 0;
     }
-    uint32_t owner = r->owner[(size_t)y * r->size + (size_t)x];
+    uint32_t owner = lrcsi_raster_owner(r, (uint32_t)x, (uint32_t)y);
     return owner == d->facet || (owner != LRCS_NONE && d->sheet[owner] == d->sheet[d->facet] &&
                                  !drift_covers(&d->edges, x, y));
 }

@@ -5,9 +5,11 @@
 #include "visibility/raster.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/grid.h"
 #include "visibility/sample.h"
 
 #define U 0x1p-53
@@ -22,20 +24,39 @@ void lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2
 /* First pixel whose centre is not left of `x` less its error, kept within 0 .. size. */
 static uint32_t pixel_from(const lrcsi_raster *raster, double x)
 {
-    double pixel = ceil(x - 0.5 - raster->off);
-    return pixel <= 0 ? 0 : pixel >= raster->size ? raster->size : (uint32_t)pixel;
+    double least = lrcsi_least(lrcsi_most(x - 0.5 - raster->off, 0), raster->size);
+    uint32_t pixel = (uint32_t)least;
+    return pixel < least ? pixel + 1 : pixel;
 }
 
 /* One past the last pixel whose centre is not right of `x` plus its error. */
 static uint32_t pixel_to(const lrcsi_raster *raster, double x)
 {
-    double pixel = floor(x - 0.5 + raster->off) + 1;
-    return pixel <= 0 ? 0 : pixel >= raster->size ? raster->size : (uint32_t)pixel;
+    return (uint32_t)lrcsi_least(lrcsi_most(x + 0.5 + raster->off, 0), raster->size);
+}
+
+/* The box of the corners, and the pixels that the facet may cover and touch. */
+static void edges_box(const lrcsi_raster *r, double p[3][2], lrcsi_edges *e)
+{
+    double x0 = lrcsi_least(p[0][0], lrcsi_least(p[1][0], p[2][0]));
+    double x1 = lrcsi_most(p[0][0], lrcsi_most(p[1][0], p[2][0]));
+    double y0 = lrcsi_least(p[0][1], lrcsi_least(p[1][1], p[2][1]));
+    double y1 = lrcsi_most(p[0][1], lrcsi_most(p[1][1], p[2][1]));
+    e->off = 8 * r->off * (x1 - x0 + y1 - y0 + 2);
+    e->x0 = pixel_from(r, x0);
+    e->x1 = pixel_to(r, x1);
+    e->y0 = pixel_from(r, y0);
+    e->y1 = pixel_to(r, y1);
+    e->left = e->x0 > 0 ? e->x0 - 1 : 0;
+    e->right = e->x1 < r->size ? e->x1 + 1 : r->size;
+    e->bottom = e->y0 > 0 ? e->y0 - 1 : 0;
+    e->top = e->y1 < r->size ? e->y1 + 1 : r->size;
 }
 
 /* Corners are off by `off`, and so is the sample; with |q - p| and |sample - p| at most the box's
-   half perimeter h (plus the margin of a pixel), the cross product is off by at most 4 off h, its
-   rounding by 8 u h^2 <= off h. */
+   half perimeter h and the margin of a pixel, the cross product is off by at most 4 off (h + 2).
+   Roundings add 2 u N h for `at`, u N h for the differences and 5 u N h for the value, together at
+   most off h. */
 lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
 {
     lrcsi_edges e;
@@ -44,10 +65,7 @@ lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(raster, corner[k], p[k]);
     }
-    double x0 = lrcsi_least(p[0][0], lrcsi_least(p[1][0], p[2][0]));
-    double x1 = lrcsi_most(p[0][0], lrcsi_most(p[1][0], p[2][0]));
-    double y0 = lrcsi_least(p[0][1], lrcsi_least(p[1][1], p[2][1]));
-    double y1 = lrcsi_most(p[0][1], lrcsi_most(p[1][1], p[2][1]));
+    edges_box(raster, p, &e);
     for (int k = 0; k < 3; k++) {
         const double *a = p[k];
         const double *b = p[(k + 1) % 3];
@@ -55,11 +73,7 @@ lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
         e.up[k] = raster->view->facing[facet] * (b[0] - a[0]);
         e.at[k] = -(e.along[k] * a[0] + e.up[k] * a[1]);
     }
-    e.off = 8 * raster->off * (x1 - x0 + y1 - y0 + 2);
-    e.x0 = pixel_from(raster, x0);
-    e.x1 = pixel_to(raster, x1);
-    e.y0 = pixel_from(raster, y0);
-    e.y1 = pixel_to(raster, y1);
+    lrcsi_span_prepare(&e);
     return e;
 }
 
@@ -90,7 +104,7 @@ lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
 /* A height in doubles: numerator terms below 2 |N| radius, each off by 16 u of that, and corners
    by view->off, all over |N| |cos|; the denominator's own error moves a height that lies within
    the scene by as much again. view->off holds 32 u (radius + reach). */
-static double plane_slack(const lrcsi_view *view, uint32_t facet)
+double lrcsi_raster_slack(const lrcsi_view *view, uint32_t facet)
 {
     double n[3];
     plane_normal(view, facet, n);
@@ -98,104 +112,215 @@ static double plane_slack(const lrcsi_view *view, uint32_t facet)
     return cosine > 64 * U ? 8 * view->off / cosine : HUGE_VAL;
 }
 
-/* One sample that the facet covers: it takes it, or leaves it to the owner. */
-static void raster_contend(lrcsi_raster *r, uint32_t facet, size_t at, double height,
-                           const double xy[2])
+/* --- facets ----------------------------------------------------------------------------------- */
+
+/* A facet being drawn. */
+typedef struct raster_job {
+    lrcsi_raster *raster;
+    uint32_t facet;
+    lrcsi_edges edges;
+    lrcsi_plane plane;
+    double slack;
+} raster_job;
+
+static void sample_point(const lrcsi_raster *r, uint32_t x, uint32_t y, double point[3])
 {
-    uint32_t owner = r->owner[at];
-    int wins = 1;
-    if (owner != LRCS_NONE) {
-        double ahead = height - r->depth[at];
-        double slack = r->slack[facet] + r->slack[owner];
-        if (ahead > slack || ahead < -slack) {
-            wins = ahead > 0;
-        } else {
-            double point[3];
-            lrcsi_view_lift(r->view, xy[0], xy[1], point);
-            int nearer = lrcsi_sample_nearer(r->view, facet, owner, point, 1);
-            wins = nearer > 0;
-            r->undecided[facet] |= nearer == 0;
-            r->undecided[owner] |= nearer == 0;
-        }
+    lrcsi_view_lift(r->view, r->view->low[0] + (x + 0.5) * r->pixel,
+                    r->view->low[1] + (y + 0.5) * r->pixel, point);
+}
+
+/* Does the facet cover the sample, where its edge functions cannot tell? */
+static int job_covers(const raster_job *job, uint32_t x, uint32_t y)
+{
+    double point[3];
+    sample_point(job->raster, x, y, point);
+    return lrcsi_sample_covers(job->raster->view, job->facet, point);
+}
+
+/* Is the facet nearer than the owner of a sample that both cover? */
+static int job_nearer(const raster_job *job, uint32_t owner, double ahead, uint32_t x, uint32_t y)
+{
+    lrcsi_raster *r = job->raster;
+    double slack = job->slack + r->slack[owner];
+    if (ahead > slack || ahead < -slack) {
+        return ahead > 0;
     }
-    if (wins) {
-        r->owner[at] = facet;
+    double point[3];
+    sample_point(r, x, y, point);
+    int nearer = lrcsi_sample_nearer(r->view, job->facet, owner, point, 1);
+    r->undecided[job->facet] |= nearer == 0;
+    r->undecided[owner] |= nearer == 0;
+    return nearer > 0;
+}
+
+/* Samples x0 <= x < x1 of a row, which the facet covers: it takes them, or leaves them to their
+   owners. */
+static void draw_run(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
+{
+    lrcsi_raster *r = job->raster;
+    double row = job->plane.at + job->plane.up * (y + 0.5);
+    size_t at = (size_t)y * r->size + x0;
+    r->covered[job->facet] += x1 - x0;
+    for (uint32_t x = x0; x < x1; x++, at++) {
+        double height = row + job->plane.along * (x + 0.5);
+        uint32_t owner = r->owner[at];
+        if (owner != LRCS_NONE) {
+            if (r->depth[at] == HUGE_VAL || !job_nearer(job, owner, height - r->depth[at], x, y)) {
+                continue;
+            }
+            r->owned[owner]--;
+        }
+        r->owned[job->facet]++;
+        r->owner[at] = job->facet;
         r->depth[at] = height;
     }
 }
 
-/* Does the facet cover the sample? `least` is the smallest of its edge functions there. */
-static int raster_covers(const lrcsi_raster *r, uint32_t facet, double least, double off,
-                         const double xy[2])
+static void draw_doubtful(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
 {
-    if (least > off) {
-        return 1;
-    }
-    if (least < -off) {
-        return 0;
-    }
-    double point[3];
-    lrcsi_view_lift(r->view, xy[0], xy[1], point);
-    return lrcsi_sample_covers(r->view, facet, point);
-}
-
-/* Narrows [x0, x1) of a row to where no edge function is surely negative. */
-static void row_narrow(const lrcsi_edges *e, const double *row, uint32_t *x0, uint32_t *x1)
-{
-    double from = *x0;
-    double to = *x1;
-    for (int k = 0; k < 3; k++) {
-        if (e->along[k] > 0) {
-            from = lrcsi_most(from, floor((-e->off - row[k]) / e->along[k] - 0.5));
-        } else if (e->along[k] < 0) {
-            to = lrcsi_least(to, ceil((-e->off - row[k]) / e->along[k] + 0.5));
-        }
-    }
-    if (to > from) {
-        *x0 = (uint32_t)from;
-        *x1 = (uint32_t)to;
-    } else {
-        *x1 = *x0;
-    }
-}
-
-static void raster_row(lrcsi_raster *r, uint32_t facet, const lrcsi_edges *e,
-                       const lrcsi_plane *plane, uint32_t y)
-{
-    double cy = y + 0.5;
-    double row[3];
-    for (int k = 0; k < 3; k++) {
-        row[k] = e->at[k] + e->up[k] * cy;
-    }
-    uint32_t x0 = e->x0;
-    uint32_t x1 = e->x1;
-    row_narrow(e, row, &x0, &x1);
-    double xy[2] = {0, r->view->low[1] + cy * r->pixel};
     for (uint32_t x = x0; x < x1; x++) {
-        double cx = x + 0.5;
-        double least =
-            lrcsi_least(row[0] + e->along[0] * cx,
-                        lrcsi_least(row[1] + e->along[1] * cx, row[2] + e->along[2] * cx));
-        xy[0] = r->view->low[0] + cx * r->pixel;
-        if (raster_covers(r, facet, least, e->off, xy)) {
-            r->covered[facet]++;
-            raster_contend(r, facet, (size_t)y * r->size + x,
-                           plane->at + plane->along * cx + plane->up * cy, xy);
+        if (job_covers(job, x, y)) {
+            draw_run(job, y, x, x + 1);
         }
     }
 }
 
-static void raster_facet(lrcsi_raster *r, uint32_t facet)
+void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet)
 {
-    lrcsi_edges edges = lrcsi_raster_edges(r, facet);
-    r->slack[facet] = plane_slack(r->view, facet);
-    if (edges.x0 >= edges.x1 || edges.y0 >= edges.y1) {
+    raster_job job = {.raster = raster, .facet = facet};
+    raster->slack[facet] = job.slack = lrcsi_raster_slack(raster->view, facet);
+    job.edges = lrcsi_raster_edges(raster, facet);
+    job.plane = lrcsi_raster_plane(raster, facet);
+    for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
+        lrcsi_row row = lrcsi_span_row(&job.edges, y);
+        draw_doubtful(&job, y, row.may.x0, row.sure.x0);
+        draw_run(&job, y, row.sure.x0, row.sure.x1);
+        draw_doubtful(&job, y, row.sure.x1, row.may.x1);
+    }
+}
+
+/* --- tiles ------------------------------------------------------------------------------------ */
+
+static size_t tile_at(const lrcsi_raster *r, uint32_t x, uint32_t y)
+{
+    return (size_t)(y / LRCSI_RASTER_TILE) * r->tiles + x / LRCSI_RASTER_TILE;
+}
+
+/* The first pixel of the row, from x on and before x1, whose tile is wanted (or is not, for
+   `wanted` 0); x1 where there is none. */
+static uint32_t tile_next(const lrcsi_raster *r, uint32_t y, uint32_t x, uint32_t x1, int wanted)
+{
+    while (x < x1 && r->wanted[tile_at(r, x, y)] != wanted) {
+        x = (x / LRCSI_RASTER_TILE + 1) * LRCSI_RASTER_TILE;
+    }
+    return x < x1 ? x : x1;
+}
+
+void lrcsi_raster_clear(lrcsi_raster *raster)
+{
+    for (uint32_t y = 0; y < raster->size; y++) {
+        uint32_t x = tile_next(raster, y, 0, raster->size, 1);
+        while (x < raster->size) {
+            uint32_t end = tile_next(raster, y, x, raster->size, 0);
+            size_t row = (size_t)y * raster->size;
+            memset(raster->pure + row + x, 0, end - x);
+            for (; x < end; x++) {
+                raster->owner[row + x] = LRCS_NONE;
+            }
+            x = tile_next(raster, y, x, raster->size, 1);
+        }
+    }
+}
+
+static void want_row(lrcsi_raster *r, uint32_t y, uint32_t x0, uint32_t x1)
+{
+    for (uint32_t x = x0; x < x1; x += LRCSI_RASTER_TILE) {
+        r->wanted[tile_at(r, x, y)] = 1;
+    }
+    r->wanted[tile_at(r, x1 - 1, y)] = 1;
+}
+
+void lrcsi_raster_want(lrcsi_raster *raster, uint32_t facet)
+{
+    lrcsi_edges e = lrcsi_raster_edges(raster, facet);
+    uint32_t last = raster->size - 1;
+    for (uint32_t y = e.bottom; y < e.top; y++) {
+        lrcsi_pixels row = lrcsi_span_row(&e, y).touched;
+        if (row.x0 < row.x1) {
+            uint32_t x0 = row.x0 > 2 ? row.x0 - 2 : 0;
+            uint32_t x1 = row.x1 + 2 < raster->size ? row.x1 + 2 : raster->size;
+            want_row(raster, y > 2 ? y - 2 : 0, x0, x1);
+            want_row(raster, y + 2 < last ? y + 2 : last, x0, x1);
+        }
+    }
+}
+
+static uint32_t tile_of(const lrcsi_raster *r, double pixel)
+{
+    double tile = pixel * (1.0 / LRCSI_RASTER_TILE);
+    return (uint32_t)lrcsi_least(r->tiles - 1, lrcsi_most(tile, 0));
+}
+
+/* Is a tile wanted that the facet may touch? */
+static int facet_wanted(const lrcsi_raster *r, uint32_t facet)
+{
+    double low[2];
+    double high[2];
+    lrcsi_grid_box(r->view, r->view->prepared->scene->facet[facet].corner, 3, low, high);
+    uint32_t tile[2][2];
+    for (int k = 0; k < 2; k++) {
+        tile[k][0] = tile_of(r, (low[k] - r->view->low[k]) * r->scale - r->off);
+        tile[k][1] = tile_of(r, (high[k] - r->view->low[k]) * r->scale + r->off);
+    }
+    for (uint32_t y = tile[1][0]; y <= tile[1][1]; y++) {
+        const unsigned char *row = r->wanted + (size_t)y * r->tiles;
+        if (memchr(row + tile[0][0], 1, tile[0][1] - tile[0][0] + 1)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void claim_row(const raster_job *job, uint32_t y)
+{
+    lrcsi_raster *r = job->raster;
+    if (tile_next(r, y, job->edges.x0, job->edges.x1, 1) == job->edges.x1) {
         return;
     }
-    lrcsi_plane plane = lrcsi_raster_plane(r, facet);
-    for (uint32_t y = edges.y0; y < edges.y1; y++) {
-        raster_row(r, facet, &edges, &plane, y);
+    lrcsi_row row = lrcsi_span_row(&job->edges, y);
+    uint32_t x = tile_next(r, y, row.may.x0, row.may.x1, 1);
+    while (x < row.may.x1) {
+        uint32_t end = tile_next(r, y, x, row.may.x1, 0);
+        for (; x < end; x++) {
+            if (lrcsi_span_has(row.sure, x) || job_covers(job, x, y)) {
+                size_t at = (size_t)y * r->size + x;
+                r->owner[at] = job->facet;
+                r->depth[at] = HUGE_VAL;
+                r->pure[at] = lrcsi_span_has(row.whole, x) ? 1 : 0;
+            }
+        }
+        x = tile_next(r, y, x, row.may.x1, 1);
     }
+}
+
+void lrcsi_raster_claim(lrcsi_raster *raster, uint32_t facet)
+{
+    if (!facet_wanted(raster, facet)) {
+        return;
+    }
+    raster_job job = {.raster = raster, .facet = facet};
+    job.edges = lrcsi_raster_edges(raster, facet);
+    for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
+        claim_row(&job, y);
+    }
+}
+
+/* --- all of it -------------------------------------------------------------------------------- */
+
+static size_t raster_tiles(uint32_t size)
+{
+    size_t tiles = (size - 1) / LRCSI_RASTER_TILE + 1;
+    return tiles * tiles;
 }
 
 size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
@@ -204,6 +329,8 @@ size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_bytes(pixels, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(raster_tiles(size), 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(double)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
@@ -216,50 +343,47 @@ static int raster_arrays(lrcsi_raster *r, lrcs_work *work)
     size_t facets = r->view->prepared->scene->facet_count;
     r->owner = lrcsi_work_take(work, pixels, sizeof *r->owner);
     r->depth = lrcsi_work_take(work, pixels, sizeof *r->depth);
-    r->slack = lrcsi_work_take_zero(work, facets, sizeof *r->slack);
+    r->pure = lrcsi_work_take(work, pixels, 1);
+    r->slack = lrcsi_work_take(work, facets, sizeof *r->slack);
+    if (!r->owner || !r->depth || !r->pure || !r->slack) {
+        return LRCS_E_MEMORY;
+    }
+    r->wanted = lrcsi_work_take_zero(work, raster_tiles(r->size), 1);
     r->covered = lrcsi_work_take_zero(work, facets, sizeof *r->covered);
     r->owned = lrcsi_work_take_zero(work, facets, sizeof *r->owned);
     r->undecided = lrcsi_work_take_zero(work, facets, sizeof *r->undecided);
-    if (!r->owner || !r->depth || !r->slack || !r->covered || !r->owned || !r->undecided) {
-        return LRCS_E_MEMORY;
-    }
-    for (size_t i = 0; i < pixels; i++) {
-        r->owner[i] = LRCS_NONE;
-    }
-    return LRCS_OK;
+    return r->wanted && r->covered && r->owned && r->undecided ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-static void raster_draw(lrcsi_raster *r)
-{
-    const lrcsi_view *view = r->view;
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        if (view->facing[f] > 0 || (view->facing[f] < 0 && view->backs_cast)) {
-            raster_facet(r, f);
-        }
-    }
-    size_t pixels = (size_t)r->size * r->size;
-    for (size_t i = 0; i < pixels; i++) {
-        if (r->owner[i] != LRCS_NONE) {
-            r->owned[r->owner[i]]++;
-        }
-    }
-}
-
-int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster)
+int lrcsi_raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster)
 {
     size_t mark = work->used;
     lrcsi_raster r = {.view = view, .size = size};
     r.pixel = view->side / size;
     r.scale = view->side > 0 ? size / view->side : 0;
     r.off = view->off * r.scale + 8 * U * size;
+    r.tiles = (size - 1) / LRCSI_RASTER_TILE + 1;
     int status = raster_arrays(&r, work);
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    if (view->side > 0) {
-        raster_draw(&r);
-    }
     *raster = r;
+    return LRCS_OK;
+}
+
+int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster)
+{
+    int status = lrcsi_raster_start(view, size, work, raster);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    memset(raster->wanted, 1, raster_tiles(size));
+    lrcsi_raster_clear(raster);
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        if (view->facing[f] > 0 || (view->facing[f] < 0 && view->backs_cast)) {
+            lrcsi_raster_draw(raster, f);
+        }
+    }
     return LRCS_OK;
 }

@@ -27,28 +27,42 @@ size_t lrcsi_share_need(const lrcs_prepared *prepared)
     return lrcsi_work_bytes(prepared->scene->facet_count, sizeof(lrcsi_share_rest));
 }
 
-int lrcsi_share_make(const lrcsi_contest *contest, const lrcsi_raster *raster,
-                     const lrcsi_grid *facets, lrcs_work *work, lrcsi_sharing *sharing)
+int lrcsi_share_make(const lrcsi_known *known, const lrcsi_raster *raster, lrcs_work *work,
+                     lrcsi_sharing *sharing)
 {
-    *sharing = (lrcsi_sharing){contest, raster, facets, NULL};
-    sharing->rest = lrcsi_work_take_zero(work, contest->view->prepared->scene->facet_count,
-                                         sizeof *sharing->rest);
+    uint32_t facets = raster->view->prepared->scene->facet_count;
+    *sharing = (lrcsi_sharing){known, raster, NULL};
+    sharing->rest = lrcsi_work_take_zero(work, facets, sizeof *sharing->rest);
     return sharing->rest ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-/* Adds up the samples of a facet's neighbours in its sheet. Returns how many neighbours. */
+/* Adds the samples of one facet, or its area where it is known what it shows. */
+static void share_add(const lrcsi_sharing *s, uint32_t facet, double *owned, double *covered)
+{
+    if (s->known->answer[facet] == LRCSI_QUERY_UNDECIDED) {
+        *owned += s->raster->owned[facet];
+        *covered += s->raster->covered[facet];
+        return;
+    }
+    double area = lrcsi_view_tilt(s->raster->view, facet).projected;
+    double pixels = area / (s->raster->pixel * s->raster->pixel);
+    *owned += s->known->answer[facet] == LRCSI_QUERY_VISIBLE ? pixels : 0;
+    *covered += pixels;
+}
+
+/* Adds what a facet's neighbours in its sheet show. Returns how many neighbours. */
 static uint32_t share_neighbours(const lrcsi_sharing *s, uint32_t facet, double *owned,
                                  double *covered)
 {
-    const lrcsi_topology *topology = &s->contest->view->prepared->topology;
+    const lrcsi_topology *topology = &s->raster->view->prepared->topology;
+    const uint32_t *sheet = s->known->contest->sheet;
     uint32_t count = 0;
     for (int k = 0; k < 3; k++) {
         const lrcsi_edge *edge = &topology->edge[topology->facet_edge[facet].corner[k]];
         for (uint32_t i = 0; i < edge->uses; i++) {
             uint32_t other = topology->use[edge->first_use + i].facet;
-            if (other != facet && s->contest->sheet[other] == s->contest->sheet[facet]) {
-                *owned += s->raster->owned[other];
-                *covered += s->raster->covered[other];
+            if (other != facet && sheet[other] == sheet[facet]) {
+                share_add(s, other, owned, covered);
                 count++;
             }
         }
@@ -95,7 +109,8 @@ lrcsi_share lrcsi_share_facet(const lrcsi_sharing *s, uint32_t facet)
     lrcsi_share share;
     share.longest = share_longest(s->raster, facet);
     share.row = share_row(s, facet, share.longest, &owned, &covered);
-    share.share = covered > 0 ? owned / covered : answer[lrcsi_query_facet(s->facets, facet)];
+    share.share =
+        covered > 0 ? owned / covered : answer[lrcsi_query_facet(&s->known->facets, facet)];
     return share;
 }
 
@@ -109,7 +124,7 @@ void lrcsi_share_keep(const lrcsi_sharing *s, uint32_t facet, double area, const
     }
     visible->area = lrcsi_least(visible->high, lrcsi_most(visible->low, wanted));
     if (share->row) {
-        lrcsi_share_rest *sheet = &s->rest[s->contest->sheet[facet]];
+        lrcsi_share_rest *sheet = &s->rest[s->known->contest->sheet[facet]];
         sheet->owned += s->raster->owned[facet];
         sheet->covered += s->raster->covered[facet];
         sheet->area += area;
@@ -131,12 +146,12 @@ static double share_settled(const lrcsi_share_rest *sheet, const lrcsi_visible *
 
 void lrcsi_share_settle(const lrcsi_sharing *s, lrcsi_visible *visible)
 {
-    const lrcsi_view *view = s->contest->view;
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        const lrcsi_share_rest *sheet = &s->rest[s->contest->sheet[f]];
+    const lrcsi_contest *contest = s->known->contest;
+    for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count; f++) {
+        const lrcsi_share_rest *sheet = &s->rest[contest->sheet[f]];
         lrcsi_visible *v = &visible[f];
         double samples[2];
-        if (s->contest->contested[f] && sheet->covered > 0 && v->high > v->low &&
+        if (contest->contested[f] && sheet->covered > 0 && v->high > v->low &&
             share_row(s, f, share_longest(s->raster, f), &samples[0], &samples[1])) {
             v->area = lrcsi_least(v->high, lrcsi_most(v->low, share_settled(sheet, v)));
         }

@@ -12,9 +12,8 @@ typedef struct lrcsi_share_rest {
 } lrcsi_share_rest;
 
 typedef struct lrcsi_sharing {
-    const lrcsi_contest *contest;
+    const lrcsi_known *known;
     const lrcsi_raster *raster;
-    const lrcsi_grid *facets;
     lrcsi_share_rest *rest; /* facet: of the sheet that it names */
 } lrcsi_sharing;
 
@@ -28,8 +27,8 @@ typedef struct lrcsi_share {
 size_t lrcsi_share_need(const lrcs_prepared *prepared);
 
 /* Status: LRCS_OK; LRCS_E_MEMORY. What it takes stays in the work area. */
-int lrcsi_share_make(const lrcsi_contest *contest, const lrcsi_raster *raster,
-                     const lrcsi_grid *facets, lrcs_work *work, lrcsi_sharing *sharing);
+int lrcsi_share_make(const lrcsi_known *known, const lrcsi_raster *raster, lrcs_work *work,
+                     lrcsi_sharing *sharing);
 
 /* Asks about a contested facet. */
 lrcsi_share lrcsi_share_facet(const lrcsi_sharing *sharing, uint32_t facet);

@@ -8,6 +8,7 @@
 #include "visibility/visible.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/range.h"
 #include "base/work.h"
@@ -17,47 +18,45 @@
 #include "visibility/sample.h"
 #include "visibility/share.h"
 
+#define U 0x1p-53
+
 /* --- pixels where visibility may change ------------------------------------------------------- */
 
 /* The pixels that a facet may touch, and which of them are mixed. */
 typedef struct pixel_marks {
-    const lrcsi_raster *raster;
-    lrcsi_edges edges;       /* of the facet */
-    double corner[3][2];     /* its corners, in pixels, counter-clockwise */
-    uint32_t x0, x1, y0, y1; /* the box: x0 <= x < x1 */
-    unsigned char *mixed;    /* pixel of the box: visibility may change in it */
-    unsigned char *pure;     /* pixel of the raster: its owner covers it and is visible */
+    const lrcsi_known *known;
+    lrcsi_raster *raster;
+    lrcsi_edges edges;    /* of the facet */
+    double corner[3][2];  /* its corners, in pixels, counter-clockwise */
+    lrcsi_row *row;       /* row of the raster, of those touched */
+    unsigned char *mixed; /* pixel of the raster, of those touched: visibility may change in it */
 } pixel_marks;
+
+static size_t marks_at(const pixel_marks *m, uint32_t x, uint32_t y)
+{
+    return (size_t)y * m->raster->size + x;
+}
 
 static void marks_start(pixel_marks *m, uint32_t facet)
 {
     const lrcsi_raster *r = m->raster;
     const uint32_t *corner = r->view->prepared->scene->facet[facet].corner;
-    m->edges = lrcsi_raster_edges(r, facet);
+    lrcsi_edges e = m->edges = lrcsi_raster_edges(r, facet);
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], m->corner[k]);
     }
-    m->x0 = m->edges.x0 > 0 ? m->edges.x0 - 1 : 0; /* pixels touched, not only their centres */
-    m->y0 = m->edges.y0 > 0 ? m->edges.y0 - 1 : 0;
-    m->x1 = m->edges.x1 < r->size ? m->edges.x1 + 1 : r->size;
-    m->y1 = m->edges.y1 < r->size ? m->edges.y1 + 1 : r->size;
-    size_t count = (size_t)(m->x1 - m->x0) * (m->y1 - m->y0);
-    for (size_t i = 0; i < count; i++) {
-        m->mixed[i] = 0;
+    for (uint32_t y = e.bottom; y < e.top; y++) {
+        lrcsi_row row = m->row[y] = lrcsi_span_row(&e, y);
+        memset(m->mixed + marks_at(m, row.touched.x0, y), 0, row.touched.x1 - row.touched.x0);
     }
 }
 
-static size_t marks_at(const pixel_marks *m, uint32_t x, uint32_t y)
+static void mark_run(pixel_marks *m, uint32_t y, double from, double to)
 {
-    return (size_t)(y - m->y0) * (m->x1 - m->x0) + (x - m->x0);
-}
-
-static void mark_row(pixel_marks *m, uint32_t y, double from, double to)
-{
-    double x0 = lrcsi_most(floor(from), m->x0);
-    double x1 = lrcsi_least(floor(to) + 1, m->x1);
-    for (double x = x0; x < x1; x++) {
-        m->mixed[marks_at(m, (uint32_t)x, y)] = 1;
+    double x0 = lrcsi_most(floor(from), m->row[y].touched.x0);
+    double x1 = lrcsi_least(floor(to) + 1, m->row[y].touched.x1);
+    if (x0 < x1) {
+        memset(m->mixed + marks_at(m, (uint32_t)x0, y), 1, (size_t)(x1 - x0));
     }
 }
 
@@ -67,8 +66,8 @@ static void mark_segment(pixel_marks *m, const double a[2], const double b[2])
 {
     double margin = 4 * m->raster->off;
     double rise = b[1] - a[1];
-    double first = lrcsi_most(floor(lrcsi_least(a[1], b[1]) - margin), m->y0);
-    double last = lrcsi_least(floor(lrcsi_most(a[1], b[1]) + margin) + 1, m->y1);
+    double first = lrcsi_most(floor(lrcsi_least(a[1], b[1]) - margin), m->edges.bottom);
+    double last = lrcsi_least(floor(lrcsi_most(a[1], b[1]) + margin) + 1, m->edges.top);
     for (double y = first; y < last; y++) {
         double t0 = 0;
         double t1 = 1;
@@ -80,7 +79,7 @@ static void mark_segment(pixel_marks *m, const double a[2], const double b[2])
         }
         double x0 = a[0] + t0 * (b[0] - a[0]);
         double x1 = a[0] + t1 * (b[0] - a[0]);
-        mark_row(m, (uint32_t)y, lrcsi_least(x0, x1) - margin, lrcsi_most(x0, x1) + margin);
+        mark_run(m, (uint32_t)y, lrcsi_least(x0, x1) - margin, lrcsi_most(x0, x1) + margin);
     }
 }
 
@@ -94,26 +93,45 @@ static void mark_edge(pixel_marks *m, uint32_t edge)
     mark_segment(m, a, b);
 }
 
-/* Marks the pixels in both boxes where the two planes may meet: where the difference of heights is
+/* Marks the pixels of a row, both facets' own, where a height is not surely above or below 0, it
+   being row + along (x + 1/2) to within slack. Division finds whom to ask, as safely as two pixels
+   to either side and 8 roundings are; where it gives no number, all are asked. */
+static void mark_level(pixel_marks *m, uint32_t y, lrcsi_pixels other, double row, double along,
+                       double slack)
+{
+    double x0 = lrcsi_most(m->row[y].touched.x0, other.x0);
+    double x1 = lrcsi_least(m->row[y].touched.x1, other.x1);
+    double middle = -row / along;
+    double half = slack / fabs(along);
+    double spare = 2 + 8 * U * (fabs(middle) + half);
+    if (middle - half - spare > x0) {
+        x0 = floor(middle - half - spare);
+    }
+    if (middle + half + spare < x1) {
+        x1 = ceil(middle + half + spare);
+    }
+    for (double x = x0; x < x1; x++) {
+        if (!(fabs(row + along * (x + 0.5)) > slack)) {
+            m->mixed[marks_at(m, (uint32_t)x, y)] = 1;
+        }
+    }
+}
+
+/* Marks the pixels of both facets where their planes may meet: where the difference of heights is
    not surely of one sign over the whole pixel. */
 static void mark_meeting(pixel_marks *m, uint32_t facet, uint32_t other)
 {
     const lrcsi_raster *r = m->raster;
     lrcsi_plane p = lrcsi_raster_plane(r, facet);
     lrcsi_plane q = lrcsi_raster_plane(r, other);
-    lrcsi_edges box = lrcsi_raster_edges(r, other);
+    lrcsi_edges e = lrcsi_raster_edges(r, other);
     double along = p.along - q.along;
     double up = p.up - q.up;
-    double slack = r->slack[facet] + r->slack[other] + 0.51 * (fabs(along) + fabs(up));
-    uint32_t y0 = box.y0 > m->y0 + 1 ? box.y0 - 1 : m->y0;
-    uint32_t x0 = box.x0 > m->x0 + 1 ? box.x0 - 1 : m->x0;
-    for (uint32_t y = y0; y < m->y1 && y <= box.y1; y++) {
-        for (uint32_t x = x0; x < m->x1 && x <= box.x1; x++) {
-            double height = p.at - q.at + along * (x + 0.5) + up * (y + 0.5);
-            if (!(fabs(height) > slack)) {
-                m->mixed[marks_at(m, x, y)] = 1;
-            }
-        }
+    double slack = lrcsi_raster_slack(r->view, facet) + lrcsi_raster_slack(r->view, other) +
+                   0.51 * (fabs(along) + fabs(up));
+    uint32_t bottom = e.bottom > m->edges.bottom ? e.bottom : m->edges.bottom;
+    for (uint32_t y = bottom; y < m->edges.top && y < e.top; y++) {
+        mark_level(m, y, lrcsi_span_row(&e, y).touched, p.at - q.at + up * (y + 0.5), along, slack);
     }
 }
 
@@ -138,53 +156,60 @@ static void mark_touches(pixel_marks *m, uint32_t facet)
 
 /* --- contested facets ------------------------------------------------------------------------- */
 
-/* The smallest of the facet's edge functions over a pixel's centre, less `reach` times how much it
-   changes over half a pixel. */
-static double pixel_least(const lrcsi_edges *e, uint32_t x, uint32_t y, double reach)
+/* The part of a unit square where a linear function that is `value` at its centre, and changes by
+   most >= least >= 0 along its sides, is positive. */
+static double square_share(double value, double most, double least)
 {
-    double least = HUGE_VAL;
-    for (int k = 0; k < 3; k++) {
-        double middle = e->at[k] + e->along[k] * (x + 0.5) + e->up[k] * (y + 0.5);
-        double change = 0.5 * (fabs(e->along[k]) + fabs(e->up[k]));
-        least = lrcsi_least(least, middle - reach * change);
-    }
-    return least;
+    double from = fabs(value);
+    double rest = 0.5 * (most + least) - from;
+    double less = rest >= least ? 0.5 - from / most
+                  : rest > 0    ? 0.5 * (rest / most) * (rest / least)
+                                : 0;
+    return value > 0 ? 1 - less : less;
 }
 
-/* Does the facet surely cover the whole pixel? */
-static int pixel_inside(const pixel_marks *m, uint32_t x, uint32_t y)
-{
-    return pixel_least(&m->edges, x, y, 1) > m->edges.off;
-}
-
-/* How much of a pixel the facet covers, in pixels. Corners are off by the raster's error, so this
-   is off by at most the length of the cut, below 6, times that. */
+/* How much of a pixel the facet surely covers, in pixels. Where just one side passes: a value that
+   is too large by off moves the line by off / |gradient|, and the area by that times its length in
+   the pixel, below 1.5; roundings are below 8 u, and off is at least 64 u N h. Else corners are off
+   by the raster's error, and the area by at most the length of the cut, below 6, times that. */
 static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
 {
-    if (pixel_inside(m, x, y)) {
+    if (lrcsi_span_has(m->row[y].whole, x)) {
         return 1;
     }
-    if (pixel_least(&m->edges, x, y, -1) < -m->edges.off) {
-        return 0;
+    const lrcsi_edges *e = &m->edges;
+    int sides = 0;
+    double share = 0;
+    for (int k = 0; k < 3; k++) {
+        double along = fabs(e->along[k]);
+        double up = fabs(e->up[k]);
+        double value = e->at[k] + e->along[k] * (x + 0.5) + e->up[k] * (y + 0.5);
+        if (!(value - 0.5 * (along + up) > e->off)) {
+            double most = lrcsi_most(along, up);
+            sides++;
+            share = square_share(value, most, lrcsi_least(along, up)) - 2 * e->off / most;
+        }
     }
-    const double low[2] = {x, y};
-    double share = lrcsi_clip_box_area((const double(*)[2])m->corner, low);
-    return lrcsi_most(0, share - 8 * m->raster->off);
+    if (sides != 1) {
+        const double low[2] = {x, y};
+        share = lrcsi_clip_box_area((const double(*)[2])m->corner, low) - 8 * m->raster->off;
+    }
+    return lrcsi_most(0, share);
 }
 
-/* Does a sample on the facet tell what the pixel shows of it? Then *shows. */
+/* Does a sample on the facet tell what the pixel shows of it? Then *shows. Coordinates below 0 wrap
+   round and are outside. */
 static int pixel_tells(const pixel_marks *m, uint32_t facet, uint32_t x, uint32_t y, int *shows)
 {
-    if (x < m->x0 || x >= m->x1 || y < m->y0 || y >= m->y1 || m->mixed[marks_at(m, x, y)] ||
-        !(pixel_least(&m->edges, x, y, 0) > m->edges.off)) {
+    if (y < m->edges.bottom || y >= m->edges.top || !lrcsi_span_has(m->row[y].sure, x) ||
+        m->mixed[marks_at(m, x, y)]) {
         return 0;
     }
-    *shows = m->raster->owner[(size_t)y * m->raster->size + x] == facet;
+    *shows = m->raster->owner[marks_at(m, x, y)] == facet;
     return 1;
 }
 
-/* The same, from the pixel or from one beside it. Coordinates below 0 wrap round and are outside.
- */
+/* The same, from the pixel or from one beside it. */
 static int pixel_known(const pixel_marks *m, uint32_t facet, uint32_t x, uint32_t y, int *shows)
 {
     return m->mixed[marks_at(m, x, y)] == 0 &&
@@ -197,55 +222,59 @@ static int pixel_known(const pixel_marks *m, uint32_t facet, uint32_t x, uint32_
 static void count_certain(pixel_marks *m, uint32_t facet, double *shown, double *hidden)
 {
     const lrcsi_raster *r = m->raster;
-    for (uint32_t y = m->y0; y < m->y1; y++) {
-        for (uint32_t x = m->x0; x < m->x1; x++) {
-            size_t at = (size_t)y * r->size + x;
-            double share = pixel_share(m, x, y);
+    for (uint32_t y = m->edges.bottom; y < m->edges.top; y++) {
+        for (uint32_t x = m->row[y].touched.x0; x < m->row[y].touched.x1; x++) {
+            size_t at = marks_at(m, x, y);
             int shows = 0;
-            if (share == 0) {
-                continue;
-            }
-            if (m->pure[at] && r->owner[at] != facet) {
-                *hidden += share;
-            } else if (pixel_known(m, facet, x, y, &shows)) {
-                *(shows ? shown : hidden) += share;
+            if ((r->pure[at] && r->owner[at] != facet) || pixel_known(m, facet, x, y, &shows)) {
+                *(shows ? shown : hidden) += pixel_share(m, x, y);
             }
         }
     }
 }
 
-/* The pixels that a facet covers and is visible in: all that it covers where it is uniform. */
-static void mark_pure(pixel_marks *m, uint32_t facet, int uniform)
+/* The pixels that a contested facet covers and is visible in. */
+static void mark_pure(pixel_marks *m, uint32_t facet)
 {
-    const lrcsi_raster *r = m->raster;
-    for (uint32_t y = m->edges.y0; y < m->edges.y1; y++) {
-        for (uint32_t x = m->edges.x0; x < m->edges.x1; x++) {
-            size_t at = (size_t)y * r->size + x;
-            if (r->owner[at] == facet && pixel_inside(m, x, y) &&
-                (uniform || m->mixed[marks_at(m, x, y)] == 0)) {
-                m->pure[at] = 1;
-            }
+    lrcsi_raster *r = m->raster;
+    for (uint32_t y = m->edges.bottom; y < m->edges.top; y++) {
+        for (uint32_t x = m->row[y].whole.x0; x < m->row[y].whole.x1; x++) {
+            size_t at = marks_at(m, x, y);
+            r->pure[at] |= r->owner[at] == facet && !m->mixed[at];
         }
     }
+}
+
+/* Puts the event edges that cross a facet into contest->crossing; returns how many they are. */
+static uint32_t known_crossings(const lrcsi_known *known, uint32_t facet)
+{
+    if (facet >= known->listed) {
+        return lrcsi_contest_crossings(known->contest, facet);
+    }
+    uint32_t first = known->first[facet];
+    uint32_t count = known->first[facet + 1] - first;
+    memcpy(known->contest->crossing, known->crossing + first, count * sizeof *known->crossing);
+    return count;
 }
 
 /* Marks where the visibility of a contested facet may change. Returns how many event edges cross
    it; they stand in contest->crossing. */
-static uint32_t mark_changes(pixel_marks *m, lrcsi_contest *contest, uint32_t facet)
+static uint32_t mark_changes(pixel_marks *m, uint32_t facet)
 {
     marks_start(m, facet);
-    uint32_t crossings = lrcsi_contest_crossings(contest, facet);
+    uint32_t crossings = known_crossings(m->known, facet);
     for (uint32_t i = 0; i < crossings; i++) {
-        mark_edge(m, contest->crossing[i]);
+        mark_edge(m, m->known->contest->crossing[i]);
     }
     mark_touches(m, facet);
     return crossings;
 }
 
 /* Pixel areas are side^2 / N^2 to a few roundings; 1e-12 of them is given away. */
-static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_sharing *sharing,
-                                    pixel_marks *marks, uint32_t facet)
+static lrcsi_visible contested_area(const lrcsi_sharing *sharing, pixel_marks *marks,
+                                    uint32_t facet)
 {
+    lrcsi_contest *contest = sharing->known->contest;
     const lrcsi_raster *raster = sharing->raster;
     double area = lrcsi_view_tilt(contest->view, facet).projected;
     double pixel = raster->pixel * raster->pixel;
@@ -254,7 +283,7 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_sharing 
     double hidden = 0;
     lrcsi_drift drift = {HUGE_VAL, 0};
     if (!raster->undecided[facet]) {
-        uint32_t crossings = mark_changes(marks, contest, facet);
+        uint32_t crossings = mark_changes(marks, facet);
         drift = share.row ? lrcsi_drift_row(raster, facet, share.longest, share.share)
                           : lrcsi_drift_facet(contest, crossings, raster, facet);
         count_certain(marks, facet, &shown, &hidden);
@@ -269,93 +298,172 @@ static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_sharing 
     return v;
 }
 
-/* --- uniform facets --------------------------------------------------------------------------- */
+/* --- what is known ---------------------------------------------------------------------------- */
 
-static lrcsi_visible uniform_area(const lrcsi_view *view, const lrcsi_raster *raster,
-                                  const lrcsi_grid *facets, uint32_t facet)
+/* Room for crossings: more than ordinary scenes have. Those of facets beyond it are searched for
+   whenever they are needed. */
+static size_t known_room(const lrcs_prepared *prepared)
 {
-    double area = lrcsi_view_tilt(view, facet).projected;
-    int answer = raster->undecided[facet]      ? LRCSI_QUERY_UNDECIDED
-                 : raster->covered[facet] == 0 ? lrcsi_query_facet(facets, facet)
-                 : raster->owned[facet] != 0   ? LRCSI_QUERY_VISIBLE
-                                               : LRCSI_QUERY_HIDDEN;
-    if (answer == LRCSI_QUERY_UNDECIDED) {
-        return (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
+    return 4 * (size_t)prepared->scene->facet_count;
+}
+
+size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
+{
+    size_t facets = prepared->scene->facet_count;
+    size_t need = lrcsi_work_bytes(facets, 1);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets + 1, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(known_room(prepared), sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
+}
+
+static void known_list(lrcsi_known *k)
+{
+    const lrcs_prepared *p = k->contest->view->prepared;
+    size_t room = known_room(p);
+    uint32_t used = 0;
+    for (k->first[0] = 0; k->listed < p->scene->facet_count; k->first[++k->listed] = used) {
+        if (k->contest->contested[k->listed] && k->answer[k->listed] == LRCSI_QUERY_UNDECIDED) {
+            uint32_t count = lrcsi_contest_crossings(k->contest, k->listed);
+            if (count > room - used) {
+                return;
+            }
+            memcpy(k->crossing + used, k->contest->crossing, count * sizeof *k->crossing);
+            used += count;
+        }
     }
-    if (answer == LRCSI_QUERY_HIDDEN) {
-        return (lrcsi_visible){0, 0, 0, 0, 0};
+}
+
+int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *known)
+{
+    size_t mark = work->used;
+    const lrcs_prepared *p = contest->view->prepared;
+    uint32_t count = p->scene->facet_count;
+    lrcsi_known k = {.contest = contest};
+    k.answer = lrcsi_work_take(work, count, 1);
+    k.first = lrcsi_work_take(work, (size_t)count + 1, sizeof *k.first);
+    k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
+    int status = k.answer && k.first && k.crossing
+                     ? lrcsi_query_uniform(contest, work, &k.facets, k.answer)
+                     : LRCS_E_MEMORY;
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
     }
-    return (lrcsi_visible){area, area, area, 0, 0};
+    for (uint32_t f = 0; f < count; f++) {
+        if (contest->contested[f] && !lrcsi_query_screened(contest, &k.facets, f)) {
+            k.answer[f] = LRCSI_QUERY_UNDECIDED;
+        }
+    }
+    known_list(&k);
+    *known = k;
+    return LRCS_OK;
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    size_t need = lrcsi_work_bytes((size_t)size * size, 2);
-    need = lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
-    return lrcsi_work_add(need, lrcsi_share_need(prepared));
+    return lrcsi_work_add(lrcsi_raster_need(prepared, size),
+                          lrcsi_work_add(lrcsi_work_bytes((size_t)size * size, 1),
+                                         lrcsi_work_bytes(size, sizeof(lrcsi_row))));
 }
 
-/* The pixels of which one facet is known to hold all. */
-static void mark_all_pure(lrcsi_contest *contest, pixel_marks *marks, const lrcsi_visible *visible)
+/* Facets proved hidden own no samples; those proved visible own all of theirs. Only the tiles of
+   the others matter. */
+static void known_draw(const lrcsi_known *known, lrcsi_raster *raster)
 {
-    const lrcsi_raster *raster = marks->raster;
-    for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count; f++) {
-        if (raster->owned[f] == 0 || raster->undecided[f]) {
-            continue;
+    uint32_t count = raster->view->prepared->scene->facet_count;
+    for (uint32_t f = 0; f < count; f++) {
+        if (known->answer[f] == LRCSI_QUERY_UNDECIDED) {
+            lrcsi_raster_want(raster, f);
         }
-        if (contest->contested[f]) {
-            mark_changes(marks, contest, f);
-            mark_pure(marks, f, 0);
-        } else if (visible[f].low > 0) {
-            marks->edges = lrcsi_raster_edges(raster, f);
-            mark_pure(marks, f, 1);
+    }
+    lrcsi_raster_clear(raster);
+    for (uint32_t f = 0; f < count; f++) {
+        if (known->answer[f] == LRCSI_QUERY_VISIBLE) {
+            lrcsi_raster_claim(raster, f);
+        }
+    }
+    for (uint32_t f = 0; f < count; f++) {
+        if (known->answer[f] == LRCSI_QUERY_UNDECIDED) {
+            lrcsi_raster_draw(raster, f);
         }
     }
 }
 
-static void visible_fill(lrcsi_contest *contest, const lrcsi_sharing *sharing, pixel_marks *marks,
-                         lrcsi_visible *visible)
+/* All or nothing of a facet: what is known of those that samples are not to tell of. */
+static void known_areas(const lrcsi_known *known, lrcsi_visible *visible)
 {
-    const lrcsi_view *view = contest->view;
-    uint32_t count = view->prepared->scene->facet_count;
-    for (uint32_t f = 0; f < count; f++) {
+    const lrcsi_view *view = known->contest->view;
+    uint32_t facets = view->prepared->scene->facet_count;
+    uint32_t seen[LRCSI_TILTS];
+    lrcsi_tilt tilt[LRCSI_TILTS];
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < facets; f++) {
         visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
-        if (lrcsi_grid_casts(view, f) && !contest->contested[f]) {
-            visible[f] = uniform_area(view, marks->raster, sharing->facets, f);
+        if (known->answer[f] == LRCSI_QUERY_VISIBLE) {
+            seen[count++] = f;
+        }
+        if (count == LRCSI_TILTS || (count > 0 && f + 1 == facets)) {
+            lrcsi_view_tilts(view, seen, count, tilt);
+            while (count-- > 0) {
+                double area = tilt[count].projected;
+                visible[seen[count]] = (lrcsi_visible){area, area, area, 0, 0};
+            }
+            count = 0;
         }
     }
-    if (contest->contested_count == 0) {
-        return;
-    }
-    mark_all_pure(contest, marks, visible);
+}
+
+/* A uniform facet of which no query could tell. */
+static lrcsi_visible unknown_area(lrcsi_raster *raster, uint32_t facet)
+{
+    double area = lrcsi_view_tilt(raster->view, facet).projected;
+    raster->undecided[facet] = 1;
+    return (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
+}
+
+static void visible_fill(const lrcsi_sharing *sharing, pixel_marks *marks, lrcsi_visible *visible)
+{
+    const lrcsi_known *known = sharing->known;
+    lrcsi_contest *contest = known->contest;
+    lrcsi_raster *raster = marks->raster;
+    uint32_t count = contest->view->prepared->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
-        if (contest->contested[f] && !lrcsi_query_screened(contest, sharing->facets, f)) {
-            visible[f] = contested_area(contest, sharing, marks, f);
+        if (contest->contested[f] && raster->owned[f] != 0 && !raster->undecided[f]) {
+            mark_changes(marks, f);
+            mark_pure(marks, f);
+        }
+    }
+    known_areas(known, visible);
+    for (uint32_t f = 0; f < count; f++) {
+        if (known->answer[f] == LRCSI_QUERY_UNDECIDED) {
+            visible[f] =
+                contest->contested[f] ? contested_area(sharing, marks, f) : unknown_area(raster, f);
         }
     }
     lrcsi_share_settle(sharing, visible);
 }
 
-int lrcsi_visible_sampled(lrcsi_contest *contest, const lrcsi_raster *raster, lrcs_work *work,
-                          lrcsi_visible *visible)
+int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
+                          lrcsi_raster *raster, lrcsi_visible *visible)
 {
     size_t mark = work->used;
-    size_t pixels = (size_t)raster->size * raster->size;
-    lrcsi_grid facets;
+    int status = lrcsi_raster_start(known->contest->view, size, work, raster);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    size_t end = work->used;
+    pixel_marks marks = {.known = known, .raster = raster};
+    marks.mixed = lrcsi_work_take(work, (size_t)size * size, 1);
+    marks.row = lrcsi_work_take(work, size, sizeof *marks.row);
     lrcsi_sharing sharing;
-    pixel_marks marks = {.raster = raster};
-    marks.mixed = lrcsi_work_take(work, pixels, 1);
-    marks.pure = lrcsi_work_take_zero(work, pixels, 1);
-    int status =
-        marks.mixed && marks.pure ? lrcsi_grid_facets(contest->view, work, &facets) : LRCS_E_MEMORY;
-    if (status == LRCS_OK) {
-        status = lrcsi_share_make(contest, raster, &facets, work, &sharing);
+    if (!marks.mixed || !marks.row || lrcsi_share_make(known, raster, work, &sharing) != LRCS_OK) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
     }
-    if (status == LRCS_OK) {
-        visible_fill(contest, &sharing, &marks, visible);
-    }
-    work->used = mark;
-    return status;
+    known_draw(known, raster);
+    visible_fill(&sharing, &marks, visible);
+    work->used = end;
+    return LRCS_OK;
 }

@@ -34,15 +34,22 @@ static void watch_stop(const bench_watch *w, int status)
     }
 }
 
+/* A picture of the whole view; then what a pose takes instead, which draws only what matters. */
 static void raster_run(lrcsi_contest *contest, int raster, lrcs_work *work, lrcsi_visible *visible,
                        bench_stages *stages)
 {
     size_t mark = work->used;
     lrcsi_raster r;
+    lrcsi_known known;
     bench_watch w = watch_start(stages, work, BENCH_RASTER + raster);
     watch_stop(&w, lrcsi_raster_make(contest->view, bench_raster_size(raster), work, &r));
+    work->used = mark;
     w = watch_start(stages, work, BENCH_AREAS + raster);
-    watch_stop(&w, lrcsi_visible_sampled(contest, &r, work, visible));
+    int status = lrcsi_visible_known(contest, work, &known);
+    if (status == LRCS_OK) {
+        status = lrcsi_visible_sampled(&known, bench_raster_size(raster), work, &r, visible);
+    }
+    watch_stop(&w, status);
     work->used = mark;
 }
 

@@ -5,6 +5,7 @@
 
 cd "$root" || exit 1
 build=$(dirname "$tool")
+build=${build#"$root"/} # by the name that it was built under, which its dependencies are kept by
 # make's own variables stay out: this is a user's make, not a part of the test's.
 unset MAKEFLAGS MFLAGS MAKELEVEL
 to=$scratch/root
@@ -48,6 +49,7 @@ if command -v bash >/dev/null; then
     same completion_offers_options "$(complete run demo --tol)" --tolerance
     same completion_offers_values "$(complete run demo --method ex)" exact
     same completion_offers_values_after_an_equals_sign "$(complete run demo --method = fa)" facet
+    same completion_offers_one_letter_options "$(complete sweep demo -o 2>&1 | tr ' ' '\n' | grep -x -e -o)" -o
     same completion_offers_files "$(complete info READM)" README.md
 fi
 

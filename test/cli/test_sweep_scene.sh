@@ -81,7 +81,7 @@ same two_parameters_of_one_material "$(rows 4-6 base.toml --vary gold.s:0.1 --va
 run run base.toml --tolerance 1e-3 --azel 40,30 --json --material gold=1,0.1,0.1,1
 same on_top_of_the_command_line "$(rows 3 base.toml --vary gold.s:0.1 --azel 40,30 --material gold=1,0.1,0.7,1)" "$(value sigma_m2)"
 run sweep base.toml --vary gold.s:0.1:0.2:0.1 --vary tank.radius:0.3 --joint 'wing, right:1:2:1' --azel 40,30 --json --tolerance 1e-2
-same the_head_says_each "$(printf '%s\n' "$out" | head -1 | grep -c '"rows": 4, "shape": \[2, 2\], "vary": "gold.s:0.1:0.2:0.1 and tank.radius:0.3", "joint": "wing, right:1:2:1", "azel": "40,30"')" 1
+same the_head_says_each "$(printf '%s\n' "$out" | head -1 | grep -c '"rows": 4, "shape": \[2, 2\], "columns": \["gold.s", "tank.radius", "wing, right.joint_deg"\], "vary": "gold.s:0.1:0.2:0.1 and tank.radius:0.3", "joint": "wing, right:1:2:1", "azel": "40,30"')" 1
 run sweep base.toml --joint 'wing, right:1:2:1' --azel 40,30 --tolerance 1e-2
 same a_column_with_a_comma_is_quoted "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f2,3)" '"wing, right.joint_deg"'
 
@@ -102,6 +102,12 @@ head -c 700 whole.1.csv >again.csv.partial
 for other in whole.3 joined again; do
     if cmp -s whole.1.csv $other.csv; then ok "the_same_bytes_in_$other"; else not_ok "the_same_bytes_in_$other"; fi
 done
+
+# One pose a scene: the scenes themselves are built in threads.
+for jobs in 1 3; do
+    "$tool" sweep base.toml --joint '*:0:60:5' --azel 40,30 --tolerance 1e-2 --jobs $jobs >jobs.$jobs 2>/dev/null
+done
+same scenes_in_threads_are_the_same_bytes "$(wc -l <jobs.1 | tr -d ' ') $(cmp jobs.1 jobs.3 && echo same)" "15 same"
 
 usage_error a_part_without_a_joint "no part 'bus' has a joint; the nearest is" sweep base.toml --joint bus:0:1:1
 usage_error a_scene_without_joints "no part of the scene has a joint" sweep fin.obj --joint fin:0:1:1

@@ -291,6 +291,58 @@ static void a_scene_that_is_not_prepared_is_refused(void **state)
     free(seen);
 }
 
+/* The demo with its joints turned by the pose's number of degrees; the 20th cannot be built. */
+static int scene_at(void *context, uint64_t index, lrcs_host_scene *scene, lrcs_host_error *error)
+{
+    const sweep_seen *seen = context;
+    lrcs_build_options build = lrcs_build_options_default();
+    lrcs_recipe recipe = demo.recipe;
+    recipe.part = calloc(recipe.part_count, sizeof *recipe.part);
+    if (!recipe.part) {
+        return LRCS_E_SYSTEM;
+    }
+    for (uint32_t i = 0; i < recipe.part_count; i++) {
+        recipe.part[i] = demo.recipe.part[i];
+        recipe.part[i].joint.angle_deg = (double)index;
+    }
+    build.tolerance = index == seen->refuses_at ? -1.0 : 1e-2;
+    int status = lrcs_host_scene_vary(&demo, &recipe, &build, scene, error);
+    free(recipe.part);
+    return status == LRCS_OK ? lrcs_host_scene_prepare(scene, error) : status;
+}
+
+static void every_pose_may_have_a_scene_of_its_own(void **state)
+{
+    (void)state;
+    lrcs_run_options options = lrcs_run_options_default();
+    for (size_t t = 0; t < THREADS_TRIED; t++) {
+        sweep_seen *seen = seen_make();
+        lrcs_host_sweep sweep = sweep_of(seen, threads_tried[t]);
+        lrcs_host_error error = {""};
+        sweep.scene = scene_at;
+        sweep.count = 30;
+        seen->refuses_at = 20;
+        assert_int_equal(lrcs_host_sweep_run(NULL, &options, &sweep, NULL, &error),
+                         LRCS_E_ARGUMENT);
+        assert_non_null(strstr(error.text, "pose 20: "));
+        assert_int_equal(seen->taken, 20);
+        for (uint64_t i = 0; i < 20; i++) {
+            lrcs_host_scene scene;
+            lrcs_pose pose;
+            lrcs_result plain;
+            assert_int_equal(pose_at(seen, i, &pose), LRCS_OK);
+            assert_int_equal(scene_at(seen, i, &scene, NULL), LRCS_OK);
+            assert_int_equal(
+                lrcs_host_scene_run(&scene, &pose, &options, &plain, NULL, NULL, NULL, NULL),
+                LRCS_OK);
+            same_results(&seen->result[i], &plain);
+            lrcs_host_scene_free(&scene);
+        }
+        assert_true(seen->result[1].sigma_m2 != seen->result[2].sigma_m2);
+        free(seen);
+    }
+}
+
 /* v_obs = R_pose R(x, 90) v_body. With the laser on +z a body turned by 90 deg about x shows its
    +y side: R(x, 90) takes +y to +z. */
 static void a_quarter_turn_about_x_shows_the_side_of_y(void **state)
@@ -341,6 +393,7 @@ int main(void)
         cmocka_unit_test(a_cancel_takes_what_is_done_and_stops),
         cmocka_unit_test(a_cancel_before_the_start_runs_nothing),
         cmocka_unit_test(a_scene_that_is_not_prepared_is_refused),
+        cmocka_unit_test(every_pose_may_have_a_scene_of_its_own),
         cmocka_unit_test(a_quarter_turn_about_x_shows_the_side_of_y),
         cmocka_unit_test(a_turn_composes_as_euler_angles_do),
     };

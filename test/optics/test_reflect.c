@@ -80,6 +80,28 @@ static void the_bound_covers_what_tan2_is_off_by(void **state)
     }
 }
 
+/* Where the glint leaves the doubles, against long double, which holds it down to x = 11000. */
+static void far_flanks_stay_within_their_error(void **state)
+{
+    (void)state;
+    static const double amplitude[] = {1e-305, 0x1p-501, 0x1p-500, 1e-9,  1.0,
+                                       1e9,    0x1p70,   0x1p71,   1e200, 1e305};
+    static const double slope[] = {0.003, 0.1, 0.5, 2.0, 1e100};
+    for (int i = 0; i < 10 * 5; i++) {
+        lrcs_brdf brdf = {amplitude[i % 10], 0.0, slope[i / 10], 0.0};
+        for (double x = 500.0; x < 3500.0; x *= 1.003) {
+            double u = x * brdf.s * brdf.s;
+            lrcsi_reflection r = lrcsi_reflect(&brdf, u, 0.0);
+            long double log = 2.0L * log1pl(u) - u / ((long double)brdf.s * brdf.s);
+            long double want = brdf.A * expl(log);
+            if (want < 1e300L) {
+                check_most((double)fabsl(r.glint - want), r.error);
+                check_most(r.error, 1e-11 * (double)want + 0x1p-890);
+            }
+        }
+    }
+}
+
 static void nothing_is_ever_nan(void **state)
 {
     (void)state;
@@ -125,6 +147,7 @@ int main(void)
         cmocka_unit_test(both_parts_agree_with_mpmath),
         cmocka_unit_test(the_bound_holds_and_is_tight),
         cmocka_unit_test(the_bound_covers_what_tan2_is_off_by),
+        cmocka_unit_test(far_flanks_stay_within_their_error),
         cmocka_unit_test(nothing_is_ever_nan),
         cmocka_unit_test(edge_on_reflects_exactly_nothing),
         cmocka_unit_test(a_part_of_no_amplitude_is_exactly_zero),

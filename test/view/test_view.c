@@ -7,6 +7,15 @@
 static test_scene scene;
 static lrcs_work work;
 
+/* A facet, a direction, and what both make exactly. */
+typedef struct tilt_row {
+    double corner[3][3], direction[3];
+    double tan2, cosine, projected;
+} tilt_row;
+
+#include "../vectors/tilt.inc"
+#define TILT_ROWS (sizeof tilt_rows / sizeof tilt_rows[0])
+
 static lrcsi_view view_along(const double d[3])
 {
     lrcs_pose pose;
@@ -100,6 +109,58 @@ static void tilt_agrees_from_normal_to_grazing(void **state)
     }
 }
 
+/* The reference is rounded once itself. */
+static void tilt_agrees_with_exact_arithmetic(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < TILT_ROWS; i++) {
+        const tilt_row *row = &tilt_rows[i];
+        scene_start(&scene);
+        scene_triangle(&scene, row->corner[0], row->corner[1], row->corner[2]);
+        lrcsi_view view = view_along(row->direction);
+        lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
+        check_rel(tilt.tan2, row->tan2, tilt.stretch + 0x1p-53);
+        check_most(tilt.stretch, 1e-14);
+        check_rel(tilt.cos_theta, row->cosine, 12 * 0x1p-53);
+        check_rel(lrcsi_prepared_area(view.prepared, tilt.projected), row->projected,
+                  tilt.error + 0x1p-53);
+        check_most(tilt.error, 9 * 0x1p-53);
+    }
+}
+
+static void check_same_tilt(lrcsi_tilt got, lrcsi_tilt want)
+{
+    check_same(got.cos_theta, want.cos_theta);
+    check_same(got.tan2, want.tan2);
+    check_same(got.stretch, want.stretch);
+    check_same(got.projected, want.projected);
+    check_same(got.error, want.error);
+}
+
+/* From one facet to as many as are taken at a time, edge-on, grazing and facing the laser. */
+static void many_tilts_are_those_of_one_facet_each(void **state)
+{
+    (void)state;
+    static const double along[][3] = {{1, 0, 0}, {0, 0, 1}, {0.3, -0.8, 0.55}, {1, 1e-12, 0}};
+    scene_start(&scene);
+    scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+    scene_sphere(&scene, (const double[3]){3, 0, 0}, 1, 12);
+    for (int i = 0; i < 4; i++) {
+        lrcsi_view view = view_along(along[i]);
+        for (uint32_t count = 1; count <= LRCSI_TILTS; count++) {
+            uint32_t facet[LRCSI_TILTS];
+            lrcsi_tilt tilt[LRCSI_TILTS];
+            for (uint32_t k = 0; k < count; k++) {
+                facet[k] = (7 * k + 3 * count) % scene.scene.facet_count;
+            }
+            lrcsi_view_tilts(&view, facet, count, tilt);
+            for (uint32_t k = 0; k < count; k++) {
+                check_same_tilt(tilt[k], lrcsi_view_tilt(&view, facet[k]));
+            }
+        }
+    }
+}
+
 /* N = (0, -2^-250, 1) against (1, -2^-299, 0): cos = 2^-549, whose tan^2 no double holds. */
 static void nearest_to_edge_on_tan2_is_a_lower_bound(void **state)
 {
@@ -180,6 +241,8 @@ int main(void)
         cmocka_unit_test(facing_is_exact_at_edge_on_and_one_ulp_off),
         cmocka_unit_test(facing_holds_where_doubles_cancel),
         cmocka_unit_test(tilt_agrees_from_normal_to_grazing),
+        cmocka_unit_test(tilt_agrees_with_exact_arithmetic),
+        cmocka_unit_test(many_tilts_are_those_of_one_facet_each),
         cmocka_unit_test(nearest_to_edge_on_tan2_is_a_lower_bound),
         cmocka_unit_test(normal_incidence_is_exact),
         cmocka_unit_test(window_is_the_square_around_the_projection),

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* Fits of materials, between their command and its reports. */
+#ifndef LRCS_CLI_FIT_H
+#define LRCS_CLI_FIT_H
+
+#include "cli/cli.h"
+
+/* One material: its readings, the fit, the readings beside it. */
+typedef struct fit_material {
+    const char *name;
+    lrcs_fit_reading *reading;
+    uint32_t *line; /* in the file */
+    lrcs_fit_point *point;
+    uint32_t count;
+    lrcs_fit fit;
+} fit_material;
+
+typedef struct fit_job {
+    const cli_args *args;
+    lrcs_fit_options options;
+    double panel; /* reflectance; 0: readings are f_r itself */
+    lrcs_host_readings readings;
+    fit_material *material;
+    uint32_t materials;
+} fit_job;
+
+/* What people call a parameter, its unit, and what can be said of it; the text may name angles. */
+typedef struct fit_statement {
+    char text[256];
+} fit_statement;
+const char *cli_fit_name(int parameter);
+fit_statement cli_fit_statement(const lrcs_fit *fit, int parameter);
+
+/* How many of the four parameters are not determined. */
+int cli_fit_open(const lrcs_fit *fit);
+
+/* The reports: the table or JSON on stdout, CSV, and charts of the fit and of its residuals. */
+void cli_fit_table(const fit_job *job);
+void cli_fit_json(const fit_job *job);
+void cli_fit_csv(const fit_job *job, FILE *out);
+int cli_fit_chart(const fit_job *job, int residuals, int png, FILE *out, lrcs_host_error *error);
+
+#endif

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+/* What the first line of a sweep's file says: all that its rows depend on, and nothing that differs
+   between machines, threads or shards. Files that begin alike belong together. */
+#include "cli/sweep.h"
+
+#include <string.h>
+
+/* An option given again stands beside the first. Returns 0 where its text has no room. */
+static int head_add(sweep_head *head, const char *key, const char *text)
+{
+    const size_t room = sizeof head->option[0].text;
+    uint32_t at = 0;
+    while (at < head->options && strcmp(head->option[at].key, key) != 0) {
+        at++;
+    }
+    char *end = head->option[at].text + strlen(head->option[at].text);
+    const char *between = at < head->options ? " and " : "";
+    head->option[at].key = key;
+    head->options += at == head->options;
+    size_t left = room - (size_t)(end - head->option[at].text);
+    int size = snprintf(end, left, "%s%s", between, text);
+    for (; *end; end++) {
+        *end = (unsigned char)*end < 0x20 || *end == 0x7f ? '?' : *end;
+    }
+    return size >= 0 && (size_t)size < left;
+}
+
+/* What rows depend on beside the scene, which its hash stands for. */
+static int head_options(const cli_args *args, const sweep_plan *plan,
+                        const lrcs_run_options *options, sweep_head *head)
+{
+    static const char *const said[] = {"az",   "el",        "rotate", "sphere", "joint",
+                                       "vary", "direction", "azel",   "euler",  "quaternion"};
+    char text[64];
+    for (int i = 0; i < args->given_count; i++) {
+        for (size_t k = 0; k < sizeof said / sizeof said[0]; k++) {
+            if (strcmp(args->given[i].name, said[k]) == 0 &&
+                !head_add(head, said[k], args->given[i].value)) {
+                return cli_usage(args->command, "--%s: too long", said[k]);
+            }
+        }
+    }
+    if (plan->kind == SWEEP_TRACK) {
+        snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)plan->track.hash);
+        head_add(head, "poses", text);
+    }
+    lrcs_host_number_text(options->tolerance, text);
+    head_add(head, "tolerance", text);
+    head_add(head, "method", lrcs_method_text(options->method));
+    snprintf(text, sizeof text, "%lu", (unsigned long)options->resolution);
+    head_add(head, "resolution", options->resolution ? text : "auto");
+    return 0;
+}
+
+int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
+                  const lrcs_scene *scene, sweep_head *head)
+{
+    memset(head, 0, sizeof *head);
+    head->scene_hash = lrcs_scene_hash(scene);
+    head->rows = plan->rows;
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        if (plan->axis[i].range.count > 1) {
+            head->shape[head->dimensions++] = plan->axis[i].range.count;
+        }
+    }
+    if (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK || head->dimensions == 0) {
+        head->shape[head->dimensions++] = plan->kind == SWEEP_FIXED ? 1 : plan->poses;
+    }
+    int code = head_options(args, plan, options, head);
+    head_add(head, "normals", lrcs_normals_text(scene->normals));
+    return code;
+}

@@ -1,0 +1,404 @@
+/* SPDX-License-Identifier: MIT */
+/* A material from readings of its BRDF: readings become vectors about 1, starts are sought and
+   brought down, outliers set aside, limits found. It decides the order of these steps and what an
+   interval says of a parameter; each step has a room of its own (fit_*.c). */
+#include <lrcs/fit.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "base/degrees.h"
+#include "base/range.h"
+#include "base/work.h"
+#include "optics/fit_presence.h"
+#include "optics/fit_profile.h"
+#include "optics/fit_search.h"
+#include "optics/special.h"
+
+/* The vectors of lrcsi_fit_data. */
+#define FIT_VECTORS 12u
+
+/* Where the search ends: beyond what the model means (s > 0.7 peaks off the normal). */
+#define FIT_SLOPE_MOST     2.0
+#define FIT_FALL_MOST      1000.0
+#define FIT_AMPLITUDE_MOST 1e9
+#define FIT_SLOPE_SHARE    6.0 /* at a sixth of the smallest tangent a glint is exp(-36) there */
+
+/* For the first look at readings with relative errors: those below this share of the largest are
+   as uncertain as this share. */
+#define FIT_FIRST_SHARE 0.01
+
+#define FIT_TRIMS 20 /* rounds of setting outliers aside */
+#define FIT_LOOKS 4  /* fits after a profile that met a better one */
+
+/* Errors that follow the fit stay where the sum of squares does so far. */
+#define FIT_SAME 1e-6
+
+/* The variance that rounding leaves of readings that fit exactly, relative to their squares. */
+#define FIT_ROUNDING 0x1p-100
+
+lrcs_fit_options lrcs_fit_options_default(void)
+{
+    return (lrcs_fit_options){1.0, 0, LRCS_FIT_ABSOLUTE};
+}
+
+size_t lrcs_fit_need(uint32_t count)
+{
+    size_t one = lrcsi_work_bytes(count, sizeof(double));
+    size_t need = 0;
+    for (uint32_t i = 0; i < FIT_VECTORS; i++) {
+        need = lrcsi_work_add(need, one);
+    }
+    return need;
+}
+
+/* ---- readings as vectors ---- */
+
+static int reading_is_good(const lrcs_fit_reading *reading, const lrcs_fit_options *options)
+{
+    int given = options->noise == LRCS_FIT_GIVEN;
+    return fabs(reading->angle_deg) < 90.0 && isfinite(reading->value) &&
+           isfinite(options->unit * reading->value) &&
+           (!given || (reading->sigma > 0.0 && isfinite(reading->sigma)));
+}
+
+static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
+                          const lrcs_fit_options *options, double *largest)
+{
+    *largest = 0.0;
+    if (!(options->unit > 0.0 && isfinite(options->unit)) || options->noise < LRCS_FIT_ABSOLUTE ||
+        options->noise > LRCS_FIT_GIVEN) {
+        return LRCS_E_ARGUMENT;
+    }
+    double most = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!reading_is_good(&reading[i], options)) {
+            return LRCS_E_NUMBER;
+        }
+        most = lrcsi_most(most, reading[i].value);
+        *largest = lrcsi_most(*largest, fabs(reading[i].value));
+    }
+    return count < LRCS_FIT_READINGS || !(most > 0.0) ? LRCS_E_EMPTY : LRCS_OK;
+}
+
+static int data_take(lrcs_work *work, uint32_t count, lrcsi_fit_data *data)
+{
+    double **vector[FIT_VECTORS] = {&data->u,         &data->log_w,     &data->factor,
+                                    &data->y,         &data->inverse,   &data->weight,
+                                    &data->column[0], &data->column[1], &data->column[2],
+                                    &data->column[3], &data->rest,      &data->spare};
+    data->count = count;
+    for (uint32_t i = 0; i < FIT_VECTORS; i++) {
+        *vector[i] = lrcsi_work_take(work, count, sizeof(double));
+        if (!*vector[i]) {
+            return LRCS_E_MEMORY;
+        }
+    }
+    return LRCS_OK;
+}
+
+/* The end of the search for each coordinate. */
+static void data_limits(lrcsi_fit_data *data)
+{
+    double least = HUGE_VAL; /* the smallest tan^2 above 0 */
+    for (uint32_t i = 0; i < data->count; i++) {
+        least = data->u[i] > 0.0 ? lrcsi_least(least, data->u[i]) : least;
+    }
+    double slope = lrcsi_least(sqrt(least) / FIT_SLOPE_SHARE, 0.1 * FIT_SLOPE_MOST);
+    const double most[] = {FIT_AMPLITUDE_MOST, FIT_AMPLITUDE_MOST, log(FIT_SLOPE_MOST),
+                           log1p(FIT_FALL_MOST)};
+    const double low[] = {0.0, 0.0, log(slope), 0.0};
+    memcpy(data->least, low, sizeof low);
+    memcpy(data->most, most, sizeof most);
+}
+
+/* Readings by the power of two below the largest: exact, and no square overflows. */
+static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *options,
+                      double scale, lrcsi_fit_data *data)
+{
+    for (uint32_t i = 0; i < data->count; i++) {
+        double sine;
+        double cosine;
+        lrcsi_degrees_sincos(reading[i].angle_deg, &sine, &cosine);
+        data->u[i] = sine / cosine * (sine / cosine);
+        data->log_w[i] = log1p(data->u[i]);
+        data->factor[i] = options->cosine ? cosine : 1.0;
+        data->y[i] = reading[i].value / scale;
+        data->inverse[i] = options->noise == LRCS_FIT_GIVEN ? scale / reading[i].sigma
+                           : options->noise == LRCS_FIT_RELATIVE
+                               ? 1.0 / lrcsi_most(fabs(data->y[i]), FIT_FIRST_SHARE)
+                               : 1.0;
+    }
+    data_limits(data);
+}
+
+/* ---- the fit ---- */
+
+typedef struct fit_job {
+    lrcsi_fit_data data;
+    int noise;
+    lrcsi_fit_spot start[LRCSI_FIT_STARTS];
+    uint32_t starts;
+    uint32_t kept;
+    lrcsi_fit_spot whole; /* the best fit of all four parameters */
+    lrcsi_fit_spot best;  /* that, or the best without a part that does not stand out */
+    int absent[2];        /* A or B that does not */
+    double error;         /* standard deviation of a weighted residual */
+    double rise;          /* of the sum of squares at the limits of confidence */
+    lrcsi_fit_spread spread;
+    double limit[LRCS_FIT_PARAMETERS][2];
+} fit_job;
+
+/* All starts brought down softly, the best of them first: by the sum of absolute residuals, in
+   which a few outliers do not decide. */
+static void starts_make(fit_job *job)
+{
+    uint32_t best = 0;
+    double least = HUGE_VAL;
+    job->starts = lrcsi_fit_search(&job->data, job->start);
+    for (uint32_t i = 0; i < job->starts; i++) {
+        double sum = lrcsi_fit_soften(&job->data, job->noise, &job->start[i]);
+        best = sum < least ? i : best;
+        least = lrcsi_least(sum, least);
+    }
+    lrcsi_fit_spot first = job->start[best];
+    job->start[best] = job->start[0];
+    job->start[0] = first;
+}
+
+/* The lowest end of all starts, with A or B held at 0 where `without` names it. */
+static void starts_descend(const fit_job *job, unsigned without, lrcsi_fit_spot *best)
+{
+    for (uint32_t i = 0; i <= job->starts; i++) {
+        lrcsi_fit_spot spot = i < job->starts ? job->start[i] : job->whole;
+        for (int k = 0; k < 2; k++) {
+            spot.at[k] = without & (1u << k) ? 0.0 : spot.at[k];
+        }
+        lrcsi_fit_descend(&job->data, without, &spot);
+        *best = i == 0 || spot.square < best->square ? spot : *best;
+    }
+}
+
+static void kept_count(fit_job *job)
+{
+    job->kept = 0;
+    for (uint32_t i = 0; i < job->data.count; i++) {
+        job->kept += job->data.weight[i] > 0.0;
+    }
+}
+
+/* Least squares over the readings that are kept: outliers and errors follow the fit until they
+   stay. */
+static void whole_settle(fit_job *job)
+{
+    lrcsi_fit_spot *spot = &job->whole;
+    lrcsi_fit_noise(&job->data, job->noise, spot);
+    for (int i = 0; i < FIT_TRIMS; i++) {
+        int changed = lrcsi_fit_trim(&job->data, spot);
+        double before = spot->square;
+        lrcsi_fit_descend(&job->data, 0, spot);
+        lrcsi_fit_noise(&job->data, job->noise, spot);
+        int moved = fabs(spot->square - before) > FIT_SAME * before;
+        if (!changed && (job->noise != LRCS_FIT_RELATIVE || !moved)) {
+            break;
+        }
+    }
+    starts_descend(job, 0, spot);
+    kept_count(job);
+}
+
+/* The fit that is reported: without the part that the readings miss less, where they do not miss
+   it; or without the other. */
+static void parts_choose(fit_job *job)
+{
+    lrcsi_fit_spot without[2];
+    int known = job->noise == LRCS_FIT_GIVEN &&
+                job->whole.square < (double)(job->kept - LRCS_FIT_PARAMETERS);
+    for (int k = 0; k < 2; k++) {
+        starts_descend(job, 1u << k, &without[k]);
+        job->absent[k] = 0;
+    }
+    job->best = job->whole;
+    int less = without[1].square < without[0].square;
+    for (int i = 0; i < 2; i++) {
+        int part = i == 0 ? less : !less;
+        if (!lrcsi_fit_presence(&job->data, part, &without[part], job->whole.square, job->kept,
+                                known)) {
+            job->absent[part] = 1;
+            job->best = without[part];
+            return;
+        }
+    }
+}
+
+/* What the residuals say of the errors, each part that is there taking two parameters. */
+static void errors_estimate(fit_job *job)
+{
+    double size = 0.0;
+    int parts = 2 - job->absent[0] - job->absent[1];
+    uint32_t freedom = job->kept - 2 * (uint32_t)parts;
+    for (uint32_t i = 0; i < job->data.count; i++) {
+        double y = job->data.weight[i] * job->data.y[i];
+        size += y * y;
+    }
+    double rounding = FIT_ROUNDING * size / job->kept;
+    double variance = lrcsi_most(job->best.square / freedom, rounding);
+    int known = job->noise == LRCS_FIT_GIVEN && variance < 1.0;
+    double t = lrcsi_special_student(known ? UINT32_MAX : freedom);
+    job->error = sqrt(variance);
+    job->rise = (known ? 1.0 : variance) * t * t;
+}
+
+static void fit_make(fit_job *job)
+{
+    int done = 0;
+    starts_make(job);
+    job->whole = job->start[0];
+    for (int look = 0; look < FIT_LOOKS && !done; look++) {
+        whole_settle(job);
+        parts_choose(job);
+        errors_estimate(job);
+        int known = job->noise == LRCS_FIT_GIVEN && job->error < 1.0;
+        job->spread = lrcsi_fit_spread_make(&job->data, &job->best, known ? 1.0 : job->error);
+        done = lrcsi_fit_profile(&job->data, &job->spread, job->rise, &job->best, &job->whole,
+                                 job->limit);
+    }
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        if (job->absent[p % 2]) {
+            job->spread.error[p] = HUGE_VAL;
+            job->limit[p][0] = p < LRCS_FIT_S ? 0.0 : -HUGE_VAL;
+            job->limit[p][1] = p < LRCS_FIT_S ? job->limit[p][1] : HUGE_VAL;
+        }
+    }
+}
+
+/* ---- the account ---- */
+
+/* The range of the angles that are kept, and how many there are, up to as many as parameters. */
+static void angles_count(const lrcs_fit_reading *reading, const lrcsi_fit_data *data, lrcs_fit *fit)
+{
+    double last = -1.0;
+    fit->least_deg = 90.0;
+    fit->most_deg = 0.0;
+    for (uint32_t i = 0; i < data->count; i++) {
+        double angle = fabs(reading[i].angle_deg);
+        fit->least_deg = data->weight[i] > 0.0 ? fmin(fit->least_deg, angle) : fit->least_deg;
+        fit->most_deg = data->weight[i] > 0.0 ? fmax(fit->most_deg, angle) : fit->most_deg;
+    }
+    fit->angles = 0;
+    while (fit->angles < LRCS_FIT_PARAMETERS && last < fit->most_deg) {
+        double next = fit->most_deg; /* the least above the last */
+        for (uint32_t i = 0; i < data->count; i++) {
+            double angle = fabs(reading[i].angle_deg);
+            next = data->weight[i] > 0.0 && angle > last ? lrcsi_least(next, angle) : next;
+        }
+        last = next;
+        fit->angles++;
+    }
+}
+
+/* From coordinates to the parameters' own units. */
+static double parameter_value(int p, double at, double unit)
+{
+    return p < LRCS_FIT_S ? at * unit : p == LRCS_FIT_S ? exp(at) : expm1(at);
+}
+
+static int parameter_verdict(int p, const double limit[2], int absent)
+{
+    int open = limit[0] == -HUGE_VAL || (limit[0] == 0.0 && p < LRCS_FIT_S);
+    if (p >= LRCS_FIT_S && absent) {
+        return LRCS_FIT_MOOT;
+    }
+    if (limit[1] == HUGE_VAL) {
+        return open || (p == LRCS_FIT_M && limit[0] == 0.0) ? LRCS_FIT_FREE : LRCS_FIT_AT_LEAST;
+    }
+    return !open ? LRCS_FIT_DETERMINED : p < LRCS_FIT_S ? LRCS_FIT_ABSENT : LRCS_FIT_AT_MOST;
+}
+
+static void parameters_fill(const fit_job *job, double unit, lrcs_fit *fit)
+{
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        int part = p % 2;
+        double at = job->best.at[p];
+        int none = job->best.at[part] == 0.0;
+        double by_coordinate = p < LRCS_FIT_S ? unit : exp(at); /* s and 1 + m are exp */
+        fit->parameter[p] = (lrcs_fit_parameter){
+            .value = none ? 0.0 : parameter_value(p, at, unit),
+            .error = job->spread.error[p] * by_coordinate,
+            .low = lrcsi_most(0.0, parameter_value(p, job->limit[p][0], unit)),
+            .high = parameter_value(p, job->limit[p][1], unit),
+            .verdict = parameter_verdict(p, job->limit[p], job->limit[part][0] == 0.0)};
+    }
+    memcpy(fit->correlation, job->spread.correlation, sizeof fit->correlation);
+    fit->brdf = (lrcs_brdf){fit->parameter[LRCS_FIT_A].value, fit->parameter[LRCS_FIT_B].value,
+                            fit->parameter[LRCS_FIT_S].value, fit->parameter[LRCS_FIT_M].value};
+}
+
+/* The residuals, and their root mean square over those kept, in the readings' unit. */
+static double points_fill(const fit_job *job, double scale, lrcs_fit_point *point)
+{
+    const lrcsi_fit_data *data = &job->data;
+    double square = 0.0;
+    lrcsi_fit_rests(data, &job->best);
+    for (uint32_t i = 0; i < data->count; i++) {
+        int keep = data->weight[i] > 0.0;
+        square += keep ? data->rest[i] * data->rest[i] : 0.0;
+        if (point) {
+            point[i] = (lrcs_fit_point){scale * (data->y[i] - data->rest[i]), scale * data->rest[i],
+                                        data->rest[i] * data->inverse[i] / job->error, !keep};
+        }
+    }
+    return scale * sqrt(square / job->kept);
+}
+
+int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit_options *options,
+                 lrcs_work *work, lrcs_fit *fit, lrcs_fit_point *point)
+{
+    double largest = 0.0;
+    size_t mark = work->used;
+    fit_job job;
+    int status = readings_check(reading, count, options, &largest);
+    status = status == LRCS_OK ? data_take(work, count, &job.data) : status;
+    work->used = mark;
+    if (status != LRCS_OK) {
+        return status;
+    }
+    double scale = ldexp(1.0, ilogb(largest));
+    job.noise = options->noise;
+    data_fill(reading, options, scale, &job.data);
+    fit_make(&job);
+    fit->starts = job.starts;
+    fit->kept = job.kept;
+    fit->noise = job.error * (job.noise == LRCS_FIT_ABSOLUTE ? scale * options->unit : 1.0);
+    fit->rms = points_fill(&job, scale, point) * options->unit;
+    angles_count(reading, &job.data, fit);
+    parameters_fill(&job, scale * options->unit, fit);
+    return LRCS_OK;
+}
+
+const char *lrcs_fit_verdict_text(int parameter, int verdict)
+{
+    int glint = parameter == LRCS_FIT_A || parameter == LRCS_FIT_S;
+    switch (verdict) {
+    case LRCS_FIT_DETERMINED:
+        return "determined";
+    case LRCS_FIT_ABSENT:
+        return glint ? "may be 0: no glint is needed to explain the readings"
+                     : "may be 0: no diffuse part is needed to explain the readings";
+    case LRCS_FIT_MOOT:
+        return glint ? "not determined: there may be no glint"
+                     : "not determined: there may be no diffuse part";
+    case LRCS_FIT_AT_MOST:
+        return glint
+                   ? "not determined but for an upper limit: too few readings on the glint's flank"
+                   : "not determined but for an upper limit";
+    case LRCS_FIT_AT_LEAST:
+        return glint ? "not determined but for a lower limit: the readings begin beyond the glint"
+                     : "not determined but for a lower limit: the readings end too early";
+    case LRCS_FIT_FREE:
+        return glint ? "not determined: a glint narrower than the readings reach would not show"
+                     : "not determined: the readings do not limit it";
+    default:
+        return "unknown verdict";
+    }
+}

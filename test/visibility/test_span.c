@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT */
+/* Spans against whole numbers: triangles whose corners are eighths of a pixel, so that every edge
+   function over a pixel is a multiple of 1 / 128, and 128 times it an integer. */
+#include "visibility/span.h"
+
+#include <stdlib.h>
+
+#include "scenes.h"
+
+enum { N = 64 };
+
+/* The edges of a triangle with corners in eighths of a pixel, counter-clockwise. */
+static lrcsi_edges edges_of(const int corner[3][2])
+{
+    lrcsi_edges e = {.off = 0x1p-40};
+    for (int k = 0; k < 3; k++) {
+        const int *a = corner[k];
+        const int *b = corner[(k + 1) % 3];
+        e.along[k] = -(b[1] - a[1]) / 8.0;
+        e.up[k] = (b[0] - a[0]) / 8.0;
+        e.at[k] = -(e.along[k] * a[0] + e.up[k] * a[1]) / 8;
+    }
+    lrcsi_span_prepare(&e);
+    return e;
+}
+
+/* 128 times the least over the edges of their values at a pixel's centre, plus `sign` times how
+   much each changes over half of the square. */
+static long least_of(const int corner[3][2], int whole, int sign, int x, int y)
+{
+    long least = 1L << 30;
+    for (int k = 0; k < 3; k++) {
+        const int *a = corner[k];
+        const int *b = corner[(k + 1) % 3];
+        long dx = b[0] - a[0];
+        long dy = b[1] - a[1];
+        long value = dx * (8L * y + 4 - a[1]) - dy * (8L * x + 4 - a[0]);
+        long bend = whole ? 4 * (labs(dx) + labs(dy)) : 0;
+        value = 2 * (value + sign * bend);
+        least = value < least ? value : least;
+    }
+    return least;
+}
+
+/* Triangles of all kinds: large ones, and slivers whose corners lie in a row but for an eighth. */
+static void triangle_of(uint64_t *seed, int sliver, int corner[3][2])
+{
+    long turn = 0;
+    while (turn == 0) {
+        for (int k = 0; k < 3; k++) {
+            corner[k][0] = (int)scene_random(seed, 8 * N + 1);
+            corner[k][1] = (int)scene_random(seed, 8 * N + 1);
+        }
+        if (sliver) {
+            corner[2][0] = (corner[0][0] + corner[1][0]) / 2 + (int)scene_random(seed, 2);
+            corner[2][1] = (corner[0][1] + corner[1][1]) / 2 + (int)scene_random(seed, 2);
+        }
+        turn = (long)(corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
+               (long)(corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
+    }
+    for (int i = 0; i < 2 && turn < 0; i++) {
+        int swap = corner[1][i];
+        corner[1][i] = corner[2][i];
+        corner[2][i] = swap;
+    }
+}
+
+/* A row of pixels; what is covered is looked for from x0 to x1, what is touched a pixel farther.
+   Returns how many are touched. */
+static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
+{
+    lrcsi_edges e = edges_of(corner);
+    e.x0 = (uint32_t)x0;
+    e.x1 = (uint32_t)x1;
+    e.left = (uint32_t)(x0 > 0 ? x0 - 1 : 0);
+    e.right = (uint32_t)(x1 < N ? x1 + 1 : N);
+    lrcsi_row row = lrcsi_span_row(&e, (uint32_t)y);
+    for (uint32_t x = 0; x < N; x++) {
+        int among = x >= e.x0 && x < e.x1;
+        int about = x >= e.left && x < e.right;
+        assert_int_equal(lrcsi_span_has(row.touched, x),
+                         about && least_of(corner, 1, 1, (int)x, y) >= 0);
+        assert_int_equal(lrcsi_span_has(row.may, x),
+                         among && least_of(corner, 0, 1, (int)x, y) >= 0);
+        assert_int_equal(lrcsi_span_has(row.sure, x),
+                         among && least_of(corner, 0, -1, (int)x, y) > 0);
+        assert_int_equal(lrcsi_span_has(row.whole, x),
+                         among && least_of(corner, 1, -1, (int)x, y) > 0);
+    }
+    assert_true(row.may.x0 <= row.sure.x0 && row.sure.x1 <= row.may.x1);
+    return row.touched.x1 - row.touched.x0;
+}
+
+static void spans_are_those_of_whole_numbers(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    unsigned found = 0;
+    for (int i = 0; i < 400; i++) {
+        int corner[3][2];
+        triangle_of(&seed, i % 2, corner);
+        for (int y = 0; y < N; y++) {
+            int x0 = (int)scene_random(&seed, 4) == 0 ? (int)scene_random(&seed, N) : 0;
+            int x1 = x0 + (int)scene_random(&seed, (uint32_t)(N - x0 + 1));
+            found += check_row((const int(*)[2])corner, y, x0, x1);
+        }
+    }
+    assert_true(found > 10000);
+}
+
+static void sides_along_the_rows_are_told_by_the_row(void **state)
+{
+    (void)state;
+    static const int flat[3][2] = {{0, 80}, {512, 80}, {256, 400}};
+    static const int through[3][2] = {{0, 84}, {512, 84}, {256, 404}}; /* a side through centres */
+    static const int upright[3][2] = {{80, 0}, {400, 256}, {80, 512}};
+    for (int y = 0; y < N; y++) {
+        check_row(flat, y, 0, N);
+        check_row(through, y, 0, N);
+        check_row(upright, y, 0, N);
+    }
+}
+
+/* What an error leaves open may be covered and is not sure. */
+static void what_is_within_the_error_is_not_sure(void **state)
+{
+    (void)state;
+    static const int corner[3][2] = {{84, 0}, {500, 256}, {84, 512}}; /* a side through centres */
+    lrcsi_edges e = edges_of(corner);
+    e.x1 = e.right = N;
+    for (uint32_t y = 10; y < 50; y++) {
+        lrcsi_row row = lrcsi_span_row(&e, y);
+        assert_int_equal(row.may.x0, 10);
+        assert_int_equal(row.sure.x0, 11);
+        assert_int_equal(row.touched.x0, 10);
+        assert_int_equal(row.whole.x0, 11);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(spans_are_those_of_whole_numbers),
+        cmocka_unit_test(sides_along_the_rows_are_told_by_the_row),
+        cmocka_unit_test(what_is_within_the_error_is_not_sure),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
