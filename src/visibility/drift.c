@@ -20,12 +20,12 @@
 /* Squares of guesses, in pixels, calibrated on plain scenes of seed 3 and hostile ones of seed 7
    (test/hostile), and on four models. */
 #define PARTED    0.9  /* of a facet that owns some of its samples, not all: at ends of lines */
-#define STRAY     1.6  /* for each square of how far the sum of a line strays */
+#define STRAY     1.8  /* for each square of how far the sum of a line strays */
 #define SIDES     0.9  /* for that of its own sides, times share (1 - share) */
 #define ALIKE     0.6  /* of one that owns all of its samples, or none */
 #define SMALL     0.8  /* of either at most so much, times the square of its area */
 #define UNSAMPLED 0.35 /* of one that has no samples, likewise */
-#define ROW       0.3  /* of one that shares its samples, times its width */
+#define ROW       0.6  /* of one that shares its samples, times its width */
 #define ROW_SEEN  4.5  /* and so much more, times its width and share (1 - share) */
 
 /* A facet on the raster. */
