@@ -18,7 +18,7 @@
 #include "base/range.h"
 
 /* Squares of guesses, in pixels, calibrated on plain scenes of seed 3 and hostile ones of seed 7
-   (test/hostile), and on four models. */
+   (make bounds), on the demo and three models (make estimate). */
 #define PARTED    0.9  /* of a facet that owns some of its samples, not all: at ends of lines */
 #define STRAY     1.8  /* for each square of how far the sum of a line strays */
 #define SIDES     0.9  /* for that of its own sides, times share (1 - share) */
