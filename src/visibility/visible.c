@@ -363,9 +363,10 @@ int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *kn
 
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    return lrcsi_work_add(lrcsi_raster_need(prepared, size),
-                          lrcsi_work_add(lrcsi_work_bytes((size_t)size * size, 1),
-                                         lrcsi_work_bytes(size, sizeof(lrcsi_row))));
+    size_t need = lrcsi_work_bytes((size_t)size * size, 1);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(lrcsi_row)));
+    need = lrcsi_work_add(need, lrcsi_share_need(prepared));
+    return lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
 }
 
 /* Facets proved hidden own no samples; those proved visible own all of theirs. Only the tiles of
