@@ -11,14 +11,15 @@
 typedef struct lrcs_fit_reading {
     double angle_deg; /* between line of sight and normal, -90 < angle_deg < 90; sign ignored */
     double value;     /* what was read, in the unit that the options state; may be negative */
-    double sigma;     /* its standard error in the same unit; read only with LRCS_FIT_GIVEN */
+    double sigma;     /* its standard error in the same unit; read only where it is given */
 } lrcs_fit_reading;
 
 /* How large the errors of readings are to one another. */
 enum lrcs_fit_noise {
     LRCS_FIT_ABSOLUTE, /* the same for all */
     LRCS_FIT_RELATIVE, /* in proportion to what is measured, down to 1e-4 of its largest */
-    LRCS_FIT_GIVEN     /* each reading's sigma */
+    LRCS_FIT_GIVEN,    /* each reading's sigma */
+    LRCS_FIT_WEIGHTED  /* each reading's sigma, but for a common factor that is not known */
 };
 
 typedef struct lrcs_fit_options {
@@ -94,7 +95,9 @@ size_t lrcs_fit_need(uint32_t count);
    by Student's t^2 times the noise^2. With LRCS_FIT_GIVEN and a reduced chi-square below 1 the
    noise is 1 and t is the normal distribution's.
    5. Searched: s from 1/6 of the smallest tangent read to 2, m from 0 to 1000, A and B up to 1e9
-   of the largest value. A limit outside is none. */
+   of the largest value. A limit outside is none.
+   6. An outlier at the smallest angle cannot be told from a narrow glint, nor one of three readings
+   that a glint has from its flank: a glint needs some five. */
 int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit_options *options,
                  lrcs_work *work, lrcs_fit *fit, lrcs_fit_point *point);
 

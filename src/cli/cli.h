@@ -10,7 +10,8 @@ enum cli_exit {
     CLI_DONE = 0,
     CLI_FAILED = 1,
     CLI_USAGE = 2,
-    CLI_DEGRADED = 3 /* done, but the tolerance was not met or memory forced a fallback */
+    CLI_DEGRADED = 3 /* done, but the tolerance was not met, memory forced a fallback, or readings
+                        leave a parameter open */
 };
 
 /* What --json says it is. */

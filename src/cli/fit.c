@@ -2,6 +2,8 @@
 /* lrcs fit: a material from measured BRDF against angle. */
 #include "cli/fit.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -22,7 +24,7 @@ static const char fit_help[] =
     "The first line names the columns, in any order: angle_deg (-90 .. 90, the sign has no "
     "effect),\n"
     "brdf (also reading or value), and where there are any sigma (standard error, unit of brdf),\n"
-    "weight (1/sigma^2) and material (or sample), each of which is fitted by itself. Without "
+    "weight (like 1/sigma^2) and material (or sample), each of which is fitted by itself. Without "
     "names:\n"
     "angle, brdf and perhaps sigma.\n"
     "\n"
@@ -31,8 +33,9 @@ static const char fit_help[] =
     "same\n"
     "                        angle: f_r = value RHO / pi (without: brdf is f_r, 1/sr)\n"
     "  --cosine              values fall with the projected area too: f_r cos(theta)\n"
-    "  --noise KIND          where there is no sigma: errors are absolute (the same for all, the\n"
-    "                        default) or relative (in proportion to what is measured)\n"
+    "  --noise KIND          where there is no sigma: errors are absolute (the same for all),\n"
+    "                        relative (in proportion to what is measured), or auto: which of both\n"
+    "                        the residuals make likelier (the default)\n"
     "  --name NAME           of several materials the one to fit; of one, what it is called (else\n"
     "                        by its file)\n"
     "  --plot FILE           readings and fit; FILE.svg or FILE.png; repeatable\n"
@@ -47,7 +50,7 @@ static const char fit_help[] =
     "\n"
     "examples\n"
     "  lrcs fit gold.csv --plot gold.svg --residuals gold-residuals.svg\n"
-    "  lrcs fit panels.csv --panel 0.99 --noise relative --name white --json\n";
+    "  lrcs fit panels.csv --panel 0.99 --noise absolute --name white --json\n";
 
 static const cli_option fit_options[] = {
     {"panel", 1, 0},     {"cosine", 0, 0}, {"noise", 1, 0}, {"name", 1, 0}, {"plot", 1, 1},
@@ -94,17 +97,19 @@ static int output_check(const cli_args *args, int index)
     return 0;
 }
 
-static int noise_read(const cli_args *args, int *noise)
+static int noise_read(fit_job *job)
 {
+    const cli_args *args = job->args;
     const char *text = cli_value(args, "noise");
-    if (!text || strcmp(text, "absolute") == 0) {
+    if (!text || strcmp(text, "auto") == 0) {
         return 0;
     }
-    *noise = LRCS_FIT_RELATIVE;
-    return strcmp(text, "relative") == 0
+    job->noise_asked = 1;
+    job->options.noise = strcmp(text, "relative") == 0 ? LRCS_FIT_RELATIVE : LRCS_FIT_ABSOLUTE;
+    return job->options.noise == LRCS_FIT_RELATIVE || strcmp(text, "absolute") == 0
                ? 0
-               : cli_usage(args->command, "--noise: expected absolute or relative, found '%s'",
-                           text);
+               : cli_usage(args->command,
+                           "--noise: expected absolute, relative or auto, found '%s'", text);
 }
 
 static int fit_read(fit_job *job)
@@ -113,7 +118,7 @@ static int fit_read(fit_job *job)
     const char *csv = cli_value(args, "csv");
     job->options = lrcs_fit_options_default();
     job->options.cosine = cli_value(args, "cosine") != NULL;
-    int code = noise_read(args, &job->options.noise);
+    int code = noise_read(job);
     code = code ? code : cli_number(args, "panel", &job->panel);
     if (code == 0 && cli_value(args, "panel")) {
         if (!(job->panel > 0.0 && job->panel <= 1.5)) {
@@ -189,6 +194,57 @@ static int material_take(const lrcs_host_readings *readings, uint32_t index, fit
     return 0;
 }
 
+/* The error expected of a reading of a kind (lrcs_fit_noise) but for a common factor. */
+static double noise_size(const fit_material *material, int noise, uint32_t i, double most)
+{
+    return noise == LRCS_FIT_RELATIVE ? fmax(material->point[i].fitted, 1e-4 * most) : 1.0;
+}
+
+/* The logarithm of the likelihood of all residuals, but for a constant: of errors after Cauchy,
+   whom outliers do not impress. Their width is the likeliest (by expectation and maximisation). */
+static double noise_likelihood(const fit_material *material, int noise)
+{
+    double most = 0.0;
+    double square = 1.0; /* of the width */
+    double sum = 0.0;
+    for (uint32_t i = 0; i < material->count; i++) {
+        most = fmax(most, material->point[i].fitted);
+    }
+    for (int round = 0; round < 60; round++) {
+        double next = 0.0;
+        sum = 0.0;
+        for (uint32_t i = 0; i < material->count; i++) {
+            double size = noise_size(material, noise, i, most);
+            double x = material->point[i].residual / size;
+            sum -= log(size) + 0.5 * log(square) + log1p(x * x / square);
+            next += 2.0 * x * x / (1.0 + x * x / square) / material->count;
+        }
+        square = fmax(next, DBL_MIN);
+    }
+    return sum;
+}
+
+static int noise_fit(const fit_job *job, int noise, fit_material *material, lrcs_work *work)
+{
+    lrcs_fit_options options = job->options;
+    options.noise = noise;
+    material->noise = noise;
+    return lrcs_fit_run(material->reading, material->count, &options, work, &material->fit,
+                        material->point);
+}
+
+/* With relative errors and with absolute ones: the likelier fit stays. */
+static int noise_choose(const fit_job *job, fit_material *material, lrcs_work *work)
+{
+    int status = noise_fit(job, LRCS_FIT_RELATIVE, material, work);
+    double relative = status == LRCS_OK ? noise_likelihood(material, LRCS_FIT_RELATIVE) : 0.0;
+    status = status == LRCS_OK ? noise_fit(job, LRCS_FIT_ABSOLUTE, material, work) : status;
+    if (status == LRCS_OK && relative > noise_likelihood(material, LRCS_FIT_ABSOLUTE)) {
+        status = noise_fit(job, LRCS_FIT_RELATIVE, material, work);
+    }
+    return status;
+}
+
 static int material_fit(const fit_job *job, fit_material *material)
 {
     size_t size = lrcs_fit_need(material->count);
@@ -198,8 +254,8 @@ static int material_fit(const fit_job *job, fit_material *material)
         return CLI_FAILED;
     }
     lrcs_work work = lrcs_work_make(bytes, size);
-    int status = lrcs_fit_run(material->reading, material->count, &job->options, &work,
-                              &material->fit, material->point);
+    int status = job->noise_asked ? noise_fit(job, job->options.noise, material, &work)
+                                  : noise_choose(job, material, &work);
     free(bytes);
     if (status == LRCS_E_EMPTY && material->count < LRCS_FIT_READINGS) {
         fprintf(stderr, "lrcs: %s: %s: found %lu readings, expected %u or more\n",
@@ -246,10 +302,14 @@ static int materials_make(fit_job *job)
 static int readings_check(fit_job *job)
 {
     const cli_args *args = job->args;
-    if (job->readings.has_sigma && cli_value(args, "noise")) {
+    int given = job->readings.noise != LRCS_FIT_ABSOLUTE;
+    if (given && cli_value(args, "noise")) {
         return cli_usage(args->command, "--noise: the readings have errors of their own");
     }
-    job->options.noise = job->readings.has_sigma ? LRCS_FIT_GIVEN : job->options.noise;
+    if (given) {
+        job->options.noise = job->readings.noise;
+        job->noise_asked = 1;
+    }
     for (int i = 0; i < args->given_count; i++) {
         if (is_chart(&args->given[i]) && job->readings.name_count > 1 && !cli_value(args, "name")) {
             return cli_usage(args->command,

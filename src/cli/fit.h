@@ -12,13 +12,15 @@ typedef struct fit_material {
     uint32_t *line; /* in the file */
     lrcs_fit_point *point;
     uint32_t count;
+    int noise; /* lrcs_fit_noise */
     lrcs_fit fit;
 } fit_material;
 
 typedef struct fit_job {
     const cli_args *args;
     lrcs_fit_options options;
-    double panel; /* reflectance; 0: readings are f_r itself */
+    int noise_asked; /* or given; else the readings tell which suits them */
+    double panel;    /* reflectance; 0: readings are f_r itself */
     lrcs_host_readings readings;
     fit_material *material;
     uint32_t materials;

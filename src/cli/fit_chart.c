@@ -8,7 +8,9 @@
 
 #define CHART_CURVE 400u /* points of a fitted curve */
 #define CHART_RANGE 20.0 /* a fit that spans more is drawn on a logarithmic axis */
-#define CHART_FLOOR 0.1  /* of the least fitted value: what lies below it stands on the floor */
+#define CHART_FLOOR 0.2  /* of the least fitted value: what is read below it stands on the floor */
+#define CHART_DEPTH 1e-6 /* of the largest: the floor is not below it */
+#define CHART_EDGE  6.0  /* standard errors: residuals beyond stand there with their number */
 #define CHART_PI    3.14159265358979323846
 
 typedef struct chart_points {
@@ -16,7 +18,12 @@ typedef struct chart_points {
     uint32_t count;
 } chart_points;
 
-static double kept_angle(const fit_material *material, int most)
+/* The number of a residual that stands on the edge, "" for the others. */
+typedef struct chart_label {
+    char text[16];
+} chart_label;
+
+static double end_angle(const fit_material *material, int most)
 {
     double angle = material->reading[0].angle_deg;
     for (uint32_t i = 0; i < material->count; i++) {
@@ -46,8 +53,12 @@ static void curve_take(const fit_job *job, int parts, chart_points *points)
 {
     const fit_material *material = &job->material[0];
     lrcs_brdf brdf = material->fit.brdf;
-    double first = kept_angle(material, 0);
-    double last = kept_angle(material, 1);
+    double first = end_angle(material, 0);
+    double last = end_angle(material, 1);
+    if (parts != 3 && (brdf.A == 0.0 || brdf.B == 0.0)) {
+        points->count = 0; /* the part is the fit, or nothing */
+        return;
+    }
     brdf.A = parts & 1 ? brdf.A : 0.0;
     brdf.B = parts & 2 ? brdf.B : 0.0;
     points->count = CHART_CURVE;
@@ -62,15 +73,15 @@ static void curve_take(const fit_job *job, int parts, chart_points *points)
 static void line_take(const fit_material *material, double y, chart_points *points)
 {
     points->count = 2;
-    points->x[0] = kept_angle(material, 0);
-    points->x[1] = kept_angle(material, 1);
+    points->x[0] = end_angle(material, 0);
+    points->x[1] = end_angle(material, 1);
     points->y[0] = points->y[1] = y;
 }
 
 enum { CHART_KEPT, CHART_OUTLIERS, CHART_FIT, CHART_GLINT, CHART_DIFFUSE, CHART_SERIES };
 
 static const lrcs_host_series chart_looks[2][CHART_SERIES] = {
-    {{.name = "readings", .colour = LRCS_HOST_BLUE, .dash = LRCS_HOST_NO_LINE, .hollow = 1},
+    {{.name = "readings", .colour = LRCS_HOST_BLUE, .dash = LRCS_HOST_NO_LINE},
      {.name = "set aside",
       .colour = LRCS_HOST_VERMILION,
       .dash = LRCS_HOST_NO_LINE,
@@ -84,7 +95,7 @@ static const lrcs_host_series chart_looks[2][CHART_SERIES] = {
       .colour = LRCS_HOST_GREEN,
       .marker = LRCS_HOST_NO_MARKER,
       .dash = LRCS_HOST_DASHED}},
-    {{.name = "residuals", .colour = LRCS_HOST_BLUE, .dash = LRCS_HOST_NO_LINE, .hollow = 1},
+    {{.name = "residuals", .colour = LRCS_HOST_BLUE, .dash = LRCS_HOST_NO_LINE},
      {.name = "set aside",
       .colour = LRCS_HOST_VERMILION,
       .dash = LRCS_HOST_NO_LINE,
@@ -115,39 +126,57 @@ static void series_take(const fit_job *job, int residuals, chart_points points[C
     }
 }
 
-/* A fit that spans decades has a logarithmic axis down to a floor that holds all of it. */
-static void axis_choose(const chart_points *curve, lrcs_host_chart *chart)
+/* Residuals beyond the edge come to stand on it. */
+static void edge_take(chart_points *points, chart_label *label, const char **text)
 {
-    double least = curve->y[0];
-    double most = curve->y[0];
-    for (uint32_t i = 0; i < curve->count; i++) {
-        least = fmin(least, curve->y[i]);
-        most = fmax(most, curve->y[i]);
+    for (uint32_t i = 0; i < points->count; i++) {
+        double y = points->y[i];
+        text[i] = NULL;
+        if (fabs(y) > CHART_EDGE) {
+            snprintf(label[i].text, sizeof label[i].text, "%.3g", y);
+            text[i] = label[i].text;
+            points->y[i] = copysign(CHART_EDGE, y);
+        }
     }
-    if (most > CHART_RANGE * least) {
-        chart->y_log = 1;
-        chart->floor = CHART_FLOOR * fmax(least, 1e-6 * most);
-        chart->floor_name = "below";
+}
+
+/* A fit that spans decades has a logarithmic axis, with a floor where readings need one; curves
+   end where they fall below. */
+static void axis_choose(chart_points points[CHART_SERIES], lrcs_host_chart *chart)
+{
+    const chart_points *fit = &points[CHART_FIT];
+    double least = fit->y[0];
+    double most = fit->y[0];
+    for (uint32_t i = 0; i < fit->count; i++) {
+        least = fmin(least, fit->y[i]);
+        most = fmax(most, fit->y[i]);
+    }
+    if (!(most > CHART_RANGE * least)) {
+        return;
+    }
+    double floor = CHART_FLOOR * fmax(least, CHART_DEPTH * most);
+    chart->y_log = 1;
+    for (int k = 0; k < CHART_SERIES; k++) {
+        for (uint32_t i = 0; i < points[k].count; i++) {
+            int below = points[k].y[i] < floor;
+            if (below && k <= CHART_OUTLIERS) {
+                chart->floor = floor;
+                chart->floor_name = "below";
+            } else if (below) {
+                points[k].y[i] = (double)NAN; /* not drawn */
+            }
+        }
     }
 }
 
 static int chart_draw(const fit_job *job, int residuals, int png, FILE *out,
-                      chart_points points[CHART_SERIES], lrcs_host_error *error)
+                      lrcs_host_series series[CHART_SERIES], chart_points points[CHART_SERIES],
+                      lrcs_host_error *error)
 {
     const fit_material *material = &job->material[0];
     const lrcs_brdf *brdf = &material->fit.brdf;
-    lrcs_host_series series[CHART_SERIES];
     char title[256];
     char note[256];
-    uint32_t count = 0;
-    series_take(job, residuals, points);
-    for (int i = 0; i < CHART_SERIES; i++) {
-        series[count] = chart_looks[residuals][i];
-        series[count].x = points[i].x;
-        series[count].y = points[i].y;
-        series[count].count = points[i].count;
-        count += points[i].count > 0;
-    }
     snprintf(title, sizeof title, "%s of %s", residuals ? "Residuals" : "BRDF", material->name);
     snprintf(note, sizeof note, "A = %.5g /sr, B = %.5g /sr, s = %.5g, m = %.5g; rms %.3g /sr",
              brdf->A, brdf->B, brdf->s, brdf->m, material->fit.rms);
@@ -157,10 +186,18 @@ static int chart_draw(const fit_job *job, int residuals, int png, FILE *out,
                              .y_name = residuals             ? "residual (standard errors)"
                                        : job->options.cosine ? "f_r cos(theta) (1/sr)"
                                                              : "f_r (1/sr)",
-                             .series = series,
-                             .series_count = count};
+                             .series = series};
     if (!residuals) {
-        axis_choose(&points[CHART_FIT], &chart);
+        axis_choose(points, &chart);
+    }
+    for (int i = 0; i < CHART_SERIES; i++) { /* those that have points */
+        lrcs_host_series one = chart_looks[residuals][i];
+        one.x = points[i].x;
+        one.y = points[i].y;
+        one.count = points[i].count;
+        one.label = i <= CHART_OUTLIERS ? series[i].label : NULL;
+        series[chart.series_count] = one;
+        chart.series_count += one.count > 0;
     }
     if (png) {
         return lrcs_host_chart_png(out, &chart, error);
@@ -174,16 +211,25 @@ int cli_fit_chart(const fit_job *job, int residuals, int png, FILE *out, lrcs_ho
     uint32_t count = job->material[0].count;
     size_t room = count > CHART_CURVE ? count : CHART_CURVE;
     double *number = malloc(2 * CHART_SERIES * room * sizeof *number);
+    chart_label *label = malloc(2 * room * sizeof *label);
+    const char **text = malloc(2 * room * sizeof *text);
     chart_points points[CHART_SERIES];
-    if (!number) {
-        snprintf(error->text, sizeof error->text, "out of memory");
-        return LRCS_E_SYSTEM;
+    lrcs_host_series series[CHART_SERIES] = {{.name = NULL}};
+    int status = LRCS_E_SYSTEM;
+    snprintf(error->text, sizeof error->text, "out of memory");
+    if (number && label && text) {
+        for (size_t i = 0; i < CHART_SERIES; i++) {
+            points[i] = (chart_points){number + 2 * i * room, number + (2 * i + 1) * room, 0};
+        }
+        series_take(job, residuals, points);
+        for (size_t i = 0; residuals && i <= CHART_OUTLIERS; i++) {
+            edge_take(&points[i], label + i * room, text + i * room);
+            series[i].label = text + i * room;
+        }
+        status = chart_draw(job, residuals, png, out, series, points, error);
     }
-    for (int i = 0; i < CHART_SERIES; i++) {
-        points[i] =
-            (chart_points){number + 2 * (size_t)i * room, number + (2 * (size_t)i + 1) * room, 0};
-    }
-    int status = chart_draw(job, residuals, png, out, points, error);
     free(number);
+    free(label);
+    free(text);
     return status;
 }

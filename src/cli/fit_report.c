@@ -43,18 +43,6 @@ fit_statement cli_fit_statement(const lrcs_fit *fit, int parameter)
     return statement;
 }
 
-static int job_is_relative(const fit_job *job)
-{
-    return job->options.noise == LRCS_FIT_RELATIVE;
-}
-
-static const char *noise_text(const fit_job *job)
-{
-    return job->options.noise == LRCS_FIT_GIVEN ? "given with the readings"
-           : job_is_relative(job)               ? "taken as relative"
-                                                : "taken as absolute, the same for all";
-}
-
 /* ---- the table ---- */
 
 static void unit_print(const fit_job *job)
@@ -73,15 +61,15 @@ static void outliers_print(const fit_material *material)
 {
     uint32_t named = 0;
     uint32_t outliers = material->count - material->fit.kept;
-    printf("readings   %lu from %.6g to %.6g deg, %lu outliers set aside",
+    printf("readings   %lu from %.6g to %.6g deg, outliers set aside: %lu",
            (unsigned long)material->count, material->fit.least_deg, material->fit.most_deg,
            (unsigned long)outliers);
     for (uint32_t i = 0; i < material->count && named < REPORT_LINES_MOST; i++) {
         if (material->point[i].outlier) {
-            printf("%s%lu", named++ ? ", " : ": lines ", (unsigned long)material->line[i]);
+            printf("%s%lu", named++ ? ", " : " (line ", (unsigned long)material->line[i]);
         }
     }
-    printf("%s\n", named < outliers ? ", ..." : "");
+    printf("%s%s\n", named < outliers ? ", ..." : "", outliers ? ")" : "");
 }
 
 /* A number right-aligned, or a word for one that there is not. */
@@ -132,15 +120,23 @@ static void statements_print(const lrcs_fit *fit)
     }
 }
 
-static void residuals_print(const fit_job *job, const lrcs_fit *fit)
+static void residuals_print(const fit_job *job, const fit_material *material)
 {
-    printf("residuals  rms %.4g 1/sr; errors %s: ", fit->rms, noise_text(job));
-    if (job->options.noise == LRCS_FIT_GIVEN) {
-        printf("reduced chi-square %.4g\n", fit->noise * fit->noise);
-    } else if (job_is_relative(job)) {
-        printf("%.3g %% a reading\n", 100.0 * fit->noise);
-    } else {
-        printf("%.4g 1/sr a reading\n", fit->noise);
+    const lrcs_fit *fit = &material->fit;
+    const char *taken = job->noise_asked ? "taken" : "likelier";
+    printf("residuals  rms %.4g 1/sr; errors ", fit->rms);
+    switch (material->noise) {
+    case LRCS_FIT_GIVEN:
+        printf("given: reduced chi-square %.4g\n", fit->noise * fit->noise);
+        break;
+    case LRCS_FIT_WEIGHTED:
+        printf("by weight\n");
+        break;
+    case LRCS_FIT_RELATIVE:
+        printf("%s relative: %.3g %% a reading\n", taken, 100.0 * fit->noise);
+        break;
+    default:
+        printf("%s the same for all: %.4g 1/sr a reading\n", taken, fit->noise);
     }
 }
 
@@ -187,7 +183,7 @@ void cli_fit_table(const fit_job *job)
         putchar('\n');
         outliers_print(material);
         unit_print(job);
-        residuals_print(job, &material->fit);
+        residuals_print(job, material);
         parameters_print(&material->fit);
         putchar('\n');
         statements_print(&material->fit);
@@ -271,10 +267,11 @@ static void outliers_json(const fit_material *material, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
-static void material_json(const fit_job *job, const fit_material *material, lrcs_host_json *json)
+static void material_json(const fit_material *material, lrcs_host_json *json)
 {
     const lrcs_fit *fit = &material->fit;
-    int given = job->options.noise == LRCS_FIT_GIVEN;
+    static const char *const noise[] = {"absolute", "relative", "given", "weighted"};
+    int given = material->noise == LRCS_FIT_GIVEN;
     lrcs_host_json_begin(json, NULL, LRCS_HOST_OBJECT);
     lrcs_host_json_text(json, "material", material->name);
     lrcs_host_json_begin(json, "parameters", LRCS_HOST_OBJECT);
@@ -290,6 +287,7 @@ static void material_json(const fit_job *job, const fit_material *material, lrcs
     lrcs_host_json_number(json, "least_deg", fit->least_deg);
     lrcs_host_json_number(json, "most_deg", fit->most_deg);
     lrcs_host_json_number(json, "rms_per_sr", fit->rms);
+    lrcs_host_json_text(json, "errors", noise[material->noise]);
     lrcs_host_json_number(json, "noise", fit->noise);
     lrcs_host_json_number(json, "reduced_chi2", given ? fit->noise * fit->noise : (double)NAN);
     lrcs_host_json_end(json);
@@ -297,17 +295,15 @@ static void material_json(const fit_job *job, const fit_material *material, lrcs
 
 void cli_fit_json(const fit_job *job)
 {
-    static const char *const noise[] = {"absolute", "relative", "given"};
     lrcs_host_json json = lrcs_host_json_make(stdout);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
     lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
     lrcs_host_json_text(&json, "version", lrcs_version());
     lrcs_host_json_number(&json, "unit_per_sr", job->options.unit);
     lrcs_host_json_bool(&json, "cosine", job->options.cosine);
-    lrcs_host_json_text(&json, "errors", noise[job->options.noise]);
     lrcs_host_json_begin(&json, "fits", LRCS_HOST_ARRAY);
     for (uint32_t i = 0; i < job->materials; i++) {
-        material_json(job, &job->material[i], &json);
+        material_json(&job->material[i], &json);
     }
     lrcs_host_json_end(&json);
     lrcs_host_json_begin(&json, "notices", LRCS_HOST_ARRAY);

@@ -42,7 +42,9 @@ static const char roff_end[] =
     ".TP\n.B 0\ndone\n"
     ".TP\n.B 1\nfailed\n"
     ".TP\n.B 2\nusage: the command line is not one that the tool knows\n"
-    ".TP\n.B 3\ndone, but the tolerance was not met, or memory forced a coarser answer\n"
+    ".TP\n.B 3\ndone, but the tolerance was not met, memory forced a coarser answer, or "
+    "readings\nleave a "
+    "parameter open\n"
     ".SH SOURCE\n"
     "Eq. 2 and the four\\-parameter BRDF: Han et al. (2014). Bounds are proved for the mesh and "
     "the\n"
@@ -70,6 +72,7 @@ static const char *option_words(const char *name)
     return strcmp(name, "method") == 0    ? "auto facet zbuffer exact"
            : strcmp(name, "normals") == 0 ? "flat auto smooth"
            : strcmp(name, "unit") == 0    ? "mm cm m in ft"
+           : strcmp(name, "noise") == 0   ? "auto absolute relative"
                                           : NULL;
 }
 

@@ -340,7 +340,8 @@ static void series_marks(const chart_plan *plan, const lrcs_host_series *series)
         if (!chart_point(plan, series, i, &at)) {
             continue;
         }
-        if (plan->chart->y_log && series->y[i] < plan->chart->floor) {
+        if (plan->chart->y_log && series->y[i] < plan->chart->floor &&
+            series->marker != LRCS_HOST_NO_MARKER) {
             arrow_draw(plan, chart_colours[series->colour & 7], at);
         }
         marker_draw(plan, series, at);

@@ -393,8 +393,9 @@ static int table_read(readings_table *table)
                         table->path, (unsigned long)table->left_out,
                         (unsigned long)table->first_left_out);
     }
-    table->out->has_sigma =
-        table->role[ROLE_SIGMA] != LRCS_NONE || table->role[ROLE_WEIGHT] != LRCS_NONE;
+    table->out->noise = table->role[ROLE_SIGMA] != LRCS_NONE    ? LRCS_FIT_GIVEN
+                        : table->role[ROLE_WEIGHT] != LRCS_NONE ? LRCS_FIT_WEIGHTED
+                                                                : LRCS_FIT_ABSOLUTE;
     return LRCS_OK;
 }
 

@@ -137,7 +137,7 @@ static void sum_samples(const curve_job *job, const lrcsi_raster *raster, double
     lrcsi_edges e = lrcsi_raster_edges(raster, job->facet);
     *owned = *covered = 0;
     for (uint32_t y = e.y0; y < e.y1; y++) {
-        lrcsi_span row = lrcsi_span_meets(&e, LRCSI_SPAN_CENTRE, y, e.x0, e.x1);
+        lrcsi_pixels row = lrcsi_span_row(&e, y).may;
         for (uint32_t x = row.x0; x < row.x1; x++) {
             double n[3] = {0, 0, 0};
             int inside = 1;

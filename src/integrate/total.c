@@ -236,7 +236,7 @@ static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const l
                                               : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
-/* Could any of it be visible? Most facets of a closed body cannot, and cost no arithmetic. */
+/* Could any of it be visible? The back sides of a closed body cannot, and cost no arithmetic. */
 static int may_show(const total_job *job, uint32_t facet)
 {
     return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_casts(job->view, facet);
@@ -253,7 +253,7 @@ static double facet_tessellation(const total_job *job, uint32_t facet, const lrc
            lrcsi_tessellation_error(job->view, facet, &brdf, tilt, job->visible, job->margin);
 }
 
-static void add_facet(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
+static void sum_facet(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
                       lrcs_facet_record *record)
 {
     const lrcsi_view *view = job->view;
@@ -277,13 +277,13 @@ static void add_facet(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
 }
 
 /* The next facets in order, their incidence computed side by side. */
-static void add_facets(total_job *job, const uint32_t *facet, uint32_t count,
+static void sum_facets(total_job *job, const uint32_t *facet, uint32_t count,
                        lrcs_facet_record *records)
 {
     lrcsi_tilt tilt[LRCSI_TILTS];
     lrcsi_view_tilts(job->view, facet, count, tilt);
     for (uint32_t i = 0; i < count; i++) {
-        add_facet(job, facet[i], &tilt[i], records ? &records[facet[i]] : NULL);
+        sum_facet(job, facet[i], &tilt[i], records ? &records[facet[i]] : NULL);
     }
 }
 
@@ -306,12 +306,12 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
             job.total.hidden += lrcsi_view_reflects(view, f) ? 1 : 0;
         }
         if (count == LRCSI_TILTS) {
-            add_facets(&job, facet, count, records);
+            sum_facets(&job, facet, count, records);
             count = 0;
         }
     }
     if (count > 0) {
-        add_facets(&job, facet, count, records);
+        sum_facets(&job, facet, count, records);
     }
     total_finish(&job);
     return job.total;

@@ -56,7 +56,7 @@ size_t lrcs_fit_need(uint32_t count)
 
 static int reading_is_good(const lrcs_fit_reading *reading, const lrcs_fit_options *options)
 {
-    int given = options->noise == LRCS_FIT_GIVEN;
+    int given = options->noise == LRCS_FIT_GIVEN || options->noise == LRCS_FIT_WEIGHTED;
     return fabs(reading->angle_deg) < 90.0 && isfinite(reading->value) &&
            isfinite(options->unit * reading->value) &&
            (!given || (reading->sigma > 0.0 && isfinite(reading->sigma)));
@@ -67,7 +67,7 @@ static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
 {
     *largest = 0.0;
     if (!(options->unit > 0.0 && isfinite(options->unit)) || options->noise < LRCS_FIT_ABSOLUTE ||
-        options->noise > LRCS_FIT_GIVEN) {
+        options->noise > LRCS_FIT_WEIGHTED) {
         return LRCS_E_ARGUMENT;
     }
     double most = 0.0;
@@ -112,6 +112,19 @@ static void data_limits(lrcsi_fit_data *data)
     memcpy(data->most, most, sizeof most);
 }
 
+/* 1 / (the error expected of a reading) at first sight. */
+static double error_inverse(const lrcs_fit_reading *reading, int noise, double y, double scale)
+{
+    switch (noise) {
+    case LRCS_FIT_ABSOLUTE:
+        return 1.0;
+    case LRCS_FIT_RELATIVE:
+        return 1.0 / lrcsi_most(fabs(y), FIT_FIRST_SHARE);
+    default:
+        return scale / reading->sigma;
+    }
+}
+
 /* Readings by the power of two below the largest: exact, and no square overflows. */
 static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *options,
                       double scale, lrcsi_fit_data *data)
@@ -124,10 +137,7 @@ static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *o
         data->log_w[i] = log1p(data->u[i]);
         data->factor[i] = options->cosine ? cosine : 1.0;
         data->y[i] = reading[i].value / scale;
-        data->inverse[i] = options->noise == LRCS_FIT_GIVEN ? scale / reading[i].sigma
-                           : options->noise == LRCS_FIT_RELATIVE
-                               ? 1.0 / lrcsi_most(fabs(data->y[i]), FIT_FIRST_SHARE)
-                               : 1.0;
+        data->inverse[i] = error_inverse(&reading[i], options->noise, data->y[i], scale);
     }
     data_limits(data);
 }
@@ -259,13 +269,14 @@ static void fit_make(fit_job *job)
         parts_choose(job);
         errors_estimate(job);
         int known = job->noise == LRCS_FIT_GIVEN && job->error < 1.0;
-        job->spread = lrcsi_fit_spread_make(&job->data, &job->best, known ? 1.0 : job->error);
+        unsigned gone = (job->absent[0] ? 1u << LRCS_FIT_A | 1u << LRCS_FIT_S : 0u) |
+                        (job->absent[1] ? 1u << LRCS_FIT_B | 1u << LRCS_FIT_M : 0u);
+        job->spread = lrcsi_fit_spread_make(&job->data, gone, &job->best, known ? 1.0 : job->error);
         done = lrcsi_fit_profile(&job->data, &job->spread, job->rise, &job->best, &job->whole,
                                  job->limit);
     }
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         if (job->absent[p % 2]) {
-            job->spread.error[p] = HUGE_VAL;
             job->limit[p][0] = p < LRCS_FIT_S ? 0.0 : -HUGE_VAL;
             job->limit[p][1] = p < LRCS_FIT_S ? job->limit[p][1] : HUGE_VAL;
         }
@@ -378,27 +389,27 @@ int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit
 
 const char *lrcs_fit_verdict_text(int parameter, int verdict)
 {
-    int glint = parameter == LRCS_FIT_A || parameter == LRCS_FIT_S;
-    switch (verdict) {
-    case LRCS_FIT_DETERMINED:
-        return "determined";
-    case LRCS_FIT_ABSENT:
-        return glint ? "may be 0: no glint is needed to explain the readings"
-                     : "may be 0: no diffuse part is needed to explain the readings";
-    case LRCS_FIT_MOOT:
-        return glint ? "not determined: there may be no glint"
-                     : "not determined: there may be no diffuse part";
-    case LRCS_FIT_AT_MOST:
-        return glint
-                   ? "not determined but for an upper limit: too few readings on the glint's flank"
-                   : "not determined but for an upper limit";
-    case LRCS_FIT_AT_LEAST:
-        return glint ? "not determined but for a lower limit: the readings begin beyond the glint"
-                     : "not determined but for a lower limit: the readings end too early";
-    case LRCS_FIT_FREE:
-        return glint ? "not determined: a glint narrower than the readings reach would not show"
-                     : "not determined: the readings do not limit it";
-    default:
-        return "unknown verdict";
-    }
+    static const char *const text[][LRCS_FIT_PARAMETERS] = {
+        [LRCS_FIT_DETERMINED] = {"determined", "determined", "determined", "determined"},
+        [LRCS_FIT_ABSENT] = {"may be 0: no glint is needed to explain the readings",
+                             "may be 0: no diffuse part is needed to explain the readings"},
+        [LRCS_FIT_MOOT] = {[LRCS_FIT_S] = "not determined: there may be no glint",
+                           [LRCS_FIT_M] = "not determined: there may be no diffuse part"},
+        [LRCS_FIT_AT_MOST] = {[LRCS_FIT_S] = "not determined, only limited above: the glint may be "
+                                             "narrower, too few readings are on its flank"},
+        [LRCS_FIT_AT_LEAST] = {"not determined, only limited below: the readings begin on the "
+                               "glint's flank",
+                               "not determined, only limited below: the readings begin too far "
+                               "from the normal",
+                               "not determined, only limited below: so wide a glint looks diffuse",
+                               "not determined, only limited below: the diffuse part may be as "
+                               "narrow as a glint"},
+        [LRCS_FIT_FREE] = {"not determined: a glint narrower than the readings reach would not "
+                           "show",
+                           "not determined: the readings begin too far from the normal",
+                           "not determined: the readings do not limit it",
+                           "not determined: the readings do not limit it"}};
+    int known = parameter >= 0 && parameter < LRCS_FIT_PARAMETERS && verdict >= 0 &&
+                verdict <= LRCS_FIT_FREE;
+    return known && text[verdict][parameter] ? text[verdict][parameter] : "unknown verdict";
 }

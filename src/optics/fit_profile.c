@@ -45,8 +45,8 @@ static void matrix_invert(double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS],
     }
 }
 
-lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, const lrcsi_fit_spot *best,
-                                       double noise)
+lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixed,
+                                       const lrcsi_fit_spot *best, double noise)
 {
     double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, best->at[LRCS_FIT_A], best->at[LRCS_FIT_B]};
     double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
@@ -57,7 +57,7 @@ lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, const lrcsi_f
     lrcsi_fit_spread spread;
     lrcsi_fit_settle(data, 3u, &spot, &normal);
     for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
-        length[j] = scale[j] * sqrt(normal.gram[j][j]);
+        length[j] = fixed & (1u << j) ? 0.0 : scale[j] * sqrt(normal.gram[j][j]);
     }
     for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
         for (int k = 0; k < LRCS_FIT_PARAMETERS; k++) {
@@ -176,7 +176,7 @@ static double walk_limit(profile_walk *walk, double stride, int direction)
     double in = walk->best->at[p];
     double f_in = 0.0;
     walk->last = *walk->best;
-    for (int i = 0; i < PROFILE_STRIDES && in != end; i++, stride *= 2.0) {
+    for (int i = 0; i < PROFILE_STRIDES && direction * (end - in) > 0.0; i++, stride *= 2.0) {
         lrcsi_fit_spot spot;
         double x = in + direction * stride;
         x = direction < 0 ? lrcsi_most(x, end) : lrcsi_least(x, end);

@@ -7,13 +7,14 @@
 
 /* The standard errors of a fit in its coordinates and their correlations, from the matrix of its
    columns; HUGE_VAL and 0 for a coordinate that does not enter, or only as others do.
-   Given: noise, the standard deviation of a weighted residual. */
+   Given: fixed, the coordinates (bits 1 << index) that are not the fit's; noise, the standard
+   deviation of a weighted residual. */
 typedef struct lrcsi_fit_spread {
     double error[LRCS_FIT_PARAMETERS];
     double correlation[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
 } lrcsi_fit_spread;
-lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, const lrcsi_fit_spot *best,
-                                       double noise);
+lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixed,
+                                       const lrcsi_fit_spot *best, double noise);
 
 /* The coordinates at which the sum of squares, least over the others, exceeds that at `best` by
    `rise`.

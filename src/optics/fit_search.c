@@ -5,15 +5,17 @@
 #include "optics/fit_search.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/range.h"
 
-#define SEARCH_SLOPES 28
-#define SEARCH_FALLS  12
+#define SEARCH_SLOPES 24
+#define SEARCH_FALLS  10
 
-/* Weighted least squares, the weights the inverse of the residuals before: six passes are near
+/* Weighted least squares, the weights the inverse of the residuals before: five passes are near
    enough to the least absolute sum for a start. */
-#define SEARCH_PASSES 6
+#define SEARCH_PASSES 5
+#define SEARCH_FLOOR  0.01
 
 static lrcsi_fit_spot node_spot(const lrcsi_fit_data *data, int slope, int fall)
 {
@@ -28,35 +30,44 @@ static lrcsi_fit_spot node_spot(const lrcsi_fit_data *data, int slope, int fall)
     return spot;
 }
 
-/* The sum of absolute residuals at a spot, their weights for the next pass. */
-static double node_weigh(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot, double floor)
+/* The sum of absolute residuals, from weighted ones in rest[]. */
+static double node_sum(const lrcsi_fit_data *data)
 {
     double sum = 0.0;
-    lrcsi_fit_rests(data, spot);
     for (uint32_t i = 0; i < data->count; i++) {
-        double off = fabs(data->rest[i]) * data->inverse[i];
-        sum += off;
-        data->weight[i] = data->inverse[i] / sqrt(lrcsi_most(off, floor));
+        sum += fabs(data->rest[i]) * (data->inverse[i] / data->weight[i]);
     }
     return sum;
 }
 
-static double node_sum(const lrcsi_fit_data *data, lrcsi_fit_spot *spot)
+/* Weighs readings and columns by the inverse of the residuals, which are taken for no less than
+   a share of their mean. */
+static void node_weigh(const lrcsi_fit_data *data, double mean)
 {
-    const unsigned shape = 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
-    lrcsi_fit_normal normal;
-    double floor = 1.0;
-    double sum = 0.0;
+    double floor = lrcsi_most(SEARCH_FLOOR * mean, 0x1p-500);
     for (uint32_t i = 0; i < data->count; i++) {
-        data->weight[i] = data->inverse[i];
+        double off = fabs(data->rest[i]) * (data->inverse[i] / data->weight[i]);
+        double weight = data->inverse[i] / sqrt(lrcsi_most(off, floor));
+        data->column[LRCS_FIT_A][i] *= weight / data->weight[i];
+        data->column[LRCS_FIT_B][i] *= weight / data->weight[i];
+        data->weight[i] = weight;
     }
-    for (int pass = 0; pass < SEARCH_PASSES; pass++) {
-        lrcsi_fit_settle(data, shape, spot, &normal);
-        sum = node_weigh(data, spot, floor);
-        if (pass == 0 || sum / data->count < 100.0 * floor) {
-            floor = lrcsi_most(0.01 * sum / data->count, 0x1p-500);
-            node_weigh(data, spot, floor);
-        }
+}
+
+/* The least sum of absolute residuals for the s and m of a node. */
+static double node_least(const lrcsi_fit_data *data, const lrcsi_fit_spot *node)
+{
+    const unsigned shapes = 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
+    lrcsi_fit_spot spot = *node;
+    lrcsi_fit_normal normal;
+    memcpy(data->weight, data->inverse, data->count * sizeof *data->weight);
+    lrcsi_fit_columns(data, &spot);
+    lrcsi_fit_amplitudes(data, shapes, &spot, &normal);
+    double sum = node_sum(data);
+    for (int pass = 1; pass < SEARCH_PASSES; pass++) {
+        node_weigh(data, sum / data->count);
+        lrcsi_fit_amplitudes(data, shapes, &spot, &normal);
+        sum = node_sum(data);
     }
     return sum;
 }
@@ -102,7 +113,7 @@ uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_spot start[LRCSI
     for (int i = 0; i < SEARCH_SLOPES; i++) {
         for (int k = 0; k < SEARCH_FALLS; k++) {
             lrcsi_fit_spot spot = node_spot(data, i, k);
-            sum[i][k] = node_sum(data, &spot);
+            sum[i][k] = node_least(data, &spot);
         }
     }
     for (int i = 0; i < SEARCH_SLOPES; i++) {

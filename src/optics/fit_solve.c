@@ -61,11 +61,12 @@ void lrcsi_fit_rests(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot)
     }
 }
 
-static void gram_fill(const lrcsi_fit_data *data, lrcsi_fit_normal *normal)
+/* The sums of the first `order` columns. */
+static void gram_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_normal *normal)
 {
     memset(normal, 0, sizeof *normal);
     for (uint32_t i = 0; i < data->count; i++) {
-        for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
+        for (int j = 0; j < order; j++) {
             for (int k = 0; k <= j; k++) {
                 normal->gram[j][k] += data->column[j][i] * data->column[k][i];
             }
@@ -79,7 +80,8 @@ static void gram_fill(const lrcsi_fit_data *data, lrcsi_fit_normal *normal)
 }
 
 /* The slopes and the sum of squares, from residuals that do not cancel. */
-static void slope_fill(const lrcsi_fit_data *data, lrcsi_fit_spot *spot, lrcsi_fit_normal *normal)
+static void slope_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_spot *spot,
+                       lrcsi_fit_normal *normal)
 {
     double sum[LRCS_FIT_PARAMETERS] = {0.0};
     spot->square = 0.0;
@@ -87,8 +89,9 @@ static void slope_fill(const lrcsi_fit_data *data, lrcsi_fit_spot *spot, lrcsi_f
         double rest = data->weight[i] * data->y[i] -
                       spot->at[LRCS_FIT_A] * data->column[LRCS_FIT_A][i] -
                       spot->at[LRCS_FIT_B] * data->column[LRCS_FIT_B][i];
+        data->rest[i] = rest;
         spot->square += rest * rest;
-        for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
+        for (int j = 0; j < order; j++) {
             sum[j] += data->column[j][i] * rest;
         }
     }
@@ -134,25 +137,32 @@ static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
     return alone[0] > alone[1] ? 1u : 2u;
 }
 
-void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
-                      lrcsi_fit_normal *normal)
+void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
+                          lrcsi_fit_normal *normal)
 {
     unsigned free = 3u & ~fixed;
+    int order = fixed >> LRCS_FIT_S == 3u ? 2 : LRCS_FIT_PARAMETERS;
     double step[2];
-    lrcsi_fit_columns(data, spot);
-    gram_fill(data, normal);
+    gram_fill(data, order, normal);
     for (int k = 0; k < 2; k++) {
         spot->at[k] = free & (1u << k) ? 0.0 : spot->at[k];
     }
-    slope_fill(data, spot, normal);
+    slope_fill(data, order, spot, normal);
     unsigned active = amplitude_active(normal, free);
     for (int pass = 0; pass < 2 && active; pass++) { /* the second takes away rounding */
         amplitude_step(normal, active, step);
         for (int k = 0; k < 2; k++) {
             spot->at[k] = lrcsi_most(0.0, spot->at[k] + step[k]);
         }
-        slope_fill(data, spot, normal);
+        slope_fill(data, order, spot, normal);
     }
+}
+
+void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
+                      lrcsi_fit_normal *normal)
+{
+    lrcsi_fit_columns(data, spot);
+    lrcsi_fit_amplitudes(data, fixed, spot, normal);
 }
 
 /* ---- s and m ---- */

@@ -22,7 +22,7 @@ typedef struct lrcsi_fit_data {
     double *weight;  /* that, or less; 0 leaves the reading out */
     double *column[LRCS_FIT_PARAMETERS]; /* weighted derivatives by A, B, and by log(s) and
                                             log(1 + m) for A = 1 and B = 1 */
-    double *rest;                        /* y - f, not weighted */
+    double *rest;                        /* y - f, weighted by whoever fills it or not */
     double *spare;
 } lrcsi_fit_data;
 
@@ -32,14 +32,19 @@ typedef struct lrcsi_fit_normal {
     double slope[LRCS_FIT_PARAMETERS];                     /* columns by weighted residuals */
 } lrcsi_fit_normal;
 
-/* Fills the columns at a spot's s and m. */
+/* Fills the columns at a spot's s and m, weighted. */
 void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot);
 
-/* Fills rest[] at a spot, all of it. */
+/* Fills rest[] at a spot, all of it, not weighted. */
 void lrcsi_fit_rests(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot);
 
-/* The best A and B >= 0 at the spot's s and m, but for those in `fixed` (bits 1 << index), which
-   stay; the sum of squares, the columns and the sums there. */
+/* The best A and B >= 0 for the columns as they are, but for those in `fixed` (bits 1 << index),
+   which stay; the sum of squares and the sums there (of A and B alone where s and m are fixed), and
+   in rest[] the weighted residuals. */
+void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
+                          lrcsi_fit_normal *normal);
+
+/* The same at the spot's s and m, whose columns are filled first. */
 void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
                       lrcsi_fit_normal *normal);
 

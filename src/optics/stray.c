@@ -72,7 +72,7 @@ static double times(double a, double b)
     return a > 0.0 && b > 0.0 ? a * b : 0.0;
 }
 
-static tan2_point point_at(double u)
+static tan2_point tan2_at(double u)
 {
     return (tan2_point){u, 0.0, 0.0, 0};
 }
@@ -96,7 +96,7 @@ static tan2_point *range_nearest(tan2_range *range, double u, tan2_point *inside
     if (!(u < range->high.u)) {
         return &range->high;
     }
-    *inside = point_at(u);
+    *inside = tan2_at(u);
     return inside;
 }
 
@@ -210,8 +210,8 @@ static int range_around(double theta, double turn, tan2_range *range)
     }
     double near = low > 0.0 ? tan(low) : 0.0;
     double far = high < HALF_PI_BELOW ? tan(high) : HUGE_VAL;
-    range->low = point_at(near * near * (1.0 - 8.0 * STRAY_UNIT));
-    range->high = point_at(far * far * (1.0 + 8.0 * STRAY_UNIT));
+    range->low = tan2_at(near * near * (1.0 - 8.0 * STRAY_UNIT));
+    range->high = tan2_at(far * far * (1.0 + 8.0 * STRAY_UNIT));
     return 1;
 }
 
@@ -248,7 +248,7 @@ lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan
     if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, curvature->turn, &range)) {
         return (lrcsi_stray){0.0, 0.0, 0.0, 0.0, 0.0};
     }
-    tan2_point here = point_at(tan2);
+    tan2_point here = tan2_at(tan2);
     stray_size all = {0.0, 0.0, 0.0, 0.0, 0.0};
     if (brdf->A > 0.0) {
         stray_size part = glint_size(brdf->s, front, &here, &range);

@@ -194,8 +194,19 @@ static int prepare_made(lrcs_prepared *p, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Contacts, and with them whether the scene is solid. The pieces stay, beneath the contacts. */
-static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
+/* How many pieces of surface the live facets make (scene/solid.h). */
+static uint32_t count_pieces(const lrcs_prepared *p, const uint32_t *piece)
+{
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        count += !p->skip[f] && piece[f] == f;
+    }
+    return count;
+}
+
+/* Contacts, and with them whether the scene is solid. Returned also: whether it is all one piece of
+   surface, as a convex body is. The pieces stay, beneath the contacts. */
+static int prepare_contacts(lrcs_prepared *p, lrcs_work *work, int *lone)
 {
     uint32_t *piece = lrcsi_work_take(work, p->scene->facet_count, sizeof *piece);
     if (!piece) {
@@ -207,6 +218,7 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
     if (status == LRCS_OK && closed && !p->touches.self) {
         status = lrcsi_solid_outward(p, piece, work, &p->solid);
     }
+    *lone = closed && count_pieces(p, piece) == 1;
     return status;
 }
 
@@ -218,8 +230,9 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     p->graze = 0;
     p->solid = 0;
     p->convex = p->live == 0;
-    int status = prepare_contacts(p, work);
-    if (status == LRCS_OK && p->solid && p->live > 0) {
+    int lone = 0;
+    int status = prepare_contacts(p, work, &lone);
+    if (status == LRCS_OK && p->solid && lone) {
         status = lrcsi_convex_exact(p, work, &p->convex);
     }
     if (status == LRCS_OK && p->curved && !p->convex) {

@@ -9,7 +9,8 @@
 #include "base/work.h"
 #include "visibility/sample.h"
 
-#define U 0x1p-53
+#define U         0x1p-53
+#define UNDERFLOW 0x1p-1000
 
 /* --- crossings -------------------------------------------------------------------------------- */
 
@@ -20,12 +21,14 @@ typedef struct contest_ask {
     int facing;
     const uint32_t *corner;
     double low[2], high[2];
+    double far; /* no point of it is farther from the laser: z */
 } contest_ask;
 
 static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
 {
-    contest_ask ask = {
-        facet, view->facing[facet], view->prepared->scene->facet[facet].corner, {0, 0}, {0, 0}};
+    contest_ask ask = {.facet = facet,
+                       .facing = view->facing[facet],
+                       .corner = view->prepared->scene->facet[facet].corner};
     /* of floats below 2 radii in magnitude: 2^-23 radii */
     double wide = 2 * view->off + 0x1p-23 * view->prepared->radius;
     lrcsi_grid_box(view, ask.corner, 3, ask.low, ask.high);
@@ -33,12 +36,17 @@ static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
         ask.low[k] -= wide;
         ask.high[k] += wide;
     }
+    ask.far =
+        lrcsi_least(view->point[ask.corner[0]].x[2],
+                    lrcsi_least(view->point[ask.corner[1]].x[2], view->point[ask.corner[2]].x[2])) -
+        wide;
     return ask;
 }
 
 /* Which way vertices a, b, c turn: from view coordinates where their error allows, else exactly.
-   Differences are off by 2.2 of the view's errors, e, rounding included, and their products by
-   e (|p| + |q| + 2 e) and a rounding that is less: 4 e leaves room. */
+   With e for that error: differences are off by 2.2 e, rounding included (e is 32 u of the reach),
+   and so p x q by 2.2 e (|p| + |q| + 4.4 e) in the 1-norm, and by 3 u of its products, which are
+   below 4 reaches times |p|: another 0.4 e |p|. */
 static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
 {
     if (c == a || c == b) {
@@ -82,8 +90,9 @@ static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint3
     return left && right;
 }
 
-/* Is the vertex nearer the laser than the facet's plane? From the normal where its error allows
-   (see facing_of in view/view.c; differences are below 4 in norm), else exactly. */
+/* Is the vertex nearer the laser than the facet's plane? From the normal, else exactly. Taking its
+   high part, a difference, a product and two sums cost 5 u of the terms; the normal's own error
+   counts with the difference, below 4 in norm; and UNDERFLOW is more than products can lose. */
 static int vertex_nearer(const lrcsi_view *view, const contest_ask *ask, uint32_t vertex)
 {
     const lrcsi_normal *n = &view->prepared->normal[ask->facet];
@@ -100,7 +109,7 @@ static int vertex_nearer(const lrcsi_view *view, const contest_ask *ask, uint32_
         dot += term;
         size += fabs(term);
     }
-    if (fabs(dot) > 8 * U * size + 8 * n->error) {
+    if (fabs(dot) > 8 * U * size + 8 * n->error + UNDERFLOW) {
         return (dot > 0) == (ask->facing > 0);
     }
     return ask->facing * lrcsi_exact_side(a, v[ask->corner[1]].x, v[ask->corner[2]].x, x) > 0;
@@ -118,11 +127,13 @@ static int edge_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t
            segment_crosses(view, ask, e->low, e->high, along);
 }
 
-/* The boxes of the event and of the facet lie apart beyond the view's error. */
+/* The boxes of the event and of the facet lie apart beyond the view's error, in the view or in
+   depth: an edge that is farther than all of the facet is not nearer where it passes over it. */
 static int boxes_apart(const lrcsi_contest_edge *event, const contest_ask *ask)
 {
-    return (double)event->low[0] > ask->high[0] || (double)event->high[0] < ask->low[0] ||
-           (double)event->low[1] > ask->high[1] || (double)event->high[1] < ask->low[1];
+    return (double)event->near < ask->far || (double)event->low[0] > ask->high[0] ||
+           (double)event->high[0] < ask->low[0] || (double)event->low[1] > ask->high[1] ||
+           (double)event->high[1] < ask->low[1];
 }
 
 /* At most `most` of them, so that one who only wants to know whether there are any can stop. */
@@ -130,7 +141,7 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
 {
     const lrcsi_grid *grid = &contest->grid;
     contest_ask ask = contest_ask_of(contest->view, facet);
-    lrcsi_cells cells = lrcsi_grid_cells(grid, ask.low, ask.high);
+    lrcsi_cells cells = contest->cells[facet];
     uint32_t count = 0;
     contest->asked++;
     contest->along = 0;
@@ -177,9 +188,8 @@ static int touch_contests(const lrcsi_view *view, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Events where they lie, and their grid: of a cell or so for every facet that casts, so that most
-   facets meet no event's cell and need no further look. */
-static int contest_events(lrcsi_contest *c, uint32_t casting, lrcs_work *work)
+/* Events where they lie, and their grid. */
+static int contest_events(lrcsi_contest *c, lrcs_work *work)
 {
     const lrcsi_view *view = c->view;
     uint32_t count = c->events.count;
@@ -195,22 +205,31 @@ static int contest_events(lrcsi_contest *c, uint32_t casting, lrcs_work *work)
         double high[2];
         lrcsi_grid_box(view, (const uint32_t[2]){edge->low, edge->high}, 2, low, high);
         *event = (lrcsi_contest_edge){
-            {(float)low[0], (float)low[1]}, {(float)high[0], (float)high[1]}, c->events.edge[i], 0};
+            {(float)low[0], (float)low[1]},
+            {(float)high[0], (float)high[1]},
+            (float)lrcsi_most(view->point[edge->low].x[2], view->point[edge->high].x[2]),
+            c->events.edge[i],
+            0};
     }
-    return lrcsi_grid_edges(view, c->events.edge, count, casting, work, &c->grid);
+    return lrcsi_grid_edges(view, c->events.edge, count, c->grid.size, work, &c->grid);
 }
 
-/* Which way the facets face that can hide something, and how many they are. */
-static uint32_t contest_cast(const lrcsi_view *view, signed char *cast)
+/* Which way the facets face that can hide something, and which cells they touch. */
+static void contest_cast(lrcsi_contest *c)
 {
+    const lrcsi_view *view = c->view;
     uint32_t count = view->prepared->scene->facet_count;
-    uint32_t casting = 0;
     for (uint32_t f = 0; f < count; f++) {
-        cast[f] = lrcsi_grid_casts(view, f) ? view->facing[f] : 0;
-        casting += cast[f] != 0;
+        c->kin[f] = 0;
+        if (lrcsi_grid_casts(view, f)) {
+            double low[2];
+            double high[2];
+            lrcsi_grid_box(view, view->prepared->scene->facet[f].corner, 3, low, high);
+            c->cells[f] = lrcsi_grid_cells(&c->grid, low, high);
+            c->kin[f] = view->facing[f];
+        }
     }
-    cast[count] = 0;
-    return casting;
+    c->kin[count] = 0;
 }
 
 /* Which facets are contested, and which of the others are alone in their region. */
@@ -219,7 +238,9 @@ static void contest_decide(lrcsi_contest *c)
     const lrcs_prepared *p = c->view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         if (c->kin[f] != 0) {
-            c->contested[f] = touch_contests(c->view, f) || contest_find(c, f, 1) > 0;
+            c->along = 0;
+            c->contested[f] = touch_contests(c->view, f) ||
+                              (lrcsi_grid_any(&c->grid, c->cells[f]) && contest_find(c, f, 1) > 0);
             c->contested_count += c->contested[f];
             if (c->contested[f] || c->along || p->touches.rim[f]) {
                 c->kin[f] = 0;
@@ -239,26 +260,31 @@ size_t lrcsi_contest_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(2 * facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells)));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_contest_edge)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, 8 * edges + 8192));
 }
 
+/* Grids have a cell or so for every facet that faces either way: then most facets meet no event's
+   cell, and need no further look. */
 int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *contest)
 {
     size_t mark = work->used;
     uint32_t count = view->prepared->scene->facet_count;
     lrcsi_contest c = {.view = view};
+    c.grid = lrcsi_grid_empty(view, lrcsi_grid_size(view->front + view->back));
     c.contested = lrcsi_work_take_zero(work, count, 1);
     c.kin = lrcsi_work_take(work, (size_t)count + 1, 1);
     c.sheet = lrcsi_work_take(work, count, sizeof *c.sheet);
     c.region = lrcsi_work_take(work, count, sizeof *c.region);
+    c.cells = lrcsi_work_take(work, count, sizeof *c.cells);
     int status = LRCS_E_MEMORY;
-    if (c.contested && c.kin && c.sheet && c.region) {
-        uint32_t casting = contest_cast(view, c.kin);
+    if (c.contested && c.kin && c.sheet && c.region && c.cells) {
+        contest_cast(&c);
         status = lrcsi_events_make(view, c.kin, work, &c.events);
-        status = status == LRCS_OK ? contest_events(&c, casting, work) : status;
+        status = status == LRCS_OK ? contest_events(&c, work) : status;
     }
     if (status != LRCS_OK) {
         work->used = mark;

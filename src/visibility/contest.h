@@ -15,8 +15,9 @@
    (2). They form regions, of which one sample tells all.
 
    Edges that are no event edges join facets into sheets, which end at event edges only. A sheet in
-   front of one point of facet i, none of whose edges crosses i and none of whose facets touches its
-   inside, is in front of all of it: then i is hidden, however contested (visibility/query.h). */
+   front of one point of facet i, none of whose edges crosses i nearer than it and none of whose
+   facets touches its inside, is in front of all of it: then i is hidden, however contested
+   (visibility/query.h). */
 #ifndef LRCSI_CONTEST_H
 #define LRCSI_CONTEST_H
 
@@ -27,6 +28,7 @@
    matters), and who asked about it last. */
 typedef struct lrcsi_contest_edge {
     float low[2], high[2];
+    float near; /* the z of its nearer end */
     uint32_t edge;
     uint32_t asked;
 } lrcsi_contest_edge;
@@ -36,6 +38,7 @@ typedef struct lrcsi_contest {
     lrcsi_events events;
     lrcsi_contest_edge *event; /* one for each */
     lrcsi_grid grid;           /* of events */
+    lrcsi_cells *cells;        /* facet -> the cells of the grid that it touches, if it casts */
     uint32_t asked;            /* scratch: searches so far */
     int along;                 /* scratch: the last search met an event along a side of the facet */
     uint32_t *crossing;        /* scratch: what lrcsi_contest_crossings found */

@@ -10,6 +10,13 @@
 
 /* Cells along a side at most. */
 #define MOST_CELLS 2048
+/* Wanted cells, a bit each. */
+#define WANT_BITS 32u
+
+uint32_t lrcsi_grid_size(uint32_t cells)
+{
+    return (uint32_t)lrcsi_least(MOST_CELLS, lrcsi_most(1, sqrt((double)cells)));
+}
 
 size_t lrcsi_grid_need(size_t cells, size_t entries)
 {
@@ -22,18 +29,28 @@ size_t lrcsi_grid_need(size_t cells, size_t entries)
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
-    return lrcsi_grid_need(facets, 16 * facets + 65536);
+    size_t side = lrcsi_grid_size((uint32_t)facets);
+    size_t words = (side + WANT_BITS - 1) / WANT_BITS;
+    return lrcsi_work_add(lrcsi_work_bytes(words * side, sizeof(uint32_t)),
+                          lrcsi_grid_need(facets, 16 * facets + 65536));
 }
 
-static int grid_start(const lrcsi_view *view, uint32_t cells, lrcs_work *work, lrcsi_grid *grid)
+lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t size)
 {
-    double size = lrcsi_least(MOST_CELLS, lrcsi_most(1, sqrt((double)cells)));
-    grid->view = view;
-    grid->size = (uint32_t)size;
-    grid->last = grid->size - 1.0;
-    grid->scale = view->side > 0 ? grid->size / view->side : 0;
-    grid->first =
-        lrcsi_work_take_zero(work, (size_t)grid->size * grid->size + 1, sizeof *grid->first);
+    return (lrcsi_grid){.view = view,
+                        .size = size,
+                        .scale = view->side > 0 ? size / view->side : 0,
+                        .last = size - 1.0};
+}
+
+static size_t grid_count(const lrcsi_grid *grid)
+{
+    return (size_t)grid->size * grid->size;
+}
+
+static int grid_start(lrcsi_grid *grid, lrcs_work *work)
+{
+    grid->first = lrcsi_work_take_zero(work, grid_count(grid) + 1, sizeof *grid->first);
     return grid->first ? LRCS_OK : LRCS_E_MEMORY;
 }
 
@@ -41,7 +58,7 @@ static int grid_start(const lrcsi_view *view, uint32_t cells, lrcs_work *work, l
    them. Filling then moves first[c] .. up; grid_finish moves them back. */
 static int grid_room(lrcs_work *work, lrcsi_grid *grid)
 {
-    size_t cells = (size_t)grid->size * grid->size;
+    size_t cells = grid_count(grid);
     uint64_t total = 0;
     for (size_t c = 0; c <= cells; c++) {
         total += grid->first[c];
@@ -56,7 +73,7 @@ static int grid_room(lrcs_work *work, lrcsi_grid *grid)
 
 static void grid_finish(lrcsi_grid *grid)
 {
-    for (size_t c = (size_t)grid->size * grid->size; c > 0; c--) {
+    for (size_t c = grid_count(grid); c > 0; c--) {
         grid->first[c] = grid->first[c - 1];
     }
     grid->first[0] = 0;
@@ -65,12 +82,12 @@ static void grid_finish(lrcsi_grid *grid)
 /* Counts (item NULL) or files an item in a row of cells. */
 static void grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1, uint32_t item)
 {
+    uint32_t *first = grid->first + (size_t)y * grid->size;
     for (uint32_t x = x0; x < x1; x++) {
-        size_t cell = (size_t)y * grid->size + x;
         if (grid->item) {
-            grid->item[grid->first[cell]++] = item;
+            grid->item[first[x]++] = item;
         } else {
-            grid->first[cell + 1]++;
+            first[x + 1]++;
         }
     }
 }
@@ -119,11 +136,11 @@ static void grid_put_edge(lrcsi_grid *grid, const lrcsi_edge *edge, uint32_t ite
     }
 }
 
-int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, uint32_t cells,
+int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, uint32_t size,
                      lrcs_work *work, lrcsi_grid *grid)
 {
-    lrcsi_grid g = {.view = view};
-    int status = grid_start(view, cells, work, &g);
+    lrcsi_grid g = lrcsi_grid_empty(view, size);
+    int status = grid_start(&g, work);
     for (int pass = 0; pass < 2 && status == LRCS_OK; pass++) {
         for (uint32_t i = 0; i < count; i++) {
             grid_put_edge(&g, &view->prepared->topology.edge[edge[i]], i);
@@ -139,35 +156,105 @@ int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t coun
     return status;
 }
 
-static void grid_put_facet(lrcsi_grid *grid, uint32_t facet)
+/* --- facets ----------------------------------------------------------------------------------- */
+
+/* The cells that are wanted, a bit each, rows beginning with a word; bit NULL: all. Facets that
+   meet none of them are left out. */
+typedef struct grid_want {
+    uint32_t *bit;
+    size_t words; /* of a row */
+} grid_want;
+
+/* The bits of one word of a row for cells x0 .. x1 - 1. */
+static uint32_t want_bits(uint32_t word, uint32_t x0, uint32_t x1)
 {
-    double low[2];
-    double high[2];
-    lrcsi_grid_box(grid->view, grid->view->prepared->scene->facet[facet].corner, 3, low, high);
-    lrcsi_cells cells = lrcsi_grid_cells(grid, low, high);
+    uint32_t bits = ~(uint32_t)0;
+    if (word == x0 / WANT_BITS) {
+        bits &= ~(uint32_t)0 << x0 % WANT_BITS;
+    }
+    if (word == (x1 - 1) / WANT_BITS) {
+        bits &= ~(uint32_t)0 >> (WANT_BITS - 1 - (x1 - 1) % WANT_BITS);
+    }
+    return bits;
+}
+
+static void want_facet(const grid_want *want, lrcsi_cells cells)
+{
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        uint32_t last = (cells.x1 - 1u) / WANT_BITS;
+        for (uint32_t word = cells.x0 / WANT_BITS; word <= last; word++) {
+            want->bit[y * want->words + word] |= want_bits(word, cells.x0, cells.x1);
+        }
+    }
+}
+
+/* Is some of the cells wanted? */
+static int want_meets(grid_want want, lrcsi_cells cells)
+{
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        uint32_t last = (cells.x1 - 1u) / WANT_BITS;
+        for (uint32_t word = cells.x0 / WANT_BITS; word <= last; word++) {
+            if ((want.bit[y * want.words + word] & want_bits(word, cells.x0, cells.x1)) != 0) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+static void grid_put_facet(lrcsi_grid *grid, uint32_t facet, lrcsi_cells cells)
+{
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         grid_put(grid, y, cells.x0, cells.x1, facet);
     }
 }
 
-int lrcsi_grid_facets(const lrcsi_view *view, lrcs_work *work, lrcsi_grid *grid)
+static int grid_fill_facets(lrcsi_grid *grid, const lrcsi_cells *cells, grid_want want,
+                            lrcs_work *work)
 {
-    uint32_t count = view->prepared->scene->facet_count;
-    lrcsi_grid g = {.view = view};
-    int status = grid_start(view, view->front + view->back, work, &g);
+    int status = grid_start(grid, work);
     for (int pass = 0; pass < 2 && status == LRCS_OK; pass++) {
-        for (uint32_t f = 0; f < count; f++) {
-            if (lrcsi_grid_casts(view, f)) {
-                grid_put_facet(&g, f);
+        for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count; f++) {
+            if (lrcsi_grid_casts(grid->view, f) && (!want.bit || want_meets(want, cells[f]))) {
+                grid_put_facet(grid, f, cells[f]);
             }
         }
         if (pass == 0) {
-            status = grid_room(work, &g);
+            status = grid_room(work, grid);
         }
     }
-    if (status == LRCS_OK) {
-        grid_finish(&g);
-        *grid = g;
-    }
     return status;
+}
+
+static int want_make(const lrcsi_grid *grid, const lrcsi_cells *cells, const unsigned char *wanted,
+                     lrcs_work *work, grid_want *want)
+{
+    *want = (grid_want){NULL, (grid->size + WANT_BITS - 1) / WANT_BITS};
+    if (!wanted) {
+        return LRCS_OK;
+    }
+    want->bit = lrcsi_work_take_zero(work, want->words * grid->size, sizeof *want->bit);
+    for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count && want->bit; f++) {
+        if (wanted[f] != 0 && lrcsi_grid_casts(grid->view, f)) {
+            want_facet(want, cells[f]);
+        }
+    }
+    return want->bit ? LRCS_OK : LRCS_E_MEMORY;
+}
+
+int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_cells *cells, const unsigned char *wanted,
+                      lrcs_work *work, lrcsi_grid *grid)
+{
+    size_t mark = work->used;
+    lrcsi_grid g = lrcsi_grid_empty(like->view, like->size);
+    grid_want want;
+    int status = want_make(&g, cells, wanted, work, &want);
+    status = status == LRCS_OK ? grid_fill_facets(&g, cells, want, work) : status;
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    grid_finish(&g);
+    *grid = g;
+    return LRCS_OK;
 }

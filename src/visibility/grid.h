@@ -18,14 +18,14 @@ typedef struct lrcsi_grid {
 
 /* A rectangle of cells: x0 <= x < x1, y0 <= y < y1. */
 typedef struct lrcsi_cells {
-    uint32_t x0, x1, y0, y1;
+    uint16_t x0, x1, y0, y1;
 } lrcsi_cells;
 
 /* The cell of a view coordinate, kept within 0 .. size - 1. */
-static inline uint32_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axis)
+static inline uint16_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axis)
 {
     double cell = (x - grid->view->low[axis]) * grid->scale;
-    return (uint32_t)lrcsi_least(grid->last, lrcsi_most(0, cell));
+    return (uint16_t)lrcsi_least(grid->last, lrcsi_most(0, cell));
 }
 
 /* The cells that the box low .. high of view coordinates touches. */
@@ -34,9 +34,21 @@ static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const double 
 {
     double off = 2 * grid->view->off;
     return (lrcsi_cells){.x0 = lrcsi_grid_cell(grid, low[0] - off, 0),
-                         .x1 = lrcsi_grid_cell(grid, high[0] + off, 0) + 1,
+                         .x1 = (uint16_t)(lrcsi_grid_cell(grid, high[0] + off, 0) + 1),
                          .y0 = lrcsi_grid_cell(grid, low[1] - off, 1),
-                         .y1 = lrcsi_grid_cell(grid, high[1] + off, 1) + 1};
+                         .y1 = (uint16_t)(lrcsi_grid_cell(grid, high[1] + off, 1) + 1)};
+}
+
+/* Do the cells list any item? A row's cells lie one behind the other. */
+static inline int lrcsi_grid_any(const lrcsi_grid *grid, lrcsi_cells cells)
+{
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        const uint32_t *row = grid->first + (size_t)y * grid->size;
+        if (row[cells.x0] != row[cells.x1]) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 /* The box of some points of the view. */
@@ -52,9 +64,15 @@ static inline void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex
     }
 }
 
-/* A grid of `cells` cells or so, of edges: item i stands for topology edge `edge[i]`. Cells along
-   the edge only. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
-int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, uint32_t cells,
+/* How many cells a grid has along a side that is to have `cells` of them or so. */
+uint32_t lrcsi_grid_size(uint32_t cells);
+
+/* The window in size x size cells, without lists. */
+lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t size);
+
+/* A grid of edges: item i stands for topology edge `edge[i]`. Cells along the edge only.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
+int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, uint32_t size,
                      lrcs_work *work, lrcsi_grid *grid);
 
 /* Bytes for a grid of so many cells that list so many items together. */
@@ -63,8 +81,11 @@ size_t lrcsi_grid_need(size_t cells, size_t entries);
 /* Bytes for a grid of facets, an upper bound for ordinary scenes. */
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 
-/* A grid of the facets that can hide something, by their boxes. Status as above. */
-int lrcsi_grid_facets(const lrcsi_view *view, lrcs_work *work, lrcsi_grid *grid);
+/* A grid of the facets that can hide something, in as many cells as a grid whose cells[facet] they
+   touch. Cells that no facet touches with wanted[facet] not 0 may list too few; wanted NULL: none
+   does. Status as above. */
+int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_cells *cells, const unsigned char *wanted,
+                      lrcs_work *work, lrcsi_grid *grid);
 
 /* Can the facet hide anything in this view? */
 static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)

@@ -90,7 +90,8 @@ static int margin_events(margin_job *job, lrcs_work *work)
     }
     job->edge = edge;
     list_events(job);
-    return lrcsi_grid_edges(job->view, job->edge, job->count, job->count, work, &job->grid);
+    return lrcsi_grid_edges(job->view, job->edge, job->count, lrcsi_grid_size(job->count), work,
+                            &job->grid);
 }
 
 /* --- one facet and one edge --------------------------------------------------------------------

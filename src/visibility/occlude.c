@@ -374,11 +374,9 @@ int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding 
     if (o->uniform && o->asked && o->candidate && o->stack &&
         lrcsi_clip_make(work, &o->clip) == LRCS_OK &&
         lrcsi_calm_make(contest->view->prepared, work, &o->calm) == LRCS_OK) {
-        status = lrcsi_grid_facets(contest->view, work, &o->facets);
+        status = lrcsi_query_uniform(contest, work, &o->facets, o->uniform);
     }
-    if (status == LRCS_OK) {
-        lrcsi_query_uniform(contest, &o->facets, o->uniform);
-    } else {
+    if (status != LRCS_OK) {
         work->used = mark;
     }
     return status;

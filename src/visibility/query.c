@@ -145,20 +145,48 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
     return line_answer(&line);
 }
 
-/* A region is named by its first facet, which is asked first; where no answer was found there, each
-   of its facets is asked for itself. */
-void lrcsi_query_uniform(const lrcsi_contest *contest, const lrcsi_grid *facets,
-                         unsigned char *answer)
+/* Answers for the uniform facets from the first one of each region. Returns how many regions are
+   undecided by it. */
+static uint32_t query_regions(const lrcsi_contest *contest, const lrcsi_grid *facets,
+                              unsigned char *answer)
 {
-    lrcsi_contest_regions(contest);
+    uint32_t undecided = 0;
     for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count; f++) {
         uint32_t first = contest->region[f];
         answer[f] = LRCSI_QUERY_HIDDEN;
-        if (lrcsi_grid_casts(contest->view, f) && !contest->contested[f]) {
-            int asks = first == f || answer[first] == LRCSI_QUERY_UNDECIDED;
-            answer[f] = asks ? (unsigned char)lrcsi_query_facet(facets, f) : answer[first];
+        if (first != f) {
+            answer[f] = answer[first];
+        } else if (lrcsi_grid_casts(contest->view, f) && !contest->contested[f]) {
+            answer[f] = (unsigned char)lrcsi_query_facet(facets, f);
+            undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
         }
     }
+    return undecided;
+}
+
+/* The grid lists what only some facets ask for; where a region's first one gives no answer, which
+   hardly ever happens, all are listed and each of its facets asks for itself. */
+int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_grid *facets,
+                        unsigned char *answer)
+{
+    size_t mark = work->used;
+    uint32_t count = contest->view->prepared->scene->facet_count;
+    lrcsi_contest_regions(contest);
+    for (uint32_t f = 0; f < count; f++) { /* for now: which facets ask */
+        answer[f] = contest->contested[f] || contest->region[f] == f;
+    }
+    int status = lrcsi_grid_facets(&contest->grid, contest->cells, answer, work, facets);
+    if (status != LRCS_OK || query_regions(contest, facets, answer) == 0) {
+        return status;
+    }
+    work->used = mark;
+    status = lrcsi_grid_facets(&contest->grid, contest->cells, NULL, work, facets);
+    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
+        if (answer[f] == LRCSI_QUERY_UNDECIDED) {
+            answer[f] = (unsigned char)lrcsi_query_facet(facets, f);
+        }
+    }
+    return status;
 }
 
 /* Does `other` touch the inside of the facet? */

@@ -17,9 +17,10 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet);
 /* Asks at a point of the facet, rounded; undecided where the facet does not cover it. */
 int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3]);
 
-/* Asks for every uniform facet, once a region: answer[facet], a lrcsi_query_answer. */
-void lrcsi_query_uniform(const lrcsi_contest *contest, const lrcsi_grid *facets,
-                         unsigned char *answer);
+/* Makes a grid of facets that serves every contested facet, and asks for every uniform facet, once
+   a region: answer[facet], a lrcsi_query_answer. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
+int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_grid *facets,
+                        unsigned char *answer);
 
 /* 1 where a contested facet is proved to be hidden, all of it behind one sheet; else 0. */
 int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint32_t facet);

@@ -72,8 +72,8 @@ lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
         e.along[k] = -raster->view->facing[facet] * (b[1] - a[1]);
         e.up[k] = raster->view->facing[facet] * (b[0] - a[0]);
         e.at[k] = -(e.along[k] * a[0] + e.up[k] * a[1]);
-        e.over[k] = fabs(e.along[k]) > 0x1p-1000 ? 1 / e.along[k] : 0;
     }
+    lrcsi_span_prepare(&e);
     return e;
 }
 
@@ -192,12 +192,10 @@ void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet)
     job.edges = lrcsi_raster_edges(raster, facet);
     job.plane = lrcsi_raster_plane(raster, facet);
     for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
-        lrcsi_span may =
-            lrcsi_span_meets(&job.edges, LRCSI_SPAN_CENTRE, y, job.edges.x0, job.edges.x1);
-        lrcsi_span sure = lrcsi_span_holds(&job.edges, LRCSI_SPAN_CENTRE, y, may);
-        draw_doubtful(&job, y, may.x0, sure.x0);
-        draw_run(&job, y, sure.x0, sure.x1);
-        draw_doubtful(&job, y, sure.x1, may.x1);
+        lrcsi_row row = lrcsi_span_row(&job.edges, y);
+        draw_doubtful(&job, y, row.may.x0, row.sure.x0);
+        draw_run(&job, y, row.sure.x0, row.sure.x1);
+        draw_doubtful(&job, y, row.sure.x1, row.may.x1);
     }
 }
 
@@ -247,7 +245,7 @@ void lrcsi_raster_want(lrcsi_raster *raster, uint32_t facet)
     lrcsi_edges e = lrcsi_raster_edges(raster, facet);
     uint32_t last = raster->size - 1;
     for (uint32_t y = e.bottom; y < e.top; y++) {
-        lrcsi_span row = lrcsi_span_meets(&e, LRCSI_SPAN_PIXEL, y, e.left, e.right);
+        lrcsi_pixels row = lrcsi_span_row(&e, y).touched;
         if (row.x0 < row.x1) {
             uint32_t x0 = row.x0 > 2 ? row.x0 - 2 : 0;
             uint32_t x1 = row.x1 + 2 < raster->size ? row.x1 + 2 : raster->size;
@@ -286,22 +284,22 @@ static int facet_wanted(const lrcsi_raster *r, uint32_t facet)
 static void claim_row(const raster_job *job, uint32_t y)
 {
     lrcsi_raster *r = job->raster;
-    lrcsi_span may =
-        lrcsi_span_meets(&job->edges, LRCSI_SPAN_CENTRE, y, job->edges.x0, job->edges.x1);
-    lrcsi_span sure = lrcsi_span_holds(&job->edges, LRCSI_SPAN_CENTRE, y, may);
-    lrcsi_span whole = lrcsi_span_holds(&job->edges, LRCSI_SPAN_PIXEL, y, sure);
-    uint32_t x = tile_next(r, y, may.x0, may.x1, 1);
-    while (x < may.x1) {
-        uint32_t end = tile_next(r, y, x, may.x1, 0);
+    if (tile_next(r, y, job->edges.x0, job->edges.x1, 1) == job->edges.x1) {
+        return;
+    }
+    lrcsi_row row = lrcsi_span_row(&job->edges, y);
+    uint32_t x = tile_next(r, y, row.may.x0, row.may.x1, 1);
+    while (x < row.may.x1) {
+        uint32_t end = tile_next(r, y, x, row.may.x1, 0);
         for (; x < end; x++) {
-            if ((x >= sure.x0 && x < sure.x1) || job_covers(job, x, y)) {
+            if (lrcsi_span_has(row.sure, x) || job_covers(job, x, y)) {
                 size_t at = (size_t)y * r->size + x;
                 r->owner[at] = job->facet;
                 r->depth[at] = HUGE_VAL;
-                r->pure[at] = x >= whole.x0 && x < whole.x1;
+                r->pure[at] = lrcsi_span_has(row.whole, x) ? 1 : 0;
             }
         }
-        x = tile_next(r, y, x, may.x1, 1);
+        x = tile_next(r, y, x, row.may.x1, 1);
     }
 }
 

@@ -2,28 +2,25 @@
 /* Where edge functions cross a row of pixels. It decides nothing where doubles cannot tell: whom a
    sample near a side belongs to is asked of visibility/sample.h.
 
-   Over a square of side s about a pixel's centre an edge function differs from its value there by
-   at most s / 2 (|along| + |up|). With `row` its value at the row's left end, it passes a limit at
-   x = (limit - row) / along - 1/2. As computed that is off by at most 4 u of its parts, which moves
-   the value by at most 4 u (|row| + |limit|) <= 10 u N h + off / 16 for a box of half perimeter h
-   on N x N pixels: less than off / 4, for off is at least 64 u N (h + 2), of which an edge
-   function's own error takes 5 / 8 (visibility/raster.c). So limits of -off and off still err on
-   the safe side. */
+   Over a pixel an edge function differs from its value at the centre by at most
+   bend = (|along| + |up|) / 2. So what is touched is bounded by where it passes -off - bend, what
+   may be covered, is sure and is whole by -off, off and off + bend. With `row` its value at the
+   row's left end, it passes a limit at (limit - row) / along, and pixel x has its centre at x +
+   1/2. As computed that is off by at most 4 u of its parts, which moves the value by at most 4 u
+   (|row| + |limit|) <= 10 u N h + off / 16 for a box of half perimeter h on N x N pixels: less than
+   off / 4, for off is at least 64 u N (h + 2), of which an edge function's own error takes 5 / 8
+   (visibility/raster.c). So limits of -off and off still err on the safe side. */
 #include "visibility/span.h"
 
 #include <math.h>
 
 #include "base/range.h"
 
-static double side_row(const lrcsi_edges *e, int k, uint32_t y)
-{
-    return e->at[k] + e->up[k] * (y + 0.5);
-}
-
-static double side_bend(const lrcsi_edges *e, int k, double square)
-{
-    return 0.5 * square * (fabs(e->along[k]) + fabs(e->up[k]));
-}
+/* Where spans begin and end, fractions yet to be dropped; in the order of lrcsi_row. */
+enum { TOUCHED, MAY, SURE, WHOLE, KINDS };
+typedef struct span_ends {
+    double from[KINDS], to[KINDS];
+} span_ends;
 
 /* Of a number from 0 to 2^32. */
 static double round_up(double x)
@@ -32,49 +29,84 @@ static double round_up(double x)
     return down < x ? down + 1.0 : down;
 }
 
-/* Both within what was looked at, the fraction of either yet to be dropped. */
-static lrcsi_span span_of(double from, double to)
+/* Half of what an edge function changes over a pixel, in all. */
+static double side_bend(const lrcsi_edges *e, int k)
+{
+    return 0.5 * (fabs(e->along[k]) + fabs(e->up[k]));
+}
+
+void lrcsi_span_prepare(lrcsi_edges *edges)
+{
+    for (int k = 0; k < 3; k++) {
+        double over = fabs(edges->along[k]) > 0x1p-1000 ? 1 / edges->along[k] : 0;
+        edges->over[k] = over;
+        edges->near[k] = 0.5 + edges->off * fabs(over);
+        edges->far[k] = 0.5 + (edges->off + side_bend(edges, k)) * fabs(over);
+    }
+}
+
+/* A side along the row: it tells of all its pixels at once. */
+static void ends_judge(span_ends *ends, const lrcsi_edges *e, int k, double row)
+{
+    double far = e->off + side_bend(e, k);
+    ends->to[TOUCHED] = row < -far ? 0 : ends->to[TOUCHED];
+    ends->to[MAY] = row < -e->off ? 0 : ends->to[MAY];
+    ends->to[SURE] = row > e->off ? ends->to[SURE] : 0;
+    ends->to[WHOLE] = row > far ? ends->to[WHOLE] : 0;
+}
+
+/* Narrows the ends to one side of an edge. */
+static void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, double cy)
+{
+    double row = e->at[k] + e->up[k] * cy;
+    double zero = -row * e->over[k];
+    const double shift[KINDS] = {-e->far[k], -e->near[k], e->near[k], e->far[k]};
+    if (e->over[k] > 0) {
+        for (int i = 0; i < KINDS; i++) {
+            ends->from[i] = lrcsi_most(ends->from[i], zero + shift[i]);
+        }
+    } else if (e->over[k] < 0) {
+        for (int i = 0; i < KINDS; i++) {
+            ends->to[i] = lrcsi_least(ends->to[i], zero - shift[i]);
+        }
+    } else {
+        ends_judge(ends, e, k, row);
+    }
+}
+
+/* Both within x0 .. x1, and whole numbers but for one fraction to be dropped. */
+static lrcsi_pixels span_of(double from, double to)
 {
     uint32_t x0 = (uint32_t)from;
     uint32_t x1 = (uint32_t)to;
-    return (lrcsi_span){x0 < x1 ? x0 : x1, x1};
+    return (lrcsi_pixels){x0 < x1 ? x0 : x1, x1};
 }
 
-lrcsi_span lrcsi_span_meets(const lrcsi_edges *edges, double square, uint32_t y, uint32_t x0,
-                            uint32_t x1)
+static lrcsi_pixels outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
 {
-    double from = x0;
-    double to = x1;
-    for (int k = 0; k < 3; k++) {
-        double row = side_row(edges, k, y);
-        double limit = -edges->off - side_bend(edges, k, square);
-        double x = (limit - row) * edges->over[k];
-        if (edges->over[k] > 0) {
-            from = lrcsi_most(from, x - 0.5);
-        } else if (edges->over[k] < 0) {
-            to = lrcsi_least(to, x + 0.5);
-        } else if (row < limit) {
-            to = x0;
-        }
-    }
-    return span_of(round_up(lrcsi_least(from, x1)), lrcsi_most(to, x0));
+    return span_of(round_up(lrcsi_least(ends->from[kind], x1)), lrcsi_most(ends->to[kind], x0));
 }
 
-lrcsi_span lrcsi_span_holds(const lrcsi_edges *edges, double square, uint32_t y, lrcsi_span within)
+static lrcsi_pixels inner_span(const span_ends *ends, int kind, lrcsi_pixels outer)
 {
-    double from = within.x0;
-    double to = within.x1;
-    for (int k = 0; k < 3; k++) {
-        double row = side_row(edges, k, y);
-        double limit = edges->off + side_bend(edges, k, square);
-        double x = (limit - row) * edges->over[k];
-        if (edges->over[k] > 0) {
-            from = lrcsi_most(from, x + 0.5);
-        } else if (edges->over[k] < 0) {
-            to = lrcsi_least(to, x - 0.5);
-        } else if (!(row > limit)) {
-            to = within.x0;
-        }
+    return span_of(lrcsi_most(lrcsi_least(ends->from[kind], outer.x1), outer.x0),
+                   round_up(lrcsi_least(lrcsi_most(ends->to[kind], outer.x0), outer.x1)));
+}
+
+lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
+{
+    span_ends ends;
+    for (int i = 0; i < KINDS; i++) {
+        ends.from[i] = i == TOUCHED ? edges->left : edges->x0;
+        ends.to[i] = i == TOUCHED ? edges->right : edges->x1;
     }
-    return span_of(lrcsi_least(from, within.x1), round_up(lrcsi_most(to, within.x0)));
+    for (int k = 0; k < 3; k++) {
+        ends_narrow(&ends, edges, k, y + 0.5);
+    }
+    lrcsi_row row;
+    row.touched = outer_span(&ends, TOUCHED, edges->left, edges->right);
+    row.may = outer_span(&ends, MAY, edges->x0, edges->x1);
+    row.sure = inner_span(&ends, SURE, row.may);
+    row.whole = inner_span(&ends, WHOLE, row.sure);
+    return row;
 }

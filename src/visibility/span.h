@@ -10,28 +10,35 @@
 typedef struct lrcsi_edges {
     double at[3], along[3], up[3];
     double over[3];          /* 1 / along, 0 where the side runs along the rows */
+    double near[3], far[3];  /* half a pixel, and how far along a row a value changes by off, and by
+                                off and what it changes over half a pixel */
     double off;              /* error bound of a value in pixels touched, with 3 / 8 to spare */
     uint32_t x0, x1, y0, y1; /* pixels whose centres may be covered: x0 <= x < x1 */
     uint32_t left, right, bottom, top; /* pixels that may be touched: left <= x < right */
 } lrcsi_edges;
 
-/* Pixels x0 <= x < x1 of a row; none where they are equal, then at the end of what was looked at.
- */
-typedef struct lrcsi_span {
+/* Pixels x0 <= x < x1 of a row; none where they are equal. */
+typedef struct lrcsi_pixels {
     uint32_t x0, x1;
-} lrcsi_span;
+} lrcsi_pixels;
 
-/* Sides of a pixel's middle square, as a share of it: its centre alone, and all of it. */
-#define LRCSI_SPAN_CENTRE 0.0
-#define LRCSI_SPAN_PIXEL  1.0
+static inline int lrcsi_span_has(lrcsi_pixels span, uint32_t x)
+{
+    return x >= span.x0 && x < span.x1;
+}
 
-/* The pixels of row y, x0 <= x < x1 among them, whose middle square the facet may meet: none is
-   left out. */
-lrcsi_span lrcsi_span_meets(const lrcsi_edges *edges, double square, uint32_t y, uint32_t x0,
-                            uint32_t x1);
+/* A row of pixels. The last three lie one within the other. */
+typedef struct lrcsi_row {
+    lrcsi_pixels touched; /* all that the facet may touch */
+    lrcsi_pixels may;     /* all whose centre it may cover */
+    lrcsi_pixels sure;    /* those whose centre it surely covers, */
+    lrcsi_pixels whole; /* and those of which it surely covers all: none is missing but by less than
+                         the error of an edge function */
+} lrcsi_row;
 
-/* Pixels of row y among those of `within` whose middle square the facet surely covers: all but such
-   as it covers by less than the error of an edge function. */
-lrcsi_span lrcsi_span_holds(const lrcsi_edges *edges, double square, uint32_t y, lrcsi_span within);
+/* Fills in over, near and far of edges whose other numbers are known. */
+void lrcsi_span_prepare(lrcsi_edges *edges);
+
+lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y);
 
 #endif

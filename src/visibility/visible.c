@@ -25,19 +25,13 @@
 
 /* --- pixels where visibility may change ------------------------------------------------------- */
 
-/* A row of pixels: those that a facet may touch; of these, those whose centre it surely covers, and
-   those of which it covers all. */
-typedef struct mark_row {
-    lrcsi_span touched, centre, whole;
-} mark_row;
-
 /* The pixels that a facet may touch, and which of them are mixed. */
 typedef struct pixel_marks {
     const lrcsi_known *known;
     lrcsi_raster *raster;
     lrcsi_edges edges;    /* of the facet */
     double corner[3][2];  /* its corners, in pixels, counter-clockwise */
-    mark_row *row;        /* row of the raster, of those touched */
+    lrcsi_row *row;       /* row of the raster, of those touched */
     unsigned char *mixed; /* pixel of the raster, of those touched: visibility may change in it */
 } pixel_marks;
 
@@ -55,11 +49,8 @@ static void marks_start(pixel_marks *m, uint32_t facet)
         lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], m->corner[k]);
     }
     for (uint32_t y = e.bottom; y < e.top; y++) {
-        mark_row *row = &m->row[y];
-        row->touched = lrcsi_span_meets(&e, LRCSI_SPAN_PIXEL, y, e.left, e.right);
-        row->centre = lrcsi_span_holds(&e, LRCSI_SPAN_CENTRE, y, row->touched);
-        row->whole = lrcsi_span_holds(&e, LRCSI_SPAN_PIXEL, y, row->centre);
-        memset(m->mixed + marks_at(m, row->touched.x0, y), 0, row->touched.x1 - row->touched.x0);
+        lrcsi_row row = m->row[y] = lrcsi_span_row(&e, y);
+        memset(m->mixed + marks_at(m, row.touched.x0, y), 0, row.touched.x1 - row.touched.x0);
     }
 }
 
@@ -108,7 +99,7 @@ static void mark_edge(pixel_marks *m, uint32_t edge)
 /* Marks the pixels of a row, both facets' own, where a height is not surely above or below 0, it
    being row + along (x + 1/2) to within slack. Division finds whom to ask, as safely as two pixels
    to either side and 8 roundings are; where it gives no number, all are asked. */
-static void mark_level(pixel_marks *m, uint32_t y, lrcsi_span other, double row, double along,
+static void mark_level(pixel_marks *m, uint32_t y, lrcsi_pixels other, double row, double along,
                        double slack)
 {
     double x0 = lrcsi_most(m->row[y].touched.x0, other.x0);
@@ -143,8 +134,7 @@ static void mark_meeting(pixel_marks *m, uint32_t facet, uint32_t other)
                    0.51 * (fabs(along) + fabs(up));
     uint32_t bottom = e.bottom > m->edges.bottom ? e.bottom : m->edges.bottom;
     for (uint32_t y = bottom; y < m->edges.top && y < e.top; y++) {
-        lrcsi_span touched = lrcsi_span_meets(&e, LRCSI_SPAN_PIXEL, y, e.left, e.right);
-        mark_level(m, y, touched, p.at - q.at + up * (y + 0.5), along, slack);
+        mark_level(m, y, lrcsi_span_row(&e, y).touched, p.at - q.at + up * (y + 0.5), along, slack);
     }
 }
 
@@ -169,11 +159,6 @@ static void mark_touches(pixel_marks *m, uint32_t facet)
 
 /* --- contested facets ------------------------------------------------------------------------- */
 
-static int span_has(lrcsi_span span, uint32_t x)
-{
-    return x >= span.x0 && x < span.x1;
-}
-
 /* The part of a unit square where a linear function that is `value` at its centre, and changes by
    most >= least >= 0 along its sides, is positive. */
 static double square_share(double value, double most, double least)
@@ -192,7 +177,7 @@ static double square_share(double value, double most, double least)
    by the raster's error, and the area by at most the length of the cut, below 6, times that. */
 static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
 {
-    if (span_has(m->row[y].whole, x)) {
+    if (lrcsi_span_has(m->row[y].whole, x)) {
         return 1;
     }
     const lrcsi_edges *e = &m->edges;
@@ -219,7 +204,7 @@ static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
    round and are outside. */
 static int pixel_tells(const pixel_marks *m, uint32_t facet, uint32_t x, uint32_t y, int *shows)
 {
-    if (y < m->edges.bottom || y >= m->edges.top || !span_has(m->row[y].centre, x) ||
+    if (y < m->edges.bottom || y >= m->edges.top || !lrcsi_span_has(m->row[y].sure, x) ||
         m->mixed[marks_at(m, x, y)]) {
         return 0;
     }
@@ -371,13 +356,12 @@ int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *kn
     k.first = lrcsi_work_take(work, (size_t)count + 1, sizeof *k.first);
     k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
     int status = k.answer && k.first && k.crossing
-                     ? lrcsi_grid_facets(contest->view, work, &k.facets)
+                     ? lrcsi_query_uniform(contest, work, &k.facets, k.answer)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    lrcsi_query_uniform(contest, &k.facets, k.answer);
     for (uint32_t f = 0; f < count; f++) {
         if (contest->contested[f] && !lrcsi_query_screened(contest, &k.facets, f)) {
             k.answer[f] = LRCSI_QUERY_UNDECIDED;
@@ -394,7 +378,7 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
     return lrcsi_work_add(lrcsi_raster_need(prepared, size),
                           lrcsi_work_add(lrcsi_work_bytes((size_t)size * size, 1),
-                                         lrcsi_work_bytes(size, sizeof(mark_row))));
+                                         lrcsi_work_bytes(size, sizeof(lrcsi_row))));
 }
 
 /* Facets proved hidden own no samples; those proved visible own all of theirs. Only the tiles of
@@ -420,14 +404,36 @@ static void known_draw(const lrcsi_known *known, lrcsi_raster *raster)
     }
 }
 
-static lrcsi_visible known_area(const lrcsi_view *view, int answer, uint32_t facet)
+/* All or nothing of a facet: what is known of those that samples are not to tell of. */
+static void known_areas(const lrcsi_known *known, lrcsi_visible *visible)
 {
-    if (answer == LRCSI_QUERY_HIDDEN) {
-        return (lrcsi_visible){0, 0, 0, 0, 0};
+    const lrcsi_view *view = known->contest->view;
+    uint32_t facets = view->prepared->scene->facet_count;
+    uint32_t seen[LRCSI_TILTS];
+    lrcsi_tilt tilt[LRCSI_TILTS];
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < facets; f++) {
+        visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
+        if (known->answer[f] == LRCSI_QUERY_VISIBLE) {
+            seen[count++] = f;
+        }
+        if (count == LRCSI_TILTS || (count > 0 && f + 1 == facets)) {
+            lrcsi_view_tilts(view, seen, count, tilt);
+            while (count-- > 0) {
+                double area = tilt[count].projected;
+                visible[seen[count]] = (lrcsi_visible){area, area, area, 0, 0};
+            }
+            count = 0;
+        }
     }
-    double area = lrcsi_view_tilt(view, facet).projected;
-    return answer == LRCSI_QUERY_VISIBLE ? (lrcsi_visible){area, area, area, 0, 0}
-                                         : (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
+}
+
+/* A uniform facet of which no query could tell. */
+static lrcsi_visible unknown_area(lrcsi_raster *raster, uint32_t facet)
+{
+    double area = lrcsi_view_tilt(raster->view, facet).projected;
+    raster->undecided[facet] = 1;
+    return (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
 }
 
 static void visible_fill(const lrcsi_known *known, pixel_marks *marks, lrcsi_visible *visible)
@@ -441,13 +447,12 @@ static void visible_fill(const lrcsi_known *known, pixel_marks *marks, lrcsi_vis
             mark_pure(marks, f);
         }
     }
+    known_areas(known, visible);
     for (uint32_t f = 0; f < count; f++) {
-        int answer = known->answer[f];
-        if (contest->contested[f] && answer == LRCSI_QUERY_UNDECIDED) {
-            visible[f] = contested_area(contest, raster, &known->facets, marks, f);
-        } else {
-            visible[f] = known_area(contest->view, answer, f);
-            raster->undecided[f] |= answer == LRCSI_QUERY_UNDECIDED;
+        if (known->answer[f] == LRCSI_QUERY_UNDECIDED) {
+            visible[f] = contest->contested[f]
+                             ? contested_area(contest, raster, &known->facets, marks, f)
+                             : unknown_area(raster, f);
         }
     }
 }

@@ -55,7 +55,7 @@ static int directions_of(const bench_case *c)
 
 static int rounds_of(const bench_case *c)
 {
-    return c->job->extent > EXTENT_TINY && c->scene->facet_count <= 50000 ? 3 : 1;
+    return c->job->extent == EXTENT_FULL && c->scene->facet_count <= 50000 ? 3 : 1;
 }
 
 static int rasters_of(const bench_case *c)
@@ -228,8 +228,10 @@ static void case_measure(bench_case *c, int convex, bench_times *load)
     size_t size = pose_need(c);
     void *bytes = bench_memory(size);
     c->work = lrcs_work_make(bytes, size);
-    if (!convex) {
+    if (!convex && (c->size >= 0 || c->job->extent == EXTENT_FULL)) {
         measure_stages(c);
+    }
+    if (!convex) {
         measure_methods(c);
     }
     measure_facet(c, convex);
@@ -274,11 +276,12 @@ static void model_load(const char *path, int count, lrcs_host_scene *scene, benc
     for (int i = 0; i < count; i++) {
         lrcs_host_scene_free(scene);
         *scene = (lrcs_host_scene){.blocks = NULL};
+        double start = bench_now_ms();
         if (lrcs_host_scene_read(path, &options, scene, &error) != LRCS_OK) {
             fprintf(stderr, "bench: %s\n", error.text);
             exit(1);
         }
-        bench_add(load, 1e3 * scene->seconds_load);
+        bench_add(load, bench_now_ms() - start);
     }
 }
 
@@ -323,7 +326,7 @@ static void measure_model(bench_job *job, const char *path)
     const char *name = strrchr(path, '/');
     lrcs_host_scene scene = {.blocks = NULL};
     bench_times load = {.count = 0};
-    model_load(path, job->extent == EXTENT_TINY ? 1 : 3, &scene, &load);
+    model_load(path, job->extent == EXTENT_FULL ? 3 : 1, &scene, &load);
     bench_case c = {.job = job, .name = name ? name + 1 : path, .scene = &scene.scene, .size = -1};
     case_measure(&c, 0, &load);
     lrcs_host_scene_free(&scene);

@@ -20,6 +20,7 @@ typedef struct bench_times {
 /* A share of sorted times lies below: 0.5 for the median. 0 where nothing was measured. */
 double bench_quantile(bench_times *times, double share);
 
+/* The processor's time so far. */
 double bench_now_ms(void);
 void bench_add(bench_times *times, double ms);
 

@@ -146,6 +146,30 @@ static void what_lies_below_the_floor_has_an_arrow(void **state)
     free(svg);
 }
 
+static void points_may_lack_their_line_or_their_markers(void **state)
+{
+    (void)state;
+    const double x[] = {1.0, 2.0, 3.0};
+    const double y[] = {1.0, 0.0, 0.1};
+    lrcs_host_series series = {.name = "s", .count = 3, .x = x, .y = y};
+    lrcs_host_chart chart = chart_of(&series, 1);
+    chart.floor = 1e-3;
+    char *svg = svg_of(&chart);
+    unsigned lines = occurrences(svg, "<polyline");
+    unsigned areas = occurrences(svg, "<polygon");
+    free(svg);
+    series.dash = LRCS_HOST_NO_LINE;
+    svg = svg_of(&chart);
+    assert_int_equal(occurrences(svg, "<polyline"), lines - 2); /* and the legend's */
+    assert_int_equal(occurrences(svg, "<polygon"), areas);
+    free(svg);
+    series.dash = LRCS_HOST_SOLID;
+    series.marker = LRCS_HOST_NO_MARKER;
+    svg = svg_of(&chart);
+    assert_int_equal(occurrences(svg, "<polygon"), areas - 5); /* three, an arrow, the legend's */
+    free(svg);
+}
+
 static void words_are_escaped(void **state)
 {
     (void)state;
@@ -257,6 +281,7 @@ int main(void)
         cmocka_unit_test(a_letter_the_font_lacks_is_one_question_mark),
         cmocka_unit_test(points_an_axis_cannot_show_are_left_out),
         cmocka_unit_test(what_lies_below_the_floor_has_an_arrow),
+        cmocka_unit_test(points_may_lack_their_line_or_their_markers),
         cmocka_unit_test(words_are_escaped),
         cmocka_unit_test(linear_axes_have_plain_numbers),
         cmocka_unit_test(long_series_keep_every_point),

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The special functions against mpmath at 60 digits: exp(x^2) erfc(x), and sqrt(pi) Gamma((nu+1)/2)
-   / Gamma((nu+2)/2) by loggamma (their first asymptotic terms beyond 1e3 and 1e9). */
+   / Gamma((nu+2)/2) by loggamma (their first asymptotic terms beyond 1e3 and 1e9); and at 30 digits
+   the root of Student's distribution by betainc. */
 #include "optics/special.h"
 
 #include "check.h"
@@ -67,12 +68,30 @@ static void cosine_power_is_within_its_claim(void **state)
     }
 }
 
+static void student_is_within_its_claim(void **state)
+{
+    (void)state;
+    static const struct {
+        uint32_t freedom;
+        double t;
+    } vectors[] = {
+        {1, 12.7062047361747046},    {2, 4.30265272974946385},         {3, 3.18244630528370959},
+        {4, 2.77644510519779436},    {5, 2.57058183563631551},         {8, 2.30600413520416668},
+        {9, 2.26215716279820502},    {10, 2.22813885198627475},        {20, 2.08596344726586484},
+        {1000, 1.96233908082640848}, {UINT32_MAX, 1.95996398454005424}};
+    for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++) {
+        check_rel(lrcsi_special_student(vectors[i].freedom), vectors[i].t, 1e-5);
+    }
+    check_rel(lrcsi_special_student(UINT32_MAX), 1.95996398454005424, 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(erfcx_is_within_its_claim),
         cmocka_unit_test(erfcx_is_continuous_where_its_branches_meet),
         cmocka_unit_test(cosine_power_is_within_its_claim),
+        cmocka_unit_test(student_is_within_its_claim),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,7 +37,8 @@ static uint32_t look(void)
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
     assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
-    assert_int_equal(lrcsi_grid_facets(&view, &work, &facets), LRCS_OK);
+    assert_int_equal(lrcsi_grid_facets(&contest.grid, contest.cells, NULL, &work, &facets),
+                     LRCS_OK);
     lrcsi_target_make(&view, 0, &target);
     size_t before = work.used;
     assert_int_equal(lrcsi_calm_make(prepared, &work, &calm), LRCS_OK);

@@ -20,7 +20,8 @@ static void look_from(double x, double y, double z)
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
     assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
     lrcsi_contest_regions(&contest);
-    assert_int_equal(lrcsi_grid_facets(&view, &work, &facets), LRCS_OK);
+    assert_int_equal(lrcsi_grid_facets(&contest.grid, contest.cells, NULL, &work, &facets),
+                     LRCS_OK);
 }
 
 /* A level square, front up: corner at (x, y, z). */
@@ -66,6 +67,26 @@ static void rims_in_front_contest_what_they_cross(void **state)
 }
 
 /* A rim that projects exactly onto another plate's rim, or only touches it, crosses nothing. */
+/* A slope over which a level edge passes underneath, lower than all of it; but far to the left,
+   where the slope is no more, the edge is above the slope's plane. */
+static void rims_behind_all_of_a_facet_do_not_contest_it(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    uint32_t v = scene_vertex(&scene, 0, 0, 0); /* z = x */
+    scene_vertex(&scene, 4, 0, 4);
+    scene_vertex(&scene, 0, 4, 0);
+    scene_facet(&scene, v, v + 1, v + 2);
+    v = scene_vertex(&scene, 1, 1, -1);
+    scene_vertex(&scene, -9, 1, -1); /* where the plane is at -9 */
+    scene_vertex(&scene, -9, 1.5, -1);
+    scene_facet(&scene, v, v + 1, v + 2);
+    look_from(0, 0, 1);
+    assert_false(contest.contested[0]);
+    assert_int_equal(lrcsi_contest_crossings(&contest, 0), 0);
+    assert_true(contest.contested[1]);
+}
+
 static void rims_along_rims_contest_nothing(void **state)
 {
     (void)state;
@@ -116,7 +137,7 @@ static void roof(void)
 static int region_answer(uint32_t facet)
 {
     static unsigned char answer[SCENE_FACETS];
-    lrcsi_query_uniform(&contest, &facets, answer);
+    assert_int_equal(lrcsi_query_uniform(&contest, &work, &facets, answer), LRCS_OK);
     return answer[facet];
 }
 
@@ -271,11 +292,56 @@ static void grids_list_every_item_wherever_it_stands(void **state)
     }
 }
 
+static int lists_agree(const lrcsi_grid *some, const lrcsi_grid *all, size_t cell)
+{
+    uint32_t count = all->first[cell + 1] - all->first[cell];
+    if (some->first[cell + 1] - some->first[cell] != count) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (some->item[some->first[cell] + i] != all->item[all->first[cell] + i]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* The cells of those that are wanted list the same as ever, and the grid is smaller. */
+static void grids_serve_those_that_ask(void **state)
+{
+    (void)state;
+    static unsigned char wanted[SCENE_FACETS];
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 20);
+    scene_box(&scene, (const double[3]){-3, -0.1, -0.1}, (const double[3]){3, 0.1, 0.2});
+    look_from(0.3, 0.2, 1);
+    for (uint32_t every = 1; every < 200; every += 66) {
+        lrcsi_grid some;
+        for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+            wanted[f] = f % every == 0;
+        }
+        lrcs_work after = work;
+        assert_int_equal(lrcsi_grid_facets(&contest.grid, contest.cells, wanted, &after, &some),
+                         LRCS_OK);
+        size_t cells = (size_t)some.size * some.size;
+        assert_true(every == 1 || some.first[cells] < facets.first[cells]);
+        for (uint32_t f = 0; f < scene.scene.facet_count; f += every) {
+            lrcsi_cells at = lrcsi_grid_casts(&view, f) ? contest.cells[f] : (lrcsi_cells){0};
+            for (uint32_t y = at.y0; y < at.y1; y++) {
+                for (uint32_t x = at.x0; x < at.x1; x++) {
+                    assert_true(lists_agree(&some, &facets, (size_t)y * some.size + x));
+                }
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(body_alone_is_uncontested),
         cmocka_unit_test(rims_in_front_contest_what_they_cross),
+        cmocka_unit_test(rims_behind_all_of_a_facet_do_not_contest_it),
         cmocka_unit_test(rims_along_rims_contest_nothing),
         cmocka_unit_test(piercing_and_overlapping_facets_contest_each_other),
         cmocka_unit_test(uniform_neighbours_form_regions),
@@ -284,6 +350,7 @@ int main(void)
         cmocka_unit_test(sheets_end_at_contours),
         cmocka_unit_test(whole_sheets_screen_and_others_do_not),
         cmocka_unit_test(grids_list_every_item_wherever_it_stands),
+        cmocka_unit_test(grids_serve_those_that_ask),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,11 +118,30 @@ static void pure_pixels_show_their_owner_in_every_part(void **state)
     assert_true(pure[0] > 1000 && pure[1] > 1000);
 }
 
+/* Symptom: where no facet was known to be seen whole, the areas of none were computed, from
+ * nowhere. */
+static void facets_that_pierce_each_other_are_seen_as_clipping_sees_them(void **state)
+{
+    (void)state;
+    const double d[3] = {0.25, 0.5, 1};
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){-2, -1, 0}, (const double[3]){2, -1, 0},
+                   (const double[3]){0, 2, 0.5});
+    scene_triangle(&scene, (const double[3]){-1, -0.75, -1}, (const double[3]){1, -0.75, 1},
+                   (const double[3]){0, 1.5, 0.25});
+    lrcs_result exact = scene_run(&scene, d, LRCS_METHOD_EXACT, 0);
+    lrcs_result raster = scene_run(&scene, d, LRCS_METHOD_ZBUFFER, 256);
+    assert_int_equal(raster.facets_partial, 2);
+    check_abs(raster.sigma_m2, exact.sigma_m2, raster.bound_m2 + exact.bound_m2);
+    check_most(raster.bound_m2, 0.1 * exact.sigma_m2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wanted_tiles_hold_what_the_whole_picture_holds),
         cmocka_unit_test(pure_pixels_show_their_owner_in_every_part),
+        cmocka_unit_test(facets_that_pierce_each_other_are_seen_as_clipping_sees_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
