@@ -201,7 +201,7 @@ static void exact_with_too_little_memory_says_so_and_its_bound_holds(void **stat
     unsigned starved = 0;
     unsigned whole = 0;
     int before = LRCS_E_MEMORY;
-    for (size_t size = 0; size <= need; size += 307) {
+    for (size_t size = 0; size <= need; size += 61) {
         int status = run_in(prepared, &work, size, &options, &r);
         assert_true(status == LRCS_OK || before != LRCS_OK);
         before = status;
