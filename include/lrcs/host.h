@@ -109,9 +109,9 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
 
-/* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with their
-   models, and may differ in all else: places, joints, shapes, materials. `base` and the recipe's
-   texts must outlive the scene; scene->recipe stays empty. Status: as above. */
+/* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with
+   their models, and may differ in all else: places, joints, shapes, materials. `base` and the
+   recipe's texts must outlive the scene; scene->recipe stays empty. Status: as above. */
 int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          const lrcs_build_options *build, lrcs_host_scene *scene,
                          lrcs_host_error *error);
