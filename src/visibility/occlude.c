@@ -53,7 +53,7 @@
    shape: it is halved. */
 #define NARROW 64.0
 /* A cell no larger than so many margins is left in doubt. */
-#define SMALL 64.0
+#define TINY_MARGINS 64.0
 /* Cells that wait at most. Of two, that with the sample comes first: the other has all the room. */
 #define MOST_WAITING 256u
 /* Cells that a facet may be cut into: so many, and so many a cut. */
@@ -206,7 +206,7 @@ static int cell_cut(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t
 static int cell_divide(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t sheet, double area)
 {
     int halves = cell->count > LEAF_CUTS && !cell->slice;
-    if (lrcsi_clip_perimeter(&cell->shape) < SMALL * cell_margin(o, cell->inset)) {
+    if (lrcsi_clip_perimeter(&cell->shape) < TINY_MARGINS * cell_margin(o, cell->inset)) {
         return 0;
     }
     return (halves && cell_halve(o, cell)) ||
