@@ -224,6 +224,7 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
     while (lrcsi_occlude_next(o)) {
         off += piece_add(job, target, (const double(*)[2])o->piece.corner, o->piece.count);
     }
+    off += o->bent;
     *visible = facet_known(job->view, job->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = job_part(job, 1);
     part.visibility = FOUR_PI * job_most(job) * (visible->high - visible->low + off);

@@ -16,6 +16,7 @@
 /* The corners of a facet above the target's plane. */
 typedef struct contact_heights {
     double height[3]; /* along the plane's normal, times a positive constant */
+    lrcsi_dd fine[3]; /* the same to double-double */
     double off[3];    /* bounds on their errors */
     int above[3];     /* exact signs */
 } contact_heights;
@@ -52,7 +53,7 @@ static int height_sign(const lrcsi_view *view, uint32_t facet, const double *x)
 }
 
 /* The same in double-double: off by 32 u^2 |N| |x - a| and N's own error. */
-static double height_finely(const lrcsi_target *t, const double *x, double *off)
+static lrcsi_dd height_finely(const lrcsi_target *t, const double *x, double *off)
 {
     const lrcsi_normal *n = &t->view->prepared->normal[t->facet];
     const double *a = lrcsi_prepared_corner(t->view->prepared, t->facet, 0);
@@ -64,7 +65,7 @@ static double height_finely(const lrcsi_target *t, const double *x, double *off)
         square += gap.hi * gap.hi;
     }
     *off = (32 * U * U * n->length + n->error) * sqrt(square);
-    return t->view->facing[t->facet] * lrcsi_dd_value(sum);
+    return t->view->facing[t->facet] > 0 ? sum : lrcsi_dd_negate(sum);
 }
 
 /* 1 all corners of `other` lie in front of the facet's plane or on it, -1 behind, 0 neither or all
@@ -119,7 +120,8 @@ static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
     contact_heights h;
     for (int k = 0; k < 3; k++) {
         const double *x = lrcsi_target_corner(t->view, other, k);
-        double height = height_finely(t, x, &h.off[k]);
+        h.fine[k] = height_finely(t, x, &h.off[k]);
+        double height = lrcsi_dd_value(h.fine[k]);
         h.height[k] = height;
         h.above[k] =
             fabs(height) > h.off[k] ? (height > 0 ? 1 : -1) : height_sign(t->view, t->facet, x);
@@ -151,20 +153,37 @@ static int slip_wide(const lrcsi_contact *c)
 }
 
 /* Walked counter-clockwise, the facet leaves its part above the plane in one place and enters it in
-   another: corners on the plane, or sides that pass through it. */
-static void contact_end(const contact_heights *h, lrcsi_contact *c, int k)
+   another: corners on the plane, or sides that pass through it (SIDE and their number). */
+#define SIDE 3
+static void contact_leaves(const contact_heights *h, int leaves[2])
 {
-    int before = h->above[(k + 2) % 3];
-    int at = h->above[k];
-    int next = h->above[(k + 1) % 3];
-    if (at * next < 0) {
-        c->slip = lrcsi_most(c->slip, side_cut(h, c, k, c->end[at < 0]));
+    leaves[0] = leaves[1] = 0;
+    for (int k = 0; k < 3; k++) {
+        int before = h->above[(k + 2) % 3];
+        int at = h->above[k];
+        int next = h->above[(k + 1) % 3];
+        if (at * next < 0) {
+            leaves[at < 0] = SIDE + k;
+        }
+        if (at == 0 && (before > 0 || next < 0)) {
+            leaves[0] = k;
+        }
+        if (at == 0 && (before < 0 || next > 0)) {
+            leaves[1] = k;
+        }
     }
-    if (at == 0 && (before > 0 || next < 0)) {
-        memcpy(c->end[0], c->corner[k], sizeof c->end[0]);
-    }
-    if (at == 0 && (before < 0 || next > 0)) {
-        memcpy(c->end[1], c->corner[k], sizeof c->end[1]);
+}
+
+static void contact_ends(const contact_heights *h, lrcsi_contact *c)
+{
+    int leaves[2];
+    contact_leaves(h, leaves);
+    for (int i = 0; i < 2; i++) {
+        if (leaves[i] >= SIDE) {
+            c->slip = lrcsi_most(c->slip, side_cut(h, c, leaves[i] - SIDE, c->end[i]));
+        } else {
+            memcpy(c->end[i], c->corner[leaves[i]], sizeof c->end[i]);
+        }
     }
 }
 
@@ -197,20 +216,130 @@ static int segment_kind(const contact_heights *h, lrcsi_contact *c, int above)
     return lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
 }
 
+/* --- in a needle ------------------------------------------------------------------------------ */
+
+/* A facet in a needle's frame: its corners there, and the segment's ends. */
+typedef struct contact_finely {
+    lrcsi_dd corner[3][2];
+    lrcsi_dd end[2][2];
+} contact_finely;
+
+static void corners_finely(const lrcsi_target *t, uint32_t other, contact_finely *f,
+                           lrcsi_contact *c)
+{
+    c->reach = c->off = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *x = lrcsi_target_corner(t->view, other, k);
+        c->off = lrcsi_most(c->off, lrcsi_needle_place(t->needle, x, f->corner[k]));
+        for (int i = 0; i < 2; i++) {
+            c->corner[k][i] = lrcsi_dd_value(f->corner[k][i]);
+            c->reach = lrcsi_most(c->reach, 1.5 * fabs(c->corner[k][i]));
+        }
+    }
+}
+
+/* As side_cut; the share is rounded to double-double (visibility/needle.c), and the side's own
+   length tells what its error moves. */
+static double side_cut_finely(const contact_heights *h, contact_finely *f, int k, lrcsi_dd at[2])
+{
+    int next = (k + 1) % 3;
+    double span = fabs(h->height[k]) + fabs(h->height[next]);
+    double off = h->off[k] + h->off[next];
+    double length = 0;
+    lrcsi_dd t = {0.5, 0};
+    if (span > 2 * off) {
+        t = lrcsi_needle_quotient(h->fine[k], lrcsi_dd_sub(h->fine[k], h->fine[next]));
+    }
+    for (int i = 0; i < 2; i++) {
+        lrcsi_dd along = lrcsi_dd_sub(f->corner[next][i], f->corner[k][i]);
+        at[i] = lrcsi_dd_add(f->corner[k][i], lrcsi_dd_mul(t, along));
+        length += fabs(along.hi);
+    }
+    return span > 2 * off ? 2 * length * (off / span) : HUGE_VAL;
+}
+
+static void ends_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c)
+{
+    int leaves[2];
+    contact_leaves(h, leaves);
+    for (int i = 0; i < 2; i++) {
+        if (leaves[i] >= SIDE) {
+            double slip = side_cut_finely(h, f, leaves[i] - SIDE, f->end[i]);
+            c->slip = lrcsi_most(c->slip, slip);
+        } else {
+            memcpy(f->end[i], f->corner[leaves[i]], sizeof f->end[i]);
+        }
+    }
+}
+
+/* As segment_kind, before anything is clipped. Ends and corner are off by `off`; where the corner
+   lies far along the line, what it is beyond that turns with it. */
+static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c, int above)
+{
+    int lone = above == 1 ? 1 : -1;
+    const lrcsi_dd *p = f->corner[h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2];
+    lrcsi_dd to[2];
+    lrcsi_dd way[2];
+    for (int i = 0; i < 2; i++) {
+        to[i] = lrcsi_dd_sub(f->end[1][i], f->end[0][i]);
+        way[i] = lrcsi_dd_sub(p[i], f->end[0][i]);
+    }
+    double off = c->off + 16 * U + c->slip;
+    double length = hypot(to[0].hi, to[1].hi);
+    double side =
+        lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(to[0], way[1]), lrcsi_dd_mul(to[1], way[0])));
+    double beyond = length > 0 ? lone * side / length : 0;
+    double turned = length > 0 ? 4 * hypot(way[0].hi, way[1].hi) / length * (c->off + c->slip) : 0;
+    if (c->slip > 0 && slip_wide(c)) {
+        return LRCSI_CONTACT_UNKNOWN;
+    }
+    if (beyond > 4 * off + turned) {
+        return LRCSI_CONTACT_LINE;
+    }
+    if (length > 4 * off) {
+        c->slip += fabs(beyond) + turned;
+    } else {
+        c->slip += length;
+        memcpy(f->end[1], p, sizeof f->end[1]);
+    }
+    return lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
+}
+
+static int segment_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c, int above)
+{
+    ends_finely(h, f, c);
+    int kind = kind_finely(h, f, c, above);
+    lrcsi_needle_clip((const lrcsi_dd *)f->end[0], (const lrcsi_dd *)f->end[1], c->end);
+    return kind;
+}
+
+/* --- either ----------------------------------------------------------------------------------- */
+
+static int segment_of(const contact_heights *h, lrcsi_contact *c, int above)
+{
+    contact_ends(h, c);
+    return segment_kind(h, c, above);
+}
+
 int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
 {
     contact_heights h = heights_of(t, other);
-    c->reach = lrcsi_target_frame(t->view, t->facet, other, c->corner);
-    c->slip = 0;
+    contact_finely f;
+    c->slip = c->off = 0;
+    if (t->needle) {
+        corners_finely(t, other, &f, c);
+    } else {
+        c->reach = lrcsi_target_frame(t->view, t->facet, other, c->corner);
+    }
     int above = 0;
     int below = 0;
     for (int k = 0; k < 3; k++) {
         above += h.above[k] > 0;
         below += h.above[k] < 0;
-        contact_end(&h, c, k);
     }
     int on = 3 - above - below;
     return on == 3                                ? LRCSI_CONTACT_FLAT
            : on < 2 && (above == 0 || below == 0) ? LRCSI_CONTACT_POINT
-                                                  : segment_kind(&h, c, above);
+           : t->needle                            ? segment_finely(&h, &f, c, above)
+                                                  : segment_of(&h, c, above);
 }

@@ -17,10 +17,11 @@ enum lrcsi_contact_kind {
 
 /* A facet in the target's frame, and where it meets the target's plane. */
 typedef struct lrcsi_contact {
-    double corner[3][2]; /* as lrcsi_target_frame */
-    double reach;        /* likewise */
-    double end[2][2];    /* of the segment */
-    double slip;         /* how far that may be off, but for 16 u reach */
+    double corner[3][2]; /* as lrcsi_target_frame; in a needle, rounded */
+    double reach;        /* as lrcsi_target_frame; in a needle, of the corners in its frame */
+    double end[2][2];    /* of the segment; in a needle, of what lies near it */
+    double slip;         /* how far that may be off, but for 16 u reach, */
+    double off;          /* or, in a needle, for this and rounding */
 } lrcsi_contact;
 
 /* A lrcsi_contact_kind; the ends and the slip are told of a segment only. */

@@ -101,6 +101,20 @@ void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
     }
 }
 
+/* 1 where `other`, of which no side crosses one of the facet's, is nearer at a corner of either
+   within the other one, and so wherever they overlap; -1 where it is farther; 0 where none is. */
+static int order_at_corners(const lrcsi_view *view, uint32_t facet, uint32_t other)
+{
+    for (int n = 0; n < 6; n++) {
+        uint32_t its = n < 3 ? facet : other;
+        const double *x = lrcsi_prepared_corner(view->prepared, its, n % 3);
+        if (lrcsi_sample_covers(view, n < 3 ? other : facet, x)) {
+            return lrcsi_sample_nearer(view, other, facet, x, 1);
+        }
+    }
+    return 0;
+}
+
 /* The order of two facets neither of which lies on one side of the other's plane. Of those that
    touch, the cut tells; in one plane the rules of precedence decide, and one that is beaten has no
    cut. */
@@ -123,6 +137,9 @@ static uint32_t order_mixed(const lrcsi_cuts *cuts, uint32_t other)
         }
     }
     int order = lrcsi_contact_order(t->view, t->facet, other);
+    if (order == 0 && t->needle) {
+        order = order_at_corners(t->view, t->facet, other);
+    }
     return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
 }
 
@@ -177,6 +194,24 @@ static int line_meets_about(const cover_line *line, lrcsi_cover_facet *c)
     return inside;
 }
 
+/* The same in a needle: its place is a point of the facet exactly, and sides as good as lines in
+   double-double. */
+static int line_meets_finely(const cover_line *line, const lrcsi_cover_facet *c)
+{
+    const lrcsi_target *t = line->cuts->target;
+    int inside = 1;
+    for (int k = 0; k < 3; k++) {
+        const double *p = lrcsi_target_corner(t->view, c->facet, k);
+        const double *q = lrcsi_target_corner(t->view, c->facet, (k + 1) % 3);
+        double left = lrcsi_needle_side(t->needle, p, q, line->at, line->way == LINE_GUESSED);
+        if (left < 0) {
+            return -1;
+        }
+        inside &= left > 0;
+    }
+    return inside;
+}
+
 /* 1 the line meets the candidate, -1 not, 0 it must be asked another way. */
 static int line_meets(const cover_line *line, lrcsi_cover_facet *c)
 {
@@ -189,7 +224,7 @@ static int line_meets(const cover_line *line, lrcsi_cover_facet *c)
     if (line->way == LINE_EXACT) {
         return lrcsi_sample_covers(line->cuts->target->view, c->facet, line->point) ? 1 : -1;
     }
-    int meets = line_meets_about(line, c);
+    int meets = line->cuts->target->needle ? line_meets_finely(line, c) : line_meets_about(line, c);
     return meets == 0 && line->way == LINE_GUESSED ? -1 : meets;
 }
 
@@ -219,7 +254,7 @@ static int line_hidden(const cover_line *line, lrcsi_cover_facet *c)
 }
 
 /* The point that stands for a line in space. It is off by 100 u of the reach (visibility/target.h),
-   and 8 u for coordinates below 1. */
+   and 8 u for coordinates below 1; in a needle that is too much. */
 static void line_lift(cover_line *line)
 {
     const lrcsi_target *t = line->cuts->target;
@@ -231,7 +266,7 @@ static void line_lift(cover_line *line)
             line->point[k] += weight[i] * lrcsi_prepared_corner(t->view->prepared, t->facet, i)[k];
         }
     }
-    line->off = 100 * U * t->reach + 8 * U;
+    line->off = t->needle ? HUGE_VAL : 100 * U * t->reach + 8 * U;
 }
 
 /* What hides the target on a line: a lrcsi_cover_answer, or LINE_AGAIN where it must be asked
@@ -274,8 +309,9 @@ int lrcsi_cover_sample(lrcsi_cover *cover, const lrcsi_cuts *cuts, uint32_t coun
     const double *origin =
         view->point[view->prepared->scene->facet[cuts->target->facet].corner[0]].x;
     cover_line line = {.cuts = cuts, .count = count, .at = {place->at[0], place->at[1]}};
-    line.xy[0] = origin[0] + place->at[0];
-    line.xy[1] = origin[1] + place->at[1];
+    lrcsi_target_unrefine(cuts->target, place->at, line.xy);
+    line.xy[0] += origin[0];
+    line.xy[1] += origin[1];
     int answer = place->clear > 0 ? line_tells(&line, cover, sheet) : LINE_AGAIN;
     if (answer == LINE_AGAIN) {
         line_lift(&line);

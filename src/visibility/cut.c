@@ -17,11 +17,16 @@
    contact in a point divides nothing: paths pass beside it. */
 #include "visibility/cut.h"
 
+#include <string.h>
+
 #include "base/range.h"
 #include "base/work.h"
 
 #define U     0x1p-53
 #define WIDTH (32 * U)
+
+/* More than a needle's frame is wide. */
+#define BEYOND 4
 
 /* --- lists ------------------------------------------------------------------------------------ */
 
@@ -48,6 +53,14 @@ static double width_of(const lrcsi_cuts *cuts, double reach)
     return WIDTH * (lrcsi_most(reach, cuts->target->reach) + cuts->target->diameter);
 }
 
+/* In a needle's frame segments are clipped to within 3 of the first corner: r + d is below 4.5, and
+   the ends are off by their rounding, 3 u, and this. Where that is a good part of what the box is
+   wider than the facet, the segment may be anywhere. */
+static double width_in_needle(double off)
+{
+    return off < 0.25 ? WIDTH * 6 + 2 * off : BEYOND;
+}
+
 static void cut_sheet(lrcsi_cut *e, uint32_t sheet)
 {
     for (uint32_t i = 0; i < e->sheets && i < LRCSI_CUT_SHEETS; i++) {
@@ -65,13 +78,36 @@ static void cuts_edge(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t e
 {
     const lrcs_prepared *p = contest->view->prepared;
     const lrcsi_edge *e = &p->topology.edge[edge];
-    double from[2];
-    double to[2];
-    double low = lrcsi_target_place(cuts->target, p->vertex[e->low].x, from);
-    double high = lrcsi_target_place(cuts->target, p->vertex[e->high].x, to);
-    lrcsi_cut *cut = cut_new(cuts, from, to, width_of(cuts, lrcsi_most(low, high)));
+    const double *from = p->vertex[e->low].x;
+    const double *to = p->vertex[e->high].x;
+    double end[2][2];
+    double width = 0;
+    if (cuts->target->needle) {
+        width = width_in_needle(lrcsi_needle_segment(cuts->target->needle, from, to, end));
+    } else {
+        double low = lrcsi_target_place(cuts->target, from, end[0]);
+        double high = lrcsi_target_place(cuts->target, to, end[1]);
+        width = width_of(cuts, lrcsi_most(low, high));
+    }
+    lrcsi_cut *cut = cut_new(cuts, end[0], end[1], width);
     for (uint32_t i = 0; i < e->uses; i++) {
         cut_sheet(cut, contest->sheet[p->topology.use[e->first_use + i].facet]);
+    }
+}
+
+/* The sides of a facet that touches the target. */
+static void cuts_outline(lrcsi_cuts *cuts, uint32_t other, const lrcsi_contact *c, double width)
+{
+    const lrcsi_target *t = cuts->target;
+    for (int k = 0; k < 3; k++) {
+        double end[2][2];
+        memcpy(end[0], c->corner[k], sizeof end[0]);
+        memcpy(end[1], c->corner[(k + 1) % 3], sizeof end[1]);
+        if (t->needle) {
+            lrcsi_needle_segment(t->needle, lrcsi_target_corner(t->view, other, k),
+                                 lrcsi_target_corner(t->view, other, (k + 1) % 3), end);
+        }
+        cut_new(cuts, end[0], end[1], width);
     }
 }
 
@@ -79,14 +115,15 @@ static void cuts_contact(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_
 {
     lrcsi_contact c;
     int kind = lrcsi_contact_find(cuts->target, other, &c);
-    double width = width_of(cuts, c.reach);
+    int outline = kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN;
+    double slip = outline ? 0 : c.slip;
+    double width =
+        cuts->target->needle ? width_in_needle(c.off + slip) : width_of(cuts, c.reach) + slip;
     uint32_t first = cuts->count;
-    if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
-        for (int k = 0; k < 3; k++) {
-            cut_new(cuts, c.corner[k], c.corner[(k + 1) % 3], width);
-        }
+    if (outline) {
+        cuts_outline(cuts, other, &c, width);
     } else if (kind != LRCSI_CONTACT_POINT) {
-        cut_new(cuts, c.end[0], c.end[1], width + c.slip);
+        cut_new(cuts, c.end[0], c.end[1], width);
     }
     for (uint32_t i = first; i < cuts->count; i++) {
         cuts->cut[i].other = other;

@@ -65,13 +65,13 @@
 /* How far a place must lie within a cell of such an inset to stand for it. */
 static double cell_margin(const lrcsi_occluding *o, double inset)
 {
-    return 2 * inset + 16 * U * o->target.diameter;
+    return 2 * inset + 16 * U * o->frame.diameter + 2 * o->frame.slip;
 }
 
 /* How far the point of a sample may be from its place. */
 static double cell_off(const lrcsi_occluding *o)
 {
-    return 100 * U * o->target.reach + 8 * U;
+    return 100 * U * o->frame.reach + 8 * U + o->frame.slip;
 }
 
 /* Is the cell known to be visible at a place that stands clear within it? */
@@ -110,11 +110,23 @@ static void cell_charge(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, doub
     }
 }
 
+/* The cell as a piece. In a needle its corners are rounded to the frame of the view axes. */
+static void cell_piece(lrcsi_occluding *o, const lrcsi_clip_polygon *shape)
+{
+    o->piece = *shape;
+    if (o->frame.needle) {
+        for (uint32_t i = 0; i < shape->count; i++) {
+            lrcsi_target_unrefine(&o->frame, shape->corner[i], o->piece.corner[i]);
+        }
+        o->bent += 4 * U * o->target.reach * lrcsi_clip_perimeter(&o->piece);
+    }
+}
+
 /* All of the cell is visible: a piece, unless that is a guess: 1 or 0. */
 static int cell_show(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
 {
-    o->piece = cell->shape;
-    o->off += U * o->target.diameter * o->target.perimeter;
+    cell_piece(o, &cell->shape);
+    o->off += U * o->frame.diameter * o->frame.perimeter;
     o->area += area;
     o->doubt[1] += cell->sure ? 0 : area;
     return cell->sure;
@@ -160,7 +172,7 @@ static int cell_split(lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
     }
     int on_left = lrcsi_clip_side(line, cell->at) > 0;
     o->cells--;
-    o->off += 8 * U * o->target.diameter * lrcsi_clip_perimeter(&cell->shape);
+    o->off += 8 * U * o->frame.diameter * lrcsi_clip_perimeter(&cell->shape);
     cell_push(o, cell, on_left ? &right : &left, 0);
     cell_push(o, cell, on_left ? &left : &right, cell->lit);
     return 1;
@@ -276,13 +288,14 @@ static int occlude_cells(lrcsi_occluding *o)
 static int cells_open(lrcsi_occluding *o, uint32_t facet)
 {
     lrcsi_target_make(o->contest->view, facet, &o->target);
+    lrcsi_target_refine(&o->target, &o->needle, &o->frame);
     o->area = o->doubt[0] = o->doubt[1] = o->off = 0;
-    int status = lrcsi_cuts_make(o->contest, &o->target, o->work, &o->cuts);
+    int status = lrcsi_cuts_make(o->contest, &o->frame, o->work, &o->cuts);
     if (status == LRCS_OK) {
         lrcsi_cover_start(&o->cover, &o->target);
         o->cells = PARTS_MOST + (uint64_t)PARTS_A_CUT * o->cuts.count;
         o->stack[0] = (lrcsi_occlude_cell){.count = o->cuts.count};
-        lrcsi_clip_triangle((const double(*)[2])o->target.corner, &o->stack[0].shape);
+        lrcsi_clip_triangle((const double(*)[2])o->frame.corner, &o->stack[0].shape);
         o->top = 1;
     }
     return status;
@@ -290,12 +303,14 @@ static int cells_open(lrcsi_occluding *o, uint32_t facet)
 
 static lrcsi_visible cells_area(const lrcsi_occluding *o)
 {
-    double whole = lrcsi_view_tilt(o->contest->view, o->target.facet).projected;
-    double own = 20 * U * o->target.reach + 32 * U * o->target.diameter;
-    double error = own * o->target.perimeter + o->off;
-    double left = lrcsi_most(0, lrcsi_least(whole, o->area));
-    return (lrcsi_visible){left, lrcsi_most(0, left - o->doubt[1] - error),
-                           lrcsi_least(whole, left + o->doubt[0] + error), 0, 0};
+    lrcsi_tilt tilt = lrcsi_view_tilt(o->contest->view, o->frame.facet);
+    double unit = o->frame.unit;
+    double own = 20 * U * o->frame.reach + 32 * U * o->frame.diameter + 4 * o->frame.slip;
+    double error = unit * (own * o->frame.perimeter + o->off);
+    double left = lrcsi_most(0, lrcsi_least(tilt.projected, unit * o->area));
+    error += o->frame.needle ? tilt.error * tilt.projected : 0;
+    return (lrcsi_visible){left, lrcsi_most(0, left - unit * o->doubt[1] - error),
+                           lrcsi_least(tilt.projected, left + unit * o->doubt[0] + error), 0, 0};
 }
 
 lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet)
@@ -324,6 +339,7 @@ int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
     o->target.facet = facet;
     o->contested = o->whole = 0;
     o->top = 0;
+    o->bent = 0;
     if (!lrcsi_grid_casts(contest->view, facet)) {
         return LRCS_OK;
     }

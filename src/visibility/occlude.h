@@ -33,6 +33,8 @@ typedef struct lrcsi_occluding {
 
     size_t mark;              /* of the work area, before the facet */
     lrcsi_target target;      /* of a contested facet; of others once a piece has been asked for */
+    lrcsi_target frame;       /* the same in the frame in which it is divided */
+    lrcsi_needle needle;      /* that of a needle */
     lrcsi_cuts cuts;          /* what may divide it */
     lrcsi_clip_polygon piece; /* the piece last found */
     lrcsi_visible answer;     /* of a facet that is not contested */
@@ -42,6 +44,7 @@ typedef struct lrcsi_occluding {
     double area;     /* visible so far */
     double doubt[2]; /* area of cells that could not be told: hidden, visible by a guess */
     double off;      /* by which the area may be wrong */
+    double bent;     /* by which the pieces' area may be wrong beside */
 } lrcsi_occluding;
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
@@ -55,7 +58,7 @@ int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding 
    frame of o->target (lrcsi_target_weights leads back to the facet). A facet that is visible whole
    comes as its own triangle; one of which nothing is known to be visible has no pieces. The pieces
    together differ from what is visible, both ways, by an area of at most high - low of the answer,
-   and by the rounding of their corners: 20 u reach perimeter.
+   and by the rounding of their corners: 20 u reach perimeter and o->bent.
    Status: LRCS_OK; LRCS_E_MEMORY. What is open takes some of the work area until it is closed; a
    facet that failed to open is closed. */
 int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet);

@@ -100,6 +100,7 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
     if (!o->contested) {
         return LRCS_OK;
     }
+    list->bound += o->bent;
     int all = visible.high >= lrcsi_view_tilt(o->contest->view, facet).projected;
     int none = visible.low <= 0;
     if (all != none) {

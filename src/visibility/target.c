@@ -55,7 +55,7 @@ double lrcsi_target_place(const lrcsi_target *t, const double x[3], double out[2
 
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
 {
-    *t = (lrcsi_target){.view = view, .facet = facet};
+    *t = (lrcsi_target){.view = view, .facet = facet, .unit = 1};
     t->reach = lrcsi_target_frame(view, facet, facet, t->corner);
     for (int k = 0; k < 3; k++) {
         const double *p = t->corner[k];
@@ -63,6 +63,30 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
         double side = hypot(q[0] - p[0], q[1] - p[1]) + 32 * U * t->reach;
         t->diameter = lrcsi_most(t->diameter, side);
         t->perimeter += side;
+    }
+}
+
+void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_target *refined)
+{
+    *refined = *t;
+    if (lrcsi_needle_make(t->view, t->facet, t->corner, t->reach, needle)) {
+        *refined = (lrcsi_target){.view = t->view,
+                                  .facet = t->facet,
+                                  .corner = {{0, 0}, {1, 0}, {0, 1}},
+                                  .diameter = 1.4143,
+                                  .perimeter = 3.4143,
+                                  .slip = needle->off * needle->reach,
+                                  .unit = 2 * lrcsi_view_tilt(t->view, t->facet).projected,
+                                  .needle = needle};
+    }
+}
+
+void lrcsi_target_unrefine(const lrcsi_target *refined, const double at[2], double out[2])
+{
+    for (int k = 0; k < 2; k++) {
+        out[k] = refined->needle
+                     ? at[0] * refined->needle->corner[0][k] + at[1] * refined->needle->corner[1][k]
+                     : at[k];
     }
 }
 

@@ -1,21 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 /* The facet that may be hidden, in its own frame of the view plane: relative to its first corner,
-   view axes. */
+   view axes; a needle also in that of its shares (visibility/needle.h). */
 #ifndef LRCSI_TARGET_H
 #define LRCSI_TARGET_H
 
 #include "view/view.h"
+#include "visibility/needle.h"
 
 typedef struct lrcsi_target {
     const lrcsi_view *view;
     uint32_t facet;
-    double corner[3][2]; /* counter-clockwise in the view */
-    double reach;        /* largest distance, in space, of a corner from the first */
-    double diameter;     /* its longest side in the view, upper bound */
-    double perimeter;    /* in the view, upper bound */
+    double corner[3][2];        /* counter-clockwise in the view */
+    double reach;               /* largest distance, in space, of a corner from the first */
+    double diameter;            /* its longest side in the view, upper bound */
+    double perimeter;           /* in the view, upper bound */
+    double slip;                /* by which its corners may be off, but for 10 u reach */
+    double unit;                /* the area of the view plane that is 1 in the frame */
+    const lrcsi_needle *needle; /* whose frame it is; NULL: view axes */
 } lrcsi_target;
 
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *target);
+
+/* The same in the frame that its parts are told apart in: of its shares, where it is a needle. */
+void lrcsi_target_refine(const lrcsi_target *target, lrcsi_needle *needle, lrcsi_target *refined);
+
+/* A point of the refined frame in that of the view axes, within 3 u of the reach. */
+void lrcsi_target_unrefine(const lrcsi_target *refined, const double at[2], double out[2]);
 
 /* Corner k of a facet, counted so that they run counter-clockwise in the view. */
 const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k);

@@ -142,6 +142,18 @@ static void needle_sampled_at_a_common_corner_is_decided(void **state)
     check_case("turned 99:6546");
 }
 
+/* Copies an ulp apart, seen edge-on: facets as long as the scene and no wider than some ulps of
+   that, whose visible areas were off by up to four fifths of all. */
+static void needles_of_some_ulps_show_their_exact_shares(void **state)
+{
+    (void)state;
+    check_case("skins 1:1482");
+    check_case("skins 1:2349");
+    check_case("skins 1:3844");
+    check_case("skins 1:4174");
+    check_case("skins 1:4284");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -151,6 +163,7 @@ int main(void)
         cmocka_unit_test(visible_area_is_never_negative),
         cmocka_unit_test(facet_thinner_than_its_rounding_is_asked_at_a_corner),
         cmocka_unit_test(needle_sampled_at_a_common_corner_is_decided),
+        cmocka_unit_test(needles_of_some_ulps_show_their_exact_shares),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/* Places in a needle, and sides of lines as seen from one. In the ordinary frame both are off by
+   some u of the facet's length r; a needle seen edge-on may be no wider than that. Its shares have
+   no such scale. It knows nothing of what hides what.
+
+   Error. With e and f the sides from the origin, d the direction and T = det(e, f, d), the shares
+   of x are det(g, f, d) / T and det(e, g, d) / T, g = x - origin. A difference of doubles is exact
+   as a pair. A component of f x d is two products (7 u^2 each) and a difference (3 u^2), at most
+   15 u^2 |f| |d| in norm; its product with g again three products and two sums, 13.2 u^2 of
+   |f| |d| |g|. So the determinant is off by 29 u^2 r |d| |g|. T is taken as computed: that scales
+   the frame by 1 + 29 u^2 r^2 |d| / T, which moves the facet's own corners, and the point that a
+   place in the frame means, by as much: `off` times the reach, and half of that would do. The
+   quotient adds 20 u^2 of a share of at most 1.01 r |d| |g| / T.
+
+   A clipped end is from + t (to - from), a difference, product and sum: 13 u^2 of 2 s, s the larger
+   share; where t comes from heights (visibility/contact.h), its quotient of rounded sums 30 u^2 of
+   2 s more. That makes 137 u^2 r |d| |g| / T of all: OFF holds it. */
+#include "visibility/needle.h"
+
+#include <math.h>
+
+#include "base/range.h"
+#include "visibility/target.h"
+
+#define U   0x1p-53
+#define OFF (160 * U * U)
+
+/* Products of coordinates and components are multiples of 2^-1056 (base/exact.c). What underflows
+   in those of quotients and places, some 2^-1074, is lost in this. */
+#define UNDERFLOW 0x1p-900
+
+/* A needle is so much longer than wide, or more; the rest of 2^106 is left to tell it by. */
+#define NEEDLE_LEAST 0x1p20
+#define NEEDLE_MOST  0x1p76
+
+lrcsi_dd lrcsi_needle_quotient(lrcsi_dd a, lrcsi_dd b)
+{
+    double first = a.hi / b.hi;
+    lrcsi_dd rest = lrcsi_dd_sub(a, lrcsi_dd_scale(b, first));
+    return lrcsi_dd_quick_sum(first, rest.hi / b.hi);
+}
+
+/* x - from, exactly; returns its length, within 4 u. */
+static double gap_between(const double *x, const double *from, lrcsi_dd out[3])
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        out[k] = lrcsi_dd_two_sum(x[k], -from[k]);
+        square += out[k].hi * out[k].hi;
+    }
+    return sqrt(square);
+}
+
+/* a x d, times a sign. */
+static void cross_view(const lrcsi_dd a[3], const double *d, int sign, lrcsi_dd out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        out[k] = lrcsi_dd_sub(lrcsi_dd_scale(a[i], sign * d[j]), lrcsi_dd_scale(a[j], sign * d[i]));
+    }
+}
+
+static lrcsi_dd dot_finely(const lrcsi_dd a[3], const lrcsi_dd b[3])
+{
+    lrcsi_dd sum = lrcsi_dd_mul(a[0], b[0]);
+    sum = lrcsi_dd_add(sum, lrcsi_dd_mul(a[1], b[1]));
+    return lrcsi_dd_add(sum, lrcsi_dd_mul(a[2], b[2]));
+}
+
+int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corner[3][2],
+                      double reach, lrcsi_needle *n)
+{
+    double turn = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
+    if (turn * NEEDLE_LEAST > reach * reach) {
+        return 0;
+    }
+    n->origin = lrcsi_target_corner(view, facet, 0);
+    n->direction = view->direction;
+    n->length = view->length;
+    n->reach = 0;
+    for (int i = 0; i < 2; i++) {
+        const double *x = lrcsi_target_corner(view, facet, i + 1);
+        n->reach = lrcsi_most(n->reach, gap_between(x, n->origin, n->side[i]));
+        n->corner[i][0] = corner[i + 1][0];
+        n->corner[i][1] = corner[i + 1][1];
+    }
+    cross_view(n->side[1], n->direction, 1, n->row[0]);
+    cross_view(n->side[0], n->direction, -1, n->row[1]);
+    n->whole = dot_finely(n->row[1], n->side[1]);
+    n->off = OFF * n->reach * n->length / n->whole.hi;
+    return n->whole.hi > UNDERFLOW && n->whole.hi * NEEDLE_MOST > n->reach * n->reach * n->length;
+}
+
+double lrcsi_needle_place(const lrcsi_needle *n, const double x[3], lrcsi_dd out[2])
+{
+    lrcsi_dd gap[3];
+    double far = gap_between(x, n->origin, gap);
+    for (int i = 0; i < 2; i++) {
+        out[i] = lrcsi_needle_quotient(dot_finely(n->row[i], gap), n->whole);
+    }
+    return n->off * far;
+}
+
+/* --- segments --------------------------------------------------------------------------------- */
+
+/* Narrows the part of a segment, between shares of its length, to where sign (x - bound) is not
+   negative in one coordinate. 0 where that is nowhere. */
+static int clip_share(lrcsi_dd from, lrcsi_dd to, double bound, int sign, lrcsi_dd part[2])
+{
+    lrcsi_dd limit = {bound, 0};
+    lrcsi_dd a = lrcsi_dd_sub(from, limit);
+    lrcsi_dd b = lrcsi_dd_sub(to, limit);
+    int out = sign * a.hi < 0;
+    if (out && sign * b.hi < 0) {
+        return 0;
+    }
+    if (out || sign * b.hi < 0) {
+        lrcsi_dd at = lrcsi_needle_quotient(a, lrcsi_dd_sub(a, b));
+        double later = lrcsi_dd_sub(at, part[!out]).hi;
+        if (out ? later > 0 : later < 0) {
+            part[!out] = at;
+        }
+    }
+    return 1;
+}
+
+void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[2][2])
+{
+    lrcsi_dd part[2] = {{0, 0}, {1, 0}};
+    int in = 1;
+    for (int k = 0; k < 2 && in; k++) {
+        in = clip_share(from[k], to[k], -1, 1, part) && clip_share(from[k], to[k], 2, -1, part);
+    }
+    in = in && lrcsi_dd_sub(part[1], part[0]).hi >= 0;
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 2; k++) {
+            lrcsi_dd along = lrcsi_dd_mul(part[i], lrcsi_dd_sub(to[k], from[k]));
+            end[i][k] = in ? lrcsi_dd_value(lrcsi_dd_add(from[k], along)) : 2;
+        }
+    }
+}
+
+double lrcsi_needle_segment(const lrcsi_needle *n, const double p[3], const double q[3],
+                            double end[2][2])
+{
+    lrcsi_dd from[2];
+    lrcsi_dd to[2];
+    double off = lrcsi_needle_place(n, p, from);
+    off = lrcsi_most(off, lrcsi_needle_place(n, q, to));
+    lrcsi_needle_clip(from, to, end);
+    return off;
+}
+
+/* --- sides ------------------------------------------------------------------------------------ */
+
+/* det(q - p, x - p, d) at x = origin + u e + v f. x - p is off by 13 u^2 of the lengths that it is
+   summed from, the rest is as above: below 45 u^2 of all. */
+double lrcsi_needle_side(const lrcsi_needle *n, const double p[3], const double q[3],
+                         const double at[2], int guess)
+{
+    lrcsi_dd along[3];
+    lrcsi_dd gap[3];
+    lrcsi_dd row[3];
+    double length = gap_between(q, p, along);
+    double far = gap_between(n->origin, p, gap) + 2 * n->reach;
+    for (int k = 0; k < 3; k++) {
+        gap[k] = lrcsi_dd_add(gap[k], lrcsi_dd_scale(n->side[0][k], at[0]));
+        gap[k] = lrcsi_dd_add(gap[k], lrcsi_dd_scale(n->side[1][k], at[1]));
+    }
+    cross_view(along, n->direction, -1, row);
+    double side = lrcsi_dd_value(dot_finely(row, gap));
+    return guess || fabs(side) > 64 * U * U * length * far * n->length + UNDERFLOW ? side : 0;
+}
