@@ -10,6 +10,7 @@
 #include "base/exact.h"
 #include "base/range.h"
 #include "visibility/clip.h"
+#include "visibility/sample.h"
 
 #define U 0x1p-53
 
@@ -111,6 +112,23 @@ int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other)
                             lrcsi_prepared_corner(prepared, facet, (n / 3 + 1) % 3),
                             lrcsi_prepared_corner(prepared, other, n % 3),
                             lrcsi_prepared_corner(prepared, other, (n + 1) % 3));
+    }
+    return order;
+}
+
+/* A corner on the other's plane tells nothing: they meet there. */
+int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
+{
+    int order = 0;
+    for (int n = 0; n < 6 && order == 0; n++) {
+        const double *its = lrcsi_prepared_corner(view->prepared, facet, n % 3);
+        const double *others = lrcsi_prepared_corner(view->prepared, other, n % 3);
+        if (n < 3 && lrcsi_sample_covers(view, other, its)) {
+            order = -height_sign(view, other, its);
+        }
+        if (n >= 3 && lrcsi_sample_covers(view, facet, others)) {
+            order = height_sign(view, facet, others);
+        }
     }
     return order;
 }

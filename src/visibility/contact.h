@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Where a facet that touches the inside of another meets its plane: a line in the other's frame,
-   with how far that may be off, or all of the facet. */
+/* Where a facet that touches the inside of another meets its plane: a line in the other's frame (a
+   needle's own, where it is one), with how far that may be off, or all of the facet. */
 #ifndef LRCSI_CONTACT_H
 #define LRCSI_CONTACT_H
 
@@ -34,5 +34,8 @@ int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other);
 /* The same of two facets that do not touch, neither of which lies on one side of the other's plane:
    their order is the same wherever a line meets both, so also where two of their sides cross. */
 int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other);
+
+/* Where none cross, one may lie within the other: the same by a corner there. */
+int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other);
 
 #endif

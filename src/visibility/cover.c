@@ -101,20 +101,6 @@ void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
     }
 }
 
-/* 1 where `other`, of which no side crosses one of the facet's, is nearer at a corner of either
-   within the other one, and so wherever they overlap; -1 where it is farther; 0 where none is. */
-static int order_at_corners(const lrcsi_view *view, uint32_t facet, uint32_t other)
-{
-    for (int n = 0; n < 6; n++) {
-        uint32_t its = n < 3 ? facet : other;
-        const double *x = lrcsi_prepared_corner(view->prepared, its, n % 3);
-        if (lrcsi_sample_covers(view, n < 3 ? other : facet, x)) {
-            return lrcsi_sample_nearer(view, other, facet, x, 1);
-        }
-    }
-    return 0;
-}
-
 /* The order of two facets neither of which lies on one side of the other's plane. Of those that
    touch, the cut tells; in one plane the rules of precedence decide, and one that is beaten has no
    cut. */
@@ -138,7 +124,7 @@ static uint32_t order_mixed(const lrcsi_cuts *cuts, uint32_t other)
     }
     int order = lrcsi_contact_order(t->view, t->facet, other);
     if (order == 0 && t->needle) {
-        order = order_at_corners(t->view, t->facet, other);
+        order = lrcsi_contact_within(t->view, t->facet, other);
     }
     return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
 }
@@ -194,8 +180,8 @@ static int line_meets_about(const cover_line *line, lrcsi_cover_facet *c)
     return inside;
 }
 
-/* The same in a needle: its place is a point of the facet exactly, and sides as good as lines in
-   double-double. */
+/* The same in a needle, at the point that has these shares: it is off its place by the frame's
+   slip, and sides are told in double-double. */
 static int line_meets_finely(const cover_line *line, const lrcsi_cover_facet *c)
 {
     const lrcsi_target *t = line->cuts->target;
@@ -308,7 +294,10 @@ int lrcsi_cover_sample(lrcsi_cover *cover, const lrcsi_cuts *cuts, uint32_t coun
     const lrcsi_view *view = cuts->target->view;
     const double *origin =
         view->point[view->prepared->scene->facet[cuts->target->facet].corner[0]].x;
-    cover_line line = {.cuts = cuts, .count = count, .at = {place->at[0], place->at[1]}};
+    cover_line line = {.cuts = cuts,
+                       .count = count,
+                       .at = {place->at[0], place->at[1]},
+                       .off = cuts->target->slip};
     lrcsi_target_unrefine(cuts->target, place->at, line.xy);
     line.xy[0] += origin[0];
     line.xy[1] += origin[1];

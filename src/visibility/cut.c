@@ -11,6 +11,10 @@
    or lies on one side of its line as computed, the segment lies within that width of the line, and
    all of the cell on one side but for as much (24 u of r + d would do, and 30 u for a contact).
 
+   In a needle's frame (visibility/needle.h) ends are off by less, and segments clipped: one that
+   meets the facet starts, ends and runs on within the box, so that its part there is one long
+   unless its ends are its own.
+
    A contact with a facet in one plane with the target divides along the outline of that facet: on
    either side of it the facet hides all or nothing. So it is taken where the line of a contact is
    not known; what is inside the outline is then not decided by samples (visibility/cover.c). A

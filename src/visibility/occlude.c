@@ -30,7 +30,13 @@
    A split puts two corners on the sides of a piece to within 5 u d. Both parts share them, so that
    only the two sides bend, by 5 u d d' of area in a cell of diameter d'; and there are two more
    triangles to sum areas from, 7 u d'^2: together below 8 u d q, q the cell's perimeter. Adding up
-   the cells costs u d p each. */
+   the cells costs u d p each.
+
+   A needle in the view may be no wider than all this. It is done in the frame of its shares
+   (visibility/needle.h), where it is as wide as long, and all of the above holds as it stands: its
+   corners are exact but for the frame's slip, segments come clipped to a box around it, and are off
+   as visibility/cut.c tells; samples are taken at points that are not rounded. Areas are counted in
+   units of twice the facet's projection, which is off by its own error. */
 #include "visibility/occlude.h"
 
 #include <math.h>
