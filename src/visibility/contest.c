@@ -188,6 +188,12 @@ static int touch_contests(const lrcsi_view *view, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
+/* How many events their grid lists at most. */
+static size_t events_most(const lrcs_prepared *prepared)
+{
+    return 8 * (size_t)prepared->topology.edge_count;
+}
+
 /* Events where they lie, and their grid. */
 static int contest_events(lrcsi_contest *c, lrcs_work *work)
 {
@@ -211,7 +217,8 @@ static int contest_events(lrcsi_contest *c, lrcs_work *work)
             c->events.edge[i],
             0};
     }
-    return lrcsi_grid_edges(view, c->events.edge, count, c->grid.size, work, &c->grid);
+    return lrcsi_grid_edges(c->events.edge, count, events_most(view->prepared), work, &c->grid,
+                            c->cells);
 }
 
 /* Which way the facets face that can hide something, and which cells they touch. */
@@ -230,6 +237,7 @@ static void contest_cast(lrcsi_contest *c)
         }
     }
     c->kin[count] = 0;
+    lrcsi_grid_fit(&c->grid, c->cells);
 }
 
 /* Which facets are contested, and which of the others are alone in their region. */
@@ -264,17 +272,17 @@ size_t lrcsi_contest_need(const lrcs_prepared *prepared)
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_contest_edge)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(facets, 8 * edges + 8192));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, events_most(prepared)));
 }
 
-/* Grids have a cell or so for every facet that faces either way: then most facets meet no event's
-   cell, and need no further look. */
+/* Grids have a cell or so for every facet that faces either way, unless facets are large: then most
+   facets meet no event's cell, and need no further look. */
 int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *contest)
 {
     size_t mark = work->used;
     uint32_t count = view->prepared->scene->facet_count;
     lrcsi_contest c = {.view = view};
-    c.grid = lrcsi_grid_empty(view, lrcsi_grid_size(view->front + view->back));
+    c.grid = lrcsi_grid_empty(view, view->front + view->back);
     c.contested = lrcsi_work_take_zero(work, count, 1);
     c.kin = lrcsi_work_take(work, (size_t)count + 1, 1);
     c.sheet = lrcsi_work_take(work, count, sizeof *c.sheet);

@@ -90,8 +90,9 @@ static int margin_events(margin_job *job, lrcs_work *work)
     }
     job->edge = edge;
     list_events(job);
-    return lrcsi_grid_edges(job->view, job->edge, job->count, lrcsi_grid_size(job->count), work,
-                            &job->grid);
+    job->grid = lrcsi_grid_empty(job->view, job->count);
+    return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid,
+                            NULL);
 }
 
 /* --- one facet and one edge --------------------------------------------------------------------
@@ -326,7 +327,7 @@ size_t lrcsi_margin_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
+    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges));
 }
 
 /* Scratch goes as the shares are done. */
