@@ -109,9 +109,9 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
 
-/* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with their
-   models, and may differ in all else: places, joints, shapes, materials. `base` and the recipe's
-   texts must outlive the scene; scene->recipe stays empty. Status: as above. */
+/* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with
+   their models, and may differ in all else: places, joints, shapes, materials. `base` and the
+   recipe's texts must outlive the scene; scene->recipe stays empty. Status: as above. */
 int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          const lrcs_build_options *build, lrcs_host_scene *scene,
                          lrcs_host_error *error);
@@ -167,11 +167,15 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
 
 /* ---- readings to fit ---- */
 
+typedef struct lrcs_host_reading {
+    lrcs_fit_reading fit; /* sigma is 0 where the file has none */
+    uint32_t material;    /* an index of lrcs_host_readings' names */
+    uint32_t line;        /* in the file, from 1 */
+} lrcs_host_reading;
+
 /* Readings from a table of text, several materials in one file allowed. */
 typedef struct lrcs_host_readings {
-    lrcs_fit_reading *reading; /* in the file's order; sigma is 0 where the file has none */
-    uint32_t *material;        /* of each reading, an index of `name` */
-    uint32_t *line;            /* and its line, from 1 */
+    lrcs_host_reading *reading; /* in the file's order */
     uint32_t count;
     char **name; /* in the order of their first reading; one "" where the file names none */
     uint32_t name_count;
