@@ -4,6 +4,7 @@
 #include "visibility/contest.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/exact.h"
 #include "base/work.h"
@@ -164,7 +165,19 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
 
 uint32_t lrcsi_contest_crossings(lrcsi_contest *contest, uint32_t facet)
 {
-    return contest_find(contest, facet, LRCS_NONE);
+    if (contest->crossed != facet) {
+        contest->crossings = contest_find(contest, facet, LRCS_NONE);
+        contest->crossed = facet;
+    }
+    return contest->crossings;
+}
+
+void lrcsi_contest_recall(lrcsi_contest *contest, uint32_t facet, const uint32_t *crossing,
+                          uint32_t count)
+{
+    memcpy(contest->crossing, crossing, count * sizeof *crossing);
+    contest->crossings = count;
+    contest->crossed = facet;
 }
 
 /* --- contacts --------------------------------------------------------------------------------- */
@@ -267,7 +280,7 @@ size_t lrcsi_contest_need(const lrcs_prepared *prepared)
     size_t edges = prepared->topology.edge_count;
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(2 * facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells)));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_contest_edge)));
@@ -281,7 +294,7 @@ int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *c
 {
     size_t mark = work->used;
     uint32_t count = view->prepared->scene->facet_count;
-    lrcsi_contest c = {.view = view};
+    lrcsi_contest c = {.view = view, .crossed = LRCS_NONE};
     c.grid = lrcsi_grid_empty(view, view->front + view->back);
     c.contested = lrcsi_work_take_zero(work, count, 1);
     c.kin = lrcsi_work_take(work, (size_t)count + 1, 1);
