@@ -136,9 +136,10 @@ typedef struct lrcs_image {
     uint32_t *facet; /* N * N: facet index, or LRCS_NONE */
 } lrcs_image;
 
-/* Bytes of work area that lrcs_sigma_run takes, an upper bound for ordinary scenes; with less
-   it leaves facets unclipped, or uses a raster, or a coarser one (LRCS_FLAG_MEMORY_FALLBACK; the
-   result names the method used), or says LRCS_E_MEMORY when even the coarsest does not fit. */
+/* Bytes of work area that lrcs_sigma_run takes at most, from any pose, an image left aside: that
+   takes as much as method zbuffer at its resolution, if that is more. With less a run leaves facets
+   unclipped, or uses a raster, or a coarser one (LRCS_FLAG_MEMORY_FALLBACK; the result names the
+   method used), or says LRCS_E_MEMORY when even the coarsest does not fit. */
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options);
 
 /* sigma from a pose.

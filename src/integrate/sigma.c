@@ -50,9 +50,22 @@ static int options_check(const lrcs_run_options *options)
     return LRCS_OK;
 }
 
-size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
+/* What finding visible areas takes: under auto, whichever method does. On samples, curved facets
+   that are seen in part are clipped. */
+static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
+    size_t raster =
+        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+    size_t exact = lrcsi_occlude_need(prepared);
+    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
+    return options->method == LRCS_METHOD_EXACT                       ? exact
+           : options->method == LRCS_METHOD_ZBUFFER || raster > exact ? raster
+                                                                      : exact;
+}
+
+size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
+{
     size_t facets = prepared->scene->facet_count;
     size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible));
     size_t curved = prepared->smooth ? lrcsi_work_bytes(facets, sizeof(lrcsi_curved)) : 0;
@@ -63,12 +76,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_work_add(areas, curved));
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
     need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
-    if (options->method == LRCS_METHOD_EXACT) {
-        return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
-    }
-    need = lrcsi_work_add(need, lrcsi_visible_known_need(prepared));
-    need = lrcsi_work_add(need, prepared->smooth ? lrcsi_occlude_need(prepared) : 0);
-    return lrcsi_work_add(need, lrcsi_visible_need(prepared, size));
+    return lrcsi_work_add(need, method_need(prepared, options));
 }
 
 static double run_bound(const lrcsi_total *total)
