@@ -36,7 +36,7 @@ enum lrcs_fit_index { LRCS_FIT_A, LRCS_FIT_B, LRCS_FIT_S, LRCS_FIT_M, LRCS_FIT_P
 
 /* What the readings say of a parameter. */
 enum lrcs_fit_verdict {
-    LRCS_FIT_DETERMINED, /* limits on both sides; those of B's m may begin at 0 */
+    LRCS_FIT_DETERMINED, /* limits on both sides; those of m may begin at 0 */
     LRCS_FIT_ABSENT,     /* A or B: cannot be told from 0, and has an upper limit */
     LRCS_FIT_MOOT,       /* s or m: its A or B cannot be told from 0 */
     LRCS_FIT_AT_MOST,    /* no lower limit */

@@ -83,7 +83,7 @@ static void cell_print(double value, int width, const char *none)
 
 static void parameters_print(const lrcs_fit *fit)
 {
-    printf("\n%8s  %12s  %12s  %12s  %12s\n", "", "value", "std error", "at least", "at most");
+    printf("\n%8s  %12s  %12s  %12s  %12s\n", "", "value", "std error", "low, 95 %", "high, 95 %");
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         const lrcs_fit_parameter *one = &fit->parameter[p];
         printf("%s %-6s", report_name[p], p < LRCS_FIT_S ? "1/sr" : "");
