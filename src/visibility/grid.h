@@ -67,8 +67,9 @@ static inline void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex
     }
 }
 
-/* How often a facet is listed at most, on average. Where that makes a grid coarser, its lists grow
-   little: what made it so are facets that fill as many cells as there are facets. */
+/* How often a facet is listed at most, on average. Facets that fill 16 cells fill 9 of twice the
+   size, or fewer: so a coarser grid has lists little more than twice as long, and fewer of them to
+   walk through for each facet. */
 #define LRCSI_GRID_FACET_CELLS 16u
 
 /* The window in about `cells` cells (none more, but for one at least), without lists. */

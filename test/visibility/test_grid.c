@@ -151,6 +151,65 @@ static void cells_of_small_facets_are_as_many_as_those(void **state)
     assert_int_equal(check_grids(), 64);
 }
 
+/* Large triangles in many cells, whose edges alone make them fewer. */
+static void edges_are_listed_no_more_often_than_asked_for(void **state)
+{
+    (void)state;
+    lrcs_work work;
+    shards(40);
+    lrcsi_view view = view_of_scene(&work);
+    const lrcs_prepared *p = view.prepared;
+    uint32_t edge[120];
+    for (uint32_t i = 0; i < 120; i++) {
+        edge[i] = 119 - i;
+    }
+    uint32_t before = 0;
+    for (uint64_t most = 100; most <= 12800; most *= 2) {
+        size_t mark = work.used;
+        lrcsi_grid grid = lrcsi_grid_empty(&view, 64 * 64);
+        lrcsi_cells cells[40];
+        memset(cells, 0, sizeof cells);
+        assert_int_equal(lrcsi_grid_edges(edge, 120, most, &work, &grid, cells), LRCS_OK);
+        assert_true(listed(&grid) <= (most < 120 ? 120 : most));
+        assert_true(grid.size >= before && (grid.size > 1) == (most > 200));
+        before = grid.size;
+        for (uint32_t i = 0; i < 120; i++) {
+            const lrcsi_edge *e = &p->topology.edge[edge[i]];
+            double at[2];
+            place_on(&view, (const uint32_t[2]){e->low, e->high}, 2, at);
+            assert_true(lists(&grid, at, i));
+        }
+        work.used = mark;
+    }
+    assert_int_equal(before, 64);
+}
+
+/* A box of cells made coarser is the box in the coarser grid, wherever it lies. */
+static void boxes_of_cells_grow_with_the_cells(void **state)
+{
+    (void)state;
+    lrcs_work work;
+    shards(1);
+    lrcsi_view view = view_of_scene(&work);
+    for (uint32_t size = 1; size <= 37; size++) {
+        for (int i = 0; i < 200; i++) {
+            lrcsi_grid grid = lrcsi_grid_empty(&view, size * size);
+            double low[2];
+            double high[2];
+            for (int k = 0; k < 2; k++) {
+                low[k] = view.low[k] + random_to(view.side);
+                high[k] = low[k] + random_to(view.low[k] + view.side - low[k]);
+            }
+            lrcsi_cells cells = lrcsi_grid_cells(&grid, low, high);
+            assert_int_equal(grid.size, size);
+            lrcsi_grid_fit(&grid, &cells);
+            lrcsi_cells want = lrcsi_grid_cells(&grid, low, high);
+            assert_memory_equal(&cells, &want, sizeof want);
+            assert_true((cells.x1 - cells.x0) * (cells.y1 - cells.y0) <= 16);
+        }
+    }
+}
+
 /* In so many bytes, and unharmed where they are too few. */
 static int facets_in(const lrcsi_contest *contest, const unsigned char *wanted, size_t size)
 {
@@ -210,6 +269,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_stands_in_a_cell_is_listed_there_and_not_too_often),
         cmocka_unit_test(cells_of_small_facets_are_as_many_as_those),
+        cmocka_unit_test(edges_are_listed_no_more_often_than_asked_for),
+        cmocka_unit_test(boxes_of_cells_grow_with_the_cells),
         cmocka_unit_test(grids_of_facets_fit_into_what_they_ask_for),
         cmocka_unit_test(contests_fit_into_what_they_ask_for),
     };
