@@ -109,9 +109,9 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
 
-/* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with their
-   models, and may differ in all else: places, joints, shapes, materials. `base` and the recipe's
-   texts must outlive the scene; scene->recipe stays empty. Status: as above. */
+/* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with
+   their models, and may differ in all else: places, joints, shapes, materials. `base` and the
+   recipe's texts must outlive the scene; scene->recipe stays empty. Status: as above. */
 int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          const lrcs_build_options *build, lrcs_host_scene *scene,
                          lrcs_host_error *error);
@@ -229,13 +229,6 @@ void lrcs_host_json_bool(lrcs_host_json *json, const char *key, int value);
    Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_LIMIT (2 GiB); LRCS_E_SYSTEM (memory). */
 int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, uint32_t height,
                         uint32_t channels, lrcs_host_error *error);
-
-/* What the laser sees, coloured by sigma per projected area, as `size` x `size` RGB pixels.
-   The image is a run's with records, side lrcs_host_picture_need(size).
-   Given: rgb with room for 3 size^2 bytes; size 16 .. 16384. */
-uint32_t lrcs_host_picture_need(uint32_t size);
-void lrcs_host_picture_make(const lrcs_scene *scene, const lrcs_facet_record *records,
-                            const lrcs_image *image, uint32_t size, unsigned char *rgb);
 
 /* ---- charts ---- */
 

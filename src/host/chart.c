@@ -5,6 +5,7 @@
 #include "host/canvas.h"
 #include "host/label.h"
 #include "host/letters.h"
+#include "host/palette.h"
 #include "host/svg.h"
 
 #include <math.h>
@@ -32,9 +33,6 @@
 #define COLOUR_MINOR 0xefefefu
 #define COLOUR_FLOOR 0xf4f1e8u
 #define COLOUR_PAPER 0xffffffu
-
-static const uint32_t chart_colours[] = {0x000000u, 0xe69f00u, 0x56b4e9u, 0x009e73u,
-                                         0xf0e442u, 0x0072b2u, 0xd55e00u, 0xcc79a7u};
 
 typedef struct chart_plan {
     const lrcs_host_chart *chart;
@@ -238,7 +236,7 @@ static void chart_frame(const chart_plan *plan)
 static lrcsi_ink series_ink(const lrcs_host_series *series)
 {
     static const double dash[3][2] = {{0.0, 0.0}, {7.0, 5.0}, {0.1, 4.5}};
-    lrcsi_ink ink = {chart_colours[series->colour & 7], 1.7, {0.0, 0.0}};
+    lrcsi_ink ink = {lrcsi_palette_named(series->colour), 1.7, {0.0, 0.0}};
     int kind =
         series->dash == LRCS_HOST_DASHED || series->dash == LRCS_HOST_DOTTED ? series->dash : 0;
     ink.dash[0] = dash[kind][0];
@@ -268,7 +266,7 @@ static uint32_t marker_corners(int marker, lrcsi_spot corner[24])
 static void marker_draw(const chart_plan *plan, const lrcs_host_series *series, lrcsi_spot at)
 {
     lrcsi_spot corner[25];
-    uint32_t colour = chart_colours[series->colour & 7];
+    uint32_t colour = lrcsi_palette_named(series->colour);
     const lrcsi_ink ink = {colour, 1.4, {0.0, 0.0}};
     if (series->marker == LRCS_HOST_NO_MARKER) {
         return;
@@ -342,7 +340,7 @@ static void series_marks(const chart_plan *plan, const lrcs_host_series *series)
         }
         if (plan->chart->y_log && series->y[i] < plan->chart->floor &&
             series->marker != LRCS_HOST_NO_MARKER) {
-            arrow_draw(plan, chart_colours[series->colour & 7], at);
+            arrow_draw(plan, lrcsi_palette_named(series->colour), at);
         }
         marker_draw(plan, series, at);
     }
@@ -353,7 +351,7 @@ static void series_labels(const chart_plan *plan, const lrcs_host_series *series
     for (uint32_t i = 0; series->label && i < series->count; i++) {
         lrcsi_spot at;
         lrcsi_words words = {
-            .text = series->label[i], .size = 10.5, .colour = chart_colours[series->colour & 7]};
+            .text = series->label[i], .size = 10.5, .colour = lrcsi_palette_named(series->colour)};
         if (words.text && chart_point(plan, series, i, &at) &&
             lrcsi_board_text(plan->board, at, 8.0, words.text, words.size, &words.at)) {
             plan->pen->text(plan->pen, &words);
