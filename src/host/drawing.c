@@ -11,7 +11,7 @@
 #define DRAWING_HEIGHT 900.0 /* at most */
 #define DRAWING_MARGIN 24.0
 #define DRAWING_LEGEND 300.0 /* at most */
-#define DRAWING_SEAM   0.3   /* paths are that much wider, so that nothing shines through between */
+#define DRAWING_SEAM   0.7   /* paths are that much wider, so that nothing shines through between */
 #define DRAWING_INK    0x222222u
 #define DRAWING_DARK   0x0d111cu
 #define DRAWING_PALE   0xcdd2dcu

@@ -84,16 +84,33 @@ static void words_fit(lrcsi_pen *pen, lrcsi_words words, double room)
     pen->text(pen, &words);
 }
 
-/* Numbers under the scale that leave room between them. */
+/* How many named ticks there are from one number to the next, so that all have room. */
+static uint32_t numbers_step(const lrcsi_axis *scale, double width)
+{
+    double widest = 0.0;
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < scale->count; i++) {
+        widest = fmax(widest, lrcsi_letters_width(scale->tick[i].text));
+        named += scale->tick[i].major != 0;
+    }
+    double apart = width / fmax(named - 1.0, 1.0);
+    return (uint32_t)ceil((LEGEND_TYPE * widest + 6.0) / apart);
+}
+
+/* Numbers under the scale, 0 among them where it is. */
 static void scale_numbers(const lrcsi_look *look, lrcsi_pen *pen, double left, double width,
                           double y, uint32_t ink)
 {
-    double clear = -HUGE_VAL;
+    uint32_t step = numbers_step(&look->scale, width);
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < look->scale.count && look->scale.tick[i].value < 0.0; i++) {
+        named += look->scale.tick[i].major != 0;
+    }
+    named = look->scale.most < 0.0 ? 0 : (step - named % step) % step; /* so that 0 counts as one */
     for (uint32_t i = 0; i < look->scale.count; i++) {
         const lrcsi_tick *tick = &look->scale.tick[i];
         double x = left + width * lrcsi_axis_at(&look->scale, tick->value);
-        double half = 0.5 * LEGEND_TYPE * lrcsi_letters_width(tick->text);
-        if (tick->major && x - half > clear) {
+        if (tick->major && named++ % step == 0) {
             const lrcsi_words words = {.text = tick->text,
                                        .at = {x, y + 15.0},
                                        .size = LEGEND_TYPE,
@@ -101,7 +118,6 @@ static void scale_numbers(const lrcsi_look *look, lrcsi_pen *pen, double left, d
                                        .colour = ink};
             legend_stroke(pen, x, y, x, y + 3.0, ink);
             pen->text(pen, &words);
-            clear = x + half + 6.0;
         }
     }
 }
@@ -135,7 +151,7 @@ typedef struct legend_grid {
 static legend_grid grid_make(const lrcsi_look *look, double width, double most)
 {
     legend_grid grid = {.columns = 1, .column = width - 2.0 * LEGEND_MARGIN};
-    double widest = lrcsi_letters_width("and more");
+    double widest = look->more ? lrcsi_letters_width("and more") : 0.0;
     for (uint32_t i = 0; i < look->materials; i++) {
         widest =
             fmax(widest, lrcsi_letters_width(lrcsi_look_material_name(look, look->material[i])));

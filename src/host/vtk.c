@@ -9,8 +9,9 @@
 /* An array of one number, or three, for each of its items. */
 typedef struct vtk_array {
     const char *name;
-    uint32_t count, each;
-    int whole; /* Int32 instead of Float64 */
+    size_t count;
+    uint32_t each;
+    int whole; /* integers instead of doubles */
     double (*value)(const lrcs_host_picture *picture, size_t i);
 } vtk_array;
 
@@ -99,7 +100,7 @@ static void bytes_write(FILE *out, uint64_t bits, int count)
 
 static void legacy_numbers(FILE *out, const lrcs_host_picture *picture, const vtk_array *array)
 {
-    for (size_t i = 0; i < (size_t)array->count * array->each; i++) {
+    for (size_t i = 0; i < array->count * array->each; i++) {
         double value = array->value(picture, i);
         uint64_t bits;
         memcpy(&bits, &value, sizeof bits);
@@ -142,9 +143,9 @@ static void xml_array(FILE *out, const lrcs_host_picture *picture, const vtk_arr
 {
     fprintf(out,
             "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%lu\"%s format=\"ascii\">\n",
-            array->whole ? "Int32" : "Float64", array->name, (unsigned long)array->each,
+            array->whole ? "Int64" : "Float64", array->name, (unsigned long)array->each,
             array->value == vtk_direction ? " NumberOfTuples=\"1\"" : "");
-    for (size_t i = 0; i < (size_t)array->count * array->each; i++) {
+    for (size_t i = 0; i < array->count * array->each; i++) {
         char text[LRCS_HOST_NUMBER_SIZE];
         lrcs_host_number_text(array->value(picture, i), text);
         fputs(text, out);
@@ -158,7 +159,7 @@ static void xml_write(FILE *out, const lrcs_host_picture *picture)
     const lrcs_scene *scene = picture->scene;
     const vtk_array direction = {"direction", 1, 3, 0, vtk_direction};
     const vtk_array point = {"points", scene->vertex_count, 3, 0, vtk_vertex};
-    const vtk_array corner = {"connectivity", scene->facet_count, 3, 1, vtk_corner};
+    const vtk_array corner = {"connectivity", 3 * (size_t)scene->facet_count, 1, 1, vtk_corner};
     const vtk_array offset = {"offsets", scene->facet_count, 1, 1, vtk_offset};
     vtk_array cell[VTK_CELL_ARRAYS];
     cell_arrays(picture, cell);
