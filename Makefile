@@ -94,6 +94,15 @@ bounds: $(LIB)
 BOUNDS_SCENES = 500
 BOUNDS_SEED   = 1
 
+# What the estimate is worth on the demo and on ESTIMATE_MODELS, against method exact.
+estimate: $(LIB)
+	@mkdir -p $(BUILD)/test/hostile
+	$(CC) $(STD) $(OPT) -Wall -Wextra -Iinclude -o $(BUILD)/test/hostile/estimate test/hostile/estimate.c $(LIB) $(LDLIBS)
+	$(BUILD)/test/hostile/estimate $(ESTIMATE_DIRECTIONS) $(ESTIMATE_SEED) demo $(ESTIMATE_MODELS)
+ESTIMATE_DIRECTIONS = 24
+ESTIMATE_SEED       = 1
+ESTIMATE_MODELS     =
+
 # The tessellation bound on SHADOWS_SCENES scenes of curved shapes in contact, flush, nested, pierced:
 # a coarse mesh against a fine one, and meshes against rays over the true shapes.
 shadows: cmocka $(BUILD)/test/integrate/test_margin
@@ -154,7 +163,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan tsan lint purity layers fuzz bounds shadows bench scaling big install uninstall clean cmocka
+.PHONY: all demo charts test asan tsan lint purity layers fuzz bounds estimate shadows bench scaling big install uninstall clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------

@@ -36,7 +36,7 @@ enum lrcs_fit_index { LRCS_FIT_A, LRCS_FIT_B, LRCS_FIT_S, LRCS_FIT_M, LRCS_FIT_P
 
 /* What the readings say of a parameter. */
 enum lrcs_fit_verdict {
-    LRCS_FIT_DETERMINED, /* limits on both sides; those of B's m may begin at 0 */
+    LRCS_FIT_DETERMINED, /* limits on both sides; those of m may begin at 0 */
     LRCS_FIT_ABSENT,     /* A or B: cannot be told from 0, and has an upper limit */
     LRCS_FIT_MOOT,       /* s or m: its A or B cannot be told from 0 */
     LRCS_FIT_AT_MOST,    /* no lower limit */
@@ -56,8 +56,9 @@ typedef struct lrcs_fit {
     lrcs_fit_parameter parameter[LRCS_FIT_PARAMETERS];
     double correlation[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS]; /* 0 where not defined */
     double rms;      /* of the residuals of readings kept, 1/sr */
-    double noise;    /* their standard deviation with kept - 4 degrees of freedom: in 1/sr,
-                        relative, or in sigmas; its square is then the reduced chi-square */
+    double noise;    /* their standard deviation with kept - 4 degrees of freedom (kept - 2 where a
+                        part is left out): in 1/sr, relative, or in sigmas; its square is then the
+                        reduced chi-square */
     uint32_t kept;   /* readings that the fit stands on */
     uint32_t angles; /* how many different angles they have, counted up to 4 */
     double least_deg, most_deg; /* the smallest and the largest of them, without sign */
@@ -82,21 +83,24 @@ size_t lrcs_fit_need(uint32_t count);
    Given: `count` readings in any order, several at an angle allowed.
    Returned: fit; point[count] unless NULL.
    Status: LRCS_OK; LRCS_E_EMPTY (fewer than LRCS_FIT_READINGS, or no value above 0);
-   LRCS_E_NUMBER (a reading not finite or outside its range); LRCS_E_ARGUMENT (options);
-   LRCS_E_MEMORY.
-   Work: lrcs_fit_need(count) bytes; time in proportion to count, some 1e4 evaluations of f_r each.
+   LRCS_E_NUMBER (a reading not finite or outside its range; the largest f_r, or it in units of
+   some sigma, outside 1e-100 .. 1e100); LRCS_E_ARGUMENT (options); LRCS_E_MEMORY.
+   Work: lrcs_fit_need(count) bytes; time in proportion to count, some 5e3 evaluations of f_r each.
    Notes: 1. Least squares over the readings that are kept; A and B, which enter linearly, are
    solved for at every s and m (Golub and Pereyra 1973), never below 0.
    2. Starting points: the local minima of the sum of absolute residuals over a grid of s and m,
    each brought down with Huber's weights (1964).
    3. A reading is set aside where its residual exceeds 3.5 times a scale from the median of all
    (Rousseeuw and Leroy 1987, ch. 5), never more than 3 in 10, and none of fewer than 8.
-   4. Limits are those of the profile: the value at which the best fit of the other three is worse
-   by Student's t^2 times the noise^2. With LRCS_FIT_GIVEN and a reduced chi-square below 1 the
-   noise is 1 and t is the normal distribution's.
-   5. Searched: s from 1/6 of the smallest tangent read to 2, m from 0 to 1000, A and B up to 1e9
+   4. The part, glint or diffuse, that noise alone would feign in 1 of 20 cases or more is left out:
+   its A or B is 0 (H. Hotelling 1939; M. Knowles and D. Siegmund 1989).
+   5. Limits are those of the profile: the value at which the best fit of the other three is worse
+   than the fit reported by Student's t^2 times the noise^2; a part left out is among the three.
+   With LRCS_FIT_GIVEN and a reduced chi-square below 1 the noise is 1 and t is the normal
+   distribution's.
+   6. Searched: s from 1/6 of the smallest tangent read to 2, m from 0 to 1000, A and B up to 1e9
    of the largest value. A limit outside is none.
-   6. An outlier at the smallest angle cannot be told from a narrow glint, nor one of three readings
+   7. An outlier at the smallest angle cannot be told from a narrow glint, nor one of three readings
    that a glint has from its flank: a glint needs some five. */
 int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit_options *options,
                  lrcs_work *work, lrcs_fit *fit, lrcs_fit_point *point);

@@ -167,11 +167,15 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
 
 /* ---- readings to fit ---- */
 
+typedef struct lrcs_host_reading {
+    lrcs_fit_reading fit; /* sigma is 0 where the file has none */
+    uint32_t material;    /* an index of lrcs_host_readings' names */
+    uint32_t line;        /* in the file, from 1 */
+} lrcs_host_reading;
+
 /* Readings from a table of text, several materials in one file allowed. */
 typedef struct lrcs_host_readings {
-    lrcs_fit_reading *reading; /* in the file's order; sigma is 0 where the file has none */
-    uint32_t *material;        /* of each reading, an index of `name` */
-    uint32_t *line;            /* and its line, from 1 */
+    lrcs_host_reading *reading; /* in the file's order */
     uint32_t count;
     char **name; /* in the order of their first reading; one "" where the file names none */
     uint32_t name_count;

@@ -179,9 +179,9 @@ static int material_take(const lrcs_host_readings *readings, uint32_t index, fit
         return CLI_FAILED;
     }
     for (uint32_t i = 0; i < readings->count; i++) {
-        if (readings->material[i] == index) {
-            material->reading[material->count] = readings->reading[i];
-            material->line[material->count++] = readings->line[i];
+        if (readings->reading[i].material == index) {
+            material->reading[material->count] = readings->reading[i].fit;
+            material->line[material->count++] = readings->reading[i].line;
         }
     }
     return 0;

@@ -26,13 +26,6 @@ typedef struct fit_job {
     uint32_t materials;
 } fit_job;
 
-/* What people call a parameter, its unit, and what can be said of it; the text may name angles. */
-typedef struct fit_statement {
-    char text[256];
-} fit_statement;
-const char *cli_fit_name(int parameter);
-fit_statement cli_fit_statement(const lrcs_fit *fit, int parameter);
-
 /* How many of the four parameters are not determined. */
 int cli_fit_open(const lrcs_fit *fit);
 

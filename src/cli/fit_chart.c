@@ -210,14 +210,14 @@ int cli_fit_chart(const fit_job *job, int residuals, int png, FILE *out, lrcs_ho
 {
     uint32_t count = job->material[0].count;
     size_t room = count > CHART_CURVE ? count : CHART_CURVE;
-    double *number = malloc(2 * CHART_SERIES * room * sizeof *number);
+    double *number = malloc(2 * (size_t)CHART_SERIES * room * sizeof *number);
     chart_label *label = malloc(2 * room * sizeof *label);
     const char **text = malloc(2 * room * sizeof *text);
-    chart_points points[CHART_SERIES];
-    lrcs_host_series series[CHART_SERIES] = {{.name = NULL}};
     int status = LRCS_E_SYSTEM;
     snprintf(error->text, sizeof error->text, "out of memory");
     if (number && label && text) {
+        chart_points points[CHART_SERIES];
+        lrcs_host_series series[CHART_SERIES] = {{.name = NULL}};
         for (size_t i = 0; i < CHART_SERIES; i++) {
             points[i] = (chart_points){number + 2 * i * room, number + (2 * i + 1) * room, 0};
         }

@@ -13,10 +13,9 @@
 
 static const char *const report_name[LRCS_FIT_PARAMETERS] = {"A", "B", "s", "m"};
 
-const char *cli_fit_name(int parameter)
-{
-    return report_name[parameter];
-}
+typedef struct report_statement {
+    char text[256];
+} report_statement;
 
 int cli_fit_open(const lrcs_fit *fit)
 {
@@ -28,9 +27,9 @@ int cli_fit_open(const lrcs_fit *fit)
 }
 
 /* The verdict's sentence; where readings do not reach far enough, how far they do. */
-fit_statement cli_fit_statement(const lrcs_fit *fit, int parameter)
+static report_statement statement_make(const lrcs_fit *fit, int parameter)
 {
-    fit_statement statement;
+    report_statement statement;
     int verdict = fit->parameter[parameter].verdict;
     int reach =
         verdict == LRCS_FIT_AT_MOST || verdict == LRCS_FIT_AT_LEAST || verdict == LRCS_FIT_FREE;
@@ -84,7 +83,7 @@ static void cell_print(double value, int width, const char *none)
 
 static void parameters_print(const lrcs_fit *fit)
 {
-    printf("\n%8s  %12s  %12s  %12s  %12s\n", "", "value", "std error", "at least", "at most");
+    printf("\n%8s  %12s  %12s  %12s  %12s\n", "", "value", "std error", "low, 95 %", "high, 95 %");
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         const lrcs_fit_parameter *one = &fit->parameter[p];
         printf("%s %-6s", report_name[p], p < LRCS_FIT_S ? "1/sr" : "");
@@ -100,7 +99,7 @@ static void statements_print(const lrcs_fit *fit)
 {
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         if (fit->parameter[p].verdict != LRCS_FIT_DETERMINED) {
-            fit_statement statement = cli_fit_statement(fit, p);
+            report_statement statement = statement_make(fit, p);
             printf("%s %s\n", report_name[p], statement.text);
         }
     }
@@ -232,7 +231,7 @@ void cli_fit_csv(const fit_job *job, FILE *out)
 static void parameter_json(const lrcs_fit *fit, int p, lrcs_host_json *json)
 {
     const lrcs_fit_parameter *one = &fit->parameter[p];
-    fit_statement statement = cli_fit_statement(fit, p);
+    report_statement statement = statement_make(fit, p);
     lrcs_host_json_begin(json, report_name[p], LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_number(json, "value", one->value);
     lrcs_host_json_number(json, "std_error", one->error);

@@ -74,7 +74,7 @@ void cli_file_free(sweep_file *file)
 /* ---- what is there already ---- */
 
 /* The head as it would be written, to be compared; freed by the caller, NULL without memory. */
-static char *head_text(int format, const sweep_head *head, const sweep_plan *plan, size_t *size)
+static char *head_bytes(int format, const sweep_head *head, const sweep_plan *plan, size_t *size)
 {
     char *bytes = NULL;
     FILE *out = open_memstream(&bytes, size);
@@ -152,13 +152,12 @@ static int file_is_whole(sweep_file *file, const sweep_plan *plan, const char *h
         return 0;
     }
     sweep_file found = *file;
-    rows_recover(&found, plan, &there, head, head_size);
+    size_t good = rows_recover(&found, plan, &there, head, head_size);
     lrcs_host_file_free(&there);
-    if (found.next != plan->end) {
+    if (good == 0 || found.next != plan->end) {
         return 0;
     }
     *file = found;
-    file->whole = 1;
     return 1;
 }
 
@@ -194,7 +193,7 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
         cli_rows_head(stdout, file->format, head, plan);
         return 0;
     }
-    char *text = head_text(file->format, head, plan, &size);
+    char *text = head_bytes(file->format, head, plan, &size);
     if (!text) {
         fprintf(stderr, "lrcs: out of memory\n");
         return CLI_FAILED;

@@ -58,7 +58,7 @@ static int euler_axes(const cli_args *args, sweep_plan *plan)
     lrcs_pose pose;
     int code = 0;
     plan->kind = SWEEP_EULER;
-    if (strcspn(text, ":") == 3) {
+    if (strlen(text) > 3 && text[3] == ':') {
         memcpy(plan->sequence, text, 3);
     }
     if (lrcs_pose_from_euler(plan->sequence, none, &pose) != LRCS_OK) {
@@ -114,11 +114,11 @@ static int ways_check(const cli_args *args)
         const char *name;
         int way;
     } given[] = {{"az", 1},        {"el", 1},   {"rotate", 2}, {"sphere", 3},    {"poses", 4},
-                 {"direction", 5}, {"azel", 5}, {"euler", 5},  {"quaternion", 5}};
+                 {"direction", 5}, {"azel", 6}, {"euler", 7},  {"quaternion", 8}};
     const char *first = NULL;
     int way = 0;
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++) {
-        int turned = way == 2 && given[i].way == 5;
+        int turned = way == 2 && given[i].way >= 5; /* which cli_pose_read looks at */
         if (!cli_value(args, given[i].name) || given[i].way == way || turned) {
             continue;
         }

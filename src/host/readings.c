@@ -324,20 +324,18 @@ static int readings_grow(readings_table *table)
         return lrcsi_host_fail(table->error, LRCS_E_LIMIT, "%s: too many readings", table->path);
     }
     table->room = table->room ? 2 * table->room : 256;
-    void *reading = realloc(out->reading, table->room * sizeof *out->reading);
-    out->reading = reading ? reading : out->reading;
-    void *material = realloc(out->material, table->room * sizeof *out->material);
-    out->material = material ? material : out->material;
-    void *line = realloc(out->line, table->room * sizeof *out->line);
-    out->line = line ? line : out->line;
-    return reading && material && line
-               ? LRCS_OK
-               : lrcsi_host_fail_memory(table->error, table->room * sizeof *out->reading);
+    size_t bytes = table->room * sizeof *out->reading;
+    lrcs_host_reading *grown = realloc(out->reading, bytes);
+    if (!grown) {
+        return lrcsi_host_fail_memory(table->error, bytes);
+    }
+    out->reading = grown;
+    return LRCS_OK;
 }
 
 static int reading_add(readings_table *table)
 {
-    lrcs_fit_reading reading;
+    lrcs_host_reading reading = {.line = table->line};
     lrcs_host_readings *out = table->out;
     if (table->fields != table->columns) {
         return lrcsi_host_fail(table->error, LRCS_E_SYNTAX,
@@ -345,7 +343,7 @@ static int reading_add(readings_table *table)
                                table->path, (unsigned long)table->line,
                                (unsigned long)table->fields, (unsigned long)table->columns);
     }
-    int status = reading_read(table, &reading);
+    int status = reading_read(table, &reading.fit);
     if (status <= 0) {
         return status;
     }
@@ -354,15 +352,12 @@ static int reading_add(readings_table *table)
         return status;
     }
     uint32_t column = table->role[ROLE_MATERIAL];
-    const char *name = column == LRCS_NONE ? "" : table->field[column].text;
-    uint32_t material =
-        name_index(out, name, column == LRCS_NONE ? 0 : (size_t)table->field[column].size);
-    if (material == LRCS_NONE) {
+    readings_field name = column == LRCS_NONE ? (readings_field){"", 0} : table->field[column];
+    reading.material = name_index(out, name.text, (size_t)name.size);
+    if (reading.material == LRCS_NONE) {
         return lrcsi_host_fail_memory(table->error, sizeof *out->name);
     }
-    out->reading[out->count] = reading;
-    out->material[out->count] = material;
-    out->line[out->count++] = table->line;
+    out->reading[out->count++] = reading;
     return LRCS_OK;
 }
 
@@ -437,7 +432,5 @@ void lrcs_host_readings_free(lrcs_host_readings *readings)
     free(readings->notices.text);
     free(readings->name);
     free(readings->reading);
-    free(readings->material);
-    free(readings->line);
     memset(readings, 0, sizeof *readings);
 }

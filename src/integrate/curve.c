@@ -274,12 +274,7 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
     double off = 20 * U * target->reach * target->perimeter;
     job->sum.slip = pieces_slip(job, target);
     while (lrcsi_occlude_next(o)) {
-        const lrcsi_clip_list *list = &o->clip.list;
-        for (uint32_t i = 0; i < list->pieces; i++) {
-            uint32_t first = lrcsi_clip_first(list, i);
-            off += piece_add(job, target, (const double(*)[2]) & list->corner[first],
-                             list->end[i] - first);
-        }
+        off += piece_add(job, target, (const double(*)[2])o->piece.corner, o->piece.count);
     }
     *visible = facet_known(job->view, job->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = job_part(job, 1);

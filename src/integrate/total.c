@@ -15,10 +15,6 @@
 #define U       0x1p-53
 #define FOUR_PI 12.566370614359172954
 
-/* The weight of the signed part of the likely error, squared. Calibrated, with ENDS of
-   visibility/drift.c, on plain scenes of seed 3 and hostile ones of seed 7 (test/hostile). */
-#define LEANING 1.5
-
 /* Running sums, in scaled units. */
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
@@ -220,7 +216,7 @@ static void total_finish(total_job *job)
         sums->tessellation < 0 ? -1 : lrcsi_prepared_area(p, sums->tessellation * outward);
     double adding = (glint + diffuse) * (4 * U + 3 * (count * U) * (count * U));
     total->rounding = lrcsi_prepared_area(p, (sums->rounding + adding) * outward);
-    double likely = sqrt(sums->likely + LEANING * sums->lean * sums->lean);
+    double likely = sqrt(sums->likely + sums->lean * sums->lean);
     total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
     total->curvature = lrcsi_prepared_area(p, sums->curvature);
     total->seen = sums->seen;

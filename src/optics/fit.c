@@ -28,6 +28,9 @@
    as uncertain as this share. */
 #define FIT_FIRST_SHARE 0.01
 
+/* Of the largest f_r, and of it in standard errors: 1e-100 .. 1e100. */
+#define FIT_SIZE_MOST 1e100
+
 #define FIT_TRIMS 20 /* rounds of setting outliers aside */
 #define FIT_LOOKS 4  /* fits after a profile that met a better one */
 
@@ -54,12 +57,26 @@ size_t lrcs_fit_need(uint32_t count)
 
 /* ---- readings as vectors ---- */
 
-static int reading_is_good(const lrcs_fit_reading *reading, const lrcs_fit_options *options)
+static int reading_is_good(const lrcs_fit_reading *reading)
+{
+    return fabs(reading->angle_deg) < 90.0 && isfinite(reading->value);
+}
+
+/* Sizes whose squares neither overflow nor vanish in a sum; a NaN is none. */
+static int size_is_good(double size)
+{
+    return size > 1.0 / FIT_SIZE_MOST && size < FIT_SIZE_MOST;
+}
+
+static int sizes_are_good(const lrcs_fit_reading *reading, uint32_t count,
+                          const lrcs_fit_options *options, double largest)
 {
     int given = options->noise == LRCS_FIT_GIVEN || options->noise == LRCS_FIT_WEIGHTED;
-    return fabs(reading->angle_deg) < 90.0 && isfinite(reading->value) &&
-           isfinite(options->unit * reading->value) &&
-           (!given || (reading->sigma > 0.0 && isfinite(reading->sigma)));
+    int good = size_is_good(options->unit * largest);
+    for (uint32_t i = 0; i < count && given && good; i++) {
+        good = size_is_good(largest / reading[i].sigma);
+    }
+    return good;
 }
 
 static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
@@ -72,13 +89,16 @@ static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
     }
     double most = 0.0;
     for (uint32_t i = 0; i < count; i++) {
-        if (!reading_is_good(&reading[i], options)) {
+        if (!reading_is_good(&reading[i])) {
             return LRCS_E_NUMBER;
         }
         most = lrcsi_most(most, reading[i].value);
         *largest = lrcsi_most(*largest, fabs(reading[i].value));
     }
-    return count < LRCS_FIT_READINGS || !(most > 0.0) ? LRCS_E_EMPTY : LRCS_OK;
+    if (count < LRCS_FIT_READINGS || !(most > 0.0)) {
+        return LRCS_E_EMPTY;
+    }
+    return sizes_are_good(reading, count, options, *largest) ? LRCS_OK : LRCS_E_NUMBER;
 }
 
 static int data_take(lrcs_work *work, uint32_t count, lrcsi_fit_data *data)
@@ -176,17 +196,20 @@ static void starts_make(fit_job *job)
     job->start[0] = first;
 }
 
-/* The lowest end of all starts, with A or B held at 0 where `without` names it. */
-static void starts_descend(const fit_job *job, unsigned without, lrcsi_fit_spot *best)
+/* The lowest end of all starts and the fit so far, with A or B held at 0 where `without` names it.
+ */
+static lrcsi_fit_spot starts_descend(const fit_job *job, unsigned without)
 {
+    lrcsi_fit_spot best = job->whole;
     for (uint32_t i = 0; i <= job->starts; i++) {
-        lrcsi_fit_spot spot = i < job->starts ? job->start[i] : job->whole;
+        lrcsi_fit_spot spot = i > 0 ? job->start[i - 1] : job->whole;
         for (int k = 0; k < 2; k++) {
-            spot.at[k] = without & (1u << k) ? 0.0 : spot.at[k];
+            spot.at[k] = (without & (1u << k)) ? 0.0 : spot.at[k];
         }
         lrcsi_fit_descend(&job->data, without, &spot);
-        *best = i == 0 || spot.square < best->square ? spot : *best;
+        best = i == 0 || spot.square < best.square ? spot : best;
     }
+    return best;
 }
 
 static void kept_count(fit_job *job)
@@ -201,19 +224,17 @@ static void kept_count(fit_job *job)
    stay. */
 static void whole_settle(fit_job *job)
 {
-    lrcsi_fit_spot *spot = &job->whole;
-    lrcsi_fit_noise(&job->data, job->noise, spot);
+    lrcsi_fit_noise(&job->data, job->noise, &job->whole);
     for (int i = 0; i < FIT_TRIMS; i++) {
-        int changed = lrcsi_fit_trim(&job->data, spot);
-        double before = spot->square;
-        lrcsi_fit_descend(&job->data, 0, spot);
-        lrcsi_fit_noise(&job->data, job->noise, spot);
-        int moved = fabs(spot->square - before) > FIT_SAME * before;
+        int changed = lrcsi_fit_trim(&job->data, &job->whole);
+        double before = job->whole.square;
+        job->whole = starts_descend(job, 0);
+        lrcsi_fit_noise(&job->data, job->noise, &job->whole);
+        int moved = fabs(job->whole.square - before) > FIT_SAME * before;
         if (!changed && (job->noise != LRCS_FIT_RELATIVE || !moved)) {
             break;
         }
     }
-    starts_descend(job, 0, spot);
     kept_count(job);
 }
 
@@ -225,7 +246,7 @@ static void parts_choose(fit_job *job)
     int known = job->noise == LRCS_FIT_GIVEN &&
                 job->whole.square < (double)(job->kept - LRCS_FIT_PARAMETERS);
     for (int k = 0; k < 2; k++) {
-        starts_descend(job, 1u << k, &without[k]);
+        without[k] = starts_descend(job, 1u << k);
         job->absent[k] = 0;
     }
     job->best = job->whole;

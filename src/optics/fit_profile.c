@@ -48,7 +48,8 @@ static void matrix_invert(double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS],
 lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixed,
                                        const lrcsi_fit_spot *best, double noise)
 {
-    double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, best->at[LRCS_FIT_A], best->at[LRCS_FIT_B]};
+    const double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, best->at[LRCS_FIT_A],
+                                               best->at[LRCS_FIT_B]};
     double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
     double length[LRCS_FIT_PARAMETERS];
     int in[LRCS_FIT_PARAMETERS];
@@ -57,7 +58,7 @@ lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixe
     lrcsi_fit_spread spread;
     lrcsi_fit_settle(data, 3u, &spot, &normal);
     for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
-        length[j] = fixed & (1u << j) ? 0.0 : scale[j] * sqrt(normal.gram[j][j]);
+        length[j] = (fixed & (1u << j)) ? 0.0 : scale[j] * sqrt(normal.gram[j][j]);
     }
     for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
         for (int k = 0; k < LRCS_FIT_PARAMETERS; k++) {

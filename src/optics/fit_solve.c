@@ -129,8 +129,8 @@ static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
     if (free != 3u || (step[0] >= 0.0 && step[1] >= 0.0)) {
         return free & ((step[0] > 0.0 ? 1u : 0u) | (step[1] > 0.0 ? 2u : 0u));
     }
-    double alone[2] = {a > 0.0 ? lrcsi_most(normal->slope[0], 0.0) / sqrt(a) : 0.0,
-                       b > 0.0 ? lrcsi_most(normal->slope[1], 0.0) / sqrt(b) : 0.0};
+    const double alone[2] = {a > 0.0 ? lrcsi_most(normal->slope[0], 0.0) / sqrt(a) : 0.0,
+                             b > 0.0 ? lrcsi_most(normal->slope[1], 0.0) / sqrt(b) : 0.0};
     if (alone[0] == 0.0 && alone[1] == 0.0) {
         return 0;
     }
@@ -145,14 +145,14 @@ void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_
     double step[2];
     gram_fill(data, order, normal);
     for (int k = 0; k < 2; k++) {
-        spot->at[k] = free & (1u << k) ? 0.0 : spot->at[k];
+        spot->at[k] = (free & (1u << k)) ? 0.0 : spot->at[k];
     }
     slope_fill(data, order, spot, normal);
     unsigned active = amplitude_active(normal, free);
     for (int pass = 0; pass < 2 && active; pass++) { /* the second takes away rounding */
         amplitude_step(normal, active, step);
         for (int k = 0; k < 2; k++) {
-            spot->at[k] = lrcsi_most(0.0, spot->at[k] + step[k]);
+            spot->at[k] = lrcsi_least(data->most[k], lrcsi_most(0.0, spot->at[k] + step[k]));
         }
         slope_fill(data, order, spot, normal);
     }
@@ -176,7 +176,8 @@ typedef struct solve_shape {
 static solve_shape shape_make(const lrcsi_fit_data *data, unsigned fixed,
                               const lrcsi_fit_spot *spot, const lrcsi_fit_normal *normal)
 {
-    double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, spot->at[LRCS_FIT_A], spot->at[LRCS_FIT_B]};
+    const double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, spot->at[LRCS_FIT_A],
+                                               spot->at[LRCS_FIT_B]};
     double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
     double r[LRCS_FIT_PARAMETERS];
     for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {

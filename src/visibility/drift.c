@@ -4,21 +4,29 @@
    between them. The sum of these offsets is the error of the area: it stays small where they go
    round all values, and grows with every step where the line runs along the rows or at a simple
    slope to them. It counts from the first to the last step where just one of the two samples shows
-   the facet's sheet; since that stretch is known to a step or two only, what counts is how far the
-   sum strays over it. The facet's own sides miscount its covered and its owned samples alike, so
-   that they count times share (1 - share). All this is a guess, and strips thinner than a pixel
-   that hide from all samples escape it. */
+   the facet, or beside the facet its sheet; since that stretch is known to a step or two only, what
+   counts is how far the sum strays over it. The facet's own sides miscount its covered and its
+   owned samples alike, so that they count times share (1 - share). A facet that owns all of its
+   samples, or none, or has none, may still be seen in part; how much that matters was measured, as
+   was what is left where thin facets share their samples: per facet what a line across it would
+   err. All this is a guess, and strips thinner than a pixel that hide from all samples escape
+   it. */
 #include "visibility/drift.h"
 
 #include <math.h>
 
 #include "base/range.h"
 
-/* Squared errors in pixels, calibrated (integrate/total.c): at the ends of a stretch; of a facet
-   that owns none of its samples; of one that has none. */
-#define ENDS      0.2
-#define UNSEEN    0.5
-#define UNSAMPLED 1.0
+/* Squares of guesses, in pixels, calibrated on plain scenes of seed 3 and hostile ones of seed 7
+   (make bounds), on the demo and three models (make estimate). */
+#define PARTED    0.9  /* of a facet that owns some of its samples, not all: at ends of lines */
+#define STRAY     1.8  /* for each square of how far the sum of a line strays */
+#define SIDES     0.9  /* for that of its own sides, times share (1 - share) */
+#define ALIKE     0.6  /* of one that owns all of its samples, or none */
+#define SMALL     0.8  /* of either at most so much, times the square of its area */
+#define UNSAMPLED 0.35 /* of one that has no samples, likewise */
+#define ROW       0.6  /* of one that shares its samples, times its width */
+#define ROW_SEEN  4.5  /* and so much more, times its width and share (1 - share) */
 
 /* A facet on the raster. */
 typedef struct drift_facet {
@@ -36,7 +44,18 @@ typedef struct drift_sum {
     int seen;                 /* 0: not yet; at the last step: 1 seen above the line, -1 below */
 } drift_sum;
 
-/* Does the sample show the facet, or one that continues it? */
+/* Does the facet cover the sample in the middle of a pixel? */
+static int drift_covers(const lrcsi_edges *e, double x, double y)
+{
+    for (int k = 0; k < 3; k++) {
+        if (e->at[k] + e->along[k] * (x + 0.5) + e->up[k] * (y + 0.5) < 0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Does the sample show the facet, or beside the facet one of its sheet? */
 static int drift_shows(const drift_facet *d, int axis, double along, double across)
 {
     const lrcsi_raster *r = d->raster;
@@ -46,7 +65,8 @@ static int drift_shows(const drift_facet *d, int axis, double along, double acro
         return 0;
     }
     uint32_t owner = lrcsi_raster_owner(r, (uint32_t)x, (uint32_t)y);
-    return owner != LRCS_NONE && d->sheet[owner] == d->sheet[d->facet];
+    return owner == d->facet || (owner != LRCS_NONE && d->sheet[owner] == d->sheet[d->facet] &&
+                                 !drift_covers(&d->edges, x, y));
 }
 
 /* Where samples put a line that passes at `across`: midway between the two about it. Through a
@@ -129,7 +149,7 @@ static void drift_add(const drift_facet *d, const double a[2], const double b[2]
 {
     drift_sum s = drift_walk(d, a, b, 0);
     double stray = s.end_high - s.end_low;
-    drift->square += s.seen != 0 ? stray * stray + ENDS : 0;
+    drift->square += s.seen != 0 ? STRAY * stray * stray : 0;
     drift->lean += s.seen * (s.end - s.start);
 }
 
@@ -195,23 +215,46 @@ static void drift_add_sides(const drift_facet *d, double share, lrcsi_drift *dri
     for (int k = 0; k < 3; k++) {
         drift_sum s = drift_walk(d, p[k], p[(k + 1) % 3], 1);
         double stray = s.end_high - s.end_low;
-        drift->square += share * (1 - share) * stray * stray + ENDS;
+        drift->square += SIDES * share * (1 - share) * stray * stray;
     }
+}
+
+/* In pixels. */
+static double drift_area(const lrcsi_edges *e)
+{
+    return 0.5 * fabs(e->along[0] * e->up[1] - e->along[1] * e->up[0]);
 }
 
 lrcsi_drift lrcsi_drift_facet(const lrcsi_contest *contest, uint32_t crossings,
                               const lrcsi_raster *raster, uint32_t facet)
 {
     drift_facet d = {raster, lrcsi_raster_edges(raster, facet), contest->sheet, facet};
+    double area = drift_area(&d.edges);
+    uint32_t owned = raster->owned[facet];
+    uint32_t covered = raster->covered[facet];
     lrcsi_drift drift = {0, 0};
-    if (raster->owned[facet] == 0) {
-        drift.square = raster->covered[facet] == 0 ? UNSAMPLED : UNSEEN;
-    } else {
-        drift_add_sides(&d, (double)raster->owned[facet] / raster->covered[facet], &drift);
+    if (covered == 0) {
+        drift.square = UNSAMPLED * area * area;
+        return drift;
     }
     for (uint32_t i = 0; i < crossings; i++) {
         drift_add_edge(&d, contest->crossing[i], &drift);
     }
     drift_add_touches(&d, &drift);
+    if (owned > 0 && owned < covered) {
+        drift_add_sides(&d, (double)owned / covered, &drift);
+        drift.square += PARTED;
+    } else {
+        drift.square = ALIKE;
+    }
+    drift.square = lrcsi_least(drift.square, SMALL * area * area);
     return drift;
+}
+
+lrcsi_drift lrcsi_drift_row(const lrcsi_raster *raster, uint32_t facet, double longest,
+                            double share)
+{
+    lrcsi_edges edges = lrcsi_raster_edges(raster, facet);
+    double width = longest > 0 ? lrcsi_least(1, 2 * drift_area(&edges) / longest) : 0;
+    return (lrcsi_drift){width * (ROW + ROW_SEEN * share * (1 - share)), 0};
 }

@@ -7,9 +7,9 @@
 #include "visibility/contest.h"
 #include "visibility/raster.h"
 
-/* In pixels. Errors of different facets add up by chance, but for those along one edge, which lean
-   one way: of many facets the guess is the root of the sum of `square` and of the square of the
-   sum of `lean`. */
+/* In pixels: twice what errors are in the root mean square, so that few are above it. Errors of
+   different facets add up by chance, but for those along one edge, which lean one way: of many
+   facets the guess is the root of the sum of `square` and of the square of the sum of `lean`. */
 typedef struct lrcsi_drift {
     double square;
     double lean; /* signed: too much is positive */
@@ -19,5 +19,10 @@ typedef struct lrcsi_drift {
    edges that cross it, so many. */
 lrcsi_drift lrcsi_drift_facet(const lrcsi_contest *contest, uint32_t crossings,
                               const lrcsi_raster *raster, uint32_t facet);
+
+/* A facet of the longest side given, in pixels, that shares its samples with its neighbours
+   (visibility/share.h), of whose samples together that share is seen. */
+lrcsi_drift lrcsi_drift_row(const lrcsi_raster *raster, uint32_t facet, double longest,
+                            double share);
 
 #endif

@@ -1,178 +1,270 @@
 /* SPDX-License-Identifier: MIT */
-/* Analytic visibility of contested facets. The facet is halved until few occluders overlap a cell;
-   of a cell that nothing divides (visibility/calm.h) one sample tells all; one that an occluder
-   covers is hidden, one that none overlaps is visible, and from the others the few are cut out. So
-   the work grows with the occluders near the edges of shadows, not with the square of all.
+/* Analytic visibility of contested facets. The facet is cut into cells along what may divide it
+   (visibility/cut.c) until nothing divides a cell: then one exact sample tells all of it
+   (visibility/cover.c). A sample taken on the way may tell that one sheet hides all of a cell,
+   whatever else divides it, and where not, along which sheet's edges to cut. So the work grows
+   with what is visible, not with what is hidden behind it. A cell that many divide is halved first:
+   they meet few of the small ones.
 
    Error. In the facet's frame (visibility/target.c) corners are off by at most e = 10 u r, r the
-   largest distance in space of the corners at hand from the facet's first one: R's rows are
-   orthonormal to 4 u; a rounded difference, three products and two sums. Let p be the perimeter
-   of the facet's projection, d its diameter, 2 d <= p. The facet's own corners move its rim by
-   e: 2 e p, charged once.
+   facet's reach: R's rows are orthonormal to 4 u; a rounded difference, three products and two
+   sums. Let p be the perimeter of the facet's projection, d its diameter. Its own corners move its
+   rim by e: 2 e p, charged once.
 
-   The region that an occluder hides is cut by the lines through its own computed corners. Their
-   hull and the true one lie within e of each other; deciding in doubles on which side of a line a
-   point lies is wrong within w = 4 u (r + d) of it; a cut left out for want of a direction
-   (visibility/occluder.c) is a strip 32 u r wide. So what is hidden as computed and what is in
-   truth differ, within a convex cell of perimeter q, by at most 2 e q + 4 w q + 16 u r q, less than
-   56 u (r + d) q; and all over by as much with the region's own outline for q, where it is wide
-   enough for its lines to end where it does. The cut by the facet's plane ends on the occluder's
-   sides; how far those ends may slip is added to the rim. And in a cell nothing can be wrong by
-   more than its area. So an occluder is charged with the least of three: the sum over the cells
-   where it could matter, of the lesser of rim q and their area; rim times outline; rim p. In a
-   cell that lies surely apart from it, or surely behind it, it is not charged, nor are the others
-   where one surely covers all.
+   A cell is cut along the line of a segment, or lies on one side of it; then the segment lies
+   within its width w of the line, and the cell, and all that come of it, on one side but for w
+   (visibility/cut.c). Let P be the place of a sample, clear of the cell's sides by c > 2 w and what
+   it may be off itself, and x any point of the cell. The way straight from x to P crosses the
+   segment only if x lies in its strip, within w of the line: P does not. Then it is out of the
+   strip after 2 w / c of its length, so that x lies no farther along the line beyond the segment
+   than 2 w / c of the cell's diameter: 2^20 w, where the cell is not thin. So what the segment may
+   change is in a strip 2 w wide and as long as the segment's part there and FAR w; that, or the
+   cell's area if less, is charged as the segment is struck from the cell's list, and serves all
+   cells that come of it. In a thin cell the whole strip of each is charged. Everything else of a
+   cell is seen as P is: what still divides the cell where one sheet hides it does not divide that
+   sheet.
+
+   A cell of which the sample is a guess, or that could not be divided further, counts as in doubt:
+   the bounds let all of it be visible, or hidden.
 
    A split puts two corners on the sides of a piece to within 5 u d. Both parts share them, so that
    only the two sides bend, by 5 u d d' of area in a cell of diameter d'; and there are two more
-   triangles to sum areas from, 7 u d'^2: together below 8 u d q. Adding up the cells costs u d p
-   each. A cell that could not be finished counts whole. */
+   triangles to sum areas from, 7 u d'^2: together below 8 u d q, q the cell's perimeter. Adding up
+   the cells costs u d p each. */
 #include "visibility/occlude.h"
 
 #include <math.h>
 
 #include "base/range.h"
 #include "base/work.h"
-#include "visibility/occluder.h"
 #include "visibility/query.h"
 
 #define U 0x1p-53
 
-/* Cells with this many occluders are cut, not halved; nor are cells that this many halvings in a
-   row have not relieved of a quarter of them. */
-#define LEAF_OCCLUDERS 8u
-#define LEAF_STALE     6u
+/* Cells that more cuts divide are halved, until that does not relieve one of a quarter of them. */
+#define LEAF_CUTS 12u
 /* Halvings at most: a cell is then below 2^-48 of its facet. */
 #define MOST_DEPTH 48u
+/* A cell is thin whose sample stands nearer to a side than this of its perimeter; in others strips
+   reach FAR widths beyond the ends of segments. */
+#define THIN 0x1p-20
+#define FAR  0x1p22
+/* A cell without place for a sample whose area is more than so many margins wide is only odd in
+   shape: it is halved. */
+#define NARROW 64.0
+/* A cell no larger than so many margins is left in doubt. */
+#define TINY_MARGINS 64.0
+/* Cells that wait at most. Of two, that with the sample comes first: the other has all the room. */
+#define MOST_WAITING 256u
+/* Cells that a facet may be cut into: so many, and so many a cut. */
+#define PARTS_MOST  4096u
+#define PARTS_A_CUT 256u
 
 /* --- cells ------------------------------------------------------------------------------------ */
 
-static double split_error(const lrcsi_occluding *o, const lrcsi_clip_polygon *shape)
+/* How far a place must lie within a cell of such an inset to stand for it. */
+static double cell_margin(const lrcsi_occluding *o, double inset)
 {
-    return 8 * U * o->target.diameter * lrcsi_clip_polygon_perimeter(shape);
+    return 2 * inset + 16 * U * o->target.diameter;
 }
 
-/* Charges an occluder with what it may be wrong by in a cell; its area is off as if by a split. */
-static void cell_charge(const lrcsi_occluding *o, uint32_t index, const lrcsi_clip_polygon *shape,
-                        double area)
+/* How far the point of a sample may be from its place. */
+static double cell_off(const lrcsi_occluding *o)
 {
-    lrcsi_occluder *occluder = &o->occluder[index];
-    double rim = occluder->error * lrcsi_clip_polygon_perimeter(shape);
-    occluder->charged += lrcsi_least(rim, area + split_error(o, shape));
+    return 100 * U * o->target.reach + 8 * U;
 }
 
-/* Files those of the cell's occluders that may overlap its shape behind their list. Returns how
-   many; LRCS_NONE where one of them covers the shape. */
-static uint32_t cell_keep(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
+/* Is the cell known to be visible at a place that stands clear within it? */
+static int cell_lit(const lrcsi_occluding *o, const lrcsi_occlude_cell *cell)
 {
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < cell->count; i++) {
-        uint32_t index = o->list[cell->first + i];
-        int overlap = lrcsi_clip_overlap(&cell->shape, &o->occluder[index].region);
-        if (overlap == LRCSI_CLIP_COVERED) {
-            cell_charge(o, index, &cell->shape, area);
-        }
-        if (overlap == LRCSI_CLIP_COVERED || overlap == LRCSI_CLIP_BURIED) {
-            return LRCS_NONE;
-        }
-        if (overlap == LRCSI_CLIP_SOME) {
-            o->list[cell->first + cell->count + kept++] = index;
-        }
-    }
-    return kept;
+    return cell->lit &&
+           lrcsi_clip_clear(&cell->shape, cell->at) > cell_margin(o, cell->inset) + cell_off(o);
 }
 
-/* Cuts the kept occluders out of the cell. 0 where it fell into too many pieces. */
-static int cell_cut(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t kept, double area)
+/* What is known of a cell at a place in it, a lrcsi_cover_answer; where that is a guess, it is not
+   sure. */
+static int cell_look(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t *sheet)
 {
-    const uint32_t *list = o->list + cell->first + cell->count;
-    lrcsi_clip_start(&o->clip, &cell->shape);
-    for (uint32_t i = 0; i < kept; i++) {
-        if (!lrcsi_clip_subtract(&o->clip, &o->occluder[list[i]].region)) {
-            return 0;
-        }
+    if (cell_lit(o, cell)) {
+        return LRCSI_COVER_NONE;
     }
-    for (uint32_t i = 0; i < kept; i++) {
-        cell_charge(o, list[i], &cell->shape, area);
+    lrcsi_cover_place place;
+    lrcsi_clip_middle(&cell->shape, place.at);
+    place.clear = lrcsi_clip_clear(&cell->shape, place.at) - cell_margin(o, cell->inset);
+    int answer = lrcsi_cover_sample(&o->cover, &o->cuts, cell->count, &place, sheet);
+    cell->at[0] = place.at[0];
+    cell->at[1] = place.at[1];
+    cell->sure = !place.guess;
+    cell->lit = answer == LRCSI_COVER_NONE && cell->sure;
+    return answer;
+}
+
+/* Charges a cell that is told by a sample with what the strips beyond the ends of segments may
+   cost, if it is thin. */
+static void cell_charge(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
+{
+    double perimeter = lrcsi_clip_perimeter(&cell->shape);
+    double clear = lrcsi_clip_clear(&cell->shape, cell->at) - cell_off(o);
+    if (!(clear > THIN * perimeter)) {
+        o->off += lrcsi_least(area, cell->cuts * cell->inset * perimeter);
     }
-    o->off += o->clip.splits * split_error(o, &cell->shape) +
-              U * o->target.diameter * o->target.perimeter;
-    o->area += lrcsi_clip_area(&o->clip);
+}
+
+/* All of the cell is visible: a piece, unless that is a guess: 1 or 0. */
+static int cell_show(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
+{
+    o->piece = cell->shape;
+    o->off += U * o->target.diameter * o->target.perimeter;
+    o->area += area;
+    o->doubt[1] += cell->sure ? 0 : area;
+    return cell->sure;
+}
+
+/* Strikes a cut from the cell's list, and charges its strip. */
+static void cell_drop(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t which, double area)
+{
+    uint32_t *list = o->cuts.list;
+    uint32_t index = list[which];
+    const lrcsi_cut *cut = &o->cuts.cut[index];
+    double length = lrcsi_clip_within(&cell->shape, &cut->line, 2 * cut->width);
+    o->off += lrcsi_least(area, 2 * cut->width * (length + FAR * cut->width));
+    cell->count--;
+    list[which] = list[cell->count];
+    list[cell->count] = index;
+    cell->cuts++;
+    cell->inset = lrcsi_most(cell->inset, cut->width);
+}
+
+/* Puts a part of a cell on the stack. */
+static void cell_push(lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
+                      const lrcsi_clip_polygon *shape, int lit)
+{
+    if (shape->count >= 3) {
+        lrcsi_occlude_cell *part = &o->stack[o->top++];
+        *part = *cell;
+        part->shape = *shape;
+        part->lit = lit;
+    }
+}
+
+/* Puts both sides of a line through a cell on the stack in its stead, that with the sample on top.
+   0 where there is no room. */
+static int cell_split(lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
+                      const lrcsi_clip_line *line)
+{
+    lrcsi_clip_polygon left;
+    lrcsi_clip_polygon right;
+    if (o->cells == 0 || o->top + 2 > MOST_WAITING ||
+        !lrcsi_clip_split(&cell->shape, line, &left, &right)) {
+        return 0;
+    }
+    int on_left = lrcsi_clip_side(line, cell->at) > 0;
+    o->cells--;
+    o->off += 8 * U * o->target.diameter * lrcsi_clip_perimeter(&cell->shape);
+    cell_push(o, cell, on_left ? &right : &left, 0);
+    cell_push(o, cell, on_left ? &left : &right, cell->lit);
     return 1;
 }
 
-/* Where the list of a cell's halves stands: its own, where it has kept all of that. */
-static uint32_t cell_list(const lrcsi_occlude_cell *cell, uint32_t kept)
+static int cell_halve(lrcsi_occluding *o, lrcsi_occlude_cell *cell)
 {
-    return kept == cell->count ? cell->first : cell->first + cell->count;
+    lrcsi_clip_line line = lrcsi_clip_halving(&cell->shape);
+    cell->depth++;
+    return cell->depth <= MOST_DEPTH && cell_split(o, cell, &line);
 }
 
-/* Puts both halves of a cell on the stack in its stead. */
-static void cell_halve(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t kept)
+/* Where in the list the cut stands that passes nearest to the cell's place, of those at which a
+   sheet ends; of all where there is no sheet, or none is its own. */
+static uint32_t cell_choose(const lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
+                            uint32_t sheet)
 {
-    lrcsi_occlude_cell half = {.first = cell_list(cell, kept), .count = kept};
-    half.depth = cell->depth + 1;
-    half.edge_first = cell->edge_first;
-    half.edge_count = cell->edge_count;
-    half.stale = 4 * (size_t)kept > 3 * (size_t)cell->count ? cell->stale + 1 : 0;
-    lrcsi_clip_polygon other;
-    lrcsi_clip_halve(&cell->shape, &half.shape, &other);
-    o->off += split_error(o, &cell->shape);
-    o->stack[o->top++] = half;
-    half.shape = other;
-    o->stack[o->top++] = half;
-}
-
-/* Narrows the list of what may divide the cell. What the cell shows where nothing does, a
-   lrcsi_query_answer; undecided elsewhere. */
-static int cell_calm(lrcsi_occluding *o, lrcsi_occlude_cell *cell)
-{
-    if (cell->edge_count == LRCS_NONE) {
-        return LRCSI_QUERY_UNDECIDED;
+    uint32_t best = 0;
+    double nearest = HUGE_VAL;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[i]];
+        if (sheet == LRCS_NONE || lrcsi_cut_ends(cut, sheet)) {
+            double far = fabs(lrcsi_clip_side(&cut->line, cell->at)) /
+                         (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
+            best = far < nearest ? i : best;
+            nearest = lrcsi_least(far, nearest);
+        }
     }
-    uint32_t kept = lrcsi_calm_keep(&o->calm, &cell->shape, cell->edge_first, cell->edge_count);
-    cell->edge_first += kept == cell->edge_count ? 0 : cell->edge_count;
-    cell->edge_count = kept;
-    return kept == 0 ? lrcsi_calm_answer(&o->calm, &o->facets, &cell->shape)
-                     : LRCSI_QUERY_UNDECIDED;
+    return best;
 }
 
-/* All of the cell is visible: its one piece. */
-static void cell_show(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
+/* Cuts a cell along one of its cuts, which its parts are rid of. */
+static int cell_cut(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t which, double area)
 {
-    lrcsi_clip_start(&o->clip, &cell->shape);
-    o->off += U * o->target.diameter * o->target.perimeter;
-    o->area += area;
+    lrcsi_occlude_cell rest = *cell;
+    const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[which]];
+    cell_drop(o, &rest, which, area);
+    return cell_split(o, &rest, &cut->line);
 }
 
-/* Does one cell after the other until one has shown pieces: 1; 0 where no cell is left. Each
-   cell's list stands behind its parent's, or is that; a sibling done later overwrites it. */
+/* Divides a cell that a sheet hides in part (LRCS_NONE: of which some is visible). 0 where that is
+   not possible, or the cell is too small to be worth it. */
+static int cell_divide(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t sheet, double area)
+{
+    int halves = cell->count > LEAF_CUTS && !cell->slice;
+    if (lrcsi_clip_perimeter(&cell->shape) < TINY_MARGINS * cell_margin(o, cell->inset)) {
+        return 0;
+    }
+    return (halves && cell_halve(o, cell)) ||
+           cell_cut(o, cell, cell_choose(o, cell, sheet), area) || cell_halve(o, cell);
+}
+
+/* Narrows the list to what may divide the cell; what passes beside it is charged and dropped. */
+static void cell_keep(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
+{
+    uint32_t before = cell->count;
+    cell->count = lrcsi_cuts_keep(&o->cuts, &cell->shape, cell->count);
+    for (uint32_t i = cell->count; i-- > 0;) {
+        const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[i]];
+        if (lrcsi_clip_meets(&cell->shape, &cut->line, cut->width) == LRCSI_CLIP_BESIDE) {
+            cell_drop(o, cell, i, area);
+        }
+    }
+    cell->slice ^= cell->depth > 0 && 4 * (size_t)cell->count > 3 * (size_t)before;
+}
+
+/* Does one cell: 1 where it has shown a piece. Else it is hidden, divided, or in doubt. */
+static int cell_do(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
+{
+    uint32_t sheet = LRCS_NONE;
+    cell_keep(o, cell, area);
+    int answer = cell_look(o, cell, &sheet);
+    if (answer == LRCSI_COVER_ALL && cell->sure) {
+        cell_charge(o, cell, area);
+        return 0;
+    }
+    if (cell->count > 0 && answer != LRCSI_COVER_ALL) {
+        if (cell_divide(o, cell, sheet, area)) {
+            return 0;
+        }
+        cell->sure = 0;
+    } else if (!cell->sure &&
+               area > NARROW * cell_margin(o, cell->inset) * lrcsi_clip_perimeter(&cell->shape) &&
+               cell_halve(o, cell)) {
+        return 0;
+    }
+    if (answer == LRCSI_COVER_NONE) {
+        cell_charge(o, cell, area);
+        return cell_show(o, cell, area);
+    }
+    o->doubt[0] += area;
+    return 0;
+}
+
+/* Does one cell after the other until one has shown a piece: 1; 0 where no cell is left. Cells
+   reorder only what is theirs of the list, so that a sibling done later finds its cuts. */
 static int occlude_cells(lrcsi_occluding *o)
 {
     while (o->top > 0) {
         lrcsi_occlude_cell cell = o->stack[--o->top];
-        double area = cell.shape.count < 3 ? 0 : lrcsi_clip_polygon_area(&cell.shape);
-        if (!(area > 0)) {
-            continue; /* no area, or less than the splits' error already holds */
-        }
-        int shows = cell_calm(o, &cell);
-        if (shows == LRCSI_QUERY_VISIBLE) {
-            cell_show(o, &cell, area);
+        double area = lrcsi_clip_area(&cell.shape);
+        /* no area, or less than the splits' error already holds: nothing */
+        if (area > 0 && cell_do(o, &cell, area)) {
             return 1;
-        }
-        uint32_t kept = shows == LRCSI_QUERY_HIDDEN ? LRCS_NONE : cell_keep(o, &cell, area);
-        if (kept == LRCS_NONE) {
-            continue;
-        }
-        int leaf = kept <= LEAF_OCCLUDERS || cell.stale >= LEAF_STALE;
-        if (leaf && cell_cut(o, &cell, kept, area)) {
-            return 1;
-        }
-        size_t end = (size_t)cell_list(&cell, kept) + kept;
-        if (cell.depth < MOST_DEPTH && end + kept <= o->room) {
-            cell_halve(o, &cell, kept);
-        } else {
-            o->doubt += area;
         }
     }
     return 0;
@@ -180,103 +272,30 @@ static int occlude_cells(lrcsi_occluding *o)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* The facets near the target that may hide some of it, each once. */
-static uint32_t occlude_candidates(lrcsi_occluding *o)
-{
-    const lrcsi_target *target = &o->target;
-    const lrcsi_grid *facets = &o->facets;
-    double low[2];
-    double high[2];
-    lrcsi_grid_box(target->view, target->view->prepared->scene->facet[target->facet].corner, 3, low,
-                   high);
-    lrcsi_cells cells = lrcsi_grid_cells(facets, low, high);
-    uint32_t count = 0;
-    o->asks++;
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        uint32_t i = facets->first[(size_t)y * facets->size + cells.x0];
-        uint32_t end = facets->first[(size_t)y * facets->size + cells.x1];
-        for (; i < end; i++) {
-            uint32_t other = facets->item[i];
-            if (other != target->facet && o->asked[other] != o->asks) {
-                o->asked[other] = o->asks;
-                o->candidate[count++] = other;
-            }
-        }
-    }
-    return count;
-}
-
-/* What an occluder may be wrong by all over the facet. */
-static double occluder_most(const lrcsi_occluding *o, const lrcsi_occluder *occluder)
-{
-    return occluder->error * lrcsi_least(occluder->outline, o->target.perimeter);
-}
-
-/* The regions that the candidates hide. 1; 0 where one of them hides all of the target. */
-static int occlude_regions(lrcsi_occluding *o, uint32_t candidates)
-{
-    lrcsi_clip_polygon whole;
-    lrcsi_clip_triangle((const double(*)[2])o->target.corner, &whole);
-    o->count = 0;
-    for (uint32_t i = 0; i < candidates; i++) {
-        lrcsi_occluder *occluder = &o->occluder[o->count];
-        if (!lrcsi_occluder_make(&o->target, o->candidate[i], occluder)) {
-            o->off += occluder->error > 0 ? occluder_most(o, occluder) : 0;
-            continue;
-        }
-        int overlap = lrcsi_clip_overlap(&whole, &occluder->region);
-        if (overlap == LRCSI_CLIP_COVERED || overlap == LRCSI_CLIP_BURIED) {
-            o->off = overlap == LRCSI_CLIP_COVERED ? occluder_most(o, occluder) : 0;
-            o->count = 0;
-            return 0;
-        }
-        o->count++;
-    }
-    return 1;
-}
-
-/* Readies a contested facet: its occluders, and all of it as the first cell. */
-static int contested_open(lrcsi_occluding *o, uint32_t facet)
+/* Readies a contested facet: all of it as the first cell. */
+static int cells_open(lrcsi_occluding *o, uint32_t facet)
 {
     lrcsi_target_make(o->contest->view, facet, &o->target);
-    uint32_t candidates = occlude_candidates(o);
-    o->area = o->doubt = o->off = 0;
-    o->occluder = lrcsi_work_take(o->work, candidates, sizeof *o->occluder);
-    if (!o->occluder) {
-        return LRCS_E_MEMORY;
-    }
-    int some = occlude_regions(o, candidates);
-    o->room = 8 * (size_t)o->count + 1024;
-    o->list = lrcsi_work_take(o->work, o->room, sizeof *o->list);
-    if (!o->list) {
-        return LRCS_E_MEMORY;
-    }
-    for (uint32_t i = 0; i < o->count; i++) {
-        o->list[i] = i;
-    }
-    if (some) {
-        uint32_t edges = lrcsi_calm_start(&o->calm, o->contest, &o->target);
-        o->stack[0] = (lrcsi_occlude_cell){.count = o->count, .edge_count = edges};
+    o->area = o->doubt[0] = o->doubt[1] = o->off = 0;
+    int status = lrcsi_cuts_make(o->contest, &o->target, o->work, &o->cuts);
+    if (status == LRCS_OK) {
+        lrcsi_cover_start(&o->cover, &o->target);
+        o->cells = PARTS_MOST + (uint64_t)PARTS_A_CUT * o->cuts.count;
+        o->stack[0] = (lrcsi_occlude_cell){.count = o->cuts.count};
         lrcsi_clip_triangle((const double(*)[2])o->target.corner, &o->stack[0].shape);
         o->top = 1;
     }
-    return LRCS_OK;
+    return status;
 }
 
-static lrcsi_visible clipped_area(const lrcsi_occluding *o)
+static lrcsi_visible cells_area(const lrcsi_occluding *o)
 {
     double whole = lrcsi_view_tilt(o->contest->view, o->target.facet).projected;
     double own = 20 * U * o->target.reach + 32 * U * o->target.diameter;
     double error = own * o->target.perimeter + o->off;
-    for (uint32_t i = 0; i < o->count; i++) {
-        error += lrcsi_least(o->occluder[i].charged, occluder_most(o, &o->occluder[i]));
-    }
     double left = lrcsi_most(0, lrcsi_least(whole, o->area));
-    if (!isfinite(error)) {
-        return (lrcsi_visible){left, 0, whole, 0, 0};
-    }
-    return (lrcsi_visible){left, lrcsi_most(0, left - error),
-                           lrcsi_least(whole, left + o->doubt + error), 0, 0};
+    return (lrcsi_visible){left, lrcsi_most(0, left - o->doubt[1] - error),
+                           lrcsi_least(whole, left + o->doubt[0] + error), 0, 0};
 }
 
 lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet)
@@ -287,15 +306,14 @@ lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet)
 
 static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
 {
-    double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
-    switch (o->uniform[facet]) {
-    case LRCSI_QUERY_HIDDEN:
+    if (o->uniform[facet] == LRCSI_QUERY_HIDDEN) {
         return (lrcsi_visible){0, 0, 0, 0, 0};
-    case LRCSI_QUERY_VISIBLE:
-        return (lrcsi_visible){whole, whole, whole, 0, 0};
-    default:
+    }
+    if (o->uniform[facet] == LRCSI_QUERY_UNDECIDED) {
         return lrcsi_occlude_unknown(o->contest->view, facet);
     }
+    double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
+    return (lrcsi_visible){whole, whole, whole, 0, 0};
 }
 
 int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
@@ -314,8 +332,8 @@ int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
         o->whole = o->answer.low > 0;
         return LRCS_OK;
     }
-    o->contested = !lrcsi_query_screened(contest, &o->facets, facet);
-    int status = o->contested ? contested_open(o, facet) : LRCS_OK;
+    o->contested = !lrcsi_query_screened(contest, &o->cover.facets, facet);
+    int status = o->contested ? cells_open(o, facet) : LRCS_OK;
     if (status != LRCS_OK) {
         o->work->used = o->mark;
     }
@@ -324,21 +342,19 @@ int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
 
 int lrcsi_occlude_next(lrcsi_occluding *o)
 {
-    lrcsi_clip_polygon triangle;
     if (!o->whole) {
         return occlude_cells(o);
     }
     o->whole = 0;
     lrcsi_target_make(o->contest->view, o->target.facet, &o->target);
-    lrcsi_clip_triangle((const double(*)[2])o->target.corner, &triangle);
-    lrcsi_clip_start(&o->clip, &triangle);
+    lrcsi_clip_triangle((const double(*)[2])o->target.corner, &o->piece);
     return 1;
 }
 
 lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o)
 {
     o->work->used = o->mark;
-    return o->contested ? clipped_area(o) : o->answer;
+    return o->contested ? cells_area(o) : o->answer;
 }
 
 lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
@@ -350,31 +366,26 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
+/* Room for as many cuts of one facet as there are facets: two satellites' worth. */
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_work_add(lrcsi_clip_need(), lrcsi_grid_facets_need(prepared));
-    need = lrcsi_work_add(need, lrcsi_calm_need(prepared));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_DEPTH + 2, sizeof(lrcsi_occlude_cell)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 2 * sizeof(uint32_t) + 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_occluder)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(8 * facets + 2048, sizeof(uint32_t)));
+    size_t need = lrcsi_work_add(lrcsi_cover_need(prepared), lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_WAITING, sizeof(lrcsi_occlude_cell)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cut)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
 }
 
 int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)
 {
-    uint32_t count = contest->view->prepared->scene->facet_count;
     size_t mark = work->used;
     *o = (lrcsi_occluding){.contest = contest, .work = work};
-    o->uniform = lrcsi_work_take(work, count, 1);
-    o->asked = lrcsi_work_take_zero(work, count, sizeof *o->asked);
-    o->candidate = lrcsi_work_take(work, count, sizeof *o->candidate);
-    o->stack = lrcsi_work_take(work, MOST_DEPTH + 2, sizeof *o->stack);
-    int status = LRCS_E_MEMORY;
-    if (o->uniform && o->asked && o->candidate && o->stack &&
-        lrcsi_clip_make(work, &o->clip) == LRCS_OK &&
-        lrcsi_calm_make(contest->view->prepared, work, &o->calm) == LRCS_OK) {
-        status = lrcsi_query_uniform(contest, work, &o->facets, o->uniform);
+    o->uniform = lrcsi_work_take(work, contest->view->prepared->scene->facet_count, 1);
+    o->stack = lrcsi_work_take(work, MOST_WAITING, sizeof *o->stack);
+    int status =
+        o->uniform && o->stack ? lrcsi_cover_make(contest, work, &o->cover) : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        status = lrcsi_query_uniform(contest, work, &o->cover.facets, o->uniform);
     }
     if (status != LRCS_OK) {
         work->used = mark;

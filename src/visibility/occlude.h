@@ -1,49 +1,47 @@
 /* SPDX-License-Identifier: MIT */
-/* What the laser sees of a facet, analytically: its projection less the union of what nearer
-   facets cover, each cut by the half-space in front of the facet's plane. As an area with bounds,
-   and as disjoint convex pieces. */
+/* What the laser sees of a facet, analytically: contested facets fall into cells that nothing
+   divides. As an area with bounds, and as disjoint convex pieces. */
 #ifndef LRCSI_OCCLUDE_H
 #define LRCSI_OCCLUDE_H
 
-#include "visibility/calm.h"
 #include "visibility/clip.h"
-#include "visibility/occluder.h"
+#include "visibility/cover.h"
+#include "visibility/cut.h"
 #include "visibility/visible.h"
 
-/* A part of the facet that is yet to be done, and the occluders that may hide some of it. */
+/* A part of the facet that is yet to be done. */
 typedef struct lrcsi_occlude_cell {
     lrcsi_clip_polygon shape;
-    uint32_t first, count;           /* in list */
-    uint32_t edge_first, edge_count; /* in calm.list; LRCS_NONE: not told */
-    uint32_t stale, depth;
+    uint32_t count; /* the cuts that may divide it are among the first so many of the list */
+    int slice;      /* it was last relieved by a cut, not by halving, or should be */
+    uint32_t depth; /* halvings in all */
+    uint32_t cuts;  /* so many were made, or passed it by */
+    double inset;   /* the widest of those */
+    double at[2];   /* a place in it, */
+    int lit;        /* where that is known to be visible */
+    int sure;       /* all samples so far stood clear of what they tell of */
 } lrcsi_occlude_cell;
 
 /* What serves all facets of a view, and the facet at hand. */
 typedef struct lrcsi_occluding {
     lrcsi_contest *contest;
     lrcs_work *work;
-    lrcsi_grid facets;
+    lrcsi_cover cover;
     unsigned char *uniform;    /* facet: what a uniform one shows, a lrcsi_query_answer */
-    uint32_t *asked;           /* facet: the search for candidates that last met it */
-    uint32_t asks;             /* searches so far */
-    uint32_t *candidate;       /* facets that hide some of the target */
     lrcsi_occlude_cell *stack; /* of `top` cells yet to be done */
     uint32_t top;
 
-    size_t mark;          /* of the work area, before the facet */
-    lrcsi_target target;  /* of a contested facet; of others once a piece has been asked for */
-    lrcsi_calm calm;      /* what may divide it */
-    lrcsi_clip clip;      /* in its list, the pieces last found */
-    lrcsi_visible answer; /* of a facet that is not contested */
+    size_t mark;              /* of the work area, before the facet */
+    lrcsi_target target;      /* of a contested facet; of others once a piece has been asked for */
+    lrcsi_cuts cuts;          /* what may divide it */
+    lrcsi_clip_polygon piece; /* the piece last found */
+    lrcsi_visible answer;     /* of a facet that is not contested */
     int contested;
-    int whole;      /* all of it is visible, and no piece has been asked for yet */
-    uint32_t count; /* of the occluders */
-    lrcsi_occluder *occluder;
-    uint32_t *list; /* occluders by cell, one behind the other */
-    size_t room;    /* of list */
-    double area;    /* visible so far */
-    double doubt;   /* area of cells that could not be finished */
-    double off;     /* by which the area may be wrong, but for what occluders were charged with */
+    int whole;       /* all of it is visible, and no piece has been asked for yet */
+    uint64_t cells;  /* that may yet be divided */
+    double area;     /* visible so far */
+    double doubt[2]; /* area of cells that could not be told: hidden, visible by a guess */
+    double off;      /* by which the area may be wrong */
 } lrcsi_occluding;
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
@@ -53,7 +51,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o);
 
 /* One facet piece by piece: open it, ask for more until there are none, close it. Each `next` that
-   returns 1 leaves some more disjoint convex pieces of what is visible in o->clip.list, in the
+   returns 1 leaves one more of the disjoint convex pieces of what is visible in o->piece, in the
    frame of o->target (lrcsi_target_weights leads back to the facet). A facet that is visible whole
    comes as its own triangle; one of which nothing is known to be visible has no pieces. The pieces
    together differ from what is visible, both ways, by an area of at most high - low of the answer,
@@ -70,9 +68,9 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o);
 /* What a facet shows of which nothing is known. */
 lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet);
 
-/* Every facet: uniform ones by one exact sample, contested ones by clipping unless one sheet hides
-   all of them. A facet whose occluders find no memory may show anything: *starved counts those. One
-   that falls into more pieces than the lists hold is bounded by what was reached.
+/* Every facet: uniform ones by one exact sample, contested ones cell by cell unless one sheet hides
+   all of them. A facet whose cuts find no memory may show anything: *starved counts those. One
+   that falls into more cells than the limit is bounded by what was reached.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. */
 int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible,
                       uint32_t *starved);

@@ -75,17 +75,11 @@ static void ring_add(ring_list *list, const lrcsi_target *t, const double (*corn
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* The pieces at hand. Those that rounding has left without area show nothing. */
-static void pieces_add(ring_list *list, const lrcsi_occluding *o)
+/* The piece at hand. One that rounding has left without area shows nothing. */
+static void piece_add_ring(ring_list *list, const lrcsi_occluding *o)
 {
-    const lrcsi_clip_list *pieces = &o->clip.list;
-    for (uint32_t i = 0; i < pieces->pieces; i++) {
-        uint32_t first = lrcsi_clip_first(pieces, i);
-        const double(*corner)[2] = (const double(*)[2])(pieces->corner + first);
-        uint32_t count = pieces->end[i] - first;
-        if (!o->contested || lrcsi_clip_corners_area(corner, count) > 0) {
-            ring_add(list, &o->target, corner, count);
-        }
+    if (!o->contested || lrcsi_clip_area(&o->piece) > 0) {
+        ring_add(list, &o->target, (const double(*)[2])o->piece.corner, o->piece.count);
     }
 }
 
@@ -99,7 +93,7 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
         return status;
     }
     while (lrcsi_occlude_next(o)) {
-        pieces_add(list, o);
+        piece_add_ring(list, o);
     }
     lrcsi_visible visible = lrcsi_occlude_close(o);
     list->bound += visible.high - visible.low;

@@ -4,7 +4,7 @@
    sample on the facet tells which, exactly, and one in a neighbouring such pixel does too, since
    the facet's part of both is connected. And where a pixel is known to be covered by one visible
    facet, all others are hidden there. Those pixels bound the area from below and above; the
-   estimate between the bounds is the share of samples. */
+   area between the bounds comes from the samples (visibility/share.h). */
 #include "visibility/visible.h"
 
 #include <math.h>
@@ -16,10 +16,7 @@
 #include "visibility/drift.h"
 #include "visibility/query.h"
 #include "visibility/sample.h"
-
-/* The share of fewer samples than this is biased: a row of facets thinner than a pixel then leans
-   one way, which the plain count of their samples does not. */
-#define FEW 16u
+#include "visibility/share.h"
 
 #define U 0x1p-53
 
@@ -273,41 +270,31 @@ static uint32_t mark_changes(pixel_marks *m, uint32_t facet)
     return crossings;
 }
 
-/* The share of its samples that a facet owns; one query where it has none. */
-static double sampled_share(const lrcsi_raster *raster, const lrcsi_grid *facets, uint32_t facet)
-{
-    static const double share[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
-    if (raster->covered[facet] != 0) {
-        return (double)raster->owned[facet] / raster->covered[facet];
-    }
-    return share[lrcsi_query_facet(facets, facet)];
-}
-
 /* Pixel areas are side^2 / N^2 to a few roundings; 1e-12 of them is given away. */
-static lrcsi_visible contested_area(lrcsi_contest *contest, const lrcsi_raster *raster,
-                                    const lrcsi_grid *facets, pixel_marks *marks, uint32_t facet)
+static lrcsi_visible contested_area(const lrcsi_sharing *sharing, pixel_marks *marks,
+                                    uint32_t facet)
 {
+    lrcsi_contest *contest = sharing->known->contest;
+    const lrcsi_raster *raster = sharing->raster;
     double area = lrcsi_view_tilt(contest->view, facet).projected;
+    double pixel = raster->pixel * raster->pixel;
+    lrcsi_share share = lrcsi_share_facet(sharing, facet);
     double shown = 0;
     double hidden = 0;
     lrcsi_drift drift = {HUGE_VAL, 0};
     if (!raster->undecided[facet]) {
         uint32_t crossings = mark_changes(marks, facet);
-        drift = lrcsi_drift_facet(contest, crossings, raster, facet);
+        drift = share.row ? lrcsi_drift_row(raster, facet, share.longest, share.share)
+                          : lrcsi_drift_facet(contest, crossings, raster, facet);
         count_certain(marks, facet, &shown, &hidden);
     }
-    double pixel = raster->pixel * raster->pixel;
     lrcsi_visible v;
     v.low = lrcsi_least(area, shown * pixel * (1 - 1e-12));
     v.high = lrcsi_most(v.low, area - hidden * pixel * (1 - 1e-12));
-    v.area = lrcsi_least(v.high, lrcsi_most(v.low, area * sampled_share(raster, facets, facet)));
+    lrcsi_share_keep(sharing, facet, area, &share, &v);
     double gap = v.high - v.low;
     v.likely = lrcsi_least(gap, sqrt(drift.square) * pixel);
-    v.lean = drift.lean * pixel;
-    if (raster->covered[facet] < FEW) {
-        v.lean += v.area - raster->owned[facet] * pixel;
-    }
-    v.lean = lrcsi_least(gap, lrcsi_most(-gap, v.lean));
+    v.lean = lrcsi_least(gap, lrcsi_most(-gap, drift.lean * pixel));
     return v;
 }
 
@@ -376,9 +363,10 @@ int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *kn
 
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    return lrcsi_work_add(lrcsi_raster_need(prepared, size),
-                          lrcsi_work_add(lrcsi_work_bytes((size_t)size * size, 1),
-                                         lrcsi_work_bytes(size, sizeof(lrcsi_row))));
+    size_t need = lrcsi_work_bytes((size_t)size * size, 1);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(lrcsi_row)));
+    need = lrcsi_work_add(need, lrcsi_share_need(prepared));
+    return lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
 }
 
 /* Facets proved hidden own no samples; those proved visible own all of theirs. Only the tiles of
@@ -436,8 +424,9 @@ static lrcsi_visible unknown_area(lrcsi_raster *raster, uint32_t facet)
     return (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
 }
 
-static void visible_fill(const lrcsi_known *known, pixel_marks *marks, lrcsi_visible *visible)
+static void visible_fill(const lrcsi_sharing *sharing, pixel_marks *marks, lrcsi_visible *visible)
 {
+    const lrcsi_known *known = sharing->known;
     lrcsi_contest *contest = known->contest;
     lrcsi_raster *raster = marks->raster;
     uint32_t count = contest->view->prepared->scene->facet_count;
@@ -450,11 +439,11 @@ static void visible_fill(const lrcsi_known *known, pixel_marks *marks, lrcsi_vis
     known_areas(known, visible);
     for (uint32_t f = 0; f < count; f++) {
         if (known->answer[f] == LRCSI_QUERY_UNDECIDED) {
-            visible[f] = contest->contested[f]
-                             ? contested_area(contest, raster, &known->facets, marks, f)
-                             : unknown_area(raster, f);
+            visible[f] =
+                contest->contested[f] ? contested_area(sharing, marks, f) : unknown_area(raster, f);
         }
     }
+    lrcsi_share_settle(sharing, visible);
 }
 
 int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
@@ -469,12 +458,13 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
     pixel_marks marks = {.known = known, .raster = raster};
     marks.mixed = lrcsi_work_take(work, (size_t)size * size, 1);
     marks.row = lrcsi_work_take(work, size, sizeof *marks.row);
-    if (!marks.mixed || !marks.row) {
+    lrcsi_sharing sharing;
+    if (!marks.mixed || !marks.row || lrcsi_share_make(known, raster, work, &sharing) != LRCS_OK) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
     known_draw(known, raster);
-    visible_fill(known, &marks, visible);
+    visible_fill(&sharing, &marks, visible);
     work->used = end;
     return LRCS_OK;
 }

@@ -167,6 +167,8 @@ usage_error step_of_zero "STEP does not lead from A to B" sweep demo --az 0:10:0
 usage_error step_the_wrong_way "STEP does not lead from A to B" sweep demo --az 0:10:-1
 usage_error too_many_digits "at most 15 are exact" sweep demo --az 0:1:0.12345678901234567
 usage_error too_many_rows "more than 2^53" sweep demo --az 0:100000000:0.000001 --el 0:1000:0.1
+usage_error euler_without_angles "three of XYZ" sweep demo --euler XYZ
+usage_error euler_beside_a_direction "--direction and --euler both" sweep demo --euler XYZ:0:1:1,0,0 --direction 0,0,1
 usage_error euler_of_two_angles "three angles" sweep demo --euler XYZ:0:1:1,0
 usage_error euler_of_a_wrong_sequence "three of XYZ" sweep demo --euler XXY:0:1:1,0,0
 usage_error rotate_about_nothing "axis u,v,w" sweep demo --rotate 0,0,0:0:1:1

@@ -55,6 +55,17 @@ run sweep $what -o again.csv --resume
 equal a_whole_file_is_left_alone again.csv before.csv
 same its_rows_decide_the_exit "$rc" 3
 
+# What is there but of another sweep gives way, as a file without --resume does.
+for shard in 1/2 1/100; do
+    cp whole.csv again.csv
+    # shellcheck disable=SC2086
+    "$tool" sweep $what --shard $shard -o part.csv 2>/dev/null
+    # shellcheck disable=SC2086
+    run sweep $what --shard $shard -o again.csv --resume
+    equal "a_whole_sweep_is_no_shard_$(echo $shard | tr / _)" again.csv part.csv
+    rm part.csv
+done
+
 # ---- what is refused ----
 # shellcheck disable=SC2086
 head -c 500 whole.csv >again.csv.partial && cp again.csv.partial before.csv

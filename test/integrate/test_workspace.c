@@ -143,7 +143,7 @@ static void every_size_is_survived(void **state)
     for (int i = 0; i < 4; i++) {
         lrcs_run_options options = {.tolerance = 1e-4, .method = methods[i], .resolution = 0};
         int before = LRCS_E_MEMORY;
-        for (size_t size = 0; size < 28000; size += 16) {
+        for (size_t size = 0; size < 32000; size += 16) {
             lrcs_result r;
             int status = run_in(prepared, &work, size, &options, &r);
             assert_true(status == LRCS_OK || before != LRCS_OK);
@@ -201,7 +201,7 @@ static void exact_with_too_little_memory_says_so_and_its_bound_holds(void **stat
     unsigned starved = 0;
     unsigned whole = 0;
     int before = LRCS_E_MEMORY;
-    for (size_t size = 0; size <= need; size += 307) {
+    for (size_t size = 0; size <= need; size += 61) {
         int status = run_in(prepared, &work, size, &options, &r);
         assert_true(status == LRCS_OK || before != LRCS_OK);
         before = status;

@@ -37,8 +37,8 @@ static double pieces_area(lrcsi_occluding *o, uint32_t facet, uint32_t *pieces, 
     size_t used = work.used;
     assert_int_equal(lrcsi_occlude_open(o, facet), LRCS_OK);
     while (lrcsi_occlude_next(o)) {
-        area += lrcsi_clip_area(&o->clip);
-        *pieces += o->clip.list.pieces;
+        area += lrcsi_clip_area(&o->piece);
+        ++*pieces;
     }
     assert_false(lrcsi_occlude_next(o));
     *told = lrcsi_prepared_area(view.prepared, lrcsi_occlude_close(o).area);
@@ -57,8 +57,8 @@ static void whole_facet_is_its_own_triangle(void **state)
     assert_int_equal(pieces, 1);
     assert_int_equal(lrcsi_occlude_open(&o, 1), LRCS_OK);
     assert_true(lrcsi_occlude_next(&o));
-    assert_int_equal(o.clip.list.end[0], 3);
-    assert_memory_equal(o.clip.list.corner, o.target.corner, sizeof o.target.corner);
+    assert_int_equal(o.piece.count, 3);
+    assert_memory_equal(o.piece.corner, o.target.corner, sizeof o.target.corner);
     assert_int_equal(o.target.facet, 1);
     lrcsi_occlude_close(&o);
 }
@@ -104,12 +104,186 @@ static void pieces_of_a_contested_facet_have_the_area_told(void **state)
     check_same(told, first);
 }
 
+/* --- one facet in front of another, by hand --------------------------------------------------- */
+
+/* What is seen of facet 0, as a share of its projected area, and by how much that may be off. */
+static double share_left(const double direction[3], double *error)
+{
+    lrcs_pose pose;
+    lrcsi_occluding o;
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_make(&contest, &work, &o), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_open(&o, 0), LRCS_OK);
+    lrcsi_visible seen = lrcsi_occlude_area(&o);
+    double whole = lrcsi_view_tilt(&view, 0).projected;
+    *error = (seen.high - seen.low) / whole;
+    return seen.area / whole;
+}
+
+/* Facet 0: (0,0,0) (4,0,0) (0,4,0), front up; facet 1 as told. */
+static void start_pair(const double a[3], const double b[3], const double c[3])
+{
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
+                   (const double[3]){0, 4, 0});
+    scene_triangle(&scene, a, b, c);
+}
+
+static const double up[3] = {0, 0, 1};
+
+static void facet_in_front_hides_its_shadow(void **state)
+{
+    (void)state;
+    double error;
+    start_pair((const double[3]){1, 1, 2}, (const double[3]){2, 1, 2}, (const double[3]){1, 2, 1});
+    check_rel(share_left(up, &error), 15 / 16.0, 1e-14);
+    check_most(error, 1e-12);
+    scene_invert(&scene, 1); /* from either side */
+    check_rel(share_left(up, &error), 15 / 16.0, 1e-14);
+    /* From (-1, 0, 1) the shadow of a level facet at height 1 lies 1 further along x. */
+    start_pair((const double[3]){1, 0, 1}, (const double[3]){3, 0, 1}, (const double[3]){1, 2, 1});
+    check_rel(share_left((const double[3]){-1, 0, 1}, &error), 6 / 8.0, 1e-14);
+    check_rel(share_left((const double[3]){1, 0, 1}, &error), 6 / 8.0, 1e-14);
+}
+
+/* Corners at heights 1, 1 and -1: the side to the lower corner passes the plane half-way. */
+static void piercing_facet_hides_only_what_its_upper_part_covers(void **state)
+{
+    (void)state;
+    double error;
+    start_pair((const double[3]){0, 0, 1}, (const double[3]){2, 0, 1}, (const double[3]){0, 2, -1});
+    check_rel(share_left(up, &error), 1 - 1.5 / 8, 1e-14); /* 2 less its upper half-sized tip */
+    check_most(error, 1e-12);
+    start_pair((const double[3]){0, 0, -1}, (const double[3]){2, 0, -1},
+               (const double[3]){0, 2, 1});
+    check_rel(share_left(up, &error), 1 - 0.5 / 8, 1e-14);
+    start_pair((const double[3]){0, 0, 1}, (const double[3]){2, 0, -1},
+               (const double[3]){0, 2, -3});
+    check_rel(share_left(up, &error), 1 - 2 * 0.5 * 0.25 / 8, 1e-14); /* cut at 1/2 and 1/4 */
+}
+
+static void facets_behind_beside_or_in_contact_hide_nothing(void **state)
+{
+    (void)state;
+    double error;
+    static const double none[][3][3] = {
+        {{1, 1, -1}, {2, 1, -2}, {1, 2, -1}}, /* behind */
+        {{4, 0, 1}, {8, 0, 1}, {4, 4, 1}},    /* beside: touches a corner in projection */
+        {{4, 0, 1}, {4, 4, 1}, {0, 4, 1}},    /* beyond the hypotenuse */
+        {{1, 1, 0}, {2, 1, -1}, {1, 2, -1}},  /* behind, a corner on the plane */
+        {{1, 1, 0}, {2, 1, 0}, {1, 2, -1}},   /* behind, a side on the plane */
+        {{1, 1, 0}, {2, 1, 0}, {1, 2, 0}},    /* in the plane, of higher index */
+        {{0, 0, 0}, {0, 4, 0}, {-1, 0, 3}}};  /* a wall on the target's side, leaning out */
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
+        start_pair(none[i][0], none[i][1], none[i][2]);
+        check_rel(share_left(up, &error), 1.0, 1e-15);
+        check_most(error, 1e-12);
+    }
+    start_pair((const double[3]){1, 1, 0}, (const double[3]){2, 1, 0}, (const double[3]){1, 2, 1});
+    check_rel(share_left(up, &error), 15 / 16.0, 1e-14); /* in front, a side on the plane */
+}
+
+static void front_skin_hides_a_back_in_its_plane(void **state)
+{
+    (void)state;
+    double error;
+    start_pair((const double[3]){1, 1, 0}, (const double[3]){2, 1, 0}, (const double[3]){1, 2, 0});
+    scene.facet[0] = (lrcs_facet){{0, 2, 1}}; /* the target now faces away */
+    check_rel(share_left(up, &error), 15 / 16.0, 1e-14);
+    check_most(error, 1e-12);
+    scene_invert(&scene, 1);
+    check_same(share_left(up, &error), 1);
+}
+
+/* Planes that meet at 1e-9: the cut is where exact arithmetic puts it, and its slip is charged. */
+static void shallow_cuts_own_up_to_their_slip(void **state)
+{
+    (void)state;
+    for (int power = 1; power <= 50; power += 7) {
+        double e = ldexp(1, -power);
+        double error;
+        start_pair((const double[3]){0, 0, e}, (const double[3]){2, 0, e},
+                   (const double[3]){0, 2, -e});
+        double left = share_left(up, &error);
+        check_abs(left, 1 - 1.5 / 8, 1e-13);
+        check_most(fabs(left - (1 - 1.5 / 8)), error);
+        check_most(error, 1e-12);
+    }
+}
+
+/* Needles an ulp wide through the target's plane, many of which rounding turns over in the view. */
+static void needles_turned_over_by_rounding_hide_nothing(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    double worst = 0;
+    for (int i = 0; i < 4000; i++) {
+        double length = ldexp(1, -(int)scene_random(&seed, 30));
+        double angle = 0.001 * scene_random(&seed, 6283);
+        double error;
+        const double a[3] = {0.7 + 0.0001 * i, 1.3 - 0.0001 * i, 0.3 * length};
+        double b[3] = {a[0] + length * cos(angle), a[1] + length * sin(angle), -0.7 * length};
+        double c[3] = {nextafter(b[0], 9), b[1], b[2]};
+        const double from[3] = {0.3 + 0.00007 * i, -0.1, 1};
+        start_pair(a, b, c);
+        double hidden = 1 - share_left(from, &error);
+        worst = fmax(worst, hidden - error);
+        check_most(error, 1e-11);
+    }
+    check_most(worst, 4e-16);
+}
+
+/* --- many ------------------------------------------------------------------------------------- */
+
+enum { SECTORS = 256 };
+
+/* A disc of many sectors of which only the rim divides what lies below. The area is that of the
+   square less that of the polygon, and comes in few pieces although a sector's tip is as thin as
+   rounding. */
+static void a_fan_costs_pieces_along_its_rim_only(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
+                (const double[3]){0, 4, 0});
+    uint32_t apex = scene_vertex(&scene, 2.75, 1.25, 1);
+    for (uint32_t k = 0; k < SECTORS; k++) {
+        double turn = 2 * (double)SCENE_PI * k / SECTORS;
+        scene_vertex(&scene, 2.75 + 0.5 * cos(turn), 1.25 + 0.5 * sin(turn), 1);
+    }
+    for (uint32_t k = 0; k < SECTORS; k++) {
+        scene_facet(&scene, apex, apex + 1 + k, apex + 1 + (k + 1) % SECTORS);
+    }
+    lrcsi_occluding o = open_scene();
+    assert_int_equal(lrcsi_occlude_open(&o, 0), LRCS_OK);
+    int steps = 0;
+    while (lrcsi_occlude_next(&o)) {
+        steps++;
+    }
+    lrcsi_visible seen = lrcsi_occlude_close(&o);
+    long double sector = 0.25L * 0.5L * sinl(2 * SCENE_PI / SECTORS);
+    long double truth = (8 - SECTORS * sector) / 64; /* scaled by 1/8 */
+    check_abs(seen.area, (double)truth, 1e-15);
+    assert_true(seen.low <= (double)truth && (double)truth <= seen.high);
+    assert_true(steps > 0 && steps < 8 * SECTORS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whole_facet_is_its_own_triangle),
         cmocka_unit_test(hidden_and_edge_on_facets_have_no_pieces),
         cmocka_unit_test(pieces_of_a_contested_facet_have_the_area_told),
+        cmocka_unit_test(facet_in_front_hides_its_shadow),
+        cmocka_unit_test(piercing_facet_hides_only_what_its_upper_part_covers),
+        cmocka_unit_test(facets_behind_beside_or_in_contact_hide_nothing),
+        cmocka_unit_test(front_skin_hides_a_back_in_its_plane),
+        cmocka_unit_test(shallow_cuts_own_up_to_their_slip),
+        cmocka_unit_test(needles_turned_over_by_rounding_hide_nothing),
+        cmocka_unit_test(a_fan_costs_pieces_along_its_rim_only),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

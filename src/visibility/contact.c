@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+/* A facet against the plane of another: on which side its corners lie, exactly, and where it passes
+   through, in doubles, with how far that may be off. Which facets touch is known (mesh/touch.h). */
+#include "visibility/contact.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/dd.h"
+#include "base/exact.h"
+#include "base/range.h"
+#include "visibility/clip.h"
+
+#define U 0x1p-53
+
+/* The corners of a facet above the target's plane. */
+typedef struct contact_heights {
+    double height[3]; /* along the plane's normal, times a positive constant */
+    double off[3];    /* bounds on their errors */
+    int above[3];     /* exact signs */
+} contact_heights;
+
+/* N . (x - a) for the plane of a facet, up where it is seen, in doubles: off by 8 u |N| |x - a| and
+   N's own error. */
+static double height_roughly(const lrcsi_view *view, uint32_t facet, const double *x, double *off)
+{
+    const lrcsi_normal *n = &view->prepared->normal[facet];
+    const double *a = lrcsi_prepared_corner(view->prepared, facet, 0);
+    double sum = 0;
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        double gap = x[k] - a[k];
+        sum += n->high[k] * gap;
+        square += gap * gap;
+    }
+    *off = (8 * U * n->length + n->error) * sqrt(square);
+    return view->facing[facet] * sum;
+}
+
+/* The exact sign of the height of a point above the plane of a facet. */
+static int height_sign(const lrcsi_view *view, uint32_t facet, const double *x)
+{
+    double off = 0;
+    double height = height_roughly(view, facet, x, &off);
+    if (fabs(height) > off) {
+        return height > 0 ? 1 : -1;
+    }
+    return view->facing[facet] * lrcsi_exact_side(lrcsi_prepared_corner(view->prepared, facet, 0),
+                                                  lrcsi_prepared_corner(view->prepared, facet, 1),
+                                                  lrcsi_prepared_corner(view->prepared, facet, 2),
+                                                  x);
+}
+
+/* The same in double-double: off by 32 u^2 |N| |x - a| and N's own error. */
+static double height_finely(const lrcsi_target *t, const double *x, double *off)
+{
+    const lrcsi_normal *n = &t->view->prepared->normal[t->facet];
+    const double *a = lrcsi_prepared_corner(t->view->prepared, t->facet, 0);
+    lrcsi_dd sum = {0, 0};
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        lrcsi_dd gap = lrcsi_dd_two_sum(x[k], -a[k]);
+        sum = lrcsi_dd_add(sum, lrcsi_dd_mul((lrcsi_dd){n->high[k], n->low[k]}, gap));
+        square += gap.hi * gap.hi;
+    }
+    *off = (32 * U * U * n->length + n->error) * sqrt(square);
+    return t->view->facing[t->facet] * lrcsi_dd_value(sum);
+}
+
+/* 1 all corners of `other` lie in front of the facet's plane or on it, -1 behind, 0 neither or all
+   on it. */
+static int contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
+{
+    int front = 0;
+    int behind = 0;
+    for (int k = 0; k < 3 && !(front && behind); k++) {
+        int sign = height_sign(view, facet, lrcsi_prepared_corner(view->prepared, other, k));
+        front |= sign > 0;
+        behind |= sign < 0;
+    }
+    return front - behind;
+}
+
+int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
+{
+    int side = contact_side(view, facet, other);
+    return side != 0 ? side : -contact_side(view, other, facet);
+}
+
+/* Where, in projection, side p q of one facet and side r s of another cross: 1 the latter is nearer
+   there, -1 farther; 0 where they do not cross, or meet. */
+static int sides_order(const lrcsi_view *view, const double *p, const double *q, const double *r,
+                       const double *s)
+{
+    const double *d = view->direction;
+    int left = lrcsi_exact_turn(p, q, s, d);
+    if (left * lrcsi_exact_turn(p, q, r, d) >= 0 ||
+        lrcsi_exact_turn(r, s, p, d) * lrcsi_exact_turn(r, s, q, d) >= 0) {
+        return 0;
+    }
+    return -left * lrcsi_exact_side(p, q, r, s);
+}
+
+int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other)
+{
+    const lrcs_prepared *prepared = view->prepared;
+    int order = 0;
+    for (int n = 0; n < 9 && order == 0; n++) {
+        order = sides_order(view, lrcsi_prepared_corner(prepared, facet, n / 3),
+                            lrcsi_prepared_corner(prepared, facet, (n / 3 + 1) % 3),
+                            lrcsi_prepared_corner(prepared, other, n % 3),
+                            lrcsi_prepared_corner(prepared, other, (n + 1) % 3));
+    }
+    return order;
+}
+
+static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
+{
+    contact_heights h;
+    for (int k = 0; k < 3; k++) {
+        const double *x = lrcsi_target_corner(t->view, other, k);
+        double height = height_finely(t, x, &h.off[k]);
+        h.height[k] = height;
+        h.above[k] =
+            fabs(height) > h.off[k] ? (height > 0 ? 1 : -1) : height_sign(t->view, t->facet, x);
+    }
+    return h;
+}
+
+/* Where side k of the facet passes through the target's plane, and how far that may be off: the
+   share t = h / (h - h') moves by at most the heights' errors over |h| + |h'|. */
+static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, double at[2])
+{
+    int next = (k + 1) % 3;
+    double span = fabs(h->height[k]) + fabs(h->height[next]);
+    double off = h->off[k] + h->off[next];
+    double t = span > 0 ? lrcsi_least(1, fabs(h->height[k]) / span) : 0.5;
+    for (int i = 0; i < 2; i++) {
+        at[i] = c->corner[k][i] + t * (c->corner[next][i] - c->corner[k][i]);
+    }
+    return span > 2 * off ? 4 * c->reach * (off / span) : HUGE_VAL;
+}
+
+/* May the segment be off by more than the facet is wide, about? */
+static int slip_wide(const lrcsi_contact *c)
+{
+    const double(*corner)[2] = (const double(*)[2])c->corner;
+    lrcsi_clip_polygon triangle;
+    lrcsi_clip_triangle(corner, &triangle);
+    return !(c->slip * lrcsi_clip_perimeter(&triangle) < lrcsi_clip_area(&triangle));
+}
+
+/* Walked counter-clockwise, the facet leaves its part above the plane in one place and enters it in
+   another: corners on the plane, or sides that pass through it. */
+static void contact_end(const contact_heights *h, lrcsi_contact *c, int k)
+{
+    int before = h->above[(k + 2) % 3];
+    int at = h->above[k];
+    int next = h->above[(k + 1) % 3];
+    if (at * next < 0) {
+        c->slip = lrcsi_most(c->slip, side_cut(h, c, k, c->end[at < 0]));
+    }
+    if (at == 0 && (before > 0 || next < 0)) {
+        memcpy(c->end[0], c->corner[k], sizeof c->end[0]);
+    }
+    if (at == 0 && (before < 0 || next > 0)) {
+        memcpy(c->end[1], c->corner[k], sizeof c->end[1]);
+    }
+}
+
+/* The segment's ends are off by 16 u reach and the slip, e. Where the corner that it parts from the
+   others lies 4 e beyond its line, that crosses both sides of the facet within a quarter of this
+   beyond the ends, and parts the facet as the segment does. Else all that it cuts off is as near to
+   the line, or, where the segment is so short that its line may turn anywhere, to the line from it
+   to the corner: that is taken in then, and what the rest does is all there is to tell. */
+static int segment_kind(const contact_heights *h, lrcsi_contact *c, int above)
+{
+    double off = 16 * U * c->reach + c->slip;
+    int lone = above == 1 ? 1 : -1; /* the sign of its height */
+    const double *p = c->corner[h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2];
+    const lrcsi_clip_line line = {{c->end[0][0], c->end[0][1]},
+                                  {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]}};
+    double length = hypot(line.to[0], line.to[1]);
+    double beyond = length > 0 ? lone * lrcsi_clip_side(&line, p) / length : 0;
+    if (c->slip > 0 && slip_wide(c)) {
+        return LRCSI_CONTACT_UNKNOWN;
+    }
+    if (beyond > 4 * off) {
+        return LRCSI_CONTACT_LINE;
+    }
+    if (length > 4 * off) {
+        c->slip += fabs(beyond);
+    } else {
+        c->slip += length;
+        memcpy(c->end[1], p, sizeof c->end[1]);
+    }
+    return lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
+}
+
+int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
+{
+    contact_heights h = heights_of(t, other);
+    c->reach = lrcsi_target_frame(t->view, t->facet, other, c->corner);
+    c->slip = 0;
+    int above = 0;
+    int below = 0;
+    for (int k = 0; k < 3; k++) {
+        above += h.above[k] > 0;
+        below += h.above[k] < 0;
+        contact_end(&h, c, k);
+    }
+    int on = 3 - above - below;
+    return on == 3                                ? LRCSI_CONTACT_FLAT
+           : on < 2 && (above == 0 || below == 0) ? LRCSI_CONTACT_POINT
+                                                  : segment_kind(&h, c, above);
+}

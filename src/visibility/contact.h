@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* Where a facet that touches the inside of another meets its plane: a line in the other's frame,
+   with how far that may be off, or all of the facet. */
+#ifndef LRCSI_CONTACT_H
+#define LRCSI_CONTACT_H
+
+#include "visibility/target.h"
+
+enum lrcsi_contact_kind {
+    LRCSI_CONTACT_POINT,  /* in a point at most */
+    LRCSI_CONTACT_LINE,   /* in the segment told; what is left of it is in front */
+    LRCSI_CONTACT_FRONT,  /* in the segment told; elsewhere all is in front */
+    LRCSI_CONTACT_BEHIND, /* in the segment told; elsewhere all is behind */
+    LRCSI_CONTACT_FLAT,   /* the two lie in one plane, exactly */
+    LRCSI_CONTACT_UNKNOWN /* in a segment, somewhere in the facet: it cannot be told better */
+};
+
+/* A facet in the target's frame, and where it meets the target's plane. */
+typedef struct lrcsi_contact {
+    double corner[3][2]; /* as lrcsi_target_frame */
+    double reach;        /* likewise */
+    double end[2][2];    /* of the segment */
+    double slip;         /* how far that may be off, but for 16 u reach */
+} lrcsi_contact;
+
+/* A lrcsi_contact_kind; the ends and the slip are told of a segment only. */
+int lrcsi_contact_find(const lrcsi_target *target, uint32_t other, lrcsi_contact *contact);
+
+/* 1 where `other` is nearer wherever a line meets both, because one lies on one side of the other's
+   plane; -1 where it is farther; 0 where that does not tell. Exact. */
+int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other);
+
+/* The same of two facets that do not touch, neither of which lies on one side of the other's plane:
+   their order is the same wherever a line meets both, so also where two of their sides cross. */
+int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other);
+
+#endif

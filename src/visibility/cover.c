@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: MIT */
+/* One line of sight through a facet, against the facets near it. All decisions are exact but the
+   place of the line, which is the caller's to keep away from what divides.
+
+   Let a sheet hide the point, and none of the events of a cell be one where it ends. Along any path
+   in the cell, apart from the cuts, the sheet goes on (visibility/contest.h) and stays in front:
+   to pass behind it would have to touch the target. So it hides all of the cell.
+
+   A line is held against candidates in the frame first, in doubles: away from their sides that is
+   sure, and good to the target's own size. Where it passes too near a side, all of them are asked
+   again, exactly, at a point in space nearby: so that of two that share the side it meets one. */
+#include "visibility/cover.h"
+
+#include <math.h>
+
+#include "base/range.h"
+#include "base/work.h"
+#include "visibility/contact.h"
+#include "visibility/sample.h"
+
+#define U 0x1p-53
+
+/* A candidate against the target: one of these, or the number of the cut in which they touch. */
+enum cover_order {
+    ORDER_NEW = 0x7ffffff0, /* not looked at yet */
+    ORDER_FRONT,            /* nearer, wherever a line meets both */
+    ORDER_BEHIND,           /* farther */
+    ORDER_ASKED,            /* cannot be told but on a line that meets both */
+    ORDER_UNKNOWN           /* touches, in a line that is not known */
+};
+
+size_t lrcsi_cover_need(const lrcs_prepared *prepared)
+{
+    size_t facets = prepared->scene->facet_count;
+    size_t need = lrcsi_work_add(lrcsi_grid_facets_need(prepared),
+                                 lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cover_facet)));
+}
+
+int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover)
+{
+    uint32_t count = contest->view->prepared->scene->facet_count;
+    *cover = (lrcsi_cover){.contest = contest};
+    cover->asked = lrcsi_work_take_zero(work, count, sizeof *cover->asked);
+    cover->candidate = lrcsi_work_take(work, count, sizeof *cover->candidate);
+    return cover->asked && cover->candidate ? LRCS_OK : LRCS_E_MEMORY;
+}
+
+/* --- candidates ------------------------------------------------------------------------------- */
+
+/* The box of a facet in the view, all three ways. */
+static void cover_box(const lrcsi_view *view, uint32_t facet, double low[3], double high[3])
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    for (int k = 0; k < 3; k++) {
+        double a = view->point[corner[0]].x[k];
+        double b = view->point[corner[1]].x[k];
+        double c = view->point[corner[2]].x[k];
+        low[k] = lrcsi_least(a, lrcsi_least(b, c));
+        high[k] = lrcsi_most(a, lrcsi_most(b, c));
+    }
+}
+
+/* Lists a facet unless all of it is beside the target's box, or behind its farthest corner. */
+static void cover_add(lrcsi_cover *cover, uint32_t other, const double low[3], const double high[3])
+{
+    double off = 4 * cover->facets.view->off;
+    double its_low[3];
+    double its_high[3];
+    cover_box(cover->facets.view, other, its_low, its_high);
+    if (its_high[0] < low[0] - off || its_low[0] > high[0] + off || its_high[1] < low[1] - off ||
+        its_low[1] > high[1] + off || its_high[2] < low[2] - off) {
+        return;
+    }
+    cover->candidate[cover->count++] = (lrcsi_cover_facet){.low = {its_low[0], its_low[1]},
+                                                           .high = {its_high[0], its_high[1]},
+                                                           .facet = other,
+                                                           .order = ORDER_NEW};
+}
+
+void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
+{
+    const lrcsi_grid *facets = &cover->facets;
+    double low[3];
+    double high[3];
+    cover_box(facets->view, target->facet, low, high);
+    lrcsi_cells cells = lrcsi_grid_cells(facets, low, high);
+    cover->count = 0;
+    cover->asks++;
+    cover->asked[target->facet] = cover->asks;
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        uint32_t i = facets->first[(size_t)y * facets->size + cells.x0];
+        uint32_t end = facets->first[(size_t)y * facets->size + cells.x1];
+        for (; i < end; i++) {
+            uint32_t other = facets->item[i];
+            if (cover->asked[other] != cover->asks) {
+                cover->asked[other] = cover->asks;
+                cover_add(cover, other, low, high);
+            }
+        }
+    }
+}
+
+/* The order of two facets neither of which lies on one side of the other's plane. Of those that
+   touch, the cut tells; in one plane the rules of precedence decide, and one that is beaten has no
+   cut. */
+static uint32_t order_mixed(const lrcsi_cuts *cuts, uint32_t other)
+{
+    const lrcsi_target *t = cuts->target;
+    const lrcsi_touches *touches = &t->view->prepared->touches;
+    for (uint32_t i = 0; i < cuts->count; i++) {
+        if (cuts->cut[i].other == other) {
+            int kind = cuts->cut[i].kind;
+            return kind == LRCSI_CONTACT_LINE      ? i
+                   : kind == LRCSI_CONTACT_BEHIND  ? ORDER_BEHIND
+                   : kind == LRCSI_CONTACT_UNKNOWN ? ORDER_UNKNOWN
+                                                   : ORDER_FRONT;
+        }
+    }
+    for (uint32_t i = touches->first[t->facet]; i < touches->first[t->facet + 1]; i++) {
+        if (touches->touch[i].other == other) {
+            return ORDER_BEHIND;
+        }
+    }
+    int order = lrcsi_contact_order(t->view, t->facet, other);
+    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
+}
+
+static uint32_t order_of(const lrcsi_cuts *cuts, uint32_t other)
+{
+    const lrcsi_target *t = cuts->target;
+    int side = lrcsi_contact_side(t->view, t->facet, other);
+    return side > 0 ? ORDER_FRONT : side < 0 ? ORDER_BEHIND : order_mixed(cuts, other);
+}
+
+/* --- one line --------------------------------------------------------------------------------- */
+
+/* How a line is held against the candidates. */
+enum line_way {
+    LINE_PLACED, /* as its place in the frame, where that is clear of all sides */
+    LINE_EXACT,  /* as a point in space near that, exactly */
+    LINE_GUESSED /* as its place, rounded */
+};
+
+typedef struct cover_line {
+    const lrcsi_cuts *cuts;
+    uint32_t count; /* of their list, that may divide what the line stands for */
+    int way;
+    double at[2];    /* in the target's frame */
+    double xy[2];    /* in the view */
+    double point[3]; /* in space */
+    double off;      /* by which that may be elsewhere in the frame */
+} cover_line;
+
+/* Corners are off in the frame by 10 u of their reach r, the side of a line by 4 u (r + d). 1 the
+   line surely meets the candidate, -1 surely not, 0 it passes too near a side. */
+static int line_meets_about(const cover_line *line, lrcsi_cover_facet *c)
+{
+    const lrcsi_target *t = line->cuts->target;
+    if (c->width == 0) {
+        double reach = lrcsi_target_frame(t->view, t->facet, c->facet, c->corner);
+        c->width = 24 * U * (lrcsi_most(reach, t->reach) + t->diameter);
+    }
+    double width = line->way == LINE_GUESSED ? 0 : c->width;
+    int inside = 1;
+    for (int k = 0; k < 3; k++) {
+        const double *p = c->corner[k];
+        const double *q = c->corner[k == 2 ? 0 : k + 1];
+        const lrcsi_clip_line side = {{p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}};
+        double left = lrcsi_clip_side(&side, line->at);
+        double clear = width * (fabs(side.to[0]) + fabs(side.to[1]));
+        if (left < -clear) {
+            return -1;
+        }
+        inside &= left > clear;
+    }
+    return inside;
+}
+
+/* 1 the line meets the candidate, -1 not, 0 it must be asked another way. */
+static int line_meets(const cover_line *line, lrcsi_cover_facet *c)
+{
+    double off = 4 * line->cuts->target->view->off;
+    if (line->xy[0] < c->low[0] - off || line->xy[0] > c->high[0] + off ||
+        line->xy[1] < c->low[1] - off || line->xy[1] > c->high[1] + off ||
+        c->order == ORDER_BEHIND) {
+        return -1;
+    }
+    if (line->way == LINE_EXACT) {
+        return lrcsi_sample_covers(line->cuts->target->view, c->facet, line->point) ? 1 : -1;
+    }
+    int meets = line_meets_about(line, c);
+    return meets == 0 && line->way == LINE_GUESSED ? -1 : meets;
+}
+
+/* Is the target hidden where the line meets the candidate? 1 yes, -1 no, 0 unknown. Two facets that
+   do not touch keep their order wherever they overlap. */
+static int line_hidden(const cover_line *line, lrcsi_cover_facet *c)
+{
+    const lrcsi_target *t = line->cuts->target;
+    if (c->order == ORDER_NEW) {
+        c->order = order_of(line->cuts, c->facet);
+    }
+    if (c->order == ORDER_ASKED && line->way != LINE_PLACED) {
+        int nearer = lrcsi_sample_nearer(t->view, c->facet, t->facet, line->point, 1);
+        if (line->way == LINE_EXACT && nearer != 0) {
+            c->order = nearer > 0 ? ORDER_FRONT : ORDER_BEHIND;
+        }
+        return nearer;
+    }
+    if (c->order < line->cuts->count) {
+        const lrcsi_cut *cut = &line->cuts->cut[c->order];
+        double left = lrcsi_clip_side(&cut->line, line->at);
+        double off = line->way == LINE_GUESSED ? 0 : cut->width + line->off;
+        double clear = off * (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
+        return left > clear ? 1 : left < -clear ? -1 : 0;
+    }
+    return c->order == ORDER_FRONT ? 1 : c->order == ORDER_BEHIND ? -1 : 0;
+}
+
+/* The point that stands for a line in space. It is off by 100 u of the reach (visibility/target.h),
+   and 8 u for coordinates below 1. */
+static void line_lift(cover_line *line)
+{
+    const lrcsi_target *t = line->cuts->target;
+    double weight[3];
+    lrcsi_target_weights(t, line->at, weight);
+    for (int k = 0; k < 3; k++) {
+        line->point[k] = 0;
+        for (int i = 0; i < 3; i++) {
+            line->point[k] += weight[i] * lrcsi_prepared_corner(t->view->prepared, t->facet, i)[k];
+        }
+    }
+    line->off = 100 * U * t->reach + 8 * U;
+}
+
+/* What hides the target on a line: a lrcsi_cover_answer, or LINE_AGAIN where it must be asked
+   another way. Candidates that hide all of a cell come to stand first. */
+#define LINE_AGAIN (-1)
+static int line_tells(const cover_line *line, lrcsi_cover *cover, uint32_t *sheet)
+{
+    int answer = LRCSI_COVER_NONE;
+    uint32_t fewest = LRCS_NONE;
+    for (uint32_t i = 0; i < cover->count; i++) {
+        lrcsi_cover_facet *c = &cover->candidate[i];
+        int meets = line_meets(line, c);
+        int hidden = meets > 0 ? line_hidden(line, c) : -1;
+        if (meets == 0 || (hidden == 0 && c->order == ORDER_ASKED && line->way == LINE_PLACED)) {
+            return LINE_AGAIN;
+        }
+        if (hidden == 0 && answer == LRCSI_COVER_NONE) {
+            answer = LRCSI_COVER_UNKNOWN;
+        } else if (hidden > 0) {
+            uint32_t its = cover->contest->sheet[c->facet];
+            uint32_t ends = lrcsi_cuts_of(line->cuts, line->count, its);
+            if (ends == 0) {
+                lrcsi_cover_facet found = *c;
+                *c = cover->candidate[0];
+                cover->candidate[0] = found;
+                return LRCSI_COVER_ALL;
+            }
+            *sheet = ends < fewest ? its : *sheet;
+            fewest = ends < fewest ? ends : fewest;
+            answer = LRCSI_COVER_SOME;
+        }
+    }
+    return answer;
+}
+
+int lrcsi_cover_sample(lrcsi_cover *cover, const lrcsi_cuts *cuts, uint32_t count,
+                       lrcsi_cover_place *place, uint32_t *sheet)
+{
+    const lrcsi_view *view = cuts->target->view;
+    const double *origin =
+        view->point[view->prepared->scene->facet[cuts->target->facet].corner[0]].x;
+    cover_line line = {.cuts = cuts, .count = count, .at = {place->at[0], place->at[1]}};
+    line.xy[0] = origin[0] + place->at[0];
+    line.xy[1] = origin[1] + place->at[1];
+    int answer = place->clear > 0 ? line_tells(&line, cover, sheet) : LINE_AGAIN;
+    if (answer == LINE_AGAIN) {
+        line_lift(&line);
+        line.way = place->clear > line.off ? LINE_EXACT : LINE_GUESSED;
+        answer = line_tells(&line, cover, sheet);
+    }
+    place->guess = line.way == LINE_GUESSED;
+    return answer;
+}

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+/* The segments that may divide a facet, and which of them come near a part of it. That no other
+   edge or contact matters is exact (visibility/contest.h); only places are computed in doubles.
+
+   In the facet's frame, with d its diameter and r the largest distance in space of a segment's ends
+   from its first corner, ends are off by 10 u r (visibility/target.h), those of a contact by 16 u r
+   and its slip (visibility/contact.h); the line through them by 2 u r more. The side of a line on
+   which a point lies is told wrong within 4 u (r + d) of it. A point put where a line cuts a side
+   of a cell lies within that and 8 u d of the line. So a segment that is told to be farther from a
+   shape than WIDTH (r + d) and the slip does not meet it; and where a cell was cut along a segment,
+   or lies on one side of its line as computed, the segment lies within that width of the line, and
+   all of the cell on one side but for as much (24 u of r + d would do, and 30 u for a contact).
+
+   A contact with a facet in one plane with the target divides along the outline of that facet: on
+   either side of it the facet hides all or nothing. So it is taken where the line of a contact is
+   not known; what is inside the outline is then not decided by samples (visibility/cover.c). A
+   contact in a point divides nothing: paths pass beside it. */
+#include "visibility/cut.h"
+
+#include "base/range.h"
+#include "base/work.h"
+
+#define U     0x1p-53
+#define WIDTH (32 * U)
+
+/* --- lists ------------------------------------------------------------------------------------ */
+
+static lrcsi_cut *cut_new(lrcsi_cuts *cuts, const double from[2], const double to[2], double width)
+{
+    lrcsi_cut *e = &cuts->cut[cuts->count++];
+    for (int k = 0; k < 2; k++) {
+        e->line.at[k] = from[k];
+        e->line.to[k] = to[k] - from[k];
+        e->low[k] = lrcsi_least(from[k], to[k]) - width;
+        e->high[k] = lrcsi_most(from[k], to[k]) + width;
+    }
+    if (e->line.to[0] == 0 && e->line.to[1] == 0) {
+        e->line.to[0] = 1; /* any line through it will do */
+    }
+    e->width = width;
+    e->sheets = 0;
+    e->other = LRCS_NONE;
+    return e;
+}
+
+static double width_of(const lrcsi_cuts *cuts, double reach)
+{
+    return WIDTH * (lrcsi_most(reach, cuts->target->reach) + cuts->target->diameter);
+}
+
+static void cut_sheet(lrcsi_cut *e, uint32_t sheet)
+{
+    for (uint32_t i = 0; i < e->sheets && i < LRCSI_CUT_SHEETS; i++) {
+        if (e->sheet[i] == sheet) {
+            return;
+        }
+    }
+    if (e->sheets < LRCSI_CUT_SHEETS) {
+        e->sheet[e->sheets] = sheet;
+    }
+    e->sheets++;
+}
+
+static void cuts_edge(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t edge)
+{
+    const lrcs_prepared *p = contest->view->prepared;
+    const lrcsi_edge *e = &p->topology.edge[edge];
+    double from[2];
+    double to[2];
+    double low = lrcsi_target_place(cuts->target, p->vertex[e->low].x, from);
+    double high = lrcsi_target_place(cuts->target, p->vertex[e->high].x, to);
+    lrcsi_cut *cut = cut_new(cuts, from, to, width_of(cuts, lrcsi_most(low, high)));
+    for (uint32_t i = 0; i < e->uses; i++) {
+        cut_sheet(cut, contest->sheet[p->topology.use[e->first_use + i].facet]);
+    }
+}
+
+static void cuts_contact(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t other)
+{
+    lrcsi_contact c;
+    int kind = lrcsi_contact_find(cuts->target, other, &c);
+    double width = width_of(cuts, c.reach);
+    uint32_t first = cuts->count;
+    if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
+        for (int k = 0; k < 3; k++) {
+            cut_new(cuts, c.corner[k], c.corner[(k + 1) % 3], width);
+        }
+    } else if (kind != LRCSI_CONTACT_POINT) {
+        cut_new(cuts, c.end[0], c.end[1], width + c.slip);
+    }
+    for (uint32_t i = first; i < cuts->count; i++) {
+        cuts->cut[i].other = other;
+        cuts->cut[i].kind = kind;
+        cut_sheet(&cuts->cut[i], contest->sheet[other]);
+    }
+}
+
+int lrcsi_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_work *work,
+                    lrcsi_cuts *cuts)
+{
+    const lrcsi_touches *touches = &target->view->prepared->touches;
+    uint32_t first = touches->first[target->facet];
+    uint32_t end = touches->first[target->facet + 1];
+    uint32_t crossings = lrcsi_contest_crossings(contest, target->facet);
+    size_t room = crossings + 3 * (size_t)(end - first);
+    *cuts = (lrcsi_cuts){.target = target};
+    cuts->cut = lrcsi_work_take(work, room, sizeof *cuts->cut);
+    cuts->list = lrcsi_work_take(work, room, sizeof *cuts->list);
+    if (!cuts->cut || !cuts->list) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < crossings; i++) {
+        cuts_edge(cuts, contest, contest->crossing[i]);
+    }
+    for (uint32_t i = first; i < end; i++) {
+        if (lrcsi_contest_touch_hides(target->view, target->facet, &touches->touch[i])) {
+            cuts_contact(cuts, contest, touches->touch[i].other);
+        }
+    }
+    for (uint32_t i = 0; i < cuts->count; i++) {
+        cuts->list[i] = i;
+    }
+    return LRCS_OK;
+}
+
+/* --- cells ------------------------------------------------------------------------------------ */
+
+int lrcsi_cut_ends(const lrcsi_cut *e, uint32_t sheet)
+{
+    return e->sheets > LRCSI_CUT_SHEETS || (e->sheets > 0 && e->sheet[0] == sheet) ||
+           (e->sheets > 1 && e->sheet[1] == sheet);
+}
+
+uint32_t lrcsi_cuts_keep(lrcsi_cuts *cuts, const lrcsi_clip_polygon *shape, uint32_t count)
+{
+    double low[2];
+    double high[2];
+    uint32_t kept = 0;
+    lrcsi_clip_box(shape, low, high);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t index = cuts->list[i];
+        const lrcsi_cut *e = &cuts->cut[index];
+        if (e->low[0] <= high[0] && e->high[0] >= low[0] && e->low[1] <= high[1] &&
+            e->high[1] >= low[1] && lrcsi_clip_meets(shape, &e->line, e->width)) {
+            cuts->list[i] = cuts->list[kept];
+            cuts->list[kept++] = index;
+        }
+    }
+    return kept;
+}
+
+uint32_t lrcsi_cuts_of(const lrcsi_cuts *cuts, uint32_t count, uint32_t sheet)
+{
+    uint32_t of = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        of += (uint32_t)lrcsi_cut_ends(&cuts->cut[cuts->list[i]], sheet);
+    }
+    return of;
+}
