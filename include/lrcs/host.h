@@ -258,9 +258,9 @@ enum lrcs_host_marker {
 enum lrcs_host_dash { LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED, LRCS_HOST_NO_LINE };
 
 /* Points joined in their order, but for LRCS_HOST_NO_LINE. Those that an axis cannot show (not
-   finite, beyond 1e288; log: not above 1e-288) are left out. */
+   finite, beyond 1e288; log: not above 1e-288) are left out, and leave a gap. */
 typedef struct lrcs_host_series {
-    const char *name; /* in the legend */
+    const char *name; /* in the legend, or NULL: not listed */
     uint32_t count;
     const double *x, *y;
     const char *const *label; /* beside its point where there is room, NULL for none; or NULL */
@@ -272,6 +272,11 @@ typedef struct lrcs_host_chart {
     const char *title, *note; /* note: a smaller line below the title, or NULL */
     const char *x_name, *y_name;
     int x_log, y_log;
+    int x_deg;    /* x is an angle, deg: ticks every 30, 45, .. */
+    int y_from_0; /* the y axis begins at 0, whatever is shown; not with y_log */
+    int polar;    /* about a pole: x is an angle, deg, counter-clockwise from the right, y grows
+                     away from the pole, where all is that lies 40 or more below the largest, or 0
+                     where y begins there */
     double floor; /* log y: what lies below it, 0 as well, is drawn on it with an arrow down;
                      0: none */
     const char *floor_name; /* in the legend */
@@ -282,5 +287,20 @@ typedef struct lrcs_host_chart {
 /* The same chart as SVG 1.1, and as PNG with twice the pixels. Status: LRCS_OK; LRCS_E_SYSTEM. */
 void lrcs_host_chart_svg(FILE *out, const lrcs_host_chart *chart);
 int lrcs_host_chart_png(FILE *out, const lrcs_host_chart *chart, lrcs_host_error *error);
+
+/* A quantity over two others as colours with contours, drawn between its points. */
+typedef struct lrcs_host_map {
+    const char *title, *note;             /* as a chart's */
+    const char *x_name, *y_name, *z_name; /* z: beside the scale of colours */
+    uint32_t columns, rows;               /* 2 of each at least */
+    const double *x, *y;                  /* ascending: columns of x, rows of y */
+    const double *z;                      /* z[row * columns + column]; not finite: grey */
+    double deep;                          /* the scale reaches no further below the largest; 0: all */
+    int x_deg, y_deg;                     /* these are angles, deg */
+} lrcs_host_map;
+
+/* As charts; where there are more points than can be told apart, several share a mean. */
+void lrcs_host_map_svg(FILE *out, const lrcs_host_map *map);
+int lrcs_host_map_png(FILE *out, const lrcs_host_map *map, lrcs_host_error *error);
 
 #endif

@@ -108,11 +108,18 @@ static double histogram_at(const double area[SCALE_BINS], double share)
 static void sigma_range(const lrcs_host_picture *picture, double range[2])
 {
     double area[SCALE_BINS] = {0};
+    double most = 0.0;
     for (uint32_t f = 0; f < picture->scene->facet_count; f++) {
         double bin = floor(facet_return(&picture->records[f])) + SCALE_BINS / 2.0;
         if (bin >= 0.0 && bin < SCALE_BINS) {
             area[(int)bin] += picture->records[f].visible_area_m2;
+            most = fmax(most, area[(int)bin]);
         }
+    }
+    if (!(most > 0.0)) { /* nothing returns: no scale is better than another */
+        range[0] = -10.0;
+        range[1] = 0.0;
+        return;
     }
     range[1] = 5.0 * ceil((histogram_at(area, 0.995) + 1.0) / 5.0);
     range[0] = 5.0 * floor(histogram_at(area, 0.005) / 5.0);
