@@ -138,9 +138,10 @@ typedef struct lrcs_image {
     double left_m, top_m, side_m; /* returned */
 } lrcs_image;
 
-/* Bytes of work area that lrcs_sigma_run takes, an upper bound for ordinary scenes; with less
-   it leaves facets unclipped, or uses a raster, or a coarser one (LRCS_FLAG_MEMORY_FALLBACK; the
-   result names the method used), or says LRCS_E_MEMORY when even the coarsest does not fit. */
+/* Bytes of work area that lrcs_sigma_run takes at most, from any pose, an image left aside: that
+   takes as much as method zbuffer at its resolution, if that is more. With less a run leaves facets
+   unclipped, or uses a raster, or a coarser one (LRCS_FLAG_MEMORY_FALLBACK; the result names the
+   method used), or says LRCS_E_MEMORY when even the coarsest does not fit. */
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options);
 
 /* sigma from a pose.
@@ -151,9 +152,9 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    Work: nothing stays in the work area.
    Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
    cubature errs by about curvature_estimate_m2, which is not proved and not in the bound.
-   2. Of a facet with curved normals that is seen in part, method zbuffer knows how much is seen but
-   not where on it: the bound holds whatever part that may be. It does not fall to 0 with the
-   resolution where the glint varies over the facet; method exact has no such limit. */
+   2. Of a facet with curved normals that is seen in part, samples tell how much is seen but not
+   where on it: method zbuffer clips those, as method exact does, where there is memory for it;
+   elsewhere the bound holds whatever part that may be. */
 int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                    const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,
                    lrcs_facet_record *records, lrcs_image *image);

@@ -218,6 +218,12 @@ static void race_watch(run_job *job, budget_racer racer[RACERS], budget_answer *
 
 /* ---- the command's part ---- */
 
+int cli_run_meets(const lrcs_result *result, double tolerance)
+{
+    double most = tolerance * result->sigma_m2;
+    return tolerance > 0.0 && result->bound_m2 <= most && result->curvature_estimate_m2 <= most;
+}
+
 int cli_run_budget_read(run_job *job)
 {
     static const char *const clash[] = {"method", "resolution", "explain"};

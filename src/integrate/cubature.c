@@ -512,12 +512,6 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     return sum;
 }
 
-double lrcsi_cubature_at(const lrcsi_cubature *sum, const double normal[3])
-{
-    cube_value at = node_value(sum, normal);
-    return at.glint + at.diffuse;
-}
-
 void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area)
 {
     double level[CORNERS] = {0};

@@ -29,9 +29,6 @@ typedef struct lrcsi_cubature {
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
                                    double tolerance);
 
-/* f_r cos at one normal, of any length. */
-double lrcsi_cubature_at(const lrcsi_cubature *sum, const double normal[3]);
-
 /* Given: the normals at the corners, view axes (z to the laser), of about unit length; area.
    Normals with z <= 0 see nothing of the laser and add nothing. */
 void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area);

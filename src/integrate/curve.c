@@ -130,56 +130,7 @@ static lrcsi_curved job_part(const curve_job *job, double share)
 
 /* --- shares ----------------------------------------------------------------------------------- */
 
-/* f_r cos at the raster's samples of a facet: summed over those it owns, and over all. */
-static void sum_samples(const curve_job *job, const lrcsi_raster *raster, double *owned,
-                        double *covered)
-{
-    lrcsi_edges e = lrcsi_raster_edges(raster, job->facet);
-    *owned = *covered = 0;
-    for (uint32_t y = e.y0; y < e.y1; y++) {
-        lrcsi_pixels row = lrcsi_span_row(&e, y).may;
-        for (uint32_t x = row.x0; x < row.x1; x++) {
-            double n[3] = {0, 0, 0};
-            int inside = 1;
-            for (int k = 0; k < 3;
-                 k++) { /* the value of a side is the weight of its third corner */
-                double weight = e.at[k] + e.along[k] * (x + 0.5) + e.up[k] * (y + 0.5);
-                inside = inside && weight >= 0;
-                for (int i = 0; i < 3; i++) {
-                    n[i] += weight * job->normal[(k + 2) % 3][i];
-                }
-            }
-            double value = inside ? lrcsi_cubature_at(&job->sum, n) : 0;
-            *covered += value;
-            *owned += raster->owner[(size_t)y * raster->size + x] == job->facet ? value : 0;
-        }
-    }
-}
-
-/* The share of the whole integral that is visible. By samples only as good as they know the
-   integral: by how much they miss it goes to the estimate. */
-static double visible_share(const curve_job *job, const lrcsi_raster *raster,
-                            const lrcsi_visible *visible, double *doubt)
-{
-    double share = visible->area / job->tilt.projected;
-    *doubt = 0;
-    if (!raster || visible->low == visible->high || raster->covered[job->facet] == 0) {
-        return share;
-    }
-    double owned;
-    double covered;
-    sum_samples(job, raster, &owned, &covered);
-    if (!(covered > 0)) {
-        return share;
-    }
-    double whole = lrcsi_sum_value(&job->sum.glint) + lrcsi_sum_value(&job->sum.diffuse);
-    double guess = job->tilt.projected * (covered / raster->covered[job->facet]);
-    *doubt = fabs(guess - whole);
-    return owned / covered;
-}
-
-static lrcsi_curved curve_share(curve_job *job, const lrcsi_raster *raster,
-                                const lrcsi_visible *visible)
+static lrcsi_curved curve_share(curve_job *job, const lrcsi_visible *visible)
 {
     if (!(visible->high > 0)) {
         return job_part(job, 0);
@@ -194,20 +145,17 @@ static lrcsi_curved curve_share(curve_job *job, const lrcsi_raster *raster,
     if (!(low <= high)) { /* by rounding, or the cubature's error */
         low = high;
     }
-    double doubt;
-    double share = visible_share(job, raster, visible, &doubt);
-    double value = lrcsi_least(high, lrcsi_most(low, share * whole));
+    double value = lrcsi_least(high, lrcsi_most(low, visible->area / projected * whole));
     lrcsi_curved part = job_part(job, whole > 0 ? value / whole : 0);
     part.visibility = FOUR_PI * lrcsi_most(high - value, value - low);
     part.rounding = job_part(job, 1).rounding;
     part.likely = part.visibility > 0 ? (FOUR_PI * value / projected) * visible->likely : 0;
-    part.estimate = FOUR_PI * (job->sum.estimate + lrcsi_least(doubt, high - low));
+    part.estimate = FOUR_PI * job->sum.estimate;
     return part;
 }
 
 void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
-                        const lrcsi_visible *visible, const lrcsi_raster *raster, double tolerance,
-                        lrcsi_curved *curved)
+                        const lrcsi_visible *visible, double tolerance, lrcsi_curved *curved)
 {
     curve_job job;
     curve_all all = all_make(view, plan, tolerance);
@@ -215,7 +163,7 @@ void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
         if (lrcsi_curve_wanted(view, f)) {
             job_start(&job, &all, f);
-            curved[f] = curve_share(&job, raster, &visible[f]);
+            curved[f] = curve_share(&job, &visible[f]);
             all_have(&all, &curved[f]);
         }
     }
@@ -282,14 +230,15 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
     return part;
 }
 
-/* One facet, integrated where there is a job for it. Returns 1 where it could not be opened. */
-static uint32_t facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet,
+/* One facet, integrated where there is a job for it. Returns 1 where it could not be opened: then
+   what samples know of it stands. */
+static uint32_t facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet, int sampled,
                              lrcsi_visible *visible, lrcsi_curved *curved)
 {
     const lrcsi_view *view = o->contest->view;
     uint32_t starved = 0;
     if (lrcsi_occlude_open(o, facet) != LRCS_OK) {
-        *visible = lrcsi_occlude_unknown(view, facet);
+        *visible = sampled ? *visible : lrcsi_occlude_unknown(view, facet);
         starved = 1;
     } else if (job && o->contested) {
         *curved = curve_pieces(job, o, visible);
@@ -298,13 +247,13 @@ static uint32_t facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet,
         *visible = facet_known(view, facet, lrcsi_occlude_area(o));
     }
     if (job) {
-        *curved = curve_share(job, NULL, visible);
+        *curved = curve_share(job, visible);
     }
     return starved;
 }
 
 int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
-                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
+                       int sampled, lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
                        uint32_t *starved)
 {
     const lrcsi_view *view = contest->view;
@@ -316,11 +265,17 @@ int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double to
     *starved = 0;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         int wanted = lrcsi_curve_wanted(view, f);
+        int parted = sampled && contest->contested[f] && visible[f].low < visible[f].high;
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
         if (wanted) {
             job_start(&job, &all, f);
         }
-        *starved += facet_pieces(wanted ? &job : NULL, &o, f, &visible[f], &curved[f]);
+        if (!sampled || (parted && wanted)) {
+            curve_job *integrated = wanted ? &job : NULL;
+            *starved += facet_pieces(integrated, &o, f, sampled, &visible[f], &curved[f]);
+        } else if (wanted) {
+            curved[f] = curve_share(&job, &visible[f]);
+        }
         all_have(&all, &curved[f]);
     }
     work->used = mark;

@@ -22,18 +22,18 @@ typedef struct lrcsi_curved {
 int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet);
 
 /* Facets of which an area is all that is known: the integral over the whole facet, times the share
-   of it that is visible; under a raster, of a facet that is seen in part, the share of its samples'
-   f_r cos.
-   Given: visible; raster, or NULL; the relative error asked for. Returned: curved[facet_count] of
-   the facets wanted. */
+   of it that is visible.
+   Given: visible; the relative error asked for. Returned: curved[facet_count] of the facets
+   wanted. */
 void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
-                        const lrcsi_visible *visible, const lrcsi_raster *raster, double tolerance,
-                        lrcsi_curved *curved);
+                        const lrcsi_visible *visible, double tolerance, lrcsi_curved *curved);
 
 /* Every facet by clipping, as lrcsi_occlude_all, and those wanted integrated over the pieces that
-   are visible. Status: as lrcsi_occlude_all. */
+   are visible. Where visible is given, sampled, only those that are wanted and seen in part:
+   samples tell how much of a facet is seen, but not where on it; one that finds no memory keeps its
+   share. Status: as lrcsi_occlude_all. */
 int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
-                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
+                       int sampled, lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
                        uint32_t *starved);
 
 #endif

@@ -50,9 +50,22 @@ static int options_check(const lrcs_run_options *options)
     return LRCS_OK;
 }
 
-size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
+/* What finding visible areas takes: under auto, whichever method does. On samples, curved facets
+   that are seen in part are clipped. */
+static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
+    size_t raster =
+        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+    size_t exact = lrcsi_occlude_need(prepared);
+    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
+    return options->method == LRCS_METHOD_EXACT                       ? exact
+           : options->method == LRCS_METHOD_ZBUFFER || raster > exact ? raster
+                                                                      : exact;
+}
+
+size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
+{
     size_t facets = prepared->scene->facet_count;
     size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible));
     size_t curved = prepared->smooth ? lrcsi_work_bytes(facets, sizeof(lrcsi_curved)) : 0;
@@ -63,11 +76,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_work_add(areas, curved));
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
     need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
-    if (options->method == LRCS_METHOD_EXACT) {
-        return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
-    }
-    need = lrcsi_work_add(need, lrcsi_visible_known_need(prepared));
-    return lrcsi_work_add(need, lrcsi_visible_need(prepared, size));
+    return lrcsi_work_add(need, method_need(prepared, options));
 }
 
 static double run_bound(const lrcsi_total *total)
@@ -136,7 +145,7 @@ static int run_facet(sigma_run *run)
                                   ? lrcsi_visible_unshadowed(&tilt, run->plan.graze)
                                   : (lrcsi_visible){0, 0, 0, 0, 0};
         }
-        lrcsi_curve_shares(&run->view, &run->plan, run->visible, NULL, run->tolerance, run->curved);
+        lrcsi_curve_shares(&run->view, &run->plan, run->visible, run->tolerance, run->curved);
     }
     run_total(run, NULL);
     return LRCS_OK;
@@ -171,8 +180,19 @@ static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
     }
 }
 
-/* The sum over visible areas found by clipping (raster NULL) or sampling. */
-static void run_sum(sigma_run *run, const lrcsi_raster *raster)
+/* Curved facets of which samples know the areas: clipped where they are seen in part, as far as
+   there is memory for that. */
+static void sum_curved(sigma_run *run)
+{
+    uint32_t starved;
+    if (lrcsi_curve_pieces(&run->contest, &run->plan, run->tolerance, 1, run->work, run->visible,
+                           run->curved, &starved) != LRCS_OK) {
+        lrcsi_curve_shares(&run->view, &run->plan, run->visible, run->tolerance, run->curved);
+    }
+}
+
+/* The sum over visible areas found by sampling or clipping. */
+static void run_sum(sigma_run *run, int sampled)
 {
     if (run->plan.unshadowed) {
         fronts_are_known(&run->view, &run->plan, run->visible);
@@ -180,9 +200,8 @@ static void run_sum(sigma_run *run, const lrcsi_raster *raster)
     if (run->view.prepared->solid && run->view.backs_cast) {
         backs_are_known(&run->view, run->visible);
     }
-    if (run->curved && raster) { /* clipping has integrated over its pieces */
-        lrcsi_curve_shares(&run->view, &run->plan, run->visible, raster, run->tolerance,
-                           run->curved);
+    if (run->curved && sampled) { /* clipping has integrated over its pieces */
+        sum_curved(run);
     }
     if (run->doubt) {
         lrcsi_margin_settle(run->doubt, run->visible);
@@ -205,7 +224,7 @@ static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
         for (uint32_t f = 0; f < run->view.prepared->scene->facet_count; f++) {
             run->flags |= raster.undecided[f] ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
         }
-        run_sum(run, &raster);
+        run_sum(run, 1);
     }
     run->work->used = mark;
     return status;
@@ -215,7 +234,7 @@ static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
 static int run_exact(sigma_run *run, int method)
 {
     uint32_t starved = 0;
-    int status = run->curved ? lrcsi_curve_pieces(&run->contest, &run->plan, run->tolerance,
+    int status = run->curved ? lrcsi_curve_pieces(&run->contest, &run->plan, run->tolerance, 0,
                                                   run->work, run->visible, run->curved, &starved)
                              : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
     if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
@@ -224,7 +243,7 @@ static int run_exact(sigma_run *run, int method)
     if (status == LRCS_OK) {
         run->size = 0;
         run->flags |= starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
-        run_sum(run, NULL);
+        run_sum(run, 0);
     }
     return status;
 }

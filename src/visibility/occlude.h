@@ -44,6 +44,7 @@ typedef struct lrcsi_occluding {
     double off;      /* by which the area may be wrong */
 } lrcsi_occluding;
 
+/* Bytes at most. */
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 
 /* What serves all facets; it stays in the work area.

@@ -253,7 +253,7 @@ static uint32_t known_crossings(const lrcsi_known *known, uint32_t facet)
     }
     uint32_t first = known->first[facet];
     uint32_t count = known->first[facet + 1] - first;
-    memcpy(known->contest->crossing, known->crossing + first, count * sizeof *known->crossing);
+    lrcsi_contest_recall(known->contest, facet, known->crossing + first, count);
     return count;
 }
 
@@ -316,19 +316,29 @@ size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
 }
 
-static void known_list(lrcsi_known *k)
+/* Lists what crosses the next facet, which is contested or not, unless there is no room. */
+static void known_list(lrcsi_known *k, uint32_t facet, uint32_t crossings)
 {
-    const lrcs_prepared *p = k->contest->view->prepared;
-    size_t room = known_room(p);
-    uint32_t used = 0;
-    for (k->first[0] = 0; k->listed < p->scene->facet_count; k->first[++k->listed] = used) {
-        if (k->contest->contested[k->listed] && k->answer[k->listed] == LRCSI_QUERY_UNDECIDED) {
-            uint32_t count = lrcsi_contest_crossings(k->contest, k->listed);
-            if (count > room - used) {
-                return;
-            }
-            memcpy(k->crossing + used, k->contest->crossing, count * sizeof *k->crossing);
-            used += count;
+    uint32_t used = k->first[facet];
+    if (crossings <= known_room(k->contest->view->prepared) - used) {
+        memcpy(k->crossing + used, k->contest->crossing, crossings * sizeof *k->crossing);
+        k->first[facet + 1] = used + crossings;
+        k->listed++;
+    }
+}
+
+/* Asks about contested facets. The search that serves the answer serves the list too. */
+static void known_contested(lrcsi_known *k)
+{
+    k->first[0] = 0;
+    for (uint32_t f = 0; f < k->contest->view->prepared->scene->facet_count; f++) {
+        uint32_t crossings = 0;
+        if (k->contest->contested[f] && !lrcsi_query_screened(k->contest, &k->facets, f)) {
+            k->answer[f] = LRCSI_QUERY_UNDECIDED;
+            crossings = k->listed == f ? lrcsi_contest_crossings(k->contest, f) : 0;
+        }
+        if (k->listed == f) {
+            known_list(k, f, crossings);
         }
     }
 }
@@ -349,12 +359,7 @@ int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *kn
         work->used = mark;
         return status;
     }
-    for (uint32_t f = 0; f < count; f++) {
-        if (contest->contested[f] && !lrcsi_query_screened(contest, &k.facets, f)) {
-            k.answer[f] = LRCSI_QUERY_UNDECIDED;
-        }
-    }
-    known_list(&k);
+    known_contested(&k);
     *known = k;
     return LRCS_OK;
 }

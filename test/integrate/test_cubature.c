@@ -168,6 +168,18 @@ static void absurd_slopes_end_in_finite_work_and_an_estimate_that_tells(void **s
     }
 }
 
+/* f_r cos theta at a normal of any length, plainly. */
+static double value_at(const lrcs_brdf *brdf, const double n[3])
+{
+    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double c = n[2] / length;
+    if (!(c > 0)) {
+        return 0;
+    }
+    double tan2 = (n[0] * n[0] + n[1] * n[1]) / (n[2] * n[2]);
+    return brdf->A / pow(c, 5) * exp(-tan2 / (brdf->s * brdf->s)) + brdf->B * pow(c, brdf->m + 1);
+}
+
 static void the_most_is_above_every_value_and_near_the_largest(void **state)
 {
     (void)state;
@@ -184,7 +196,7 @@ static void the_most_is_above_every_value_and_near_the_largest(void **state)
                             (64 - a - b) * v->normal[2][k]) /
                            64;
                 }
-                check_most(lrcsi_cubature_at(&sum, n), sum.most.glint + sum.most.diffuse);
+                check_most(value_at(&brdf, n), (1 + 1e-12) * (sum.most.glint + sum.most.diffuse));
             }
         }
     }

@@ -219,6 +219,7 @@ static void methods_agree_within_bounds_and_estimates(void **state)
             check_abs(raster.sigma_m2, exact.sigma_m2,
                       raster.bound_m2 + exact.bound_m2 + raster.curvature_estimate_m2 +
                           exact.curvature_estimate_m2);
+            check_most(raster.bound_m2, 8.0 / size * raster.sigma_m2);
         }
         lrcs_result facet = curved_run(&c, direction, LRCS_METHOD_FACET, 0);
         check_abs(facet.sigma_m2, exact.sigma_m2,
