@@ -224,10 +224,9 @@ typedef struct sweep_plot {
     double (*row)[2]; /* sigma and bound, m2 */
 } sweep_plot;
 
-/* 0 or CLI_USAGE; the second is called by the first. Then that no plot replaces anything, likewise,
-   and the drawing, as 0 or CLI_FAILED. */
+/* What --plot, --dbsm and --polar ask for; that no plot replaces anything; 0 or CLI_USAGE. Then the
+   drawing, as 0 or CLI_FAILED. */
 int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot);
-int cli_plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *plot);
 int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_host_scene *scene);
 int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan);
 

@@ -12,105 +12,6 @@
 #define PLOT_DEEP   60.0 /* dB that a map's colours span at most */
 #define PLOT_ROWS   ((uint64_t)1 << 28)
 
-/* ---- options ---- */
-
-int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
-{
-    const cli_command *command = args->command;
-    *plot = (sweep_plot){.dbsm = cli_value(args, "dbsm") != NULL,
-                         .polar = cli_value(args, "polar") != NULL};
-    for (int i = 0; i < args->given_count; i++) {
-        const cli_given *given = &args->given[i];
-        if (strcmp(given->name, "plot") != 0) {
-            continue;
-        }
-        if (!cli_extension(given->value, ".svg") && !cli_extension(given->value, ".png")) {
-            return cli_usage(command, "--plot: expected FILE.svg or FILE.png, found '%s'",
-                             given->value);
-        }
-        plot->asked = 1;
-    }
-    if (!plot->asked && (plot->dbsm || plot->polar)) {
-        return cli_usage(command, "--%s needs --plot FILE.svg or FILE.png",
-                         plot->dbsm ? "dbsm" : "polar");
-    }
-    return plot->asked ? cli_plot_check(args, plan, plot) : 0;
-}
-
-/* Does no plot replace another output or what is read? */
-int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_host_scene *scene)
-{
-    cli_output output[3] = {{"o", file->path}, {"poses", cli_value(args, "poses")}, {"plot", NULL}};
-    int code = 0;
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        if (strcmp(args->given[i].name, "plot") == 0) {
-            output[2].path = args->given[i].value;
-            code = cli_outputs_apart(args->command, output, 3);
-            code = code ? code : cli_outputs_spare(args->command, &output[2], 1, scene);
-        }
-        for (int k = 0; k < i && code == 0 && output[2].path; k++) {
-            const cli_output pair[2] = {{"plot", args->given[k].value}, output[2]};
-            if (strcmp(args->given[k].name, "plot") == 0 &&
-                strcmp(args->given[i].name, "plot") == 0) {
-                code = cli_outputs_apart(args->command, pair, 2);
-            }
-        }
-    }
-    return code;
-}
-
-/* ---- what varies ---- */
-
-/* Everything with more than one value: the axes, and the time of a track. */
-static uint32_t varying_list(const sweep_plan *plan, plot_axis axis[SWEEP_AXES + 1])
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < plan->axes; i++) {
-        if (plan->axis[i].range.count > 1) {
-            axis[count++] = (plot_axis){i, plan->axis[i].range.count, plan->column[i]};
-        }
-    }
-    if (plan->kind == SWEEP_TRACK) {
-        axis[count++] = (plot_axis){plan->axes, plan->track.count, "time"};
-    }
-    return count;
-}
-
-int cli_plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
-{
-    plot_axis axis[SWEEP_AXES + 1];
-    uint32_t count = varying_list(plan, axis);
-    if (plan->kind == SWEEP_SPHERE) {
-        return cli_usage(args->command, "--plot: the directions of --sphere stand on no axis; give "
-                                        "--az and --el");
-    }
-    if (cli_value(args, "shard")) {
-        return cli_usage(args->command, "--plot draws whole sweeps: not with --shard");
-    }
-    if (count < 1 || count > 2) {
-        return cli_usage(args->command, "--plot draws one or two things that vary, found %lu",
-                         (unsigned long)count);
-    }
-    if (plan->rows > PLOT_ROWS) {
-        return cli_usage(args->command, "--plot: at most 2^28 rows, found %llu",
-                         (unsigned long long)plan->rows);
-    }
-    /* The slower one first; curves run along the one with more values, maps along the first. */
-    plot->x = axis[0];
-    plot->y = count == 2 ? axis[1] : (plot_axis){0, 1, ""};
-    plot->swapped = count == 2 && plot->x.count <= PLOT_CURVES && plot->y.count >= plot->x.count;
-    if (plot->swapped) {
-        plot->x = axis[1];
-        plot->y = axis[0];
-    }
-    plot->map = plot->y.count > PLOT_CURVES && !plot->polar;
-    if (plot->y.count > PLOT_CURVES && plot->polar) {
-        return cli_usage(args->command, "--polar draws at most %u curves, found %llu", PLOT_CURVES,
-                         (unsigned long long)plot->y.count);
-    }
-    return 0;
-}
-
 /* ---- words ---- */
 
 /* "az_deg" in words and its unit; others as they are. */
@@ -153,17 +54,151 @@ static void axis_title(const char *name, char text[192])
 static void value_text(const char *name, double value, char text[192])
 {
     char words[160];
-    char number[LRCS_HOST_NUMBER_SIZE];
     const char *unit;
     axis_words(name, words, &unit);
-    lrcs_host_number_text(value, number);
-    snprintf(text, 192, "%s %.12s%s%s", words, number, unit ? " " : "", unit ? unit : "");
+    snprintf(text, 192, "%s %.7g%s%s", words, value, unit ? " " : "", unit ? unit : "");
 }
+
+static int is_angle(const plot_axis *axis)
+{
+    char words[160];
+    const char *unit;
+    axis_words(axis->name, words, &unit);
+    return unit && strcmp(unit, "deg") == 0;
+}
+
+/* ---- what varies ---- */
+
+/* Everything with more than one value: the axes, and the time of a track. */
+static uint32_t varying_list(const sweep_plan *plan, plot_axis axis[SWEEP_AXES + 1])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        if (plan->axis[i].range.count > 1) {
+            axis[count++] = (plot_axis){i, plan->axis[i].range.count, plan->column[i]};
+        }
+    }
+    if (plan->kind == SWEEP_TRACK) {
+        axis[count++] = (plot_axis){plan->axes, plan->track.count, "time"};
+    }
+    return count;
+}
+
+/* A map's axes ascend; ranges do, or are turned round. */
+static int track_ascends(const sweep_plan *plan)
+{
+    for (uint64_t i = 1; plan->kind == SWEEP_TRACK && i < plan->track.count; i++) {
+        if (!(plan->track.row[i][0] > plan->track.row[i - 1][0])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
+{
+    plot_axis axis[SWEEP_AXES + 1];
+    uint32_t count = varying_list(plan, axis);
+    if (plan->kind == SWEEP_SPHERE) {
+        return cli_usage(args->command, "--plot: the directions of --sphere stand on no axis; give "
+                                        "--az and --el");
+    }
+    if (cli_value(args, "shard")) {
+        return cli_usage(args->command, "--plot draws whole sweeps: not with --shard");
+    }
+    if (count < 1 || count > 2) {
+        return cli_usage(args->command, "--plot draws one or two things that vary, found %lu",
+                         (unsigned long)count);
+    }
+    if (plan->rows > PLOT_ROWS) {
+        return cli_usage(args->command, "--plot: at most 2^28 rows, found %llu",
+                         (unsigned long long)plan->rows);
+    }
+    /* The slower one first; curves run along the one with more values, maps along the first. */
+    plot->x = axis[0];
+    plot->y = count == 2 ? axis[1] : (plot_axis){0, 1, ""};
+    plot->swapped = count == 2 && plot->x.count <= PLOT_CURVES && plot->y.count >= plot->x.count;
+    if (plot->swapped) {
+        plot->x = axis[1];
+        plot->y = axis[0];
+    }
+    plot->map = plot->y.count > PLOT_CURVES && !plot->polar;
+    if (plot->map && !track_ascends(plan)) {
+        return cli_usage(args->command, "--plot: a map wants poses whose time ascends");
+    }
+    if (plot->polar && !is_angle(&plot->x)) {
+        return cli_usage(args->command, "--polar: curves turn with an angle, found '%s'",
+                         plot->x.name);
+    }
+    if (plot->y.count > PLOT_CURVES && plot->polar) {
+        return cli_usage(args->command, "--polar draws at most %u curves, found %llu", PLOT_CURVES,
+                         (unsigned long long)plot->y.count);
+    }
+    return 0;
+}
+
+/* ---- options ---- */
+
+static int is_plot(const cli_given *given)
+{
+    return strcmp(given->name, "plot") == 0;
+}
+
+int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
+{
+    *plot = (sweep_plot){.dbsm = cli_value(args, "dbsm") != NULL,
+                         .polar = cli_value(args, "polar") != NULL};
+    for (int i = 0; i < args->given_count; i++) {
+        const char *path = args->given[i].value;
+        if (!is_plot(&args->given[i])) {
+            continue;
+        }
+        if (!cli_extension(path, ".svg") && !cli_extension(path, ".png")) {
+            return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'",
+                             path);
+        }
+        plot->asked = 1;
+    }
+    if (!plot->asked && (plot->dbsm || plot->polar)) {
+        return cli_usage(args->command, "--%s needs --plot FILE.svg or FILE.png",
+                         plot->dbsm ? "dbsm" : "polar");
+    }
+    return plot->asked ? plot_check(args, plan, plot) : 0;
+}
+
+/* One plot against what is read, the rows, and the plots given before it. */
+static int plot_spares(const cli_args *args, int index, const sweep_file *file,
+                       const lrcs_host_scene *scene)
+{
+    const cli_output plot = {"plot", args->given[index].value};
+    const cli_output rows[2] = {{"o", file->path}, plot};
+    const cli_output poses[2] = {{"poses", cli_value(args, "poses")}, plot};
+    int code = cli_outputs_spare(args->command, &plot, 1, scene);
+    code = code ? code : cli_outputs_apart(args->command, rows, 2);
+    code = code ? code : cli_outputs_apart(args->command, poses, 2);
+    for (int i = 0; i < index && code == 0; i++) {
+        const cli_output pair[2] = {{"plot", args->given[i].value}, plot};
+        code = is_plot(&args->given[i]) ? cli_outputs_apart(args->command, pair, 2) : 0;
+    }
+    return code;
+}
+
+int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_host_scene *scene)
+{
+    int code = 0;
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        code = is_plot(&args->given[i]) ? plot_spares(args, i, file, scene) : 0;
+    }
+    return code;
+}
+
+/* ---- notes ---- */
 
 /* Below the title: what stayed as it was, and how well sigma is known. */
 static void plot_note(const sweep_plot *plot, const sweep_plan *plan, char note[512])
 {
     double worst = 0.0;
+    int dark = 0;
     int used = 0;
     note[0] = '\0';
     for (uint32_t i = 0; i < plan->axes && used < 300; i++) {
@@ -175,9 +210,13 @@ static void plot_note(const sweep_plot *plot, const sweep_plan *plan, char note[
     }
     for (uint64_t i = 0; i < plan->rows; i++) {
         worst = fmax(worst, plot->row[i][1]);
+        dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
     }
-    snprintf(note + used, 512 - (size_t)used, "each sigma is proved to within %.2g m2 or better",
-             worst);
+    snprintf(note + used, 512 - (size_t)used, "each sigma is proved to within %.2g m2 or better%s",
+             worst,
+             !dark       ? ""
+             : plot->map ? "; grey: sigma is 0"
+                         : "; gaps: sigma is 0");
 }
 
 /* ---- data ---- */
@@ -198,14 +237,6 @@ static double axis_value(const sweep_plan *plan, const plot_axis *axis, uint64_t
 {
     return axis->column == plan->axes ? plan->track.row[place][0]
                                       : cli_range_at(&plan->axis[axis->column].range, place);
-}
-
-static int is_angle(const plot_axis *axis)
-{
-    char words[160];
-    const char *unit;
-    axis_words(axis->name, words, &unit);
-    return unit && strcmp(unit, "deg") == 0;
 }
 
 /* ---- drawing ---- */
@@ -327,7 +358,7 @@ int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_pla
     int code = 0;
     for (int i = 0; i < args->given_count && code == 0; i++) {
         const char *path = args->given[i].value;
-        if (strcmp(args->given[i].name, "plot") == 0) {
+        if (is_plot(&args->given[i])) {
             sheet.png = cli_extension(path, ".png");
             code = cli_output_write(path, sheet_write, &sheet);
         }

@@ -18,6 +18,11 @@ usage_error three_things_are_too_many "--plot draws one or two things that vary,
 usage_error one_row_is_no_curve "--plot draws one or two things that vary, found 0" sweep box.toml --az 0 --plot x.svg
 usage_error a_polar_map_is_too_much "--polar draws at most 7 curves, found 8" \
     sweep box.toml --az 0:90:10 --el 0:70:10 --polar --plot x.svg
+usage_error polar_wants_an_angle "--polar: curves turn with an angle, found 'bus.size_x'" \
+    sweep box.toml --vary bus.size_x:1:2:0.5 --polar --plot x.svg
+{ echo time,x,y,z; for t in 1 2 3 4 5 7 6 8; do echo "$t,1,$t,0"; done; } >turned.csv
+usage_error a_map_wants_times_that_ascend "--plot: a map wants poses whose time ascends" \
+    sweep box.toml --poses turned.csv --vary bus.size_x:1:9:1 --plot x.svg
 usage_error not_one_plot_twice "--plot and --plot name the same file" $cut --plot x.svg --plot ./x.svg
 printf 'time,x,y,z\n0,1,0,0\n1,1,1,0\n3,0,1,0.5\n' >track.csv
 ln -s track.csv track.svg
@@ -142,6 +147,7 @@ check("a_range_that_descends_is_the_same_map", sorted(map(str, back.areas)) == s
 dark = table("dark.csv")
 drawn = [p for e, p in Svg("dark.svg").lines if e.get("stroke") == "#0072b2"]
 gaps = sum(not r["sigma_dbsm"] for r in dark)
+check("the_note_says_what_gaps_are", any(w.endswith("; gaps: sigma is 0") for w in Svg("dark.svg").words))
 check("what_returns_nothing_is_a_gap", gaps > 0 and not any(abs(a[0] - b[0]) > 40 for p in drawn for a, b in zip(p, p[1:])))
 for name in ("line", "map"):
     data = open(name + ".png", "rb").read(24)
