@@ -156,7 +156,7 @@ static legend_grid grid_make(const lrcsi_look *look, double width, double most)
         widest =
             fmax(widest, lrcsi_letters_width(lrcsi_look_material_name(look, look->material[i])));
     }
-    double wanted = LEGEND_TYPE * widest + LEGEND_SWATCH + 24.0;
+    double wanted = LEGEND_TYPE * widest + LEGEND_SWATCH + 18.0;
     uint32_t room = (uint32_t)fmax((most - LEGEND_STRIP) / LEGEND_ROW, 0.0);
     uint32_t items = look->materials + (look->more != 0);
     grid.columns = (uint32_t)fmin(fmax(floor(grid.column / wanted), 1.0), fmax(items, 1.0));

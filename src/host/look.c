@@ -157,7 +157,7 @@ static void scale_make(lrcsi_look *look)
 const char *lrcsi_look_name(const lrcsi_look *look)
 {
     static const char *const name[] = {"sigma per projected area (dB)", "angle of incidence (deg)",
-                                       "towards the laser from the scene's centre (m)"};
+                                       "range towards the laser (m)"};
     return look->scaled ? name[look->picture->look] : NULL;
 }
 
