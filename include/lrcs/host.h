@@ -295,8 +295,8 @@ typedef struct lrcs_host_map {
     uint32_t columns, rows;               /* 2 of each at least */
     const double *x, *y;                  /* ascending: columns of x, rows of y */
     const double *z;                      /* z[row * columns + column]; not finite: grey */
-    double deep;                          /* the scale reaches no further below the largest; 0: all */
-    int x_deg, y_deg;                     /* these are angles, deg */
+    double deep;      /* the scale reaches no further below the largest; 0: all */
+    int x_deg, y_deg; /* these are angles, deg */
 } lrcs_host_map;
 
 /* As charts; where there are more points than can be told apart, several share a mean. */

@@ -95,6 +95,36 @@ static int track_ascends(const sweep_plan *plan)
     return 1;
 }
 
+/* Curves run along the one with more values, of two alike the faster; maps along the slower. */
+static void plot_choose(const plot_axis *axis, uint32_t count, sweep_plot *plot)
+{
+    plot->x = axis[0];
+    plot->y = count == 2 ? axis[1] : (plot_axis){0, 1, ""};
+    plot->swapped = count == 2 && plot->x.count <= PLOT_CURVES && plot->y.count >= plot->x.count;
+    if (plot->swapped) {
+        plot->x = axis[1];
+        plot->y = axis[0];
+    }
+    plot->map = plot->y.count > PLOT_CURVES && !plot->polar;
+}
+
+/* Can it be drawn about a pole, or as a map, if it is to be? */
+static int kind_check(const cli_args *args, const sweep_plan *plan, const sweep_plot *plot)
+{
+    if (plot->polar && plot->y.count > PLOT_CURVES) {
+        return cli_usage(args->command, "--polar draws at most %u curves, found %llu", PLOT_CURVES,
+                         (unsigned long long)plot->y.count);
+    }
+    if (plot->polar && !is_angle(&plot->x)) {
+        return cli_usage(args->command, "--polar: curves turn with an angle, found '%s'",
+                         plot->x.name);
+    }
+    if (plot->map && !track_ascends(plan)) {
+        return cli_usage(args->command, "--plot: a map wants poses whose time ascends");
+    }
+    return 0;
+}
+
 static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
 {
     plot_axis axis[SWEEP_AXES + 1];
@@ -114,27 +144,8 @@ static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *
         return cli_usage(args->command, "--plot: at most 2^28 rows, found %llu",
                          (unsigned long long)plan->rows);
     }
-    /* The slower one first; curves run along the one with more values, maps along the first. */
-    plot->x = axis[0];
-    plot->y = count == 2 ? axis[1] : (plot_axis){0, 1, ""};
-    plot->swapped = count == 2 && plot->x.count <= PLOT_CURVES && plot->y.count >= plot->x.count;
-    if (plot->swapped) {
-        plot->x = axis[1];
-        plot->y = axis[0];
-    }
-    plot->map = plot->y.count > PLOT_CURVES && !plot->polar;
-    if (plot->map && !track_ascends(plan)) {
-        return cli_usage(args->command, "--plot: a map wants poses whose time ascends");
-    }
-    if (plot->polar && !is_angle(&plot->x)) {
-        return cli_usage(args->command, "--polar: curves turn with an angle, found '%s'",
-                         plot->x.name);
-    }
-    if (plot->y.count > PLOT_CURVES && plot->polar) {
-        return cli_usage(args->command, "--polar draws at most %u curves, found %llu", PLOT_CURVES,
-                         (unsigned long long)plot->y.count);
-    }
-    return 0;
+    plot_choose(axis, count, plot);
+    return kind_check(args, plan, plot);
 }
 
 /* ---- options ---- */
@@ -202,8 +213,8 @@ static void plot_note(const sweep_plot *plot, const sweep_plan *plan, char note[
     int used = 0;
     note[0] = '\0';
     for (uint32_t i = 0; i < plan->axes && used < 300; i++) {
-        char text[192];
         if (plan->axis[i].range.count == 1) {
+            char text[192];
             value_text(plan->column[i], cli_range_at(&plan->axis[i].range, 0), text);
             used += snprintf(note + used, 512 - (size_t)used, "%s; ", text);
         }

@@ -118,47 +118,18 @@ static void chart_grid(const chart_plan *plan, int major)
     }
 }
 
-static void tick_draw(const chart_plan *plan, const lrcsi_tick *tick, int vertical)
-{
-    double length = tick->major ? 5.0 : 3.0;
-    double x = vertical ? LRCSI_CHART_LEFT : chart_x(plan, tick->value);
-    double y = vertical ? chart_y(plan, tick->value) : LRCSI_CHART_BOTTOM;
-    lrcsi_words words = {.text = tick->text,
-                         .raised = tick->raised[0] ? tick->raised : NULL,
-                         .at = {x, y + 19.0},
-                         .size = LRCSI_CHART_SMALL,
-                         .anchor = LRCSI_ANCHOR_MIDDLE,
-                         .colour = LRCSI_COLOUR_TEXT};
-    if (vertical) {
-        words.at = (lrcsi_spot){x - 9.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
-        words.anchor = LRCSI_ANCHOR_RIGHT;
-    }
-    lrcsi_chart_stroke(plan->pen, x - (vertical ? length : 0.0), y, x,
-                       y + (vertical ? 0.0 : length), LRCSI_COLOUR_TEXT, 0.9);
-    if (tick->major) {
-        plan->pen->text(plan->pen, &words);
-    }
-}
-
 static void chart_ticks(const chart_plan *plan)
 {
     for (uint32_t i = 0; i < plan->x.count; i++) {
-        tick_draw(plan, &plan->x.tick[i], 0);
+        const lrcsi_tick *tick = &plan->x.tick[i];
+        const lrcsi_spot at = {chart_x(plan, tick->value), LRCSI_CHART_BOTTOM};
+        lrcsi_chart_tick(plan->pen, tick, at, 0);
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
-        tick_draw(plan, &plan->y.tick[i], 1);
+        const lrcsi_tick *tick = &plan->y.tick[i];
+        const lrcsi_spot at = {LRCSI_CHART_LEFT, chart_y(plan, tick->value)};
+        lrcsi_chart_tick(plan->pen, tick, at, 1);
     }
-}
-
-static void chart_frame(const chart_plan *plan)
-{
-    const lrcsi_spot corner[5] = {{LRCSI_CHART_LEFT, LRCSI_CHART_TOP},
-                                  {plan->right, LRCSI_CHART_TOP},
-                                  {plan->right, LRCSI_CHART_BOTTOM},
-                                  {LRCSI_CHART_LEFT, LRCSI_CHART_BOTTOM},
-                                  {LRCSI_CHART_LEFT, LRCSI_CHART_TOP}};
-    const lrcsi_ink ink = {LRCSI_COLOUR_TEXT, 0.9, {0.0, 0.0}};
-    plan->pen->line(plan->pen, corner, 5, &ink);
 }
 
 /* ---- the data ---- */
@@ -298,7 +269,7 @@ static void chart_data(const chart_plan *plan)
 static void chart_say(const chart_plan *plan)
 {
     const lrcs_host_chart *chart = plan->chart;
-    chart_frame(plan);
+    lrcsi_chart_box(plan->pen, LRCSI_CHART_LEFT, plan->right);
     chart_ticks(plan);
     lrcsi_chart_title(plan->pen, chart->title, chart->note);
     lrcsi_chart_names(plan->pen, chart->x_name, 0.5 * (LRCSI_CHART_LEFT + plan->right),

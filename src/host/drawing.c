@@ -26,7 +26,7 @@ typedef struct drawing_plan {
 static drawing_plan drawing_place(const lrcsi_look *look, const lrcs_polygons *polygons)
 {
     drawing_plan plan = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0, DRAWING_MARGIN, 1, 0, 0};
-    double room[2] = {DRAWING_WIDTH - 2.0 * DRAWING_MARGIN, DRAWING_HEIGHT};
+    const double room[2] = {DRAWING_WIDTH - 2.0 * DRAWING_MARGIN, DRAWING_HEIGHT};
     for (uint32_t i = 0; i < polygons->points; i++) {
         for (int k = 0; k < 2; k++) {
             plan.low[k] = fmin(plan.low[k], polygons->point[i].view[k]);

@@ -176,7 +176,8 @@ static void materials_draw(const lrcsi_look *look, lrcsi_pen *pen, const legend_
     int more = look->more || grid->shown < look->materials;
     for (uint32_t i = 0; grid->rows > 0 && i < grid->shown + (uint32_t)more; i++) {
         double x = LEGEND_MARGIN + grid->column * (i % grid->columns);
-        double y = top + LEGEND_ROW * (i / grid->columns);
+        uint32_t row = i / grid->columns;
+        double y = top + LEGEND_ROW * row;
         lrcsi_words words = {.text = "and more",
                              .at = {x + LEGEND_SWATCH + 7.0, y + 10.5},
                              .size = LEGEND_TYPE,

@@ -173,38 +173,6 @@ static void contours_between(const map_plan *plan, uint32_t column, uint32_t row
 
 /* ---- the rest of the paper ---- */
 
-static void map_tick(const map_plan *plan, const lrcsi_tick *tick, int vertical)
-{
-    double length = tick->major ? 5.0 : 3.0;
-    double x = vertical ? LRCSI_CHART_LEFT : map_x(plan, tick->value);
-    double y = vertical ? map_y(plan, tick->value) : LRCSI_CHART_BOTTOM;
-    lrcsi_words words = {.text = tick->text,
-                         .at = {x, y + 19.0},
-                         .size = LRCSI_CHART_SMALL,
-                         .anchor = LRCSI_ANCHOR_MIDDLE,
-                         .colour = LRCSI_COLOUR_TEXT};
-    if (vertical) {
-        words.at = (lrcsi_spot){x - 9.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
-        words.anchor = LRCSI_ANCHOR_RIGHT;
-    }
-    lrcsi_chart_stroke(plan->pen, x - (vertical ? length : 0.0), y, x,
-                       y + (vertical ? 0.0 : length), LRCSI_COLOUR_TEXT, 0.9);
-    if (tick->major) {
-        plan->pen->text(plan->pen, &words);
-    }
-}
-
-static void map_box(const map_plan *plan, double left, double right)
-{
-    const lrcsi_spot corner[5] = {{left, LRCSI_CHART_TOP},
-                                  {right, LRCSI_CHART_TOP},
-                                  {right, LRCSI_CHART_BOTTOM},
-                                  {left, LRCSI_CHART_BOTTOM},
-                                  {left, LRCSI_CHART_TOP}};
-    const lrcsi_ink ink = {LRCSI_COLOUR_TEXT, 0.9, {0.0, 0.0}};
-    plan->pen->line(plan->pen, corner, 5, &ink);
-}
-
 /* The scale of colours, with the levels of the contours. */
 static void map_scale(const map_plan *plan)
 {
@@ -214,7 +182,7 @@ static void map_scale(const map_plan *plan)
         box_fill(plan->pen, left, LRCSI_CHART_BOTTOM - high * (i + 1) / MAP_STEPS, left + MAP_BAR,
                  LRCSI_CHART_BOTTOM, lrcsi_palette_even((i + 0.5) / MAP_STEPS));
     }
-    map_box(plan, left, left + MAP_BAR);
+    lrcsi_chart_box(plan->pen, left, left + MAP_BAR);
     for (uint32_t i = 0; i < plan->z.count; i++) {
         const lrcsi_tick *tick = &plan->z.tick[i];
         double y = LRCSI_CHART_BOTTOM - high * lrcsi_axis_at(&plan->z, tick->value);
@@ -241,12 +209,16 @@ static void map_scale(const map_plan *plan)
 static void map_say(const map_plan *plan)
 {
     const lrcs_host_map *map = plan->map;
-    map_box(plan, LRCSI_CHART_LEFT, MAP_RIGHT);
+    lrcsi_chart_box(plan->pen, LRCSI_CHART_LEFT, MAP_RIGHT);
     for (uint32_t i = 0; i < plan->x.count; i++) {
-        map_tick(plan, &plan->x.tick[i], 0);
+        const lrcsi_tick *tick = &plan->x.tick[i];
+        const lrcsi_spot at = {map_x(plan, tick->value), LRCSI_CHART_BOTTOM};
+        lrcsi_chart_tick(plan->pen, tick, at, 0);
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
-        map_tick(plan, &plan->y.tick[i], 1);
+        const lrcsi_tick *tick = &plan->y.tick[i];
+        const lrcsi_spot at = {LRCSI_CHART_LEFT, map_y(plan, tick->value)};
+        lrcsi_chart_tick(plan->pen, tick, at, 1);
     }
     lrcsi_chart_title(plan->pen, map->title, map->note);
     lrcsi_chart_names(plan->pen, map->x_name, 0.5 * (LRCSI_CHART_LEFT + MAP_RIGHT),

@@ -23,6 +23,39 @@ void lrcsi_chart_words(lrcsi_pen *pen, lrcsi_words words, double room)
     pen->text(pen, &words);
 }
 
+/* ---- axes ---- */
+
+void lrcsi_chart_tick(lrcsi_pen *pen, const lrcsi_tick *tick, lrcsi_spot at, int upright)
+{
+    double length = tick->major ? 5.0 : 3.0;
+    lrcsi_spot end = {at.x - (upright ? length : 0.0), at.y + (upright ? 0.0 : length)};
+    lrcsi_words words = {.text = tick->text,
+                         .raised = tick->raised[0] ? tick->raised : NULL,
+                         .at = {at.x, at.y + 19.0},
+                         .size = LRCSI_CHART_SMALL,
+                         .anchor = LRCSI_ANCHOR_MIDDLE,
+                         .colour = LRCSI_COLOUR_TEXT};
+    if (upright) {
+        words.at = (lrcsi_spot){at.x - 9.0, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
+        words.anchor = LRCSI_ANCHOR_RIGHT;
+    }
+    lrcsi_chart_stroke(pen, at.x, at.y, end.x, end.y, LRCSI_COLOUR_TEXT, 0.9);
+    if (tick->major) {
+        pen->text(pen, &words);
+    }
+}
+
+void lrcsi_chart_box(lrcsi_pen *pen, double left, double right)
+{
+    const lrcsi_spot corner[5] = {{left, LRCSI_CHART_TOP},
+                                  {right, LRCSI_CHART_TOP},
+                                  {right, LRCSI_CHART_BOTTOM},
+                                  {left, LRCSI_CHART_BOTTOM},
+                                  {left, LRCSI_CHART_TOP}};
+    const lrcsi_ink ink = {LRCSI_COLOUR_TEXT, 0.9, {0.0, 0.0}};
+    pen->line(pen, corner, 5, &ink);
+}
+
 /* ---- series ---- */
 
 lrcsi_ink lrcsi_series_ink(const lrcs_host_series *series)

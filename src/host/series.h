@@ -3,6 +3,7 @@
 #ifndef LRCSI_HOST_SERIES_H
 #define LRCSI_HOST_SERIES_H
 
+#include "host/axis.h"
 #include "host/pen.h"
 
 /* Paper, in units of which a PNG has two pixels each. */
@@ -34,6 +35,12 @@ void lrcsi_series_marker(lrcsi_pen *pen, const lrcs_host_series *series, lrcsi_s
 
 void lrcsi_chart_stroke(lrcsi_pen *pen, double x0, double y0, double x1, double y1, uint32_t colour,
                         double width);
+
+/* A mark at a spot of an axis, with its number below or, on an upright axis, to the left. */
+void lrcsi_chart_tick(lrcsi_pen *pen, const lrcsi_tick *tick, lrcsi_spot at, int upright);
+
+/* The frame of what is drawn between left and right. */
+void lrcsi_chart_box(lrcsi_pen *pen, double left, double right);
 
 /* A line of text, smaller where it would be wider than its room. */
 void lrcsi_chart_words(lrcsi_pen *pen, lrcsi_words words, double room);

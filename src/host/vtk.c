@@ -19,12 +19,14 @@ typedef struct vtk_array {
 
 static double vtk_vertex(const lrcs_host_picture *picture, size_t i)
 {
-    return picture->scene->vertex[i / 3].x[i % 3];
+    const lrcs_point *point = &picture->scene->vertex[i / 3];
+    return point->x[i % 3];
 }
 
 static double vtk_corner(const lrcs_host_picture *picture, size_t i)
 {
-    return picture->scene->facet[i / 3].corner[i % 3];
+    const lrcs_facet *facet = &picture->scene->facet[i / 3];
+    return facet->corner[i % 3];
 }
 
 static double vtk_offset(const lrcs_host_picture *picture, size_t i)
