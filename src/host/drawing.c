@@ -12,9 +12,6 @@
 #define DRAWING_MARGIN 24.0
 #define DRAWING_LEGEND 300.0 /* at most */
 #define DRAWING_SEAM   0.7   /* paths are that much wider, so that nothing shines through between */
-#define DRAWING_INK    0x222222u
-#define DRAWING_DARK   0x0d111cu
-#define DRAWING_PALE   0xcdd2dcu
 
 /* Where things stand: x = left + metre (u - low[0]), y = top - metre (v - high[1]). */
 typedef struct drawing_plan {
@@ -148,10 +145,10 @@ void lrcs_host_picture_svg(FILE *out, const lrcs_host_picture *picture,
     if (!picture->white) {
         const lrcsi_spot corner[4] = {
             {0.0, 0.0}, {DRAWING_WIDTH, 0.0}, {DRAWING_WIDTH, plan.height}, {0.0, plan.height}};
-        svg.pen.area(&svg.pen, corner, 4, DRAWING_DARK);
+        svg.pen.area(&svg.pen, corner, 4, lrcsi_look_ground(&look));
     }
     facets_draw(out, &look, polygons, &plan);
     lrcsi_legend_draw(&look, &svg.pen, plan.height - plan.legend, DRAWING_WIDTH, DRAWING_LEGEND,
-                      plan.metre, picture->white ? DRAWING_INK : DRAWING_PALE);
+                      plan.metre, lrcsi_look_ink(&look));
     lrcsi_svg_end(&svg);
 }

@@ -13,6 +13,7 @@
 #define SCALE_TEXTS 9.0
 #define LOOK_DEG    (180.0 / 3.14159265358979323846)
 #define LOOK_PLAIN  0xc8c8c8u /* what has no colour of its own, under a lamp */
+#define LOOK_LEVEL  1e-9      /* a slope that no colour shows */
 #define LOOK_CREASE 0.05      /* cosines that differ by more: an edge to show */
 
 static const char *const look_names[] = {"sigma", "theta", "range", "facet", "material", "shaded"};
@@ -32,6 +33,16 @@ int lrcs_host_look_find(const char *name)
         }
     }
     return LRCS_E_NAME;
+}
+
+uint32_t lrcsi_look_ground(const lrcsi_look *look)
+{
+    return look->picture->white ? 0xffffffu : 0x0d111cu;
+}
+
+uint32_t lrcsi_look_ink(const lrcsi_look *look)
+{
+    return look->picture->white ? 0x222222u : 0xcdd2dcu;
 }
 
 /* ---- numbers of a facet ---- */
@@ -331,7 +342,7 @@ int lrcsi_look_slope(const lrcsi_look *look, uint32_t facet, double at[3])
         const double *c = look->centre;
         at[0] -= at[k + 1] * (axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2]);
     }
-    return at[1] != 0.0 || at[2] != 0.0;
+    return hypot(at[1], at[2]) > LOOK_LEVEL;
 }
 
 int lrcsi_look_outline(const lrcsi_look *look, uint32_t a, uint32_t b)

@@ -23,6 +23,10 @@ typedef struct lrcsi_look {
 /* Without records, what does not depend on them: all but the scale. */
 lrcsi_look lrcsi_look_make(const lrcs_host_picture *picture);
 
+/* What is behind a picture, and the colour of words on it. */
+uint32_t lrcsi_look_ground(const lrcsi_look *look);
+uint32_t lrcsi_look_ink(const lrcsi_look *look);
+
 /* What the scale stands for, or NULL. */
 const char *lrcsi_look_name(const lrcsi_look *look);
 

@@ -12,8 +12,6 @@
 #define LEGEND_SHARE  0.4   /* of the height: the most it takes */
 #define PICTURE_UNITS 640.0 /* larger pictures have larger letters */
 #define OUTLINE_LIGHT 0.55  /* of an outline, beside what it surrounds */
-#define PICTURE_DARK  0x0d111cu
-#define PICTURE_WHITE 0xffffffu
 
 /* Where things stand, in pixels. */
 typedef struct picture_layout {
@@ -51,7 +49,7 @@ static uint32_t cell_colour(const lrcsi_look *look, const lrcs_image *image, siz
     size_t side = image->size;
     const uint32_t *cell = image->facet + y * side + x;
     if (*cell >= look->picture->scene->facet_count) {
-        return look->picture->white ? PICTURE_WHITE : PICTURE_DARK;
+        return lrcsi_look_ground(look);
     }
     double step = image->side_m / (double)side;
     const double view[2] = {image->left_m + ((double)x + 0.5) * step,
@@ -75,7 +73,8 @@ static void pixel_make(const lrcsi_look *look, const lrcs_image *image, uint32_t
         }
     }
     for (int k = 0; k < 3; k++) {
-        rgb[k] = (unsigned char)((sum[k] + OVERSAMPLE) / (OVERSAMPLE * OVERSAMPLE));
+        rgb[k] =
+            (unsigned char)((sum[k] + OVERSAMPLE * OVERSAMPLE / 2) / (OVERSAMPLE * OVERSAMPLE));
     }
 }
 
@@ -83,8 +82,7 @@ static void picture_draw(const lrcsi_look *look, const lrcs_image *image, const 
                          lrcsi_canvas *canvas)
 {
     uint32_t size = canvas->width;
-    uint32_t ground = look->picture->white ? PICTURE_WHITE : PICTURE_DARK;
-    uint32_t ink = look->picture->white ? 0x222222u : 0xcdd2dcu;
+    uint32_t ground = lrcsi_look_ground(look);
     for (size_t i = 0; i < 3 * (size_t)size * size; i++) {
         canvas->rgb[i] = (unsigned char)(ground >> (16 - 8 * (i % 3)) & 255u);
     }
@@ -98,7 +96,7 @@ static void picture_draw(const lrcsi_look *look, const lrcs_image *image, const 
         double side = size / at->unit;
         double metre = at->side / at->unit / image->side_m;
         lrcsi_legend_draw(look, &canvas->pen, side - at->legend, side, LEGEND_SHARE * side, metre,
-                          ink);
+                          lrcsi_look_ink(look));
     }
 }
 
