@@ -15,7 +15,7 @@
 #define MAP_RIGHT   (LRCSI_CHART_WIDTH - 130.0)
 #define MAP_BAR     16.0 /* width of the scale of colours */
 #define MAP_STEPS   128
-#define MAP_LAP     0.6 /* cells reach that far under the next: no gaps shine through */
+#define MAP_LAP     1.0 /* cells reach that far under the next: no gaps shine through */
 #define MAP_NOTHING 0xbdbdbdu
 #define MAP_TEXTS   9.0
 
