@@ -130,10 +130,12 @@ typedef struct lrcs_result {
     uint32_t flags, notices;
 } lrcs_result;
 
-/* What the laser sees, pixel by pixel (row 0 on top, column 0 left; x right, y up). */
+/* What the laser sees, pixel by pixel (row 0 on top, column 0 left; x right, y up), and which
+   square of the observation frame that is, about the body's origin, to rounding. */
 typedef struct lrcs_image {
-    uint32_t size;   /* N */
-    uint32_t *facet; /* N * N: facet index, or LRCS_NONE */
+    uint32_t size;                /* N, given */
+    uint32_t *facet;              /* N * N, room given: facet index, or LRCS_NONE */
+    double left_m, top_m, side_m; /* returned */
 } lrcs_image;
 
 /* Bytes of work area that lrcs_sigma_run takes at most, from any pose, an image left aside: that

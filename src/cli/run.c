@@ -65,7 +65,8 @@ static int run_room(run_job *job)
         job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
     }
     if (job->image_path) {
-        job->image.size = lrcs_host_picture_need(job->image_size);
+        lrcs_host_picture picture = cli_run_picture(job);
+        job->image.size = lrcs_host_picture_need(&picture, job->image_size);
         job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
     }
     if ((!job->records && (job->facets || job->image_path)) ||

@@ -254,10 +254,10 @@ static int budget_settle(run_job *job, const budget_answer *best)
 {
     char *same = job->budget.same;
     size_t room = sizeof job->budget.same;
-    char tolerance[16];
     int used = 0;
     int code = 0;
     if (best->rung != RUNG_NONE) {
+        char tolerance[16];
         used = snprintf(same, room, "--tolerance %s", rung_text(best->rung, tolerance));
     }
     if (best->named) {
