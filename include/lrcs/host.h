@@ -234,13 +234,6 @@ void lrcs_host_json_bool(lrcs_host_json *json, const char *key, int value);
 int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, uint32_t height,
                         uint32_t channels, lrcs_host_error *error);
 
-/* What the laser sees, coloured by sigma per projected area, as `size` x `size` RGB pixels.
-   The image is a run's with records, side lrcs_host_picture_need(size).
-   Given: rgb with room for 3 size^2 bytes; size 16 .. 16384. */
-uint32_t lrcs_host_picture_need(uint32_t size);
-void lrcs_host_picture_make(const lrcs_scene *scene, const lrcs_facet_record *records,
-                            const lrcs_image *image, uint32_t size, unsigned char *rgb);
-
 /* ---- charts ---- */
 
 /* Colours that eyes of every kind tell apart (M. Okabe and K. Ito, 2008). */
@@ -265,9 +258,9 @@ enum lrcs_host_marker {
 enum lrcs_host_dash { LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED, LRCS_HOST_NO_LINE };
 
 /* Points joined in their order, but for LRCS_HOST_NO_LINE. Those that an axis cannot show (not
-   finite, beyond 1e288; log: not above 1e-288) are left out. */
+   finite, beyond 1e288; log: not above 1e-288) are left out, and leave a gap. */
 typedef struct lrcs_host_series {
-    const char *name; /* in the legend */
+    const char *name; /* in the legend, or NULL: not listed */
     uint32_t count;
     const double *x, *y;
     const char *const *label; /* beside its point where there is room, NULL for none; or NULL */
@@ -279,6 +272,11 @@ typedef struct lrcs_host_chart {
     const char *title, *note; /* note: a smaller line below the title, or NULL */
     const char *x_name, *y_name;
     int x_log, y_log;
+    int x_deg;    /* x is an angle, deg: ticks every 30, 45, .. */
+    int y_from_0; /* the y axis begins at 0, whatever is shown; not with y_log */
+    int polar;    /* about a pole: x is an angle, deg, counter-clockwise from the right, y grows
+                     away from the pole, where all is that lies 40 or more below the largest, or 0
+                     where y begins there */
     double floor; /* log y: what lies below it, 0 as well, is drawn on it with an arrow down;
                      0: none */
     const char *floor_name; /* in the legend */
@@ -289,5 +287,20 @@ typedef struct lrcs_host_chart {
 /* The same chart as SVG 1.1, and as PNG with twice the pixels. Status: LRCS_OK; LRCS_E_SYSTEM. */
 void lrcs_host_chart_svg(FILE *out, const lrcs_host_chart *chart);
 int lrcs_host_chart_png(FILE *out, const lrcs_host_chart *chart, lrcs_host_error *error);
+
+/* A quantity over two others as colours with contours, drawn between its points. */
+typedef struct lrcs_host_map {
+    const char *title, *note;             /* as a chart's */
+    const char *x_name, *y_name, *z_name; /* z: beside the scale of colours */
+    uint32_t columns, rows;               /* 2 of each at least */
+    const double *x, *y;                  /* ascending: columns of x, rows of y */
+    const double *z;                      /* z[row * columns + column]; not finite: grey */
+    double deep;      /* the scale reaches no further below the largest; 0: all */
+    int x_deg, y_deg; /* these are angles, deg */
+} lrcs_host_map;
+
+/* As charts; where there are more points than can be told apart, several share a mean. */
+void lrcs_host_map_svg(FILE *out, const lrcs_host_map *map);
+int lrcs_host_map_png(FILE *out, const lrcs_host_map *map, lrcs_host_error *error);
 
 #endif

@@ -130,15 +130,18 @@ typedef struct lrcs_result {
     uint32_t flags, notices;
 } lrcs_result;
 
-/* What the laser sees, pixel by pixel (row 0 on top, column 0 left; x right, y up). */
+/* What the laser sees, pixel by pixel (row 0 on top, column 0 left; x right, y up), and which
+   square of the observation frame that is, about the body's origin, to rounding. */
 typedef struct lrcs_image {
-    uint32_t size;   /* N */
-    uint32_t *facet; /* N * N: facet index, or LRCS_NONE */
+    uint32_t size;                /* N, given */
+    uint32_t *facet;              /* N * N, room given: facet index, or LRCS_NONE */
+    double left_m, top_m, side_m; /* returned */
 } lrcs_image;
 
-/* Bytes of work area that lrcs_sigma_run takes, an upper bound for ordinary scenes; with less
-   it leaves facets unclipped, or uses a raster, or a coarser one (LRCS_FLAG_MEMORY_FALLBACK; the
-   result names the method used), or says LRCS_E_MEMORY when even the coarsest does not fit. */
+/* Bytes of work area that lrcs_sigma_run takes at most, from any pose, an image left aside: that
+   takes as much as method zbuffer at its resolution, if that is more. With less a run leaves facets
+   unclipped, or uses a raster, or a coarser one (LRCS_FLAG_MEMORY_FALLBACK; the result names the
+   method used), or says LRCS_E_MEMORY when even the coarsest does not fit. */
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options);
 
 /* sigma from a pose.

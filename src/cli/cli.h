@@ -163,8 +163,32 @@ void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
 void cli_manual_page(const cli_command *const *command, size_t count, const char *overview);
 void cli_manual_completion(const cli_command *const *command, size_t count);
 
+/* A file that an option asks for. */
+typedef struct cli_output {
+    const char *option, *path; /* path: NULL where it was not given */
+} cli_output;
+
+/* Does a path end so, in letters of either case, with something before? */
+int cli_extension(const char *path, const char *extension);
+
+/* No two outputs are one file; none would replace a file that the scene was read from. 0 or
+   CLI_USAGE. */
+int cli_outputs_apart(const cli_command *command, const cli_output *output, int count);
+int cli_outputs_spare(const cli_command *command, const cli_output *output, int count,
+                      const lrcs_host_scene *scene);
+
+/* Writes a file, which appears whole or not at all. 0 or CLI_FAILED with the message printed. */
+typedef int cli_writer(FILE *out, const void *context, lrcs_host_error *error);
+int cli_output_write(const char *path, cli_writer *write, const void *context);
+
+/* The sizes that a picture may have, in pixels. */
+#define CLI_PICTURE_LEAST   16.0
+#define CLI_PICTURE_MOST    4096.0
+#define CLI_PICTURE_DEFAULT 512u
+
 /* The commands. */
 extern const cli_command cli_run_command;
+extern const cli_command cli_image_command;
 extern const cli_command cli_info_command;
 extern const cli_command cli_shape_command;
 extern const cli_command cli_verify_command;

@@ -3,7 +3,6 @@
 #include "cli/converge.h"
 
 #include <string.h>
-#include <strings.h>
 
 static const char converge_help[] =
     "usage: lrcs converge SCENE [pose] [options]\n"
@@ -35,17 +34,11 @@ static const cli_option converge_options[] = {
 
 /* ---- options ---- */
 
-static int has_extension(const char *path, const char *extension)
-{
-    size_t size = strlen(path);
-    return size > 4 && strcasecmp(path + size - 4, extension) == 0;
-}
-
 static int plot_check(const converge_job *job, int index)
 {
     const cli_args *args = job->args;
     const char *path = args->given[index].value;
-    if (!has_extension(path, ".svg") && !has_extension(path, ".png")) {
+    if (!cli_extension(path, ".svg") && !cli_extension(path, ".png")) {
         return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'", path);
     }
     for (int i = 0; i < args->given_count; i++) {
@@ -88,7 +81,7 @@ static int plot_write(const converge_job *job, const char *path)
     lrcs_host_output out;
     int status = lrcs_host_output_open(path, &out, &error);
     if (status == LRCS_OK) {
-        status = cli_converge_chart(job, has_extension(path, ".png"), out.stream, &error);
+        status = cli_converge_chart(job, cli_extension(path, ".png"), out.stream, &error);
         int good = status == LRCS_OK;
         int closed = lrcs_host_output_close(&out, good, good ? &error : NULL);
         status = good ? closed : status;

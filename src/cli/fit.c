@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #define FIT_PI 3.14159265358979323846
 
@@ -58,12 +57,6 @@ static const cli_option fit_options[] = {
 
 /* ---- options ---- */
 
-static int has_extension(const char *path, const char *extension)
-{
-    size_t size = strlen(path);
-    return size > 4 && strcasecmp(path + size - 4, extension) == 0;
-}
-
 static int is_chart(const cli_given *given)
 {
     return strcmp(given->name, "plot") == 0 || strcmp(given->name, "residuals") == 0;
@@ -78,8 +71,8 @@ static int is_output(const cli_given *given)
 static int output_check(const cli_args *args, int index)
 {
     const cli_given *given = &args->given[index];
-    if (is_chart(given) && !has_extension(given->value, ".svg") &&
-        !has_extension(given->value, ".png")) {
+    if (is_chart(given) && !cli_extension(given->value, ".svg") &&
+        !cli_extension(given->value, ".png")) {
         return cli_usage(args->command, "--%s: expected FILE.svg or FILE.png, found '%s'",
                          given->name, given->value);
     }
@@ -332,7 +325,7 @@ static int output_write(const fit_job *job, const cli_given *given)
     }
     if (is_chart(given)) {
         status = cli_fit_chart(job, strcmp(given->name, "residuals") == 0,
-                               has_extension(given->value, ".png"), out.stream, &error);
+                               cli_extension(given->value, ".png"), out.stream, &error);
     } else {
         cli_fit_csv(job, out.stream);
     }

@@ -65,7 +65,8 @@ static int run_room(run_job *job)
         job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
     }
     if (job->image_path) {
-        job->image.size = lrcs_host_picture_need(job->image_size);
+        lrcs_host_picture picture = cli_run_picture(job);
+        job->image.size = lrcs_host_picture_need(&picture, job->image_size);
         job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
     }
     if ((!job->records && (job->facets || job->image_path)) ||
@@ -85,10 +86,6 @@ static int run_pose(run_job *job)
     int status =
         lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
                             job->image_path ? &job->image : NULL, &job->seconds, &error);
-    if (status == LRCS_E_UNSUPPORTED) {
-        return cli_usage(job->args->command, "--method %s is not in this version",
-                         lrcs_method_text(job->options.method));
-    }
     if (status == LRCS_OK && job->polygons_path) {
         status = lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error);
     }
@@ -111,12 +108,6 @@ static int run_scene(run_job *job)
         code = code ? code : run_pose(job);
     }
     return code;
-}
-
-int cli_run_meets(const lrcs_result *result, double tolerance)
-{
-    double most = tolerance * result->sigma_m2;
-    return tolerance > 0.0 && result->bound_m2 <= most && result->curvature_estimate_m2 <= most;
 }
 
 /* The flag of a result that was searched for speaks of a tolerance that was tried. */

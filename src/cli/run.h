@@ -5,6 +5,8 @@
 
 #include "cli/cli.h"
 
+#include <lrcs/picture.h>
+
 /* What flipping an effect told of it: an effect that is on was left out, one that is off was
    simulated. All zero where a run cannot switch it. */
 typedef struct run_explained_effect {
@@ -54,6 +56,9 @@ typedef struct run_job {
 int cli_run_outputs_read(run_job *job);
 int cli_run_outputs_check(const run_job *job);
 int cli_run_outputs_write(const run_job *job);
+
+/* The picture that --image draws. */
+lrcs_host_picture cli_run_picture(const run_job *job);
 
 /* Does a file's table take the place of the one for people? */
 int cli_run_outputs_stdout(const run_job *job);

@@ -218,6 +218,12 @@ static void race_watch(run_job *job, budget_racer racer[RACERS], budget_answer *
 
 /* ---- the command's part ---- */
 
+int cli_run_meets(const lrcs_result *result, double tolerance)
+{
+    double most = tolerance * result->sigma_m2;
+    return tolerance > 0.0 && result->bound_m2 <= most && result->curvature_estimate_m2 <= most;
+}
+
 int cli_run_budget_read(run_job *job)
 {
     static const char *const clash[] = {"method", "resolution", "explain"};
@@ -248,10 +254,10 @@ static int budget_settle(run_job *job, const budget_answer *best)
 {
     char *same = job->budget.same;
     size_t room = sizeof job->budget.same;
-    char tolerance[16];
     int used = 0;
     int code = 0;
     if (best->rung != RUNG_NONE) {
+        char tolerance[16];
         used = snprintf(same, room, "--tolerance %s", rung_text(best->rung, tolerance));
     }
     if (best->named) {

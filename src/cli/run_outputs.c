@@ -2,25 +2,15 @@
 /* The files that lrcs run writes: their options, what they may not replace, and the writing. */
 #include "cli/run.h"
 
-#include <stdlib.h>
 #include <string.h>
-
-#define IMAGE_LEAST   16.0
-#define IMAGE_MOST    4096.0
-#define IMAGE_DEFAULT 512u
-
-/* One of the files that a run may write. */
-typedef struct run_file {
-    const char *option, *path; /* NULL: not asked for */
-} run_file;
 
 #define FILES 3
 
-static void files_list(const run_job *job, run_file file[FILES])
+static void files_list(const run_job *job, cli_output file[FILES])
 {
-    file[0] = (run_file){"facets", job->facets};
-    file[1] = (run_file){"polygons", job->polygons_path};
-    file[2] = (run_file){"image", job->image_path};
+    file[0] = (cli_output){"facets", job->facets};
+    file[1] = (cli_output){"polygons", job->polygons_path};
+    file[2] = (cli_output){"image", job->image_path};
 }
 
 static int to_stdout(const char *path)
@@ -32,24 +22,18 @@ static int to_stdout(const char *path)
 static int files_apart(const run_job *job)
 {
     const cli_command *command = job->args->command;
-    run_file file[FILES];
+    const char *table = cli_value(job->args, "json")      ? "json"
+                        : cli_value(job->args, "explain") ? "explain"
+                                                          : NULL;
+    cli_output file[FILES];
     files_list(job, file);
-    for (int i = 0; i < FILES; i++) {
-        const char *table = cli_value(job->args, "json")      ? "json"
-                            : cli_value(job->args, "explain") ? "explain"
-                                                              : NULL;
-        if (to_stdout(file[i].path) && table) {
+    for (int i = 0; table && i < FILES; i++) {
+        if (to_stdout(file[i].path)) {
             return cli_usage(command, "--%s - and --%s both want standard output", file[i].option,
                              table);
         }
-        for (int k = i + 1; k < FILES; k++) {
-            if (file[i].path && file[k].path && lrcs_host_output_same(file[i].path, file[k].path)) {
-                return cli_usage(command, "--%s and --%s name the same file: '%s', '%s'",
-                                 file[i].option, file[k].option, file[i].path, file[k].path);
-            }
-        }
     }
-    return 0;
+    return cli_outputs_apart(command, file, FILES);
 }
 
 int cli_run_outputs_read(run_job *job)
@@ -72,29 +56,17 @@ int cli_run_outputs_read(run_job *job)
     if (code == 0 && cli_value(args, "image-size") && !job->image_path) {
         return cli_usage(args->command, "--image-size needs --image FILE.png");
     }
-    job->image_size = IMAGE_DEFAULT;
-    return code ? code : cli_whole(args, "image-size", IMAGE_LEAST, IMAGE_MOST, &job->image_size);
-}
-
-/* Does an option's file replace none of those that the scene was read from? */
-static int output_spares(const run_job *job, const char *option, const char *path)
-{
-    lrcs_host_error error;
-    if (path && lrcs_host_output_check(path, &job->scene, &error) != LRCS_OK) {
-        return cli_usage(job->args->command, "--%s %s", option, error.text);
-    }
-    return 0;
+    job->image_size = CLI_PICTURE_DEFAULT;
+    return code ? code
+                : cli_whole(args, "image-size", CLI_PICTURE_LEAST, CLI_PICTURE_MOST,
+                            &job->image_size);
 }
 
 int cli_run_outputs_check(const run_job *job)
 {
-    run_file file[FILES];
-    int code = 0;
+    cli_output file[FILES];
     files_list(job, file);
-    for (int i = 0; i < FILES && code == 0; i++) {
-        code = output_spares(job, file[i].option, file[i].path);
-    }
-    return code;
+    return cli_outputs_spare(job->args->command, file, FILES, &job->scene);
 }
 
 int cli_run_outputs_stdout(const run_job *job)
@@ -102,53 +74,40 @@ int cli_run_outputs_stdout(const run_job *job)
     return to_stdout(job->facets) || to_stdout(job->polygons_path);
 }
 
-static int facets_write(const run_job *job)
+static int facets_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    lrcs_host_error error;
-    lrcs_host_output out;
-    if (lrcs_host_output_open(job->facets, &out, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    lrcs_host_facets_write(out.stream, &job->scene.scene, job->records);
-    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? 0 : cli_failed(&error);
+    const run_job *job = context;
+    (void)error;
+    lrcs_host_facets_write(out, &job->scene.scene, job->records);
+    return LRCS_OK;
 }
 
-static int polygons_write(const run_job *job)
+static int polygons_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    lrcs_host_error error;
-    lrcs_host_output out;
-    if (lrcs_host_output_open(job->polygons_path, &out, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    lrcs_host_polygons_write(out.stream, &job->polygons.list);
-    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? 0 : cli_failed(&error);
+    const run_job *job = context;
+    (void)error;
+    lrcs_host_polygons_write(out, &job->polygons.list);
+    return LRCS_OK;
 }
 
-static int image_write(const run_job *job)
+lrcs_host_picture cli_run_picture(const run_job *job)
 {
-    lrcs_host_error error;
-    lrcs_host_output out;
-    size_t side = job->image_size;
-    unsigned char *rgb = malloc(3 * side * side);
-    if (!rgb) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
-    }
-    lrcs_host_picture_make(&job->scene.scene, job->records, &job->image, job->image_size, rgb);
-    int status = lrcs_host_output_open(job->image_path, &out, &error);
-    if (status == LRCS_OK) {
-        status = lrcs_host_png_write(out.stream, rgb, job->image_size, job->image_size, 3, &error);
-        int good = status == LRCS_OK;
-        int closed = lrcs_host_output_close(&out, good, good ? &error : NULL);
-        status = good ? closed : status;
-    }
-    free(rgb);
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    return (lrcs_host_picture){
+        .scene = &job->scene.scene, .pose = &job->pose, .records = job->records};
+}
+
+static int image_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const run_job *job = context;
+    lrcs_host_picture picture = cli_run_picture(job);
+    return lrcs_host_picture_png(out, &picture, &job->image, job->image_size, error);
 }
 
 int cli_run_outputs_write(const run_job *job)
 {
-    int code = job->image_path ? image_write(job) : 0;
-    code = code == 0 && job->facets ? facets_write(job) : code;
-    return code == 0 && job->polygons_path ? polygons_write(job) : code;
+    int code = job->image_path ? cli_output_write(job->image_path, image_write, job) : 0;
+    code = code == 0 && job->facets ? cli_output_write(job->facets, facets_write, job) : code;
+    return code == 0 && job->polygons_path
+               ? cli_output_write(job->polygons_path, polygons_write, job)
+               : code;
 }

@@ -38,6 +38,11 @@ static const char sweep_help[] =
     "                        a full disk); nothing to do where FILE is whole\n"
     "  --shard K/N           only the K-th of N parts of the rows; lrcs merge joins the files\n"
     "  --jobs N              threads (one for each processor)\n"
+    "  --plot FILE           also drawn, as FILE.svg or FILE.png; repeatable. What varies, one or "
+    "two\n"
+    "                        things: curves, up to 7 of them, or a map with contours\n"
+    "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
+    "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
     "\n"
     "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
     "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, flags. Exit 3 where a row "
@@ -45,7 +50,8 @@ static const char sweep_help[] =
     "the tolerance; stderr says how many.\n"
     "\n"
     "examples\n"
-    "  lrcs sweep demo --az 0:360:1 --el 0 -o cut.csv\n"
+    "  lrcs sweep demo --az 0:360:1 --el 0 -o cut.csv --plot cut.svg --plot cut.png\n"
+    "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
     "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy\n"
     "  lrcs sweep demo --sphere 1000\n"
     "  lrcs sweep demo --azel 90,0 --rotate x:0:360:1 --json\n"
@@ -58,7 +64,7 @@ static const cli_option sweep_options[] = {
     CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"az", 1, 0},     {"el", 1, 0},
     {"joint", 1, 1},  {"vary", 1, 1},       {"rotate", 1, 0},  {"sphere", 1, 0}, {"poses", 1, 0},
     {"o", 1, 0},      {"json", 0, 0},       {"resume", 0, 0},  {"shard", 1, 0},  {"jobs", 1, 0},
-    {"help", 0, 0},   {NULL, 0, 0}};
+    {"plot", 1, 1},   {"dbsm", 0, 0},       {"polar", 0, 0},   {"help", 0, 0},   {NULL, 0, 0}};
 
 #define JOBS_MOST 1024.0
 
@@ -68,6 +74,7 @@ typedef struct sweep_job {
     sweep_head head;
     sweep_file file;
     sweep_progress progress;
+    sweep_plot plot;
     lrcs_run_options options;
     lrcs_host_options load;
     lrcs_host_scene scene;
@@ -121,6 +128,7 @@ static int job_read(sweep_job *job)
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);
     code = code ? code : cli_plan_read(args, &job->plan);
+    code = code ? code : cli_plot_read(args, &job->plan, &job->plot);
     job->load.build.tolerance = job->options.tolerance;
     if (code == 0 && job->file.npy && cli_value(args, "shard")) {
         return cli_usage(args->command,
@@ -143,7 +151,7 @@ static int job_files_check(const sweep_job *job)
             return cli_usage(job->args->command, "-o %s: would overwrite the poses", path);
         }
     }
-    return 0;
+    return cli_plot_spares(job->args, &job->file, &job->scene);
 }
 
 /* ---- the rows ---- */
@@ -255,9 +263,23 @@ static void job_say(const sweep_job *job)
     }
 }
 
+/* Room for what a plot shows. */
+static int job_room(sweep_job *job)
+{
+    if (job->plot.asked) {
+        job->file.row = job->plot.row = calloc(job->plan.rows, sizeof *job->plot.row);
+        if (!job->plot.row) {
+            fprintf(stderr, "lrcs: out of memory\n");
+            return CLI_FAILED;
+        }
+    }
+    return 0;
+}
+
 static int job_rows(sweep_job *job)
 {
-    int code = cli_file_open(job->args, &job->file, &job->head, &job->plan);
+    int code = job_room(job);
+    code = code ? code : cli_file_open(job->args, &job->file, &job->head, &job->plan);
     if (code != 0) {
         return code;
     }
@@ -270,6 +292,7 @@ static int job_rows(sweep_job *job)
                 (unsigned long long)(job->plan.end - job->plan.first));
     }
     code = code ? code : closed;
+    code = code == 0 && job->plot.asked ? cli_plot_write(job->args, &job->plot, &job->plan) : code;
     if (code != 0) {
         return code;
     }
@@ -295,6 +318,7 @@ static int sweep_command(const cli_args *args)
         code = cli_head_make(args, &job->plan, &job->options, &job->scene.scene, &job->head);
         code = code ? code : job_rows(job);
     }
+    free(job->plot.row);
     cli_file_free(&job->file);
     cli_plan_free(&job->plan);
     lrcs_host_scene_free(&job->scene);

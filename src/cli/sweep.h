@@ -187,6 +187,8 @@ typedef struct sweep_file {
     uint64_t next; /* the first row that is still to come */
     sweep_tally tally;
     double flushed; /* when rows were last handed to the system, s */
+    double (
+        *row)[2]; /* sigma and bound of every row for --plot, or NULL; whoever made it frees it */
 } sweep_file;
 
 /* What -o and --json ask for; 0 or CLI_USAGE. */
@@ -204,6 +206,29 @@ int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
    0 or CLI_FAILED. */
 int cli_file_close(sweep_file *file, const sweep_plan *plan, int all);
 void cli_file_free(sweep_file *file);
+
+/* ---- plots ---- */
+
+/* One of the things that vary. */
+typedef struct plot_axis {
+    uint32_t column; /* of the plan; that after its axes: the time of a track */
+    uint64_t count;
+    const char *name;
+} plot_axis;
+
+/* --plot: curves along x, one for each value of y, or a map. */
+typedef struct sweep_plot {
+    int asked, dbsm, polar, map;
+    plot_axis x, y;   /* y: one value where only one thing varies */
+    int swapped;      /* x is the faster of two */
+    double (*row)[2]; /* sigma and bound, m2 */
+} sweep_plot;
+
+/* What --plot, --dbsm and --polar ask for; that no plot replaces anything; 0 or CLI_USAGE. Then the
+   drawing, as 0 or CLI_FAILED. */
+int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot);
+int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_host_scene *scene);
+int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan);
 
 /* Seconds on a clock that only goes forward. */
 double cli_seconds(void);

@@ -71,6 +71,17 @@ void cli_file_free(sweep_file *file)
     memset(file, 0, sizeof *file);
 }
 
+/* A row that is written, now or before. */
+static void row_take(sweep_file *file, const sweep_row *row)
+{
+    cli_tally_add(&file->tally, row);
+    if (file->row) {
+        file->row[row->index][0] = row->sigma_m2;
+        file->row[row->index][1] = row->bound_m2;
+    }
+    file->next++;
+}
+
 /* ---- what is there already ---- */
 
 /* The head as it would be written, to be compared; freed by the caller, NULL without memory. */
@@ -104,8 +115,7 @@ static size_t rows_recover(sweep_file *file, const sweep_plan *plan, const lrcs_
         if (row.index != file->next || row.index >= plan->end) {
             return 0;
         }
-        cli_tally_add(&file->tally, &row);
-        file->next++;
+        row_take(file, &row);
         good = line + size;
     }
     return (size_t)(good - bytes);
@@ -220,8 +230,7 @@ int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
                  lrcs_host_error *error)
 {
     cli_rows_put(file->stream, file->format, plan, row);
-    cli_tally_add(&file->tally, row);
-    file->next++;
+    row_take(file, row);
     double now = cli_seconds();
     if (now - file->flushed < FILE_PERIOD) {
         return LRCS_OK;

@@ -31,7 +31,7 @@ static const struct {
      KIND(DISC) | KIND(SPHERE) | KIND(DOME) | KIND(CYLINDER) | KIND(CONE) | KIND(FRUSTUM) |
          KIND(PARABOLOID)},
     {"radius2", offsetof(lrcs_shape, radius2), SCENE_SHAPE, KIND(FRUSTUM)},
-    {"length", SCENE_SHAPE, offsetof(lrcs_shape, length),
+    {"length", offsetof(lrcs_shape, length), SCENE_SHAPE,
      KIND(CYLINDER) | KIND(CONE) | KIND(FRUSTUM) | KIND(PARABOLOID)},
     {"half_angle_deg", offsetof(lrcs_shape, half_angle_deg), SCENE_SHAPE, KIND(CONE)}};
 

@@ -132,12 +132,41 @@ static void linear_range(lrcsi_axis *axis, double least, double most, double tex
     linear_ticks(axis, step);
 }
 
-lrcsi_axis lrcsi_axis_make(int log, double least, double most, double texts)
+/* Angles in parts of a turn that people know; -1 where they are too few or too many for that. */
+static int degree_range(lrcsi_axis *axis, double least, double most, double texts)
 {
-    lrcsi_axis axis = {.log = log};
-    if (log) {
+    static const struct {
+        long step, minor;
+    } known[] = {{2, 1},   {5, 1},   {10, 5},  {15, 5},  {30, 10},
+                 {45, 15}, {60, 20}, {90, 30}, {180, 60}};
+    const size_t count = sizeof known / sizeof known[0];
+    size_t i = 0;
+    if (!(most - least >= 10.0 && most - least <= 1800.0 && fabs(least) < 1e6)) {
+        return -1;
+    }
+    while (i < count - 1 && (most - least) / (double)known[i].step > texts) {
+        i++;
+    }
+    long step = known[i].step;
+    long first = lround(floor(least / (double)step + 1e-9)) * step;
+    long last = lround(ceil(most / (double)step - 1e-9)) * step;
+    axis->least = (double)first;
+    axis->most = (double)last;
+    for (long at = first; at <= last; at += known[i].minor) {
+        lrcsi_tick *tick = tick_add(axis, (double)at, at % step == 0);
+        if (tick->major) {
+            snprintf(tick->text, sizeof tick->text, "%ld", at);
+        }
+    }
+    return 0;
+}
+
+lrcsi_axis lrcsi_axis_make(int kind, double least, double most, double texts)
+{
+    lrcsi_axis axis = {.log = kind == LRCSI_AXIS_LOG};
+    if (kind == LRCSI_AXIS_LOG) {
         log_range(&axis, least, most, texts);
-    } else {
+    } else if (kind != LRCSI_AXIS_DEG || degree_range(&axis, least, most, texts) != 0) {
         linear_range(&axis, least, most, texts);
     }
     return axis;

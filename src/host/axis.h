@@ -25,9 +25,11 @@ typedef struct lrcsi_axis {
     lrcsi_tick tick[LRCSI_AXIS_TICKS]; /* ascending, least and most among them */
 } lrcsi_axis;
 
+enum lrcsi_axis_kind { LRCSI_AXIS_LINEAR, LRCSI_AXIS_LOG, LRCSI_AXIS_DEG };
+
 /* The axis that covers least .. most in round numbers, with about `texts` of them named at most.
    Where there is no such range it covers 0 .. 1, or 0.1 .. 1. */
-lrcsi_axis lrcsi_axis_make(int log, double least, double most, double texts);
+lrcsi_axis lrcsi_axis_make(int kind, double least, double most, double texts);
 
 /* Where a value lies: 0 at least, 1 at most, outside beyond; -HUGE_VAL for what a logarithm
    does not have. */

@@ -107,7 +107,8 @@ lrcsi_svg lrcsi_svg_begin(FILE *out, double width, double height, const char *ti
 {
     lrcsi_svg svg = {{svg_line, svg_area, svg_text}, out};
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\"",
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\""
+          " xmlns:xlink=\"http://www.w3.org/1999/xlink\"",
           out);
     svg_attribute(out, "width", width);
     svg_attribute(out, "height", height);

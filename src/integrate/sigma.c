@@ -50,9 +50,22 @@ static int options_check(const lrcs_run_options *options)
     return LRCS_OK;
 }
 
-size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
+/* What finding visible areas takes: under auto, whichever method does. On samples, curved facets
+   that are seen in part are clipped. */
+static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
+    size_t raster =
+        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+    size_t exact = lrcsi_occlude_need(prepared);
+    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
+    return options->method == LRCS_METHOD_EXACT                       ? exact
+           : options->method == LRCS_METHOD_ZBUFFER || raster > exact ? raster
+                                                                      : exact;
+}
+
+size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
+{
     size_t facets = prepared->scene->facet_count;
     size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible));
     size_t curved = prepared->smooth ? lrcsi_work_bytes(facets, sizeof(lrcsi_curved)) : 0;
@@ -63,12 +76,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_work_add(areas, curved));
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
     need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
-    if (options->method == LRCS_METHOD_EXACT) {
-        return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
-    }
-    need = lrcsi_work_add(need, lrcsi_visible_known_need(prepared));
-    need = lrcsi_work_add(need, prepared->smooth ? lrcsi_occlude_need(prepared) : 0);
-    return lrcsi_work_add(need, lrcsi_visible_need(prepared, size));
+    return lrcsi_work_add(need, method_need(prepared, options));
 }
 
 static double run_bound(const lrcsi_total *total)
@@ -82,9 +90,20 @@ static int run_meets(const lrcsi_total *total, double tolerance)
     return run_bound(total) <= most && total->curvature <= most;
 }
 
-/* Hands the raster out as a picture, row 0 on top. */
+/* Hands the raster out as a picture, row 0 on top, and the place of its window. */
 static void image_fill(const lrcsi_raster *raster, lrcs_image *image)
 {
+    const lrcsi_view *view = raster->view;
+    const lrcs_prepared *p = view->prepared;
+    double corner[2] = {view->low[0], view->low[1] + view->side};
+    for (int k = 0; k < 2; k++) {
+        const double *axis = view->R[k];
+        const double *c = p->centre;
+        corner[k] += axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2];
+    }
+    image->left_m = ldexp(corner[0], p->exponent);
+    image->top_m = ldexp(corner[1], p->exponent);
+    image->side_m = ldexp(view->side, p->exponent);
     for (uint32_t y = 0; y < raster->size; y++) {
         const uint32_t *row = raster->owner + (size_t)(raster->size - 1 - y) * raster->size;
         for (uint32_t x = 0; x < raster->size; x++) {

@@ -446,7 +446,9 @@ static int order_found(const touch_search *search, uint32_t facet_count)
             *here = search->found[next[moved.facet]];
             search->found[next[moved.facet]++] = moved;
         }
-        sort_found(search->found + first[f], first[f + 1] - first[f]);
+        if (first[f + 1] > first[f]) { /* where none was found at all there is no list either */
+            sort_found(search->found + first[f], first[f + 1] - first[f]);
+        }
     }
     return LRCS_OK;
 }

@@ -4,6 +4,7 @@
 #include "visibility/contest.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/exact.h"
 #include "base/work.h"
@@ -164,7 +165,19 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
 
 uint32_t lrcsi_contest_crossings(lrcsi_contest *contest, uint32_t facet)
 {
-    return contest_find(contest, facet, LRCS_NONE);
+    if (contest->crossed != facet) {
+        contest->crossings = contest_find(contest, facet, LRCS_NONE);
+        contest->crossed = facet;
+    }
+    return contest->crossings;
+}
+
+void lrcsi_contest_recall(lrcsi_contest *contest, uint32_t facet, const uint32_t *crossing,
+                          uint32_t count)
+{
+    memcpy(contest->crossing, crossing, count * sizeof *crossing);
+    contest->crossings = count;
+    contest->crossed = facet;
 }
 
 /* --- contacts --------------------------------------------------------------------------------- */
@@ -187,6 +200,12 @@ static int touch_contests(const lrcsi_view *view, uint32_t facet)
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
+
+/* How many events their grid lists at most. */
+static size_t events_most(const lrcs_prepared *prepared)
+{
+    return 8 * (size_t)prepared->topology.edge_count;
+}
 
 /* Events where they lie, and their grid. */
 static int contest_events(lrcsi_contest *c, lrcs_work *work)
@@ -211,7 +230,8 @@ static int contest_events(lrcsi_contest *c, lrcs_work *work)
             c->events.edge[i],
             0};
     }
-    return lrcsi_grid_edges(view, c->events.edge, count, c->grid.size, work, &c->grid);
+    return lrcsi_grid_edges(c->events.edge, count, events_most(view->prepared), work, &c->grid,
+                            c->cells);
 }
 
 /* Which way the facets face that can hide something, and which cells they touch. */
@@ -230,6 +250,7 @@ static void contest_cast(lrcsi_contest *c)
         }
     }
     c->kin[count] = 0;
+    lrcsi_grid_fit(&c->grid, c->cells);
 }
 
 /* Which facets are contested, and which of the others are alone in their region. */
@@ -259,22 +280,22 @@ size_t lrcsi_contest_need(const lrcs_prepared *prepared)
     size_t edges = prepared->topology.edge_count;
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(2 * facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells)));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_contest_edge)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(facets, 8 * edges + 8192));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, events_most(prepared)));
 }
 
-/* Grids have a cell or so for every facet that faces either way: then most facets meet no event's
-   cell, and need no further look. */
+/* Grids have a cell or so for every facet that faces either way, unless facets are large: then most
+   facets meet no event's cell, and need no further look. */
 int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *contest)
 {
     size_t mark = work->used;
     uint32_t count = view->prepared->scene->facet_count;
-    lrcsi_contest c = {.view = view};
-    c.grid = lrcsi_grid_empty(view, lrcsi_grid_size(view->front + view->back));
+    lrcsi_contest c = {.view = view, .crossed = LRCS_NONE};
+    c.grid = lrcsi_grid_empty(view, view->front + view->back);
     c.contested = lrcsi_work_take_zero(work, count, 1);
     c.kin = lrcsi_work_take(work, (size_t)count + 1, 1);
     c.sheet = lrcsi_work_take(work, count, sizeof *c.sheet);

@@ -41,7 +41,8 @@ typedef struct lrcsi_contest {
     lrcsi_cells *cells;        /* facet -> the cells of the grid that it touches, if it casts */
     uint32_t asked;            /* scratch: searches so far */
     int along;                 /* scratch: the last search met an event along a side of the facet */
-    uint32_t *crossing;        /* scratch: what lrcsi_contest_crossings found */
+    uint32_t *crossing;        /* scratch: what crosses facet `crossed`, `crossings` of them */
+    uint32_t crossed, crossings;
     uint32_t *sheet;  /* facet -> its sheet, named by its first facet; itself if it casts nothing */
     uint32_t *region; /* facet -> the region of uniform facets that it is in, likewise named, once
                          lrcsi_contest_regions has been called */
@@ -50,7 +51,7 @@ typedef struct lrcsi_contest {
     uint32_t contested_count;
 } lrcsi_contest;
 
-/* Upper bound for ordinary scenes. */
+/* Bytes at most. */
 size_t lrcsi_contest_need(const lrcs_prepared *prepared);
 
 /* Decides every facet that faces either way (front ones only where back sides are never seen).
@@ -61,8 +62,12 @@ int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *c
 void lrcsi_contest_regions(const lrcsi_contest *contest);
 
 /* The event edges that cross the inside of a facet, nearer than it somewhere: their count; the
-   topology edges are then in contest->crossing. */
+   topology edges are then in contest->crossing. The facet last asked about costs no search. */
 uint32_t lrcsi_contest_crossings(lrcsi_contest *contest, uint32_t facet);
+
+/* Puts there what it found before. */
+void lrcsi_contest_recall(lrcsi_contest *contest, uint32_t facet, const uint32_t *crossing,
+                          uint32_t count);
 
 /* Can the facet of a contact hide some of the facet that it touches? */
 int lrcsi_contest_touch_hides(const lrcsi_view *view, uint32_t facet, const lrcsi_touch *touch);

@@ -32,6 +32,7 @@ typedef struct lrcsi_cover {
     uint32_t count;
 } lrcsi_cover;
 
+/* Bytes at most, with those of the grid. */
 size_t lrcsi_cover_need(const lrcs_prepared *prepared);
 
 /* What serves all facets of a view, but for the grid of facets, which is the caller's to make; it

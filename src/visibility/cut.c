@@ -136,6 +136,20 @@ static void cuts_contact(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_
     }
 }
 
+/* Each edge may cross a facet, and each of its contacts may divide it along three sides. */
+size_t lrcsi_cuts_need(const lrcs_prepared *prepared)
+{
+    const lrcsi_touches *touches = &prepared->touches;
+    size_t most = 0;
+    for (uint32_t f = 0; f < prepared->scene->facet_count; f++) {
+        size_t count = touches->first[f + 1] - touches->first[f];
+        most = count > most ? count : most;
+    }
+    size_t room = prepared->topology.edge_count + 3 * most;
+    return lrcsi_work_add(lrcsi_work_bytes(room, sizeof(lrcsi_cut)),
+                          lrcsi_work_bytes(room, sizeof(uint32_t)));
+}
+
 int lrcsi_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_work *work,
                     lrcsi_cuts *cuts)
 {

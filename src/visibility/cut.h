@@ -31,6 +31,9 @@ typedef struct lrcsi_cuts {
     uint32_t count;
 } lrcsi_cuts;
 
+/* Bytes at most for those of one facet. */
+size_t lrcsi_cuts_need(const lrcs_prepared *prepared);
+
 /* Finds those of a contested facet. They stay in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_work *work,
                     lrcsi_cuts *cuts);

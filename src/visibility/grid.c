@@ -13,34 +13,53 @@
 /* Wanted cells, a bit each. */
 #define WANT_BITS 32u
 
-uint32_t lrcsi_grid_size(uint32_t cells)
+/* How many cells along a side make so many. */
+static uint32_t grid_side(size_t cells)
 {
     return (uint32_t)lrcsi_least(MOST_CELLS, lrcsi_most(1, sqrt((double)cells)));
 }
 
 size_t lrcsi_grid_need(size_t cells, size_t entries)
 {
-    const size_t most = (size_t)MOST_CELLS * MOST_CELLS;
-    cells = cells < most ? cells : most;
-    return lrcsi_work_add(lrcsi_work_bytes(cells + 1, sizeof(uint32_t)),
+    size_t side = grid_side(cells);
+    return lrcsi_work_add(lrcsi_work_bytes(side * side + 1, sizeof(uint32_t)),
                           lrcsi_work_bytes(entries, sizeof(uint32_t)));
 }
 
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t side = lrcsi_grid_size((uint32_t)facets);
+    size_t side = grid_side(facets);
     size_t words = (side + WANT_BITS - 1) / WANT_BITS;
     return lrcsi_work_add(lrcsi_work_bytes(words * side, sizeof(uint32_t)),
-                          lrcsi_grid_need(facets, 16 * facets + 65536));
+                          lrcsi_grid_need(facets, LRCSI_GRID_FACET_CELLS * facets));
 }
 
-lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t size)
+lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells)
 {
+    uint32_t size = grid_side(cells);
     return (lrcsi_grid){.view = view,
                         .size = size,
                         .scale = view->side > 0 ? size / view->side : 0,
                         .last = size - 1.0};
+}
+
+/* Doubles the grid's cells; it has no lists then. Halving the scale is exact (but for numbers so
+   small that they stand in cell 0 either way), so that coordinates find half their old cell,
+   rounded down. */
+static void grid_coarsen(lrcsi_grid *grid, lrcsi_cells *cells)
+{
+    uint32_t size = (grid->size + 1) / 2;
+    *grid = (lrcsi_grid){
+        .view = grid->view, .size = size, .scale = grid->scale / 2, .last = size - 1.0};
+    for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count && cells; f++) {
+        if (lrcsi_grid_casts(grid->view, f)) {
+            cells[f] = (lrcsi_cells){.x0 = cells[f].x0 / 2u,
+                                     .x1 = (uint16_t)((cells[f].x1 + 1u) / 2),
+                                     .y0 = cells[f].y0 / 2u,
+                                     .y1 = (uint16_t)((cells[f].y1 + 1u) / 2)};
+        }
+    }
 }
 
 static size_t grid_count(const lrcsi_grid *grid)
@@ -79,8 +98,8 @@ static void grid_finish(lrcsi_grid *grid)
     grid->first[0] = 0;
 }
 
-/* Counts (item NULL) or files an item in a row of cells. */
-static void grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1, uint32_t item)
+/* Counts (item NULL) or files an item in a row of cells. Returns how many they are. */
+static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1, uint32_t item)
 {
     uint32_t *first = grid->first + (size_t)y * grid->size;
     for (uint32_t x = x0; x < x1; x++) {
@@ -90,6 +109,7 @@ static void grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1, uin
             first[x + 1]++;
         }
     }
+    return x1 - x0;
 }
 
 /* The part of segment a -> b within a row of cells, as its range of x; the row is widened by the
@@ -115,48 +135,84 @@ static void segment_row(const lrcsi_grid *grid, const double *a, const double *b
     range[1] = lrcsi_most(x0, x1);
 }
 
-static void grid_put_edge(lrcsi_grid *grid, const lrcsi_edge *edge, uint32_t item)
+/* Returns in how many cells it is. */
+static uint32_t grid_put_edge(lrcsi_grid *grid, uint32_t edge, uint32_t item)
 {
-    const uint32_t ends[2] = {edge->low, edge->high};
+    const lrcsi_edge *e = &grid->view->prepared->topology.edge[edge];
+    const uint32_t ends[2] = {e->low, e->high};
     double low[2];
     double high[2];
     lrcsi_grid_box(grid->view, ends, 2, low, high);
     lrcsi_cells cells = lrcsi_grid_cells(grid, low, high);
     if (cells.y1 - cells.y0 == 1) {
-        grid_put(grid, cells.y0, cells.x0, cells.x1, item);
-        return;
+        return grid_put(grid, cells.y0, cells.x0, cells.x1, item);
     }
+    uint32_t count = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         double range[2];
-        segment_row(grid, grid->view->point[edge->low].x, grid->view->point[edge->high].x, y,
-                    range);
+        segment_row(grid, grid->view->point[e->low].x, grid->view->point[e->high].x, y, range);
         double off = 4 * grid->view->off;
-        grid_put(grid, y, lrcsi_grid_cell(grid, range[0] - off, 0),
-                 lrcsi_grid_cell(grid, range[1] + off, 0) + 1, item);
+        count += grid_put(grid, y, lrcsi_grid_cell(grid, range[0] - off, 0),
+                          lrcsi_grid_cell(grid, range[1] + off, 0) + 1, item);
     }
+    return count;
 }
 
-int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, uint32_t size,
-                     lrcs_work *work, lrcsi_grid *grid)
+/* Counts or files the edges, unless they are more than `most`: then 0. */
+static int grid_put_edges(lrcsi_grid *grid, const uint32_t *edge, uint32_t count, uint64_t most)
 {
-    lrcsi_grid g = lrcsi_grid_empty(view, size);
-    int status = grid_start(&g, work);
-    for (int pass = 0; pass < 2 && status == LRCS_OK; pass++) {
-        for (uint32_t i = 0; i < count; i++) {
-            grid_put_edge(&g, &view->prepared->topology.edge[edge[i]], i);
-        }
-        if (pass == 0) {
-            status = grid_room(work, &g);
-        }
+    uint64_t listed = 0;
+    for (uint32_t i = 0; i < count && listed <= most; i++) {
+        listed += grid_put_edge(grid, edge[i], i);
     }
+    return listed <= most;
+}
+
+/* In one cell each edge is listed once: that is not too often. */
+int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_work *work,
+                     lrcsi_grid *grid, lrcsi_cells *cells)
+{
+    size_t mark = work->used;
+    most = most > count ? most : count;
+    int status = grid_start(grid, work);
+    while (status == LRCS_OK && !grid_put_edges(grid, edge, count, most)) {
+        work->used = mark;
+        grid_coarsen(grid, cells);
+        status = grid_start(grid, work);
+    }
+    status = status == LRCS_OK ? grid_room(work, grid) : status;
     if (status == LRCS_OK) {
-        grid_finish(&g);
-        *grid = g;
+        grid_put_edges(grid, edge, count, most);
+        grid_finish(grid);
     }
     return status;
 }
 
 /* --- facets ----------------------------------------------------------------------------------- */
+
+/* How many cells the facets fill that can hide something, counted once for each; and how many those
+   facets are. */
+static uint64_t cells_filled(const lrcsi_view *view, const lrcsi_cells *cells, uint32_t *facets)
+{
+    uint64_t filled = 0;
+    *facets = 0;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        if (lrcsi_grid_casts(view, f)) {
+            filled += (uint64_t)(cells[f].x1 - cells[f].x0) * (cells[f].y1 - cells[f].y0);
+            *facets += 1;
+        }
+    }
+    return filled;
+}
+
+/* In one cell each facet is listed once, so that this ends. */
+void lrcsi_grid_fit(lrcsi_grid *grid, lrcsi_cells *cells)
+{
+    uint32_t facets;
+    while (cells_filled(grid->view, cells, &facets) > (uint64_t)LRCSI_GRID_FACET_CELLS * facets) {
+        grid_coarsen(grid, cells);
+    }
+}
 
 /* The cells that are wanted, a bit each, rows beginning with a word; bit NULL: all. Facets that
    meet none of them are left out. */
@@ -246,7 +302,8 @@ int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_cells *cells, const un
                       lrcs_work *work, lrcsi_grid *grid)
 {
     size_t mark = work->used;
-    lrcsi_grid g = lrcsi_grid_empty(like->view, like->size);
+    lrcsi_grid g = *like;
+    g.first = g.item = NULL;
     grid_want want;
     int status = want_make(&g, cells, wanted, work, &want);
     status = status == LRCS_OK ? grid_fill_facets(&g, cells, want, work) : status;

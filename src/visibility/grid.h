@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* A uniform grid over the view's window: which items (facets, edges) may stand in which cell.
-   Conservative: an item is listed in every cell that it touches within the view's error. */
+   Conservative: an item is listed in every cell that it touches within the view's error. Where
+   items are so large that they would be listed too often, cells are doubled until they are not:
+   then the bytes that a grid takes are bounded whatever the scene, and so is what a walk through
+   the cells of all items costs. */
 #ifndef LRCSI_GRID_H
 #define LRCSI_GRID_H
 
@@ -64,21 +67,30 @@ static inline void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex
     }
 }
 
-/* How many cells a grid has along a side that is to have `cells` of them or so. */
-uint32_t lrcsi_grid_size(uint32_t cells);
+/* How often a facet is listed at most, on average. Facets that fill 16 cells fill 9 of twice the
+   size, or fewer: so a coarser grid has lists little more than twice as long, and fewer of them to
+   walk through for each facet. */
+#define LRCSI_GRID_FACET_CELLS 16u
 
-/* The window in size x size cells, without lists. */
-lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t size);
+/* The window in about `cells` cells (none more, but for one at least), without lists. */
+lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells);
 
-/* A grid of edges: item i stands for topology edge `edge[i]`. Cells along the edge only.
+/* Files edges in an empty grid: item i stands for topology edge `edge[i]`. Cells along the edge
+   only. Lists `most` items at most, or each once: until it does, the grid is made coarser, and with
+   it the cells[facet] of facets that can hide something, unless that is NULL.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
-int lrcsi_grid_edges(const lrcsi_view *view, const uint32_t *edge, uint32_t count, uint32_t size,
-                     lrcs_work *work, lrcsi_grid *grid);
+int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_work *work,
+                     lrcsi_grid *grid, lrcsi_cells *cells);
 
-/* Bytes for a grid of so many cells that list so many items together. */
+/* Bytes at most for a grid of so many cells that lists so many items. */
 size_t lrcsi_grid_need(size_t cells, size_t entries);
 
-/* Bytes for a grid of facets, an upper bound for ordinary scenes. */
+/* Given the cells[facet] of an empty grid that each facet touches that can hide something: makes
+   both coarser until a grid of facets lists each LRCSI_GRID_FACET_CELLS times at most, on
+   average. */
+void lrcsi_grid_fit(lrcsi_grid *grid, lrcsi_cells *cells);
+
+/* Bytes at most for a grid of facets, their cells fitted. */
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 
 /* A grid of the facets that can hide something, in as many cells as a grid whose cells[facet] they

@@ -90,8 +90,9 @@ static int margin_events(margin_job *job, lrcs_work *work)
     }
     job->edge = edge;
     list_events(job);
-    return lrcsi_grid_edges(job->view, job->edge, job->count, lrcsi_grid_size(job->count), work,
-                            &job->grid);
+    job->grid = lrcsi_grid_empty(job->view, job->count);
+    return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid,
+                            NULL);
 }
 
 /* --- one facet and one edge --------------------------------------------------------------------
@@ -316,17 +317,32 @@ void lrcsi_margin_settle(const lrcsi_margin *margin, const lrcsi_visible *visibl
     }
 }
 
+/* Edges, each for every part that has a facet on it; some counted twice, perhaps. */
+static size_t margin_edges(const lrcs_prepared *p)
+{
+    const lrcsi_topology *topology = &p->topology;
+    const uint32_t *part = p->scene->facet_part;
+    size_t count = topology->edge_count;
+    for (uint32_t e = 0; e < topology->edge_count; e++) {
+        const lrcsi_edge_use *use = topology->use + topology->edge[e].first_use;
+        for (uint32_t i = 1; i < topology->edge[e].uses; i++) {
+            count += part[use[i].facet] != part[use[i - 1].facet];
+        }
+    }
+    return count;
+}
+
 size_t lrcsi_margin_need(const lrcs_prepared *p)
 {
-    size_t edges = p->topology.edge_count;
     if (!p->nears.reach) {
         return 0;
     }
+    size_t edges = margin_edges(p);
     size_t need = lrcsi_work_bytes(p->scene->facet_count, sizeof(double));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges + 8192));
+    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges));
 }
 
 /* Scratch goes as the shares are done. */

@@ -55,7 +55,7 @@ typedef struct lrcsi_margin {
     unsigned char *hidden; /* region: 1 where other parts hide all of it, in truth too */
 } lrcsi_margin;
 
-/* Upper bound for ordinary scenes; 0 where prepared->nears was not asked for. */
+/* Bytes at most; 0 where prepared->nears was not asked for. */
 size_t lrcsi_margin_need(const lrcs_prepared *prepared);
 
 /* For a scene with prepared->nears.reach; nothing is known to be hidden yet. Facets that neither

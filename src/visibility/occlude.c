@@ -388,14 +388,12 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Room for as many cuts of one facet as there are facets: two satellites' worth. */
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_cover_need(prepared), lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_WAITING, sizeof(lrcsi_occlude_cell)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cut)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_cuts_need(prepared));
 }
 
 int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)

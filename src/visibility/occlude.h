@@ -47,6 +47,7 @@ typedef struct lrcsi_occluding {
     double bent;     /* by which the pieces' area may be wrong beside */
 } lrcsi_occluding;
 
+/* Bytes at most. */
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 
 /* What serves all facets; it stays in the work area.

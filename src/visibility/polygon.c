@@ -12,9 +12,11 @@
 
 #define U 0x1p-53
 
-/* Rings and points a facet: twice what satellites take. */
+/* Rings and points a facet: twice what satellites take; as if there were some facets more, for
+   scenes of few that cut each other up. */
 #define ORDINARY_RINGS  6u
 #define ORDINARY_POINTS 24u
+#define ORDINARY_MORE   64u
 
 /* Rings so far. What stands beyond the room, if only for a while, is counted and not written. */
 typedef struct ring_list {
@@ -130,6 +132,7 @@ size_t lrcs_polygon_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_contest_need(prepared));
     need = lrcsi_work_add(need, lrcsi_occlude_need(prepared));
+    facets += ORDINARY_MORE;
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, ORDINARY_RINGS * sizeof(lrcs_ring)));
     return lrcsi_work_add(need,
                           lrcsi_work_bytes(facets, ORDINARY_POINTS * sizeof(lrcs_ring_point)));

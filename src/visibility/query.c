@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A line of sight through a facet, against the facets listed in its grid cell. */
+/* A line of sight through a facet, against the facets listed in its grid cell. Which of two facets
+   is nearer is decided elsewhere (visibility/sample.h), but where all of one is. */
 #include "visibility/query.h"
 
 #include <math.h>
@@ -51,6 +52,22 @@ static void view_of(const lrcsi_view *view, const double *point, double xy[2])
     }
 }
 
+/* How near and how far a facet reaches: z, widened by more than the view's error. */
+typedef struct query_depth {
+    double far, near;
+} query_depth;
+
+static query_depth depth_of(const lrcsi_view *view, uint32_t facet)
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    double a = view->point[corner[0]].x[2];
+    double b = view->point[corner[1]].x[2];
+    double c = view->point[corner[2]].x[2];
+    double off = 2 * view->off;
+    return (query_depth){lrcsi_least(a, lrcsi_least(b, c)) - off,
+                         lrcsi_most(a, lrcsi_most(b, c)) + off};
+}
+
 static int box_misses(const lrcsi_view *view, uint32_t facet, const double xy[2])
 {
     double low[2];
@@ -65,6 +82,7 @@ static int box_misses(const lrcsi_view *view, uint32_t facet, const double xy[2]
 typedef struct query_line {
     const lrcsi_grid *grid;
     uint32_t facet;
+    query_depth depth; /* of the facet */
     double point[3], xy[2];
     int sense; /* of the infinitesimal by which it counts as moved */
     lrcsi_cells cells;
@@ -74,6 +92,7 @@ typedef struct query_line {
 /* Stands the line in its grid cells; its point is known. */
 static void line_place(query_line *line)
 {
+    line->depth = depth_of(line->grid->view, line->facet);
     view_of(line->grid->view, line->point, line->xy);
     line->cells = lrcsi_grid_cells(line->grid, line->xy, line->xy);
     line->y = line->cells.y0;
@@ -91,7 +110,8 @@ static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet
     return 1;
 }
 
-/* The next other facet that the line meets, or LRCS_NONE; some come more than once. */
+/* The next other facet that the line meets, not all of it behind the line's own, or LRCS_NONE; some
+   come more than once. */
 static uint32_t line_next(query_line *line)
 {
     const lrcsi_grid *grid = line->grid;
@@ -106,10 +126,20 @@ static uint32_t line_next(query_line *line)
         }
         uint32_t other = grid->item[line->item++];
         if (other != line->facet && !box_misses(grid->view, other, line->xy) &&
+            depth_of(grid->view, other).near >= line->depth.far &&
             lrcsi_sample_covers_towards(grid->view, other, line->point, line->sense)) {
             return other;
         }
     }
+}
+
+/* Is a facet that the line meets nearer than the line's own? 1 yes, -1 no, 0 undecided. */
+static int line_nearer(const query_line *line, uint32_t other)
+{
+    const lrcsi_view *view = line->grid->view;
+    return depth_of(view, other).far > line->depth.near
+               ? 1
+               : lrcsi_sample_nearer(view, other, line->facet, line->point, line->sense);
 }
 
 /* Is the facet hidden on its line? */
@@ -118,8 +148,7 @@ static int line_answer(query_line *line)
     int answer = LRCSI_QUERY_VISIBLE;
     uint32_t other;
     while ((other = line_next(line)) != LRCS_NONE) {
-        int nearer =
-            lrcsi_sample_nearer(line->grid->view, other, line->facet, line->point, line->sense);
+        int nearer = line_nearer(line, other);
         if (nearer > 0) {
             return LRCSI_QUERY_HIDDEN;
         }
@@ -201,10 +230,10 @@ static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other)
 }
 
 /* Does none of the sheet's edges cross the facet, and none of its facets touch its inside? */
-static int sheet_unbroken(const lrcsi_contest *contest, uint32_t sheet, uint32_t facet,
-                          uint32_t crossings)
+static int sheet_unbroken(lrcsi_contest *contest, uint32_t sheet, uint32_t facet)
 {
     const lrcs_prepared *p = contest->view->prepared;
+    uint32_t crossings = lrcsi_contest_crossings(contest, facet);
     for (uint32_t i = 0; i < crossings; i++) {
         const lrcsi_edge *edge = &p->topology.edge[contest->crossing[i]];
         for (uint32_t k = 0; k < edge->uses; k++) {
@@ -227,19 +256,15 @@ int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint3
     if (!line_start(&line, facets, facet)) {
         return 0;
     }
-    uint32_t crossings = LRCS_NONE; /* not asked for yet */
-    uint32_t broken = LRCS_NONE;    /* the sheet last found so */
+    uint32_t broken = LRCS_NONE; /* the sheet last found so */
     uint32_t other;
     while ((other = line_next(&line)) != LRCS_NONE) {
         if (contest->sheet[other] == broken ||
             touched_by(facets->view->prepared, other, facet) || /* order perhaps a guess */
-            lrcsi_sample_nearer(facets->view, other, facet, line.point, line.sense) <= 0) {
+            line_nearer(&line, other) <= 0) {
             continue;
         }
-        if (crossings == LRCS_NONE) {
-            crossings = lrcsi_contest_crossings(contest, facet);
-        }
-        if (sheet_unbroken(contest, contest->sheet[other], facet, crossings)) {
+        if (sheet_unbroken(contest, contest->sheet[other], facet)) {
             return 1;
         }
         broken = contest->sheet[other];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* One exact sample on a facet that the raster missed: is the facet hidden there? */
+/* One exact sample on a facet: is the facet hidden there? */
 #ifndef LRCSI_QUERY_H
 #define LRCSI_QUERY_H
 
@@ -22,7 +22,8 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
 int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_grid *facets,
                         unsigned char *answer);
 
-/* 1 where a contested facet is proved to be hidden, all of it behind one sheet; else 0. */
+/* 1 where a contested facet is proved to be hidden, all of it behind one sheet; else 0. It may ask
+   contest for the facet's crossings, which are then at hand (visibility/contest.h). */
 int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint32_t facet);
 
 #endif

@@ -245,7 +245,7 @@ void lrcsi_raster_want(lrcsi_raster *raster, uint32_t facet)
     lrcsi_edges e = lrcsi_raster_edges(raster, facet);
     uint32_t last = raster->size - 1;
     for (uint32_t y = e.bottom; y < e.top; y++) {
-        lrcsi_pixels row = lrcsi_span_row(&e, y).touched;
+        lrcsi_pixels row = lrcsi_span_touched(&e, y);
         if (row.x0 < row.x1) {
             uint32_t x0 = row.x0 > 2 ? row.x0 - 2 : 0;
             uint32_t x1 = row.x1 + 2 < raster->size ? row.x1 + 2 : raster->size;

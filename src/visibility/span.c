@@ -110,3 +110,20 @@ lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
     row.whole = inner_span(&ends, WHOLE, row.sure);
     return row;
 }
+
+lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *edges, uint32_t y)
+{
+    span_ends ends = {.from = {edges->left}, .to = {edges->right}};
+    for (int k = 0; k < 3; k++) {
+        double row = edges->at[k] + edges->up[k] * (y + 0.5);
+        double zero = -row * edges->over[k];
+        if (edges->over[k] > 0) {
+            ends.from[TOUCHED] = lrcsi_most(ends.from[TOUCHED], zero - edges->far[k]);
+        } else if (edges->over[k] < 0) {
+            ends.to[TOUCHED] = lrcsi_least(ends.to[TOUCHED], zero + edges->far[k]);
+        } else {
+            ends_judge(&ends, edges, k, row);
+        }
+    }
+    return outer_span(&ends, TOUCHED, edges->left, edges->right);
+}

@@ -93,32 +93,25 @@ static void mark_edge(pixel_marks *m, uint32_t edge)
     mark_segment(m, a, b);
 }
 
-/* Marks the pixels of a row, both facets' own, where a height is not surely above or below 0, it
-   being row + along (x + 1/2) to within slack. Division finds whom to ask, as safely as two pixels
-   to either side and 8 roundings are; where it gives no number, all are asked. */
-static void mark_level(pixel_marks *m, uint32_t y, lrcsi_pixels other, double row, double along,
-                       double slack)
+/* Where a height may be 0 in a row, it being row + along (x + 1/2) to within slack: among pixels
+   *x0 .. *x1 - 1. As safely as two pixels to either side and 8 roundings are; where division gives
+   no number, anywhere. */
+static void level_narrow(double row, double along, double slack, double *x0, double *x1)
 {
-    double x0 = lrcsi_most(m->row[y].touched.x0, other.x0);
-    double x1 = lrcsi_least(m->row[y].touched.x1, other.x1);
     double middle = -row / along;
     double half = slack / fabs(along);
     double spare = 2 + 8 * U * (fabs(middle) + half);
-    if (middle - half - spare > x0) {
-        x0 = floor(middle - half - spare);
+    if (middle - half - spare > *x0) {
+        *x0 = floor(middle - half - spare);
     }
-    if (middle + half + spare < x1) {
-        x1 = ceil(middle + half + spare);
-    }
-    for (double x = x0; x < x1; x++) {
-        if (!(fabs(row + along * (x + 0.5)) > slack)) {
-            m->mixed[marks_at(m, (uint32_t)x, y)] = 1;
-        }
+    if (middle + half + spare < *x1) {
+        *x1 = ceil(middle + half + spare);
     }
 }
 
 /* Marks the pixels of both facets where their planes may meet: where the difference of heights is
-   not surely of one sign over the whole pixel. */
+   not surely of one sign over the whole pixel. Each row is asked where that may be in it before the
+   other facet is asked what it touches there: so the line is walked along on which they meet. */
 static void mark_meeting(pixel_marks *m, uint32_t facet, uint32_t other)
 {
     const lrcsi_raster *r = m->raster;
@@ -131,7 +124,20 @@ static void mark_meeting(pixel_marks *m, uint32_t facet, uint32_t other)
                    0.51 * (fabs(along) + fabs(up));
     uint32_t bottom = e.bottom > m->edges.bottom ? e.bottom : m->edges.bottom;
     for (uint32_t y = bottom; y < m->edges.top && y < e.top; y++) {
-        mark_level(m, y, lrcsi_span_row(&e, y).touched, p.at - q.at + up * (y + 0.5), along, slack);
+        double row = p.at - q.at + up * (y + 0.5);
+        double x0 = m->row[y].touched.x0;
+        double x1 = m->row[y].touched.x1;
+        level_narrow(row, along, slack, &x0, &x1);
+        if (!(x0 < x1)) {
+            continue;
+        }
+        lrcsi_pixels touched = lrcsi_span_touched(&e, y);
+        x1 = lrcsi_least(x1, touched.x1);
+        for (double x = lrcsi_most(x0, touched.x0); x < x1; x++) {
+            if (!(fabs(row + along * (x + 0.5)) > slack)) {
+                m->mixed[marks_at(m, (uint32_t)x, y)] = 1;
+            }
+        }
     }
 }
 
@@ -253,7 +259,7 @@ static uint32_t known_crossings(const lrcsi_known *known, uint32_t facet)
     }
     uint32_t first = known->first[facet];
     uint32_t count = known->first[facet + 1] - first;
-    memcpy(known->contest->crossing, known->crossing + first, count * sizeof *known->crossing);
+    lrcsi_contest_recall(known->contest, facet, known->crossing + first, count);
     return count;
 }
 
@@ -316,19 +322,29 @@ size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
 }
 
-static void known_list(lrcsi_known *k)
+/* Lists what crosses the next facet, which is contested or not, unless there is no room. */
+static void known_list(lrcsi_known *k, uint32_t facet, uint32_t crossings)
 {
-    const lrcs_prepared *p = k->contest->view->prepared;
-    size_t room = known_room(p);
-    uint32_t used = 0;
-    for (k->first[0] = 0; k->listed < p->scene->facet_count; k->first[++k->listed] = used) {
-        if (k->contest->contested[k->listed] && k->answer[k->listed] == LRCSI_QUERY_UNDECIDED) {
-            uint32_t count = lrcsi_contest_crossings(k->contest, k->listed);
-            if (count > room - used) {
-                return;
-            }
-            memcpy(k->crossing + used, k->contest->crossing, count * sizeof *k->crossing);
-            used += count;
+    uint32_t used = k->first[facet];
+    if (crossings <= known_room(k->contest->view->prepared) - used) {
+        memcpy(k->crossing + used, k->contest->crossing, crossings * sizeof *k->crossing);
+        k->first[facet + 1] = used + crossings;
+        k->listed++;
+    }
+}
+
+/* Asks about contested facets. The search that serves the answer serves the list too. */
+static void known_contested(lrcsi_known *k)
+{
+    k->first[0] = 0;
+    for (uint32_t f = 0; f < k->contest->view->prepared->scene->facet_count; f++) {
+        uint32_t crossings = 0;
+        if (k->contest->contested[f] && !lrcsi_query_screened(k->contest, &k->facets, f)) {
+            k->answer[f] = LRCSI_QUERY_UNDECIDED;
+            crossings = k->listed == f ? lrcsi_contest_crossings(k->contest, f) : 0;
+        }
+        if (k->listed == f) {
+            known_list(k, f, crossings);
         }
     }
 }
@@ -349,12 +365,7 @@ int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *kn
         work->used = mark;
         return status;
     }
-    for (uint32_t f = 0; f < count; f++) {
-        if (contest->contested[f] && !lrcsi_query_screened(contest, &k.facets, f)) {
-            k.answer[f] = LRCSI_QUERY_UNDECIDED;
-        }
-    }
-    known_list(&k);
+    known_contested(&k);
     *known = k;
     return LRCS_OK;
 }

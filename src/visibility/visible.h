@@ -37,14 +37,14 @@ typedef struct lrcsi_known {
     uint32_t *first, *crossing;
 } lrcsi_known;
 
-/* Bytes for that: an upper bound for ordinary scenes. */
+/* Bytes for that, at most. */
 size_t lrcsi_visible_known_need(const lrcs_prepared *prepared);
 
 /* Asks of uniform facets whether they are visible, of contested ones whether they are hidden.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. What is known stays in the work area. */
 int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *known);
 
-/* Bytes for lrcsi_visible_sampled. */
+/* Bytes for lrcsi_visible_sampled, at most. */
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size);
 
 /* The hybrid of exact decisions and samples: uniform facets have their exact projected area or show

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* How the benchmarks measure: times of the processor, which on one thread are those of the wall
-   where nobody else wants it, their quantiles, and what reading a mesh or writing a frame costs when
-   nothing else is done. It does not decide what is measured. */
+   where nobody else wants it, their quantiles, and what reading a mesh or writing a frame costs
+   when nothing else is done. It does not decide what is measured. */
 #include "bench/measure.h"
 
 #include <math.h>

@@ -75,6 +75,9 @@ same several_joints_by_name "$(rows 3-5 base.toml --joint "$wings:30" --azel 40,
 same one_joint_of_two_is_another_scene "$(rows 3-5 base.toml --joint 'wing: left:30' --azel 40,30 | grep -c "$(answer 30 0.2 0.3)")" 0
 same a_material_changes "$(rows 3-5 base.toml --vary gold.s:0.1:0.3:0.1 --azel 40,30)" "$(answer 10 0.1 0.3; answer 10 0.2 0.3; answer 10 0.3 0.3)"
 same a_shape_changes "$(rows 3-5 base.toml --vary tank.radius:0.3:0.5:0.1 --azel 40,30)" "$(answer 10 0.2 0.3; answer 10 0.2 0.4; answer 10 0.2 0.5)"
+sed 's/^length = 1$/length = 1.5/' base.toml >longer.toml
+run run longer.toml --tolerance 1e-3 --azel 40,30 --json
+same a_length_changes "$(rows 3 base.toml --vary tank.length:1:1.5:0.5 --azel 40,30 | tail -1)" "$(value sigma_m2)"
 same scenes_come_before_poses "$(rows 4-5 base.toml --el 30 --az 40 --vary gold.s:0.1 --joint '*:50' | cut -d, -f1) $(rows 1-5 base.toml --az 40:41:1 --el 30 --joint '*:10:30:20' | cut -d, -f1-4 | tr '\n' ' ')" "30 0,10,40,30 1,10,41,30 2,30,40,30 3,30,41,30 "
 same two_of_them_make_a_map "$(rows 4-6 base.toml --vary gold.s:0.1:0.2:0.1 --joint '*:10:50:40' --azel 40,30)" "$(answer 10 0.1 0.3; answer 50 0.1 0.3; answer 10 0.2 0.3; answer 50 0.2 0.3)"
 same two_parameters_of_one_material "$(rows 4-6 base.toml --vary gold.s:0.1 --vary gold.A:1 --azel 40,30)" "$(answer 10 0.1 0.3)"

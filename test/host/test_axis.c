@@ -96,6 +96,24 @@ static void equal_steps_are_1_2_or_5(void **state)
     assert_string_equal(names(&axis), "10e8 15e8 20e8 25e8 30e8");
 }
 
+static void angles_are_parts_of_a_turn(void **state)
+{
+    (void)state;
+    lrcsi_axis axis = lrcsi_axis_make(LRCSI_AXIS_DEG, 0.0, 360.0, 8.0);
+    assert_string_equal(names(&axis), "0 45 90 135 180 225 270 315 360");
+    axis = lrcsi_axis_make(LRCSI_AXIS_DEG, -90.0, 90.0, 7.0);
+    assert_string_equal(names(&axis), "-90 -60 -30 0 30 60 90");
+    axis = lrcsi_axis_make(LRCSI_AXIS_DEG, 0.0, 350.0, 5.0);
+    assert_string_equal(names(&axis), "0 90 180 270 360");
+    check_same(axis.most, 360.0);
+    axis = lrcsi_axis_make(LRCSI_AXIS_DEG, 1.0, 2.0, 5.0); /* few: as any number */
+    assert_string_equal(names(&axis), "1.0 1.2 1.4 1.6 1.8 2.0");
+    axis = lrcsi_axis_make(LRCSI_AXIS_DEG, -1e15, 1e15, 4.0);
+    check_most(axis.least, -1e15);
+    axis = lrcsi_axis_make(LRCSI_AXIS_DEG, HUGE_VAL, -HUGE_VAL, 5.0);
+    assert_true(axis.count > 1);
+}
+
 static void ends_cover_the_data_and_ticks_ascend(void **state)
 {
     (void)state;
@@ -143,6 +161,7 @@ int main(void)
         cmocka_unit_test(few_decades_are_named_at_1_2_and_5),
         cmocka_unit_test(decades_between_have_eight_minor_ticks),
         cmocka_unit_test(equal_steps_are_1_2_or_5),
+        cmocka_unit_test(angles_are_parts_of_a_turn),
         cmocka_unit_test(ends_cover_the_data_and_ticks_ascend),
         cmocka_unit_test(nothing_to_show_still_makes_an_axis),
         cmocka_unit_test(places_are_proportional),

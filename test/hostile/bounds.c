@@ -220,8 +220,12 @@ static void run_case(hostile_case *c, unsigned number, void *memory, size_t byte
                                         .resolution = ways[w].size,
                                         .with = ways[w].with};
             lrcs_result r;
-            int status = lrcs_sigma_run(prepared, &pose, &options, &work, &r, records, NULL);
-            if (status != LRCS_OK) {
+            lrcs_work room = work; /* no more bytes than the library asks for, and they serve */
+            room.size = work.used + lrcs_sigma_need(prepared, &options);
+            int status = room.size > bytes
+                             ? LRCS_E_MEMORY
+                             : lrcs_sigma_run(prepared, &pose, &options, &room, &r, records, NULL);
+            if (status != LRCS_OK || (r.flags & LRCS_FLAG_MEMORY_FALLBACK)) {
                 printf("REFUSED %s %s, %s: %d\n", c->kind, c->name, ways[w].name, status);
                 ways[w].refused++;
                 continue;

@@ -79,7 +79,7 @@ static void picture_too_large_for_the_work_area_is_refused(void **state)
 {
     (void)state;
     uint32_t pixel = 7;
-    lrcs_image image = {100000, &pixel};
+    lrcs_image image = {.size = 100000, .facet = &pixel};
     unit_cube();
     lrcs_run_options options = lrcs_run_options_default();
     fails_and_touches_nothing(&options, &image, LRCS_E_MEMORY);
@@ -136,11 +136,12 @@ static void picture_shows_what_is_where(void **state)
     (void)state;
     enum { N = 8 };
     uint32_t pixel[N * N];
-    lrcs_image image = {N, pixel};
+    lrcs_image image = {.size = N, .facet = pixel};
     lrcs_pose pose = lrcs_pose_default();
     lrcs_run_options options = lrcs_run_options_default();
     lrcs_result r;
     unit_cube();
+    scene_move(&scene, 2.0, (const double[3]){3, -4, 5});
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, &image), LRCS_OK);
     assert_int_equal(r.method, LRCS_METHOD_FACET); /* convex: the picture changes nothing */
@@ -155,6 +156,9 @@ static void picture_shows_what_is_where(void **state)
             }
         }
     }
+    check_abs(image.left_m, 3.0, 1e-15);
+    check_abs(image.top_m, -2.0, 1e-15);
+    check_abs(image.side_m, 2.0, 1e-15);
 }
 
 static void every_code_has_its_text(void **state)

@@ -45,6 +45,7 @@ static void unbuild(built *b)
     free(b->scratch);
 }
 
+/* In no more bytes than the library asks for. */
 static lrcs_result look(const built *b, const double d[3], int method)
 {
     lrcs_pose pose;
@@ -52,10 +53,13 @@ static lrcs_result look(const built *b, const double d[3], int method)
     lrcs_run_options options = lrcs_run_options_default();
     options.method = method;
     options.resolution = method == LRCS_METHOD_ZBUFFER ? 100 : 0;
-    lrcs_work work = lrcs_work_make(run_memory, sizeof run_memory);
+    size_t need = lrcs_sigma_need(b->prepared, &options);
+    assert_true(need <= sizeof run_memory);
+    lrcs_work work = lrcs_work_make(run_memory, need);
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
     assert_int_equal(lrcs_sigma_run(b->prepared, &pose, &options, &work, &result, NULL, NULL),
                      LRCS_OK);
+    assert_false(result.flags & LRCS_FLAG_MEMORY_FALLBACK);
     return result;
 }
 

@@ -246,6 +246,58 @@ static void ordinary_scenes_fit_into_what_is_asked_for(void **state)
     }
 }
 
+/* All methods, from a direction, in the bytes that the library asks for. */
+static void check_need(const double from[3])
+{
+    static unsigned char memory[24u << 20];
+    lrcs_work work = lrcs_work_make(memory, sizeof memory);
+    const lrcs_prepared *prepared = NULL;
+    lrcs_pose pose;
+    assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
+    assert_int_equal(lrcs_pose_from_direction(from, &pose), LRCS_OK);
+    for (int i = 0; i < 4; i++) {
+        lrcs_run_options options = {.tolerance = 1e-4, .method = methods[i], .resolution = 16};
+        lrcs_work after = work;
+        lrcs_result r;
+        after.size = work.used + lrcs_sigma_need(prepared, &options);
+        assert_true(after.size <= sizeof memory);
+        after.peak = 0;
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &after, &r, NULL, NULL),
+                         LRCS_OK);
+        assert_false(r.flags & LRCS_FLAG_MEMORY_FALLBACK);
+        assert_true(after.peak <= after.size);
+    }
+}
+
+/* Symptom: sheets that lie over each other, and large facets, took more bytes than were asked for,
+   and the raster that exact then fell back to took more still. */
+static void deep_scenes_fit_into_what_is_asked_for(void **state)
+{
+    (void)state;
+    const double from[3] = {0.0625, 0.125, 1};
+    for (uint32_t sheets = 1; sheets <= 64; sheets *= 4) {
+        scene_start(&scene);
+        for (uint32_t i = 0; i < 16 * sheets; i++) {
+            double z = 0x1p-6 * (i / 16);
+            scene_plate(&scene, (const double[3]){i % 4 + z, i / 4 % 4 + 0.5 * z, z},
+                        (const double[3]){1, 0, 0}, (const double[3]){0, 1, 0});
+        }
+        check_need(from);
+    }
+    uint64_t seed = 8;
+    for (uint32_t count = 8; count <= 128; count *= 2) { /* through one another */
+        scene_start(&scene);
+        for (uint32_t i = 0; i < count; i++) {
+            double corner[3][3];
+            for (int k = 0; k < 9; k++) {
+                corner[k / 3][k % 3] = scene_random(&seed, 4096) / 4096.0;
+            }
+            scene_triangle(&scene, corner[0], corner[1], corner[2]);
+        }
+        check_need(from);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +307,7 @@ int main(void)
         cmocka_unit_test(less_memory_means_a_coarser_raster_and_a_wider_bound),
         cmocka_unit_test(exact_with_too_little_memory_says_so_and_its_bound_holds),
         cmocka_unit_test(ordinary_scenes_fit_into_what_is_asked_for),
+        cmocka_unit_test(deep_scenes_fit_into_what_is_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

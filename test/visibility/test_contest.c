@@ -66,6 +66,31 @@ static void rims_in_front_contest_what_they_cross(void **state)
     assert_int_equal(lrcsi_query_facet(&facets, 3), LRCSI_QUERY_HIDDEN);
 }
 
+/* What was found of a facet is at hand until another is asked about; what was kept of it comes back
+   without a search. */
+static void crossings_are_searched_for_once(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    square(0, 0, 0, 4);
+    square(2.5, 0.5, 1, 1);
+    look_from(0, 0, 1);
+    uint32_t kept[4];
+    uint32_t before = contest.asked;
+    assert_int_equal(lrcsi_contest_crossings(&contest, 0), 4);
+    assert_int_equal(lrcsi_contest_crossings(&contest, 0), 4);
+    assert_int_equal(contest.asked, before + 1);
+    memcpy(kept, contest.crossing, sizeof kept);
+    assert_int_equal(lrcsi_contest_crossings(&contest, 1), 0);
+    assert_int_equal(contest.asked, before + 2);
+    lrcsi_contest_recall(&contest, 0, kept, 4);
+    assert_int_equal(lrcsi_contest_crossings(&contest, 0), 4);
+    assert_memory_equal(contest.crossing, kept, sizeof kept);
+    assert_int_equal(contest.asked, before + 2);
+    assert_int_equal(lrcsi_contest_crossings(&contest, 1), 0);
+    assert_int_equal(contest.asked, before + 3);
+}
+
 /* A rim that projects exactly onto another plate's rim, or only touches it, crosses nothing. */
 /* A slope over which a level edge passes underneath, lower than all of it; but far to the left,
    where the slope is no more, the edge is above the slope's plane. */
@@ -341,6 +366,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(body_alone_is_uncontested),
         cmocka_unit_test(rims_in_front_contest_what_they_cross),
+        cmocka_unit_test(crossings_are_searched_for_once),
         cmocka_unit_test(rims_behind_all_of_a_facet_do_not_contest_it),
         cmocka_unit_test(rims_along_rims_contest_nothing),
         cmocka_unit_test(piercing_and_overlapping_facets_contest_each_other),

@@ -75,6 +75,9 @@ static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
     e.left = (uint32_t)(x0 > 0 ? x0 - 1 : 0);
     e.right = (uint32_t)(x1 < N ? x1 + 1 : N);
     lrcsi_row row = lrcsi_span_row(&e, (uint32_t)y);
+    lrcsi_pixels touched = lrcsi_span_touched(&e, (uint32_t)y);
+    assert_int_equal(touched.x0, row.touched.x0);
+    assert_int_equal(touched.x1, row.touched.x1);
     for (uint32_t x = 0; x < N; x++) {
         int among = x >= e.x0 && x < e.x1;
         int about = x >= e.left && x < e.right;

@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs image: what the laser sees from a pose, as a picture, as vector graphics, as a surface for
+   other programs. It decides what is drawn and where it goes; the host draws. */
+#include "cli/cli.h"
+
+#include <lrcs/picture.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char image_help[] =
+    "usage: lrcs image SCENE [pose] -o FILE.png [options]\n"
+    "\n"
+    "Draws what the laser sees of SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
+    "\n" CLI_POSE_HELP "\n"
+    "output: one of these at least\n"
+    "  -o FILE.png           a picture\n"
+    "  --visible FILE.svg    the exact visible polygons as vector graphics: for facet 12 a path "
+    "f12 "
+    "whose\n"
+    "                        coordinates are metres of the observation frame, x right, y up\n"
+    "  --vtk FILE            all facets in the body frame (m) for ParaView and VTK: FILE.vtp (XML, "
+    "text)\n"
+    "                        or FILE.vtk (legacy, binary), with cos_theta, area_m2, "
+    "visible_area_m2\n"
+    "                        (projected), visible_fraction, sigma_m2, material and part of each\n"
+    "\n"
+    "options\n"
+    "  --by LOOK             what colours stand for:\n"
+    "                          sigma     sigma per projected area, dB (default)\n"
+    "                          theta     incidence angle, deg\n"
+    "                          range     towards the laser from the centre of the scene's box, m\n"
+    "                          facet     each facet has a colour of its own\n"
+    "                          material  the model's colours where it has any\n"
+    "                          shaded    the same, matt and lit from where the laser is\n"
+    "                        grey: returns nothing, for want of a material or of a front\n"
+    "  --size N              side of the picture in pixels, 16 .. 4096 (512)\n"
+    "  --ground WHAT         dark (default of -o) or white (default of "
+    "--visible)\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
+    "examples\n"
+    "  lrcs image demo -o demo.png\n"
+    "  lrcs image demo --azel 50,40 --by theta --size 1024 -o demo.png\n"
+    "  lrcs image demo --azel 50,40 --visible demo.svg --vtk demo.vtp\n"
+    "  lrcs image aura.3ds --azel 30,20 --by material --ground white -o aura.png\n";
+
+static const cli_option image_options[] = {
+    CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"o", 1, 0},
+    {"visible", 1, 0}, {"vtk", 1, 0},        {"by", 1, 0},      {"size", 1, 0},
+    {"ground", 1, 0},  {"help", 0, 0},       {NULL, 0, 0}};
+
+enum image_file { IMAGE_PNG, IMAGE_SVG, IMAGE_VTK, IMAGE_FILES };
+
+typedef struct image_job {
+    const cli_args *args;
+    lrcs_pose pose;
+    lrcs_run_options options;
+    lrcs_host_options load;
+    cli_output file[IMAGE_FILES];
+    int look, white, ground_asked;
+    uint32_t size;
+    lrcs_host_scene scene;
+    lrcs_result result;
+    lrcs_facet_record *records;
+    lrcs_image image;
+    lrcs_host_polygons polygons;
+} image_job;
+
+/* ---- options ---- */
+
+/* One of the endings, of which the second may be NULL. */
+static int ending_check(const image_job *job, int file, const char *ending, const char *other)
+{
+    const char *path = job->file[file].path;
+    const char *option = job->file[file].option;
+    if (!path || cli_extension(path, ending) || (other && cli_extension(path, other))) {
+        return 0;
+    }
+    return cli_usage(job->args->command, "%s%s: expected FILE%s%s%s, found '%s'",
+                     cli_dashes(option), option, ending, other ? " or FILE" : "",
+                     other ? other : "", path);
+}
+
+static int files_read(image_job *job)
+{
+    static const char *const option[IMAGE_FILES] = {"o", "visible", "vtk"};
+    const cli_command *command = job->args->command;
+    int given = 0;
+    for (int i = 0; i < IMAGE_FILES; i++) {
+        job->file[i] = (cli_output){option[i], cli_value(job->args, option[i])};
+        given += job->file[i].path != NULL;
+    }
+    if (given == 0) {
+        return cli_usage(command, "give -o FILE.png, --visible FILE.svg or --vtk FILE.vtp");
+    }
+    int code = ending_check(job, IMAGE_PNG, ".png", NULL);
+    code = code ? code : ending_check(job, IMAGE_SVG, ".svg", NULL);
+    code = code ? code : ending_check(job, IMAGE_VTK, ".vtp", ".vtk");
+    return code ? code : cli_outputs_apart(command, job->file, IMAGE_FILES);
+}
+
+static int look_read(image_job *job)
+{
+    const cli_command *command = job->args->command;
+    const char *by = cli_value(job->args, "by");
+    const char *ground = cli_value(job->args, "ground");
+    job->look = by ? lrcs_host_look_find(by) : LRCS_HOST_BY_SIGMA;
+    if (job->look < 0) {
+        return cli_usage(
+            command, "--by: expected sigma, theta, range, facet, material or shaded, found '%s'",
+            by);
+    }
+    job->ground_asked = ground != NULL;
+    job->white = ground && strcmp(ground, "white") == 0;
+    if (ground && !job->white && strcmp(ground, "dark") != 0) {
+        return cli_usage(command, "--ground: expected dark or white, found '%s'", ground);
+    }
+    if (cli_value(job->args, "size") && !job->file[IMAGE_PNG].path) {
+        return cli_usage(command, "--size needs -o FILE.png");
+    }
+    job->size = CLI_PICTURE_DEFAULT;
+    return cli_whole(job->args, "size", CLI_PICTURE_LEAST, CLI_PICTURE_MOST, &job->size);
+}
+
+static int image_read(image_job *job)
+{
+    const cli_args *args = job->args;
+    int code = cli_pose_read(args, &job->pose);
+    code = code ? code : files_read(job);
+    code = code ? code : look_read(job);
+    code = code ? code : cli_accuracy_read(args, &job->options);
+    code = code ? code : cli_scene_options_read(args, &job->load);
+    job->load.build.tolerance = job->options.tolerance;
+    return code ? code : cli_normals_read(args, &job->load);
+}
+
+/* ---- the run ---- */
+
+static lrcs_host_picture picture_of(const image_job *job)
+{
+    return (lrcs_host_picture){.scene = &job->scene.scene,
+                               .pose = &job->pose,
+                               .records = job->records,
+                               .title = job->args->operand,
+                               .look = job->look,
+                               .white = job->white};
+}
+
+static int image_room(image_job *job)
+{
+    const lrcs_host_picture picture = picture_of(job);
+    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
+    if (job->file[IMAGE_PNG].path) {
+        job->image.size = lrcs_host_picture_need(&picture, job->size);
+        job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
+    }
+    if (!job->records || (job->file[IMAGE_PNG].path && !job->image.facet)) {
+        fprintf(stderr, "lrcs: out of memory\n");
+        return CLI_FAILED;
+    }
+    return 0;
+}
+
+static int image_run(image_job *job)
+{
+    lrcs_host_error error;
+    int code = image_room(job);
+    if (code != 0) {
+        return code;
+    }
+    int status = lrcs_host_scene_prepare(&job->scene, &error);
+    if (status == LRCS_OK) {
+        status =
+            lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
+                                job->image.facet ? &job->image : NULL, NULL, &error);
+    }
+    if (status == LRCS_OK && job->file[IMAGE_SVG].path) {
+        status = lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error);
+    }
+    return status == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+/* ---- the files ---- */
+
+static int png_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const image_job *job = context;
+    const lrcs_host_picture picture = picture_of(job);
+    return lrcs_host_picture_png(out, &picture, &job->image, job->size, error);
+}
+
+/* What is made for print is on white unless asked otherwise. */
+static int svg_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const image_job *job = context;
+    lrcs_host_picture picture = picture_of(job);
+    (void)error;
+    picture.white = job->white || !job->ground_asked;
+    lrcs_host_picture_svg(out, &picture, &job->polygons.list);
+    return LRCS_OK;
+}
+
+static int vtk_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const image_job *job = context;
+    const lrcs_host_picture picture = picture_of(job);
+    (void)error;
+    lrcs_host_vtk_write(out, &picture, cli_extension(job->file[IMAGE_VTK].path, ".vtp"));
+    return LRCS_OK;
+}
+
+static int image_write(const image_job *job)
+{
+    static cli_writer *const writer[IMAGE_FILES] = {png_write, svg_write, vtk_write};
+    int code = 0;
+    for (int i = 0; i < IMAGE_FILES && code == 0; i++) {
+        code = job->file[i].path ? cli_output_write(job->file[i].path, writer[i], job) : 0;
+    }
+    return code;
+}
+
+/* ---- the command ---- */
+
+static int image_command(const cli_args *args)
+{
+    image_job job;
+    memset(&job, 0, sizeof job);
+    job.args = args;
+    int code = image_read(&job);
+    code = code ? code : cli_scene_read(args, &job.load, &job.scene);
+    code = code ? code : cli_outputs_spare(args->command, job.file, IMAGE_FILES, &job.scene);
+    code = code ? code : image_run(&job);
+    code = code ? code : image_write(&job);
+    if (code == 0) {
+        int missed = (job.result.flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0;
+        int judged = cli_tolerance_judged(args, &job.options);
+        int short_of_memory = (job.result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
+        cli_notices_print(stderr, &job.scene.notices);
+        code = (judged && missed) || short_of_memory ? CLI_DEGRADED : CLI_DONE;
+    }
+    free(job.records);
+    free(job.image.facet);
+    lrcs_host_polygons_free(&job.polygons);
+    lrcs_host_scene_free(&job.scene);
+    cli_scene_options_free(&job.load);
+    return code;
+}
+
+const cli_command cli_image_command = {
+    "image",    "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
+    image_help, image_options, image_command};

@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: MIT */
+/* The strip below a picture: a bar of some metres on the left; the colour scale beside it, or names
+   of materials above it. It decides what stands where in that strip, not what colours mean. */
+#include "host/legend.h"
+
+#include "host/letters.h"
+#include "host/palette.h"
+
+#include <math.h>
+
+#define LEGEND_MARGIN 16.0
+#define LEGEND_TYPE   12.0
+#define LEGEND_STRIP  48.0 /* the strip of the bars */
+#define LEGEND_ROW    18.0 /* of names */
+#define LEGEND_SWATCH 12.0
+#define LEGEND_STEPS  128 /* of the colour bar */
+#define LEGEND_BAR    11.0
+#define LEGEND_LENGTH 0.2 /* of the width: what the bar of metres may take */
+
+/* ---- how long a metre is ---- */
+
+/* The longest of 1, 2, 5 x 10^n that is not above `most`; its name with a unit. */
+static double length_choose(double most, char name[32])
+{
+    int decade = (int)floor(log10(most) + 1e-9);
+    double part = most / pow(10.0, decade);
+    int digit = part >= 5.0 ? 5 : part >= 2.0 ? 2 : 1;
+    if (decade < -6 || decade > 6) {
+        snprintf(name, 32, "%de%d m", digit, decade);
+    } else if (decade >= 3) {
+        snprintf(name, 32, "%d%.*s km", digit, decade - 3, "000");
+    } else if (decade >= -1) {
+        snprintf(name, 32, decade < 0 ? "0.%d%.*s m" : "%d%.*s m", digit, decade > 0 ? decade : 0,
+                 "000");
+    } else if (decade >= -3) {
+        snprintf(name, 32, "%d%.*s mm", digit, decade + 3, "000");
+    } else {
+        snprintf(name, 32, "%d%.*s um", digit, decade + 6, "000");
+    }
+    return digit * pow(10.0, decade);
+}
+
+static void legend_stroke(lrcsi_pen *pen, double x0, double y0, double x1, double y1, uint32_t ink)
+{
+    const lrcsi_spot spot[2] = {{x0, y0}, {x1, y1}};
+    const lrcsi_ink line = {ink, 1.2, {0.0, 0.0}};
+    pen->line(pen, spot, 2, &line);
+}
+
+/* The bar of metres with its ends, on a line at y. */
+static void length_draw(lrcsi_pen *pen, double y, double width, double scale, uint32_t ink)
+{
+    char name[32];
+    double most = (LEGEND_LENGTH * width) / scale;
+    if (!(scale > 0.0) || !isfinite(most) || !(most > 0.0)) {
+        return; /* nothing is seen */
+    }
+    double length = scale * length_choose(most, name);
+    double x = LEGEND_MARGIN;
+    legend_stroke(pen, x, y, x + length, y, ink);
+    legend_stroke(pen, x, y - 4.0, x, y + 4.0, ink);
+    legend_stroke(pen, x + length, y - 4.0, x + length, y + 4.0, ink);
+    const lrcsi_words words = {.text = name,
+                               .at = {x + 0.5 * length, y + 17.0},
+                               .size = LEGEND_TYPE,
+                               .anchor = LRCSI_ANCHOR_MIDDLE,
+                               .colour = ink};
+    pen->text(pen, &words);
+}
+
+/* ---- the colour scale ---- */
+
+static void rectangle_draw(lrcsi_pen *pen, double x0, double y0, double x1, double y1,
+                           uint32_t colour)
+{
+    const lrcsi_spot corner[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    pen->area(pen, corner, 4, colour);
+}
+
+static void words_fit(lrcsi_pen *pen, lrcsi_words words, double room)
+{
+    double width = words.size * lrcsi_letters_width(words.text);
+    words.size *= width > room ? room / width : 1.0;
+    pen->text(pen, &words);
+}
+
+/* How many named ticks there are from one number to the next, so that all have room. */
+static uint32_t numbers_step(const lrcsi_axis *scale, double width)
+{
+    double widest = 0.0;
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < scale->count; i++) {
+        widest = fmax(widest, lrcsi_letters_width(scale->tick[i].text));
+        named += scale->tick[i].major != 0;
+    }
+    double apart = width / fmax(named - 1.0, 1.0);
+    return (uint32_t)ceil((LEGEND_TYPE * widest + 6.0) / apart);
+}
+
+/* Numbers under the scale, 0 among them where it is. */
+static void scale_numbers(const lrcsi_look *look, lrcsi_pen *pen, double left, double width,
+                          double y, uint32_t ink)
+{
+    uint32_t step = numbers_step(&look->scale, width);
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < look->scale.count && look->scale.tick[i].value < 0.0; i++) {
+        named += look->scale.tick[i].major != 0;
+    }
+    named = look->scale.most < 0.0 ? 0 : (step - named % step) % step; /* so that 0 counts as one */
+    for (uint32_t i = 0; i < look->scale.count; i++) {
+        const lrcsi_tick *tick = &look->scale.tick[i];
+        double x = left + width * lrcsi_axis_at(&look->scale, tick->value);
+        if (tick->major && named++ % step == 0) {
+            const lrcsi_words words = {.text = tick->text,
+                                       .at = {x, y + 15.0},
+                                       .size = LEGEND_TYPE,
+                                       .anchor = LRCSI_ANCHOR_MIDDLE,
+                                       .colour = ink};
+            legend_stroke(pen, x, y, x, y + 3.0, ink);
+            pen->text(pen, &words);
+        }
+    }
+}
+
+static void scale_draw(const lrcsi_look *look, lrcsi_pen *pen, double top, double width,
+                       uint32_t ink)
+{
+    double left = LEGEND_MARGIN + (LEGEND_LENGTH + 0.06) * width;
+    double bar = width - LEGEND_MARGIN - 8.0 - left;
+    double y = top + 16.0;
+    const lrcsi_words title = {.text = lrcsi_look_name(look),
+                               .at = {left + 0.5 * bar, top + 10.0},
+                               .size = LEGEND_TYPE,
+                               .anchor = LRCSI_ANCHOR_MIDDLE,
+                               .colour = ink};
+    words_fit(pen, title, bar);
+    for (int i = 0; i < LEGEND_STEPS; i++) { /* each to the end: no gaps between them */
+        rectangle_draw(pen, left + bar * i / LEGEND_STEPS, y, left + bar, y + LEGEND_BAR,
+                       lrcsi_palette_even((i + 0.5) / LEGEND_STEPS));
+    }
+    scale_numbers(look, pen, left, bar, y + LEGEND_BAR, ink);
+}
+
+/* ---- materials ---- */
+
+typedef struct legend_grid {
+    uint32_t columns, rows, shown; /* shown: materials, the rest is "more" */
+    double column;
+} legend_grid;
+
+static legend_grid grid_make(const lrcsi_look *look, double width, double most)
+{
+    legend_grid grid = {.columns = 1, .column = width - 2.0 * LEGEND_MARGIN};
+    double widest = look->more ? lrcsi_letters_width("and more") : 0.0;
+    for (uint32_t i = 0; i < look->materials; i++) {
+        widest =
+            fmax(widest, lrcsi_letters_width(lrcsi_look_material_name(look, look->material[i])));
+    }
+    double wanted = LEGEND_TYPE * widest + LEGEND_SWATCH + 18.0;
+    uint32_t room = (uint32_t)fmax((most - LEGEND_STRIP) / LEGEND_ROW, 0.0);
+    uint32_t items = look->materials + (look->more != 0);
+    grid.columns = (uint32_t)fmin(fmax(floor(grid.column / wanted), 1.0), fmax(items, 1.0));
+    grid.column /= grid.columns;
+    grid.rows = (items + grid.columns - 1) / grid.columns;
+    grid.shown = look->materials;
+    if (grid.rows > room) {
+        grid.rows = room;
+        grid.shown = room > 0 ? room * grid.columns - 1 : 0;
+    }
+    return grid;
+}
+
+static void materials_draw(const lrcsi_look *look, lrcsi_pen *pen, const legend_grid *grid,
+                           double top, uint32_t ink)
+{
+    int more = look->more || grid->shown < look->materials;
+    for (uint32_t i = 0; grid->rows > 0 && i < grid->shown + (uint32_t)more; i++) {
+        double x = LEGEND_MARGIN + grid->column * (i % grid->columns);
+        uint32_t row = i / grid->columns;
+        double y = top + LEGEND_ROW * row;
+        lrcsi_words words = {.text = "and more",
+                             .at = {x + LEGEND_SWATCH + 7.0, y + 10.5},
+                             .size = LEGEND_TYPE,
+                             .colour = ink};
+        if (i < grid->shown) {
+            words.text = lrcsi_look_material_name(look, look->material[i]);
+            rectangle_draw(pen, x - 1.0, y - 1.0, x + LEGEND_SWATCH + 1.0, y + LEGEND_SWATCH + 1.0,
+                           ink);
+            rectangle_draw(pen, x, y, x + LEGEND_SWATCH, y + LEGEND_SWATCH,
+                           lrcsi_look_material(look, look->material[i]));
+        }
+        words_fit(pen, words, grid->column - LEGEND_SWATCH - 12.0);
+    }
+}
+
+/* ---- the strip ---- */
+
+double lrcsi_legend_height(const lrcsi_look *look, double width, double most)
+{
+    double rows = 0.0;
+    if (look->materials > 0) {
+        legend_grid grid = grid_make(look, width, most);
+        rows = LEGEND_ROW * grid.rows;
+    }
+    return rows + LEGEND_STRIP;
+}
+
+void lrcsi_legend_draw(const lrcsi_look *look, lrcsi_pen *pen, double top, double width,
+                       double most, double scale, uint32_t ink)
+{
+    if (look->materials > 0) {
+        legend_grid grid = grid_make(look, width, most);
+        materials_draw(look, pen, &grid, top, ink);
+        top += LEGEND_ROW * grid.rows;
+    }
+    if (look->scaled) {
+        scale_draw(look, pen, top, width, ink);
+    }
+    length_draw(pen, top + 16.0 + 0.5 * LEGEND_BAR, width, scale, ink);
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/* Colours, 0xRRGGBB, that eyes of every kind tell apart. */
+#ifndef LRCSI_HOST_PALETTE_H
+#define LRCSI_HOST_PALETTE_H
+
+#include <stdint.h>
+
+/* One of the eight of lrcs_host_colour. */
+uint32_t lrcsi_palette_named(int colour);
+
+/* A perceptually even scale from 0 to 1: straight in RGB from knot to knot. */
+#define LRCSI_PALETTE_KNOTS 9
+uint32_t lrcsi_palette_even(double value);
+
+/* A colour for each number; those of neighbours differ. */
+uint32_t lrcsi_palette_distinct(uint32_t number);
+
+/* The same colour in less light, 0 .. 1. */
+uint32_t lrcsi_palette_shade(uint32_t colour, double light);
+
+#endif

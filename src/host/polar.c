@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT */
+/* A chart about a pole: which rings and spokes there are, and where data stand among them. */
+#include "host/axis.h"
+#include "host/letters.h"
+#include "host/series.h"
+
+#include <math.h>
+
+#define POLAR_DEEP  40.0 /* what lies that far below the largest is at the pole */
+#define POLAR_RINGS 5.0
+#define POLAR_SPOKE 30   /* deg */
+#define POLAR_ROOM  26.0 /* for the spokes' names */
+#define POLAR_RAD   (3.14159265358979323846 / 180.0)
+
+typedef struct polar_plan {
+    const lrcs_host_chart *chart;
+    lrcsi_pen *pen;
+    lrcsi_axis axis;
+    lrcsi_spot pole;
+    double radius;
+} polar_plan;
+
+static lrcsi_spot polar_spot(const polar_plan *plan, double deg, double part)
+{
+    double away = plan->radius * part;
+    return (lrcsi_spot){plan->pole.x + away * cos(deg * POLAR_RAD),
+                        plan->pole.y - away * sin(deg * POLAR_RAD)};
+}
+
+/* The distances that have to be shown: negative ones, which are decibels, not all of them. */
+static void polar_range(const lrcs_host_chart *chart, double range[2])
+{
+    range[0] = HUGE_VAL;
+    range[1] = -HUGE_VAL;
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        for (uint32_t k = 0; k < chart->series[i].count; k++) {
+            double y = chart->series[i].y[k];
+            if (isfinite(y)) {
+                range[0] = fmin(range[0], y);
+                range[1] = fmax(range[1], y);
+            }
+        }
+    }
+    range[0] = chart->y_from_0 ? 0.0 : fmax(range[0], range[1] - POLAR_DEEP);
+}
+
+static void ring_draw(const polar_plan *plan, double part, uint32_t colour, double width)
+{
+    lrcsi_spot spot[181];
+    const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
+    for (int i = 0; i <= 180; i++) {
+        spot[i] = polar_spot(plan, 2.0 * i, part);
+    }
+    plan->pen->line(plan->pen, spot, 181, &ink);
+}
+
+static void spoke_draw(const polar_plan *plan, int deg)
+{
+    char text[16];
+    lrcsi_spot end = polar_spot(plan, deg, 1.0);
+    lrcsi_spot name = polar_spot(plan, deg, 1.0 + 15.0 / plan->radius);
+    snprintf(text, sizeof text, "%d", deg);
+    const lrcsi_words words = {.text = text,
+                               .at = {name.x, name.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
+                               .size = LRCSI_CHART_SMALL,
+                               .anchor = LRCSI_ANCHOR_MIDDLE,
+                               .colour = LRCSI_COLOUR_TEXT};
+    lrcsi_chart_stroke(plan->pen, plan->pole.x, plan->pole.y, end.x, end.y, LRCSI_COLOUR_GRID, 0.9);
+    plan->pen->text(plan->pen, &words);
+}
+
+static void polar_ground(const polar_plan *plan)
+{
+    for (int deg = 0; deg < 360; deg += POLAR_SPOKE) {
+        spoke_draw(plan, deg);
+    }
+    for (uint32_t i = 0; i < plan->axis.count; i++) {
+        const lrcsi_tick *tick = &plan->axis.tick[i];
+        double part = lrcsi_axis_at(&plan->axis, tick->value);
+        if (tick->major && part > 0.0) {
+            int last = i + 1 == plan->axis.count;
+            ring_draw(plan, part, last ? LRCSI_COLOUR_TEXT : LRCSI_COLOUR_GRID, 0.9);
+        }
+    }
+}
+
+/* A line as long as its points can be shown; what lies below the pole stands on it. */
+static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
+{
+    const lrcsi_ink ink = lrcsi_series_ink(series);
+    lrcsi_spot run[256];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < series->count; i++) {
+        int shown = isfinite(series->x[i]) && isfinite(series->y[i]);
+        if (shown) {
+            double part = fmax(lrcsi_axis_at(&plan->axis, series->y[i]), 0.0);
+            run[count++] = polar_spot(plan, series->x[i], part);
+        }
+        if (shown && count < sizeof run / sizeof run[0] && i + 1 < series->count) {
+            continue;
+        }
+        if (count > 1) {
+            plan->pen->line(plan->pen, run, count, &ink);
+        }
+        if (shown) { /* the line goes on from here */
+            run[0] = run[count - 1];
+        }
+        count = shown ? 1 : 0;
+    }
+}
+
+/* Numbers of the rings on a ray between two spokes, on paper where they cross lines. */
+static void polar_numbers(const polar_plan *plan)
+{
+    for (uint32_t i = 0; i < plan->axis.count; i++) {
+        const lrcsi_tick *tick = &plan->axis.tick[i];
+        double part = lrcsi_axis_at(&plan->axis, tick->value);
+        if (!tick->major || !(part > 0.0)) {
+            continue;
+        }
+        double size = LRCSI_CHART_SMALL - 1.0;
+        double half = 0.5 * size * lrcsi_letters_width(tick->text) + 2.0;
+        lrcsi_spot at = polar_spot(plan, 75.0, part);
+        const lrcsi_spot box[4] = {{at.x - half, at.y - 7.0},
+                                   {at.x + half, at.y - 7.0},
+                                   {at.x + half, at.y + 7.0},
+                                   {at.x - half, at.y + 7.0}};
+        const lrcsi_words words = {.text = tick->text,
+                                   .at = {at.x, at.y + LRCSI_CHART_DROP * size},
+                                   .size = size,
+                                   .anchor = LRCSI_ANCHOR_MIDDLE,
+                                   .colour = LRCSI_COLOUR_TEXT};
+        plan->pen->area(plan->pen, box, 4, LRCSI_COLOUR_PAPER);
+        plan->pen->text(plan->pen, &words);
+    }
+}
+
+/* What the distance and the angle are, in words beside. */
+static void polar_names(const polar_plan *plan, double left)
+{
+    char text[256];
+    lrcsi_words words = {.text = text,
+                         .at = {left, LRCSI_CHART_TOP + 24.0},
+                         .size = LRCSI_CHART_NAMES,
+                         .colour = LRCSI_COLOUR_TEXT};
+    double room = LRCSI_CHART_WIDTH - left - LRCSI_CHART_MARGIN;
+    snprintf(text, sizeof text, "radius: %.100s, %s at the pole", plan->chart->y_name,
+             plan->axis.tick[0].text);
+    lrcsi_chart_words(plan->pen, words, room);
+    words.at.y += 19.0;
+    snprintf(text, sizeof text, "angle: %.200s", plan->chart->x_name);
+    lrcsi_chart_words(plan->pen, words, room);
+}
+
+void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_pen *pen)
+{
+    double range[2];
+    polar_range(chart, range);
+    double high = LRCSI_CHART_HEIGHT - LRCSI_CHART_TOP - LRCSI_CHART_MARGIN;
+    polar_plan plan = {.chart = chart,
+                       .pen = pen,
+                       .axis = lrcsi_axis_make(0, range[0], range[1], POLAR_RINGS),
+                       .radius = 0.5 * high - POLAR_ROOM};
+    plan.pole.x = LRCSI_CHART_LEFT + 0.5 * high;
+    plan.pole.y = LRCSI_CHART_TOP + 0.5 * high;
+    double right = plan.pole.x + 0.5 * high + LRCSI_CHART_MARGIN;
+    polar_ground(&plan);
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        polar_line(&plan, &chart->series[i]);
+    }
+    polar_numbers(&plan);
+    lrcsi_chart_title(pen, chart->title, chart->note);
+    polar_names(&plan, right);
+    lrcsi_chart_legend(pen, chart, right, LRCSI_CHART_TOP + 72.0);
+}

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+/* The look of series, titles and legends, the same in every chart. Where data stand is decided by
+   each kind of chart. */
+#include "host/series.h"
+
+#include "host/letters.h"
+#include "host/palette.h"
+
+#include <math.h>
+
+void lrcsi_chart_stroke(lrcsi_pen *pen, double x0, double y0, double x1, double y1, uint32_t colour,
+                        double width)
+{
+    const lrcsi_spot spot[2] = {{x0, y0}, {x1, y1}};
+    const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
+    pen->line(pen, spot, 2, &ink);
+}
+
+void lrcsi_chart_words(lrcsi_pen *pen, lrcsi_words words, double room)
+{
+    double width = words.size * lrcsi_letters_width(words.text);
+    words.size *= width > room ? room / width : 1.0;
+    pen->text(pen, &words);
+}
+
+/* ---- axes ---- */
+
+void lrcsi_chart_tick(lrcsi_pen *pen, const lrcsi_tick *tick, lrcsi_spot at, int upright)
+{
+    double length = tick->major ? 5.0 : 3.0;
+    lrcsi_spot end = {at.x - (upright ? length : 0.0), at.y + (upright ? 0.0 : length)};
+    lrcsi_words words = {.text = tick->text,
+                         .raised = tick->raised[0] ? tick->raised : NULL,
+                         .at = {at.x, at.y + 19.0},
+                         .size = LRCSI_CHART_SMALL,
+                         .anchor = LRCSI_ANCHOR_MIDDLE,
+                         .colour = LRCSI_COLOUR_TEXT};
+    if (upright) {
+        words.at = (lrcsi_spot){at.x - 9.0, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
+        words.anchor = LRCSI_ANCHOR_RIGHT;
+    }
+    lrcsi_chart_stroke(pen, at.x, at.y, end.x, end.y, LRCSI_COLOUR_TEXT, 0.9);
+    if (tick->major) {
+        pen->text(pen, &words);
+    }
+}
+
+void lrcsi_chart_box(lrcsi_pen *pen, double left, double right)
+{
+    const lrcsi_spot corner[5] = {{left, LRCSI_CHART_TOP},
+                                  {right, LRCSI_CHART_TOP},
+                                  {right, LRCSI_CHART_BOTTOM},
+                                  {left, LRCSI_CHART_BOTTOM},
+                                  {left, LRCSI_CHART_TOP}};
+    const lrcsi_ink ink = {LRCSI_COLOUR_TEXT, 0.9, {0.0, 0.0}};
+    pen->line(pen, corner, 5, &ink);
+}
+
+/* ---- series ---- */
+
+lrcsi_ink lrcsi_series_ink(const lrcs_host_series *series)
+{
+    static const double dash[3][2] = {{0.0, 0.0}, {7.0, 5.0}, {0.1, 4.5}};
+    lrcsi_ink ink = {lrcsi_palette_named(series->colour), 1.7, {0.0, 0.0}};
+    int kind =
+        series->dash == LRCS_HOST_DASHED || series->dash == LRCS_HOST_DOTTED ? series->dash : 0;
+    ink.dash[0] = dash[kind][0];
+    ink.dash[1] = dash[kind][1];
+    ink.width = kind == LRCS_HOST_DOTTED ? 2.2 : 1.7;
+    return ink;
+}
+
+/* The corners of a marker about the origin, half a width of 1; their number. */
+static uint32_t marker_corners(int marker, lrcsi_spot corner[24])
+{
+    static const lrcsi_spot square[4] = {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}};
+    static const lrcsi_spot triangle[3] = {{0.0, -1.25}, {1.15, 0.8}, {-1.15, 0.8}};
+    static const lrcsi_spot diamond[4] = {{0.0, -1.3}, {1.3, 0.0}, {0.0, 1.3}, {-1.3, 0.0}};
+    const lrcsi_spot *from = marker == LRCS_HOST_SQUARE     ? square
+                             : marker == LRCS_HOST_TRIANGLE ? triangle
+                             : marker == LRCS_HOST_DIAMOND  ? diamond
+                                                            : NULL;
+    uint32_t count = !from ? 24 : from == triangle ? 3 : 4;
+    for (uint32_t i = 0; i < count; i++) {
+        double turn = 2.0 * 3.14159265358979323846 * i / 24.0;
+        corner[i] = from ? from[i] : (lrcsi_spot){cos(turn), sin(turn)};
+    }
+    return count;
+}
+
+void lrcsi_series_marker(lrcsi_pen *pen, const lrcs_host_series *series, lrcsi_spot at)
+{
+    lrcsi_spot corner[25];
+    uint32_t colour = lrcsi_palette_named(series->colour);
+    const lrcsi_ink ink = {colour, 1.4, {0.0, 0.0}};
+    if (series->marker == LRCS_HOST_NO_MARKER) {
+        return;
+    }
+    if (series->marker == LRCS_HOST_CROSS) {
+        lrcsi_chart_stroke(pen, at.x - LRCSI_CHART_MARK, at.y - LRCSI_CHART_MARK,
+                           at.x + LRCSI_CHART_MARK, at.y + LRCSI_CHART_MARK, colour, 1.7);
+        lrcsi_chart_stroke(pen, at.x - LRCSI_CHART_MARK, at.y + LRCSI_CHART_MARK,
+                           at.x + LRCSI_CHART_MARK, at.y - LRCSI_CHART_MARK, colour, 1.7);
+        return;
+    }
+    uint32_t count = marker_corners(series->marker, corner);
+    double half = series->hollow ? LRCSI_CHART_RING : LRCSI_CHART_MARK;
+    for (uint32_t i = 0; i < count; i++) {
+        corner[i].x = at.x + half * corner[i].x;
+        corner[i].y = at.y + half * corner[i].y;
+    }
+    corner[count] = corner[0];
+    pen->area(pen, corner, count, series->hollow ? LRCSI_COLOUR_PAPER : colour);
+    pen->line(pen, corner, count + 1, &ink);
+}
+
+/* ---- what is said about a chart ---- */
+
+void lrcsi_chart_title(lrcsi_pen *pen, const char *title, const char *note)
+{
+    double room = LRCSI_CHART_WIDTH - LRCSI_CHART_LEFT - LRCSI_CHART_MARGIN;
+    const lrcsi_words first = {.text = title,
+                               .at = {LRCSI_CHART_LEFT, 26.0},
+                               .size = 16.0,
+                               .bold = 1,
+                               .colour = LRCSI_COLOUR_TEXT};
+    const lrcsi_words second = {.text = note ? note : "",
+                                .at = {LRCSI_CHART_LEFT, 46.0},
+                                .size = LRCSI_CHART_SMALL,
+                                .colour = LRCSI_COLOUR_FAINT};
+    lrcsi_chart_words(pen, first, room);
+    lrcsi_chart_words(pen, second, room);
+}
+
+void lrcsi_chart_names(lrcsi_pen *pen, const char *below, double x, double wide, const char *beside,
+                       double y, double high)
+{
+    const lrcsi_words first = {.text = below,
+                               .at = {x, LRCSI_CHART_HEIGHT - 14.0},
+                               .size = LRCSI_CHART_NAMES,
+                               .anchor = LRCSI_ANCHOR_MIDDLE,
+                               .colour = LRCSI_COLOUR_TEXT};
+    const lrcsi_words second = {.text = beside,
+                                .at = {22.0, y},
+                                .size = LRCSI_CHART_NAMES,
+                                .anchor = LRCSI_ANCHOR_MIDDLE,
+                                .upwards = 1,
+                                .colour = LRCSI_COLOUR_TEXT};
+    lrcsi_chart_words(pen, first, wide);
+    lrcsi_chart_words(pen, second, high);
+}
+
+double lrcsi_chart_legend_width(const lrcs_host_chart *chart)
+{
+    double widest = chart->floor_name ? lrcsi_letters_width(chart->floor_name) : 0.0;
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        const char *name = chart->series[i].name;
+        widest = fmax(widest, name ? lrcsi_letters_width(name) : 0.0);
+    }
+    return widest > 0.0 ? LRCSI_CHART_SAMPLE + 10.0 + LRCSI_CHART_SMALL * widest : 0.0;
+}
+
+double lrcsi_chart_legend(lrcsi_pen *pen, const lrcs_host_chart *chart, double x, double y)
+{
+    lrcsi_words words = {.size = LRCSI_CHART_SMALL, .colour = LRCSI_COLOUR_TEXT};
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        const lrcs_host_series *series = &chart->series[i];
+        const lrcsi_ink ink = lrcsi_series_ink(series);
+        const lrcsi_spot sample[2] = {{x, y}, {x + LRCSI_CHART_SAMPLE, y}};
+        if (!series->name) {
+            continue;
+        }
+        if (series->dash != LRCS_HOST_NO_LINE) {
+            pen->line(pen, sample, 2, &ink);
+        }
+        lrcsi_series_marker(pen, series, (lrcsi_spot){x + 0.5 * LRCSI_CHART_SAMPLE, y});
+        words.text = series->name;
+        words.at =
+            (lrcsi_spot){x + LRCSI_CHART_SAMPLE + 8.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
+        pen->text(pen, &words);
+        y += LRCSI_CHART_LINE;
+    }
+    return y;
+}

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: MIT */
+/* Grids list what stands in a cell, and never more than they have asked memory for: whatever the
+   size of the facets, in every number of bytes. */
+#include "visibility/grid.h"
+
+#include "scenes.h"
+#include "visibility/contest.h"
+
+static test_scene scene;
+static unsigned char little[1u << 20];
+static uint64_t seed;
+
+/* Exact in binary: from 0 to `most`. */
+static double random_to(double most)
+{
+    return most * scene_random(&seed, 4096) / 4096;
+}
+
+/* Triangles one above the other that all reach over half of the view. */
+static void shards(uint32_t count)
+{
+    scene_start(&scene);
+    seed = count;
+    for (uint32_t i = 0; i < count; i++) {
+        double z = 0x1p-8 * i;
+        scene_triangle(&scene, (const double[3]){random_to(0.25), random_to(0.25), z},
+                       (const double[3]){2 - random_to(0.25), random_to(0.25), z},
+                       (const double[3]){random_to(0.25), 2 - random_to(0.25), z});
+    }
+}
+
+/* Sheets of 2 n^2 facets that share their corners, one above the other. */
+static void sheets(uint32_t count, uint32_t n)
+{
+    scene_start(&scene);
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t first = scene.scene.vertex_count;
+        for (uint32_t i = 0; i < (n + 1) * (n + 1); i++) {
+            scene_vertex(&scene, i % (n + 1) + 0x1p-6 * k, i / (n + 1) + 0x1p-7 * k, 0x1p-4 * k);
+        }
+        for (uint32_t i = 0; i < n * n; i++) {
+            uint32_t v = first + i / n * (n + 1) + i % n;
+            scene_facet(&scene, v, v + 1, v + n + 2);
+            scene_facet(&scene, v, v + n + 2, v + n + 1);
+        }
+    }
+}
+
+/* The view from nearly above. */
+static lrcsi_view view_of_scene(lrcs_work *work)
+{
+    lrcs_pose pose;
+    lrcsi_view view;
+    const lrcs_prepared *prepared = scene_prepare(&scene, work);
+    const double direction[3] = {0.25, 0.125, 4};
+    assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, work, &view), LRCS_OK);
+    return view;
+}
+
+static uint32_t listed(const lrcsi_grid *grid)
+{
+    return grid->first[(size_t)grid->size * grid->size];
+}
+
+static int lists(const lrcsi_grid *grid, const double at[2], uint32_t item)
+{
+    uint32_t x = (uint32_t)((at[0] - grid->view->low[0]) * grid->scale);
+    uint32_t y = (uint32_t)((at[1] - grid->view->low[1]) * grid->scale);
+    assert_true(x < grid->size && y < grid->size);
+    uint32_t cell = y * grid->size + x;
+    for (uint32_t i = grid->first[cell]; i < grid->first[cell + 1]; i++) {
+        if (grid->item[i] == item) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* A place on some vertices, in the view. */
+static void place_on(const lrcsi_view *view, const uint32_t *vertex, int count, double at[2])
+{
+    double sum = 0;
+    at[0] = at[1] = 0;
+    for (int i = 0; i < count; i++) {
+        double weight = 1 + random_to(64);
+        sum += weight;
+        for (int k = 0; k < 2; k++) {
+            at[k] += weight * view->point[vertex[i]].x[k];
+        }
+    }
+    at[0] /= sum;
+    at[1] /= sum;
+}
+
+/* Every facet and event edge is listed wherever it is, every facet's cells are those of its box,
+   and no list is longer than was asked for. Returns the grid's cells along a side. */
+static uint32_t check_grids(void)
+{
+    lrcs_work work;
+    lrcsi_view view = view_of_scene(&work);
+    lrcsi_contest contest;
+    lrcsi_grid facets;
+    assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+    assert_int_equal(lrcsi_grid_facets(&contest.grid, contest.cells, NULL, &work, &facets),
+                     LRCS_OK);
+    const lrcs_prepared *p = view.prepared;
+    assert_true(listed(&facets) <= LRCSI_GRID_FACET_CELLS * p->scene->facet_count);
+    assert_true(listed(&contest.grid) <= 8 * p->topology.edge_count);
+    double at[2];
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        double low[2];
+        double high[2];
+        lrcsi_grid_box(&view, p->scene->facet[f].corner, 3, low, high);
+        lrcsi_cells cells = lrcsi_grid_cells(&facets, low, high);
+        assert_memory_equal(&cells, &contest.cells[f], sizeof cells);
+        for (int i = 0; i < 20; i++) {
+            place_on(&view, p->scene->facet[f].corner, 3, at);
+            assert_true(lists(&facets, at, f));
+        }
+    }
+    for (uint32_t i = 0; i < contest.events.count; i++) {
+        const lrcsi_edge *edge = &p->topology.edge[contest.events.edge[i]];
+        for (int k = 0; k < 20; k++) {
+            place_on(&view, (const uint32_t[2]){edge->low, edge->high}, 2, at);
+            assert_true(lists(&contest.grid, at, i));
+        }
+    }
+    return facets.size;
+}
+
+static void what_stands_in_a_cell_is_listed_there_and_not_too_often(void **state)
+{
+    (void)state;
+    for (uint32_t count = 1; count <= 512; count *= 2) {
+        shards(count);
+        assert_true(check_grids() <= 4); /* or each would be listed more than 16 times */
+    }
+    for (uint32_t count = 1; count <= 64; count *= 2) {
+        sheets(count, 4);
+        assert_true(check_grids() <= 16); /* where it would be 45 */
+    }
+}
+
+static void cells_of_small_facets_are_as_many_as_those(void **state)
+{
+    (void)state;
+    sheets(1, 32);
+    assert_int_equal(check_grids(), 45); /* the root of 2048 */
+    sheets(2, 32);
+    assert_int_equal(check_grids(), 64);
+}
+
+/* Large triangles in many cells, whose edges alone make them fewer. */
+static void edges_are_listed_no_more_often_than_asked_for(void **state)
+{
+    (void)state;
+    lrcs_work work;
+    shards(40);
+    lrcsi_view view = view_of_scene(&work);
+    const lrcs_prepared *p = view.prepared;
+    uint32_t edge[120];
+    for (uint32_t i = 0; i < 120; i++) {
+        edge[i] = 119 - i;
+    }
+    uint32_t before = 0;
+    for (uint64_t most = 100; most <= 12800; most *= 2) {
+        size_t mark = work.used;
+        lrcsi_grid grid = lrcsi_grid_empty(&view, 64 * 64);
+        lrcsi_cells cells[40];
+        memset(cells, 0, sizeof cells);
+        assert_int_equal(lrcsi_grid_edges(edge, 120, most, &work, &grid, cells), LRCS_OK);
+        assert_true(listed(&grid) <= (most < 120 ? 120 : most));
+        assert_true(grid.size >= before && (grid.size > 1) == (most > 200));
+        before = grid.size;
+        for (uint32_t i = 0; i < 120; i++) {
+            const lrcsi_edge *e = &p->topology.edge[edge[i]];
+            double at[2];
+            place_on(&view, (const uint32_t[2]){e->low, e->high}, 2, at);
+            assert_true(lists(&grid, at, i));
+        }
+        work.used = mark;
+    }
+    assert_int_equal(before, 64);
+}
+
+/* A box of cells made coarser is the box in the coarser grid, wherever it lies. */
+static void boxes_of_cells_grow_with_the_cells(void **state)
+{
+    (void)state;
+    lrcs_work work;
+    shards(1);
+    lrcsi_view view = view_of_scene(&work);
+    for (uint32_t size = 1; size <= 37; size++) {
+        for (int i = 0; i < 200; i++) {
+            lrcsi_grid grid = lrcsi_grid_empty(&view, size * size);
+            double low[2];
+            double high[2];
+            for (int k = 0; k < 2; k++) {
+                low[k] = view.low[k] + random_to(view.side);
+                high[k] = low[k] + random_to(view.low[k] + view.side - low[k]);
+            }
+            lrcsi_cells cells = lrcsi_grid_cells(&grid, low, high);
+            assert_int_equal(grid.size, size);
+            lrcsi_grid_fit(&grid, &cells);
+            lrcsi_cells want = lrcsi_grid_cells(&grid, low, high);
+            assert_memory_equal(&cells, &want, sizeof want);
+            assert_true((cells.x1 - cells.x0) * (cells.y1 - cells.y0) <= 16);
+        }
+    }
+}
+
+/* In so many bytes, and unharmed where they are too few. */
+static int facets_in(const lrcsi_contest *contest, const unsigned char *wanted, size_t size)
+{
+    lrcsi_grid grid;
+    lrcs_work work = lrcs_work_make(little, size);
+    int status = lrcsi_grid_facets(&contest->grid, contest->cells, wanted, &work, &grid);
+    assert_int_equal(status, work.peak <= size ? LRCS_OK : LRCS_E_MEMORY);
+    assert_true(status == LRCS_OK || work.used == 0);
+    return status;
+}
+
+static void grids_of_facets_fit_into_what_they_ask_for(void **state)
+{
+    (void)state;
+    static unsigned char all[512];
+    memset(all, 1, sizeof all);
+    for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
+        lrcs_work work;
+        shards(count);
+        lrcsi_view view = view_of_scene(&work);
+        lrcsi_contest contest;
+        assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+        size_t need = lrcsi_grid_facets_need(view.prepared);
+        size_t fits = 0;
+        while (facets_in(&contest, all, fits) != LRCS_OK) {
+            fits += count < 20 ? 1 : 97;
+        }
+        assert_true(fits <= need);
+        assert_int_equal(facets_in(&contest, all, need), LRCS_OK);
+        assert_int_equal(facets_in(&contest, NULL, need), LRCS_OK);
+    }
+}
+
+static void contests_fit_into_what_they_ask_for(void **state)
+{
+    (void)state;
+    for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
+        lrcs_work work;
+        shards(count);
+        lrcsi_view view = view_of_scene(&work);
+        size_t need = lrcsi_contest_need(view.prepared);
+        int before = LRCS_E_MEMORY;
+        for (size_t size = 0; size <= need; size += count < 10 ? 1 : need / 50) {
+            lrcsi_contest contest;
+            lrcs_work few = lrcs_work_make(little, size);
+            int status = lrcsi_contest_make(&view, &few, &contest);
+            assert_int_equal(status, few.peak <= size ? LRCS_OK : LRCS_E_MEMORY);
+            assert_true(status == LRCS_OK ? few.used != 0 : before != LRCS_OK && few.used == 0);
+            before = status;
+        }
+        assert_int_equal(before, LRCS_OK);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_stands_in_a_cell_is_listed_there_and_not_too_often),
+        cmocka_unit_test(cells_of_small_facets_are_as_many_as_those),
+        cmocka_unit_test(edges_are_listed_no_more_often_than_asked_for),
+        cmocka_unit_test(boxes_of_cells_grow_with_the_cells),
+        cmocka_unit_test(grids_of_facets_fit_into_what_they_ask_for),
+        cmocka_unit_test(contests_fit_into_what_they_ask_for),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
