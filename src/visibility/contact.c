@@ -245,27 +245,28 @@ typedef struct contact_finely {
 static void corners_finely(const lrcsi_target *t, uint32_t other, contact_finely *f,
                            lrcsi_contact *c)
 {
-    c->reach = c->off = 0;
+    c->reach = 0;
     for (int k = 0; k < 3; k++) {
         const double *x = lrcsi_target_corner(t->view, other, k);
         c->off = lrcsi_most(c->off, lrcsi_needle_place(t->needle, x, f->corner[k]));
         for (int i = 0; i < 2; i++) {
             c->corner[k][i] = lrcsi_dd_value(f->corner[k][i]);
-            c->reach = lrcsi_most(c->reach, 1.5 * fabs(c->corner[k][i]));
         }
     }
 }
 
-/* As side_cut; the share is rounded to double-double (visibility/needle.c), and the side's own
-   length tells what its error moves. */
+/* As side_cut, the share rounded to double-double (visibility/needle.c). Heights of wrong signs are
+   within their errors of 0, so that |h - h'| is at least 3/4 of |h| + |h'| where that is told, and
+   the share is off by at most the errors over it. */
 static double side_cut_finely(const contact_heights *h, contact_finely *f, int k, lrcsi_dd at[2])
 {
     int next = (k + 1) % 3;
     double span = fabs(h->height[k]) + fabs(h->height[next]);
     double off = h->off[k] + h->off[next];
+    int told = span > 8 * off;
     double length = 0;
     lrcsi_dd t = {0.5, 0};
-    if (span > 2 * off) {
+    if (told) {
         t = lrcsi_needle_quotient(h->fine[k], lrcsi_dd_sub(h->fine[k], h->fine[next]));
     }
     for (int i = 0; i < 2; i++) {
@@ -273,7 +274,7 @@ static double side_cut_finely(const contact_heights *h, contact_finely *f, int k
         at[i] = lrcsi_dd_add(f->corner[k][i], lrcsi_dd_mul(t, along));
         length += fabs(along.hi);
     }
-    return span > 2 * off ? 2 * length * (off / span) : HUGE_VAL;
+    return told ? 2 * length * (off / span) : HUGE_VAL;
 }
 
 static void ends_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c)
@@ -290,8 +291,9 @@ static void ends_finely(const contact_heights *h, contact_finely *f, lrcsi_conta
     }
 }
 
-/* As segment_kind, before anything is clipped. Ends and corner are off by `off`; where the corner
-   lies far along the line, what it is beyond that turns with it. */
+/* As segment_kind, before anything is clipped. Ends and corner are off by e: the line turns by 2 e
+   over its length, and what the corner is beyond it is off by as much of the way there, and 2 e.
+   Where that is long, it counts: `turned`. */
 static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c, int above)
 {
     int lone = above == 1 ? 1 : -1;

@@ -27,7 +27,7 @@
 
 /* Products of coordinates and components are multiples of 2^-1056 (base/exact.c). What underflows
    in those of quotients and places, some 2^-1074, is lost in this. */
-#define UNDERFLOW 0x1p-900
+#define UNDERFLOWN 0x1p-900
 
 /* A needle is so much longer than wide, or more; the rest of 2^106 is left to tell it by. */
 #define NEEDLE_LEAST 0x1p20
@@ -89,7 +89,7 @@ int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corne
     cross_view(n->side[0], n->direction, -1, n->row[1]);
     n->whole = dot_finely(n->row[1], n->side[1]);
     n->off = OFF * n->reach * n->length / n->whole.hi;
-    return n->whole.hi > UNDERFLOW && n->whole.hi * NEEDLE_MOST > n->reach * n->reach * n->length;
+    return n->whole.hi > UNDERFLOWN && n->whole.hi * NEEDLE_MOST > n->reach * n->reach * n->length;
 }
 
 double lrcsi_needle_place(const lrcsi_needle *n, const double x[3], lrcsi_dd out[2])
@@ -170,5 +170,5 @@ double lrcsi_needle_side(const lrcsi_needle *n, const double p[3], const double 
     }
     cross_view(along, n->direction, -1, row);
     double side = lrcsi_dd_value(dot_finely(row, gap));
-    return guess || fabs(side) > 64 * U * U * length * far * n->length + UNDERFLOW ? side : 0;
+    return guess || fabs(side) > 64 * U * U * length * far * n->length + UNDERFLOWN ? side : 0;
 }
