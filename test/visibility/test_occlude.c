@@ -236,6 +236,36 @@ static void needles_turned_over_by_rounding_hide_nothing(void **state)
     check_most(worst, 4e-16);
 }
 
+/* A facet in the plane y = 0, seen from (0, w, 1), and half of its length under a plate: what is
+   left is 3/4 of it, however narrow, and comes in pieces. */
+static void a_needle_shows_its_share_in_pieces(void **state)
+{
+    (void)state;
+    for (int n = 24; n <= 64; n += 4) {
+        const double from[3] = {0, ldexp(1, -n), 1};
+        double error = 0;
+        lrcsi_occluding o;
+        scene_start(&scene);
+        scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){0, 0, 1},
+                       (const double[3]){1, 0, 0});
+        scene_plate(&scene, (const double[3]){0.5, -1, 2}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 2, 0});
+        check_abs(share_left(from, &error), 0.75, 1e-14);
+        check_most(error, 1e-12);
+        assert_int_equal(lrcsi_occlude_make(&contest, &work, &o), LRCS_OK);
+        assert_int_equal(lrcsi_occlude_open(&o, 0), LRCS_OK);
+        double area = 0;
+        while (lrcsi_occlude_next(&o)) {
+            area += lrcsi_clip_area(&o.piece);
+        }
+        double off = o.bent + 20 * 0x1p-53 * o.target.reach * o.target.perimeter;
+        lrcsi_visible seen = lrcsi_occlude_close(&o);
+        check_abs(area, seen.area, off);
+        check_most(off, 1e-14);
+        assert_true(seen.area > 0);
+    }
+}
+
 /* --- many ------------------------------------------------------------------------------------- */
 
 enum { SECTORS = 256 };
@@ -283,6 +313,7 @@ int main(void)
         cmocka_unit_test(front_skin_hides_a_back_in_its_plane),
         cmocka_unit_test(shallow_cuts_own_up_to_their_slip),
         cmocka_unit_test(needles_turned_over_by_rounding_hide_nothing),
+        cmocka_unit_test(a_needle_shows_its_share_in_pieces),
         cmocka_unit_test(a_fan_costs_pieces_along_its_rim_only),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
