@@ -344,7 +344,7 @@ static int segment_of(const contact_heights *h, lrcsi_contact *c, int above)
 int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
 {
     contact_heights h = heights_of(t, other);
-    contact_finely f;
+    contact_finely f = {0};
     c->slip = c->off = 0;
     if (t->needle) {
         corners_finely(t, other, &f, c);
