@@ -40,3 +40,9 @@ int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options)
 {
     return options->method == LRCS_METHOD_AUTO || cli_value(args, "tolerance") != NULL;
 }
+
+int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags)
+{
+    int missed = (flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0 && cli_tolerance_judged(args, options);
+    return missed || (flags & LRCS_FLAG_MEMORY_FALLBACK) != 0 ? CLI_DEGRADED : CLI_DONE;
+}

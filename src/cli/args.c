@@ -22,6 +22,12 @@ int cli_usage(const cli_command *command, const char *format, ...)
     return CLI_USAGE;
 }
 
+int cli_out_of_memory(void)
+{
+    fprintf(stderr, "lrcs: out of memory\n");
+    return CLI_FAILED;
+}
+
 int cli_failed(const lrcs_host_error *error)
 {
     fprintf(stderr, "lrcs: %s\n", error->text);
@@ -153,8 +159,7 @@ int cli_args_read(const cli_command *command, int count, char **word, cli_args *
 {
     *args = (cli_args){command, NULL, calloc((size_t)count + 1, sizeof *args->given), 0};
     if (!args->given) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     for (int i = 0; i < count; i++) {
         if (word[i][0] == '-' && word[i][1] != '\0') {

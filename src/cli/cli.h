@@ -115,8 +115,9 @@ const char *cli_nearest(const char *text, const char *best, const char *candidat
 __attribute__((format(printf, 2, 3))) int cli_usage(const cli_command *command, const char *format,
                                                     ...);
 
-/* "lrcs: TEXT" on stderr. Returns CLI_FAILED. */
+/* "lrcs: TEXT" on stderr, of an error or for want of memory. Returns CLI_FAILED. */
 int cli_failed(const lrcs_host_error *error);
+int cli_out_of_memory(void);
 
 /* Ends a command: CLI_FAILED with a message where stdout could not be written, else `code`. */
 int cli_finish(int code);
@@ -130,6 +131,9 @@ int cli_normals_read(const cli_args *args, lrcs_host_options *load);
 
 /* Does a tolerance that is not met count? Not where a method was forced and none was asked for. */
 int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options);
+
+/* The exit code of a run with these flags: CLI_DONE or CLI_DEGRADED. */
+int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags);
 
 /* Four numbers A,B,s,m or a library material's name; 0 or CLI_USAGE. `option` is for messages. */
 int cli_brdf_read(const cli_command *command, const char *text, const char *option,
@@ -155,6 +159,9 @@ double cli_dbsm(double sigma_m2);
 
 /* Text on stdout, blanks after it up to `width`, control characters as '?'. */
 void cli_column(const char *text, int width);
+
+/* Seconds on a clock that only goes forward. */
+double cli_seconds(void);
 
 /* "notice: ..." for each, on `out`. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);

@@ -158,8 +158,7 @@ static int material_name(fit_job *job)
     }
     char *name = asked ? strdup(asked) : stem_make(job->args->operand);
     if (!name) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     free(readings->name[0]);
     readings->name[0] = name;
@@ -175,8 +174,7 @@ static int material_take(const lrcs_host_readings *readings, uint32_t index, fit
     material->line = malloc(room * sizeof *material->line);
     material->point = malloc(room * sizeof *material->point);
     if (!material->reading || !material->line || !material->point) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     for (uint32_t i = 0; i < readings->count; i++) {
         if (readings->reading[i].material == index) {
@@ -243,8 +241,7 @@ static int material_fit(const fit_job *job, fit_material *material)
     size_t size = lrcs_fit_need(material->count);
     void *bytes = malloc(size);
     if (!bytes) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     lrcs_work work = lrcs_work_make(bytes, size);
     int status = job->noise_asked ? noise_fit(job, job->options.noise, material, &work)
@@ -273,8 +270,7 @@ static int materials_make(fit_job *job)
     int code = material_name(job);
     job->material = calloc(readings->name_count, sizeof *job->material);
     if (code == 0 && !job->material) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     for (uint32_t i = 0; i < readings->name_count && code == 0; i++) {
         best = asked ? cli_nearest(asked, best, readings->name[i]) : NULL;

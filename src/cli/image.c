@@ -154,8 +154,7 @@ static int image_room(image_job *job)
         job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
     }
     if (!job->records || (job->file[IMAGE_PNG].path && !job->image.facet)) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     return 0;
 }
@@ -231,11 +230,8 @@ static int image_command(const cli_args *args)
     code = code ? code : image_run(&job);
     code = code ? code : image_write(&job);
     if (code == 0) {
-        int missed = (job.result.flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0;
-        int judged = cli_tolerance_judged(args, &job.options);
-        int short_of_memory = (job.result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
         cli_notices_print(stderr, &job.scene.notices);
-        code = (judged && missed) || short_of_memory ? CLI_DEGRADED : CLI_DONE;
+        code = cli_accuracy_code(args, &job.options, job.result.flags);
     }
     free(job.records);
     free(job.image.facet);

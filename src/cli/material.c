@@ -77,8 +77,7 @@ static int binding_read(const cli_command *command, const char *text, lrcs_bindi
         }
         char *name = malloc(size + 1);
         if (!name) {
-            fprintf(stderr, "lrcs: out of memory\n");
-            return CLI_FAILED;
+            return cli_out_of_memory();
         }
         memcpy(name, text, size);
         name[size] = '\0';
@@ -119,8 +118,7 @@ int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
     lrcs_binding *all = calloc((size_t)args->given_count + 1, sizeof *all);
     options->binding = all;
     if (!all) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     for (int i = 0; i < args->given_count && code == 0; i++) {
         if (strcmp(args->given[i].name, "material") == 0) {

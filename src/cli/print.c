@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What several commands print alike. */
+/* What several commands print alike, and the clock that they share. */
 #include "cli/cli.h"
 
 #include <math.h>
+#include <time.h>
 
 double cli_dbsm(double sigma_m2)
 {
@@ -25,4 +26,11 @@ void cli_notices_print(FILE *out, const lrcs_host_notices *notices)
     for (uint32_t i = 0; i < notices->count; i++) {
         fprintf(out, "notice: %s\n", notices->text[i]);
     }
+}
+
+double cli_seconds(void)
+{
+    struct timespec now = {0, 0};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

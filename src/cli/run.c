@@ -71,8 +71,7 @@ static int run_room(run_job *job)
     }
     if ((!job->records && (job->facets || job->image_path)) ||
         (!job->image.facet && job->image_path)) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     return 0;
 }
@@ -140,10 +139,8 @@ static int run_outputs(run_job *job)
             cli_run_table(job);
         }
     }
-    int judged = cli_tolerance_judged(job->args, &job->options);
-    int short_of_memory = (job->result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
     int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
-    return (judged && !job->met) || short_of_memory || late ? CLI_DEGRADED : CLI_DONE;
+    return late ? CLI_DEGRADED : cli_accuracy_code(job->args, &job->options, job->result.flags);
 }
 
 static int run_command(const cli_args *args)

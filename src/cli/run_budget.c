@@ -11,7 +11,6 @@
 #include <signal.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #define RACERS       2
@@ -36,13 +35,6 @@ typedef struct budget_racer {
     pid_t process;
     int end; /* of its pipe; negative: it has ended */
 } budget_racer;
-
-static double seconds_now(void)
-{
-    struct timespec now = {0, 0};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static const char *rung_text(int rung, char text[16])
 {
@@ -186,7 +178,7 @@ static int race_take(run_job *job, budget_racer *racer, budget_answer *best)
 /* Milliseconds left for poll: no end where there is no answer yet. */
 static int time_left(const run_budget *budget)
 {
-    double left = budget->asked_ms - 1e3 * (seconds_now() - budget->start);
+    double left = budget->asked_ms - 1e3 * (cli_seconds() - budget->start);
     return !budget->answered ? -1 : left > 1e9 ? 1000000000 : left > 0.0 ? (int)ceil(left) : 0;
 }
 
@@ -229,7 +221,7 @@ int cli_run_budget_read(run_job *job)
     static const char *const clash[] = {"method", "resolution", "explain"};
     const cli_args *args = job->args;
     run_budget *budget = &job->budget;
-    budget->start = seconds_now();
+    budget->start = cli_seconds();
     int code = cli_number(args, "time-budget", &budget->asked_ms);
     if (code != 0 || !cli_value(args, "time-budget")) {
         return code;
@@ -303,7 +295,7 @@ int cli_run_budget(run_job *job)
     racer_start(job, rung, &racer[0], race_tolerances);
     racer_start(job, rung, &racer[1], race_rasters);
     race_watch(job, racer, &best);
-    job->budget.spent_ms = 1e3 * (seconds_now() - job->budget.start);
+    job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
     for (int i = 0; i < RACERS; i++) {
         racer_stop(&racer[i]);
     }

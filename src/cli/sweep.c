@@ -269,8 +269,7 @@ static int job_room(sweep_job *job)
     if (job->plot.asked) {
         job->file.row = job->plot.row = calloc(job->plan.rows, sizeof *job->plot.row);
         if (!job->plot.row) {
-            fprintf(stderr, "lrcs: out of memory\n");
-            return CLI_FAILED;
+            return cli_out_of_memory();
         }
     }
     return 0;
@@ -305,8 +304,7 @@ static int sweep_command(const cli_args *args)
 {
     sweep_job *job = calloc(1, sizeof *job);
     if (!job) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     job->args = args;
     int code = job_read(job);

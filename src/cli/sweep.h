@@ -230,9 +230,6 @@ int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot
 int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_host_scene *scene);
 int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan);
 
-/* Seconds on a clock that only goes forward. */
-double cli_seconds(void);
-
 /* ---- progress ---- */
 
 /* A bar with the time left, on stderr where that is a terminal. */

@@ -8,7 +8,6 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -39,9 +38,7 @@ int cli_file_read(const cli_args *args, sweep_file *file)
     }
     int found = -1;
     for (int i = 0; i < 3; i++) {
-        size_t size = strlen(extension[i]);
-        size_t whole = strlen(path);
-        found = whole > size && strcasecmp(path + whole - size, extension[i]) == 0 ? i : found;
+        found = cli_extension(path, extension[i]) ? i : found;
     }
     if (found < 0) {
         return cli_usage(args->command, "-o: expected FILE.csv, FILE.jsonl or FILE.npy, found '%s'",
@@ -54,8 +51,7 @@ int cli_file_read(const cli_args *args, sweep_file *file)
     file->path = real ? real : strdup(path);
     file->partial = malloc(room);
     if (!file->path || !file->partial) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     snprintf(file->partial, room, "%s.partial", file->path);
     return 0;
@@ -205,8 +201,7 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
     }
     char *text = head_bytes(file->format, head, plan, &size);
     if (!text) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     if (resume && stat(file->partial, &about) == 0) {
         code = partial_continue(file, plan, text, size);

@@ -354,8 +354,7 @@ int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_pla
     uint64_t room = plan->rows + plot->x.count + plot->y.count;
     plot_sheet sheet = {.plot = plot, .plan = plan, .x = malloc(room * sizeof(double))};
     if (!sheet.x) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     sheet.y = sheet.x + plot->x.count;
     sheet.z = sheet.y + plot->y.count;

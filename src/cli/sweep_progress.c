@@ -3,18 +3,10 @@
 #include "cli/sweep.h"
 
 #include <math.h>
-#include <time.h>
 #include <unistd.h>
 
 #define PROGRESS_PERIOD 0.2 /* s */
 #define PROGRESS_BAR    30
-
-double cli_seconds(void)
-{
-    struct timespec now = {0, 0};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 sweep_progress cli_progress_make(uint64_t first, uint64_t total)
 {

@@ -178,8 +178,7 @@ static int track_parse(track_reader *reader, const lrcs_host_file *file, sweep_t
     }
     track->row = calloc(lines, sizeof *track->row);
     if (!track->row) {
-        fprintf(stderr, "lrcs: out of memory\n");
-        return CLI_FAILED;
+        return cli_out_of_memory();
     }
     int code = 0;
     while (at < end && code == 0) {
