@@ -326,8 +326,7 @@ int lrcs_host_chart_png(FILE *out, const lrcs_host_chart *chart, lrcs_host_error
                                    &canvas, error);
     if (status == LRCS_OK) {
         drawing_of(chart, &canvas.pen);
-        status = lrcs_host_png_write(out, canvas.rgb, canvas.width, canvas.height, 3, error);
-        lrcsi_canvas_free(&canvas);
+        status = lrcsi_canvas_end(&canvas, out, error);
     }
     return status;
 }

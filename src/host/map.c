@@ -283,8 +283,7 @@ int lrcs_host_map_png(FILE *out, const lrcs_host_map *map, lrcs_host_error *erro
                                    &canvas, error);
     if (status == LRCS_OK) {
         map_draw(map, &canvas.pen);
-        status = lrcs_host_png_write(out, canvas.rgb, canvas.width, canvas.height, 3, error);
-        lrcsi_canvas_free(&canvas);
+        status = lrcsi_canvas_end(&canvas, out, error);
     }
     return status;
 }

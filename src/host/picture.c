@@ -110,8 +110,7 @@ int lrcs_host_picture_png(FILE *out, const lrcs_host_picture *picture, const lrc
     if (status == LRCS_OK) {
         lrcsi_look look = lrcsi_look_make(picture);
         picture_draw(&look, image, &at, &canvas);
-        status = lrcs_host_png_write(out, canvas.rgb, size, size, 3, error);
-        lrcsi_canvas_free(&canvas);
+        status = lrcsi_canvas_end(&canvas, out, error);
     }
     return status;
 }

@@ -7,6 +7,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/span.h"
 
 /* Cells along a side at most. */
 #define MOST_CELLS 2048
@@ -120,19 +121,7 @@ static void segment_row(const lrcsi_grid *grid, const double *a, const double *b
     double margin = 2 * grid->view->off;
     double bottom = grid->view->low[1] + y / grid->scale - margin;
     double top = grid->view->low[1] + (y + 1) / grid->scale + margin;
-    double rise = b[1] - a[1];
-    double t0 = 0;
-    double t1 = 1;
-    if (fabs(rise) > margin) {
-        double u = (bottom - a[1]) / rise;
-        double v = (top - a[1]) / rise;
-        t0 = lrcsi_least(1, lrcsi_most(0, lrcsi_least(u, v)));
-        t1 = lrcsi_least(1, lrcsi_most(0, lrcsi_most(u, v)));
-    }
-    double x0 = a[0] + t0 * (b[0] - a[0]);
-    double x1 = a[0] + t1 * (b[0] - a[0]);
-    range[0] = lrcsi_least(x0, x1);
-    range[1] = lrcsi_most(x0, x1);
+    lrcsi_span_segment(a, b, bottom, top, margin, range);
 }
 
 /* Returns in how many cells it is. */

@@ -317,9 +317,15 @@ void lrcsi_raster_claim(lrcsi_raster *raster, uint32_t facet)
 
 /* --- all of it -------------------------------------------------------------------------------- */
 
-static size_t raster_tiles(uint32_t size)
+/* Tiles along a side. */
+static uint32_t raster_tiles(uint32_t size)
 {
-    size_t tiles = (size - 1) / LRCSI_RASTER_TILE + 1;
+    return (size - 1) / LRCSI_RASTER_TILE + 1;
+}
+
+static size_t tile_count(uint32_t size)
+{
+    size_t tiles = raster_tiles(size);
     return tiles * tiles;
 }
 
@@ -330,7 +336,7 @@ size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
     size_t need = lrcsi_work_bytes(pixels, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(raster_tiles(size), 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(tile_count(size), 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(double)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
@@ -348,7 +354,7 @@ static int raster_arrays(lrcsi_raster *r, lrcs_work *work)
     if (!r->owner || !r->depth || !r->pure || !r->slack) {
         return LRCS_E_MEMORY;
     }
-    r->wanted = lrcsi_work_take_zero(work, raster_tiles(r->size), 1);
+    r->wanted = lrcsi_work_take_zero(work, tile_count(r->size), 1);
     r->covered = lrcsi_work_take_zero(work, facets, sizeof *r->covered);
     r->owned = lrcsi_work_take_zero(work, facets, sizeof *r->owned);
     r->undecided = lrcsi_work_take_zero(work, facets, sizeof *r->undecided);
@@ -362,7 +368,7 @@ int lrcsi_raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work, l
     r.pixel = view->side / size;
     r.scale = view->side > 0 ? size / view->side : 0;
     r.off = view->off * r.scale + 8 * U * size;
-    r.tiles = (size - 1) / LRCSI_RASTER_TILE + 1;
+    r.tiles = raster_tiles(size);
     int status = raster_arrays(&r, work);
     if (status != LRCS_OK) {
         work->used = mark;
@@ -378,10 +384,10 @@ int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lr
     if (status != LRCS_OK) {
         return status;
     }
-    memset(raster->wanted, 1, raster_tiles(size));
+    memset(raster->wanted, 1, tile_count(size));
     lrcsi_raster_clear(raster);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        if (view->facing[f] > 0 || (view->facing[f] < 0 && view->backs_cast)) {
+        if (lrcsi_grid_casts(view, f)) {
             lrcsi_raster_draw(raster, f);
         }
     }

@@ -35,6 +35,24 @@ static double side_bend(const lrcsi_edges *e, int k)
     return 0.5 * (fabs(e->along[k]) + fabs(e->up[k]));
 }
 
+void lrcsi_span_segment(const double *a, const double *b, double bottom, double top, double margin,
+                        double range[2])
+{
+    double rise = b[1] - a[1];
+    double t0 = 0;
+    double t1 = 1;
+    if (fabs(rise) > margin) {
+        double u = (bottom - a[1]) / rise;
+        double v = (top - a[1]) / rise;
+        t0 = lrcsi_least(1, lrcsi_most(0, lrcsi_least(u, v)));
+        t1 = lrcsi_least(1, lrcsi_most(0, lrcsi_most(u, v)));
+    }
+    double x0 = a[0] + t0 * (b[0] - a[0]);
+    double x1 = a[0] + t1 * (b[0] - a[0]);
+    range[0] = lrcsi_least(x0, x1);
+    range[1] = lrcsi_most(x0, x1);
+}
+
 void lrcsi_span_prepare(lrcsi_edges *edges)
 {
     for (int k = 0; k < 3; k++) {

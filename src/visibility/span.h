@@ -36,6 +36,11 @@ typedef struct lrcsi_row {
                          the error of an edge function */
 } lrcsi_row;
 
+/* The x of segment a -> b where y lies between bottom and top, its ends beyond those cut off: both
+   widened already by `margin`, within which a rise is none and cuts nothing off. */
+void lrcsi_span_segment(const double *a, const double *b, double bottom, double top, double margin,
+                        double range[2]);
+
 /* Fills in over, near and far of edges whose other numbers are known. */
 void lrcsi_span_prepare(lrcsi_edges *edges);
 

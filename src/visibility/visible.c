@@ -61,25 +61,16 @@ static void mark_run(pixel_marks *m, uint32_t y, double from, double to)
 }
 
 /* Marks every pixel that the segment a b may touch. Its ends are off by at most the raster's
-   error; the same margin widens the row and the range (see visibility/grid.c). */
+   error; the same margin widens the row and the range. */
 static void mark_segment(pixel_marks *m, const double a[2], const double b[2])
 {
     double margin = 4 * m->raster->off;
-    double rise = b[1] - a[1];
     double first = lrcsi_most(floor(lrcsi_least(a[1], b[1]) - margin), m->edges.bottom);
     double last = lrcsi_least(floor(lrcsi_most(a[1], b[1]) + margin) + 1, m->edges.top);
     for (double y = first; y < last; y++) {
-        double t0 = 0;
-        double t1 = 1;
-        if (fabs(rise) > margin) {
-            double u = (y - margin - a[1]) / rise;
-            double v = (y + 1 + margin - a[1]) / rise;
-            t0 = lrcsi_least(1, lrcsi_most(0, lrcsi_least(u, v)));
-            t1 = lrcsi_least(1, lrcsi_most(0, lrcsi_most(u, v)));
-        }
-        double x0 = a[0] + t0 * (b[0] - a[0]);
-        double x1 = a[0] + t1 * (b[0] - a[0]);
-        mark_run(m, (uint32_t)y, lrcsi_least(x0, x1) - margin, lrcsi_most(x0, x1) + margin);
+        double range[2];
+        lrcsi_span_segment(a, b, y - margin, y + 1 + margin, margin, range);
+        mark_run(m, (uint32_t)y, range[0] - margin, range[1] + margin);
     }
 }
 
