@@ -22,38 +22,8 @@ typedef struct contact_heights {
     int above[3];     /* exact signs */
 } contact_heights;
 
-/* N . (x - a) for the plane of a facet, up where it is seen, in doubles: off by 8 u |N| |x - a| and
-   N's own error. */
-static double height_roughly(const lrcsi_view *view, uint32_t facet, const double *x, double *off)
-{
-    const lrcsi_normal *n = &view->prepared->normal[facet];
-    const double *a = lrcsi_prepared_corner(view->prepared, facet, 0);
-    double sum = 0;
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        double gap = x[k] - a[k];
-        sum += n->high[k] * gap;
-        square += gap * gap;
-    }
-    *off = (8 * U * n->length + n->error) * sqrt(square);
-    return view->facing[facet] * sum;
-}
-
-/* The exact sign of the height of a point above the plane of a facet. */
-static int height_sign(const lrcsi_view *view, uint32_t facet, const double *x)
-{
-    double off = 0;
-    double height = height_roughly(view, facet, x, &off);
-    if (fabs(height) > off) {
-        return height > 0 ? 1 : -1;
-    }
-    return view->facing[facet] * lrcsi_exact_side(lrcsi_prepared_corner(view->prepared, facet, 0),
-                                                  lrcsi_prepared_corner(view->prepared, facet, 1),
-                                                  lrcsi_prepared_corner(view->prepared, facet, 2),
-                                                  x);
-}
-
-/* The same in double-double: off by 32 u^2 |N| |x - a| and N's own error. */
+/* N . (x - a) for the target's plane, up where it is seen, in double-double: off by 32 u^2 |N|
+   |x - a| and N's own error. */
 static lrcsi_dd height_finely(const lrcsi_target *t, const double *x, double *off)
 {
     const lrcsi_normal *n = &t->view->prepared->normal[t->facet];
@@ -76,7 +46,7 @@ static int contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
     int front = 0;
     int behind = 0;
     for (int k = 0; k < 3 && !(front && behind); k++) {
-        int sign = height_sign(view, facet, lrcsi_prepared_corner(view->prepared, other, k));
+        int sign = lrcsi_sample_above(view, facet, lrcsi_prepared_corner(view->prepared, other, k));
         front |= sign > 0;
         behind |= sign < 0;
     }
@@ -124,10 +94,10 @@ int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
         const double *its = lrcsi_prepared_corner(view->prepared, facet, n % 3);
         const double *others = lrcsi_prepared_corner(view->prepared, other, n % 3);
         if (n < 3 && lrcsi_sample_covers(view, other, its)) {
-            order = -height_sign(view, other, its);
+            order = -lrcsi_sample_above(view, other, its);
         }
         if (n >= 3 && lrcsi_sample_covers(view, facet, others)) {
-            order = height_sign(view, facet, others);
+            order = lrcsi_sample_above(view, facet, others);
         }
     }
     return order;
@@ -141,8 +111,8 @@ static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
         h.fine[k] = height_finely(t, x, &h.off[k]);
         double height = lrcsi_dd_value(h.fine[k]);
         h.height[k] = height;
-        h.above[k] =
-            fabs(height) > h.off[k] ? (height > 0 ? 1 : -1) : height_sign(t->view, t->facet, x);
+        h.above[k] = fabs(height) > h.off[k] ? (height > 0 ? 1 : -1)
+                                             : lrcsi_sample_above(t->view, t->facet, x);
     }
     return h;
 }

@@ -10,9 +10,6 @@
 #include "base/work.h"
 #include "visibility/sample.h"
 
-#define U         0x1p-53
-#define UNDERFLOW 0x1p-1000
-
 /* --- crossings -------------------------------------------------------------------------------- */
 
 /* A facet that asks which event edges cross it, and its box, widened by the view's error and by
@@ -37,10 +34,9 @@ static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
         ask.low[k] -= wide;
         ask.high[k] += wide;
     }
-    ask.far =
-        lrcsi_least(view->point[ask.corner[0]].x[2],
-                    lrcsi_least(view->point[ask.corner[1]].x[2], view->point[ask.corner[2]].x[2])) -
-        wide;
+    double near;
+    lrcsi_grid_depth(view, facet, &ask.far, &near);
+    ask.far -= wide;
     return ask;
 }
 
@@ -91,29 +87,11 @@ static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint3
     return left && right;
 }
 
-/* Is the vertex nearer the laser than the facet's plane? From the normal, else exactly. Taking its
-   high part, a difference, a product and two sums cost 5 u of the terms; the normal's own error
-   counts with the difference, below 4 in norm; and UNDERFLOW is more than products can lose. */
+/* Is the vertex nearer the laser than the facet's plane? The facet's own are not. */
 static int vertex_nearer(const lrcsi_view *view, const contest_ask *ask, uint32_t vertex)
 {
-    const lrcsi_normal *n = &view->prepared->normal[ask->facet];
-    if (vertex == ask->corner[0] || vertex == ask->corner[1] || vertex == ask->corner[2]) {
-        return 0;
-    }
-    const lrcs_point *v = view->prepared->vertex;
-    const double *a = v[ask->corner[0]].x;
-    const double *x = v[vertex].x;
-    double dot = 0;
-    double size = 0;
-    for (int k = 0; k < 3; k++) {
-        double term = n->high[k] * (x[k] - a[k]);
-        dot += term;
-        size += fabs(term);
-    }
-    if (fabs(dot) > 8 * U * size + 8 * n->error + UNDERFLOW) {
-        return (dot > 0) == (ask->facing > 0);
-    }
-    return ask->facing * lrcsi_exact_side(a, v[ask->corner[1]].x, v[ask->corner[2]].x, x) > 0;
+    return vertex != ask->corner[0] && vertex != ask->corner[1] && vertex != ask->corner[2] &&
+           lrcsi_sample_above(view, ask->facet, view->prepared->vertex[vertex].x) > 0;
 }
 
 static int edge_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t edge, int *along)

@@ -51,14 +51,8 @@ int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover
 /* The box of a facet in the view, all three ways. */
 static void cover_box(const lrcsi_view *view, uint32_t facet, double low[3], double high[3])
 {
-    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    for (int k = 0; k < 3; k++) {
-        double a = view->point[corner[0]].x[k];
-        double b = view->point[corner[1]].x[k];
-        double c = view->point[corner[2]].x[k];
-        low[k] = lrcsi_least(a, lrcsi_least(b, c));
-        high[k] = lrcsi_most(a, lrcsi_most(b, c));
-    }
+    lrcsi_grid_box(view, view->prepared->scene->facet[facet].corner, 3, low, high);
+    lrcsi_grid_depth(view, facet, &low[2], &high[2]);
 }
 
 /* Lists a facet unless all of it is beside the target's box, or behind its farthest corner. */

@@ -67,6 +67,18 @@ static inline void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex
     }
 }
 
+/* The least and the most z of a facet: how far from the laser it reaches, and how near. */
+static inline void lrcsi_grid_depth(const lrcsi_view *view, uint32_t facet, double *far,
+                                    double *near)
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    double a = view->point[corner[0]].x[2];
+    double b = view->point[corner[1]].x[2];
+    double c = view->point[corner[2]].x[2];
+    *far = lrcsi_least(a, lrcsi_least(b, c));
+    *near = lrcsi_most(a, lrcsi_most(b, c));
+}
+
 /* How often a facet is listed at most, on average. Facets that fill 16 cells fill 9 of twice the
    size, or fewer: so a coarser grid has lists little more than twice as long, and fewer of them to
    walk through for each facet. */

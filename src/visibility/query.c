@@ -59,13 +59,11 @@ typedef struct query_depth {
 
 static query_depth depth_of(const lrcsi_view *view, uint32_t facet)
 {
-    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    double a = view->point[corner[0]].x[2];
-    double b = view->point[corner[1]].x[2];
-    double c = view->point[corner[2]].x[2];
-    double off = 2 * view->off;
-    return (query_depth){lrcsi_least(a, lrcsi_least(b, c)) - off,
-                         lrcsi_most(a, lrcsi_most(b, c)) + off};
+    query_depth depth;
+    lrcsi_grid_depth(view, facet, &depth.far, &depth.near);
+    depth.far -= 2 * view->off;
+    depth.near += 2 * view->off;
+    return depth;
 }
 
 static int box_misses(const lrcsi_view *view, uint32_t facet, const double xy[2])

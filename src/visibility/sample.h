@@ -16,6 +16,10 @@ int lrcsi_sample_covers(const lrcsi_view *view, uint32_t facet, const double poi
 int lrcsi_sample_covers_towards(const lrcsi_view *view, uint32_t facet, const double point[3],
                                 int sense);
 
+/* Which side of the facet's plane a scene point lies on: 1 nearer the laser than the plane is
+   there, -1 farther, 0 on it; exact. Facing must not be 0. */
+int lrcsi_sample_above(const lrcsi_view *view, uint32_t facet, const double point[3]);
+
 /* Does `winner` come first where both lie exactly in one plane? A front face beats a back face, a
    reflecting back a dead one, then the lower index. */
 int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser);
