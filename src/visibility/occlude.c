@@ -421,12 +421,16 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
     lrcsi_occluding o;
     int status = lrcsi_occlude_make(contest, work, &o);
     *starved = 0;
+    if (status == LRCS_OK) {
+        lrcsi_visible_answered(view, o.uniform, visible);
+    }
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        if (lrcsi_occlude_open(&o, f) == LRCS_OK) {
+        int parted = contest->contested[f];
+        if (parted && lrcsi_occlude_open(&o, f) == LRCS_OK) {
             visible[f] = lrcsi_occlude_area(&o);
-        } else {
+        } else if (parted || o.uniform[f] == LRCSI_QUERY_UNDECIDED) {
             visible[f] = lrcsi_occlude_unknown(view, f);
-            ++*starved;
+            *starved += (uint32_t)parted;
         }
     }
     work->used = mark;

@@ -20,6 +20,31 @@
 
 #define U 0x1p-53
 
+/* --- answers ---------------------------------------------------------------------------------- */
+
+void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
+                            lrcsi_visible *visible)
+{
+    uint32_t facets = view->prepared->scene->facet_count;
+    uint32_t seen[LRCSI_TILTS];
+    lrcsi_tilt tilt[LRCSI_TILTS];
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < facets; f++) {
+        visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
+        if (answer[f] == LRCSI_QUERY_VISIBLE) {
+            seen[count++] = f;
+        }
+        if (count == LRCSI_TILTS || (count > 0 && f + 1 == facets)) {
+            lrcsi_view_tilts(view, seen, count, tilt);
+            while (count-- > 0) {
+                double area = tilt[count].projected;
+                visible[seen[count]] = (lrcsi_visible){area, area, area, 0, 0};
+            }
+            count = 0;
+        }
+    }
+}
+
 /* --- pixels where visibility may change ------------------------------------------------------- */
 
 /* The pixels that a facet may touch, and which of them are mixed. */
@@ -394,30 +419,6 @@ static void known_draw(const lrcsi_known *known, lrcsi_raster *raster)
     }
 }
 
-/* All or nothing of a facet: what is known of those that samples are not to tell of. */
-static void known_areas(const lrcsi_known *known, lrcsi_visible *visible)
-{
-    const lrcsi_view *view = known->contest->view;
-    uint32_t facets = view->prepared->scene->facet_count;
-    uint32_t seen[LRCSI_TILTS];
-    lrcsi_tilt tilt[LRCSI_TILTS];
-    uint32_t count = 0;
-    for (uint32_t f = 0; f < facets; f++) {
-        visible[f] = (lrcsi_visible){0, 0, 0, 0, 0};
-        if (known->answer[f] == LRCSI_QUERY_VISIBLE) {
-            seen[count++] = f;
-        }
-        if (count == LRCSI_TILTS || (count > 0 && f + 1 == facets)) {
-            lrcsi_view_tilts(view, seen, count, tilt);
-            while (count-- > 0) {
-                double area = tilt[count].projected;
-                visible[seen[count]] = (lrcsi_visible){area, area, area, 0, 0};
-            }
-            count = 0;
-        }
-    }
-}
-
 /* A uniform facet of which no query could tell. */
 static lrcsi_visible unknown_area(lrcsi_raster *raster, uint32_t facet)
 {
@@ -438,7 +439,7 @@ static void visible_fill(const lrcsi_sharing *sharing, pixel_marks *marks, lrcsi
             mark_pure(marks, f);
         }
     }
-    known_areas(known, visible);
+    lrcsi_visible_answered(contest->view, known->answer, visible);
     for (uint32_t f = 0; f < count; f++) {
         if (known->answer[f] == LRCSI_QUERY_UNDECIDED) {
             visible[f] =

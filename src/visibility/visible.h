@@ -25,6 +25,10 @@ static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_tilt *tilt, dou
     return (lrcsi_visible){tilt->projected, low, tilt->projected, 0, 0};
 }
 
+/* All or nothing of each facet, by its lrcsi_query_answer; nothing where that is undecided. */
+void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
+                            lrcsi_visible *visible);
+
 /* What exact queries tell of facets before any sample is taken. */
 typedef struct lrcsi_known {
     lrcsi_contest *contest;
