@@ -78,4 +78,44 @@ keys() { printf '%s\n' "$out" | sed -n 's/^  "\([a-z0-9_]*\)":.*/\1/p' | tr '\n'
 # value KEY: what stands after a top-level key of the JSON in $out.
 value() { printf '%s\n' "$out" | sed -n "s/^  \"$1\": \(.*[^,]\),\{0,1\}\$/\1/p"; }
 
+# Scenes that several tests run: one box;
+box_scene() {
+    cat <<'END'
+[[part]]
+name = "box"
+shape = "box"
+size = [1, 2, 3]
+END
+}
+# two boxes, one in the other's shadow: small, and not convex;
+pair_scene() {
+    cat <<'END'
+[[part]]
+name = "near"
+shape = "box"
+size = [1, 2, 3]
+material = "paint-white"
+[[part]]
+name = "far"
+shape = "box"
+size = [3, 1, 1]
+translate = [0.3, 0.2, -4]
+material = "solar-cell"
+END
+}
+# a plate of 2 x 2 half under another, which hides the corner x > 0, y > 0 of it.
+plates_scene() {
+    cat <<'END'
+[[part]]
+name = "low"
+shape = "plate"
+size = [2, 2]
+[[part]]
+name = "high"
+shape = "plate"
+size = [1, 1]
+translate = [0.5, 0.5, 1]
+END
+}
+
 finish() { [ "$failures" -eq 0 ]; }

@@ -4,10 +4,9 @@
 . "$(dirname "$0")/check.sh"
 
 cd "$scratch" || exit 1
-printf '[[part]]\nname = "a"\nshape = "box"\nsize = [1, 2, 3]\nmaterial = "paint-white"\n' >box.toml
-cat box.toml >pair.toml
-printf '[[part]]\nname = "b"\nshape = "box"\nsize = [3, 1, 1]\ntranslate = [0.3, 0.2, -4]\n' >>pair.toml
-cat box.toml >round.toml
+box_scene >box.toml
+pair_scene >pair.toml
+box_scene >round.toml
 printf '[[part]]\nname = "c"\nshape = "cylinder"\nradius = 0.5\nlength = 1\ntranslate = [0, 0, -4]\n' >>round.toml
 
 # ---- wrong arguments ----

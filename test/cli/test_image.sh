@@ -5,18 +5,7 @@
 . "$(dirname "$0")/check.sh"
 
 cd "$scratch" || exit 1
-# A plate of 2 x 2 half under another, which hides the corner x > 0, y > 0 of it.
-cat >pair.toml <<'END'
-[[part]]
-name = "low"
-shape = "plate"
-size = [2, 2]
-[[part]]
-name = "high"
-shape = "plate"
-size = [1, 1]
-translate = [0.5, 0.5, 1]
-END
+plates_scene >pair.toml
 printf 'newmtl red\nKd 1 0 0\nnewmtl sea\nKd 0 0.2 0.6\n' >m.mtl
 cat >m.obj <<'END'
 mtllib m.mtl
@@ -73,9 +62,10 @@ run run demo --azel 50,40 --tolerance 0.01 --facets demo.csv --json
 printf '%s\n' "$out" >demo.json
 
 command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; finish; exit; }
-python3 - <<'END' || failures=1
-import csv, json, math, re, struct, sys, zlib
+PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/test/host python3 - <<'END' || failures=1
+import csv, json, math, re, struct, sys
 import xml.etree.ElementTree as tree
+from png_file import Png
 bad = 0
 def check(name, good):
     global bad
@@ -83,23 +73,7 @@ def check(name, good):
     bad += not good
 
 def pixels(path):
-    data, pos, idat = open(path, "rb").read(), 8, b""
-    while pos < len(data):
-        size, kind = struct.unpack(">I4s", data[pos:pos + 8])
-        if kind == b"IHDR": w, h = struct.unpack(">II", data[pos + 8:pos + 16])
-        if kind == b"IDAT": idat += data[pos + 8:pos + 8 + size]
-        pos += 12 + size
-    raw, rows, last = zlib.decompress(idat), [], bytes(3 * w)
-    for y in range(h):
-        kind, row = raw[y * (3 * w + 1)], bytearray(raw[y * (3 * w + 1) + 1:(y + 1) * (3 * w + 1)])
-        for i in range(3 * w):
-            a, b, c = row[i - 3] if i > 2 else 0, last[i], last[i - 3] if i > 2 else 0
-            p = a + b - c
-            paeth = a if abs(p - a) <= abs(p - b) and abs(p - a) <= abs(p - c) else b if abs(p - b) <= abs(p - c) else c
-            row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
-        last = bytes(row)
-        rows.append([tuple(row[k:k + 3]) for k in range(0, 3 * w, 3)])
-    return rows
+    return [[tuple(row[k:k + 3]) for k in range(0, len(row), 3)] for row in Png(path).rows]
 # The drawing is a square about (96, `middle`) whose side is what the legend leaves of 192 pixels.
 def at(rows, u, v, side=192 - 2 * 6 - 48):
     return rows[round(6 + side * (1 - v))][round(96 + side * (u - 0.5))]

@@ -4,18 +4,7 @@
 . "$(dirname "$0")/check.sh"
 
 cd "$scratch" || exit 1
-# A plate of 2 x 2 half under another, which hides the corner x > 0, y > 0 of it.
-cat >pair.toml <<'END'
-[[part]]
-name = "low"
-shape = "plate"
-size = [2, 2]
-[[part]]
-name = "high"
-shape = "plate"
-size = [1, 1]
-translate = [0.5, 0.5, 1]
-END
+plates_scene >pair.toml
 
 run run pair.toml --method exact --polygons rings.csv --facets facets.csv
 same polygons_are_written "$rc" 0

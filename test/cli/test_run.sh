@@ -3,26 +3,8 @@
 # lrcs run: keys, exit codes, poses, files.
 . "$(dirname "$0")/check.sh"
 
-cat >"$scratch/box.toml" <<'END'
-[[part]]
-name = "box"
-shape = "box"
-size = [1, 2, 3]
-END
-# Two boxes, one in the other's shadow: small, and not convex.
-cat >"$scratch/pair.toml" <<'END'
-[[part]]
-name = "near"
-shape = "box"
-size = [1, 2, 3]
-material = "paint-white"
-[[part]]
-name = "far"
-shape = "box"
-size = [3, 1, 1]
-translate = [0.3, 0.2, -4]
-material = "solar-cell"
-END
+box_scene >"$scratch/box.toml"
+pair_scene >"$scratch/pair.toml"
 pair=$scratch/pair.toml
 
 # ---- JSON ----

@@ -4,26 +4,8 @@
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 
-cat >box.toml <<'END'
-[[part]]
-name = "box"
-shape = "box"
-size = [1, 2, 3]
-END
-# Two boxes, one in the other's shadow.
-cat >pair.toml <<'END'
-[[part]]
-name = "near"
-shape = "box"
-size = [1, 2, 3]
-material = "paint-white"
-[[part]]
-name = "far"
-shape = "box"
-size = [3, 1, 1]
-translate = [0.3, 0.2, -4]
-material = "solar-cell"
-END
+box_scene >box.toml
+pair_scene >pair.toml
 
 # sweep ARGUMENTS...: the rows alone.
 sweep() { "$tool" sweep "$@" 2>/dev/null | grep -v '^#' | sed 1d; }

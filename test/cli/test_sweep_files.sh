@@ -4,12 +4,7 @@
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 
-cat >box.toml <<'END'
-[[part]]
-name = "box"
-shape = "box"
-size = [1, 2, 3]
-END
+box_scene >box.toml
 what='box.toml --az 0:90:10 --el -20:20:10'
 
 # equal NAME FILE FILE

@@ -11,9 +11,10 @@ cd "$scratch" || exit 1
 cp "$root/examples/plate.toml" 'a<b&"c.toml'
 "$tool" converge 'a<b&"c.toml' --azel 0,30 --seconds 0.05 --plot p.svg --plot p.png >/dev/null 2>&1
 "$tool" converge demo --azel 50,40 --seconds 0.5 --plot d.svg --csv d.csv >/dev/null 2>&1
-python3 - <<'END'
-import csv, math, struct, sys, zlib
+PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/test/host python3 - <<'END'
+import csv, math, sys
 import xml.etree.ElementTree as tree
+from png_file import Png
 bad = 0
 def check(name, good):
     global bad
@@ -61,20 +62,11 @@ wanted = [(float(r["pose_ms"]), float(r[k])) for r in rows for k in ("relative_e
 check("demo_has_points_to_find", len(wanted) >= 2)
 check("every_point_has_its_marker", all(any(math.hypot(at_x(x) - cx, at_y(y) - shift - cy) < 0.6 for cx, cy in centres)
       for x, y in wanted))
-data = open("p.png", "rb").read()
-pos, idat, crcs = 8, b"", True
-while pos < len(data):
-    size, kind = struct.unpack(">I4s", data[pos:pos + 8])
-    body = data[pos + 8:pos + 8 + size]
-    crcs &= zlib.crc32(kind + body) == struct.unpack(">I", data[pos + 8 + size:pos + 12 + size])[0]
-    if kind == b"IHDR": head = struct.unpack(">IIBBBBB", body)
-    if kind == b"IDAT": idat += body
-    pos += 12 + size
+png = Png("p.png")
 w, h = int(2 * width), int(2 * height)
-raw = zlib.decompress(idat)
-rows = [raw[y * (3 * w + 1) + 1:(y + 1) * (3 * w + 1)] for y in range(h)]
-check("png_sums_are_right", crcs)
-check("png_is_twice_the_size", head == (w, h, 8, 2, 0, 0, 0) and len(raw) == h * (3 * w + 1))
+rows = png.rows
+check("png_sums_are_right", png.sums)
+check("png_is_twice_the_size", png.head == (w, h, 8, 2, 0, 0, 0) and len(png.raw) == h * (3 * w + 1))
 colours = {r[k:k + 3] for r in rows for k in range(0, 3 * w, 3)}
 for name, rgb in (("white", "ffffff"), ("blue", "0072b2"), ("vermilion", "d55e00"), ("purple", "cc79a7")):
     check("png_has_" + name, bytes.fromhex(rgb) in colours)

@@ -8,28 +8,20 @@ trap 'rm -rf "$scratch"' EXIT
 "$tool" run demo --tolerance 0.01 --azel 30,20 --json --image "$scratch/i.png" --image-size 200 \
     --facets "$scratch/f.csv" >"$scratch/o.json" 2>/dev/null
 "$tool" info demo --json >"$scratch/info.json" 2>/dev/null
-python3 - "$scratch" <<'END'
-import csv, json, math, struct, sys, zlib
+PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$(dirname "$0") python3 - "$scratch" <<'END'
+import csv, json, math, sys
+from png_file import Png
 at = sys.argv[1]
 bad = 0
 def check(name, good):
     global bad
     print(("ok " if good else "not ok ") + name)
     bad += not good
-data = open(at + "/i.png", "rb").read()
-pos, idat, crcs = 8, b"", True
-while pos < len(data):
-    size, kind = struct.unpack(">I4s", data[pos:pos + 8])
-    body = data[pos + 8:pos + 8 + size]
-    crcs &= zlib.crc32(kind + body) == struct.unpack(">I", data[pos + 8 + size:pos + 12 + size])[0]
-    if kind == b"IHDR": head = struct.unpack(">IIBBBBB", body)
-    if kind == b"IDAT": idat += body
-    pos += 12 + size
-raw = zlib.decompress(idat)
-check("chunk_sums_are_right", crcs)
-check("head_is_200_x_200_rgb", head == (200, 200, 8, 2, 0, 0, 0))
-check("pixels_inflate_to_their_size", len(raw) == 200 * 601)
-rows = [raw[y * 601 + 1:(y + 1) * 601] for y in range(200)]
+png = Png(at + "/i.png")
+check("chunk_sums_are_right", png.sums)
+check("head_is_200_x_200_rgb", png.head == (200, 200, 8, 2, 0, 0, 0))
+check("pixels_inflate_to_their_size", len(png.raw) == 200 * 601)
+rows = png.rows
 check("corner_is_background", rows[0][:3] == rows[199][597:])
 check("something_is_seen", len({r[k:k + 3] for r in rows for k in range(0, 600, 3)}) > 10)
 run = json.load(open(at + "/o.json"))

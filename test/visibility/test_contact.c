@@ -2,7 +2,7 @@
 /* Where facets meet each other's planes, and which is nearer, by hand. */
 #include "visibility/contact.h"
 
-#include "scenes.h"
+#include "visibility/plate_and.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -12,14 +12,7 @@ static lrcsi_target target;
 /* The target: (0,0,0) (4,0,0) (0,4,0), front up, seen from above; facet 1 as told. */
 static void look(const double a[3], const double b[3], const double c[3])
 {
-    lrcs_pose pose;
-    scene_start(&scene);
-    scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
-                   (const double[3]){0, 4, 0});
-    scene_triangle(&scene, a, b, c);
-    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
-    assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
-    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    plate_and(&scene, a, b, c, &work, &view);
     lrcsi_target_make(&view, 0, &target);
 }
 

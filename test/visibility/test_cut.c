@@ -2,7 +2,7 @@
 /* What may divide a facet: found, and told to come near a part of it or not. */
 #include "visibility/cut.h"
 
-#include "scenes.h"
+#include "visibility/plate_and.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -14,14 +14,7 @@ static lrcsi_cuts cuts;
 /* A plate of side 4 seen from above, and a triangle of which the corners are told. */
 static uint32_t look(const double a[3], const double b[3], const double c[3])
 {
-    lrcs_pose pose;
-    scene_start(&scene);
-    scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
-                   (const double[3]){0, 4, 0});
-    scene_triangle(&scene, a, b, c);
-    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
-    assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
-    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    plate_and(&scene, a, b, c, &work, &view);
     assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
     lrcsi_target_make(&view, 0, &target);
     assert_int_equal(lrcsi_cuts_make(&contest, &target, &work, &cuts), LRCS_OK);
