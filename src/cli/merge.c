@@ -187,10 +187,9 @@ static int merge_command(const cli_args *args)
     }
     int code = cli_file_read(args, &file);
     merge_shard *shard = calloc((size_t)args->given_count + 1, sizeof *shard);
-    if (code == 0 && !shard) {
-        code = cli_out_of_memory();
+    if (code == 0) {
+        code = shard ? merge_shards(args, &file, shard) : cli_out_of_memory();
     }
-    code = code ? code : merge_shards(args, &file, shard);
     for (int i = 0; shard && i < args->given_count; i++) {
         lrcs_host_file_free(&shard[i].file);
     }
