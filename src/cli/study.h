@@ -12,7 +12,6 @@
 #define STUDY_COLUMNS 9u
 #define STUDY_TABLES  24u
 #define STUDY_LAWS    24u
-#define STUDY_FLOOR   1e-6 /* m2: plots and relative bounds end there (-60 dBsm) */
 
 /* A value and how far the truth may be from it. */
 typedef struct study_number {
@@ -34,10 +33,11 @@ enum study_finish { STUDY_DIFFUSE, STUDY_GLINT, STUDY_MIXED, STUDY_FINISHES };
 
 /* How a table is drawn. */
 enum study_chart {
-    STUDY_NO_CHART,
-    STUDY_DBSM,    /* sigma in dBsm over an angle */
-    STUDY_LOG_LOG, /* as it is, both axes logarithmic */
-    STUDY_LOG      /* as it is, y logarithmic */
+    STUDY_NO_CHART, /* a table of the page */
+    STUDY_DBSM,     /* sigma in dBsm over an angle */
+    STUDY_LOG_LOG,  /* as it is, both axes logarithmic */
+    STUDY_LOG,      /* as it is, y logarithmic */
+    STUDY_LINEAR    /* as it is */
 };
 
 typedef struct study_column {
@@ -53,6 +53,7 @@ typedef struct study_table {
     const char *title, *x_id, *x_name, *y_name;
     const char *maker; /* what made it */
     char note[160];
+    double floor; /* m2: plots in dBsm, and what is said of relative bounds, end there */
     int chart, polar, estimate; /* polar: drawn about a pole too; estimate: a quadrature's error
                                    is in its bounds, which are then no proof */
     uint32_t columns, rows;
@@ -109,6 +110,11 @@ lrcs_brdf cli_study_finish(const study_job *job, int finish);
 lrcs_brdf cli_study_with(lrcs_brdf brdf, char parameter, double value);
 study_number cli_study_sigma(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
                              double aspect_deg);
+/* That of such a wall at such an aspect. */
+study_number cli_study_wall_sigma(study_job *job, int kind, double half_angle_deg,
+                                  const lrcs_brdf *brdf);
+/* The same sigma for the lengths that were meant, which the bodies above have but for rounding. */
+study_number cli_study_meant(study_number sigma);
 study_number cli_study_sigma_at(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
                                 const lrcs_aspect *aspect);
 
@@ -126,9 +132,10 @@ study_number cli_study_share(study_job *job, int kind, double half_angle_deg,
                              const lrcs_brdf *brdf);
 /* The mean over all attitudes. Its bound holds the quadrature's error, an estimate. */
 study_number cli_study_mean(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf);
-/* The same of what looks alike in all eight octants: `look` says its sigma from a direction. */
+/* The same of what looks alike in all eight octants, with some panels each way of one of them, an
+   even number: `look` says its sigma from a direction. */
 typedef study_number study_look(study_job *job, const void *what, const double direction[3]);
-study_number cli_study_octant(study_job *job, study_look *look, const void *what);
+study_number cli_study_octant(study_job *job, study_look *look, const void *what, int panels);
 
 /* ---- the engine itself, where a scene calls for it ---- */
 
@@ -164,6 +171,8 @@ study_law *cli_study_law(study_job *job, const char *name);
 /* How a comparison enters it: within limits, bound included; or equal to within the bound. */
 void cli_study_within(study_law *law, study_number number, double least, double most);
 void cli_study_equal(study_law *law, study_number number, double expected);
+/* The first is the larger. */
+void cli_study_order(study_law *law, study_number large, study_number small);
 int cli_study_holds(const study_law *law);
 /* How many hold. */
 uint32_t cli_study_held(const study_job *job);

@@ -5,13 +5,15 @@
 
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
-static study_table *attitude_table(study_job *job, const char *stem, const char *title)
+static study_table *attitude_table(study_job *job, const char *stem, const char *title,
+                                   double floor_m2)
 {
     study_table *table = cli_study_table(job, stem, title);
     table->x_id = "aspect_deg";
     table->x_name = "angle between line of sight and axis (deg)";
     table->y_name = "sigma (dBsm)";
     table->chart = STUDY_DBSM;
+    table->floor = floor_m2;
     return table;
 }
 
@@ -26,10 +28,18 @@ static void attitude_fill(study_job *job, study_table *table, uint32_t column,
     }
 }
 
-static void material_note(study_table *table, const char *before, const lrcs_brdf *brdf)
+/* What is drawn and what it is made of, a parameter that varies left aside. */
+static void material_note(study_table *table, const char *what, const lrcs_brdf *brdf, char varies)
 {
-    snprintf(table->note, sizeof table->note, "%s A = %.5g /sr, B = %.5g /sr, s = %.5g, m = %.5g",
-             before, brdf->A, brdf->B, brdf->s, brdf->m);
+    static const char name[] = {'A', 'B', 's', 'm'};
+    const double value[] = {brdf->A, brdf->B, brdf->s, brdf->m};
+    size_t size = (size_t)snprintf(table->note, sizeof table->note, "%s", what);
+    for (int i = 0; i < 4 && size < sizeof table->note; i++) {
+        if (name[i] != varies) {
+            size += (size_t)snprintf(table->note + size, sizeof table->note - size, ", %c = %.5g%s",
+                                     name[i], value[i], i < 2 ? " /sr" : "");
+        }
+    }
 }
 
 /* ---- bodies beside each other ---- */
@@ -40,19 +50,24 @@ static const char *const finish_title[STUDY_FINISHES] = {
     "Attitude, purely diffuse surface", "Attitude, purely specular (glint) surface",
     "Attitude, mixed surface"};
 
+/* Cube and cylinder show faces of the same size, whose curves lie on each other. */
+static const int body_dash[STUDY_KINDS] = {[STUDY_DISC] = LRCS_HOST_DOTTED,
+                                           [STUDY_CYLINDER] = LRCS_HOST_DASHED,
+                                           [STUDY_SPHERE] = LRCS_HOST_DOTTED};
+
 static void bodies_table(study_job *job, int finish)
 {
     const lrcs_brdf brdf = cli_study_finish(job, finish);
-    study_table *table = attitude_table(job, finish_stem[finish], finish_title[finish]);
-    material_note(table, "bodies of 6 m2 of surface;", &brdf);
+    study_table *table = attitude_table(job, finish_stem[finish], finish_title[finish],
+                                        finish == STUDY_GLINT ? 1e-6 : 0.1);
+    material_note(table, "bodies of 6 m2 of surface", &brdf, 0);
     table->polar = finish == STUDY_MIXED;
     for (int kind = 0; kind < STUDY_KINDS; kind++) {
         const lrcs_shape shape = cli_study_body(kind);
         char id[32];
         snprintf(id, sizeof id, "%s_m2", cli_study_name(kind));
-        uint32_t column = cli_study_column(
-            table, id, cli_study_name(kind), cli_study_colour(kind),
-            kind == STUDY_DISC || kind == STUDY_SPHERE ? LRCS_HOST_DASHED : LRCS_HOST_SOLID);
+        uint32_t column = cli_study_column(table, id, cli_study_name(kind), cli_study_colour(kind),
+                                           body_dash[kind]);
         attitude_fill(job, table, column, &shape, &brdf, 1.0, 180.0);
     }
 }
@@ -65,8 +80,8 @@ static void finishes_table(study_job *job, int kind, const char *stem, const cha
     static const char *const name[] = {"purely diffuse", "purely specular", "mixed"};
     static const int colour[] = {LRCS_HOST_GREEN, LRCS_HOST_ORANGE, LRCS_HOST_BLACK};
     const lrcs_shape shape = cli_study_body(kind);
-    study_table *table = attitude_table(job, stem, title);
-    material_note(table, "6 m2 of surface;", &job->brdf);
+    study_table *table = attitude_table(job, stem, title, 1e-3);
+    material_note(table, "6 m2 of surface", &job->brdf, 0);
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
         const lrcs_brdf brdf = cli_study_finish(job, finish);
         uint32_t column =
@@ -97,8 +112,8 @@ static void influence_table(study_job *job, const influence *of)
     static const int dash[] = {LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_SOLID,
                                LRCS_HOST_DOTTED};
     const lrcs_shape shape = cli_study_body(STUDY_CYLINDER);
-    study_table *table = attitude_table(job, of->stem, of->title);
-    material_note(table, "cylinder of 6 m2 of surface; otherwise", &job->brdf);
+    study_table *table = attitude_table(job, of->stem, of->title, 1e-3);
+    material_note(table, "cylinder of 6 m2 of surface", &job->brdf, of->parameter);
     for (int i = 0; i < 4; i++) {
         const lrcs_brdf brdf = cli_study_with(job->brdf, of->parameter, of->value[i]);
         char id[32];

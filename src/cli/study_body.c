@@ -150,3 +150,19 @@ study_number cli_study_sigma(study_job *job, const lrcs_shape *shape, const lrcs
     const lrcs_aspect aspect = {.deg = aspect_deg};
     return cli_study_sigma_at(job, shape, brdf, &aspect);
 }
+
+/* Lengths are square roots of quotients with pi, a sine among them: each is within 5 * 2^-53 of
+   itself, libm's sine being within 2 ulp, and sigma goes with products of two. */
+study_number cli_study_meant(study_number sigma)
+{
+    sigma.bound += 16.0 * 0x1p-53 * fabs(sigma.value);
+    return sigma;
+}
+
+study_number cli_study_wall_sigma(study_job *job, int kind, double half_angle_deg,
+                                  const lrcs_brdf *brdf)
+{
+    const lrcs_shape shape = cli_study_wall(kind, half_angle_deg);
+    double normal = cli_study_normal(kind, half_angle_deg);
+    return cli_study_meant(cli_study_sigma(job, &shape, brdf, normal));
+}

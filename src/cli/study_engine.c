@@ -6,6 +6,7 @@
 #include <math.h>
 
 #define ENGINE_TOLERANCE 1e-4
+#define ENGINE_PANELS    4
 
 static int engine_scene(const lrcs_recipe_part *part, uint32_t parts, const lrcs_brdf *brdf,
                         lrcs_host_scene *scene, lrcs_host_error *error)
@@ -105,7 +106,7 @@ study_number cli_study_shaded(study_job *job, const lrcs_brdf *brdf, double *sur
         job->status = engine_scene(part, 3, brdf, &scene, &job->error);
     }
     if (job->status == LRCS_OK) {
-        mean = cli_study_octant(job, shaded_look, &scene);
+        mean = cli_study_octant(job, shaded_look, &scene, ENGINE_PANELS);
     }
     lrcs_host_scene_free(&scene);
     return mean;

@@ -46,6 +46,11 @@ void cli_study_equal(study_law *law, study_number number, double expected)
     law_take(law, slack, number, expected, expected);
 }
 
+void cli_study_order(study_law *law, study_number large, study_number small)
+{
+    cli_study_within(law, cli_study_ratio(small, large), -HUGE_VAL, 1.0);
+}
+
 int cli_study_holds(const study_law *law)
 {
     return law->checks > 0 && law->slack >= 0.0;
@@ -69,7 +74,7 @@ void cli_study_limits(const study_law *law, char text[64])
     } else if (isinf(law->least)) {
         snprintf(text, 64, "< %.6g", law->most);
     } else {
-        snprintf(text, 64, "%.6g .. %.6g", law->least, law->most);
+        snprintf(text, 64, "%.8g .. %.8g", law->least, law->most);
     }
 }
 

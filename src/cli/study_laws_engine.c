@@ -12,7 +12,7 @@ static void shading_law(study_job *job)
     study_number mean = cli_study_shaded(job, &job->brdf, &surface);
     const lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE,
                                .radius = sqrt(surface / (4.0 * STUDY_PI))};
-    study_number convex = cli_study_sigma(job, &sphere, &job->brdf, 0.0);
+    study_number convex = cli_study_meant(cli_study_sigma(job, &sphere, &job->brdf, 0.0));
     study_number ratio = cli_study_ratio(mean, convex);
     law->estimate = 1;
     cli_study_within(law, ratio, -HUGE_VAL, 1.0);
@@ -46,7 +46,7 @@ static void engine_law(study_job *job)
     snprintf(law->text, sizeof law->text,
              "The engine's own facets give the closed forms of cube, cylinder and cone within its "
              "proved bounds: they differ by at most %.1e of sigma, where the bounds allow %.1e.",
-             worst, largest);
+             1.1 * worst, 1.1 * largest);
     snprintf(law->range, sizeof law->range, "Mixed surface, ten aspects, tolerance 1e-4.");
 }
 

@@ -4,9 +4,8 @@
 
 #include <math.h>
 
-#define MEAN_NODES   12 /* of a Gauss-Legendre rule on each panel */
-#define MEAN_PANELS  24 /* in 0 .. 180 deg; half as many for the estimate */
-#define MEAN_SQUARES 4  /* of directions, each way; likewise */
+#define MEAN_NODES 12  /* of a Gauss-Legendre rule on each panel */
+#define MEAN_SLOPE 0.2 /* glints as narrow want the least number of panels, narrower ones more */
 
 typedef struct mean_rule {
     double node[MEAN_NODES], weight[MEAN_NODES]; /* on -1 .. 1 */
@@ -62,23 +61,23 @@ static study_number mean_turned(study_job *job, const lrcs_shape *shape, const l
     return mean;
 }
 
-/* The mean over an eighth of all directions, z and azimuth, the other seven being alike. */
+/* The mean over an eighth of all directions, the other seven being alike: over polar angle, by the
+   sine of which a direction counts, and azimuth. */
 static study_number mean_octant(study_job *job, study_look *look, const void *what, int panels)
 {
     const mean_rule rule = rule_make();
     study_number mean = {0.0, 0.0};
     int count = panels * MEAN_NODES;
-    double half = 0.5 / panels; /* of the range 0 .. 1 */
+    double half = 0.25 * STUDY_PI / panels; /* rad, of a panel */
     for (int i = 0; i < count * count; i++) {
         int row = i / count;
         int column = i % count;
-        double z = half * (2 * (row / MEAN_NODES) + 1 + rule.node[row % MEAN_NODES]);
-        double turn = half * (2 * (column / MEAN_NODES) + 1 + rule.node[column % MEAN_NODES]);
-        double level = sqrt((1.0 - z) * (1.0 + z));
-        const double direction[3] = {level * cos(0.5 * STUDY_PI * turn),
-                                     level * sin(0.5 * STUDY_PI * turn), z};
-        double weight =
-            half * half * rule.weight[row % MEAN_NODES] * rule.weight[column % MEAN_NODES];
+        double polar = half * (2 * (row / MEAN_NODES) + 1 + rule.node[row % MEAN_NODES]);
+        double azimuth = half * (2 * (column / MEAN_NODES) + 1 + rule.node[column % MEAN_NODES]);
+        const double direction[3] = {sin(polar) * cos(azimuth), sin(polar) * sin(azimuth),
+                                     cos(polar)};
+        double weight = half * half * rule.weight[row % MEAN_NODES] *
+                        rule.weight[column % MEAN_NODES] * sin(polar) * (2.0 / STUDY_PI);
         mean = cli_study_sum(mean, cli_study_scaled(look(job, what, direction), weight));
     }
     return mean;
@@ -91,10 +90,10 @@ static study_number mean_refined(study_number coarse, study_number fine)
     return fine;
 }
 
-study_number cli_study_octant(study_job *job, study_look *look, const void *what)
+study_number cli_study_octant(study_job *job, study_look *look, const void *what, int panels)
 {
-    study_number coarse = mean_octant(job, look, what, MEAN_SQUARES / 2);
-    return mean_refined(coarse, mean_octant(job, look, what, MEAN_SQUARES));
+    study_number coarse = mean_octant(job, look, what, panels / 2);
+    return mean_refined(coarse, mean_octant(job, look, what, panels));
 }
 
 typedef struct mean_box {
@@ -112,10 +111,11 @@ static study_number box_look(study_job *job, const void *what, const double dire
 
 study_number cli_study_mean(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf)
 {
+    int finer = brdf->A > 0.0 ? (int)fmax(ceil(MEAN_SLOPE / brdf->s), 1.0) : 1;
     if (shape->kind == LRCS_SHAPE_BOX) {
         const mean_box box = {shape, brdf};
-        return cli_study_octant(job, box_look, &box);
+        return cli_study_octant(job, box_look, &box, 4 * finer);
     }
-    study_number coarse = mean_turned(job, shape, brdf, MEAN_PANELS / 2);
-    return mean_refined(coarse, mean_turned(job, shape, brdf, MEAN_PANELS));
+    study_number coarse = mean_turned(job, shape, brdf, 12 * finer);
+    return mean_refined(coarse, mean_turned(job, shape, brdf, 24 * finer));
 }

@@ -123,14 +123,13 @@ static void page_laws(const study_job *job, FILE *out)
 
 /* ---- plots and tables ---- */
 
+/* Rounded up: a tenth more is no less in two digits. */
 static void page_source(const study_table *table, FILE *out)
 {
-    fprintf(out, "*%s: [%s.csv](%s.csv)", table->maker, table->stem, table->stem);
-    if (table->estimate) {
-        fprintf(out, "; error estimated at no more than %.0e of the value", table->relative);
-    } else {
-        fprintf(out, "; bound at most %.0e of the value%s", table->relative,
-                table->chart == STUDY_DBSM ? " where that is above -60 dBsm" : "");
+    fprintf(out, "*%s: [%s.csv](%s.csv); %s at most %.1e of the value", table->maker, table->stem,
+            table->stem, table->estimate ? "error estimated at" : "bound", 1.1 * table->relative);
+    if (table->floor > 0.0) {
+        fprintf(out, " where that is above %g dBsm", cli_dbsm(table->floor));
     }
     fputs(".*\n\n", out);
 }
@@ -207,7 +206,7 @@ static const page_section page_sections[] = {
      "\n"
      "The end's spike keeps its height and widens; the wall's band widens and rises.\n"
      "\n",
-     {"influence-s", "glint-width", "glint-peak"}},
+     {"influence-s", "glint-peak", "glint-widening", "glint-width"}},
     {"## m\n\n", {"influence-m", "diffuse-m", "diffuse-width"}},
     {"## Means over all attitudes\n\n", {"attitude-mean", "glint-share"}},
     {"## The engine beside the closed forms\n\n", {"engine"}}};

@@ -6,9 +6,8 @@
 
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
-static const double slope_list[] = {0.01, 0.015, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15,
-                                    0.2,  0.25,  0.3,  0.35, 0.4,  0.45, 0.5};
-static const double m_list[] = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 14.0, 20.0};
+static const double slope_list[] = {0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5};
+static const double m_list[] = {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0};
 
 /* The walls of 1 m2, in the order of their curvature. */
 static const int wall_list[] = {STUDY_DISC, STUDY_CONE, STUDY_CYLINDER, STUDY_SPHERE};
@@ -32,53 +31,97 @@ static uint32_t body_column(study_table *table, int kind, const char *unit)
                             kind == STUDY_CONE ? LRCS_HOST_DASHED : LRCS_HOST_SOLID);
 }
 
-/* A body 1/8 to 8 times as large, from 30 deg. */
+/* A body 1/8 to 8 times as large, broadside. */
 static void size_table(study_job *job)
 {
     static const int list[] = {STUDY_CUBE, STUDY_CYLINDER, STUDY_CONE};
     study_table *table = dial_table(job, "size", "Influence of size", STUDY_LOG_LOG, "scale",
                                     "length relative to the body of 6 m2", "sigma (m2)");
-    snprintf(table->note, sizeof table->note, "mixed surface, 30 deg from the axis");
+    snprintf(table->note, sizeof table->note, "mixed surface, broadside");
     for (size_t k = 0; k < COUNT_OF(list); k++) {
         uint32_t column = body_column(table, list[k], "m2");
         for (int i = -3; i <= 3; i++) {
             lrcs_shape shape = cli_study_scaled_body(cli_study_body(list[k]), ldexp(1.0, i));
             uint32_t row = (uint32_t)(i + 3);
             table->x[row] = ldexp(1.0, i);
-            cli_study_put(table, column, row, cli_study_sigma(job, &shape, &job->brdf, 30.0));
+            cli_study_put(table, column, row, cli_study_sigma(job, &shape, &job->brdf, 90.0));
         }
     }
 }
 
 /* Half-power angles of glints, of a cone to both sides. */
+typedef struct width_curve {
+    int kind;
+    double side;
+    const char *id, *name;
+    int colour, dash;
+} width_curve;
+
+static const width_curve width_curves[] = {
+    {STUDY_DISC, 1.0, "disc", "disc", LRCS_HOST_BLACK, LRCS_HOST_SOLID},
+    {STUDY_CYLINDER, -1.0, "cylinder", "cylinder", LRCS_HOST_VERMILION, LRCS_HOST_DASHED},
+    {STUDY_CONE, 1.0, "cone_to_base", "cone, towards its base", LRCS_HOST_GREEN, LRCS_HOST_SOLID},
+    {STUDY_CONE, -1.0, "cone_to_nose", "cone, towards its nose", LRCS_HOST_SKY_BLUE,
+     LRCS_HOST_SOLID}};
+
+static void width_columns(study_table *table, const char *unit, const char *unit_name)
+{
+    for (size_t k = 0; k < COUNT_OF(width_curves); k++) {
+        const width_curve *curve = &width_curves[k];
+        char id[32];
+        char name[48];
+        snprintf(id, sizeof id, "%s_%s", curve->id, unit);
+        snprintf(name, sizeof name, "%s%s", curve->name, unit_name);
+        cli_study_column(table, id, name, curve->colour, curve->dash);
+    }
+}
+
+static study_number width_of(study_job *job, const width_curve *curve, double s)
+{
+    const lrcs_shape shape = cli_study_wall(curve->kind, STUDY_HALF);
+    const lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', s);
+    double normal = cli_study_normal(curve->kind, STUDY_HALF);
+    return cli_study_half_power(job, &shape, &brdf, normal, curve->side);
+}
+
+/* s sqrt(ln 2) rad, in deg. */
+static double width_first_order(double s)
+{
+    return s * sqrt(log(2.0)) * 180.0 / STUDY_PI;
+}
+
 static void width_table(study_job *job)
 {
-    study_table *table =
-        dial_table(job, "glint-width", "Width of a glint against the rms slope s", STUDY_LOG_LOG,
-                   "s", "rms slope s", "half-power angle of the glint (deg)");
-    snprintf(table->note, sizeof table->note,
-             "purely specular; from the normal of the disc, from broadside, from 90 deg - "
-             "half-angle of the cone");
-    uint32_t disc = body_column(table, STUDY_DISC, "deg");
-    uint32_t cylinder = body_column(table, STUDY_CYLINDER, "deg");
-    uint32_t tail = cli_study_column(table, "cone_to_base_deg", "cone, towards the base",
-                                     LRCS_HOST_GREEN, LRCS_HOST_DASHED);
-    uint32_t nose = cli_study_column(table, "cone_to_nose_deg", "cone, towards the nose",
-                                     LRCS_HOST_ORANGE, LRCS_HOST_DASHED);
-    uint32_t first = cli_study_column(table, "first_order_deg", "s sqrt(ln 2)", LRCS_HOST_PURPLE,
-                                      LRCS_HOST_DOTTED);
-    const lrcs_shape shape[] = {cli_study_wall(STUDY_DISC, 0.0),
-                                cli_study_wall(STUDY_CYLINDER, 0.0),
-                                cli_study_wall(STUDY_CONE, STUDY_HALF)};
+    uint32_t columns = COUNT_OF(width_curves);
+    study_table *table = dial_table(job, "glint-width", "Half-power angle of a glint (deg)",
+                                    STUDY_NO_CHART, "s", "s", NULL);
+    width_columns(table, "deg", "");
+    cli_study_column(table, "first_order_deg", "s sqrt(ln 2)", 0, 0);
     for (uint32_t i = 0; i < COUNT_OF(slope_list); i++) {
-        double s = table->x[i] = slope_list[i];
-        lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', s);
-        double cone = cli_study_normal(STUDY_CONE, STUDY_HALF);
-        cli_study_put(table, disc, i, cli_study_half_power(job, &shape[0], &brdf, 0.0, 1.0));
-        cli_study_put(table, cylinder, i, cli_study_half_power(job, &shape[1], &brdf, 90.0, -1.0));
-        cli_study_put(table, tail, i, cli_study_half_power(job, &shape[2], &brdf, cone, 1.0));
-        cli_study_put(table, nose, i, cli_study_half_power(job, &shape[2], &brdf, cone, -1.0));
-        cli_study_put(table, first, i, cli_study_exact(s * sqrt(log(2.0)) * 180.0 / STUDY_PI));
+        table->x[i] = slope_list[i];
+        for (uint32_t k = 0; k < columns; k++) {
+            cli_study_put(table, k, i, width_of(job, &width_curves[k], slope_list[i]));
+        }
+        cli_study_put(table, columns, i, cli_study_exact(width_first_order(slope_list[i])));
+    }
+}
+
+static void widening_table(study_job *job)
+{
+    study_table *table =
+        dial_table(job, "glint-widening", "How the width of a glint follows the rms slope s",
+                   STUDY_LINEAR, "s", "rms slope s", "half-power angle / (s sqrt(ln 2))");
+    snprintf(table->note, sizeof table->note,
+             "purely specular; angles from the normal, from broadside, from the cone's 90 deg - "
+             "half-angle (%g deg)",
+             STUDY_HALF);
+    width_columns(table, "ratio", "");
+    for (uint32_t i = 0; i < 25; i++) {
+        double s = table->x[i] = (i + 1) / 50.0;
+        for (uint32_t k = 0; k < COUNT_OF(width_curves); k++) {
+            study_number half = width_of(job, &width_curves[k], s);
+            cli_study_put(table, k, i, cli_study_scaled(half, 1.0 / width_first_order(s)));
+        }
     }
 }
 
@@ -120,9 +163,9 @@ static void diffuse_table(study_job *job)
     for (size_t k = 0; k < COUNT_OF(wall_list); k++) {
         body_column(table, wall_list[k], "m2");
     }
-    for (uint32_t i = 0; i < COUNT_OF(m_list); i++) {
-        lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_DIFFUSE), 'm', m_list[i]);
-        table->x[i] = m_list[i];
+    for (uint32_t i = 0; i <= 40; i++) {
+        lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_DIFFUSE), 'm', 0.5 * i);
+        table->x[i] = 0.5 * i;
         wall_fill(job, table, &brdf, i);
     }
 }
@@ -130,10 +173,8 @@ static void diffuse_table(study_job *job)
 static void lobe_table(study_job *job)
 {
     study_table *table =
-        dial_table(job, "diffuse-width", "Width of the diffuse lobe against m", STUDY_LOG, "m",
-                   "diffusivity m", "half-power angle of the diffuse lobe (deg)");
-    snprintf(table->note, sizeof table->note,
-             "purely diffuse; from the normal of the disc, from broadside of the cylinder");
+        dial_table(job, "diffuse-width", "Half-power angle of the diffuse lobe (deg)",
+                   STUDY_NO_CHART, "m", "m", NULL);
     const lrcs_shape disc = cli_study_wall(STUDY_DISC, 0.0);
     const lrcs_shape cylinder = cli_study_wall(STUDY_CYLINDER, 0.0);
     body_column(table, STUDY_DISC, "deg");
@@ -150,6 +191,7 @@ void cli_study_surface_tables(study_job *job)
 {
     size_table(job);
     width_table(job);
+    widening_table(job);
     peak_table(job);
     diffuse_table(job);
     lobe_table(job);

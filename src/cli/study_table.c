@@ -32,7 +32,7 @@ void cli_study_put(study_table *table, uint32_t column, uint32_t row, study_numb
 {
     table->column[column].value[row] = number.value;
     table->bound[row] = fmax(table->bound[row], number.bound);
-    if (number.value > STUDY_FLOOR) {
+    if (number.value > table->floor) {
         table->relative = fmax(table->relative, number.bound / number.value);
     }
     table->rows = row + 1 > table->rows ? row + 1 : table->rows;
@@ -80,55 +80,72 @@ static int csv_write(FILE *out, const void *context, lrcs_host_error *error)
 
 /* ---- charts ---- */
 
-/* What of a value an axis shows: decibels above the floor, or it itself. */
-static double chart_value(const study_table *table, double value)
+/* The points of one curve, and of the other half turn of a body that looks alike. */
+typedef struct chart_curve {
+    uint32_t count;
+    double x[2 * STUDY_ROWS], y[2 * STUDY_ROWS];
+} chart_curve;
+
+static void curve_take(const study_table *table, uint32_t column, int polar, chart_curve *curve)
 {
-    if (table->chart != STUDY_DBSM) {
-        return value;
+    curve->count = polar ? 2 * table->rows - 1 : table->rows;
+    for (uint32_t i = 0; i < curve->count; i++) {
+        uint32_t row = i < table->rows ? i : 2 * table->rows - 2 - i;
+        double value = table->column[column].value[row];
+        curve->x[i] = i < table->rows ? table->x[row] : 360.0 - table->x[row];
+        curve->y[i] = table->chart == STUDY_DBSM ? cli_dbsm(value) : value;
     }
-    return value >= STUDY_FLOOR ? cli_dbsm(value) : (double)NAN;
 }
 
-static void series_fill(const study_table *table, int polar, double x[2 * STUDY_ROWS],
-                        double y[STUDY_COLUMNS][2 * STUDY_ROWS],
-                        lrcs_host_series series[STUDY_COLUMNS])
+/* A curve ends where it meets the floor: there stands the first point below, the others go. */
+static void curve_clip(chart_curve *curve, double floor)
 {
-    uint32_t count = polar ? 2 * table->rows - 1 : table->rows;
-    for (uint32_t c = 0; c < table->columns; c++) {
-        const study_column *column = &table->column[c];
-        for (uint32_t i = 0; i < count; i++) {
-            int mirrored = i >= table->rows; /* the other half turn of a body that looks alike */
-            uint32_t row = mirrored ? 2 * table->rows - 2 - i : i;
-            double value = chart_value(table, column->value[row]);
-            x[i] = mirrored ? 360.0 - table->x[row] : table->x[row];
-            y[c][i] = polar && !isfinite(value) ? cli_dbsm(STUDY_FLOOR) : value;
+    double before = HUGE_VAL;
+    for (uint32_t i = 0; i < curve->count; i++) {
+        double now = curve->y[i];
+        int next_above = i + 1 < curve->count && curve->y[i + 1] > floor;
+        int last_above = i > 0 && before > floor;
+        before = now;
+        if (now > floor) {
+            continue;
         }
-        series[c] = (lrcs_host_series){.name = column->name,
-                                       .count = count,
-                                       .x = x,
-                                       .y = y[c],
-                                       .colour = column->colour,
-                                       .marker = LRCS_HOST_NO_MARKER,
-                                       .dash = column->dash};
+        curve->y[i] = next_above || last_above ? floor : (double)NAN;
+        if ((next_above || last_above) && isfinite(now)) {
+            uint32_t other = last_above ? i - 1 : i + 1;
+            double part = (floor - now) / (curve->y[other] - now);
+            curve->x[i] += part * (curve->x[other] - curve->x[i]);
+        }
     }
 }
 
 static int chart_write(FILE *out, const study_table *table, int polar)
 {
-    double x[2 * STUDY_ROWS];
-    double y[STUDY_COLUMNS][2 * STUDY_ROWS];
+    chart_curve curve[STUDY_COLUMNS];
     lrcs_host_series series[STUDY_COLUMNS];
-    series_fill(table, polar, x, y, series);
-    const lrcs_host_chart chart = {.title = table->title,
-                                   .note = table->note,
-                                   .x_name = table->x_name,
-                                   .y_name = table->y_name,
-                                   .x_log = table->chart == STUDY_LOG_LOG,
-                                   .y_log = table->chart != STUDY_DBSM,
-                                   .x_deg = table->chart == STUDY_DBSM,
-                                   .polar = polar,
-                                   .series = series,
-                                   .series_count = table->columns};
+    for (uint32_t c = 0; c < table->columns; c++) {
+        curve_take(table, c, polar, &curve[c]);
+        if (table->chart == STUDY_DBSM) {
+            curve_clip(&curve[c], cli_dbsm(table->floor));
+        }
+        series[c] = (lrcs_host_series){.name = table->column[c].name,
+                                       .count = curve[c].count,
+                                       .x = curve[c].x,
+                                       .y = curve[c].y,
+                                       .colour = table->column[c].colour,
+                                       .marker = LRCS_HOST_NO_MARKER,
+                                       .dash = table->column[c].dash};
+    }
+    const lrcs_host_chart chart = {
+        .title = table->title,
+        .note = table->note,
+        .x_name = polar ? "line of sight from the axis (deg)" : table->x_name,
+        .y_name = table->y_name,
+        .x_log = table->chart == STUDY_LOG_LOG,
+        .y_log = table->chart == STUDY_LOG_LOG || table->chart == STUDY_LOG,
+        .x_deg = table->chart == STUDY_DBSM,
+        .polar = polar,
+        .series = series,
+        .series_count = table->columns};
     lrcs_host_chart_svg(out, &chart);
     return LRCS_OK;
 }
