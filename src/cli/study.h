@@ -67,6 +67,7 @@ typedef struct study_table {
 /* A general law: a sentence, and the comparisons that it stands or falls with. */
 typedef struct study_law {
     const char *name;
+    const char *quantity; /* what is compared */
     char text[640];
     char range[480];
     int checks, estimate; /* estimate: as a table's */
@@ -167,7 +168,7 @@ void cli_study_shape_laws(study_job *job);
 void cli_study_engine_laws(study_job *job);
 
 /* A new one; its sentences are the caller's to fill in. */
-study_law *cli_study_law(study_job *job, const char *name);
+study_law *cli_study_law(study_job *job, const char *name, const char *quantity);
 /* How a comparison enters it: within limits, bound included; or equal to within the bound. */
 void cli_study_within(study_law *law, study_number number, double least, double most);
 void cli_study_equal(study_law *law, study_number number, double expected);

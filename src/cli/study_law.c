@@ -7,10 +7,11 @@
 
 #define LAW_WIDTH 24
 
-study_law *cli_study_law(study_job *job, const char *name)
+study_law *cli_study_law(study_job *job, const char *name, const char *quantity)
 {
     study_law *law = &job->law[job->laws++];
     law->name = name;
+    law->quantity = quantity;
     return law;
 }
 
@@ -68,7 +69,7 @@ uint32_t cli_study_held(const study_job *job)
 void cli_study_limits(const study_law *law, char text[64])
 {
     if (law->least == law->most) {
-        snprintf(text, 64, "= %.6g", law->least);
+        snprintf(text, 64, "= %.8g", law->least);
     } else if (isinf(law->most)) {
         snprintf(text, 64, "> %.6g", law->least);
     } else if (isinf(law->least)) {

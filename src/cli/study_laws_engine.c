@@ -7,7 +7,8 @@
 
 static void shading_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "mutual shadowing");
+    study_law *law =
+        cli_study_law(job, "mutual shadowing", "mean / sigma of the sphere of the same surface");
     double surface;
     study_number mean = cli_study_shaded(job, &job->brdf, &surface);
     const lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE,
@@ -30,7 +31,7 @@ static void shading_law(study_job *job)
 static void engine_law(study_job *job)
 {
     const study_table *table = cli_study_find(job, "engine");
-    study_law *law = cli_study_law(job, "engine = closed form");
+    study_law *law = cli_study_law(job, "engine = closed form", "difference / bound");
     double worst = 0.0;
     double largest = 0.0;
     for (uint32_t c = 0; c + 2 < table->columns; c += 3) {

@@ -41,7 +41,7 @@ static void size_checks(study_job *job, study_law *law, int kind, int finish, do
 static void size_law(study_job *job)
 {
     static const double factor[] = {0.125, 0.5, 2.0, 8.0, 3.0, 10.0};
-    study_law *law = cli_study_law(job, "size");
+    study_law *law = cli_study_law(job, "size", "sigma of the scaled body / (factor² sigma)");
     for (int kind = 0; kind < STUDY_KINDS; kind++) {
         for (int finish = 0; finish < STUDY_FINISHES; finish++) {
             for (size_t i = 0; i < COUNT_OF(factor); i++) {
@@ -77,7 +77,9 @@ static study_number swing_of(study_job *job, int kind, int finish)
 
 static void swing_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "glints make the swing");
+    study_law *law = cli_study_law(
+        job, "glints make the swing",
+        "0.1 / (least / largest sigma) diffuse, (least / largest sigma) / 1e-4 specular");
     double db[STUDY_KINDS][2];
     for (int kind = STUDY_CUBE; kind <= STUDY_CONE; kind++) {
         study_number diffuse = swing_of(job, kind, STUDY_DIFFUSE);
@@ -133,7 +135,8 @@ static int axis_largest_cone(study_job *job)
 static void axis_law(study_job *job)
 {
     double ratio[STUDY_FINISHES][2];
-    study_law *law = cli_study_law(job, "order along the axis");
+    study_law *law = cli_study_law(job, "order along the axis",
+                                   "sigma of the later / sigma of the earlier in the order");
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
         study_number disc = axis_sigma(job, STUDY_DISC, finish);
         study_number cylinder = axis_sigma(job, STUDY_CYLINDER, finish);
@@ -164,7 +167,8 @@ static const int wall_order[] = {STUDY_DISC, STUDY_CONE, STUDY_CYLINDER, STUDY_S
 static void wall_law(study_job *job)
 {
     static const double angle[] = {15.0, 30.0, 45.0, 60.0, 75.0};
-    study_law *law = cli_study_law(job, "order of curved walls");
+    study_law *law = cli_study_law(job, "order of curved walls",
+                                   "sigma of the later / sigma of the earlier in the order");
     double glint[COUNT_OF(wall_order)];
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
         const lrcs_brdf brdf = cli_study_finish(job, finish);
@@ -201,7 +205,8 @@ static const double face_area[] = {0.5, 1.0 / 6.0, 1.0 / 6.0, 1.0 / 3.0}; /* of 
 
 static void face_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "largest flat face");
+    study_law *law = cli_study_law(job, "largest flat face",
+                                   "peak / (4 pi (A + B) S), and sigma elsewhere / peak");
     double flat = 4.0 * STUDY_PI * (job->brdf.A + job->brdf.B);
     double peak_dbsm[STUDY_SPHERE + 1];
     for (int kind = STUDY_DISC; kind <= STUDY_CONE; kind++) {
@@ -241,7 +246,7 @@ static study_number silhouette_sigma(study_job *job, int kind, int finish)
 
 static void silhouette_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "equal projected area");
+    study_law *law = cli_study_law(job, "equal projected area", "smaller / larger sigma");
     study_number sigma[STUDY_FINISHES][STUDY_KINDS];
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
         for (int kind = STUDY_CUBE; kind < STUDY_KINDS; kind++) {
@@ -277,7 +282,8 @@ static void silhouette_law(study_job *job)
 static void tilt_law(study_job *job)
 {
     static const double angle[] = {10.0, 20.0, 30.0, 45.0, 60.0, 75.0};
-    study_law *law = cli_study_law(job, "diffuse tilt");
+    study_law *law =
+        cli_study_law(job, "diffuse tilt", "sigma of cone / (sigma of disc sin(half-angle)^(m+1))");
     const lrcs_brdf brdf = cli_study_finish(job, STUDY_DIFFUSE);
     const lrcs_shape disc = {.kind = LRCS_SHAPE_DISC, .radius = 1.0};
     study_number flat = cli_study_sigma(job, &disc, &brdf, 0.0);
@@ -305,7 +311,7 @@ static void tilt_law(study_job *job)
 /* The sphere of the same surface is the mean of any convex body, S (pi A E + 2 pi B / (m + 3)). */
 static void mean_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "attitude mean");
+    study_law *law = cli_study_law(job, "attitude mean", "mean / sigma of the sphere");
     const lrcs_shape sphere = cli_study_body(STUDY_SPHERE);
     double worst = 0.0;
     double of[STUDY_FINISHES];
@@ -339,7 +345,8 @@ static void mean_law(study_job *job)
 
 static void share_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "higher glints are rarer");
+    study_law *law = cli_study_law(job, "higher glints are rarer",
+                                   "share of the higher / share of the lower glint");
     const lrcs_brdf brdf = cli_study_finish(job, STUDY_GLINT);
     study_number share[3];
     for (int k = 0; k < 3; k++) {

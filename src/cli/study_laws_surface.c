@@ -38,7 +38,9 @@ static void linear_checks(study_job *job, study_law *law, const lrcs_shape *shap
 
 static void linear_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "linear in A and B");
+    study_law *law = cli_study_law(
+        job, "linear in A and B",
+        "sigma after doubling A or B over sigma before, and twice (glint + diffuse) / mixed");
     for (int kind = 0; kind < STUDY_KINDS; kind++) {
         const lrcs_shape shape = cli_study_body(kind);
         for (size_t i = 0; i < COUNT_OF(surface_aspects); i++) {
@@ -59,7 +61,8 @@ static void linear_law(study_job *job)
 static void flat_law(study_job *job)
 {
     static const double m[] = {0.0, 1.0, 5.0, 20.0};
-    study_law *law = cli_study_law(job, "flat face at its normal");
+    study_law *law = cli_study_law(job, "flat face at its normal",
+                                   "sigma / (4 pi (A + B) S), and disc / square");
     const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {1.0, 1.0}};
     const lrcs_shape disc = cli_study_wall(STUDY_DISC, 0.0);
     study_number expected = {4.0 * STUDY_PI * (job->brdf.A + job->brdf.B), 0.0};
@@ -99,7 +102,8 @@ static void width_check(study_law *law, study_number half_deg, double s)
 
 static void width_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "glint width");
+    study_law *law =
+        cli_study_law(job, "glint width", "(half-power angle / (s sqrt(ln 2)) - 1) / s²");
     const lrcs_shape disc = cli_study_wall(STUDY_DISC, 0.0);
     const lrcs_shape cylinder = cli_study_wall(STUDY_CYLINDER, 0.0);
     double deg[COUNT_OF(slopes)];
@@ -142,7 +146,8 @@ static void height_law(study_job *job)
         int kind;
         double power;
     } wall[] = {{STUDY_DISC, 0.0}, {STUDY_CONE, 1.0}, {STUDY_CYLINDER, 1.0}, {STUDY_SPHERE, 2.0}};
-    study_law *law = cli_study_law(job, "glint height");
+    study_law *law =
+        cli_study_law(job, "glint height", "log2 of what a doubling of s does to the height");
     double power[COUNT_OF(wall)];
     for (size_t k = 0; k < COUNT_OF(wall); k++) {
         for (size_t i = 0; i < 3; i++) {
@@ -169,29 +174,37 @@ static void height_law(study_job *job)
 
 /* ---- a cone's band ---- */
 
+/* A cone's band in the middle: higher than s^2 rad to either side, and 1/cos(half-angle) times a
+   cylinder's. Returns that gain. */
+static double band_checks(study_job *job, study_law *law, double half_angle, double s)
+{
+    const lrcs_shape cone = cli_study_wall(STUDY_CONE, half_angle);
+    const lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', s);
+    double middle = cli_study_normal(STUDY_CONE, half_angle);
+    double off = 180.0 / STUDY_PI * s * s;
+    study_number peak = cli_study_sigma(job, &cone, &brdf, middle);
+    cli_study_order(law, peak, cli_study_sigma(job, &cone, &brdf, middle + off));
+    cli_study_order(law, peak, cli_study_sigma(job, &cone, &brdf, middle - off));
+    study_number cylinder = cli_study_wall_sigma(job, STUDY_CYLINDER, 0.0, &brdf);
+    study_number gain = cli_study_ratio(cli_study_meant(peak), cylinder);
+    study_number secant = {1.0 / cos(half_angle * STUDY_PI / 180.0), 0.0};
+    secant.bound = 0x1p-48 * secant.value; /* of an angle of 60 deg at most */
+    cli_study_within(law, cli_study_ratio(gain, secant), 1.0 - 2.0 * s * s, 1.0 + 2.0 * s * s);
+    return gain.value;
+}
+
 static void band_law(study_job *job)
 {
     static const double angle[] = {15.0, 30.0, 45.0, 60.0};
-    study_law *law = cli_study_law(job, "cone's glint band");
+    study_law *law = cli_study_law(
+        job, "cone's glint band",
+        "sigma s² rad off / sigma in the middle, and the gain over the cylinder times "
+        "cos(half-angle)");
     double at30 = 0.0;
     for (size_t i = 0; i < COUNT_OF(angle); i++) {
-        const lrcs_shape cone = cli_study_wall(STUDY_CONE, angle[i]);
-        double normal = 90.0 - angle[i];
         for (size_t k = 0; k < 3; k++) {
-            const lrcs_brdf brdf =
-                cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', slopes[k]);
-            study_number peak = cli_study_sigma(job, &cone, &brdf, normal);
-            double off = 180.0 / STUDY_PI * slopes[k] * slopes[k];
-            study_number up = cli_study_sigma(job, &cone, &brdf, normal + off);
-            study_number down = cli_study_sigma(job, &cone, &brdf, normal - off);
-            cli_study_order(law, peak, up);
-            cli_study_order(law, peak, down);
-            study_number cylinder = cli_study_wall_sigma(job, STUDY_CYLINDER, 0.0, &brdf);
-            study_number gain = cli_study_ratio(peak, cylinder);
-            const study_number secant = {1.0 / cos(angle[i] * STUDY_PI / 180.0), 0x1p-49};
-            cli_study_within(law, cli_study_ratio(gain, secant), 1.0 - 2.0 * slopes[k] * slopes[k],
-                             1.0 + 2.0 * slopes[k] * slopes[k]);
-            at30 = angle[i] == 30.0 && slopes[k] == 0.1 ? gain.value : at30;
+            double gain = band_checks(job, law, angle[i], slopes[k]);
+            at30 = i == 1 && k == 1 ? gain : at30;
         }
     }
     snprintf(
@@ -244,7 +257,8 @@ static double lobe_check(study_job *job, study_law *law, double m)
 static void m_law(study_job *job)
 {
     static const double m[] = {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0};
-    study_law *law = cli_study_law(job, "diffusivity m");
+    study_law *law =
+        cli_study_law(job, "diffusivity m", "height or half-power angle / stated value");
     double half[COUNT_OF(m)];
     for (size_t i = 0; i < COUNT_OF(m); i++) {
         m_checks(job, law, m[i]);
@@ -265,7 +279,8 @@ static void m_law(study_job *job)
 
 static void crossing_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "where diffuse takes over");
+    study_law *law = cli_study_law(job, "where diffuse takes over",
+                                   "(tan(theta) / (s sqrt(ln(A/B))) - 1) / ((3 + m/2) s²)");
     const lrcs_shape disc = cli_study_wall(STUDY_DISC, 0.0);
     double power = 3.0 + 0.5 * job->brdf.m;
     double first = sqrt(log(job->brdf.A / job->brdf.B));

@@ -92,15 +92,15 @@ static void page_law(const study_law *law, uint32_t number, FILE *out)
 {
     char limits[64];
     cli_study_limits(law, limits);
-    fprintf(out, "%lu. **%c%s: %s.** %s\n   *Range:* %s\n", (unsigned long)number,
+    fprintf(out, "### %lu. %c%s: %s\n\n%s\n\n*Range:* %s\n\n", (unsigned long)number,
             law->name[0] >= 'a' ? law->name[0] - 'a' + 'A' : law->name[0], law->name + 1,
             cli_study_holds(law) ? "holds" : "not supported", law->text, law->range);
-    fprintf(out, "   *Support:* %d comparison%s; the closest gave %.9g where the law asks for %s",
-            law->checks, law->checks == 1 ? "" : "s", law->worst.value, limits);
+    fprintf(out, "*Support:* %s, to be %s. Of %d comparison%s the closest to its limits gave %.9g",
+            law->quantity, limits, law->checks, law->checks == 1 ? "" : "s", law->worst.value);
     if (law->worst.bound > 0.0) {
         fprintf(out, ", %s %.1e", law->estimate ? "error estimated at" : "bound", law->worst.bound);
     }
-    fputs(".\n", out);
+    fputs(".\n\n", out);
 }
 
 static void page_laws(const study_job *job, FILE *out)
@@ -118,7 +118,6 @@ static void page_laws(const study_job *job, FILE *out)
     for (uint32_t i = 0; i < job->laws; i++) {
         page_law(&job->law[i], i + 1, out);
     }
-    fputc('\n', out);
 }
 
 /* ---- plots and tables ---- */

@@ -59,8 +59,7 @@ static void silhouette_sheet(study_job *job)
     sheet_columns(table, "broadside", "broadside");
     for (uint32_t row = 0; row < COUNT_OF(kind); row++) {
         const lrcs_shape shape = cli_study_silhouette(kind[row]);
-        table->row_name[row] =
-            kind[row] == STUDY_CUBE ? "cube, face-on" : cli_study_name(kind[row]);
+        table->row_name[row] = cli_study_name(kind[row]);
         sheet_fill(job, table, 0, row, &shape, 90.0);
     }
 }
