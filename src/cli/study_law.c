@@ -6,6 +6,7 @@
 #include <math.h>
 
 #define LAW_WIDTH 24
+#define LAW_TIGHT 1e-9
 
 study_law *cli_study_law(study_job *job, const char *name, const char *quantity)
 {
@@ -41,9 +42,11 @@ void cli_study_within(study_law *law, study_number number, double least, double 
     law_take(law, slack, number, least, most);
 }
 
+/* What is hardly known does not count as equal. */
 void cli_study_equal(study_law *law, study_number number, double expected)
 {
-    double slack = number.bound - fabs(number.value - expected);
+    int known = number.bound <= LAW_TIGHT * fabs(expected);
+    double slack = known ? number.bound - fabs(number.value - expected) : -HUGE_VAL;
     law_take(law, slack, number, expected, expected);
 }
 

@@ -4,7 +4,6 @@
 #include "cli/study.h"
 
 #include <math.h>
-#include <string.h>
 
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 #define LAW_TINY    1e-250 /* m2: ratios of less are not asked for */

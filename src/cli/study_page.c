@@ -111,7 +111,8 @@ static void page_laws(const study_job *job, FILE *out)
         "\n"
         "Each law is a set of comparisons between values of sigma computed in this run. It holds "
         "where every one of them is\n"
-        "true for all values that the bounds allow; *= 1* means equal to within the bound. %lu of "
+        "true for all values that the bounds allow; *= 1* means equal to within the bound, itself "
+        "below 1e-9. %lu of "
         "%lu hold.\n"
         "\n",
         (unsigned long)cli_study_held(job), (unsigned long)job->laws);
