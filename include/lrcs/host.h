@@ -193,8 +193,8 @@ typedef struct lrcs_host_readings {
    (in proportion to 1/sigma^2; 0 leaves the line out), material (or sample); other columns are not
    used. Without it they are angle, brdf and, where there is a third, sigma. A line whose value is
    empty, "nan" or "NA" is left out. Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_SYNTAX, _NUMBER, _NAME,
-   _EMPTY, _LIMIT: the sentence names the line, what was found there and what was expected. On failure there
-   is nothing to free. */
+   _EMPTY, _LIMIT: the sentence names the line, what was found there and what was expected. On
+   failure there is nothing to free. */
 int lrcs_host_readings_read(const char *path, lrcs_host_readings *readings, lrcs_host_error *error);
 void lrcs_host_readings_free(lrcs_host_readings *readings);
 
