@@ -186,15 +186,13 @@ typedef struct lrcs_host_readings {
     lrcs_host_notices notices; /* columns not used, lines left out */
 } lrcs_host_readings;
 
-/* Reads a table: a line for each reading, fields apart by commas, semicolons, tabs or blanks (the
-   first of these in the first line), in quotes or not; empty lines and lines from '#' on count
-   for nothing. A first line whose first field is no number names the columns, in any order: angle
-   or theta (deg), brdf, reading or value, and where there are any sigma (or error, std), weight
-   (in proportion to 1/sigma^2; 0 leaves the line out), material (or sample); other columns are not
-   used. Without it they are angle, brdf and, where there is a third, sigma. A line whose value is
-   empty, "nan" or "NA" is left out. Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_SYNTAX, _NUMBER, _NAME,
-   _EMPTY, _LIMIT: the sentence names the line, what was found there and what was expected. On
-   failure there is nothing to free. */
+/* Reads a table (lrcs/table.h) with a line for each reading. A first line whose first field is no
+   number names the columns, in any order: angle or theta (deg), brdf, reading or value, and where
+   there are any sigma (or error, std), weight (in proportion to 1/sigma^2; 0 leaves the line out),
+   material (or sample); other columns are not used. Without it they are angle, brdf and, where
+   there is a third, sigma. A line whose value is empty, "nan" or "NA" is left out. Status: LRCS_OK;
+   LRCS_E_SYSTEM; LRCS_E_SYNTAX, _NUMBER, _NAME, _EMPTY, _LIMIT: the sentence names the line, what
+   was found there and what was expected. On failure there is nothing to free. */
 int lrcs_host_readings_read(const char *path, lrcs_host_readings *readings, lrcs_host_error *error);
 void lrcs_host_readings_free(lrcs_host_readings *readings);
 
