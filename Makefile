@@ -6,6 +6,7 @@
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan tsan lint purity layers fuzz    further checks
 #   make amalgamation       the core as two files, build/amalgamation/lrcs.c and lrcs.h, and its tests on them
+#   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
 #   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
@@ -79,6 +80,15 @@ layers:
 # The core joined into two files, which compile alone, and the core's own tests on them.
 amalgamation: cmocka $(CORE_TESTS:$(BUILD)/%=$(JOINED)/%)
 	@sh test/run.sh $(TOOL) $(filter $(JOINED)/test/%,$^)
+
+# What the core takes of the stack here, and on a Cortex-M7 where its compiler is installed.
+stack: $(JOINED)/lrcs.c
+	gcc $(STD) $(OPT) -fcallgraph-info=su -c -o $(JOINED)/stack.o $<
+	sh test/stack.sh $(JOINED)/stack.ci
+	@! command -v $(ARM) >/dev/null || { set -x; $(ARM) $(CORTEX_M7) $(STD) $(OPT) -fcallgraph-info=su \
+	    -c -o $(JOINED)/stack_m7.o $< && sh test/stack.sh $(JOINED)/stack_m7.ci; }
+ARM       = arm-none-eabi-gcc
+CORTEX_M7 = -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard
 
 # The readers under libFuzzer (needs clang), for FUZZ_SECONDS.
 fuzz:
@@ -170,7 +180,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan tsan lint purity layers amalgamation fuzz bounds estimate shadows bench scaling big install uninstall clean cmocka
+.PHONY: all demo charts test asan tsan lint purity layers amalgamation stack fuzz bounds estimate shadows bench scaling big install uninstall clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
