@@ -32,7 +32,7 @@ static const cli_option info_options[] = {{"unit", 1, 0}, {"material", 1, 1},
 
 typedef struct info_material {
     uint32_t facets;
-    double area, low; /* a sum and its carry */
+    cli_sum area;
 } info_material;
 
 typedef struct info_job {
@@ -60,14 +60,6 @@ static double facet_area(const lrcs_scene *scene, uint32_t facet)
     return 0.5 * hypot(hypot(n[0], n[1]), n[2]);
 }
 
-/* Adds with Neumaier's compensation. */
-static void area_add(info_material *sum, double value)
-{
-    double total = sum->area + value;
-    sum->low += sum->area >= value ? (sum->area - total) + value : (value - total) + sum->area;
-    sum->area = total;
-}
-
 static int materials_count(info_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
@@ -78,7 +70,7 @@ static int materials_count(info_job *job)
     for (uint32_t i = 0; i < scene->facet_count; i++) {
         info_material *material = &job->material[scene->facet_material[i]];
         material->facets++;
-        area_add(material, facet_area(scene, i));
+        cli_sum_add(&material->area, facet_area(scene, i));
     }
     return 0;
 }
@@ -196,7 +188,7 @@ static void json_materials(const info_job *job, lrcs_host_json *json)
         lrcs_host_json_text(json, "name", material->name);
         lrcs_host_json_text(json, "colour", material->has_colour ? colour : NULL);
         lrcs_host_json_count(json, "facets", job->material[i].facets);
-        lrcs_host_json_number(json, "area_m2", job->material[i].area + job->material[i].low);
+        lrcs_host_json_number(json, "area_m2", cli_sum_value(&job->material[i].area));
         lrcs_host_json_begin(json, "brdf", LRCS_HOST_ROW_OBJECT);
         lrcs_host_json_number(json, "A", material->brdf.A);
         lrcs_host_json_number(json, "B", material->brdf.B);
@@ -291,7 +283,7 @@ static void table_materials(const info_job *job)
         printf("  ");
         cli_column(cli_material_name(material), 24);
         printf(" %-8s %9lu %12.6g  %g,%g,%g,%g%s%s%s\n", colour,
-               (unsigned long)job->material[i].facets, job->material[i].area + job->material[i].low,
+               (unsigned long)job->material[i].facets, cli_sum_value(&job->material[i].area),
                material->brdf.A, material->brdf.B, material->brdf.s, material->brdf.m,
                material->bound ? "" : "  (unbound)", material->two_sided ? "  two-sided" : "",
                material->omitted ? "  left out" : "");
