@@ -51,11 +51,15 @@ static uint32_t part_of_facet(const shares_plan *plan, uint32_t facet)
            (mesh ? mesh->facet_part[facet - plan->scene->part[part].first_facet] : 0);
 }
 
+typedef struct shares_worn {
+    const lrcs_material *material;
+} shares_worn;
+
 /* Materials that look alike in a report are one: those of one name and the same numbers. */
 static int material_compare(const void *a, const void *b)
 {
-    const lrcs_material *x = *(const lrcs_material *const *)a;
-    const lrcs_material *y = *(const lrcs_material *const *)b;
+    const lrcs_material *x = ((const shares_worn *)a)->material;
+    const lrcs_material *y = ((const shares_worn *)b)->material;
     int order = strcmp(x->name, y->name);
     return order ? order : memcmp(&x->brdf, &y->brdf, sizeof x->brdf);
 }
@@ -63,18 +67,18 @@ static int material_compare(const void *a, const void *b)
 static int materials_number(shares_plan *plan)
 {
     const lrcs_scene *scene = plan->scene;
-    const lrcs_material **sorted = calloc((size_t)scene->material_count + 1, sizeof *sorted);
+    shares_worn *sorted = calloc((size_t)scene->material_count + 1, sizeof *sorted);
     if (!sorted) {
         return -1;
     }
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        sorted[i] = &scene->material[i];
+        sorted[i].material = &scene->material[i];
     }
     qsort(sorted, scene->material_count, sizeof *sorted, material_compare);
     for (uint32_t i = 0; i < scene->material_count; i++) {
         int another = i > 0 && material_compare(&sorted[i - 1], &sorted[i]) != 0;
         plan->materials += i == 0 || another;
-        plan->material_of[sorted[i] - scene->material] = plan->materials - 1;
+        plan->material_of[sorted[i].material - scene->material] = plan->materials - 1;
     }
     free(sorted);
     return 0;

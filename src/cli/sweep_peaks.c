@@ -156,7 +156,7 @@ static int places_outshine(const peaks_grid *grid, const int64_t *place, uint64_
 /* Counts through all places around, like an odometer. */
 static int row_is_peak(const peaks_grid *grid, uint64_t row)
 {
-    uint64_t place[SWEEP_AXES];
+    uint64_t place[SWEEP_AXES] = {0};
     int64_t low[SWEEP_AXES], high[SWEEP_AXES], at[SWEEP_AXES];
     uint32_t axes = grid->plan->axes;
     for (uint32_t i = 0; i < axes; i++) {
