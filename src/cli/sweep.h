@@ -224,10 +224,11 @@ typedef struct sweep_plot {
 } sweep_plot;
 
 /* What --plot, --dbsm and --polar ask for; that no plot replaces anything; 0 or CLI_USAGE. Then the
-   drawing, as 0 or CLI_FAILED. */
+   drawing, as 0 or CLI_FAILED; and one drawing as SVG, titled after args->operand. */
 int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot);
 int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_host_scene *scene);
 int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan);
+int cli_plot_svg(FILE *out, const cli_args *args, const sweep_plot *plot, const sweep_plan *plan);
 
 /* ---- peaks ---- */
 
