@@ -2,6 +2,7 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make charts     accuracy against time, for the README
+#   make study      what sigma depends on: examples/study anew
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan tsan lint purity layers fuzz    further checks
@@ -54,6 +55,10 @@ charts: $(TOOL)
 	$(TOOL) converge examples/plate.toml --azel 0,70 --plot examples/converge_plate.svg
 	$(TOOL) converge examples/cylinder.toml --azel 0,30 --plot examples/converge_cylinder.svg
 	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
+
+# Tables, plots and laws as they are kept; the same bytes every time.
+study: $(TOOL)
+	$(TOOL) study -o examples/study
 
 test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
@@ -181,7 +186,9 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan tsan lint purity layers amalgamation stack fuzz bounds estimate shadows bench scaling big install uninstall clean cmocka
+.PHONY: all demo charts study install uninstall clean cmocka
+.PHONY: test asan tsan lint purity layers amalgamation stack
+.PHONY: fuzz bounds estimate shadows bench scaling big
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
