@@ -210,6 +210,7 @@ extern const cli_command cli_converge_command;
 extern const cli_command cli_sweep_command;
 extern const cli_command cli_merge_command;
 extern const cli_command cli_fit_command;
+extern const cli_command cli_report_command;
 extern const cli_command cli_study_command;
 
 #endif
