@@ -16,10 +16,7 @@ struct CMUnitTest {
 static jmp_buf cmocka_way_out;
 enum { CMOCKA_FAILED = 1, CMOCKA_SKIPPED };
 
-#define cmocka_unit_test(f)                                                                        \
-    {                                                                                              \
-        #f, f                                                                                      \
-    }
+#define cmocka_unit_test(f) ((struct CMUnitTest){#f, (f)})
 #define cmocka_run_group_tests(tests, setup, teardown)                                             \
     cmocka_run((tests), sizeof(tests) / sizeof *(tests))
 
