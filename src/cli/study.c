@@ -78,6 +78,9 @@ static int study_run(const cli_args *args, study_job *job)
 {
     const char *folder = cli_value(args, "o");
     int code = material_read(args, &job->brdf);
+    if (code == 0 && folder && strcmp(folder, "-") == 0) {
+        code = cli_usage(args->command, "-o: expected a folder, found '-'");
+    }
     if (code == 0 && folder) {
         code = folder_make(folder);
     }

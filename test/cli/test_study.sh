@@ -82,6 +82,7 @@ usage_error no_glint "expected A > 0, B > 0, s from 0.02 to 0.5 and m up to 100,
 usage_error slope_too_large "found A = 1, B = 0.25, s = 0.6" study --material 1,0.25,0.6,1
 usage_error exponent_too_large "m = 101" study --material 1,0.25,0.2,101
 usage_error unknown_material "the nearest in the library is" study --material gold
+usage_error standard_output_is_no_folder "-o: expected a folder, found '-'" study -o -
 usage_error no_operand "study" study demo
 : >file
 failure a_file_is_no_folder "-o file: cannot make the folder" study -o file
