@@ -3,7 +3,7 @@
 #ifndef LRCS_CLI_RUN_H
 #define LRCS_CLI_RUN_H
 
-#include "cli/cli.h"
+#include "cli/shares.h"
 
 #include <lrcs/picture.h>
 
@@ -49,6 +49,8 @@ typedef struct run_job {
     int explain; /* asked for */
     run_explained explained;
     run_budget budget;
+    int shares_asked;
+    cli_shares shares;
 } run_job;
 
 /* The options of output files, as 0 or CLI_USAGE; once the scene is read, that none of them would
