@@ -134,7 +134,8 @@ BIG_ROWS = 1600
 PREFIX   = /usr/local
 DESTDIR  =
 VERSION := $(shell sed -n 's/.*LRCS_VERSION_TEXT *"\(.*\)"/\1/p' include/lrcs/status.h)
-SONAME  := liblrcs.so.$(firstword $(subst ., ,$(VERSION)))
+# Programs built against one minor version run with no other while the major one is 0.
+SONAME  := liblrcs.so.$(shell echo $(VERSION) | sed 's/^\(0\.[0-9]*\)\..*/\1/; t; s/\..*//')
 SHARED   = $(BUILD)/liblrcs.so.$(VERSION)
 TO       = $(DESTDIR)$(PREFIX)
 MANUAL   = $(TO)/share/man/man1/lrcs.1
