@@ -203,5 +203,6 @@ extern const cli_command cli_converge_command;
 extern const cli_command cli_sweep_command;
 extern const cli_command cli_merge_command;
 extern const cli_command cli_fit_command;
+extern const cli_command cli_vectors_command;
 
 #endif
