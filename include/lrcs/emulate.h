@@ -23,7 +23,9 @@ typedef struct lrcs_emulation_options {
 lrcs_emulation_options lrcs_emulation_options_default(void);
 
 typedef struct lrcs_emulation {
-    double sigma_m2, sigma_glint_m2, sigma_diffuse_m2; /* each term summed by itself */
+    double sigma_m2, sigma_glint_m2, sigma_diffuse_m2; /* each term summed by itself, in pairs */
+    double running_m2;                                 /* sigma, were each pixel added to the sum
+                                                          of all before it: floats lose much */
     double projected_area_m2;                          /* of the pixels that some facet owns */
 } lrcs_emulation;
 
@@ -51,8 +53,8 @@ size_t lrcs_emulate_need(const lrcs_prepared *prepared, const lrcs_emulation_opt
    functions rounded once.
    3. The depth test is LESS: of equal depths the facet first in order wins, where lrcs_sigma_run
    lets a front beat a back. Facets of either facing are drawn, none is culled.
-   4. A pixel holds 4 pi f_r cos(theta) less its constants; sums over the N x N pixels are pairwise,
-   in raster order from the bottom, pixels without owner adding 0. */
+   4. A pixel holds f_r cos(theta). Sums over the N x N pixels are pairwise: neighbours in raster
+   order from the bottom, then neighbours of those; pixels without owner add 0. */
 int lrcs_emulate_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                      const lrcs_emulation_options *options, lrcs_work *work,
                      lrcs_emulation *emulation, lrcs_facet_record *records, lrcs_image *image);

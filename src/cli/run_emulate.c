@@ -164,6 +164,7 @@ void cli_run_emulation_json(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_number(json, "sampling_m2", sampled - e->reference_m2);
     lrcs_host_json_number(json, "precision_m2", deep - sampled);
     lrcs_host_json_number(json, "depth_m2", sigma - deep);
+    lrcs_host_json_number(json, "running_sum_m2", e->answer.running_m2 - sigma);
     lrcs_host_json_end(json);
 }
 
@@ -191,4 +192,6 @@ void cli_run_emulation_table(const run_job *job)
     table_off(e, "sampling", sampled - e->reference_m2, ", with doubles and 64-bit depth");
     table_off(e, "precision", deep - sampled, ", with all the depth that it has");
     table_off(e, "depth", sigma - deep, "");
+    printf("a running sum in place of one in pairs adds\n");
+    table_off(e, "running", e->answer.running_m2 - sigma, "");
 }

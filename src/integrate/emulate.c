@@ -137,7 +137,8 @@ static double pair_value(const pair_sum *sum, int single)
 
 /* Everything after the item buffer. */
 typedef struct gpu_totals {
-    double glint, diffuse; /* of f_r cos(theta) over pixels */
+    double glint, diffuse; /* of f_r cos(theta) over pixels, in pairs */
+    double running[2];     /* the same, one pixel after the other */
     uint64_t owned;        /* pixels */
 } gpu_totals;
 
@@ -146,12 +147,14 @@ static gpu_totals totals_make(const lrcsi_gpu *gpu, const gpu_shade *shade)
     static const gpu_shade none = {0, 0, 0};
     pair_sum glint = {.count = 0};
     pair_sum diffuse = {.count = 0};
-    gpu_totals totals = {0, 0, 0};
+    gpu_totals totals = {.owned = 0};
     for (size_t i = 0; i < (size_t)gpu->size * gpu->size; i++) {
         const gpu_shade *at = gpu->owner[i] != LRCS_NONE ? &shade[gpu->owner[i]] : &none;
         totals.owned += at != &none;
         pair_add(&glint, gpu->single, at->glint);
         pair_add(&diffuse, gpu->single, at->diffuse);
+        totals.running[0] = lrcsi_single(gpu->single, totals.running[0] + at->glint);
+        totals.running[1] = lrcsi_single(gpu->single, totals.running[1] + at->diffuse);
     }
     totals.glint = pair_value(&glint, gpu->single);
     totals.diffuse = pair_value(&diffuse, gpu->single);
@@ -197,6 +200,8 @@ static lrcs_emulation emulation_make(const lrcsi_gpu *gpu, const gpu_totals *tot
     e.sigma_glint_m2 = pixels_area(gpu, FOUR_PI * totals->glint);
     e.sigma_diffuse_m2 = pixels_area(gpu, FOUR_PI * totals->diffuse);
     e.sigma_m2 = e.sigma_glint_m2 + e.sigma_diffuse_m2;
+    e.running_m2 = pixels_area(gpu, FOUR_PI * totals->running[0]) +
+                   pixels_area(gpu, FOUR_PI * totals->running[1]);
     e.projected_area_m2 = pixels_area(gpu, (double)totals->owned);
     return e;
 }
@@ -250,7 +255,7 @@ static int emulate_in(lrcsi_view *view, const lrcs_emulation_options *options, l
     }
     gpu_totals totals = totals_make(&gpu, shade);
     lrcs_emulation e = emulation_make(&gpu, &totals);
-    if (!isfinite(e.sigma_m2)) {
+    if (!isfinite(e.sigma_m2) || !isfinite(e.running_m2)) {
         return LRCS_E_NUMBER;
     }
     *emulation = e;

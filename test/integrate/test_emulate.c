@@ -12,7 +12,7 @@ static uint32_t owner[512 * 512];
 typedef struct emulate_run {
     int precision;
     uint32_t depth_bits;
-    double glint, diffuse;
+    double glint, diffuse, running;
     const char *owner; /* a letter for every facet */
 } emulate_run;
 
@@ -84,6 +84,7 @@ static void another_implementation_gives_the_same_bits(void **state)
             check_same(e.sigma_glint_m2, want->glint);
             check_same(e.sigma_diffuse_m2, want->diffuse);
             check_same(e.sigma_m2, want->glint + want->diffuse);
+            check_same(e.running_m2, want->running);
         }
     }
 }
@@ -241,6 +242,22 @@ static void floats_cost_a_convex_body_little(void **state)
     assert_true(flat != deep);
 }
 
+/* 512 x 512 equal pixels: the larger the sum grows, the more of each is rounded off, and for long
+   stretches the same way. */
+static void a_running_sum_of_floats_loses_what_pairs_keep(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene.material[0].brdf = (lrcs_brdf){0, 0.25 / (double)SCENE_PI, 0.2, 0};
+    scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                (const double[3]){0, 1, 0});
+    lrcs_emulation e = emulated(up, 512, LRCS_PRECISION_FLOAT32, 24);
+    check_rel(e.sigma_m2, 1.0, 2e-7);
+    assert_true(fabs(e.running_m2 - 1) > 1e-4 && fabs(e.running_m2 - 1) < 1e-2);
+    e = emulated(up, 512, LRCS_PRECISION_FLOAT64, 64);
+    check_rel(e.running_m2, 1.0, 512 * 512 * 0x1p-53);
+}
+
 /* Summed over directions the error falls as 1 / N: by 4 and 4 more, of which half is asked. */
 static void sampling_converges_as_one_over_n(void **state)
 {
@@ -343,7 +360,7 @@ static void materials_beyond_floats_are_refused_or_limits(void **state)
         const lrcs_prepared *prepared = scene_prepare(&scene, &work);
         for (int d = 0; d < 2; d++) {
             lrcs_emulation_options options = {16, LRCS_PRECISION_FLOAT32, 24};
-            lrcs_emulation e = {-1, -1, -1, -1};
+            lrcs_emulation e = {.sigma_m2 = -1};
             lrcs_pose pose;
             assert_int_equal(lrcs_pose_from_direction(from[d], &pose), LRCS_OK);
             assert_int_equal(lrcs_emulate_run(prepared, &pose, &options, &work, &e, NULL, NULL),
@@ -375,7 +392,7 @@ static void options_outside_their_domain_are_refused(void **state)
     scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){2, 2, 1});
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     lrcs_pose pose = lrcs_pose_default();
-    lrcs_emulation e = {-1, -1, -1, -1};
+    lrcs_emulation e = {.sigma_m2 = -1};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         assert_int_equal(lrcs_emulate_run(prepared, &pose, &bad[i], &work, &e, NULL, NULL),
                          LRCS_E_ARGUMENT);
@@ -408,7 +425,7 @@ static void the_work_area_that_it_asks_for_is_enough_and_no_less(void **state)
     size_t need = lrcs_emulate_need(prepared, &options);
     for (size_t size = 0; size <= need; size++) {
         lrcs_work little = lrcs_work_make(scene_memory + work.used + 7, size);
-        lrcs_emulation e = {-1, -1, -1, -1};
+        lrcs_emulation e = {.sigma_m2 = -1};
         int status = lrcs_emulate_run(prepared, &pose, &options, &little, &e, NULL, NULL);
         assert_true(status == LRCS_OK || (status == LRCS_E_MEMORY && little.peak > size));
         assert_true((status == LRCS_OK) == (e.sigma_m2 >= 0));
@@ -428,6 +445,7 @@ int main(void)
         cmocka_unit_test(a_back_side_hides_and_does_not_shine),
         cmocka_unit_test(skins_closer_than_a_step_of_depth_fight),
         cmocka_unit_test(floats_cost_a_convex_body_little),
+        cmocka_unit_test(a_running_sum_of_floats_loses_what_pairs_keep),
         cmocka_unit_test(sampling_converges_as_one_over_n),
         cmocka_unit_test(of_equal_depths_the_first_drawn_wins),
         cmocka_unit_test(sigma_scales_by_the_square_beyond_the_range_of_floats),

@@ -163,10 +163,16 @@ def emulate(scene, R, size, precision, bits):
     owner = item_buffer(scene, corners(scene, R, window, size, fit), size, bits, fit)
     shade = shades(scene, R, fit)
     terms = []
+    running = 0.0
+    pixel = window.side / size
     for t in range(2):
-        total = float(pairwise([shade[o][t] if o is not None else fit(0) for o in owner], fit))
-        pixel = window.side / size
-        terms.append((12.566370614359172954 * total) * pixel * pixel)
+        pixels = [shade[o][t] if o is not None else fit(0) for o in owner]
+        terms.append((12.566370614359172954 * float(pairwise(pixels, fit))) * pixel * pixel)
+        total = fit(0)
+        for x in pixels:
+            total = total + x
+        running += (12.566370614359172954 * float(total)) * pixel * pixel
+    terms.append(running)
     text = "".join("." if o is None else chr(ord("A") + o) for o in owner)
     return text, terms
 
@@ -211,8 +217,8 @@ def main():
         print("     {", end="")
         for precision, bits in ((0, 64), (0, 16), (1, 32), (1, 24), (1, 16)):
             text, terms = emulate(scene, R, size, precision, bits)
-            print("{%d, %d, %s, %s,\n       \"%s\"},\n      " %
-                  (precision, bits, terms[0].hex(), terms[1].hex(), text), end="")
+            print("{%d, %d, %s, %s, %s,\n       \"%s\"},\n      " %
+                  (precision, bits, *(x.hex() for x in terms), text), end="")
         print("}},")
     print("};")
 
