@@ -111,16 +111,18 @@ static int case_make(const vectors_scene *scene, const vectors_attitude *attitud
     return cli_kit_pose(one->quaternion, one->direction, &one->pose) == LRCS_OK ? 0 : CLI_FAILED;
 }
 
-/* Every attitude of the scene's sets; the first one off all axes has pictures. */
+/* Every attitude of the scene's sets; the first one, off all axes where there is such, has
+   pictures. */
 static int cases_add(vectors_job *job, const vectors_scene *scene)
 {
     int code = 0;
     int pictures = job->resolution > 0;
+    unsigned shown = scene->attitudes & VECTORS_TURNS ? VECTORS_TURNS : ~VECTORS_EDGES;
     for (const vectors_attitude *a = cli_vectors_attitudes; a->name && code == 0; a++) {
         if (a->set & scene->attitudes) {
             vectors_case *one = &job->list[job->cases++];
             code = case_make(scene, a, one);
-            one->image = pictures && !(a->set & VECTORS_EDGES);
+            one->image = pictures && (a->set & ~shown) == 0;
             pictures = pictures && !one->image;
         }
     }
