@@ -5,6 +5,8 @@
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan tsan lint purity layers fuzz    further checks
+#   make amalgamation       the core as two files, build/amalgamation/lrcs.c and lrcs.h, and its tests on them
+#   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
 #   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
@@ -32,6 +34,8 @@ HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
 EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
+CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
+JOINED   = $(BUILD)/amalgamation
 LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
 BENCH_DIR = $(BUILD)/test/bench
@@ -72,6 +76,19 @@ purity: $(LIB)
 
 layers:
 	sh test/layers.sh
+
+# The core joined into two files, which compile alone, and the core's own tests on them.
+amalgamation: cmocka $(CORE_TESTS:$(BUILD)/%=$(JOINED)/%)
+	@sh test/run.sh $(TOOL) $(filter $(JOINED)/test/%,$^)
+
+# What the core takes of the stack here, and on a Cortex-M7 where its compiler is installed.
+stack: $(JOINED)/lrcs.c
+	gcc $(STD) $(OPT) -fcallgraph-info=su -c -o $(JOINED)/stack.o $<
+	sh test/stack.sh $(JOINED)/stack.ci
+	@! command -v $(ARM) >/dev/null || { set -x; $(ARM) $(CORTEX_M7) $(STD) $(OPT) -fcallgraph-info=su \
+	    -c -o $(JOINED)/stack_m7.o $< && sh test/stack.sh $(JOINED)/stack_m7.ci; }
+ARM       = arm-none-eabi-gcc
+CORTEX_M7 = -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard
 
 # The readers under libFuzzer (needs clang), for FUZZ_SECONDS.
 fuzz:
@@ -164,7 +181,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan tsan lint purity layers fuzz bounds estimate shadows bench scaling big install uninstall clean cmocka
+.PHONY: all demo charts test asan tsan lint purity layers amalgamation stack fuzz bounds estimate shadows bench scaling big install uninstall clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -198,6 +215,16 @@ $(BUILD)/src/cli/%.o: src/cli/%.c
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
+
+$(JOINED)/lrcs.c: src/amalgamate.sh $(CORE_SRC) $(wildcard $(CORE:%=src/%/*.h) include/lrcs/*.h)
+	sh src/amalgamate.sh $(JOINED) $(foreach layer,$(CORE),$(filter src/$(layer)/%,$(CORE_SRC)))
+
+$(JOINED)/lrcs.o: $(JOINED)/lrcs.c
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -c -o $@ $<
+
+$(JOINED)/test/%: $(BUILD)/test/%.o $(JOINED)/lrcs.o
+	@mkdir -p $(@D)
+	$(CC) -o $@ $^ -lcmocka $(LDLIBS)
 
 # The built-in scene, as the bytes of a C array.
 $(BUILD)/demo.inc: examples/satellite.toml

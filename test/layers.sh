@@ -85,15 +85,15 @@ function claim(kind, word) {
     word = $0
     sub(/\(.*/, "", word)
     sub(/.*[ *]/, "", word)
-    claim("static function", word)
+    claim("name", word)
 }
 /^static / && /(=|\[)/ && !/\(/ {
     word = $0
     sub(/[ \t]*[[=].*/, "", word)
     sub(/.*[ *]/, "", word)
-    claim("static data", word)
+    claim("name", word)
 }
-/^} [a-z_0-9]+;/ { word = $2; sub(/;.*/, "", word); claim("type", word) }
+/^} [a-z_0-9]+;/ { word = $2; sub(/;.*/, "", word); claim("name", word) }
 /^#define / { # the same text twice is legal, and no harm
     word = $2
     $1 = $2 = ""

@@ -241,7 +241,21 @@ void lrcs_host_json_bool(lrcs_host_json *json, const char *key, int value);
 int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, uint32_t height,
                         uint32_t channels, lrcs_host_error *error);
 
+/* Text in an HTML page, between tags or in quotes; what is not UTF-8, or no character of a page,
+   becomes U+FFFD. And bytes as base64 (RFC 4648), for data: addresses. */
+void lrcs_host_html_text(FILE *out, const char *text);
+void lrcs_host_html_base64(FILE *out, const unsigned char *bytes, size_t size);
+
 /* ---- charts ---- */
+
+/* Where things stand on a chart's or map's paper: below its title and note; and the square that one
+   about a pole is drawn in, its numbers included. A page that has words of its own shows no more.
+ */
+#define LRCS_HOST_CHART_WIDTH      860.0
+#define LRCS_HOST_CHART_HEIGHT     520.0
+#define LRCS_HOST_CHART_TITLE      54.0
+#define LRCS_HOST_CHART_POLAR_LEFT 76.0
+#define LRCS_HOST_CHART_POLAR_SIDE 456.0
 
 /* Colours that eyes of every kind tell apart (M. Okabe and K. Ito, 2008). */
 enum lrcs_host_colour {

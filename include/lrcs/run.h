@@ -108,6 +108,7 @@ typedef struct lrcs_facet_record {
     double cos_theta;       /* signed */
     double visible_area_m2; /* visible projected area, also of back sides */
     double sigma_m2;
+    double sigma_glint_m2; /* of that; the rest is diffuse */
 } lrcs_facet_record;
 
 typedef struct lrcs_result {

@@ -3,7 +3,7 @@
 #ifndef LRCS_CLI_RUN_H
 #define LRCS_CLI_RUN_H
 
-#include "cli/cli.h"
+#include "cli/shares.h"
 
 #include <lrcs/picture.h>
 
@@ -61,6 +61,8 @@ typedef struct run_job {
     run_explained explained;
     run_budget budget;
     run_emulation emulation;
+    int shares_asked;
+    cli_shares shares;
 } run_job;
 
 /* The options of output files, as 0 or CLI_USAGE; once the scene is read, that none of them would

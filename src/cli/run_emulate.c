@@ -12,12 +12,13 @@
 /* Neither a method that draws nothing nor outputs that show another answer go with it. */
 static int emulation_alone(const run_job *job)
 {
-    static const char *const clash[] = {"image", "polygons", "explain", "time-budget"};
+    static const char *const clash[] = {"image", "polygons", "explain", "time-budget", "shares"};
+    const int clashes = sizeof clash / sizeof clash[0];
     const cli_args *args = job->args;
     const char *given = cli_value(args, "precision") ? "precision" : "depth-bits";
     const char *method = cli_value(args, "method");
     const char *normals = cli_value(args, "normals");
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < clashes; i++) {
         if (cli_value(args, clash[i])) {
             return cli_usage(args->command, "--%s does not go with --%s, which shows the reference",
                              given, clash[i]);

@@ -24,6 +24,7 @@ static int files_apart(const run_job *job)
     const cli_command *command = job->args->command;
     const char *table = cli_value(job->args, "json")      ? "json"
                         : cli_value(job->args, "explain") ? "explain"
+                        : cli_value(job->args, "shares")  ? "shares"
                                                           : NULL;
     cli_output file[FILES];
     files_list(job, file);

@@ -193,6 +193,9 @@ void cli_run_json(const run_job *job)
     lrcs_host_json_text(&json, "method_reason", result->method_reason);
     json_effects(job, &json);
     json_tail(job, &json);
+    if (job->shares_asked) {
+        cli_shares_json(&job->shares, &json);
+    }
     lrcs_host_json_end(&json);
 }
 
@@ -233,6 +236,9 @@ void cli_run_table(const run_job *job)
            1e3 * job->scene.seconds_load, 1e3 * job->scene.seconds_prepare, 1e3 * job->seconds);
     if (job->image_path) {
         printf("picture      %s\n", job->image_path);
+    }
+    if (job->shares_asked) {
+        cli_shares_table(&job->shares);
     }
     if (job->explain) {
         cli_run_explain_table(job);

@@ -174,7 +174,7 @@ static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_face
 {
     const lrcs_prepared *p = gpu->view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        records[f] = (lrcs_facet_record){0, 0, 0, 0};
+        records[f] = (lrcs_facet_record){.area_m2 = 0};
         if (!p->skip[f]) {
             records[f].area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[f].length);
             records[f].cos_theta = shade[f].cos_theta;
@@ -188,9 +188,11 @@ static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_face
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         double pixels = records[f].visible_area_m2;
         records[f].visible_area_m2 = pixels_area(gpu, pixels);
-        records[f].sigma_m2 =
-            pixels > 0 ? pixels_area(gpu, FOUR_PI * pixels * (shade[f].glint + shade[f].diffuse))
-                       : 0;
+        if (pixels > 0) { /* shades that nobody sees may be infinite */
+            records[f].sigma_glint_m2 = pixels_area(gpu, FOUR_PI * pixels * shade[f].glint);
+            records[f].sigma_m2 =
+                records[f].sigma_glint_m2 + pixels_area(gpu, FOUR_PI * pixels * shade[f].diffuse);
+        }
     }
 }
 

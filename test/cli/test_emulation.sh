@@ -15,7 +15,7 @@ for bad in 8 64 24.5 x ''; do
 done
 usage_error hardware_has_a_z_buffer "--precision needs --method zbuffer" run pair.toml --precision float32 --method exact
 usage_error hardware_shades_flat "--depth-bits needs --normals flat" run pair.toml --depth-bits 16 --normals smooth
-for other in '--image x.png' '--polygons x.csv' --explain '--time-budget 100'; do
+for other in '--image x.png' '--polygons x.csv' --explain --shares '--time-budget 100'; do
     # shellcheck disable=SC2086 # an option and its value
     usage_error "${other%% *}_shows_the_reference" "does not go with ${other%% *}" run pair.toml --precision float32 $other
 done
