@@ -202,10 +202,26 @@ static long draw(int i, const double window[3], int N, double *depth, uint32_t *
     return count;
 }
 
-/* sigma by pixels: fronts are drawn first, so that they win over backs in the same place. */
-static double sigma_raster(const double s[3], const double window[3], int N, double *depth,
-                           uint32_t *item)
+/* The square that is drawn: the longer side of what is seen, centred. */
+static void make_window(double window[3])
 {
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < vertex_count; i++) {
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], seen[i][k]);
+            high[k] = fmax(high[k], seen[i][k]);
+        }
+    }
+    window[2] = fmax(high[0] - low[0], high[1] - low[1]);
+    window[0] = (low[0] + high[0] - window[2]) / 2; /* left */
+    window[1] = (low[1] + high[1] + window[2]) / 2; /* top */
+}
+
+/* sigma by pixels: fronts are drawn first, so that they win over backs in the same place. */
+static double sigma_raster(const double s[3], int N, double *depth, uint32_t *item)
+{
+    double window[3];
+    make_window(window);
     double side = is("pixel") ? window[2] / (N - 1) : window[2] / N;
     double sum = 0, area;
     static double value[MOST]; /* f_r cos theta of each facet */
@@ -263,7 +279,7 @@ int main(int count, char **word)
 {
     char line[2048], scene[32], attitude[32], path[64];
     int tier, N = count > 2 ? atoi(word[2]) : -1, images;
-    double q[4], azel[2], window[3], R[3][3];
+    double q[4], azel[2], R[3][3];
     if (N < 0 || N > 8192) {
         fprintf(stderr, "usage: raster KIT N [MISTAKE] [items=DIR]\n");
         return 2;
@@ -278,9 +294,9 @@ int main(int count, char **word)
     while (depth && item && fgets(line, sizeof line, cases)) {
         if (sscanf(line,
                    "%31[^,],%31[^,],%d,%lf,%lf,%lf,%lf,%*f,%*f,%*f,%lf,%lf,%*f,%*f,%*f,%*f,%*f,"
-                   "%*f,%*f,%lf,%lf,%lf,%d",
+                   "%*f,%*f,%*f,%*f,%*f,%d",
                    scene, attitude, &tier, &q[0], &q[1], &q[2], &q[3], &azel[0], &azel[1],
-                   &window[0], &window[1], &window[2], &images) != 13 ||
+                   &images) != 10 ||
             (N == 0 && tier > 2)) {
             continue; /* the names of the columns, or not for us */
         }
@@ -293,7 +309,7 @@ int main(int count, char **word)
                 seen[i][k] = keep(R[k][0] * v[0] + R[k][1] * v[1] + R[k][2] * v[2]);
             }
         }
-        double sigma = N > 0 ? sigma_raster(R[2], window, N, depth, item) : sigma_facets(R[2]);
+        double sigma = N > 0 ? sigma_raster(R[2], N, depth, item) : sigma_facets(R[2]);
         printf("%s,%s,%.9g\n", scene, attitude, sigma * (is("4pi") ? 1 : 4 * PI));
         if (items && images == N) {
             write_item(items, scene, attitude, N, item);

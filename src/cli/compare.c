@@ -131,7 +131,7 @@ static int compare_report(compare_job *job, const cli_output output[2])
         code = job->facets ? cli_compare_facets(job) : 0;
         code = code == 0 && job->items ? cli_compare_items(job) : code;
     }
-    return code ? code : job->failed == 0 ? CLI_DONE : CLI_FAILED;
+    return code ? code : cli_compare_passed(job) ? CLI_DONE : CLI_FAILED;
 }
 
 static int compare_command(const cli_args *args)

@@ -121,12 +121,16 @@ typedef struct compare_job {
     uint32_t not_numbers;
     compare_finding finding[COMPARE_FINDINGS];
     uint32_t findings, unexplained;
+    int biased; /* a factor that all answers share, each within its class */
 } compare_job;
 
 const char *cli_compare_grade(int grade);
 
 /* What a case is allowed in a class, m2. */
 double cli_compare_allowed(const compare_case *one, int grade, uint32_t pixels);
+
+/* Did they pass? */
+int cli_compare_passed(const compare_job *job);
 
 /* Does a case fail the job? One that was not asked for does not. */
 int cli_compare_failed(const compare_job *job, const compare_case *one);

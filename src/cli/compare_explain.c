@@ -12,11 +12,16 @@
 #define EXPLAIN_PI   3.14159265358979323846
 #define REMOVED      0.1  /* what may be left of a difference that is explained */
 #define PRECISE      0.6  /* of the cases that a mistake touches, those that it must explain */
-#define PROBE        40u  /* failing cases after which a hopeless mistake is given up */
+#define PROBE        16u  /* failing cases after which a hopeless mistake is given up */
 #define HOPELESS     0.1  /* share of them */
+#define WITNESSES    64u  /* passing cases that a mistake must not touch */
 #define FACTOR_NEAR  0.02 /* a median ratio this near a known number is that number */
 #define FACTOR_PRICE 0.05 /* what a factor must gain to be believed */
 #define ENOUGH       3u   /* cases that make a finding, or all of them */
+#define SKINS_TOUCH  60   /* a distance of 2^-60 m stands for none */
+#define BIAS_CASES   20u  /* a factor that all share: of so many cases */
+#define BIAS_SHARE   0.9  /* this share is nearer to it than to the truth */
+#define BIAS_LEAST   1e-4 /* and it is this far from 1 */
 
 typedef struct explain_search {
     compare_job *job;
@@ -96,30 +101,6 @@ static explain_score score_make(const explain_search *search, const compare_mist
     return score;
 }
 
-/* The answers of a mistake; 1 where it is worth scoring, 0 where not, -1 with the message. */
-static int answers_make(const explain_search *search, const compare_mistake *mistake)
-{
-    uint32_t hits = 0;
-    double last = 0.0;
-    for (uint32_t i = 0; i < search->failings + search->passings; i++) {
-        int failing = i < search->failings;
-        compare_case *one = failing ? search->failing[i] : search->passing[i - search->failings];
-        if (cli_compare_answer(&search->job->kit, one, mistake, &search->answer[i]) != 0) {
-            return -1;
-        }
-        /* right, or in one proportion with the case before */
-        double ratio = search->answer[i] > 0.0 ? one->theirs_m2 / search->answer[i] : 0.0;
-        hits += failing && (case_explained(search, one, search->answer[i]) ||
-                            fabs(ratio - last) <= REMOVED * fabs(ratio));
-        last = ratio;
-        uint32_t seen = i + 1 < search->failings ? i + 1 : search->failings;
-        if ((seen == PROBE || seen == search->failings) && hits < HOPELESS * seen) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 /* ---- factors ---- */
 
 typedef struct explain_factor {
@@ -151,11 +132,12 @@ static const explain_factor *factor_find(double value)
     return NULL;
 }
 
-/* The median ratio of what was handed in to what the mistake answers. */
-static double factor_median(const explain_search *search)
+/* The median ratio of what was handed in to what the mistake answers, over the first failing cases;
+   a known number where it is near one. */
+static double factor_median(const explain_search *search, uint32_t failings)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < search->failings; i++) {
+    for (uint32_t i = 0; i < failings; i++) {
         if (search->answer[i] > 0.0 && search->failing[i]->theirs_m2 > 0.0) {
             search->room[count++] = search->failing[i]->theirs_m2 / search->answer[i];
         }
@@ -163,6 +145,42 @@ static double factor_median(const explain_search *search)
     double median = median_of(search->room, count);
     const explain_factor *known = factor_find(median);
     return known ? known->value : median;
+}
+
+/* ---- the catalogue ---- */
+
+static uint32_t explained_count(const explain_search *search, uint32_t failings, double factor)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < failings; i++) {
+        count += (uint32_t)case_explained(search, search->failing[i], factor * search->answer[i]);
+    }
+    return count;
+}
+
+/* Is a mistake worth going on with, after so many failing cases? */
+static int answers_hopeful(const explain_search *search, uint32_t failings)
+{
+    double least = fmax(1.0, HOPELESS * failings);
+    return explained_count(search, failings, 1.0) >= least ||
+           explained_count(search, failings, factor_median(search, failings)) >= least;
+}
+
+/* The answers of a mistake; 1 where it is worth scoring, 0 where not, -1 with the message. */
+static int answers_make(const explain_search *search, const compare_mistake *mistake)
+{
+    uint32_t failings = search->failings;
+    uint32_t probe = failings < PROBE ? failings : PROBE;
+    for (uint32_t i = 0; i < failings + search->passings; i++) {
+        compare_case *one = i < failings ? search->failing[i] : search->passing[i - failings];
+        if (cli_compare_answer(&search->job->kit, one, mistake, &search->answer[i]) != 0) {
+            return -1;
+        }
+        if (i + 1 == probe && !answers_hopeful(search, probe)) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 static int mistake_try(const explain_search *search, const compare_mistake *mistake,
@@ -173,7 +191,7 @@ static int mistake_try(const explain_search *search, const compare_mistake *mist
         return worth;
     }
     explain_score plain = score_make(search, mistake, 1.0);
-    double factor = factor_median(search);
+    double factor = factor_median(search, search->failings);
     explain_score scaled = {.mistake = mistake};
     if (factor > 0.0) {
         scaled = score_make(search, mistake, factor);
@@ -263,7 +281,20 @@ static int finding_next(explain_search *search)
     return 1;
 }
 
-/* Parts the cases asked for into those that fail, unexplained so far, and those that pass. */
+/* Shuffles a list, the same way every time, so that its beginning stands for all of it. */
+static void list_shuffle(compare_case **list, uint32_t count)
+{
+    uint32_t state = 1;
+    for (uint32_t i = count; i > 1; i--) {
+        state = state * 1664525u + 1013904223u; /* Numerical Recipes */
+        uint32_t k = (state >> 8) % i;
+        compare_case *kept = list[i - 1];
+        list[i - 1] = list[k];
+        list[k] = kept;
+    }
+}
+
+/* Parts the cases asked for into those that fail, unexplained so far, and some that pass. */
 static void cases_part(explain_search *search)
 {
     compare_job *job = search->job;
@@ -279,6 +310,9 @@ static void cases_part(explain_search *search)
             search->failing[search->failings++] = one;
         }
     }
+    list_shuffle(search->failing, search->failings);
+    list_shuffle(search->passing, search->passings);
+    search->passings = search->passings < WITNESSES ? search->passings : WITNESSES;
 }
 
 /* ---- what needs no hypothesis ---- */
@@ -312,32 +346,31 @@ static void class_say(explain_search *search, int grade, const char *name, const
     snprintf(finding->text, sizeof finding->text, "%s", text);
 }
 
-/* Skins 2^-K m apart in a scene 8 m deep are called skins-K; 0 for other scenes. */
+/* Skins 2^-K m apart in a scene 8 m deep are called skins-K, those in one place by other names; 0
+   for scenes without. */
 static int skins_of(const compare_job *job, const compare_case *one)
 {
     const char *name = job->kit.scene[one->scene].name;
-    return strncmp(name, "skins-", 6) == 0 ? atoi(name + 6) : 0;
+    int coincident = strcmp(name, "twins") == 0 || strcmp(name, "two-faced") == 0;
+    return strncmp(name, "skins-", 6) == 0 ? atoi(name + 6) : coincident ? SKINS_TOUCH : 0;
 }
 
-/* From some distance on skins are told apart, below it they are not: the depths are too coarse. */
+/* Where most of what fails are skins close to each other, the depths are too coarse. */
 static void depth_say(explain_search *search)
 {
-    int told = 0;      /* the finest that pass */
-    int confused = 99; /* the coarsest that fail */
+    int coarsest = SKINS_TOUCH;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < search->passings; i++) {
-        int skins = skins_of(search->job, search->passing[i]);
-        told = skins > told ? skins : told;
-    }
     for (uint32_t i = 0; i < search->failings; i++) {
         int skins = skins_of(search->job, search->failing[i]);
-        confused = skins > 0 && skins < confused ? skins : confused;
+        coarsest = skins > 0 && skins < coarsest ? skins : coarsest;
         count += skins > 0;
     }
-    if (count < ENOUGH || search->job->findings == COMPARE_FINDINGS) {
+    if (2 * count <= search->failings || search->job->findings == COMPARE_FINDINGS) {
         return;
     }
-    compare_finding *finding = finding_add(search->job, "depth-precision");
+    int touch = coarsest == SKINS_TOUCH;
+    compare_finding *finding =
+        finding_add(search->job, touch ? "coincident-skins" : "depth-precision");
     for (uint32_t i = 0; i < search->failings; i++) {
         if (skins_of(search->job, search->failing[i]) > 0) {
             search->failing[i]->explained = (int)search->job->findings;
@@ -345,11 +378,49 @@ static void depth_say(explain_search *search)
     }
     finding->explained = count;
     finding->rest = 1.0;
+    if (touch) {
+        snprintf(finding->text, sizeof finding->text,
+                 "coincident skins: of facets in one place the wrong one is seen (a front beats a "
+                 "back, then the lower index wins)");
+    } else {
+        snprintf(finding->text, sizeof finding->text,
+                 "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told apart: a "
+                 "depth of some %d bits or fewer",
+                 coarsest, coarsest + 3);
+    }
+}
+
+/* A factor that all answers share, though each by itself is within its class. */
+static void bias_say(explain_search *search)
+{
+    compare_job *job = search->job;
+    uint32_t count = 0;
+    uint32_t nearer = 0;
+    char text[256];
+    for (uint32_t i = 0; i < job->kit.cases; i++) {
+        const compare_case *one = &job->kit.list[i];
+        if (one->given && (uint32_t)one->tier <= job->tier && one->sigma_m2 > 0.0 &&
+            one->grade > COMPARE_EXACT && isfinite(one->theirs_m2)) {
+            search->room[count++] = one->theirs_m2 / one->sigma_m2;
+        }
+    }
+    double median = median_of(search->room, count);
+    for (uint32_t i = 0; i < count; i++) {
+        nearer += fabs(search->room[i] - median) < fabs(search->room[i] - 1.0);
+    }
+    if (count < BIAS_CASES || nearer < BIAS_SHARE * count || fabs(median - 1.0) < BIAS_LEAST ||
+        job->findings == COMPARE_FINDINGS) {
+        return;
+    }
+    factor_say(job, median, text, sizeof text);
+    compare_finding *finding = finding_add(job, "pixel-area");
+    finding->factor = median;
+    finding->rest = 1.0;
+    job->biased = 1;
     snprintf(finding->text, sizeof finding->text,
-             "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told apart: a depth "
-             "of some %d bits or fewer",
-             confused, confused + 3);
-    (void)told;
+             "a constant factor of %.6g, within what each case is allowed but in %.0f %% of them: "
+             "%s",
+             median, 100.0 * nearer / count, text);
 }
 
 /* ---- the search ---- */
@@ -374,6 +445,9 @@ static int findings_make(explain_search *search)
               "a raster's pixels: off by no more than a pixel along the outlines");
     cases_part(search);
     search->job->unexplained = search->failings;
+    if (search->job->findings == 0) {
+        bias_say(search);
+    }
     return 0;
 }
 

@@ -33,6 +33,11 @@ static int case_class(const compare_case *one, uint32_t pixels)
     return COMPARE_FAIL;
 }
 
+int cli_compare_passed(const compare_job *job)
+{
+    return job->failed == 0 && !job->biased;
+}
+
 int cli_compare_failed(const compare_job *job, const compare_case *one)
 {
     return (uint32_t)one->tier <= job->tier && one->grade > job->grade;

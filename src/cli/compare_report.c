@@ -98,8 +98,12 @@ static void findings_print(const compare_job *job)
     uint32_t failed = job->failed - (job->asked - job->given) - job->not_numbers;
     for (uint32_t i = 0; i < job->findings; i++) {
         const compare_finding *finding = &job->finding[i];
-        printf("why          %s\n             explains %lu of %lu failing cases, in tiers",
-               finding->text, (unsigned long)finding->explained, (unsigned long)failed);
+        printf("why          %s\n", finding->text);
+        if (finding->explained == 0) {
+            continue;
+        }
+        printf("             explains %lu of %lu failing cases, in tiers",
+               (unsigned long)finding->explained, (unsigned long)failed);
         finding_tiers(job, (int)i + 1);
         if (finding->rest < 1.0) {
             printf("; leaves %.2g %% of their differences", 100.0 * finding->rest);
@@ -152,5 +156,5 @@ void cli_compare_table(const compare_job *job)
     }
     findings_print(job);
     unexplained_print(job);
-    printf("verdict      %s\n", job->failed == 0 ? "passed" : "FAILED");
+    printf("verdict      %s\n", cli_compare_passed(job) ? "passed" : "FAILED");
 }

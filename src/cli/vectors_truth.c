@@ -8,9 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TRUTH_PI    3.14159265358979323846
-#define SINGLE      0x1p-24 /* half the spacing of numbers near 1, single precision */
-#define PARTLY_SEEN 0.999   /* less of a facet is taken for an outline inside it */
+#define TRUTH_PI     3.14159265358979323846
+#define SINGLE       0x1p-24 /* half the spacing of numbers near 1, single precision */
+#define SINGLE_LEAST 0x1p-96 /* relative to which its least number, 2^-126, is some roundings */
+#define PARTLY_SEEN  0.999   /* less of a facet is taken for an outline inside it */
 
 typedef struct truth_run {
     const vectors_job *job;
@@ -23,7 +24,7 @@ typedef struct truth_run {
 /* ---- what is allowed ---- */
 
 /* A few roundings in single precision: 16 in the sum, 4 in the cosine, whose error the BRDF
-   enlarges; close to grazing and at narrow glints that is much. */
+   enlarges; close to grazing and at narrow glints that is much. What underflows may be lost. */
 static double facet_float(const lrcs_facet_record *record, const lrcs_brdf *brdf)
 {
     lrcs_brdf glint = *brdf;
@@ -31,11 +32,11 @@ static double facet_float(const lrcs_facet_record *record, const lrcs_brdf *brdf
     double c = fabs(record->cos_theta);
     double unit = 4.0 * TRUTH_PI * c * record->visible_area_m2 * SINGLE;
     if (record->sigma_m2 <= 0.0) {
-        return 0.0;
+        return unit * SINGLE_LEAST;
     }
     glint.B = diffuse.A = 0.0;
     double steep = 7.0 + (brdf->A > 0.0 ? 2.0 / (c * c * brdf->s * brdf->s) : 0.0);
-    return unit * (lrcs_brdf_eval(&glint, c) * (16.0 + 4.0 * steep / c) +
+    return unit * (SINGLE_LEAST + lrcs_brdf_eval(&glint, c) * (16.0 + 4.0 * steep / c) +
                    lrcs_brdf_eval(&diffuse, c) * (16.0 + 4.0 * (1.0 + brdf->m) / c));
 }
 
