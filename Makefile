@@ -7,6 +7,7 @@
 #   make asan tsan lint purity layers fuzz    further checks
 #   make amalgamation       the core as two files, build/amalgamation/lrcs.c and lrcs.h, and its tests on them
 #   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
+#   make gpu                the paper's method in OpenGL, judged by the conformance kit
 #   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
@@ -141,6 +142,15 @@ scaling: $(BENCH_DIR)/scaling
 	$(BENCH_DIR)/scaling $(SCALING_FLAGS)
 SCALING_FLAGS =
 
+# The paper's method in OpenGL, and what the kit says of it: exit 0 also where cases fail (needs EGL: libegl-dev libgl1-mesa-dri).
+gpu: $(TOOL)
+	@mkdir -p $(BUILD)/gpu
+	$(CC) -std=c11 -O2 -Wall -Wextra -o $(BUILD)/gpu/lrcs_gl $(wildcard examples/gpu/*.c) -lEGL -lm
+	$(TOOL) vectors $(BUILD)/gpu/kit --resolution 0
+	$(BUILD)/gpu/lrcs_gl $(BUILD)/gpu/kit $(GPU_PIXELS) >$(BUILD)/gpu/gl.csv
+	$(TOOL) compare $(BUILD)/gpu/kit $(BUILD)/gpu/gl.csv --pixels $(GPU_PIXELS) || [ $$? -eq 1 ]
+GPU_PIXELS = 512
+
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
 	$(BUILD)/test/integrate/test_large $(BIG_ROWS)
@@ -181,7 +191,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan tsan lint purity layers amalgamation stack fuzz bounds estimate shadows bench scaling big install uninstall clean cmocka
+.PHONY: all demo charts test asan tsan lint purity layers amalgamation stack fuzz bounds estimate shadows bench scaling gpu big install uninstall clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
