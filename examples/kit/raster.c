@@ -310,7 +310,7 @@ int main(int count, char **word)
             }
         }
         double sigma = N > 0 ? sigma_raster(R[2], N, depth, item) : sigma_facets(R[2]);
-        printf("%s,%s,%.9g\n", scene, attitude, sigma * (is("4pi") ? 1 : 4 * PI));
+        printf("%s,%s,%.17g\n", scene, attitude, sigma * (is("4pi") ? 1 : 4 * PI));
         if (items && images == N) {
             write_item(items, scene, attitude, N, item);
         }

@@ -20,7 +20,8 @@
 #define ENOUGH       3u   /* cases that make a finding, or all of them */
 #define SKINS_TOUCH  60   /* a distance of 2^-60 m stands for none */
 #define BIAS_CASES   20u  /* a factor that all share: of so many cases */
-#define BIAS_SHARE   0.9  /* this share is nearer to it than to the truth */
+#define BIAS_SHARE   0.75 /* this share is nearer to it than to the truth, and */
+#define BIAS_SPREADS 4.0  /* more than half by so many spreads of a fair coin */
 #define BIAS_LEAST   1e-4 /* and it is this far from 1 */
 
 typedef struct explain_search {
@@ -408,7 +409,8 @@ static void bias_say(explain_search *search)
     for (uint32_t i = 0; i < count; i++) {
         nearer += fabs(search->room[i] - median) < fabs(search->room[i] - 1.0);
     }
-    if (count < BIAS_CASES || nearer < BIAS_SHARE * count || fabs(median - 1.0) < BIAS_LEAST ||
+    double least = fmax(BIAS_SHARE, 0.5 + 0.5 * BIAS_SPREADS / sqrt(fmax(count, 1.0)));
+    if (count < BIAS_CASES || nearer < least * count || fabs(median - 1.0) < BIAS_LEAST ||
         job->findings == COMPARE_FINDINGS) {
         return;
     }
