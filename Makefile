@@ -2,6 +2,7 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make charts     accuracy against time, for the README
+#   make study      what sigma depends on: examples/study anew
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan tsan lint purity layers fuzz    further checks
@@ -39,6 +40,7 @@ CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 JOINED   = $(BUILD)/amalgamation
 LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
+FUZZ_TARGETS = $(patsubst test/fuzz/fuzz_%.c,%,$(sort $(wildcard test/fuzz/fuzz_*.c)))
 BENCH_DIR = $(BUILD)/test/bench
 BENCH_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/bench.c %/scaling.c,$(wildcard test/bench/*.c)))
 
@@ -56,7 +58,11 @@ charts: $(TOOL)
 	$(TOOL) converge examples/cylinder.toml --azel 0,30 --plot examples/converge_cylinder.svg
 	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
 
-test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling
+# Tables, plots and laws as they are kept; the same bytes every time.
+study: $(TOOL)
+	$(TOOL) study -o examples/study
+
+test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TARGETS:%=$(BUILD)/test/fuzz/fuzz_%)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
 
 asan: cmocka
@@ -91,14 +97,26 @@ stack: $(JOINED)/lrcs.c
 ARM       = arm-none-eabi-gcc
 CORTEX_M7 = -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard
 
-# The readers under libFuzzer (needs clang), for FUZZ_SECONDS.
-fuzz:
-	@mkdir -p $(BUILD)/fuzz/corpus
-	clang $(STD) -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -Iinclude -Isrc \
-	    -o $(BUILD)/fuzz/readers test/fuzz/fuzz_readers.c $(wildcard src/base/*.c src/mesh/*.c) -lm
-	$(BUILD)/fuzz/readers -max_total_time=$(FUZZ_SECONDS) -max_len=4096 -print_final_stats=1 \
-	    -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus test/fuzz/seeds
-FUZZ_SECONDS = 120
+# Every target of test/fuzz under libFuzzer and the sanitizers (needs clang), each for FUZZ_SECONDS;
+# fuzz-long: FUZZ_RUNS executions of each. FUZZ_TARGETS picks some. What they find, and the corpora,
+# are left in $(BUILD)/fuzz.
+fuzz: $(FUZZ_TARGETS:%=fuzz-%)
+fuzz-long:
+	$(MAKE) FUZZ_LIMIT=-runs=$(FUZZ_RUNS) fuzz
+fuzz-%:
+	$(MAKE) CC=clang BUILD=$(BUILD)/fuzz/$(FUZZ_WATCH) OPT="-O2 -g1" \
+	    CFLAGS="-fsanitize=fuzzer-no-link $(FUZZ_COVERAGE) $(SANITIZE)" $(BUILD)/fuzz/$(FUZZ_WATCH)/liblrcs.a
+	clang $(STD) -O2 -g1 -fsanitize=fuzzer $(FUZZ_COVERAGE) $(SANITIZE) -Iinclude \
+	    -o $(BUILD)/fuzz/$* test/fuzz/fuzz_$*.c $(BUILD)/fuzz/$(FUZZ_WATCH)/liblrcs.a $(LDLIBS)
+	@mkdir -p $(BUILD)/fuzz/corpus/$*
+	$(BUILD)/fuzz/$* $(FUZZ_LIMIT) -max_len=512 -rss_limit_mb=3000 -print_final_stats=1 \
+	    -artifact_prefix=$(BUILD)/fuzz/$*- $(BUILD)/fuzz/corpus/$* test/fuzz/seeds/$*
+FUZZ_SECONDS = 20
+FUZZ_RUNS    = 10000000
+FUZZ_LIMIT   = -max_total_time=$(FUZZ_SECONDS)
+# Watching what numbers are compared with finds keywords, and makes arithmetic four times slower.
+FUZZ_WATCH    = $(if $(filter $*,pose scene),sigma,text)
+FUZZ_COVERAGE = $(if $(filter $*,pose scene),-fno-sanitize-coverage=trace-cmp)
 
 # Every proved bound on BOUNDS_SCENES scenes of each kind with exact answers, and what the estimate is
 # worth (needs python3, mpmath).
@@ -192,7 +210,9 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan tsan lint purity layers amalgamation stack fuzz bounds estimate shadows bench scaling gpu big install uninstall clean cmocka
+.PHONY: all demo charts study install uninstall clean cmocka
+.PHONY: test asan tsan lint purity layers amalgamation stack
+.PHONY: fuzz fuzz-long bounds estimate shadows bench scaling gpu big
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -260,10 +280,14 @@ $(BUILD)/test/%.o: test/%.c
 $(BUILD)/test/%: $(BUILD)/test/%.o $(LIB)
 	$(CC) -o $@ $< $(LIB) -lcmocka $(LDLIBS)
 
+# A fuzz target with a driver in the place of libFuzzer.
+$(BUILD)/test/fuzz/fuzz_%: $(BUILD)/test/fuzz/fuzz_%.o $(BUILD)/test/fuzz/replay.o $(LIB)
+	$(CC) -o $@ $^ $(LDLIBS)
+
 # The benchmarks tell how they were built.
 $(BENCH_DIR)/measure.o: override CFLAGS += -DBENCH_BUILD='"$(CC) $(STD) $(OPT)"'
 $(BENCH_DIR)/%: $(BENCH_DIR)/%.o $(BENCH_OBJ) $(LIB)
 	$(CC) -o $@ $< $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
-.SECONDARY: $(BENCH_OBJ) $(TEST_SRC:%.c=$(BUILD)/%.o)
--include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d)
+.SECONDARY: $(BENCH_OBJ) $(FUZZ_TARGETS:%=$(BUILD)/test/fuzz/fuzz_%.o) $(BUILD)/test/fuzz/replay.o $(TEST_SRC:%.c=$(BUILD)/%.o)
+-include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d $(BUILD)/test/fuzz/*.d)

@@ -11,7 +11,7 @@ cd "$scratch" || exit 1
 cp "$root/examples/plate.toml" 'a<b&"c.toml'
 "$tool" converge 'a<b&"c.toml' --azel 0,30 --seconds 0.05 --plot p.svg --plot p.png >/dev/null 2>&1
 "$tool" converge demo --azel 50,40 --seconds 0.5 --plot d.svg --csv d.csv >/dev/null 2>&1
-PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/test/host python3 -B - <<'END'
+PYTHONPATH=$root/test/host python3 -B - <<'END'
 import csv, math, sys
 import xml.etree.ElementTree as tree
 from png_file import Png

@@ -8,7 +8,7 @@ trap 'rm -rf "$scratch"' EXIT
 "$tool" run demo --tolerance 0.01 --azel 30,20 --json --image "$scratch/i.png" --image-size 200 \
     --facets "$scratch/f.csv" >"$scratch/o.json" 2>/dev/null
 "$tool" info demo --json >"$scratch/info.json" 2>/dev/null
-PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$(dirname "$0") python3 -B - "$scratch" <<'END'
+PYTHONPATH=$(dirname "$0") python3 -B - "$scratch" <<'END'
 import csv, json, math, sys
 from png_file import Png
 at = sys.argv[1]
