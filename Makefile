@@ -7,6 +7,7 @@
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan tsan lint purity layers fuzz    further checks
 #   make amalgamation       the core as two files, build/amalgamation/lrcs.c and lrcs.h, and its tests on them
+#   make flight portable    on a Cortex-M7 (needs gcc-arm-none-eabi, qemu); on four other machines (qemu-user)
 #   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
 #   make gpu                the paper's method in OpenGL, judged by the conformance kit
 #   make bench scaling      what every stage costs on this machine, and how that grows
@@ -38,6 +39,7 @@ TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
 EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
 CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 JOINED   = $(BUILD)/amalgamation
+FLIGHT   = $(BUILD)/flight
 LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
 FUZZ_TARGETS = $(patsubst test/fuzz/fuzz_%.c,%,$(sort $(wildcard test/fuzz/fuzz_*.c)))
@@ -96,6 +98,22 @@ stack: $(JOINED)/lrcs.c
 	    -c -o $(JOINED)/stack_m7.o $< && sh test/stack.sh $(JOINED)/stack_m7.ci; }
 ARM       = arm-none-eabi-gcc
 CORTEX_M7 = -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard
+
+# examples/flight here, and on an emulated Cortex-M7: what it prints, its code size.
+flight: $(FLIGHT)/task $(FLIGHT)/task.elf
+	$(FLIGHT)/task
+	arm-none-eabi-size $(FLIGHT)/task.elf
+	qemu-system-arm -M mps2-an500 -nographic -semihosting-config enable=on,target=native \
+	    -kernel $(FLIGHT)/task.elf </dev/null
+
+# The core's tests and a digest of its results on other machines under qemu-user, with gcc and clang,
+# at -O0, -O2 and -O3: PORTABLE="MACHINES=s390x COMPILERS=gcc LEVELS=2" runs one of them.
+portable: $(JOINED)/lrcs.c
+	$(PORTABLE) FLAGS="$(STD)" sh test/portable/portable.sh $(JOINED) $(PORTABLE_TESTS)
+PORTABLE =
+# Those that take minutes under emulation are left out.
+PORTABLE_TESTS = $(filter-out $(addprefix %/test_,$(addsuffix .c,bound closed cubature divide fit large \
+    margin mean polygon random shadows switch workspace)),$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 
 # Every target of test/fuzz under libFuzzer and the sanitizers (needs clang), each for FUZZ_SECONDS;
 # fuzz-long: FUZZ_RUNS executions of each. FUZZ_TARGETS picks some. What they find, and the corpora,
@@ -169,6 +187,7 @@ gpu: $(TOOL)
 	$(BUILD)/gpu/lrcs_gl $(BUILD)/gpu/kit $(GPU_PIXELS) >$(BUILD)/gpu/gl.csv
 	$(TOOL) compare $(BUILD)/gpu/kit $(BUILD)/gpu/gl.csv --pixels $(GPU_PIXELS) || [ $$? -eq 1 ]
 GPU_PIXELS = 512
+.PHONY: gpu
 
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
@@ -211,8 +230,8 @@ cmocka:
 	@sh test/cmocka.sh $(CC)
 
 .PHONY: all demo charts study install uninstall clean cmocka
-.PHONY: test asan tsan lint purity layers amalgamation stack
-.PHONY: fuzz fuzz-long bounds estimate shadows bench scaling gpu big
+.PHONY: test asan tsan lint purity layers amalgamation stack flight portable
+.PHONY: fuzz fuzz-long bounds estimate shadows bench scaling big
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -256,6 +275,17 @@ $(JOINED)/lrcs.o: $(JOINED)/lrcs.c
 $(JOINED)/test/%: $(BUILD)/test/%.o $(JOINED)/lrcs.o
 	@mkdir -p $(@D)
 	$(CC) -o $@ $^ -lcmocka $(LDLIBS)
+
+$(FLIGHT)/task: $(wildcard examples/flight/*) $(LIB)
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(OPT) $(WARN) -Iinclude -o $@ examples/flight/task.c examples/flight/main.c \
+	    examples/flight/board_host.c $(LIB) $(LDLIBS)
+
+$(FLIGHT)/task.elf: $(wildcard examples/flight/*) $(JOINED)/lrcs.c
+	@mkdir -p $(@D)
+	$(ARM) $(CORTEX_M7) $(STD) $(OPT) -ffunction-sections -I$(JOINED) -Iinclude -nostartfiles -Wl,--gc-sections \
+	    -T examples/flight/board_m7.ld -o $@ examples/flight/task.c examples/flight/main.c \
+	    examples/flight/board_m7.c $(JOINED)/lrcs.c -lm
 
 # The built-in scene, as the bytes of a C array.
 $(BUILD)/demo.inc: examples/satellite.toml

@@ -56,7 +56,7 @@ function largest(value, count, what,   f, best, used, i) {
     kind = size
     sub(/.*\\n/, "", size)
     frame[f] = size + 0
-    functions++
+    order[++functions] = f
     if (kind !~ /\((static|dynamic,bounded)\)$/) fail("the frame of " plain(f) " has no known size")
 }
 /^edge:/ {
@@ -67,7 +67,7 @@ function largest(value, count, what,   f, best, used, i) {
 }
 END {
     if (!functions) { fail("no functions in the graph"); exit 1 }
-    for (f in frame) { d = depth(f); if (d > most) most = d }
+    for (i = 1; i <= functions; i++) { d = depth(order[i]); if (d > most) most = d }
     if (failed) exit 1
     print "stack: " functions " functions, no recursion, no calls through pointers, every frame known"
     print "largest frames, bytes:"
