@@ -146,7 +146,7 @@ int cli_compare_explain(compare_job *job);
 /* Where a facet is shaded. */
 typedef struct mistake_spot {
     const lrcs_brdf *brdf;
-    double c;    /* the cosine that is used, > 0 */
+    double c;    /* the cosine that is used, 0 .. 1 */
     double peak; /* the largest f_r cos of the case */
 } mistake_spot;
 
@@ -155,31 +155,36 @@ typedef struct mistake_view {
     const compare_scene *scene;
     const lrcs_facet_record *records;
     double direction[3]; /* unit */
-    double peak;
 } mistake_view;
 
-/* f_r cos as somebody computes it. */
-typedef double mistake_shade(const mistake_spot *spot);
+/* f_r cos as somebody computes it; `at`: the mistake's. */
+typedef double mistake_shade(const mistake_spot *spot, double at);
 
 /* The projected area that somebody sums for a corner (of 0 .. 2) of a facet, a third of the
    facet's, and how they shade it; 0 for none. */
 typedef double mistake_area(const mistake_view *view, uint32_t facet, int corner,
                             mistake_spot *spot);
 
-/* The pose that somebody takes for that of a case. Status: as lrcs_pose_from_direction. */
-typedef int mistake_turn(const compare_case *one, lrcs_pose *pose);
-
-/* A mistake: what is not NULL is done otherwise. */
+/* A mistake: what is not NULL or 0 is done otherwise. */
 typedef struct compare_mistake {
     const char *name, *text;
     mistake_shade *shade;
+    double at;
     mistake_area *area;
-    mistake_turn *turn;
+    int (*turn)(const compare_case *one, const struct compare_mistake *mistake, lrcs_pose *pose);
+    int axes[3];      /* of turn: for x, y, z of s_hat, which component they take, 1 .. 3, negative
+                         to mirror it */
     uint32_t without; /* effects that somebody leaves out, lrcs_run_options.without */
 } compare_mistake;
 
 /* The catalogue, ended by a NULL name; the first one is no mistake. */
 extern const compare_mistake cli_compare_mistakes[];
+
+/* f_r cos as it should be. */
+double cli_mistake_right(const mistake_spot *spot, double at);
+
+/* The area as it should be. */
+double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot);
 
 /* sigma of a case with a mistake. 0 or CLI_FAILED with the message printed. */
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,

@@ -9,20 +9,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EXPLAIN_PI   3.14159265358979323846
-#define REMOVED      0.1  /* what may be left of a difference that is explained */
-#define PRECISE      0.6  /* of the cases that a mistake touches, those that it must explain */
-#define PROBE        16u  /* failing cases after which a hopeless mistake is given up */
-#define HOPELESS     0.1  /* share of them */
-#define WITNESSES    64u  /* passing cases that a mistake must not touch */
-#define FACTOR_NEAR  0.02 /* a median ratio this near a known number is that number */
-#define FACTOR_PRICE 0.05 /* what a factor must gain to be believed */
-#define ENOUGH       3u   /* cases that make a finding, or all of them */
-#define SKINS_TOUCH  60   /* a distance of 2^-60 m stands for none */
-#define BIAS_CASES   20u  /* a factor that all share: of so many cases */
-#define BIAS_SHARE   0.75 /* this share is nearer to it than to the truth, and */
-#define BIAS_SPREADS 4.0  /* more than half by so many spreads of a fair coin */
-#define BIAS_LEAST   1e-4 /* and it is this far from 1 */
+#define EXPLAIN_PI     3.14159265358979323846
+#define REMOVED        0.1  /* what may be left of a difference that is explained */
+#define REMOVED_RASTER 0.5  /* the same, where their class allows that much in any case */
+#define STRIKING       0.02 /* the same, where few cases speak for a mistake */
+#define PRECISE        0.6  /* of the cases that a mistake touches, those that it must explain */
+#define PROBE          16u  /* failing cases after which a hopeless mistake is given up */
+#define HOPELESS       0.1  /* share of them */
+#define WITNESSES      64u  /* passing cases that a mistake must not touch */
+#define FACTOR_NEAR    0.02 /* a median ratio this near a known number is that number */
+#define FACTOR_PRICE   0.05 /* what a factor must gain to be believed */
+#define ENOUGH         3u   /* cases that make a finding by themselves */
+#define SKINS_TOUCH    60   /* a distance of 2^-60 m stands for none */
+#define BIAS_CASES     20u  /* a factor that all share: of so many cases */
+#define BIAS_SHARE     0.75 /* this share is nearer to it than to the truth, and */
+#define BIAS_SPREADS   4.0  /* more than half by so many spreads of a fair coin */
+#define BIAS_LEAST     1e-4 /* and it is this far from 1 */
 
 typedef struct explain_search {
     compare_job *job;
@@ -65,8 +67,9 @@ static double case_room(const explain_search *search, const compare_case *one, d
 static int case_explained(const explain_search *search, const compare_case *one, double expected)
 {
     double left = fabs(one->theirs_m2 - expected);
-    return left <= REMOVED * fabs(one->theirs_m2 - one->sigma_m2) ||
-           left <= case_room(search, one, expected);
+    double off = fabs(one->theirs_m2 - one->sigma_m2);
+    return left <= REMOVED * off ||
+           (left <= REMOVED_RASTER * off && left <= case_room(search, one, expected));
 }
 
 /* Would the mistake change the case at all? */
@@ -95,8 +98,8 @@ static explain_score score_make(const explain_search *search, const compare_mist
                                            factor * search->answer[search->failings + i]));
     }
     double precise = touched > 0 ? (double)score.explained / touched : 0.0;
-    uint32_t enough = search->failings < ENOUGH ? search->failings : ENOUGH;
-    if (score.explained >= enough && precise >= PRECISE) {
+    int striking = removed >= (1.0 - 0.5 * STRIKING) * score.explained;
+    if (score.explained > 0 && (score.explained >= ENOUGH || striking) && precise >= PRECISE) {
         score.score = precise * removed / search->failings;
     }
     return score;
@@ -419,10 +422,18 @@ static void bias_say(explain_search *search)
     finding->factor = median;
     finding->rest = 1.0;
     job->biased = 1;
-    snprintf(finding->text, sizeof finding->text,
-             "a constant factor of %.6g, within what each case is allowed but in %.0f %% of them: "
-             "%s",
-             median, 100.0 * nearer / count, text);
+    for (uint32_t i = 0; i < search->failings; i++) {
+        compare_case *one = search->failing[i];
+        if (case_explained(search, one, median * one->sigma_m2)) {
+            one->explained = (int)job->findings;
+            finding->explained++;
+        }
+    }
+    snprintf(
+        finding->text, sizeof finding->text,
+        "a constant factor of %.6g, within what most cases are allowed but in %.0f %% of them: "
+        "%s",
+        median, 100.0 * nearer / count, text);
 }
 
 /* ---- the search ---- */
@@ -446,10 +457,11 @@ static int findings_make(explain_search *search)
     class_say(search, COMPARE_RASTER, "raster",
               "a raster's pixels: off by no more than a pixel along the outlines");
     cases_part(search);
-    search->job->unexplained = search->failings;
     if (search->job->findings == 0) {
         bias_say(search);
+        cases_part(search);
     }
+    search->job->unexplained = search->failings;
     return 0;
 }
 

@@ -34,16 +34,14 @@ typedef struct vectors_item {
     const char *wear;
 } vectors_item;
 
-#define VECTORS_ITEMS 16
-
 typedef struct vectors_scene {
     const char *name;
     int tier;
-    unsigned attitudes; /* bits, vectors_attitude.set */
-    double scale;       /* of everything, a power of two */
-    double move[3];     /* before the scale */
-    vectors_item item[VECTORS_ITEMS];
-    const char *about; /* what it tries */
+    unsigned attitudes;       /* bits, vectors_attitude.set */
+    double scale;             /* of everything, a power of two */
+    double move[3];           /* before the scale */
+    const vectors_item *item; /* up to one of kind VECTORS_NONE */
+    const char *about;        /* what it tries */
 } vectors_scene;
 
 #define VECTORS_TILTS 1u /* from the normal +z of a plate to grazing and beyond */

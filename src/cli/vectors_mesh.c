@@ -258,7 +258,7 @@ int cli_vectors_mesh(const vectors_scene *scene, vectors_mesh *mesh)
 {
     mesh_build build = {.mesh = mesh, .scene = scene};
     memset(mesh, 0, sizeof *mesh);
-    for (int i = 0; i < VECTORS_ITEMS && scene->item[i].kind != VECTORS_NONE; i++) {
+    for (int i = 0; scene->item[i].kind != VECTORS_NONE; i++) {
         build.item = &scene->item[i];
         if (lrcs_pose_from_euler("XYZ", build.item->turn_deg, &build.turn) != LRCS_OK) {
             return CLI_FAILED;

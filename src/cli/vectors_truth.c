@@ -11,7 +11,8 @@
 #define TRUTH_PI     3.14159265358979323846
 #define SINGLE       0x1p-24 /* half the spacing of numbers near 1, single precision */
 #define SINGLE_LEAST 0x1p-96 /* relative to which its least number, 2^-126, is some roundings */
-#define PARTLY_SEEN  0.999   /* less of a facet is taken for an outline inside it */
+#define EDGE_ON      (4.0 * SINGLE)
+#define PARTLY_SEEN  0.999 /* less of a facet is taken for an outline inside it */
 
 typedef struct truth_run {
     const vectors_job *job;
@@ -24,13 +25,17 @@ typedef struct truth_run {
 /* ---- what is allowed ---- */
 
 /* A few roundings in single precision: 16 in the sum, 4 in the cosine, whose error the BRDF
-   enlarges; close to grazing and at narrow glints that is much. What underflows may be lost. */
+   enlarges; close to grazing and at narrow glints that is much. What underflows may be lost, what
+   is edge-on may show a trace. */
 static double facet_float(const lrcs_facet_record *record, const lrcs_brdf *brdf)
 {
     lrcs_brdf glint = *brdf;
     lrcs_brdf diffuse = *brdf;
     double c = fabs(record->cos_theta);
     double unit = 4.0 * TRUTH_PI * c * record->visible_area_m2 * SINGLE;
+    if (c < EDGE_ON) {
+        return 4.0 * TRUTH_PI * lrcs_brdf_eval(brdf, EDGE_ON) * EDGE_ON * EDGE_ON * record->area_m2;
+    }
     if (record->sigma_m2 <= 0.0) {
         return unit * SINGLE_LEAST;
     }
@@ -57,7 +62,8 @@ static double facet_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_
     return length;
 }
 
-/* A pixel along the outline of each facet, errors of different facets independent. */
+/* Half a pixel along the outline of each facet, errors of different facets independent: a raster's
+   usual error is a tenth of that, its worst is where an outline lies along rows or columns. */
 static double facet_edge(const lrcs_scene *scene, const lrcs_facet_record *record, uint32_t facet,
                          const lrcs_pose *pose)
 {
@@ -65,8 +71,8 @@ static double facet_edge(const lrcs_scene *scene, const lrcs_facet_record *recor
     if (!(record->visible_area_m2 > 0.0)) {
         return 0.0;
     }
-    double inside = record->visible_area_m2 < PARTLY_SEEN * whole ? 2.0 : 1.0;
-    return inside * facet_outline(scene, facet, pose) * record->sigma_m2 / record->visible_area_m2;
+    double pixels = record->visible_area_m2 < PARTLY_SEEN * whole ? 1.0 : 0.5;
+    return pixels * facet_outline(scene, facet, pose) * record->sigma_m2 / record->visible_area_m2;
 }
 
 static void case_allow(const truth_run *run, vectors_case *one)
