@@ -10,6 +10,7 @@
 #   make flight portable    on a Cortex-M7 (needs gcc-arm-none-eabi, qemu); on four other machines (qemu-user)
 #   make operations misra   questions a pose asks, beside the most; MISRA C:2012 and its deviations
 #   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
+#   make gpu                the paper's method in OpenGL, judged by the conformance kit
 #   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
@@ -185,6 +186,17 @@ BENCH_MODELS = $(wildcard ../shared/models/*.3ds ../shared/models/*.obj ../share
 scaling: $(BENCH_DIR)/scaling
 	$(BENCH_DIR)/scaling $(SCALING_FLAGS)
 SCALING_FLAGS =
+
+# The paper's method in OpenGL, and what the kit says of it; a verdict of exit 1 is no failure here
+# (needs EGL and a driver: libegl-dev, libgl1-mesa-dri).
+gpu: $(TOOL)
+	@mkdir -p $(BUILD)/gpu
+	$(CC) -std=c11 -O2 -Wall -Wextra -o $(BUILD)/gpu/lrcs_gl $(wildcard examples/gpu/*.c) -lEGL -lm
+	$(TOOL) vectors $(BUILD)/gpu/kit --resolution 0
+	$(BUILD)/gpu/lrcs_gl $(BUILD)/gpu/kit $(GPU_PIXELS) >$(BUILD)/gpu/gl.csv
+	$(TOOL) compare $(BUILD)/gpu/kit $(BUILD)/gpu/gl.csv --pixels $(GPU_PIXELS) || [ $$? -eq 1 ]
+GPU_PIXELS = 512
+.PHONY: gpu
 
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
