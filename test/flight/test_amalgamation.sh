@@ -36,7 +36,7 @@ if [ -n "$graph" ]; then
 refused"
     }
     refused recursion_is_found 'int g(int); int f(int x) { return x ? g(x - 1) + 1 : 0; } int g(int x) { return 2 * f(x); }' \
-        'recursion through g'
+        'recursion through f'
     refused a_function_that_calls_itself_is_found 'int f(int x) { return x ? f(x - 1) : 0; }' 'recursion through f'
     refused a_call_through_a_pointer_is_found 'int f(int (*p)(int)) { return p(1) + 1; }' 'f calls through a pointer'
     refused an_array_of_any_length_is_found 'void g(char *); void f(int n) { char a[n]; g(a); }' \
