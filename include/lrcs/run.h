@@ -27,8 +27,8 @@ typedef struct lrcs_prepared lrcs_prepared;
 size_t lrcs_prepare_need(const lrcs_scene *scene);
 
 /* Prepares a scene, which must outlive the result. Coordinates below 2^-300 of the largest one
-   count as zero. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_INDEX,
-   LRCS_E_NUMBER (a scene not made by lrcs_scene_build). */
+   count as zero. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 neighbours in a
+   list); LRCS_E_INDEX, LRCS_E_NUMBER (a scene not made by lrcs_scene_build). */
 int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared);
 
 /* What the engine can leave out. */
@@ -108,6 +108,7 @@ typedef struct lrcs_facet_record {
     double cos_theta;       /* signed */
     double visible_area_m2; /* visible projected area, also of back sides */
     double sigma_m2;
+    double sigma_glint_m2; /* of that; the rest is diffuse */
 } lrcs_facet_record;
 
 typedef struct lrcs_result {
@@ -148,7 +149,8 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    Given: prepared; pose; options; work.
    Returned: result; records[facet_count] unless NULL; image unless NULL: then a raster is drawn
    whatever the method, image->size > 0 asks for its size and image->facet has room for it.
-   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range).
+   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range);
+   LRCS_E_LIMIT (more than 2^32 - 2 candidates in a grid).
    Work: nothing stays in the work area. Every loop is bounded: at most how many steps a pose takes,
    and how many it does take, stands in examples/flight/README.md.
    Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
