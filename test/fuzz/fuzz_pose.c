@@ -81,9 +81,10 @@ static void take_run(fuzz_input *in, fuzz_run *run)
     run->options.method = (int)(how & 3);
     run->options.resolution = size[how >> 2 & 7];
     run->options.tolerance = how & 32 ? 1e-9 : 1e-2;
-    unsigned effects = fuzz_byte(in) & LRCS_EFFECTS_SWITCHED;
-    run->options.without = how & 64 ? effects : 0;
-    run->options.with = how & 128 ? effects & ~run->options.without : 0;
+    unsigned effects = fuzz_byte(in);
+    run->options.without = how & 64 ? effects & LRCS_EFFECTS_SWITCHED : 0;
+    run->options.with = how & 128 ? effects & LRCS_EFFECTS_SWITCHED & ~run->options.without : 0;
+    run->polygons = effects < 128;
     run->share = fuzz_byte(in);
 }
 
