@@ -4,7 +4,7 @@
 #   make charts     accuracy against time, for the README
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
-#   make asan tsan lint purity layers fuzz    further checks
+#   make asan tsan lint purity layers fuzz coverage    further checks
 #   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
@@ -35,6 +35,8 @@ EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
 LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
 FUZZ_TARGETS = $(patsubst test/fuzz/fuzz_%.c,%,$(sort $(wildcard test/fuzz/fuzz_*.c)))
+FUZZ_TESTS = $(FUZZ_TARGETS:%=$(BUILD)/test/fuzz/fuzz_%)
+CORE_TESTS = $(filter-out $(BUILD)/test/host/%,$(TESTS))
 BENCH_DIR = $(BUILD)/test/bench
 BENCH_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/bench.c %/scaling.c,$(wildcard test/bench/*.c)))
 
@@ -52,7 +54,7 @@ charts: $(TOOL)
 	$(TOOL) converge examples/cylinder.toml --azel 0,30 --plot examples/converge_cylinder.svg
 	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
 
-test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TARGETS:%=$(BUILD)/test/fuzz/fuzz_%)
+test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TESTS)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
 
 asan: cmocka
@@ -75,25 +77,31 @@ layers:
 	sh test/layers.sh
 
 # Every target of test/fuzz under libFuzzer and the sanitizers (needs clang), each for FUZZ_SECONDS;
-# fuzz-long: FUZZ_RUNS executions of each. FUZZ_TARGETS picks some. What they find, and the corpora,
-# are left in $(BUILD)/fuzz.
+# fuzz-NAME: one of them; fuzz-long: FUZZ_RUNS executions of each. Corpora and what breaks a target
+# are left in $(BUILD)/fuzz. Comparisons are not watched: arithmetic would be four times slower, and
+# the seeds hold the formats' words.
 fuzz: $(FUZZ_TARGETS:%=fuzz-%)
 fuzz-long:
 	$(MAKE) FUZZ_LIMIT=-runs=$(FUZZ_RUNS) fuzz
 fuzz-%:
-	$(MAKE) CC=clang BUILD=$(BUILD)/fuzz/$(FUZZ_WATCH) OPT="-O2 -g1" \
-	    CFLAGS="-fsanitize=fuzzer-no-link $(FUZZ_COVERAGE) $(SANITIZE)" $(BUILD)/fuzz/$(FUZZ_WATCH)/liblrcs.a
-	clang $(STD) -O2 -g1 -fsanitize=fuzzer $(FUZZ_COVERAGE) $(SANITIZE) -Iinclude \
-	    -o $(BUILD)/fuzz/$* test/fuzz/fuzz_$*.c $(BUILD)/fuzz/$(FUZZ_WATCH)/liblrcs.a $(LDLIBS)
+	$(MAKE) CC=clang BUILD=$(BUILD)/fuzz OPT="-O2 -g1" CFLAGS="-fsanitize=fuzzer-no-link $(FUZZ_CFLAGS)" \
+	    $(BUILD)/fuzz/liblrcs.a
+	clang $(STD) -O2 -g1 -fsanitize=fuzzer $(FUZZ_CFLAGS) -Iinclude -o $(BUILD)/fuzz/$* \
+	    test/fuzz/fuzz_$*.c $(BUILD)/fuzz/liblrcs.a $(LDLIBS)
 	@mkdir -p $(BUILD)/fuzz/corpus/$*
 	$(BUILD)/fuzz/$* $(FUZZ_LIMIT) -max_len=512 -rss_limit_mb=3000 -print_final_stats=1 \
 	    -artifact_prefix=$(BUILD)/fuzz/$*- $(BUILD)/fuzz/corpus/$* test/fuzz/seeds/$*
 FUZZ_SECONDS = 20
 FUZZ_RUNS    = 10000000
 FUZZ_LIMIT   = -max_total_time=$(FUZZ_SECONDS)
-# Watching what numbers are compared with finds keywords, and makes arithmetic four times slower.
-FUZZ_WATCH    = $(if $(filter $*,pose scene),sigma,text)
-FUZZ_COVERAGE = $(if $(filter $*,pose scene),-fno-sanitize-coverage=trace-cmp)
+FUZZ_CFLAGS  = $(SANITIZE) -fno-sanitize-coverage=trace-cmp
+
+# Lines and branches of the core that its own tests run.
+coverage: cmocka
+	$(MAKE) BUILD=$(BUILD)/coverage OPT=-O0 CFLAGS=--coverage LDLIBS="--coverage $(THREADS) -lm" test-core
+	sh test/coverage.sh $(BUILD)/coverage
+test-core: $(TOOL) $(CORE_TESTS) $(FUZZ_TESTS)
+	@sh test/run.sh $(TOOL) $(CORE_TESTS) test/fuzz/test_replay.sh
 
 # Every proved bound on BOUNDS_SCENES scenes of each kind with exact answers, and what the estimate is
 # worth (needs python3, mpmath).
@@ -177,7 +185,7 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan tsan lint purity layers fuzz fuzz-long bounds estimate shadows bench scaling big install uninstall clean cmocka
+.PHONY: all demo charts test asan tsan lint purity layers fuzz fuzz-long coverage test-core bounds estimate shadows bench scaling big install uninstall clean cmocka
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -244,5 +252,5 @@ $(BENCH_DIR)/measure.o: override CFLAGS += -DBENCH_BUILD='"$(CC) $(STD) $(OPT)"'
 $(BENCH_DIR)/%: $(BENCH_DIR)/%.o $(BENCH_OBJ) $(LIB)
 	$(CC) -o $@ $< $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
-.SECONDARY: $(BENCH_OBJ) $(FUZZ_TARGETS:%=$(BUILD)/test/fuzz/fuzz_%.o) $(BUILD)/test/fuzz/replay.o $(TEST_SRC:%.c=$(BUILD)/%.o)
+.SECONDARY: $(BENCH_OBJ) $(FUZZ_TESTS:%=%.o) $(BUILD)/test/fuzz/replay.o $(TEST_SRC:%.c=$(BUILD)/%.o)
 -include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d $(BUILD)/test/fuzz/*.d)
