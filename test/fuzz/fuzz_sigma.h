@@ -176,10 +176,10 @@ static inline void fuzz_polygons(const lrcs_prepared *prepared, const lrcs_scene
     require(fabs(off) <= room);
 }
 
-static inline void fuzz_methods(const lrcs_prepared *prepared, const lrcs_scene *scene,
-                                const fuzz_run *run)
+/* `first` becomes the first answer, that of method exact; the status, if there was none. */
+static inline int fuzz_methods(const lrcs_prepared *prepared, const lrcs_scene *scene,
+                               const fuzz_run *run, lrcs_result *first)
 {
-    lrcs_result first;
     int first_status = LRCS_E_EMPTY;
     for (int method = LRCS_METHOD_EXACT; method >= LRCS_METHOD_AUTO; method--) {
         lrcs_run_options options = run->options;
@@ -194,24 +194,25 @@ static inline void fuzz_methods(const lrcs_prepared *prepared, const lrcs_scene 
         }
         require(!(result.flags & LRCS_FLAG_MEMORY_FALLBACK));
         if (first_status != LRCS_OK) {
-            first = result;
+            *first = result;
             first_status = status;
         }
-        require_meeting(scene, &first, &result);
+        require_meeting(scene, first, &result);
         if (method == LRCS_METHOD_EXACT && options.without == 0 && run->polygons) {
             fuzz_polygons(prepared, scene, run);
         }
         if (method == run->options.method &&
             fuzz_sigma(prepared, scene, run, &options, need * run->share / 256, &result) ==
                 LRCS_OK) {
-            require_meeting(scene, &first, &result);
+            require_meeting(scene, first, &result);
         }
     }
+    return first_status;
 }
 
 /* Prepares the scene, in no more memory than is said for ordinary scenes or, where facets pierce
    each other without number, in what it asks for. */
-static inline void fuzz_scene(const lrcs_scene *scene, const fuzz_run *run)
+static inline int fuzz_scene(const lrcs_scene *scene, const fuzz_run *run, lrcs_result *first)
 {
     const lrcs_prepared *prepared = NULL;
     size_t size = lrcs_prepare_need(scene);
@@ -227,7 +228,7 @@ static inline void fuzz_scene(const lrcs_scene *scene, const fuzz_run *run)
         }
     }
     require(status == LRCS_OK && work.peak <= size);
-    fuzz_methods(prepared, scene, run);
+    return fuzz_methods(prepared, scene, run, first);
 }
 
 #endif
