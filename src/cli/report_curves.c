@@ -48,7 +48,7 @@ static void extremes_say(FILE *out, const report_sweep *sweep)
         fputs(" Nothing returns; each", out);
     }
     fputs(" \xcf\x83 is proved to within ", out);
-    cli_page_number(out, NULL, bound, 2);
+    cli_page_bound(out, NULL, bound, 2);
     fputs(" m\xc2\xb2 or better.", out);
 }
 
@@ -179,7 +179,7 @@ static void accuracy_row(FILE *out, const converge_job *job, const converge_sett
     cli_page_number_cell(out, 1e3 * one->pose_s, 3);
     cli_page_number_cell(out, one->sigma_m2, 8);
     cli_page_number_cell(out, cli_converge_relative(job, one->error_m2), 2);
-    cli_page_number_cell(out, cli_converge_known(cli_converge_relative(job, one->bound_m2)), 2);
+    cli_page_bound_cell(out, cli_converge_relative(job, one->bound_m2), 2);
     cli_page_number_cell(out, cli_converge_known(cli_converge_relative(job, one->estimate_m2)), 2);
     cli_page_row_end(out);
 }
@@ -207,9 +207,9 @@ void cli_report_accuracy(FILE *out, const report_job *job)
     fputs("</p>\n", out);
     cli_page_figure(out, &job->chart, "Chart of error and bound against the time of a pose",
                     chart_box);
-    cli_page_say(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2. %s%s%s", compare->truth.text,
-                 compare->truth.sigma_m2, compare->left_out, compare->left_out[0] ? ". " : "",
-                 compare->busy);
+    cli_page_say(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2%s%s%s%s.", compare->truth.text,
+                 compare->truth.sigma_m2, compare->left_out[0] ? "; " : "", compare->left_out,
+                 compare->busy[0] ? "; " : "", compare->busy);
     cli_page_figure_end(out);
     accuracy_table(out, compare);
     cli_page_section_end(out);
