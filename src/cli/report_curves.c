@@ -108,15 +108,21 @@ static void most_cell(FILE *out, const cli_shares *shares, const shares_row *row
                       const char *nameless)
 {
     double told = 0.0;
-    cli_page_cell(out);
-    for (uint32_t i = 0;
-         i < count && i < NAMED_MOST && told < NAMED_ENOUGH && row[i].sigma_m2 > 0.0; i++) {
+    uint32_t i = 0;
+    fputs("<td class=\"why\">", out);
+    for (; i < count && i < NAMED_MOST && told < NAMED_ENOUGH && row[i].sigma_m2 > 0.0; i++) {
         double share = cli_share_of(shares, row[i].sigma_m2);
         fputs(i > 0 ? ", " : "", out);
         cli_page_name(out, row[i].name, nameless);
         fputs("\xc2\xa0", out);
         cli_page_percent(out, share);
         told += share;
+    }
+    shares_row others = cli_shares_others(row, i, count);
+    if (others.sigma_m2 > 0.0) {
+        cli_page_say(out, ", %lu other%s\xc2\xa0", (unsigned long)(count - i),
+                     count - i > 1 ? "s" : "");
+        cli_page_percent(out, cli_share_of(shares, others.sigma_m2));
     }
     cli_page_cell_end(out);
 }
@@ -149,9 +155,8 @@ static void peaks_section(FILE *out, const report_job *job)
     cli_page_section(out, "peaks", "The brightest directions, and who makes them");
     cli_page_say(out, "Peaks of the map: directions that outshine all their neighbours.");
     if (job->peaks > 0) {
-        cli_page_table(
-            out, "Peaks of the map",
-            "#Azimuth, deg|#Elevation, deg|#\xcf\x83, m\xc2\xb2|#dBsm|#Glint|Parts|Materials");
+        cli_page_table(out, "Peaks of the map",
+                       "#Az, deg|#El, deg|#\xcf\x83, m\xc2\xb2|#dBsm|#Glint|Parts|Materials");
         for (uint32_t i = 0; i < job->peaks; i++) {
             peak_row(out, job, i);
         }

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define PLAIN_BELOW 1e7 /* whole numbers below it need no power of ten */
+
 /* ---- memory to write to ---- */
 
 FILE *cli_report_bytes_begin(report_bytes *bytes)
@@ -83,7 +85,11 @@ static void data_put(FILE *out, const char *id, double value, const char *text)
 void cli_page_number(FILE *out, const char *id, double value, int digits)
 {
     char text[64];
-    snprintf(text, sizeof text, "%.*g", digits, value);
+    if (fabs(value) >= pow(10.0, digits) && fabs(value) < PLAIN_BELOW) {
+        snprintf(text, sizeof text, "%.0f", value);
+    } else {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+    }
     if (isfinite(value)) {
         data_put(out, id, value, text);
     } else {

@@ -37,7 +37,7 @@ static void fact_box(FILE *out, const lrcs_mesh_report *r)
         fputs(k > 0 ? " \xc3\x97 " : "", out);
         cli_page_number(out, NULL, r->box_max[k] - r->box_min[k], 5);
     }
-    fputs(" m", out);
+    fputs("\xc2\xa0m", out);
     cli_page_fact_end(out);
 }
 
