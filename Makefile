@@ -8,6 +8,7 @@
 #   make asan tsan lint purity layers fuzz    further checks
 #   make amalgamation       the core as two files, build/amalgamation/lrcs.c and lrcs.h, and its tests on them
 #   make flight portable    on a Cortex-M7 (needs gcc-arm-none-eabi, qemu); on four other machines (qemu-user)
+#   make operations misra   questions a pose asks, beside the most; MISRA C:2012 and its deviations
 #   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
 #   make gpu                the paper's method in OpenGL, judged by the conformance kit
 #   make bench scaling      what every stage costs on this machine, and how that grows
@@ -105,6 +106,14 @@ flight: $(FLIGHT)/task $(FLIGHT)/task.elf
 	arm-none-eabi-size $(FLIGHT)/task.elf
 	qemu-system-arm -M mps2-an500 -nographic -semihosting-config enable=on,target=native \
 	    -kernel $(FLIGHT)/task.elf </dev/null
+
+# How many questions a pose asks, counted, beside how many it may ask at most.
+operations: $(JOINED)/lrcs.c
+	sh test/flight/operations.sh $(JOINED)
+
+# The core against MISRA C:2012 (needs cppcheck): every deviation has its reason in test/misra.md.
+misra:
+	sh test/misra.sh
 
 # The core's tests and a digest of its results on other machines under qemu-user, with gcc and clang,
 # at -O0, -O2 and -O3: PORTABLE="MACHINES=s390x COMPILERS=gcc LEVELS=2" runs one of them.
@@ -230,7 +239,7 @@ cmocka:
 	@sh test/cmocka.sh $(CC)
 
 .PHONY: all demo charts study install uninstall clean cmocka
-.PHONY: test asan tsan lint purity layers amalgamation stack flight portable
+.PHONY: test asan tsan lint purity layers amalgamation stack flight operations misra portable
 .PHONY: fuzz fuzz-long bounds estimate shadows bench scaling big
 .DELETE_ON_ERROR:
 
