@@ -65,6 +65,7 @@ typedef struct compare_case {
     int explained;    /* by which finding, from 1 */
     lrcs_pose pose;
     lrcs_facet_record *records; /* the truth's, once asked for */
+    double peak;                /* their largest f_r cos */
 } compare_case;
 
 typedef struct compare_scene {
@@ -171,6 +172,7 @@ typedef struct compare_mistake {
     mistake_shade *shade;
     double at;
     mistake_area *area;
+    int corners; /* 3: the facet is the mean of what it is at its corners */
     int (*turn)(const compare_case *one, const struct compare_mistake *mistake, lrcs_pose *pose);
     int axes[3];      /* of turn: for x, y, z of s_hat, which component they take, 1 .. 3, negative
                          to mirror it */
