@@ -31,6 +31,9 @@ typedef struct compare_table {
 int cli_table_open(const char *path, compare_table *table);
 void cli_table_close(compare_table *table);
 
+/* At least as many as there are lines to come. */
+size_t cli_table_lines(const compare_table *table);
+
 /* The column of a name, -1 for none; and one that must be there: 0 or CLI_FAILED. */
 int cli_table_column(const compare_table *table, const char *name);
 int cli_table_require(const compare_table *table, const char *name, int *column);

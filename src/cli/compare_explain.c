@@ -17,7 +17,7 @@
 #define HOPELESS       0.1  /* share of them */
 #define WITNESSES      64u  /* passing cases that a mistake must not touch */
 #define PRICE          0.05 /* what a factor or a second mistake must gain to be believed */
-#define SURE           0.99 /* a score after which none is sought that is better */
+#define SURE           0.94 /* a score after which none is sought that is better */
 #define PAIRS_BELOW    0.9  /* where one mistake explains less, two at once are tried */
 #define ENOUGH         3u   /* cases that make a finding by themselves */
 
