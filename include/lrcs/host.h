@@ -136,6 +136,13 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error);
 
+/* The same pose as graphics hardware computes it: lrcs_emulate_run with memory from the heap.
+   Returned: emulation; records unless NULL; seconds unless NULL. Status: LRCS_OK; LRCS_E_SYSTEM; as
+   lrcs_emulate_run. */
+int lrcs_host_scene_emulate(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                            const lrcs_emulation_options *options, lrcs_emulation *emulation,
+                            lrcs_facet_record *records, double *seconds, lrcs_host_error *error);
+
 void lrcs_host_scene_free(lrcs_host_scene *scene);
 
 /* The visible polygons of a pose, in memory of their own: lrcs_polygon_run, and what gives it back.

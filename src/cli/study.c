@@ -29,7 +29,8 @@ static const char study_help[] =
     "\n"
     "options\n"
     "  -o DIR              writes DIR/study.md (text, tables, plots, laws) with a table\n"
-    "                      (STEM.csv) and a plot (STEM.svg) for each figure; makes DIR\n"
+    "                      (STEM.csv) and a plot (STEM.svg) for each figure; makes DIR. The last\n"
+    "                      column of a table is the largest bound of its row.\n"
     "  --material A,B,s,m  of the mixed surface, or a library material (1,0.25,0.2,0.5); A, B > "
     "0,\n"
     "                      s 0.02 .. 0.5, m <= 100. Some laws hold for a range of materials only.\n"
@@ -78,6 +79,9 @@ static int study_run(const cli_args *args, study_job *job)
 {
     const char *folder = cli_value(args, "o");
     int code = material_read(args, &job->brdf);
+    if (code == 0 && folder && strcmp(folder, "-") == 0) {
+        code = cli_usage(args->command, "-o: expected a folder, found '-'");
+    }
     if (code == 0 && folder) {
         code = folder_make(folder);
     }

@@ -8,18 +8,14 @@
 #define ENGINE_TOLERANCE 1e-4
 #define ENGINE_PANELS    4
 
-static int engine_scene(const lrcs_recipe_part *part, uint32_t parts, const lrcs_brdf *brdf,
+static int engine_scene(lrcs_recipe_part *part, uint32_t parts, const lrcs_brdf *brdf,
                         lrcs_host_scene *scene, lrcs_host_error *error)
 {
-    lrcs_recipe_part copy[3];
     lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = -1};
     lrcs_recipe recipe = {
-        .part = copy, .binding = &binding, .part_count = parts, .binding_count = 1};
+        .part = part, .binding = &binding, .part_count = parts, .binding_count = 1};
     lrcs_build_options build = lrcs_build_options_default();
     build.tolerance = ENGINE_TOLERANCE;
-    for (uint32_t i = 0; i < parts; i++) {
-        copy[i] = part[i];
-    }
     int status = lrcs_host_scene_make(&recipe, &build, scene, error);
     return status == LRCS_OK ? lrcs_host_scene_prepare(scene, error) : status;
 }

@@ -163,34 +163,38 @@ static void axis_law(study_job *job)
 
 static const int wall_order[] = {STUDY_DISC, STUDY_CONE, STUDY_CYLINDER, STUDY_SPHERE};
 
+static void wall_checks(study_job *job, study_law *law, double half_angle, const lrcs_brdf *brdf)
+{
+    study_number before = cli_study_wall_sigma(job, wall_order[0], half_angle, brdf);
+    for (size_t k = 1; k < COUNT_OF(wall_order); k++) {
+        study_number sigma = cli_study_wall_sigma(job, wall_order[k], half_angle, brdf);
+        cli_study_order(law, before, sigma);
+        before = sigma;
+    }
+}
+
 static void wall_law(study_job *job)
 {
     static const double angle[] = {15.0, 30.0, 45.0, 60.0, 75.0};
+    const lrcs_brdf glint = cli_study_finish(job, STUDY_GLINT);
     study_law *law = cli_study_law(job, "order of curved walls",
                                    "sigma of the later / sigma of the earlier in the order");
-    double glint[COUNT_OF(wall_order)];
+    double height[COUNT_OF(wall_order)];
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
         const lrcs_brdf brdf = cli_study_finish(job, finish);
         for (size_t i = 0; i < COUNT_OF(angle); i++) {
-            study_number before = {0.0, 0.0};
-            for (size_t k = 0; k < COUNT_OF(wall_order); k++) {
-                study_number sigma = cli_study_wall_sigma(job, wall_order[k], angle[i], &brdf);
-                if (k > 0) {
-                    cli_study_order(law, before, sigma);
-                }
-                if (finish == STUDY_GLINT && angle[i] == STUDY_HALF) {
-                    glint[k] = sigma.value;
-                }
-                before = sigma;
-            }
+            wall_checks(job, law, angle[i], &brdf);
         }
+    }
+    for (size_t k = 0; k < COUNT_OF(wall_order); k++) {
+        height[k] = cli_study_wall_sigma(job, wall_order[k], STUDY_HALF, &glint).value;
     }
     snprintf(
         law->text, sizeof law->text,
         "At the same reflecting surface and normal incidence, disc > cone wall > cylinder wall "
         "> sphere, whatever the surface: the less a wall curves away from its normal, the more "
         "it returns. Glints of 1 m²: %.4g, %.4g, %.4g, %.4g m².",
-        glint[0], glint[1], glint[2], glint[3]);
+        height[0], height[1], height[2], height[3]);
     snprintf(
         law->range, sizeof law->range,
         "Cones of half-angle 15 to 75 deg, at the aspect 90 deg - half-angle. It follows wherever "

@@ -139,7 +139,17 @@ static study_number number_log2(study_number x)
     return (study_number){value, bound + 0x1p-51 * fabs(value) + 0x1p-1074};
 }
 
-/* What a doubling of s does, as a power: 0, 1 or 2 to first order, and up to s^2 more. */
+/* What a doubling of s from slopes[i] does to a glint's height, as a power. */
+static study_number height_power(study_job *job, int kind, size_t i)
+{
+    const lrcs_brdf glint = cli_study_finish(job, STUDY_GLINT);
+    const lrcs_brdf narrow = cli_study_with(glint, 's', slopes[i]);
+    const lrcs_brdf wide = cli_study_with(glint, 's', slopes[i + 1]);
+    return number_log2(cli_study_ratio(cli_study_wall_sigma(job, kind, STUDY_HALF, &wide),
+                                       cli_study_wall_sigma(job, kind, STUDY_HALF, &narrow)));
+}
+
+/* The powers are 0, 1 or 2 to first order. */
 static void height_law(study_job *job)
 {
     static const struct {
@@ -150,15 +160,11 @@ static void height_law(study_job *job)
         cli_study_law(job, "glint height", "log2 of what a doubling of s does to the height");
     double power[COUNT_OF(wall)];
     for (size_t k = 0; k < COUNT_OF(wall); k++) {
+        power[k] = height_power(job, wall[k].kind, 0).value;
         for (size_t i = 0; i < 3; i++) {
-            lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', slopes[i]);
-            study_number narrow = cli_study_wall_sigma(job, wall[k].kind, STUDY_HALF, &brdf);
-            brdf.s = slopes[i + 1];
-            study_number wide = cli_study_wall_sigma(job, wall[k].kind, STUDY_HALF, &brdf);
-            study_number of = number_log2(cli_study_ratio(wide, narrow));
+            study_number of = height_power(job, wall[k].kind, i);
             double room = 3.0 * slopes[i + 1] * slopes[i + 1];
             cli_study_within(law, of, wall[k].power - room, wall[k].power + room);
-            power[k] = i == 0 ? of.value : power[k];
         }
     }
     snprintf(law->text, sizeof law->text,

@@ -42,6 +42,13 @@ static mean_rule rule_make(void)
     return rule;
 }
 
+/* Where the node of a chain of panels lies, in halves of a panel. */
+static double rule_place(const mean_rule *rule, int node)
+{
+    int panel = node / MEAN_NODES;
+    return 2 * panel + 1 + rule->node[node % MEAN_NODES];
+}
+
 /* A body of revolution: half the integral of sigma sin(aspect) over the aspect. */
 static study_number mean_turned(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
                                 int panels)
@@ -49,14 +56,12 @@ static study_number mean_turned(study_job *job, const lrcs_shape *shape, const l
     const mean_rule rule = rule_make();
     study_number mean = {0.0, 0.0};
     double half = 90.0 / panels; /* deg, of a panel */
-    for (int p = 0; p < panels; p++) {
-        for (int i = 0; i < MEAN_NODES; i++) {
-            double aspect = half * (2 * p + 1 + rule.node[i]);
-            double weight =
-                0.5 * rule.weight[i] * half * (STUDY_PI / 180.0) * sin(aspect * (STUDY_PI / 180.0));
-            study_number sigma = cli_study_sigma(job, shape, brdf, aspect);
-            mean = cli_study_sum(mean, cli_study_scaled(sigma, weight));
-        }
+    for (int i = 0; i < panels * MEAN_NODES; i++) {
+        double aspect = half * rule_place(&rule, i);
+        double weight = 0.5 * rule.weight[i % MEAN_NODES] * half * (STUDY_PI / 180.0) *
+                        sin(aspect * (STUDY_PI / 180.0));
+        study_number sigma = cli_study_sigma(job, shape, brdf, aspect);
+        mean = cli_study_sum(mean, cli_study_scaled(sigma, weight));
     }
     return mean;
 }
@@ -72,8 +77,8 @@ static study_number mean_octant(study_job *job, study_look *look, const void *wh
     for (int i = 0; i < count * count; i++) {
         int row = i / count;
         int column = i % count;
-        double polar = half * (2 * (row / MEAN_NODES) + 1 + rule.node[row % MEAN_NODES]);
-        double azimuth = half * (2 * (column / MEAN_NODES) + 1 + rule.node[column % MEAN_NODES]);
+        double polar = half * rule_place(&rule, row);
+        double azimuth = half * rule_place(&rule, column);
         const double direction[3] = {sin(polar) * cos(azimuth), sin(polar) * sin(azimuth),
                                      cos(polar)};
         double weight = half * half * rule.weight[row % MEAN_NODES] *

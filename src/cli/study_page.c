@@ -220,11 +220,11 @@ static const char page_end[] =
     "rounding included. Half-power angles lie between two angles that enclose one for certain. "
     "Means "
     "over attitudes are\n"
-    "Gauss-Legendre quadratures of closed forms (midpoints of engine runs for the scene with "
-    "shadows): their error is estimated\n"
-    "by halving the number of panels, and is no bound. The materials are examples, not measured "
-    "ones. Laws are about this\n"
-    "model; whether a paint follows it is outside every bound.\n";
+    "Gauss-Legendre quadratures, of closed forms or, for the scene with shadows, of runs of the "
+    "engine; their error is\n"
+    "estimated from half as many panels, which is no bound. The material is an example, not a "
+    "measured one. The laws are about\n"
+    "this model; whether a paint follows it is outside every bound.\n";
 
 void cli_study_page(const study_job *job, FILE *out)
 {

@@ -56,6 +56,14 @@ static void cell_write(FILE *out, double value)
     fprintf(out, ",%s", text);
 }
 
+/* The last column: the largest bound of the row, with the unit that its columns have. */
+static void bound_head(const study_table *table, FILE *out)
+{
+    const char *unit = strrchr(table->column[0].id, '_');
+    int known = unit && (strcmp(unit, "_m2") == 0 || strcmp(unit, "_deg") == 0);
+    fprintf(out, ",%s%s\n", table->estimate ? "error_estimate" : "bound", known ? unit : "");
+}
+
 static int csv_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const study_table *table = context;
@@ -64,7 +72,7 @@ static int csv_write(FILE *out, const void *context, lrcs_host_error *error)
     for (uint32_t c = 0; c < table->columns; c++) {
         fprintf(out, ",%s", table->column[c].id);
     }
-    fprintf(out, ",%s\n", table->estimate ? "error_estimate" : "bound");
+    bound_head(table, out);
     for (uint32_t r = 0; r < table->rows; r++) {
         char text[LRCS_HOST_NUMBER_SIZE];
         lrcs_host_number_text(table->x[r], text);

@@ -111,10 +111,11 @@ int lrcs_host_table_read(lrcs_host_table *table, lrcs_host_error *error)
                                table->path, (unsigned long long)table->line, LRCS_HOST_FIELDS);
     }
     if (table->columns && fields != table->columns) {
-        return lrcsi_host_fail(error, LRCS_E_SYNTAX,
-                               "%s: line %llu: found %lu fields, expected %lu as in the first line",
-                               table->path, (unsigned long long)table->line, (unsigned long)fields,
-                               (unsigned long)table->columns);
+        return lrcsi_host_fail(
+            error, LRCS_E_SYNTAX,
+            "%s: line %llu: found %lu field%s, expected %lu as in the first line", table->path,
+            (unsigned long long)table->line, (unsigned long)fields, fields == 1 ? "" : "s",
+            (unsigned long)table->columns);
     }
     table->columns = fields;
     return 1;

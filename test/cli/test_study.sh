@@ -43,6 +43,7 @@ judged=$(awk -F, 'function key(row) { return row ~ /^[0-9]/ ? sprintf("%.9g", ro
     END { print n + 0 }' "$root/test/vectors/study.csv")
 same tables_agree_with_40_digits_of_eq_2 "$judged" 262
 same no_cell_is_not_a_number "$(grep -ciE 'nan|inf' one/*.csv | grep -cv ':0$')" 0
+same last_columns_are_bounds "$(for file in one/*.csv; do head -1 "$file" | sed 's/.*,//'; done | sort | uniq -c | awk '{ print $2, $1 }' | tr '\n' ' ')" "bound 1 bound_deg 2 bound_m2 16 error_estimate_m2 2 "
 same rows_have_all_columns "$(for file in one/*.csv; do awk -F, 'NR == 1 { n = NF } NF != n' "$file"; done)" ""
 
 # Kept output: the same files, the same words, numbers to 1e-12 (bounds, in the last column, aside).
@@ -82,6 +83,7 @@ usage_error no_glint "expected A > 0, B > 0, s from 0.02 to 0.5 and m up to 100,
 usage_error slope_too_large "found A = 1, B = 0.25, s = 0.6" study --material 1,0.25,0.6,1
 usage_error exponent_too_large "m = 101" study --material 1,0.25,0.2,101
 usage_error unknown_material "the nearest in the library is" study --material gold
+usage_error standard_output_is_no_folder "-o: expected a folder, found '-'" study -o -
 usage_error no_operand "study" study demo
 : >file
 failure a_file_is_no_folder "-o file: cannot make the folder" study -o file

@@ -2,14 +2,9 @@
 # SPDX-License-Identifier: MIT
 # The core as two files: they compile alone without a word, a program links with nothing else, and
 # their call graph has no recursion.
-. "$(dirname "$0")/../cli/check.sh"
+. "$(dirname "$0")/common.sh"
 
-cd "$root" || exit 1
-for layer in base mesh optics scene view visibility integrate; do
-    set -- "$@" src/$layer/*.c
-done
-shift # the tool
-sh src/amalgamate.sh "$scratch/joined" "$@"
+join_core "$scratch/joined"
 same the_core_joins_into_two_files "$?: $(ls "$scratch/joined")" "0: lrcs.c
 lrcs.h"
 strict='-std=c11 -pedantic -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion -Werror'
@@ -36,7 +31,7 @@ if [ -n "$graph" ]; then
 refused"
     }
     refused recursion_is_found 'int g(int); int f(int x) { return x ? g(x - 1) + 1 : 0; } int g(int x) { return 2 * f(x); }' \
-        'recursion through g'
+        'recursion through f'
     refused a_function_that_calls_itself_is_found 'int f(int x) { return x ? f(x - 1) : 0; }' 'recursion through f'
     refused a_call_through_a_pointer_is_found 'int f(int (*p)(int)) { return p(1) + 1; }' 'f calls through a pointer'
     refused an_array_of_any_length_is_found 'void g(char *); void f(int n) { char a[n]; g(a); }' \
