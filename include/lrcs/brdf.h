@@ -27,7 +27,7 @@ enum lrcs_brdf_warning {
     LRCS_BRDF_DARK = 1 << 3          /* A = 0 and B = 0 */
 };
 
-/* Checks the four numbers: negative status where they are not finite or outside the domain
+/* Checks the four numbers: LRCS_E_NUMBER where they are not finite or outside the domain
    (A, B, m < 0; s < 0; s = 0 with A > 0), else warning bits, 0 for none. */
 int lrcs_brdf_check(const lrcs_brdf *brdf);
 

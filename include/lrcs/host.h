@@ -100,18 +100,19 @@ typedef struct lrcs_host_scene {
    Returned: scene->scene, and notices about what was met. scene.unmatched is for the caller to
    judge: it indexes scene->recipe.binding.
    Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_ARGUMENT (a unit for a scene file, which states its
-   own); as the readers, lrcs_recipe_read and lrcs_scene_build. */
+   own); as lrcs_3ds_read, lrcs_recipe_read and lrcs_scene_build. */
 int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrcs_host_scene *scene,
                          lrcs_host_error *error);
 
 /* Builds a scene from a recipe of shapes alone. Of the recipe, only its texts must outlive the
-   scene; scene->recipe stays empty. Status: as above. */
+   scene; scene->recipe stays empty. Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_scene_build. */
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
 
 /* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with
    their models, and may differ in all else: places, joints, shapes, materials. `base` and the
-   recipe's texts must outlive the scene; scene->recipe stays empty. Status: as above. */
+   recipe's texts must outlive the scene; scene->recipe stays empty. Status: as
+   lrcs_host_scene_make. */
 int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          const lrcs_build_options *build, lrcs_host_scene *scene,
                          lrcs_host_error *error);
@@ -128,16 +129,24 @@ int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error);
 
 /* sigma from a pose of a prepared scene: lrcs_sigma_run with memory from the heap. Where that is
    short, less is tried, and result->flags says so.
-   Returned: result; records and image unless NULL; seconds unless NULL. */
+   Returned: result; records and image unless NULL; seconds unless NULL.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_sigma_run. */
 int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         const lrcs_run_options *options, lrcs_result *result,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error);
 
+/* The same pose as graphics hardware computes it: lrcs_emulate_run with memory from the heap.
+   Returned: emulation; records unless NULL; seconds unless NULL. Status: LRCS_OK; LRCS_E_SYSTEM; as
+   lrcs_emulate_run. */
+int lrcs_host_scene_emulate(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                            const lrcs_emulation_options *options, lrcs_emulation *emulation,
+                            lrcs_facet_record *records, double *seconds, lrcs_host_error *error);
+
 void lrcs_host_scene_free(lrcs_host_scene *scene);
 
 /* The visible polygons of a pose, in memory of their own: lrcs_polygon_run, and what gives it back.
-   Status: LRCS_OK; LRCS_E_SYSTEM; as there. */
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_polygon_run. */
 typedef struct lrcs_host_polygons {
     lrcs_polygons list;
     void *blocks; /* memory owned */
@@ -184,15 +193,13 @@ typedef struct lrcs_host_readings {
     lrcs_host_notices notices; /* columns not used, lines left out */
 } lrcs_host_readings;
 
-/* Reads a table: a line for each reading, fields apart by commas, semicolons, tabs or blanks (the
-   first of these in the first line), in quotes or not; empty lines and lines from '#' on count
-   for nothing. A first line whose first field is no number names the columns, in any order: angle
-   or theta (deg), brdf, reading or value, and where there are any sigma (or error, std), weight
-   (in proportion to 1/sigma^2; 0 leaves the line out), material (or sample); other columns are not
-   used. Without it they are angle, brdf and, where there is a third, sigma. A line whose value is
-   empty, "nan" or "NA" is left out. Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_SYNTAX, _NUMBER, _NAME,
-   _EMPTY: the sentence names the line, what was found there and what was expected. On failure there
-   is nothing to free. */
+/* Reads a table (lrcs/table.h) with a line for each reading. A first line whose first field is no
+   number names the columns, in any order: angle or theta (deg), brdf, reading or value, and where
+   there are any sigma (or error, std), weight (in proportion to 1/sigma^2; 0 leaves the line out),
+   material (or sample); other columns are not used. Without it they are angle, brdf and, where
+   there is a third, sigma. A line whose value is empty, "nan" or "NA" is left out. Status: LRCS_OK;
+   LRCS_E_SYSTEM; LRCS_E_SYNTAX, _NUMBER, _NAME, _EMPTY, _LIMIT: the sentence names the line, what
+   was found there and what was expected. On failure there is nothing to free. */
 int lrcs_host_readings_read(const char *path, lrcs_host_readings *readings, lrcs_host_error *error);
 void lrcs_host_readings_free(lrcs_host_readings *readings);
 
@@ -313,7 +320,8 @@ typedef struct lrcs_host_map {
     int x_deg, y_deg; /* these are angles, deg */
 } lrcs_host_map;
 
-/* As charts; where there are more points than can be told apart, several share a mean. */
+/* As charts; where there are more points than can be told apart, several share a mean.
+   Status: LRCS_OK; LRCS_E_SYSTEM. */
 void lrcs_host_map_svg(FILE *out, const lrcs_host_map *map);
 int lrcs_host_map_png(FILE *out, const lrcs_host_map *map, lrcs_host_error *error);
 

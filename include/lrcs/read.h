@@ -2,7 +2,7 @@
 /* Readers for 3DS, OBJ with MTL, and STL, from bytes in memory.
    Each format has two calls: `count` walks the bytes once and fills the counts, `read` fills a
    mesh in the work area (lrcs_mesh_need bytes). Both look at nothing beyond bytes[0..size-1]
-   and report where they stopped. Formats: see src/mesh/README in src/README.md. */
+   and report where they stopped. */
 #ifndef LRCS_READ_H
 #define LRCS_READ_H
 
@@ -42,7 +42,7 @@ int lrcs_3ds_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *me
    first facet; a name that comes back continues what it named; names without facets are left out.
    Facets before any `o` or `g` are in a part named "", facets before any `usemtl` (or after one
    without a name) have no material. Colours come from lrcs_mtl_read.
-   Status as for 3DS.
+   Status: as lrcs_3ds_count and lrcs_3ds_read.
    Notes: 1. `count` has no memory for names: its materials, parts and text_bytes are upper bounds,
    in which a name that comes back counts again. Vertices and facets are exact.
    2. Negative indices count back from the vertices above them; positive ones may also point
@@ -68,7 +68,7 @@ int lrcs_mtl_read(const void *bytes, size_t size, lrcs_mesh *mesh, lrcs_where *w
 /* STL, one part, no materials; equal positions are welded (bitwise, -0 equals 0), in order of
    first use. Attribute words and stored normals are ignored (a notice where they disagree). The
    part is named as the first solid of an ASCII file, "" for a binary one.
-   Status as for 3DS.
+   Status: as lrcs_3ds_count and lrcs_3ds_read, whose index errors it has not.
    Notes: 1. Counting does not weld: counts->vertices is three per facet, an upper bound;
    mesh->vertex_count is exact. */
 int lrcs_stl_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrcs_where *where);

@@ -27,8 +27,8 @@ typedef struct lrcs_prepared lrcs_prepared;
 size_t lrcs_prepare_need(const lrcs_scene *scene);
 
 /* Prepares a scene, which must outlive the result. Coordinates below 2^-300 of the largest one
-   count as zero. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_INDEX,
-   LRCS_E_NUMBER (a scene not made by lrcs_scene_build). */
+   count as zero. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 neighbours in a
+   list); LRCS_E_INDEX, LRCS_E_NUMBER (a scene not made by lrcs_scene_build). */
 int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared);
 
 /* What the engine can leave out. */
@@ -149,8 +149,10 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    Given: prepared; pose; options; work.
    Returned: result; records[facet_count] unless NULL; image unless NULL: then a raster is drawn
    whatever the method, image->size > 0 asks for its size and image->facet has room for it.
-   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range).
-   Work: nothing stays in the work area.
+   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range);
+   LRCS_E_LIMIT (more than 2^32 - 2 candidates in a grid).
+   Work: nothing stays in the work area. Every loop is bounded: at most how many steps a pose takes,
+   and how many it does take, stands in examples/flight/README.md.
    Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
    cubature errs by about curvature_estimate_m2, which is not proved and not in the bound.
    2. Of a facet with curved normals that is seen in part, samples tell how much is seen but not

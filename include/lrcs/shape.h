@@ -120,7 +120,8 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
    on +x; a cylinder's, cone's or frustum's length is kept, the rise of a sphere, dome or paraboloid
    is such that each facet's normal is the mean normal of its patch. Smoothing group 1 is the curved
    wall; flat faces are hard. curvature may be NULL.
-   Status: LRCS_OK; LRCS_E_ARGUMENT (shape, or divisions that do not suit it); LRCS_E_MEMORY. */
+   Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (shape, or divisions that do not suit it);
+   LRCS_E_MEMORY. */
 int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,
                     lrcs_mesh *mesh, lrcs_curvature *curvature);
 

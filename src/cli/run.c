@@ -19,6 +19,14 @@ static const char run_help[] =
     "                        options give the same answer again. Ends early where nothing is left\n"
     "                        to gain, or a --tolerance is met; exit 3 where it took "
     "longer\n" CLI_SCENE_HELP
+    "  --precision P         float32 or float64: in place of a bounded answer that which graphics\n"
+    "                        hardware gives by the same method (a z-buffer of --resolution N, "
+    "1024\n"
+    "                        if not given), and what sampling, precision and depth each cost\n"
+    "  --depth-bits B        16, 24 or 32 of its depth buffer; alone it implies --precision "
+    "float64.\n"
+    "                        If not given: 32 with float32, 64 with float64. The bound is the\n"
+    "                        distance to method exact, and the bound of that\n"
     "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
     "                        where it is off; runs the pose for some 2 s more, or once for each\n"
     "  --shares              who makes sigma: parts, materials, and the ten brightest facets\n"
@@ -35,14 +43,15 @@ static const char run_help[] =
     "  lrcs run demo --azel 30,-20 --explain\n"
     "  lrcs run demo --azel 30,-20 --shares\n"
     "  lrcs run demo --azel 30,-20 --time-budget 200\n"
+    "  lrcs run demo --azel 30,-20 --resolution 512 --precision float32 --depth-bits 24\n"
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
 static const cli_option run_options[] = {
-    CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS,  CLI_SCENE_OPTIONS, {"json", 0, 0},
-    {"facets", 1, 0},  {"polygons", 1, 0},    {"image", 1, 0},   {"image-size", 1, 0},
-    {"explain", 0, 0}, {"time-budget", 1, 0}, {"shares", 0, 0},  {"help", 0, 0},
-    {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,     CLI_ACCURACY_OPTIONS,  CLI_SCENE_OPTIONS, {"json", 0, 0},
+    {"facets", 1, 0},     {"polygons", 1, 0},    {"image", 1, 0},   {"image-size", 1, 0},
+    {"explain", 0, 0},    {"time-budget", 1, 0}, {"shares", 0, 0},  {"precision", 1, 0},
+    {"depth-bits", 1, 0}, {"help", 0, 0},        {NULL, 0, 0}};
 
 /* ---- options ---- */
 
@@ -55,6 +64,7 @@ static int options_read(run_job *job)
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->asked = job->options.tolerance;
     code = code ? code : cli_run_budget_read(job);
+    code = code ? code : cli_run_emulation_read(job);
     job->explain = cli_value(args, "explain") != NULL;
     job->shares_asked = cli_value(args, "shares") != NULL;
     return code ? code : cli_normals_read(args, &job->load);
@@ -85,6 +95,9 @@ static int run_pose(run_job *job)
     lrcs_host_error error;
     if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
+    }
+    if (job->emulation.asked) {
+        return cli_run_emulate(job);
     }
     int status =
         lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,

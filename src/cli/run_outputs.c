@@ -37,6 +37,18 @@ static int files_apart(const run_job *job)
     return cli_outputs_apart(command, file, FILES);
 }
 
+/* A picture is PNG: under the ending of another format no program would open it. */
+static int image_check(const cli_args *args, const char *path)
+{
+    static const char *const other[] = {".jpg", ".jpeg", ".gif", ".svg", ".pdf"};
+    for (size_t i = 0; path && i < sizeof other / sizeof other[0]; i++) {
+        if (cli_extension(path, other[i])) {
+            return cli_usage(args->command, "--image: expected FILE.png, found '%s'", path);
+        }
+    }
+    return 0;
+}
+
 int cli_run_outputs_read(run_job *job)
 {
     const cli_args *args = job->args;
@@ -53,7 +65,8 @@ int cli_run_outputs_read(run_job *job)
                          "--method %s",
                          lrcs_method_text(method));
     }
-    int code = files_apart(job);
+    int code = image_check(args, job->image_path);
+    code = code ? code : files_apart(job);
     if (code == 0 && cli_value(args, "image-size") && !job->image_path) {
         return cli_usage(args->command, "--image-size needs --image FILE.png");
     }

@@ -36,7 +36,7 @@ typedef struct sweep_track {
 } sweep_track;
 
 /* 0, CLI_FAILED or CLI_USAGE with the message printed. */
-int cli_track_read(const cli_command *command, const char *path, sweep_track *track);
+int cli_track_read(const char *path, sweep_track *track);
 
 /* ---- the plan: which rows there are ---- */
 

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* Arithmetic in float or double, chosen as it runs. The sum, difference, product, quotient or root
+   of floats, computed in double and then rounded to float, is the float operation's own result:
+   double has more than twice its bits and two (S. A. Figueroa, 1995), so that rounding twice rounds
+   once. */
+#ifndef LRCSI_SINGLE_H
+#define LRCSI_SINGLE_H
+
+#include <float.h>
+
+_Static_assert(FLT_RADIX == 2 && FLT_MANT_DIG == 24 && DBL_MANT_DIG == 53, "IEC 60559");
+_Static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1, "double operations round to double");
+
+/* The result of one operation, rounded to float where `single`. */
+static inline double lrcsi_single(int single, double x)
+{
+    return single ? (double)(float)x : x;
+}
+
+#endif

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: MIT */
+/* A scene to sigma by every method: what a result promises, that the methods' intervals meet, that
+   memory is what was said, and that a failure touches nothing. Room for FUZZ_FACETS facets. */
+#ifndef TEST_FUZZ_SIGMA_H
+#define TEST_FUZZ_SIGMA_H
+
+#include <float.h>
+#include <math.h>
+
+#include "fuzz.h"
+
+#define FUZZ_FACETS  512u
+#define FUZZ_PICTURE 8u
+#define FUZZ_ROOM    ((size_t)1 << 27)
+
+static lrcs_facet_record fuzz_records[FUZZ_FACETS];
+
+/* Work areas at the end of these: what is written beyond is seen there as on the heap, which is ten
+   times slower under AddressSanitizer for areas of this size. */
+static unsigned char prepare_room[FUZZ_ROOM];
+static unsigned char run_room[FUZZ_ROOM];
+
+/* How a scene is run, from the input. */
+typedef struct fuzz_run {
+    lrcs_pose pose;
+    lrcs_run_options options;
+    unsigned share; /* of the memory that is needed, in 256ths, for a run that starves */
+} fuzz_run;
+
+static inline double scene_extent(const lrcs_scene *scene)
+{
+    double extent = 0;
+    for (int k = 0; k < 3; k++) {
+        double low = DBL_MAX;
+        double high = -DBL_MAX;
+        for (uint32_t v = 0; v < scene->vertex_count; v++) {
+            low = fmin(low, scene->vertex[v].x[k]);
+            high = fmax(high, scene->vertex[v].x[k]);
+        }
+        extent = fmax(extent, high - low);
+    }
+    return extent;
+}
+
+/* Every facet has its record, and the parts make the whole: to one rounding of each term. */
+static inline void require_records(const lrcs_scene *scene, const lrcs_result *r)
+{
+    double extent = scene_extent(scene);
+    long double sum = 0;
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        const lrcs_facet_record *record = &fuzz_records[f];
+        double whole = record->area_m2 * fabs(record->cos_theta);
+        require(record->area_m2 >= 0 && isfinite(record->area_m2));
+        require(fabs(record->cos_theta) <= 1 + 4 * DBL_EPSILON);
+        require(record->visible_area_m2 >= 0 && record->sigma_m2 >= 0);
+        require(record->visible_area_m2 <= whole * (1 + 1e-12) + 1e-15 * extent * extent);
+        sum += record->sigma_m2;
+    }
+    long double off = fabsl(sum - (long double)r->sigma_m2);
+    require(off <= (scene->facet_count + 2) * (long double)DBL_EPSILON * sum + DBL_MIN);
+}
+
+static inline void require_result(const lrcs_scene *scene, const lrcs_result *r)
+{
+    require(r->sigma_m2 >= 0 && isfinite(r->sigma_m2));
+    require(r->bound_m2 >= 0 && isfinite(r->bound_m2));
+    require(r->sigma_glint_m2 >= 0 && r->sigma_diffuse_m2 >= 0);
+    require(r->budget.visibility_m2 >= 0 && r->budget.rounding_m2 >= 0);
+    require(isfinite(r->budget.tessellation_m2));
+    require(isfinite(r->estimate_m2) && isfinite(r->curvature_estimate_m2));
+    require(r->projected_area_m2 >= 0 && isfinite(r->projected_area_m2));
+    require(r->back_side_area_m2 >= 0 && isfinite(r->back_side_area_m2));
+    require(r->facets_total == scene->facet_count && r->facets_front <= r->facets_total);
+    require(r->facets_hidden + r->facets_partial <= r->facets_total);
+    require(r->method != LRCS_METHOD_AUTO && lrcs_method_text(r->method) && r->method_reason);
+    require_records(scene, r);
+}
+
+/* Two answers to one question. Over curved normals a bound leaves the cubature aside. */
+static inline void require_meeting(const lrcs_scene *scene, const lrcs_result *a,
+                                   const lrcs_result *b)
+{
+    double room = (a->bound_m2 + b->bound_m2) * (1 + 4 * DBL_EPSILON);
+    require(scene->corner_normal || fabs(a->sigma_m2 - b->sigma_m2) <= room);
+}
+
+/* One run in `size` bytes, which are given back; touches nothing where it fails. */
+static inline int fuzz_sigma(const lrcs_prepared *prepared, const lrcs_scene *scene,
+                             const fuzz_run *run, const lrcs_run_options *options, size_t size,
+                             lrcs_result *result)
+{
+    uint32_t picture[FUZZ_PICTURE * FUZZ_PICTURE];
+    lrcs_image image = {.size = options->resolution != 0 ? 0 : FUZZ_PICTURE, .facet = picture};
+    lrcs_work work = lrcs_work_make(run_room + FUZZ_ROOM - size, size);
+    memset(result, FUZZ_PATTERN, sizeof *result);
+    memset(fuzz_records, FUZZ_PATTERN, scene->facet_count * sizeof *fuzz_records);
+    memset(picture, FUZZ_PATTERN, sizeof picture);
+    int status = lrcs_sigma_run(prepared, &run->pose, options, &work, result, fuzz_records, &image);
+    require(work.used == 0);
+    if (status == LRCS_OK) {
+        require_result(scene, result);
+        for (uint32_t i = 0; image.size != 0 && i < image.size * image.size; i++) {
+            require(picture[i] < scene->facet_count || picture[i] == LRCS_NONE);
+        }
+        return status;
+    }
+    require(status == LRCS_E_MEMORY || status == LRCS_E_NUMBER);
+    require(fuzz_untouched(result, sizeof *result));
+    require(fuzz_untouched(fuzz_records, scene->facet_count * sizeof *fuzz_records));
+    require(image.size == 0 || fuzz_untouched(picture, sizeof picture));
+    return status;
+}
+
+/* Bytes for a run and the picture that goes with it where no resolution was asked for. */
+static inline size_t run_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
+{
+    lrcs_run_options picture = *options;
+    size_t need = lrcs_sigma_need(prepared, options);
+    picture.method = LRCS_METHOD_ZBUFFER;
+    picture.resolution = FUZZ_PICTURE;
+    size_t more = lrcs_sigma_need(prepared, &picture);
+    need = options->resolution == 0 && more > need ? more : need;
+    require(need < FUZZ_ROOM);
+    return need;
+}
+
+static inline void fuzz_methods(const lrcs_prepared *prepared, const lrcs_scene *scene,
+                                const fuzz_run *run)
+{
+    lrcs_result first;
+    int first_status = LRCS_E_EMPTY;
+    for (int method = LRCS_METHOD_EXACT; method >= LRCS_METHOD_AUTO; method--) {
+        lrcs_run_options options = run->options;
+        options.method = method;
+        options.resolution = method == LRCS_METHOD_EXACT ? 0 : options.resolution;
+        size_t need = run_need(prepared, &options);
+        lrcs_result result;
+        int status = fuzz_sigma(prepared, scene, run, &options, need, &result);
+        require(status != LRCS_E_MEMORY);
+        if (status != LRCS_OK) {
+            continue;
+        }
+        require(!(result.flags & LRCS_FLAG_MEMORY_FALLBACK));
+        if (first_status != LRCS_OK) {
+            first = result;
+            first_status = status;
+        }
+        require_meeting(scene, &first, &result);
+        if (method == run->options.method &&
+            fuzz_sigma(prepared, scene, run, &options, need * run->share / 256, &result) ==
+                LRCS_OK) {
+            require_meeting(scene, &first, &result);
+        }
+    }
+}
+
+/* Prepares the scene, in no more memory than is said for ordinary scenes or, where facets pierce
+   each other without number, in what it asks for. */
+static inline void fuzz_scene(const lrcs_scene *scene, const fuzz_run *run)
+{
+    const lrcs_prepared *prepared = NULL;
+    size_t size = lrcs_prepare_need(scene);
+    lrcs_work work;
+    int status = LRCS_E_MEMORY;
+    while (status == LRCS_E_MEMORY) {
+        require(size < FUZZ_ROOM);
+        work = lrcs_work_make(prepare_room + FUZZ_ROOM - size, size);
+        status = lrcs_prepare_run(scene, &work, &prepared);
+        if (status == LRCS_E_MEMORY) {
+            require(prepared == NULL && work.used == 0 && work.peak > size);
+            size = 2 * work.peak;
+        }
+    }
+    require(status == LRCS_OK && work.peak <= size);
+    fuzz_methods(prepared, scene, run);
+}
+
+#endif

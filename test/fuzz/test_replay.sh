@@ -1,0 +1,21 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Every fuzz target over its seeds and some mutations of them, without libFuzzer.
+# Slow targets get fewer.
+. "$(dirname "$0")/../cli/check.sh"
+for source in "$root"/test/fuzz/fuzz_*.c; do
+    name=$(basename "$source" .c)
+    name=${name#fuzz_}
+    case $name in
+    pose) mutations=5000 ;;
+    scene) mutations=500 ;;
+    *) mutations=20000 ;;
+    esac
+    if "$(dirname "$tool")/test/fuzz/fuzz_$name" "$mutations" \
+        "$root/test/fuzz/seeds/$name"/* 2>"$scratch/broken"; then
+        ok "$name: its seeds and $mutations mutations break nothing"
+    else
+        not_ok "$name: its seeds and $mutations mutations break nothing" "$(cat "$scratch/broken")"
+    fi
+done
+finish
