@@ -2,14 +2,9 @@
 # SPDX-License-Identifier: MIT
 # The core as two files: they compile alone without a word, a program links with nothing else, and
 # their call graph has no recursion.
-. "$(dirname "$0")/../cli/check.sh"
+. "$(dirname "$0")/common.sh"
 
-cd "$root" || exit 1
-for layer in base mesh optics scene view visibility integrate; do
-    set -- "$@" src/$layer/*.c
-done
-shift # the tool
-sh src/amalgamate.sh "$scratch/joined" "$@"
+join_core "$scratch/joined"
 same the_core_joins_into_two_files "$?: $(ls "$scratch/joined")" "0: lrcs.c
 lrcs.h"
 strict='-std=c11 -pedantic -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion -Werror'

@@ -1,36 +1,25 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # examples/flight: on this machine, and on an emulated Cortex-M7 where compiler and emulator are.
-. "$(dirname "$0")/../cli/check.sh"
+. "$(dirname "$0")/common.sh"
 
-cd "$root" || exit 1
 flags='-std=c11 -pedantic -ffp-contract=off -Wall -Wextra -Wconversion -Werror'
 at=examples/flight
 
 # ---- this machine ----
 # shellcheck disable=SC2086 # flags are words
-"${CC:-cc}" $flags -O1 -Iinclude -o "$scratch/task" $at/task.c $at/main.c $at/board_host.c "$(dirname "$tool")/liblrcs.a" -lm
+"${CC:-cc}" $flags -O1 -Iinclude -o "$scratch/task" $at/task.c $at/main.c $at/board_host.c $library -lm
 same the_task_builds_here "$?" 0
 here=$("$scratch/task")
 same the_task_says_what_it_promises "$(echo "$here" | sed 's/ = [0-9a-f]*//g; s/ memory .*//')" \
     "$(sed -n '/^\/\* expected output/,/^\*\/$/p' $at/main.c | sed '1d;$d')"
 
 # ---- Cortex-M7 ----
-for needed in arm-none-eabi-gcc qemu-system-arm; do
-    if ! command -v $needed >/dev/null; then
-        echo "skip the_task_flies_on_a_cortex_m7: no $needed"
-        finish
-        exit
-    fi
-done
+needs the_task_flies_on_a_cortex_m7 arm-none-eabi-gcc qemu-system-arm
 m7='-mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard'
-for layer in base mesh optics scene view visibility integrate; do
-    set -- "$@" src/$layer/*.c
-done
-shift # the tool
 # No start files and no stubs of system calls: were a heap or stdio asked for, linking would fail.
 # shellcheck disable=SC2086
-sh src/amalgamate.sh "$scratch" "$@" &&
+join_core "$scratch" &&
     arm-none-eabi-gcc $m7 $flags -O0 -ffunction-sections -c -o "$scratch/lrcs.o" "$scratch/lrcs.c" &&
     arm-none-eabi-gcc $m7 $flags -O2 -Iinclude -nostartfiles -T $at/board_m7.ld -Wl,--gc-sections \
         -o "$scratch/task.elf" $at/task.c $at/main.c $at/board_m7.c "$scratch/lrcs.o" -lm

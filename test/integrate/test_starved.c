@@ -228,6 +228,24 @@ static void a_fit_grows_until_it_fits(void **state)
     starve(STARVED("fit", lrcs_fit_need(sizeof reading / sizeof *reading), call_fit, out.fit, 0));
 }
 
+/* Where size_t has 32 bits, a product of counts that wrapped would ask for too little. */
+static void needs_never_shrink_as_counts_grow(void **state)
+{
+    (void)state;
+    size_t last[5] = {0};
+    for (double count = 1; count < 4294967295.0; count *= 1.03) {
+        uint32_t n = (uint32_t)count;
+        const lrcs_mesh_counts facets = {n, n, 0, 1, 8, 0};
+        const lrcs_mesh_counts names = {3, 1, n, n, 8, n};
+        const size_t need[5] = {lrcs_mesh_check_need(n, n), lrcs_fit_need(n), lrcs_recipe_need(n),
+                                lrcs_mesh_need(&facets), lrcs_mesh_need(&names)};
+        for (int i = 0; i < 5; i++) {
+            assert_true(need[i] >= last[i] && need[i] >= n);
+            last[i] = need[i];
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +253,7 @@ int main(void)
         cmocka_unit_test(building_grows_until_it_fits),
         cmocka_unit_test(a_pose_grows_until_it_fits),
         cmocka_unit_test(a_fit_grows_until_it_fits),
+        cmocka_unit_test(needs_never_shrink_as_counts_grow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

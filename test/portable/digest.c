@@ -3,7 +3,8 @@
    but what is exact or correctly rounded (readers, decimals, predicates, topology, poses, placing,
    every area and every decision of visibility). And sigma, which calls exp, log1p and pow, as
    bits with its bound.
-   usage: digest [REFERENCE]    (in the root; a reference is what this printed elsewhere)
+   usage: digest STRIDE [REFERENCE]    (in the root; of all that is tried only each STRIDE-th; a
+   reference is what this printed elsewhere)
    With a reference exit 1 where a hash differs, where two bounds do not overlap, or where sigma is
    off by more than SIGMA_ULPS. */
 #include <lrcs/lrcs.h>
@@ -39,6 +40,7 @@ typedef struct digest_sigma {
 static digest_section section[SECTIONS];
 static digest_sigma sigma[SIGMA_COUNT];
 static size_t section_count, sigma_count;
+static uint32_t stride = 1;
 static unsigned char memory[MEMORY];
 static char bytes[FILE_MOST];
 
@@ -169,7 +171,7 @@ static void digest_reader(const char *name, reader *read)
     size_t size = file_load(name);
     section_start(strrchr(name, '/') + 1);
     read_once(read, size);
-    for (size_t i = 0; i < size; i++) {
+    for (size_t i = 0; i < size; i += stride) {
         bytes[i] = (char)(bytes[i] ^ 0x81);
         read_once(read, size);
         bytes[i] = (char)(bytes[i] ^ 0x81);
@@ -178,10 +180,10 @@ static void digest_reader(const char *name, reader *read)
 
 static void digest_readers(void)
 {
-    digest_reader("test/fuzz/seeds/all.3ds", lrcs_3ds_read);
-    digest_reader("test/fuzz/seeds/square.stl", lrcs_stl_read);
-    digest_reader("test/fuzz/seeds/text.stl", lrcs_stl_read);
-    digest_reader("test/fuzz/seeds/all.obj", lrcs_obj_read);
+    digest_reader("test/fuzz/seeds/3ds/all.3ds", lrcs_3ds_read);
+    digest_reader("test/fuzz/seeds/stl/square.stl", lrcs_stl_read);
+    digest_reader("test/fuzz/seeds/stl/text.stl", lrcs_stl_read);
+    digest_reader("test/fuzz/seeds/obj/all.obj", lrcs_obj_read);
 }
 
 /* --- numbers ---------------------------------------------------------------------------------- */
@@ -190,7 +192,7 @@ static void digest_decimals(void)
 {
     uint64_t seed = 88172645463325252u;
     section_start("decimals");
-    for (int i = 0; i < 3000; i++) {
+    for (uint32_t i = 0; i < 3000; i += stride) {
         char text[64];
         double value = 0;
         unsigned part[3];
@@ -208,7 +210,7 @@ static void digest_predicates(void)
 {
     uint64_t seed = 1234567;
     section_start("predicates");
-    for (int i = 0; i < 4000; i++) {
+    for (uint32_t i = 0; i < 4000; i += stride) {
         double p[4][3];
         for (int k = 0; k < 12; k++) {
             p[k / 3][k % 3] = (double)scene_random(&seed, 5) + 0x1p-52 * scene_random(&seed, 3);
@@ -234,7 +236,7 @@ static void digest_poses(void)
 {
     uint64_t seed = 7;
     section_start("poses");
-    for (int i = 0; i < 500; i++) {
+    for (uint32_t i = 0; i < 500; i += stride) {
         static const char *const sequence[] = {"XYZ", "zyx", "ZXZ", "yxy"};
         lrcs_pose pose;
         double q[4];
@@ -306,7 +308,7 @@ static void digest_contacts(void)
 {
     static test_scene scene;
     section_start("contacts");
-    for (uint32_t i = 0; i < CASES; i++) {
+    for (uint32_t i = 0; i < CASES; i += stride) {
         visible_scene(&scene, &cases[i], i % 2);
         lrcs_work work = lrcs_work_make(memory, sizeof memory);
         const lrcs_prepared *prepared;
@@ -330,7 +332,7 @@ static const char boxes[] =
     "translate=[-0.6,0.2,0.3]\nrotate_axis=[1,2,3]\nrotate_deg=77.7\n";
 
 static void run_scene(const char *name, const char *text, size_t size, const lrcs_mesh *models,
-                      int normals, int poses, int hashed)
+                      int normals, uint32_t poses, int hashed)
 {
     lrcs_work work = lrcs_work_make(memory + MEMORY / 2, MEMORY / 2);
     lrcs_recipe recipe;
@@ -344,12 +346,12 @@ static void run_scene(const char *name, const char *text, size_t size, const lrc
     assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
     uint64_t before = section[section_count - 1].hash;
     take(lrcs_scene_hash(&scene));
-    for (int i = 0; i < poses; i++) {
+    for (uint32_t i = 0; i < poses; i += stride) {
         lrcs_pose pose;
         assert_int_equal(lrcs_pose_from_azel(41.3 * i, 60 - 25.1 * i, &pose), LRCS_OK);
         for (int method = LRCS_METHOD_ZBUFFER; method <= LRCS_METHOD_EXACT; method++) {
-            run_one(name, 2 * (uint32_t)i + (uint32_t)method - LRCS_METHOD_ZBUFFER, prepared, &pose,
-                    method, &work, scene.facet_count);
+            run_one(name, 2 * i + (uint32_t)method - LRCS_METHOD_ZBUFFER, prepared, &pose, method,
+                    &work, scene.facet_count);
         }
         digest_polygons(prepared, &pose, &work);
     }
@@ -396,7 +398,7 @@ static void keep_closed_forms(void)
             shape.radius = 0;
         }
         for (int b = 0; b < 3; b++) {
-            for (int deg = 0; deg <= 180; deg += 20) {
+            for (uint32_t deg = 0; deg <= 180; deg += 20 * stride) {
                 lrcs_aspect aspect = {.deg = deg};
                 lrcs_closed closed;
                 assert_int_equal(lrcs_closed_eval(&shape, &brdf[b], &aspect, &closed), LRCS_OK);
@@ -506,6 +508,8 @@ static void everything_is_the_same_everywhere(void **state)
 int main(int count, char **word)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(everything_is_the_same_everywhere)};
-    reference_name = count > 1 ? word[1] : NULL;
+    unsigned long given = count > 1 ? strtoul(word[1], NULL, 10) : 1;
+    stride = given > 0 ? (uint32_t)given : 1;
+    reference_name = count > 2 ? word[2] : NULL;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
