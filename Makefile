@@ -5,7 +5,7 @@
 #   make study      what sigma depends on: examples/study anew
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
-#   make asan tsan lint purity layers fuzz    further checks
+#   make asan tsan lint purity layers fuzz coverage    further checks
 #   make amalgamation       the core as two files, build/amalgamation/lrcs.c and lrcs.h, and its tests on them
 #   make flight portable    on a Cortex-M7 (needs gcc-arm-none-eabi, qemu); on four other machines (qemu-user)
 #   make operations misra   questions a pose asks, beside the most; MISRA C:2012 and its deviations
@@ -44,6 +44,8 @@ FLIGHT   = $(BUILD)/flight
 LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
 FUZZ_TARGETS = $(patsubst test/fuzz/fuzz_%.c,%,$(sort $(wildcard test/fuzz/fuzz_*.c)))
+FUZZ_TESTS = $(FUZZ_TARGETS:%=$(BUILD)/test/fuzz/fuzz_%)
+CORE_TESTS = $(filter-out $(BUILD)/test/host/%,$(TESTS))
 BENCH_DIR = $(BUILD)/test/bench
 BENCH_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/bench.c %/scaling.c,$(wildcard test/bench/*.c)))
 
@@ -65,7 +67,7 @@ charts: $(TOOL)
 study: $(TOOL)
 	$(TOOL) study -o examples/study
 
-test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TARGETS:%=$(BUILD)/test/fuzz/fuzz_%)
+test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TESTS)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
 
 asan: cmocka
@@ -128,25 +130,31 @@ PORTABLE_TESTS = $(filter-out $(addprefix %/test_,$(addsuffix .c,bound closed cu
     margin mean polygon random shadows switch workspace)),$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 
 # Every target of test/fuzz under libFuzzer and the sanitizers (needs clang), each for FUZZ_SECONDS;
-# fuzz-long: FUZZ_RUNS executions of each. FUZZ_TARGETS picks some. What they find, and the corpora,
-# are left in $(BUILD)/fuzz.
+# fuzz-NAME: one of them; fuzz-long: FUZZ_RUNS executions of each. Corpora and what breaks a target
+# are left in $(BUILD)/fuzz. Comparisons are not watched: arithmetic would be four times slower, and
+# the seeds hold the formats' words.
 fuzz: $(FUZZ_TARGETS:%=fuzz-%)
 fuzz-long:
 	$(MAKE) FUZZ_LIMIT=-runs=$(FUZZ_RUNS) fuzz
 fuzz-%:
-	$(MAKE) CC=clang BUILD=$(BUILD)/fuzz/$(FUZZ_WATCH) OPT="-O2 -g1" \
-	    CFLAGS="-fsanitize=fuzzer-no-link $(FUZZ_COVERAGE) $(SANITIZE)" $(BUILD)/fuzz/$(FUZZ_WATCH)/liblrcs.a
-	clang $(STD) -O2 -g1 -fsanitize=fuzzer $(FUZZ_COVERAGE) $(SANITIZE) -Iinclude \
-	    -o $(BUILD)/fuzz/$* test/fuzz/fuzz_$*.c $(BUILD)/fuzz/$(FUZZ_WATCH)/liblrcs.a $(LDLIBS)
+	$(MAKE) CC=clang BUILD=$(BUILD)/fuzz OPT="-O2 -g1" CFLAGS="-fsanitize=fuzzer-no-link $(FUZZ_CFLAGS)" \
+	    $(BUILD)/fuzz/liblrcs.a
+	clang $(STD) -O2 -g1 -fsanitize=fuzzer $(FUZZ_CFLAGS) -Iinclude -o $(BUILD)/fuzz/$* \
+	    test/fuzz/fuzz_$*.c $(BUILD)/fuzz/liblrcs.a $(LDLIBS)
 	@mkdir -p $(BUILD)/fuzz/corpus/$*
 	$(BUILD)/fuzz/$* $(FUZZ_LIMIT) -max_len=512 -rss_limit_mb=3000 -print_final_stats=1 \
 	    -artifact_prefix=$(BUILD)/fuzz/$*- $(BUILD)/fuzz/corpus/$* test/fuzz/seeds/$*
 FUZZ_SECONDS = 20
 FUZZ_RUNS    = 10000000
 FUZZ_LIMIT   = -max_total_time=$(FUZZ_SECONDS)
-# Watching what numbers are compared with finds keywords, and makes arithmetic four times slower.
-FUZZ_WATCH    = $(if $(filter $*,pose scene),sigma,text)
-FUZZ_COVERAGE = $(if $(filter $*,pose scene),-fno-sanitize-coverage=trace-cmp)
+FUZZ_CFLAGS  = $(SANITIZE) -fno-sanitize-coverage=trace-cmp
+
+# Lines and branches of the core that its own tests run.
+coverage: cmocka
+	$(MAKE) BUILD=$(BUILD)/coverage OPT=-O0 CFLAGS=--coverage LDLIBS="--coverage $(THREADS) -lm" test-core
+	sh test/coverage.sh $(BUILD)/coverage
+test-core: $(TOOL) $(CORE_TESTS) $(FUZZ_TESTS)
+	@sh test/run.sh $(TOOL) $(CORE_TESTS) test/fuzz/test_replay.sh
 
 # Every proved bound on BOUNDS_SCENES scenes of each kind with exact answers, and what the estimate is
 # worth (needs python3, mpmath).
@@ -243,7 +251,7 @@ cmocka:
 
 .PHONY: all demo charts study install uninstall clean cmocka
 .PHONY: test asan tsan lint purity layers amalgamation stack flight operations misra portable
-.PHONY: fuzz fuzz-long bounds estimate shadows bench scaling big
+.PHONY: fuzz fuzz-long coverage test-core bounds estimate shadows bench scaling big
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -331,5 +339,5 @@ $(BENCH_DIR)/measure.o: override CFLAGS += -DBENCH_BUILD='"$(CC) $(STD) $(OPT)"'
 $(BENCH_DIR)/%: $(BENCH_DIR)/%.o $(BENCH_OBJ) $(LIB)
 	$(CC) -o $@ $< $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
-.SECONDARY: $(BENCH_OBJ) $(FUZZ_TARGETS:%=$(BUILD)/test/fuzz/fuzz_%.o) $(BUILD)/test/fuzz/replay.o $(TEST_SRC:%.c=$(BUILD)/%.o)
+.SECONDARY: $(BENCH_OBJ) $(FUZZ_TESTS:%=%.o) $(BUILD)/test/fuzz/replay.o $(TEST_SRC:%.c=$(BUILD)/%.o)
 -include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d $(BUILD)/test/fuzz/*.d)

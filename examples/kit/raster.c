@@ -9,7 +9,8 @@
 
    raster KIT N [MISTAKE] [items=DIR]: N x N pixels, 0: no raster, whole facets (tiers 1 and 2).
    With a MISTAKE it is wrong on purpose, so that the judge can be judged:
-     shadows backs hand frame degrees radians 4pi cos pixel colour glint depth float */
+     shadows backs hand frame degrees radians 4pi cos pixel colour glint depth float
+   and several at once, shadows+cos. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -35,7 +36,7 @@ static const char *mistake = "";
 
 static int is(const char *name)
 {
-    return strcmp(mistake, name) == 0;
+    return strstr(mistake, name) != NULL;
 }
 
 /* What is left of a number in the precision that the code works in. */

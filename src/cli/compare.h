@@ -31,6 +31,9 @@ typedef struct compare_table {
 int cli_table_open(const char *path, compare_table *table);
 void cli_table_close(compare_table *table);
 
+/* At least as many as there are lines to come. */
+size_t cli_table_lines(const compare_table *table);
+
 /* The column of a name, -1 for none; and one that must be there: 0 or CLI_FAILED. */
 int cli_table_column(const compare_table *table, const char *name);
 int cli_table_require(const compare_table *table, const char *name, int *column);
@@ -65,6 +68,7 @@ typedef struct compare_case {
     int explained;    /* by which finding, from 1 */
     lrcs_pose pose;
     lrcs_facet_record *records; /* the truth's, once asked for */
+    double peak;                /* their largest f_r cos */
 } compare_case;
 
 typedef struct compare_scene {
@@ -171,6 +175,7 @@ typedef struct compare_mistake {
     mistake_shade *shade;
     double at;
     mistake_area *area;
+    int corners; /* 3: the facet is the mean of what it is at its corners */
     int (*turn)(const compare_case *one, const struct compare_mistake *mistake, lrcs_pose *pose);
     int axes[3];      /* of turn: for x, y, z of s_hat, which component they take, 1 .. 3, negative
                          to mirror it */

@@ -9,6 +9,19 @@
 
 #define ANSWER_PI 3.14159265358979323846
 
+/* The largest f_r cos. */
+static double view_peak(const mistake_view *view)
+{
+    double peak = 0.0;
+    for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
+        mistake_spot spot;
+        if (cli_mistake_seen(view, i, 0, &spot) > 0.0) {
+            peak = fmax(peak, cli_mistake_right(&spot, 0.0));
+        }
+    }
+    return peak;
+}
+
 /* The records of the case as somebody sees it: the truth's, or those of another run. 0 or
    CLI_FAILED. */
 static int view_make(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
@@ -21,6 +34,9 @@ static int view_make(const compare_kit *kit, compare_case *one, const compare_mi
     int code = cli_compare_records(kit, one);
     view->scene = &kit->scene[one->scene];
     view->records = one->records;
+    if (code == 0 && one->peak == 0.0) {
+        one->peak = view_peak(view);
+    }
     if (code != 0 || (!mistake->turn && !mistake->without)) {
         return code;
     }
@@ -41,16 +57,21 @@ static int view_make(const compare_kit *kit, compare_case *one, const compare_mi
     return 0;
 }
 
-static double view_peak(const mistake_view *view)
+/* sigma / 4 pi of what somebody sees. */
+static double view_sum(const mistake_view *view, const compare_mistake *mistake, double peak)
 {
-    double peak = 0.0;
+    mistake_area *area = mistake->area ? mistake->area : cli_mistake_seen;
+    mistake_shade *shade = mistake->shade ? mistake->shade : cli_mistake_right;
+    int corners = mistake->corners > 0 ? mistake->corners : 1;
+    double sum = 0.0;
     for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
-        mistake_spot spot;
-        if (cli_mistake_seen(view, i, 0, &spot) > 0.0) {
-            peak = fmax(peak, cli_mistake_right(&spot, 0.0));
+        for (int corner = 0; corner < corners; corner++) {
+            mistake_spot spot = {.peak = peak};
+            double part = area(view, i, corner, &spot);
+            sum += part > 0.0 ? part * shade(&spot, mistake->at) / corners : 0.0;
         }
     }
-    return peak;
+    return sum;
 }
 
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
@@ -58,19 +79,10 @@ int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_
 {
     mistake_view view;
     lrcs_facet_record *own = NULL;
-    mistake_area *area = mistake->area ? mistake->area : cli_mistake_seen;
-    mistake_shade *shade = mistake->shade ? mistake->shade : cli_mistake_right;
-    double sum = 0.0;
     int code = view_make(kit, one, mistake, &view, &own);
     if (code == 0) {
         memcpy(view.direction, one->direction, sizeof view.direction);
-        double peak = view_peak(&view);
-        for (uint32_t i = 0; i < 3 * view.scene->host.scene.facet_count; i++) {
-            mistake_spot spot = {.peak = peak};
-            double part = area(&view, i / 3, (int)(i % 3), &spot);
-            sum += part > 0.0 ? part * shade(&spot, mistake->at) : 0.0;
-        }
-        *sigma_m2 = 4.0 * ANSWER_PI * sum;
+        *sigma_m2 = 4.0 * ANSWER_PI * view_sum(&view, mistake, one->peak);
     }
     free(own);
     return code;

@@ -3,13 +3,12 @@
    without a constant factor, against what was handed in. The one that removes most of the
    differences is a finding; what it leaves is looked at again. An explanation is no proof: it says
    how many cases it explains, and what none explains is said to be unexplained. */
-#include "cli/compare.h"
+#include "cli/compare_search.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define EXPLAIN_PI     3.14159265358979323846
 #define REMOVED        0.1  /* what may be left of a difference that is explained */
 #define REMOVED_RASTER 0.5  /* the same, where their class allows that much in any case */
 #define STRIKING       0.02 /* the same, where few cases speak for a mistake */
@@ -17,27 +16,14 @@
 #define PROBE          16u  /* failing cases after which a hopeless mistake is given up */
 #define HOPELESS       0.1  /* share of them */
 #define WITNESSES      64u  /* passing cases that a mistake must not touch */
-#define FACTOR_NEAR    0.02 /* a median ratio this near a known number is that number */
-#define FACTOR_PRICE   0.05 /* what a factor must gain to be believed */
+#define PRICE          0.05 /* what a factor or a second mistake must gain to be believed */
+#define SURE           0.94 /* a score after which none is sought that is better */
+#define PAIRS_BELOW    0.9  /* where one mistake explains less, two at once are tried */
 #define ENOUGH         3u   /* cases that make a finding by themselves */
-#define SKINS_TOUCH    60   /* a distance of 2^-60 m stands for none */
-#define BIAS_CASES     20u  /* a factor that all share: of so many cases */
-#define BIAS_SHARE     0.75 /* this share is nearer to it than to the truth, and */
-#define BIAS_SPREADS   4.0  /* more than half by so many spreads of a fair coin */
-#define BIAS_LEAST     1e-4 /* and it is this far from 1 */
-
-typedef struct explain_search {
-    compare_job *job;
-    compare_case **failing; /* not explained yet */
-    compare_case **passing;
-    uint32_t failings, passings;
-    double *answer; /* of a mistake: the failing cases, then the passing ones */
-    double *room;   /* to sort in */
-} explain_search;
 
 /* How well a mistake explains. */
 typedef struct explain_score {
-    const compare_mistake *mistake;
+    const compare_mistake *first, *second; /* second: NULL, or made as well */
     double factor;
     double score; /* share of the differences that it removes, where it is right */
     uint32_t explained;
@@ -52,19 +38,19 @@ static int ascending(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-static double median_of(double *value, uint32_t count)
+double cli_search_median(double *value, uint32_t count)
 {
     qsort(value, count, sizeof *value, ascending);
     return count > 0 ? value[count / 2] : 0.0;
 }
 
-static double case_room(const explain_search *search, const compare_case *one, double expected)
+static double case_room(const compare_search *search, const compare_case *one, double expected)
 {
     double allowed = cli_compare_allowed(one, search->job->grade, search->job->pixels);
     return allowed * (one->sigma_m2 > 0.0 ? fmax(1.0, expected / one->sigma_m2) : 1.0);
 }
 
-static int case_explained(const explain_search *search, const compare_case *one, double expected)
+int cli_search_explained(const compare_search *search, const compare_case *one, double expected)
 {
     double left = fabs(one->theirs_m2 - expected);
     double off = fabs(one->theirs_m2 - one->sigma_m2);
@@ -73,22 +59,22 @@ static int case_explained(const explain_search *search, const compare_case *one,
 }
 
 /* Would the mistake change the case at all? */
-static int case_touched(const explain_search *search, const compare_case *one, double expected)
+static int case_touched(const compare_search *search, const compare_case *one, double expected)
 {
     return fabs(expected - one->sigma_m2) > case_room(search, one, expected);
 }
 
-static explain_score score_make(const explain_search *search, const compare_mistake *mistake,
-                                double factor)
+/* How well a mistake's answers explain, times a factor. */
+static explain_score score_make(const compare_search *search, double factor)
 {
-    explain_score score = {.mistake = mistake, .factor = factor};
+    explain_score score = {.factor = factor};
     uint32_t touched = 0;
     double removed = 0.0;
     for (uint32_t i = 0; i < search->failings; i++) {
         const compare_case *one = search->failing[i];
         double expected = factor * search->answer[i];
         double left = fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
-        int right = case_explained(search, one, expected);
+        int right = cli_search_explained(search, one, expected);
         score.explained += (uint32_t)right;
         touched += right || case_touched(search, one, expected);
         removed += right ? 1.0 - 0.5 * fmin(left, 1.0) : 0.0;
@@ -107,38 +93,9 @@ static explain_score score_make(const explain_search *search, const compare_mist
 
 /* ---- factors ---- */
 
-typedef struct explain_factor {
-    double value;
-    const char *text;
-} explain_factor;
-
-static const explain_factor factor_known[] = {
-    {0.25 / EXPLAIN_PI, "4 pi is missing"},
-    {4.0 * EXPLAIN_PI, "4 pi counts twice"},
-    {0.25, "4 is missing of 4 pi"},
-    {1.0 / EXPLAIN_PI, "pi is missing of 4 pi, or a reflectance is divided by pi once more"},
-    {EXPLAIN_PI, "pi counts twice, or a reflectance in place of a BRDF"},
-    {0.5, "half of it: 2 pi in place of 4 pi"},
-    {2.0, "twice of it: both triangles or both sides counted?"},
-    {4.0, "4 times: the side of the window taken for its half, or no half pixel?"},
-    {1e4, "cm2 in place of m2"},
-    {1e6, "mm2 in place of m2"},
-    {1e-6, "millimetres taken for metres"},
-    {1e-4, "centimetres taken for metres"}};
-
-static const explain_factor *factor_find(double value)
-{
-    for (size_t i = 0; i < sizeof factor_known / sizeof factor_known[0]; i++) {
-        if (fabs(value / factor_known[i].value - 1.0) <= FACTOR_NEAR) {
-            return &factor_known[i];
-        }
-    }
-    return NULL;
-}
-
 /* The median ratio of what was handed in to what the mistake answers, over the first failing cases;
    a known number where it is near one. */
-static double factor_median(const explain_search *search, uint32_t failings)
+static double factor_median(const compare_search *search, uint32_t failings, int *known)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < failings; i++) {
@@ -146,32 +103,32 @@ static double factor_median(const explain_search *search, uint32_t failings)
             search->room[count++] = search->failing[i]->theirs_m2 / search->answer[i];
         }
     }
-    double median = median_of(search->room, count);
-    const explain_factor *known = factor_find(median);
-    return known ? known->value : median;
+    return cli_factor_known(cli_search_median(search->room, count), known);
 }
 
 /* ---- the catalogue ---- */
 
-static uint32_t explained_count(const explain_search *search, uint32_t failings, double factor)
+static uint32_t explained_count(const compare_search *search, uint32_t failings, double factor)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < failings; i++) {
-        count += (uint32_t)case_explained(search, search->failing[i], factor * search->answer[i]);
+        count +=
+            (uint32_t)cli_search_explained(search, search->failing[i], factor * search->answer[i]);
     }
     return count;
 }
 
 /* Is a mistake worth going on with, after so many failing cases? */
-static int answers_hopeful(const explain_search *search, uint32_t failings)
+static int answers_hopeful(const compare_search *search, uint32_t failings)
 {
+    int known;
     double least = fmax(1.0, HOPELESS * failings);
     return explained_count(search, failings, 1.0) >= least ||
-           explained_count(search, failings, factor_median(search, failings)) >= least;
+           explained_count(search, failings, factor_median(search, failings, &known)) >= least;
 }
 
 /* The answers of a mistake; 1 where it is worth scoring, 0 where not, -1 with the message. */
-static int answers_make(const explain_search *search, const compare_mistake *mistake)
+static int answers_make(const compare_search *search, const compare_mistake *mistake)
 {
     uint32_t failings = search->failings;
     uint32_t probe = failings < PROBE ? failings : PROBE;
@@ -187,102 +144,152 @@ static int answers_make(const explain_search *search, const compare_mistake *mis
     return 1;
 }
 
-static int mistake_try(const explain_search *search, const compare_mistake *mistake,
-                       explain_score *best)
+/* Two mistakes at once; the second may be NULL. */
+static compare_mistake mistakes_both(const compare_mistake *first, const compare_mistake *second)
 {
-    int worth = answers_make(search, mistake);
+    compare_mistake both = *first;
+    if (second) {
+        both.shade = second->shade;
+        both.at = second->at;
+    }
+    return both;
+}
+
+/* Keeps the mistake where it explains more than the best so far. 0, or -1 on failure. */
+static int mistake_try(const compare_search *search, const compare_mistake *first,
+                       const compare_mistake *second, explain_score *best)
+{
+    compare_mistake both = mistakes_both(first, second);
+    int worth = answers_make(search, &both);
+    int known;
     if (worth <= 0) {
         return worth;
     }
-    explain_score plain = score_make(search, mistake, 1.0);
-    double factor = factor_median(search, search->failings);
-    explain_score scaled = {.mistake = mistake};
+    double factor = factor_median(search, search->failings, &known);
+    explain_score try[2] = {score_make(search, 1.0), {.score = 0.0}};
     if (factor > 0.0) {
-        scaled = score_make(search, mistake, factor);
-        scaled.score -= factor_find(factor) ? FACTOR_PRICE : 2.0 * FACTOR_PRICE;
+        try[1] = score_make(search, factor);
+        try[1].score -= known ? PRICE : 2.0 * PRICE;
     }
-    *best = plain.score > best->score ? plain : *best;
-    *best = scaled.score > best->score ? scaled : *best;
-    return 1;
+    for (int i = 0; i < 2; i++) {
+        try[i].score -= second ? PRICE : 0.0;
+        if (try[i].score > best->score) {
+            *best = try[i];
+            best->first = first;
+            best->second = second;
+        }
+    }
+    return 0;
+}
+
+static int singles_try(const compare_search *search, explain_score *best)
+{
+    int code = 0;
+    for (const compare_mistake *a = cli_compare_mistakes;
+         a->name && best->score < SURE && code == 0; a++) {
+        code = mistake_try(search, a, NULL, best);
+    }
+    return code;
+}
+
+/* Every pair of a mistake in which areas are summed and one in how they are shaded. */
+static int pairs_try(const compare_search *search, explain_score *best)
+{
+    int code = 0;
+    for (const compare_mistake *a = cli_compare_mistakes + 1; a->name && code == 0; a++) {
+        for (const compare_mistake *b = cli_compare_mistakes + 1; b->name && code == 0; b++) {
+            if (a->area && b->shade) {
+                code = mistake_try(search, a, b, best);
+            }
+        }
+    }
+    return code;
 }
 
 /* ---- findings ---- */
 
 /* What is left of the differences that it explains, in the median; marks their cases. */
-static double finding_rest(const explain_search *search, const explain_score *best, int mark)
+static double finding_rest(const compare_search *search, const explain_score *best, int mark)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
         compare_case *one = search->failing[i];
         double expected = best->factor * search->answer[i];
-        if (case_explained(search, one, expected)) {
+        if (cli_search_explained(search, one, expected)) {
             search->room[count++] =
                 fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
             one->explained = mark;
         }
     }
-    return median_of(search->room, count);
-}
-
-static void factor_say(const compare_job *job, double factor, char *text, size_t size)
-{
-    const explain_factor *known = factor_find(factor);
-    double n = job->pixels;
-    double fence = (n / (n - 1.0)) * (n / (n - 1.0));
-    if (known) {
-        snprintf(text, size, "%s", known->text);
-    } else if (fabs(factor / fence - 1.0) < 0.2 / n || fabs(factor * fence - 1.0) < 0.2 / n) {
-        snprintf(text, size, "pixel area: N - 1 in place of N pixels a side, or the reverse");
-    } else {
-        snprintf(text, size, "pixel area, the side of the window, or a unit?");
-    }
+    return cli_search_median(search->room, count);
 }
 
 static void finding_say(const compare_job *job, const explain_score *best, compare_finding *finding)
 {
-    char factor[256] = "";
+    const char *text = best->first->text;
+    size_t room = sizeof finding->text;
+    size_t used = 0;
     finding->factor = best->factor;
-    if (best->factor == 1.0) {
-        snprintf(finding->text, sizeof finding->text, "%s", best->mistake->text);
+    if (best->first == cli_compare_mistakes) {
+        finding->name = cli_factor_name(best->factor);
+        snprintf(finding->text, room, "%.6g times the truth everywhere: %s", best->factor,
+                 cli_factor_text(job, best->factor));
         return;
     }
-    factor_say(job, best->factor, factor, sizeof factor);
-    if (best->mistake == &cli_compare_mistakes[0]) {
-        const explain_factor *known = factor_find(best->factor);
-        finding->name = known ? "constant" : "pixel-area";
-        finding->name = known == &factor_known[0] ? "missing-4-pi" : finding->name;
-        snprintf(finding->text, sizeof finding->text, "%.6g times the truth everywhere: %s",
-                 best->factor, factor);
-    } else {
-        snprintf(finding->text, sizeof finding->text, "%s; and %.6g times that: %s",
-                 best->mistake->text, best->factor, factor);
+    used = (size_t)snprintf(finding->text, room, "%s", text);
+    if (best->second && used < room) {
+        used += (size_t)snprintf(finding->text + used, room - used, "; and %s", best->second->text);
+    }
+    if (best->factor != 1.0 && used < room) {
+        snprintf(finding->text + used, room - used, "; and %.6g times that: %s", best->factor,
+                 cli_factor_text(job, best->factor));
     }
 }
 
+/* The answers of the best to the cases that fail, once more. 0 or -1. */
+static int answers_again(const compare_search *search, const explain_score *best)
+{
+    compare_mistake both = mistakes_both(best->first, best->second);
+    int code = 0;
+    for (uint32_t i = 0; i < search->failings && code == 0; i++) {
+        code = cli_compare_answer(&search->job->kit, search->failing[i], &both, &search->answer[i]);
+    }
+    return code;
+}
+
 /* The best explanation of what fails still; 1 where there is one, 0 where not, -1 on failure. */
-static int finding_next(explain_search *search)
+static int finding_next(compare_search *search)
 {
     compare_job *job = search->job;
     explain_score best = {.score = 0.0};
-    for (const compare_mistake *mistake = cli_compare_mistakes; mistake->name; mistake++) {
-        if (mistake_try(search, mistake, &best) < 0) {
-            return -1;
-        }
+    int code = singles_try(search, &best);
+    if (code == 0 && best.score < PAIRS_BELOW) {
+        code = pairs_try(search, &best);
     }
-    if (best.score <= 0.0 || job->findings == COMPARE_FINDINGS) {
+    if (code == 0 && best.score > 0.0) {
+        code = answers_again(search, &best);
+    }
+    if (code != 0) {
+        return -1;
+    }
+    compare_finding *finding = best.score > 0.0 ? cli_search_finding(job, best.first->name) : NULL;
+    if (!finding) {
         return 0;
     }
-    for (uint32_t i = 0; i < search->failings; i++) {
-        if (cli_compare_answer(&job->kit, search->failing[i], best.mistake, &search->answer[i])) {
-            return -1;
-        }
-    }
-    compare_finding *finding = &job->finding[job->findings++];
-    finding->name = best.mistake->name;
     finding->explained = best.explained;
     finding_say(job, &best, finding);
     finding->rest = finding_rest(search, &best, (int)job->findings);
     return 1;
+}
+
+compare_finding *cli_search_finding(compare_job *job, const char *name)
+{
+    if (job->findings == COMPARE_FINDINGS) {
+        return NULL;
+    }
+    compare_finding *finding = &job->finding[job->findings++];
+    *finding = (compare_finding){.name = name, .factor = 1.0, .rest = 1.0};
+    return finding;
 }
 
 /* Shuffles a list, the same way every time, so that its beginning stands for all of it. */
@@ -299,7 +306,7 @@ static void list_shuffle(compare_case **list, uint32_t count)
 }
 
 /* Parts the cases asked for into those that fail, unexplained so far, and some that pass. */
-static void cases_part(explain_search *search)
+void cli_search_part(compare_search *search)
 {
     compare_job *job = search->job;
     search->failings = search->passings = 0;
@@ -319,148 +326,20 @@ static void cases_part(explain_search *search)
     search->passings = search->passings < WITNESSES ? search->passings : WITNESSES;
 }
 
-/* ---- what needs no hypothesis ---- */
-
-static compare_finding *finding_add(compare_job *job, const char *name)
-{
-    compare_finding *finding = &job->finding[job->findings];
-    job->findings += job->findings < COMPARE_FINDINGS;
-    *finding = (compare_finding){.name = name, .factor = 1.0};
-    return finding;
-}
-
-/* Marks the unexplained failing cases of a class, and says so. */
-static void class_say(explain_search *search, int grade, const char *name, const char *text)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < search->failings; i++) {
-        count += search->failing[i]->grade == grade;
-    }
-    if (count == 0 || search->job->findings == COMPARE_FINDINGS) {
-        return;
-    }
-    compare_finding *finding = finding_add(search->job, name);
-    for (uint32_t i = 0; i < search->failings; i++) {
-        if (search->failing[i]->grade == grade) {
-            search->failing[i]->explained = (int)search->job->findings;
-        }
-    }
-    finding->explained = count;
-    finding->rest = 1.0;
-    snprintf(finding->text, sizeof finding->text, "%s", text);
-}
-
-/* Skins 2^-K m apart in a scene 8 m deep are called skins-K, those in one place by other names; 0
-   for scenes without. */
-static int skins_of(const compare_job *job, const compare_case *one)
-{
-    const char *name = job->kit.scene[one->scene].name;
-    int coincident = strcmp(name, "twins") == 0 || strcmp(name, "two-faced") == 0;
-    return strncmp(name, "skins-", 6) == 0 ? atoi(name + 6) : coincident ? SKINS_TOUCH : 0;
-}
-
-/* Where most of what fails are skins close to each other, the depths are too coarse. */
-static void depth_say(explain_search *search)
-{
-    int coarsest = SKINS_TOUCH;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < search->failings; i++) {
-        int skins = skins_of(search->job, search->failing[i]);
-        coarsest = skins > 0 && skins < coarsest ? skins : coarsest;
-        count += skins > 0;
-    }
-    if (2 * count <= search->failings || search->job->findings == COMPARE_FINDINGS) {
-        return;
-    }
-    int touch = coarsest == SKINS_TOUCH;
-    compare_finding *finding =
-        finding_add(search->job, touch ? "coincident-skins" : "depth-precision");
-    for (uint32_t i = 0; i < search->failings; i++) {
-        if (skins_of(search->job, search->failing[i]) > 0) {
-            search->failing[i]->explained = (int)search->job->findings;
-        }
-    }
-    finding->explained = count;
-    finding->rest = 1.0;
-    if (touch) {
-        snprintf(finding->text, sizeof finding->text,
-                 "coincident skins: of facets in one place the wrong one is seen (a front beats a "
-                 "back, then the lower index wins)");
-    } else {
-        snprintf(finding->text, sizeof finding->text,
-                 "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told apart: a "
-                 "depth of some %d bits or fewer",
-                 coarsest, coarsest + 3);
-    }
-}
-
-/* A factor that all answers share, though each by itself is within its class. */
-static void bias_say(explain_search *search)
-{
-    compare_job *job = search->job;
-    uint32_t count = 0;
-    uint32_t nearer = 0;
-    char text[256];
-    for (uint32_t i = 0; i < job->kit.cases; i++) {
-        const compare_case *one = &job->kit.list[i];
-        if (one->given && (uint32_t)one->tier <= job->tier && one->sigma_m2 > 0.0 &&
-            one->grade > COMPARE_EXACT && isfinite(one->theirs_m2)) {
-            search->room[count++] = one->theirs_m2 / one->sigma_m2;
-        }
-    }
-    double median = median_of(search->room, count);
-    for (uint32_t i = 0; i < count; i++) {
-        nearer += fabs(search->room[i] - median) < fabs(search->room[i] - 1.0);
-    }
-    double least = fmax(BIAS_SHARE, 0.5 + 0.5 * BIAS_SPREADS / sqrt(fmax(count, 1.0)));
-    if (count < BIAS_CASES || nearer < least * count || fabs(median - 1.0) < BIAS_LEAST ||
-        job->findings == COMPARE_FINDINGS) {
-        return;
-    }
-    factor_say(job, median, text, sizeof text);
-    compare_finding *finding = finding_add(job, "pixel-area");
-    finding->factor = median;
-    finding->rest = 1.0;
-    job->biased = 1;
-    for (uint32_t i = 0; i < search->failings; i++) {
-        compare_case *one = search->failing[i];
-        if (case_explained(search, one, median * one->sigma_m2)) {
-            one->explained = (int)job->findings;
-            finding->explained++;
-        }
-    }
-    snprintf(
-        finding->text, sizeof finding->text,
-        "a constant factor of %.6g, within what most cases are allowed but in %.0f %% of them: "
-        "%s",
-        median, 100.0 * nearer / count, text);
-}
-
 /* ---- the search ---- */
 
-static int findings_make(explain_search *search)
+static int findings_make(compare_search *search)
 {
     int more = 1;
-    cases_part(search);
+    cli_search_part(search);
     while (more > 0 && search->failings > 0) {
         more = finding_next(search);
-        cases_part(search);
+        cli_search_part(search);
     }
     if (more < 0) {
         return CLI_FAILED;
     }
-    depth_say(search);
-    cases_part(search);
-    class_say(search, COMPARE_FLOAT, "single-precision",
-              "single precision: off by no more than some of its roundings");
-    cases_part(search);
-    class_say(search, COMPARE_RASTER, "raster",
-              "a raster's pixels: off by no more than a pixel along the outlines");
-    cases_part(search);
-    if (search->job->findings == 0) {
-        bias_say(search);
-        cases_part(search);
-    }
+    cli_compare_signs(search);
     search->job->unexplained = search->failings;
     return 0;
 }
@@ -468,7 +347,7 @@ static int findings_make(explain_search *search)
 int cli_compare_explain(compare_job *job)
 {
     size_t count = (size_t)job->kit.cases + 1;
-    explain_search search = {.job = job};
+    compare_search search = {.job = job};
     search.failing = malloc(count * sizeof(compare_case *));
     search.passing = malloc(count * sizeof(compare_case *));
     search.answer = malloc(count * sizeof(double));

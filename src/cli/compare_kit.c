@@ -7,17 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CASES_MOST     100000u
-#define MATERIALS_MOST 4096u
-
 /* ---- materials ---- */
 
 static int material_read(const compare_table *table, const int *column, compare_kit *kit)
 {
     double value[5];
     uint32_t i = kit->bindings;
-    int code = i < MATERIALS_MOST ? cli_table_name(table, column[0], kit->material[i])
-                                  : cli_table_refuse(table, column[0], "too many materials");
+    int code = cli_table_name(table, column[0], kit->material[i]);
     for (int k = 0; k < 5 && code == 0; k++) {
         code = cli_table_number(table, column[k + 1], &value[k]);
     }
@@ -44,13 +40,14 @@ static int materials_read(compare_kit *kit)
     if (cli_kit_path(path, "%s/" KIT_MATERIALS_FILE, kit->folder) != 0) {
         return CLI_FAILED;
     }
-    kit->binding = calloc(MATERIALS_MOST, sizeof *kit->binding);
-    kit->material = calloc(MATERIALS_MOST, sizeof *kit->material);
-    if (!kit->binding || !kit->material) {
-        return cli_out_of_memory();
-    }
     int more = 1;
     int code = cli_table_open(path, &table);
+    size_t lines = cli_table_lines(&table);
+    kit->binding = calloc(lines, sizeof *kit->binding);
+    kit->material = calloc(lines, sizeof *kit->material);
+    if (!kit->binding || !kit->material) {
+        code = cli_out_of_memory();
+    }
     for (int i = 0; i < 6 && code == 0; i++) {
         code = cli_table_require(&table, name[i], &column[i]);
     }
@@ -100,9 +97,6 @@ static int case_read(const compare_table *table, const int *column, compare_kit 
 {
     double value[CASE_COLUMNS] = {0.0};
     char name[KIT_NAME];
-    if (kit->cases == CASES_MOST) {
-        return cli_table_refuse(table, column[0], "too many cases");
-    }
     compare_case *one = &kit->list[kit->cases];
     int code = cli_table_name(table, column[CASE_SCENE], name);
     code = code ? code : cli_table_name(table, column[CASE_ATTITUDE], one->attitude);
@@ -145,13 +139,14 @@ static int cases_read(compare_kit *kit)
     if (cli_kit_path(path, "%s/" KIT_CASES_FILE, kit->folder) != 0) {
         return CLI_FAILED;
     }
-    kit->list = calloc(CASES_MOST, sizeof *kit->list);
-    kit->scene = calloc(CASES_MOST, sizeof *kit->scene);
-    if (!kit->list || !kit->scene) {
-        return cli_out_of_memory();
-    }
     int more = 1;
     int code = cli_table_open(path, &table);
+    size_t lines = cli_table_lines(&table);
+    kit->list = calloc(lines, sizeof *kit->list);
+    kit->scene = calloc(lines, sizeof *kit->scene);
+    if (!kit->list || !kit->scene) {
+        code = cli_out_of_memory();
+    }
     for (int i = 0; i < CASE_COLUMNS && code == 0; i++) {
         code = cli_table_require(&table, case_names[i], &column[i]);
     }

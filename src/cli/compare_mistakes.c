@@ -131,28 +131,28 @@ static int spot_fill(const mistake_view *view, uint32_t facet, mistake_spot *spo
 double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
 {
     (void)corner;
-    return spot_fill(view, facet, spot) ? view->records[facet].visible_area_m2 / 3.0 : 0.0;
+    return spot_fill(view, facet, spot) ? view->records[facet].visible_area_m2 : 0.0;
 }
 
 static double area_unshadowed(const mistake_view *view, uint32_t facet, int corner,
                               mistake_spot *spot)
 {
     (void)corner;
-    return spot_fill(view, facet, spot) ? view->records[facet].area_m2 * spot->c / 3.0 : 0.0;
+    return spot_fill(view, facet, spot) ? view->records[facet].area_m2 * spot->c : 0.0;
 }
 
 static double area_backs(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
 {
     (void)corner;
     spot_fill(view, facet, spot);
-    return view->records[facet].visible_area_m2 / 3.0;
+    return view->records[facet].visible_area_m2;
 }
 
 static double area_all(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
 {
     (void)corner;
     spot_fill(view, facet, spot);
-    return view->records[facet].area_m2 * spot->c / 3.0;
+    return view->records[facet].area_m2 * spot->c;
 }
 
 static double area_one_sided(const mistake_view *view, uint32_t facet, int corner,
@@ -357,7 +357,8 @@ const compare_mistake cli_compare_mistakes[] = {
      .at = 1.0},
     {.name = "vertex-normals",
      .text = "under-resolved glint: shaded by averaged normals at the corners",
-     .area = area_smooth},
+     .area = area_smooth,
+     .corners = 3},
     {.name = "angles-1",
      .text = "under-resolved glint: f_r from a table in steps of 1 deg, lines between",
      .shade = shade_lines,

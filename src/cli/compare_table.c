@@ -109,6 +109,15 @@ int cli_table_open(const char *path, compare_table *table)
     return columns > 0 ? 0 : table_fail(table, "expected at most 64 columns");
 }
 
+size_t cli_table_lines(const compare_table *table)
+{
+    size_t lines = 1;
+    for (const char *at = table->at; at < table->end; at++) {
+        lines += *at == '\n';
+    }
+    return lines;
+}
+
 void cli_table_close(compare_table *table)
 {
     lrcs_host_file_free(&table->file);

@@ -29,7 +29,7 @@ study_number cli_study_sum(study_number a, study_number b)
     return (study_number){value, number_outward(a.bound + b.bound + number_rounding(value))};
 }
 
-/* The factor is a power of two or the product is rounded, which the bound holds. */
+/* The factor is taken as exact. */
 study_number cli_study_scaled(study_number a, double factor)
 {
     double value = a.value * factor;

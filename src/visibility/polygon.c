@@ -53,37 +53,53 @@ static lrcs_ring_point point_at(const lrcsi_target *t, const double at[2])
     return point;
 }
 
-static void ring_add(ring_list *list, const lrcsi_target *t, const double (*corner)[2],
-                     uint32_t count)
+static void point_add(ring_list *list, const lrcsi_target *t, const double at[2])
 {
-    lrcs_ring ring = {t->facet, (uint32_t)list->points, 0};
-    const double *before = corner[count - 1];
-    for (uint32_t i = 0; i < count; i++) {
-        if (corner[i][0] == before[0] && corner[i][1] == before[1]) {
-            continue;
-        }
-        if (list->points < list->point_room) {
-            list->point[list->points] = point_at(t, corner[i]);
-        }
-        list->points++;
-        ring.count++;
-        before = corner[i];
+    if (list->points < list->point_room) {
+        list->point[list->points] = point_at(t, at);
     }
+    list->points++;
+}
+
+static void ring_add(ring_list *list, const lrcsi_target *t, size_t first)
+{
     if (list->rings < list->ring_room) {
-        list->ring[list->rings] = ring;
+        list->ring[list->rings] =
+            (lrcs_ring){t->facet, (uint32_t)first, (uint32_t)(list->points - first)};
     }
     list->rings++;
 }
 
-/* --- one facet -------------------------------------------------------------------------------- */
-
-/* The piece at hand. One that rounding has left without area shows nothing. */
-static void piece_add_ring(ring_list *list, const lrcsi_occluding *o)
+/* A facet seen whole keeps its corners, even where rounding puts some in one place of the view. */
+static void ring_add_facet(ring_list *list, const lrcsi_target *t, const double (*corner)[2])
 {
-    if (!o->contested || lrcsi_clip_area(&o->piece) > 0) {
-        ring_add(list, &o->target, (const double(*)[2])o->piece.corner, o->piece.count);
+    size_t first = list->points;
+    for (int k = 0; k < 3; k++) {
+        point_add(list, t, corner[k]);
+    }
+    ring_add(list, t, first);
+}
+
+/* Of corners in one place the first counts. What rounding has left without area shows nothing. */
+static void ring_add_piece(ring_list *list, const lrcsi_target *t, const lrcsi_clip_polygon *piece)
+{
+    size_t first = list->points;
+    const double *before = piece->corner[piece->count - 1];
+    for (uint32_t i = 0; i < piece->count; i++) {
+        const double *at = piece->corner[i];
+        if (at[0] != before[0] || at[1] != before[1]) {
+            point_add(list, t, at);
+            before = at;
+        }
+    }
+    if (list->points - first >= 3 && lrcsi_clip_area(piece) > 0) {
+        ring_add(list, t, first);
+    } else {
+        list->points = first;
     }
 }
+
+/* --- one facet -------------------------------------------------------------------------------- */
 
 /* Where the bounds reach all of the facet, or none of it, but not both, that is the answer: it is
    no farther from the truth than they are from each other. */
@@ -95,7 +111,11 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
         return status;
     }
     while (lrcsi_occlude_next(o)) {
-        piece_add_ring(list, o);
+        if (o->contested) {
+            ring_add_piece(list, &o->target, &o->piece);
+        } else {
+            ring_add_facet(list, &o->target, (const double(*)[2])o->piece.corner);
+        }
     }
     lrcsi_visible visible = lrcsi_occlude_close(o);
     list->bound += visible.high - visible.low;
@@ -109,7 +129,7 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
         list->rings = before.rings;
         list->points = before.points;
         if (all) {
-            ring_add(list, &o->target, (const double(*)[2])o->target.corner, 3);
+            ring_add_facet(list, &o->target, (const double(*)[2])o->target.corner);
         }
     }
     return list->points < LRCS_NONE ? LRCS_OK : LRCS_E_LIMIT;

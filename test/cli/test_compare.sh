@@ -54,6 +54,8 @@ named cos 'missing cos: a sum of f_r'
 named pixel '.*1.02.* pixel area: N - 1'
 named colour 'colour quantisation: f_r cos in 8 bits, 1 being'
 named glint 'under-resolved glint: theta rounded to 5 deg'
+named shadows+cos 'missing shadows.*; and missing cos'
+named hand+4pi 'wrong handedness: x mirrored; and 0.0795775 times that: 4 pi is missing'
 judged whole depth
 why depth_is_named 1 '^why          depth precision: skins 2^-14 m apart'
 ./raster kit 0 float >theirs.csv

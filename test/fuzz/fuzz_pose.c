@@ -66,7 +66,7 @@ static double take_scale(fuzz_input *in)
     return scale[fuzz_byte(in) & 7];
 }
 
-static void take_run(fuzz_input *in, fuzz_run *run)
+static void take_run(fuzz_input *in, fuzz_run *run, int *turned)
 {
     static const uint32_t size[8] = {8, 1, 2, 3, 5, 16, 33, 64};
     double direction[3];
@@ -81,9 +81,11 @@ static void take_run(fuzz_input *in, fuzz_run *run)
     run->options.method = (int)(how & 3);
     run->options.resolution = size[how >> 2 & 7];
     run->options.tolerance = how & 32 ? 1e-9 : 1e-2;
-    unsigned effects = fuzz_byte(in) & LRCS_EFFECTS_SWITCHED;
-    run->options.without = how & 64 ? effects : 0;
-    run->options.with = how & 128 ? effects & ~run->options.without : 0;
+    unsigned effects = fuzz_byte(in);
+    run->options.without = how & 64 ? effects & LRCS_EFFECTS_SWITCHED : 0;
+    run->options.with = how & 128 ? effects & LRCS_EFFECTS_SWITCHED & ~run->options.without : 0;
+    run->polygons = effects < 128;
+    *turned = effects >> 6 & 1;
     run->share = fuzz_byte(in);
 }
 
@@ -126,13 +128,41 @@ static void take_scene(fuzz_input *in, pose_input *p)
     take_facets(in, p);
 }
 
+/* The same scene twice as large, its axes renamed, its facets begun at another corner: exact. */
+static void turn(pose_input *p)
+{
+    double direction[3];
+    for (uint32_t v = 0; v < p->scene.vertex_count; v++) {
+        const lrcs_point old = p->vertex[v];
+        p->vertex[v] = (lrcs_point){{2 * old.x[1], 2 * old.x[2], 2 * old.x[0]}};
+    }
+    for (uint32_t f = 0; f < p->scene.facet_count; f++) {
+        const lrcs_facet old = p->facet[f];
+        p->facet[f] = (lrcs_facet){{old.corner[1], old.corner[2], old.corner[0]}};
+    }
+    for (int k = 0; k < 3; k++) {
+        direction[k] = p->run.pose.direction[(k + 1) % 3];
+    }
+    require(lrcs_pose_from_direction(direction, &p->run.pose) == LRCS_OK);
+}
+
 int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
 {
     static pose_input p;
     fuzz_input in = {data, data + size};
+    int turned;
+    lrcs_result one;
+    lrcs_result two;
     memset(&p, 0, sizeof p);
-    take_run(&in, &p.run);
+    take_run(&in, &p.run, &turned);
     take_scene(&in, &p);
-    fuzz_scene(&p.scene, &p.run);
+    int status = fuzz_scene(&p.scene, &p.run, &one);
+    if (turned && status == LRCS_OK) {
+        turn(&p);
+        if (fuzz_scene(&p.scene, &p.run, &two) == LRCS_OK) {
+            double room = (4 * one.bound_m2 + two.bound_m2) * (1 + 4 * DBL_EPSILON);
+            require(fabs(4 * one.sigma_m2 - two.sigma_m2) <= room);
+        }
+    }
     return 0;
 }

@@ -477,6 +477,25 @@ static void empty_scenes_have_no_rings(void **state)
     check_same(polygons.bound_m2, 0);
 }
 
+/* Two corners an ulp apart: in the view rounding puts them in one place. Found by fuzzing. */
+static void a_needle_an_ulp_wide_is_a_ring_of_its_three_corners(void **state)
+{
+    (void)state;
+    const double far[3] = {-7, -7, -4};
+    const double one[3] = {-1, -1, 1};
+    const double other[3] = {-1, -1 + 0x1p-53, 1};
+    const double direction[3] = {1, 2, 3};
+    scene_start(&scene);
+    scene.material[0].two_sided = 1;
+    scene_triangle(&scene, far, one, other);
+    look(direction);
+    assert_int_equal(polygons.rings, 1);
+    assert_int_equal(polygons.points, 3);
+    assert_int_equal(polygons.ring[0].count, 3);
+    check_same(polygons.point[1].view[0], polygons.point[2].view[0]);
+    check_same(polygons.point[1].view[1], polygons.point[2].view[1]);
+}
+
 static void more_rings_than_ordinary_ask_for_more_memory(void **state)
 {
     (void)state;
@@ -520,6 +539,7 @@ int main(void)
         cmocka_unit_test(rings_hold_just_the_points_that_are_seen),
         cmocka_unit_test(scenes_far_and_small_keep_their_rings),
         cmocka_unit_test(empty_scenes_have_no_rings),
+        cmocka_unit_test(a_needle_an_ulp_wide_is_a_ring_of_its_three_corners),
         cmocka_unit_test(more_rings_than_ordinary_ask_for_more_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
