@@ -2,9 +2,15 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make charts     accuracy against time, for the README
+#   make study      what sigma depends on: examples/study anew
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan tsan lint purity layers fuzz coverage    further checks
+#   make amalgamation       the core as two files, build/amalgamation/lrcs.c and lrcs.h, and its tests on them
+#   make flight portable    on a Cortex-M7 (needs gcc-arm-none-eabi, qemu); on four other machines (qemu-user)
+#   make operations misra   questions a pose asks, beside the most; MISRA C:2012 and its deviations
+#   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
+#   make gpu                the paper's method in OpenGL, judged by the conformance kit
 #   make bench scaling      what every stage costs on this machine, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
@@ -32,6 +38,9 @@ HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
 EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
+CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
+JOINED   = $(BUILD)/amalgamation
+FLIGHT   = $(BUILD)/flight
 LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
 FUZZ_TARGETS = $(patsubst test/fuzz/fuzz_%.c,%,$(sort $(wildcard test/fuzz/fuzz_*.c)))
@@ -54,6 +63,10 @@ charts: $(TOOL)
 	$(TOOL) converge examples/cylinder.toml --azel 0,30 --plot examples/converge_cylinder.svg
 	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
 
+# Tables, plots and laws as they are kept; the same bytes every time.
+study: $(TOOL)
+	$(TOOL) study -o examples/study
+
 test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TESTS)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
 
@@ -75,6 +88,43 @@ purity: $(LIB)
 
 layers:
 	sh test/layers.sh
+
+# The core joined into two files, which compile alone, and the core's own tests on them.
+amalgamation: cmocka $(CORE_TESTS:$(BUILD)/%=$(JOINED)/%)
+	@sh test/run.sh $(TOOL) $(filter $(JOINED)/test/%,$^)
+
+# What the core takes of the stack here, and on a Cortex-M7 where its compiler is installed.
+stack: $(JOINED)/lrcs.c
+	gcc $(STD) $(OPT) -fcallgraph-info=su -c -o $(JOINED)/stack.o $<
+	sh test/stack.sh $(JOINED)/stack.ci
+	@! command -v $(ARM) >/dev/null || { set -x; $(ARM) $(CORTEX_M7) $(STD) $(OPT) -fcallgraph-info=su \
+	    -c -o $(JOINED)/stack_m7.o $< && sh test/stack.sh $(JOINED)/stack_m7.ci; }
+ARM       = arm-none-eabi-gcc
+CORTEX_M7 = -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard
+
+# examples/flight here, and on an emulated Cortex-M7: what it prints, its code size.
+flight: $(FLIGHT)/task $(FLIGHT)/task.elf
+	$(FLIGHT)/task
+	arm-none-eabi-size $(FLIGHT)/task.elf
+	qemu-system-arm -M mps2-an500 -nographic -semihosting-config enable=on,target=native \
+	    -kernel $(FLIGHT)/task.elf </dev/null
+
+# How many questions a pose asks, counted, beside how many it may ask at most.
+operations: $(JOINED)/lrcs.c
+	sh test/flight/operations.sh $(JOINED)
+
+# The core against MISRA C:2012 (needs cppcheck): every deviation has its reason in test/misra.md.
+misra:
+	sh test/misra.sh
+
+# The core's tests and a digest of its results on other machines under qemu-user, with gcc and clang,
+# at -O0, -O2 and -O3: PORTABLE="MACHINES=s390x COMPILERS=gcc LEVELS=2" runs one of them.
+portable: $(JOINED)/lrcs.c
+	$(PORTABLE) FLAGS="$(STD)" sh test/portable/portable.sh $(JOINED) $(PORTABLE_TESTS)
+PORTABLE =
+# Those that take minutes under emulation are left out.
+PORTABLE_TESTS = $(filter-out $(addprefix %/test_,$(addsuffix .c,bound closed cubature divide fit large \
+    margin mean polygon random shadows switch workspace)),$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 
 # Every target of test/fuzz under libFuzzer and the sanitizers (needs clang), each for FUZZ_SECONDS;
 # fuzz-NAME: one of them; fuzz-long: FUZZ_RUNS executions of each. Corpora and what breaks a target
@@ -145,6 +195,17 @@ scaling: $(BENCH_DIR)/scaling
 	$(BENCH_DIR)/scaling $(SCALING_FLAGS)
 SCALING_FLAGS =
 
+# The paper's method in OpenGL, and what the kit says of it; a verdict of exit 1 is no failure here
+# (needs EGL and a driver: libegl-dev, libgl1-mesa-dri).
+gpu: $(TOOL)
+	@mkdir -p $(BUILD)/gpu
+	$(CC) -std=c11 -O2 -Wall -Wextra -o $(BUILD)/gpu/lrcs_gl $(wildcard examples/gpu/*.c) -lEGL -lm
+	$(TOOL) vectors $(BUILD)/gpu/kit --resolution 0
+	$(BUILD)/gpu/lrcs_gl $(BUILD)/gpu/kit $(GPU_PIXELS) >$(BUILD)/gpu/gl.csv
+	$(TOOL) compare $(BUILD)/gpu/kit $(BUILD)/gpu/gl.csv --pixels $(GPU_PIXELS) || [ $$? -eq 1 ]
+GPU_PIXELS = 512
+.PHONY: gpu
+
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
 	$(BUILD)/test/integrate/test_large $(BIG_ROWS)
@@ -185,7 +246,9 @@ clean:
 cmocka:
 	@sh test/cmocka.sh $(CC)
 
-.PHONY: all demo charts test asan tsan lint purity layers fuzz fuzz-long coverage test-core bounds estimate shadows bench scaling big install uninstall clean cmocka
+.PHONY: all demo charts study install uninstall clean cmocka
+.PHONY: test asan tsan lint purity layers amalgamation stack flight operations misra portable
+.PHONY: fuzz fuzz-long coverage test-core bounds estimate shadows bench scaling big
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -219,6 +282,27 @@ $(BUILD)/src/cli/%.o: src/cli/%.c
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
+
+$(JOINED)/lrcs.c: src/amalgamate.sh $(CORE_SRC) $(wildcard $(CORE:%=src/%/*.h) include/lrcs/*.h)
+	sh src/amalgamate.sh $(JOINED) $(foreach layer,$(CORE),$(filter src/$(layer)/%,$(CORE_SRC)))
+
+$(JOINED)/lrcs.o: $(JOINED)/lrcs.c
+	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -c -o $@ $<
+
+$(JOINED)/test/%: $(BUILD)/test/%.o $(JOINED)/lrcs.o
+	@mkdir -p $(@D)
+	$(CC) -o $@ $^ -lcmocka $(LDLIBS)
+
+$(FLIGHT)/task: $(wildcard examples/flight/*) $(LIB)
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(OPT) $(WARN) -Iinclude -o $@ examples/flight/task.c examples/flight/main.c \
+	    examples/flight/board_host.c $(LIB) $(LDLIBS)
+
+$(FLIGHT)/task.elf: $(wildcard examples/flight/*) $(JOINED)/lrcs.c
+	@mkdir -p $(@D)
+	$(ARM) $(CORTEX_M7) $(STD) $(OPT) -ffunction-sections -I$(JOINED) -Iinclude -nostartfiles -Wl,--gc-sections \
+	    -T examples/flight/board_m7.ld -o $@ examples/flight/task.c examples/flight/main.c \
+	    examples/flight/board_m7.c $(JOINED)/lrcs.c -lm
 
 # The built-in scene, as the bytes of a C array.
 $(BUILD)/demo.inc: examples/satellite.toml

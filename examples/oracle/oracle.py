@@ -36,7 +36,8 @@ RESULT = struct(("sigma_m2", D), ("sigma_glint_m2", D), ("sigma_diffuse_m2", D),
                 ("projected_area_m2", D), ("back_side_area_m2", D), ("back_side_facets", U),
                 ("method", I), ("method_reason", C.c_char_p), ("resolution", U), ("facets", U * 4),
                 ("effect", struct(("on", I), ("reason", C.c_char_p)) * 7), ("flags", U), ("notices", U))
-RECORD = struct(("area_m2", D), ("cos_theta", D), ("visible_area_m2", D), ("sigma_m2", D))
+RECORD = struct(("area_m2", D), ("cos_theta", D), ("visible_area_m2", D), ("sigma_m2", D),
+                ("sigma_glint_m2", D))
 SCENE = struct(("recipe", P * 6), ("model", P), ("vertex_count", U), ("facet_count", U),
                ("scene", P * 11), ("prepared", P), ("notices", P * 2), ("input", P),
                ("seconds", D * 2), ("blocks", P))
@@ -51,7 +52,7 @@ class Answer(NamedTuple):
     bound_m2: float
     projected_area_m2: float
     method: str
-    facets: Any  # one row a facet: area, cos theta, visible projected area, sigma; None unless asked
+    facets: Any  # None unless asked: rows of area, cos theta, visible projected area, sigma, its glint
 
 
 class Scene:
@@ -89,8 +90,9 @@ class Scene:
         self.library.lrcs_method_text.restype = C.c_char_p
         rows: Optional[Any] = records
         if records is not None:
-            rows = (numpy.frombuffer(records).reshape(-1, 4) if numpy else
-                    [(r.area_m2, r.cos_theta, r.visible_area_m2, r.sigma_m2) for r in records])
+            rows = (numpy.frombuffer(records).reshape(-1, 5) if numpy else
+                    [(r.area_m2, r.cos_theta, r.visible_area_m2, r.sigma_m2, r.sigma_glint_m2)
+                     for r in records])
         return Answer(result.sigma_m2, result.sigma_glint_m2, result.sigma_diffuse_m2, result.bound_m2,
                       result.projected_area_m2, self.library.lrcs_method_text(result.method).decode(), rows)
 

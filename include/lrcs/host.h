@@ -136,6 +136,13 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error);
 
+/* The same pose as graphics hardware computes it: lrcs_emulate_run with memory from the heap.
+   Returned: emulation; records unless NULL; seconds unless NULL. Status: LRCS_OK; LRCS_E_SYSTEM; as
+   lrcs_emulate_run. */
+int lrcs_host_scene_emulate(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                            const lrcs_emulation_options *options, lrcs_emulation *emulation,
+                            lrcs_facet_record *records, double *seconds, lrcs_host_error *error);
+
 void lrcs_host_scene_free(lrcs_host_scene *scene);
 
 /* The visible polygons of a pose, in memory of their own: lrcs_polygon_run, and what gives it back.
@@ -186,15 +193,13 @@ typedef struct lrcs_host_readings {
     lrcs_host_notices notices; /* columns not used, lines left out */
 } lrcs_host_readings;
 
-/* Reads a table: a line for each reading, fields apart by commas, semicolons, tabs or blanks (the
-   first of these in the first line), in quotes or not; empty lines and lines from '#' on count
-   for nothing. A first line whose first field is no number names the columns, in any order: angle
-   or theta (deg), brdf, reading or value, and where there are any sigma (or error, std), weight
-   (in proportion to 1/sigma^2; 0 leaves the line out), material (or sample); other columns are not
-   used. Without it they are angle, brdf and, where there is a third, sigma. A line whose value is
-   empty, "nan" or "NA" is left out. Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_SYNTAX, _NUMBER, _NAME,
-   _EMPTY, _LIMIT: the sentence names the line, what was found there and what was expected. On
-   failure there is nothing to free. */
+/* Reads a table (lrcs/table.h) with a line for each reading. A first line whose first field is no
+   number names the columns, in any order: angle or theta (deg), brdf, reading or value, and where
+   there are any sigma (or error, std), weight (in proportion to 1/sigma^2; 0 leaves the line out),
+   material (or sample); other columns are not used. Without it they are angle, brdf and, where
+   there is a third, sigma. A line whose value is empty, "nan" or "NA" is left out. Status: LRCS_OK;
+   LRCS_E_SYSTEM; LRCS_E_SYNTAX, _NUMBER, _NAME, _EMPTY, _LIMIT: the sentence names the line, what
+   was found there and what was expected. On failure there is nothing to free. */
 int lrcs_host_readings_read(const char *path, lrcs_host_readings *readings, lrcs_host_error *error);
 void lrcs_host_readings_free(lrcs_host_readings *readings);
 
@@ -236,7 +241,21 @@ void lrcs_host_json_bool(lrcs_host_json *json, const char *key, int value);
 int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, uint32_t height,
                         uint32_t channels, lrcs_host_error *error);
 
+/* Text in an HTML page, between tags or in quotes; what is not UTF-8, or no character of a page,
+   becomes U+FFFD. And bytes as base64 (RFC 4648), for data: addresses. */
+void lrcs_host_html_text(FILE *out, const char *text);
+void lrcs_host_html_base64(FILE *out, const unsigned char *bytes, size_t size);
+
 /* ---- charts ---- */
+
+/* Where things stand on a chart's or map's paper: below its title and note; and the square that one
+   about a pole is drawn in, its numbers included. A page that has words of its own shows no more.
+ */
+#define LRCS_HOST_CHART_WIDTH      860.0
+#define LRCS_HOST_CHART_HEIGHT     520.0
+#define LRCS_HOST_CHART_TITLE      50.0
+#define LRCS_HOST_CHART_POLAR_LEFT 72.0
+#define LRCS_HOST_CHART_POLAR_SIDE 464.0
 
 /* Colours that eyes of every kind tell apart (M. Okabe and K. Ito, 2008). */
 enum lrcs_host_colour {

@@ -108,6 +108,7 @@ typedef struct lrcs_facet_record {
     double cos_theta;       /* signed */
     double visible_area_m2; /* visible projected area, also of back sides */
     double sigma_m2;
+    double sigma_glint_m2; /* of that; the rest is diffuse */
 } lrcs_facet_record;
 
 typedef struct lrcs_result {
@@ -150,7 +151,8 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    whatever the method, image->size > 0 asks for its size and image->facet has room for it.
    Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range);
    LRCS_E_LIMIT (more than 2^32 - 2 candidates in a grid).
-   Work: nothing stays in the work area.
+   Work: nothing stays in the work area. Every loop is bounded: at most how many steps a pose takes,
+   and how many it does take, stands in examples/flight/README.md.
    Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
    cubature errs by about curvature_estimate_m2, which is not proved and not in the bound.
    2. Of a facet with curved normals that is seen in part, samples tell how much is seen but not

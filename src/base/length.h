@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The length of a vector, also where its square underflows. */
+/* The length of a vector, also where its square underflows. Not hypot, which rounds as each libm
+   likes: these are the same bits on every machine. */
 #ifndef LRCSI_LENGTH_H
 #define LRCSI_LENGTH_H
 
@@ -15,6 +16,13 @@ static inline double lrcsi_length(const double v[3])
     }
     const double w[3] = {v[0] * 0x1p500, v[1] * 0x1p500, v[2] * 0x1p500};
     return sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * 0x1p-500;
+}
+
+/* The same of a vector in the plane. */
+static inline double lrcsi_length_flat(double x, double y)
+{
+    const double v[3] = {x, y, 0};
+    return lrcsi_length(v);
 }
 
 #endif

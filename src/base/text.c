@@ -3,10 +3,10 @@
    know where a name ends; its caller does. */
 #include "base/text.h"
 
-/* Bytes of the well-formed UTF-8 sequence at the start of `at`, 0 where there is none.
-   Unicode Standard 15, table 3-7: the second byte's range depends on the first. */
-static size_t utf8_sequence(const unsigned char *at, size_t size)
+/* Unicode Standard 15, table 3-7: the second byte's range depends on the first. */
+size_t lrcsi_text_sequence(const char *bytes, size_t size)
 {
+    const unsigned char *at = (const unsigned char *)bytes;
     unsigned char lead = at[0];
     if (lead < 0x80) {
         return 1;
@@ -30,10 +30,9 @@ static size_t utf8_sequence(const unsigned char *at, size_t size)
 
 int lrcsi_text_is_utf8(const char *bytes, size_t size)
 {
-    const unsigned char *at = (const unsigned char *)bytes;
     size_t i = 0;
     while (i < size) {
-        size_t length = utf8_sequence(at + i, size - i);
+        size_t length = lrcsi_text_sequence(bytes + i, size - i);
         if (length == 0) {
             return 0;
         }

@@ -5,6 +5,10 @@
 
 #include <stddef.h>
 
+/* Bytes of the well-formed UTF-8 sequence that begins the text, 0 where there is none. A terminator
+   ends a sequence too early: of such text, 4 bytes may be claimed whatever there are. */
+size_t lrcsi_text_sequence(const char *bytes, size_t size);
+
 /* 1 where the bytes are well-formed UTF-8 (RFC 3629: no overlong forms, surrogates or code points
    above U+10FFFF), else 0. Plain ASCII and no bytes at all are. */
 int lrcsi_text_is_utf8(const char *bytes, size_t size);

@@ -154,8 +154,19 @@ int cli_has_curved_shapes(const lrcs_scene *scene);
 /* The name of a scene's material for people: "(default)" where it has none. */
 const char *cli_material_name(const lrcs_material *material);
 
+/* A sum with its carry. */
+typedef struct cli_sum {
+    double value, low;
+} cli_sum;
+void cli_sum_add(cli_sum *sum, double value);
+double cli_sum_value(const cli_sum *sum);
+
 /* dBsm of a sigma > 0. */
 double cli_dbsm(double sigma_m2);
+
+/* A bound >= 0 as "%.*g" shows it, but never less than it is. */
+#define CLI_BOUND_SIZE 40
+void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
 
 /* Text on stdout, blanks after it up to `width`, control characters as '?'. */
 void cli_column(const char *text, int width);
@@ -203,5 +214,9 @@ extern const cli_command cli_converge_command;
 extern const cli_command cli_sweep_command;
 extern const cli_command cli_merge_command;
 extern const cli_command cli_fit_command;
+extern const cli_command cli_report_command;
+extern const cli_command cli_study_command;
+extern const cli_command cli_vectors_command;
+extern const cli_command cli_compare_command;
 
 #endif

@@ -55,6 +55,7 @@ typedef struct converge_job {
     lrcs_pose pose;
     lrcs_host_options load;
     const char *csv;
+    int digits;            /* no finer mesh than for 10^-digits; 0: all of them */
     double seconds, spent; /* for all runs, and spent on them */
     double processor;      /* s of a processor's time that they had */
     converge_mesh mesh[CONVERGE_MESHES];
@@ -77,6 +78,17 @@ const converge_mesh *cli_converge_finest(const converge_job *job);
 
 /* A value relative to the true sigma; as it is (m2) where that is 0. */
 double cli_converge_relative(const converge_job *job, double value_m2);
+
+/* What is known of a value: itself; negative, which is not known, as NAN. The scene that a setting
+   ran on. */
+double cli_converge_known(double value);
+const lrcs_host_scene *cli_converge_scene(const converge_job *job, const converge_setting *one);
+
+/* The sentence that sums up. */
+typedef struct converge_sentence {
+    char text[640];
+} converge_sentence;
+converge_sentence cli_converge_sentence(const converge_job *job);
 
 /* The reports: the table or JSON on stdout, both with a sentence that sums up; CSV; a chart. */
 void cli_converge_table(const converge_job *job);

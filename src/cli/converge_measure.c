@@ -65,8 +65,8 @@ static int mesh_read(converge_job *job, int digits)
 int cli_converge_meshes(converge_job *job)
 {
     int code = mesh_read(job, 1);
-    int finest =
-        code == 0 && cli_has_curved_shapes(&job->mesh[0].scene.scene) ? CONVERGE_MESHES : 1;
+    int most = job->digits > 0 ? job->digits : CONVERGE_MESHES;
+    int finest = code == 0 && cli_has_curved_shapes(&job->mesh[0].scene.scene) ? most : 1;
     for (int digits = 2; digits <= finest && code == 0 && !job->left_out[0]; digits++) {
         progress_say("meshes");
         code = mesh_read(job, digits);

@@ -14,7 +14,7 @@ static const struct {
 
 #define REPORT_TOLERANCES (sizeof report_tolerance / sizeof report_tolerance[0])
 
-static const lrcs_host_scene *setting_scene(const converge_job *job, const converge_setting *one)
+const lrcs_host_scene *cli_converge_scene(const converge_job *job, const converge_setting *one)
 {
     return &job->mesh[one->mesh].scene;
 }
@@ -26,7 +26,7 @@ double cli_converge_relative(const converge_job *job, double value_m2)
 }
 
 /* Known and not negative as it is, not known as NaN, which no writer shows as a number. */
-static double known(double value)
+double cli_converge_known(double value)
 {
     return value >= 0.0 ? value : (double)NAN;
 }
@@ -61,11 +61,7 @@ static const converge_setting *setting_best(const converge_job *job)
     return best;
 }
 
-typedef struct report_sentence {
-    char text[640];
-} report_sentence;
-
-__attribute__((format(printf, 2, 3))) static void sentence_add(report_sentence *sentence,
+__attribute__((format(printf, 2, 3))) static void sentence_add(converge_sentence *sentence,
                                                                const char *format, ...)
 {
     size_t used = strlen(sentence->text);
@@ -75,9 +71,9 @@ __attribute__((format(printf, 2, 3))) static void sentence_add(report_sentence *
     va_end(list);
 }
 
-static report_sentence sentence_make(const converge_job *job)
+converge_sentence cli_converge_sentence(const converge_job *job)
 {
-    report_sentence sentence = {"The cheapest setting by pose time for a bound of "};
+    converge_sentence sentence = {"The cheapest setting by pose time for a bound of "};
     const converge_setting *best = setting_best(job);
     const char *verb = " is";
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
@@ -119,7 +115,7 @@ static void number_cell(int width, double value)
 
 void cli_converge_table(const converge_job *job)
 {
-    report_sentence sentence = sentence_make(job);
+    converge_sentence sentence = cli_converge_sentence(job);
     const char *unit = job->truth.sigma_m2 > 0.0 ? "relative" : "m2";
     printf("scene  %s, hash %016llx\n", job->args->operand,
            (unsigned long long)lrcs_scene_hash(&cli_converge_finest(job)->scene.scene));
@@ -132,8 +128,9 @@ void cli_converge_table(const converge_job *job)
     for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         printf("%-22s %8lu %4lu %10.4g %10.4g %16.12g", one->name,
-               (unsigned long)setting_scene(job, one)->scene.facet_count, (unsigned long)one->runs,
-               1e3 * setting_scene(job, one)->seconds_prepare, 1e3 * one->pose_s, one->sigma_m2);
+               (unsigned long)cli_converge_scene(job, one)->scene.facet_count,
+               (unsigned long)one->runs, 1e3 * cli_converge_scene(job, one)->seconds_prepare,
+               1e3 * one->pose_s, one->sigma_m2);
         number_cell(10, cli_converge_relative(job, one->error_m2));
         number_cell(10, cli_converge_relative(job, one->bound_m2));
         number_cell(10, cli_converge_relative(job, one->estimate_m2));
@@ -152,7 +149,7 @@ void cli_converge_csv(const converge_job *job, FILE *out)
           out);
     for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
-        const double value[] = {1e3 * setting_scene(job, one)->seconds_prepare,
+        const double value[] = {1e3 * cli_converge_scene(job, one)->seconds_prepare,
                                 1e3 * one->pose_s,
                                 one->sigma_m2,
                                 one->error_m2,
@@ -167,7 +164,8 @@ void cli_converge_csv(const converge_job *job, FILE *out)
         if (job->mesh[one->mesh].digits > 0) {
             snprintf(text, sizeof text, "1e-%d", job->mesh[one->mesh].digits);
         }
-        fprintf(out, "%s,%lu,%lu", text, (unsigned long)setting_scene(job, one)->scene.facet_count,
+        fprintf(out, "%s,%lu,%lu", text,
+                (unsigned long)cli_converge_scene(job, one)->scene.facet_count,
                 (unsigned long)one->runs);
         for (size_t k = 0; k < sizeof value / sizeof value[0]; k++) {
             lrcs_host_number_text(value[k], text);
@@ -187,18 +185,19 @@ static void setting_json(const converge_job *job, const converge_setting *one, l
     lrcs_host_json_text(json, "method", lrcs_method_text(one->method));
     lrcs_host_json_number(json, "resolution", one->resolution ? one->resolution : (double)NAN);
     lrcs_host_json_number(json, "mesh_tolerance", digits > 0 ? pow(10.0, -digits) : (double)NAN);
-    lrcs_host_json_count(json, "facets", setting_scene(job, one)->scene.facet_count);
+    lrcs_host_json_count(json, "facets", cli_converge_scene(job, one)->scene.facet_count);
     lrcs_host_json_count(json, "repetitions", one->runs);
-    lrcs_host_json_number(json, "prepare_ms", 1e3 * setting_scene(job, one)->seconds_prepare);
+    lrcs_host_json_number(json, "prepare_ms", 1e3 * cli_converge_scene(job, one)->seconds_prepare);
     lrcs_host_json_number(json, "pose_ms", 1e3 * one->pose_s);
     lrcs_host_json_number(json, "sigma_m2", one->sigma_m2);
     lrcs_host_json_number(json, "error_m2", one->error_m2);
-    lrcs_host_json_number(json, "bound_m2", known(one->bound_m2));
-    lrcs_host_json_number(json, "estimate_m2", known(one->estimate_m2));
+    lrcs_host_json_number(json, "bound_m2", cli_converge_known(one->bound_m2));
+    lrcs_host_json_number(json, "estimate_m2", cli_converge_known(one->estimate_m2));
     lrcs_host_json_number(json, "relative_error", cli_converge_relative(job, one->error_m2));
-    lrcs_host_json_number(json, "relative_bound", known(cli_converge_relative(job, one->bound_m2)));
+    lrcs_host_json_number(json, "relative_bound",
+                          cli_converge_known(cli_converge_relative(job, one->bound_m2)));
     lrcs_host_json_number(json, "relative_estimate",
-                          known(cli_converge_relative(job, one->estimate_m2)));
+                          cli_converge_known(cli_converge_relative(job, one->estimate_m2)));
     lrcs_host_json_end(json);
 }
 
@@ -234,7 +233,7 @@ static void notices_json(const converge_job *job, lrcs_host_json *json)
 void cli_converge_json(const converge_job *job)
 {
     lrcs_host_json json = lrcs_host_json_make(stdout);
-    report_sentence sentence = sentence_make(job);
+    converge_sentence sentence = cli_converge_sentence(job);
     char hash[17];
     snprintf(hash, sizeof hash, "%016llx",
              (unsigned long long)lrcs_scene_hash(&cli_converge_finest(job)->scene.scene));

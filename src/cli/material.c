@@ -28,6 +28,10 @@ int cli_brdf_read(const cli_command *command, const char *text, const char *opti
         return 0;
     }
     const lrcs_brdf_entry *entry = lrcs_brdf_find(text);
+    if (!entry && strchr(text, ',')) {
+        return cli_usage(command, "%s: expected A,B,s,m (four finite numbers), found '%s'", option,
+                         text);
+    }
     if (!entry) {
         const char *best = NULL;
         for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {

@@ -19,8 +19,17 @@ static const char run_help[] =
     "                        options give the same answer again. Ends early where nothing is left\n"
     "                        to gain, or a --tolerance is met; exit 3 where it took "
     "longer\n" CLI_SCENE_HELP
+    "  --precision P         float32 or float64: graphics hardware emulated, a z-buffer of "
+    "--resolution N\n"
+    "                        (1024 if not given); sigma is what it gives, bound what method exact\n"
+    "                        proves of it, and a table says what sampling, precision, depth and a\n"
+    "                        running sum each cost. Of equal depths the first facet drawn wins\n"
+    "  --depth-bits B        16, 24 or 32 of its depth buffer (default: all that P holds); alone "
+    "it\n"
+    "                        means --precision float64\n"
     "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
     "                        where it is off; runs the pose for some 2 s more, or once for each\n"
+    "  --shares              who makes sigma: parts, materials, and the ten brightest facets\n"
     "  --json                the result as JSON, notices included\n"
     "  --facets FILE.csv     one row for every facet ('-': instead of the table)\n"
     "  --polygons FILE.csv   what is visible, as convex rings on each facet, one row a point; by\n"
@@ -32,14 +41,17 @@ static const char run_help[] =
     "  lrcs run demo --image demo.png\n"
     "  lrcs run demo --azel 30,-20 --json\n"
     "  lrcs run demo --azel 30,-20 --explain\n"
+    "  lrcs run demo --azel 30,-20 --shares\n"
     "  lrcs run demo --azel 30,-20 --time-budget 200\n"
+    "  lrcs run demo --azel 30,-20 --resolution 512 --precision float32 --depth-bits 24\n"
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
 static const cli_option run_options[] = {
-    CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS,  CLI_SCENE_OPTIONS, {"json", 0, 0},
-    {"facets", 1, 0},  {"polygons", 1, 0},    {"image", 1, 0},   {"image-size", 1, 0},
-    {"explain", 0, 0}, {"time-budget", 1, 0}, {"help", 0, 0},    {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,     CLI_ACCURACY_OPTIONS,  CLI_SCENE_OPTIONS, {"json", 0, 0},
+    {"facets", 1, 0},     {"polygons", 1, 0},    {"image", 1, 0},   {"image-size", 1, 0},
+    {"explain", 0, 0},    {"time-budget", 1, 0}, {"shares", 0, 0},  {"precision", 1, 0},
+    {"depth-bits", 1, 0}, {"help", 0, 0},        {NULL, 0, 0}};
 
 /* ---- options ---- */
 
@@ -52,7 +64,9 @@ static int options_read(run_job *job)
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->asked = job->options.tolerance;
     code = code ? code : cli_run_budget_read(job);
+    code = code ? code : cli_run_emulation_read(job);
     job->explain = cli_value(args, "explain") != NULL;
+    job->shares_asked = cli_value(args, "shares") != NULL;
     return code ? code : cli_normals_read(args, &job->load);
 }
 
@@ -61,7 +75,8 @@ static int options_read(run_job *job)
 /* Room for what the outputs show. */
 static int run_room(run_job *job)
 {
-    if (job->facets || job->image_path) {
+    int records = job->facets || job->image_path || job->shares_asked;
+    if (records) {
         job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
     }
     if (job->image_path) {
@@ -69,8 +84,7 @@ static int run_room(run_job *job)
         job->image.size = lrcs_host_picture_need(&picture, job->image_size);
         job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
     }
-    if ((!job->records && (job->facets || job->image_path)) ||
-        (!job->image.facet && job->image_path)) {
+    if ((!job->records && records) || (!job->image.facet && job->image_path)) {
         return cli_out_of_memory();
     }
     return 0;
@@ -81,6 +95,9 @@ static int run_pose(run_job *job)
     lrcs_host_error error;
     if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
+    }
+    if (job->emulation.asked) {
+        return cli_run_emulate(job);
     }
     int status =
         lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
@@ -94,11 +111,11 @@ static int run_pose(run_job *job)
     return 0;
 }
 
-/* A search for the best settings comes with their result; files need the run itself. */
+/* A search for the best settings comes with their result; files and shares need the run itself. */
 static int run_scene(run_job *job)
 {
     int searched = job->budget.asked_ms > 0.0;
-    int files = job->facets || job->polygons_path || job->image_path;
+    int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
     code = code == 0 && searched ? cli_run_budget(job) : code;
@@ -106,7 +123,10 @@ static int run_scene(run_job *job)
         code = run_room(job);
         code = code ? code : run_pose(job);
     }
-    return code;
+    return code == 0 && job->shares_asked
+               ? cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
+                                 &job->shares)
+               : code;
 }
 
 /* The flag of a result that was searched for speaks of a tolerance that was tried. */
@@ -156,6 +176,7 @@ static int run_command(const cli_args *args)
     }
     free(job.records);
     free(job.image.facet);
+    cli_shares_free(&job.shares);
     lrcs_host_polygons_free(&job.polygons);
     lrcs_host_scene_free(&job.scene);
     cli_scene_options_free(&job.load);

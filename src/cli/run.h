@@ -3,7 +3,7 @@
 #ifndef LRCS_CLI_RUN_H
 #define LRCS_CLI_RUN_H
 
-#include "cli/cli.h"
+#include "cli/shares.h"
 
 #include <lrcs/picture.h>
 
@@ -30,6 +30,17 @@ typedef struct run_budget {
     char same[128]; /* the options that give the same answer again */
 } run_budget;
 
+/* --precision, --depth-bits: hardware emulated, and what its answer is off by. */
+typedef struct run_emulation {
+    int asked;
+    lrcs_emulation_options options;
+    lrcs_emulation sampled; /* by double arithmetic with a depth of 64 bits */
+    lrcs_emulation deep;    /* at the precision asked for, with all the depth that it has */
+    lrcs_emulation answer;
+    double reference_m2, reference_bound_m2; /* by method exact */
+    int reference_method;
+} run_emulation;
+
 /* All that a run is made of, and all that it makes. */
 typedef struct run_job {
     const cli_args *args;
@@ -49,6 +60,9 @@ typedef struct run_job {
     int explain; /* asked for */
     run_explained explained;
     run_budget budget;
+    run_emulation emulation;
+    int shares_asked;
+    cli_shares shares;
 } run_job;
 
 /* The options of output files, as 0 or CLI_USAGE; once the scene is read, that none of them would
@@ -78,6 +92,14 @@ int cli_run_meets(const lrcs_result *result, double tolerance);
    0, CLI_FAILED or CLI_USAGE. */
 int cli_run_budget_read(run_job *job);
 int cli_run_budget(run_job *job);
+
+/* --precision and --depth-bits: their values, as 0 or CLI_USAGE; the run, which makes the result
+   that of the hardware with a bound proved by the reference, 0 or CLI_FAILED; then as a JSON object
+   of its own, and as part of the table. */
+int cli_run_emulation_read(run_job *job);
+int cli_run_emulate(run_job *job);
+void cli_run_emulation_json(const run_job *job, lrcs_host_json *json);
+void cli_run_emulation_table(const run_job *job);
 
 /* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
    for people. */

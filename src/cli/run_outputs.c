@@ -24,6 +24,7 @@ static int files_apart(const run_job *job)
     const cli_command *command = job->args->command;
     const char *table = cli_value(job->args, "json")      ? "json"
                         : cli_value(job->args, "explain") ? "explain"
+                        : cli_value(job->args, "shares")  ? "shares"
                                                           : NULL;
     cli_output file[FILES];
     files_list(job, file);
@@ -34,6 +35,18 @@ static int files_apart(const run_job *job)
         }
     }
     return cli_outputs_apart(command, file, FILES);
+}
+
+/* A picture is PNG: under the ending of another format no program would open it. */
+static int image_check(const cli_args *args, const char *path)
+{
+    static const char *const other[] = {".jpg", ".jpeg", ".gif", ".svg", ".pdf"};
+    for (size_t i = 0; path && i < sizeof other / sizeof other[0]; i++) {
+        if (cli_extension(path, other[i])) {
+            return cli_usage(args->command, "--image: expected FILE.png, found '%s'", path);
+        }
+    }
+    return 0;
 }
 
 int cli_run_outputs_read(run_job *job)
@@ -52,7 +65,8 @@ int cli_run_outputs_read(run_job *job)
                          "--method %s",
                          lrcs_method_text(method));
     }
-    int code = files_apart(job);
+    int code = image_check(args, job->image_path);
+    code = code ? code : files_apart(job);
     if (code == 0 && cli_value(args, "image-size") && !job->image_path) {
         return cli_usage(args->command, "--image-size needs --image FILE.png");
     }

@@ -74,6 +74,9 @@ static void json_head(const run_job *job, lrcs_host_json *json)
         lrcs_host_json_text(json, "same_as", job->budget.same);
         lrcs_host_json_end(json);
     }
+    if (job->emulation.asked) {
+        cli_run_emulation_json(job, json);
+    }
     if (result->resolution != 0) {
         lrcs_host_json_count(json, "resolution", result->resolution);
     } else {
@@ -166,6 +169,9 @@ static void table_sigma(const run_job *job)
                r->curvature_estimate_m2);
     }
     printf("silhouette   %.10g m2\n", r->projected_area_m2);
+    if (job->emulation.asked) {
+        cli_run_emulation_table(job);
+    }
 }
 
 void cli_run_json(const run_job *job)
@@ -187,6 +193,9 @@ void cli_run_json(const run_job *job)
     lrcs_host_json_text(&json, "method_reason", result->method_reason);
     json_effects(job, &json);
     json_tail(job, &json);
+    if (job->shares_asked) {
+        cli_shares_json(&job->shares, &json);
+    }
     lrcs_host_json_end(&json);
 }
 
@@ -227,6 +236,9 @@ void cli_run_table(const run_job *job)
            1e3 * job->scene.seconds_load, 1e3 * job->scene.seconds_prepare, 1e3 * job->seconds);
     if (job->image_path) {
         printf("picture      %s\n", job->image_path);
+    }
+    if (job->shares_asked) {
+        cli_shares_table(&job->shares);
     }
     if (job->explain) {
         cli_run_explain_table(job);

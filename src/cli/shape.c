@@ -235,12 +235,16 @@ static int shape_command(const cli_args *args)
     }
     int status = lrcs_shape_check(&shape, &where);
     if (status != LRCS_OK) {
-        return cli_usage(args->command, "%s: %s: %s", args->operand,
-                         where.item ? where.item : "dimensions", lrcs_status_text(status));
+        return cli_usage(args->command, "%s: %s: expected %s, found %s", args->operand,
+                         where.item ? where.item : "dimensions",
+                         where.expected ? where.expected : lrcs_status_text(status), where.found);
     }
     status = lrcs_closed_eval(&shape, &brdf, &aspect, &closed);
     if (status != LRCS_OK) {
-        fprintf(stderr, "lrcs: %s: %s\n", args->operand, lrcs_status_text(status));
+        fprintf(stderr,
+                "lrcs: %s: %s: lengths are 0 or 1e-150 .. 1e100 m, s about 1e-100 .. 1e100, and "
+                "sigma is within the range of doubles\n",
+                args->operand, lrcs_status_text(status));
         return CLI_FAILED;
     }
     if (!material) {

@@ -43,6 +43,10 @@ static const char sweep_help[] =
     "                        things: curves, up to 7 of them, or a map with contours\n"
     "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
     "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
+    "  --brightest N         with -o FILE: the N brightest peaks, and who makes each, on standard\n"
+    "                        output. A peak outshines all rows one step away on any axis (full "
+    "turns\n"
+    "                        are closed; --sphere: points around; --poses: before and after)\n"
     "\n"
     "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
     "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, flags. Exit 3 where a row "
@@ -52,7 +56,7 @@ static const char sweep_help[] =
     "examples\n"
     "  lrcs sweep demo --az 0:360:1 --el 0 -o cut.csv --plot cut.svg --plot cut.png\n"
     "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
-    "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy\n"
+    "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy --brightest 10\n"
     "  lrcs sweep demo --sphere 1000\n"
     "  lrcs sweep demo --azel 90,0 --rotate x:0:360:1 --json\n"
     "  lrcs sweep demo --joint '*:0:90:5' --azel 50,40\n"
@@ -61,10 +65,11 @@ static const char sweep_help[] =
     "  lrcs sweep demo --az 0:360:1 --el -90:90:1 --shard 3/16 -o map.3.csv\n";
 
 static const cli_option sweep_options[] = {
-    CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"az", 1, 0},     {"el", 1, 0},
-    {"joint", 1, 1},  {"vary", 1, 1},       {"rotate", 1, 0},  {"sphere", 1, 0}, {"poses", 1, 0},
-    {"o", 1, 0},      {"json", 0, 0},       {"resume", 0, 0},  {"shard", 1, 0},  {"jobs", 1, 0},
-    {"plot", 1, 1},   {"dbsm", 0, 0},       {"polar", 0, 0},   {"help", 0, 0},   {NULL, 0, 0}};
+    CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"az", 1, 0},        {"el", 1, 0},
+    {"joint", 1, 1},  {"vary", 1, 1},       {"rotate", 1, 0},  {"sphere", 1, 0},    {"poses", 1, 0},
+    {"o", 1, 0},      {"json", 0, 0},       {"resume", 0, 0},  {"shard", 1, 0},     {"jobs", 1, 0},
+    {"plot", 1, 1},   {"dbsm", 0, 0},       {"polar", 0, 0},   {"brightest", 1, 0}, {"help", 0, 0},
+    {NULL, 0, 0}};
 
 #define JOBS_MOST 1024.0
 
@@ -75,6 +80,8 @@ typedef struct sweep_job {
     sweep_file file;
     sweep_progress progress;
     sweep_plot plot;
+    uint32_t brightest;
+    double (*row)[2]; /* sigma and bound of every row, for these two */
     lrcs_run_options options;
     lrcs_host_options load;
     lrcs_host_scene scene;
@@ -129,6 +136,7 @@ static int job_read(sweep_job *job)
     code = code ? code : cli_normals_read(args, &job->load);
     code = code ? code : cli_plan_read(args, &job->plan);
     code = code ? code : cli_plot_read(args, &job->plan, &job->plot);
+    code = code ? code : cli_brightest_read(args, &job->plan, &job->file, &job->brightest);
     job->load.build.tolerance = job->options.tolerance;
     if (code == 0 && job->file.npy && cli_value(args, "shard")) {
         return cli_usage(args->command,
@@ -263,16 +271,26 @@ static void job_say(const sweep_job *job)
     }
 }
 
-/* Room for what a plot shows. */
+/* Room for what is told of all rows together. */
 static int job_room(sweep_job *job)
 {
-    if (job->plot.asked) {
-        job->file.row = job->plot.row = calloc(job->plan.rows, sizeof *job->plot.row);
-        if (!job->plot.row) {
+    if (job->plot.asked || job->brightest > 0) {
+        job->row = calloc(job->plan.rows, sizeof *job->row);
+        if (!job->row) {
             return cli_out_of_memory();
         }
     }
+    job->file.row = job->plot.row = job->row;
     return 0;
+}
+
+static int job_show(sweep_job *job)
+{
+    int code = job->plot.asked ? cli_plot_write(job->args, &job->plot, &job->plan) : 0;
+    return code == 0 && job->brightest > 0
+               ? cli_brightest_print(&job->plan, (const double(*)[2])job->row, job->brightest,
+                                     &job->scene, &job->options, &job->load.build)
+               : code;
 }
 
 static int job_rows(sweep_job *job)
@@ -291,7 +309,7 @@ static int job_rows(sweep_job *job)
                 (unsigned long long)(job->plan.end - job->plan.first));
     }
     code = code ? code : closed;
-    code = code == 0 && job->plot.asked ? cli_plot_write(job->args, &job->plot, &job->plan) : code;
+    code = code ? code : job_show(job);
     if (code != 0) {
         return code;
     }
@@ -316,7 +334,7 @@ static int sweep_command(const cli_args *args)
         code = cli_head_make(args, &job->plan, &job->options, &job->scene.scene, &job->head);
         code = code ? code : job_rows(job);
     }
-    free(job->plot.row);
+    free(job->row);
     cli_file_free(&job->file);
     cli_plan_free(&job->plan);
     lrcs_host_scene_free(&job->scene);

@@ -3,7 +3,7 @@
 #ifndef LRCS_CLI_SWEEP_H
 #define LRCS_CLI_SWEEP_H
 
-#include "cli/cli.h"
+#include "cli/shares.h"
 
 #include <lrcs/sweep.h>
 
@@ -36,7 +36,7 @@ typedef struct sweep_track {
 } sweep_track;
 
 /* 0, CLI_FAILED or CLI_USAGE with the message printed. */
-int cli_track_read(const cli_command *command, const char *path, sweep_track *track);
+int cli_track_read(const char *path, sweep_track *track);
 
 /* ---- the plan: which rows there are ---- */
 
@@ -186,9 +186,8 @@ typedef struct sweep_file {
     FILE *stream;
     uint64_t next; /* the first row that is still to come */
     sweep_tally tally;
-    double flushed; /* when rows were last handed to the system, s */
-    double (
-        *row)[2]; /* sigma and bound of every row for --plot, or NULL; whoever made it frees it */
+    double flushed;   /* when rows were last handed to the system, s */
+    double (*row)[2]; /* sigma and bound of every row, or NULL; whoever made it frees it */
 } sweep_file;
 
 /* What -o and --json ask for; 0 or CLI_USAGE. */
@@ -225,10 +224,32 @@ typedef struct sweep_plot {
 } sweep_plot;
 
 /* What --plot, --dbsm and --polar ask for; that no plot replaces anything; 0 or CLI_USAGE. Then the
-   drawing, as 0 or CLI_FAILED. */
+   drawing, as 0 or CLI_FAILED; and one drawing as SVG, titled after args->operand. */
 int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot);
 int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_host_scene *scene);
 int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan);
+int cli_plot_svg(FILE *out, const cli_args *args, const sweep_plot *plot, const sweep_plan *plan);
+
+/* ---- peaks ---- */
+
+/* The brightest rows that outshine all their neighbours, at most `most` of them, the brightest
+   first, from sigma and bound of every row. Returns how many; rows without a return are none. */
+uint32_t cli_peaks_find(const sweep_plan *plan, const double (*row)[2], uint32_t most,
+                        uint64_t *peak);
+
+/* Who makes sigma of a row: it is run once more. `base` was read, and is prepared where it must be;
+   shares are to be freed in any case. 0 or CLI_FAILED. */
+int cli_row_shares(const sweep_plan *plan, uint64_t row, lrcs_host_scene *base,
+                   const lrcs_run_options *options, const lrcs_build_options *build,
+                   cli_shares *shares);
+
+/* --brightest: how many, 0 where it was not given, as 0 or CLI_USAGE; then their table on stdout,
+   as 0 or CLI_FAILED. */
+int cli_brightest_read(const cli_args *args, const sweep_plan *plan, const sweep_file *file,
+                       uint32_t *most);
+int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t most,
+                        lrcs_host_scene *base, const lrcs_run_options *options,
+                        const lrcs_build_options *build);
 
 /* ---- progress ---- */
 

@@ -143,7 +143,7 @@ static int sphere_read(const cli_args *args, sweep_plan *plan)
 
 static int track_poses(const cli_args *args, sweep_plan *plan)
 {
-    int code = cli_track_read(args->command, cli_value(args, "poses"), &plan->track);
+    int code = cli_track_read(cli_value(args, "poses"), &plan->track);
     plan->kind = SWEEP_TRACK;
     plan->poses = plan->track.count;
     return code;

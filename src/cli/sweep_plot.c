@@ -349,23 +349,45 @@ static void sheet_fill(plot_sheet *sheet)
     }
 }
 
-int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan)
+/* Values and words of a drawing; x is to be freed. 0 or CLI_FAILED. */
+static int sheet_make(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan,
+                      plot_sheet *sheet)
 {
     uint64_t room = plan->rows + plot->x.count + plot->y.count;
-    plot_sheet sheet = {.plot = plot, .plan = plan, .x = malloc(room * sizeof(double))};
-    if (!sheet.x) {
+    *sheet = (plot_sheet){.plot = plot, .plan = plan, .x = malloc(room * sizeof(double))};
+    if (!sheet->x) {
         return cli_out_of_memory();
     }
-    sheet.y = sheet.x + plot->x.count;
-    sheet.z = sheet.y + plot->y.count;
-    sheet_fill(&sheet);
+    sheet->y = sheet->x + plot->x.count;
+    sheet->z = sheet->y + plot->y.count;
+    sheet_fill(sheet);
     const char *name = strrchr(args->operand, '/');
-    snprintf(sheet.title, sizeof sheet.title, "Laser radar cross-section of %.200s",
+    snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section of %.200s",
              name ? name + 1 : args->operand);
-    plot_note(plot, plan, sheet.note);
-    axis_title(plot->x.name, sheet.x_name);
-    axis_title(plot->y.name, sheet.y_name);
-    int code = 0;
+    plot_note(plot, plan, sheet->note);
+    axis_title(plot->x.name, sheet->x_name);
+    axis_title(plot->y.name, sheet->y_name);
+    return 0;
+}
+
+int cli_plot_svg(FILE *out, const cli_args *args, const sweep_plot *plot, const sweep_plan *plan)
+{
+    plot_sheet sheet;
+    int code = sheet_make(args, plot, plan, &sheet);
+    if (code == 0) {
+        sheet_write(out, &sheet, NULL);
+        free(sheet.x);
+    }
+    return code;
+}
+
+int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan)
+{
+    plot_sheet sheet;
+    int code = sheet_make(args, plot, plan, &sheet);
+    if (code != 0) {
+        return code;
+    }
     for (int i = 0; i < args->given_count && code == 0; i++) {
         const char *path = args->given[i].value;
         if (is_plot(&args->given[i])) {

@@ -4,10 +4,10 @@
    them is the plan's. */
 #include "cli/sweep.h"
 
+#include <lrcs/table.h>
+
 #include <stdlib.h>
 #include <string.h>
-
-#define TRACK_FIELDS 32
 
 /* What a column is: index into a track's row, by its name. */
 typedef struct track_name {
@@ -20,54 +20,22 @@ static const track_name track_names[] = {
     {"qy", 3, 1},    {"qz", 4, 1},      {"x", 1, 0},  {"y", 2, 0}, {"z", 3, 0}};
 
 typedef struct track_reader {
-    const cli_command *command;
-    const char *path;
-    uint64_t line;
-    int place[TRACK_FIELDS]; /* of each column; -1: not looked at */
-    int fields;              /* 0: not known yet */
+    lrcs_host_table table;
+    lrcs_host_error error;
+    int place[LRCS_HOST_FIELDS]; /* of each column; -1: not looked at */
 } track_reader;
-
-typedef struct track_field {
-    const char *text;
-    size_t size;
-} track_field;
-
-/* Fields between commas, blanks around them dropped; -1 for too many. */
-static int fields_split(const char *text, size_t size, track_field *field)
-{
-    const char *end = text + size;
-    int count = 0;
-    while (count < TRACK_FIELDS) {
-        const char *comma = memchr(text, ',', (size_t)(end - text));
-        const char *stop = comma ? comma : end;
-        const char *last = stop;
-        while (text < last && *text == ' ') {
-            text++;
-        }
-        while (last > text && (last[-1] == ' ' || last[-1] == '\r')) {
-            last--;
-        }
-        field[count++] = (track_field){text, (size_t)(last - text)};
-        if (!comma) {
-            return count;
-        }
-        text = comma + 1;
-    }
-    return -1;
-}
 
 static int track_fault(const track_reader *reader, const char *what)
 {
-    fprintf(stderr, "lrcs: %s: line %llu: %s\n", reader->path, (unsigned long long)reader->line,
-            what);
+    fprintf(stderr, "lrcs: %s: line %llu: %s\n", reader->table.path,
+            (unsigned long long)reader->table.line, what);
     return CLI_FAILED;
 }
 
-static const track_name *name_find(const track_field *field)
+static const track_name *name_find(const lrcs_host_field *field)
 {
     for (size_t i = 0; i < sizeof track_names / sizeof track_names[0]; i++) {
-        if (strlen(track_names[i].name) == field->size &&
-            memcmp(track_names[i].name, field->text, field->size) == 0) {
+        if (lrcs_host_field_is(field, track_names[i].name)) {
             return &track_names[i];
         }
     }
@@ -75,16 +43,16 @@ static const track_name *name_find(const track_field *field)
 }
 
 /* The first line's names. x, y, z are a direction's, but a quaternion's beside a w. */
-static int header_read(track_reader *reader, const track_field *field, int count,
-                       sweep_track *track)
+static int names_read(track_reader *reader, sweep_track *track)
 {
+    const lrcs_host_table *table = &reader->table;
     int seen[5] = {0};
-    for (int i = 0; i < count; i++) {
-        const track_name *name = name_find(&field[i]);
+    for (uint32_t i = 0; i < table->columns; i++) {
+        const track_name *name = name_find(&table->field[i]);
         track->quaternions |= name && name->quaternion == 1;
     }
-    for (int i = 0; i < count; i++) {
-        const track_name *name = name_find(&field[i]);
+    for (uint32_t i = 0; i < table->columns; i++) {
+        const track_name *name = name_find(&table->field[i]);
         int shift = name && name->quaternion == 0 && track->quaternions;
         reader->place[i] = name ? name->place + shift : -1;
         if (name && seen[reader->place[i]]++) {
@@ -97,38 +65,34 @@ static int header_read(track_reader *reader, const track_field *field, int count
                                        "observation) or time,x,y,z (direction to the laser)");
         }
     }
-    reader->fields = count;
     return 0;
 }
 
 /* Without names: four columns are time and direction, five time and quaternion. */
-static int columns_assume(track_reader *reader, int count, sweep_track *track)
+static int columns_assume(track_reader *reader, sweep_track *track)
 {
+    uint32_t count = reader->table.columns;
     if (count != 4 && count != 5) {
         return track_fault(reader, "expected time,w,x,y,z (quaternion, body to observation) or "
                                    "time,x,y,z (direction to the laser)");
     }
     track->quaternions = count == 5;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < (int)count; i++) {
         reader->place[i] = i;
     }
-    reader->fields = count;
     return 0;
 }
 
-static int row_read(const track_reader *reader, const track_field *field, int count,
-                    sweep_track *track)
+static int row_read(track_reader *reader, sweep_track *track)
 {
     double *row = track->row[track->count];
     lrcs_pose pose;
-    if (count != reader->fields) {
-        return track_fault(reader, "not as many fields as above");
-    }
     memset(row, 0, sizeof track->row[0]);
-    for (int i = 0; i < count; i++) {
-        if (reader->place[i] >= 0 && lrcs_host_number_read(field[i].text, field[i].size,
-                                                           &row[reader->place[i]]) != LRCS_OK) {
-            return track_fault(reader, "expected finite numbers");
+    for (uint32_t i = 0; i < reader->table.columns; i++) {
+        if (reader->place[i] >= 0 &&
+            lrcs_host_field_read(&reader->table, i, "a finite number", &row[reader->place[i]],
+                                 &reader->error) != LRCS_OK) {
+            return cli_failed(&reader->error);
         }
     }
     int status = track->quaternions ? lrcs_pose_from_quaternion(row + 1, &pose)
@@ -140,23 +104,16 @@ static int row_read(const track_reader *reader, const track_field *field, int co
     return 0;
 }
 
-static int line_read(track_reader *reader, const char *text, size_t size, sweep_track *track)
+/* The first row: names, or what tells by its number of fields. */
+static int first_read(track_reader *reader, sweep_track *track)
 {
-    track_field field[TRACK_FIELDS];
+    const lrcs_host_field *field = reader->table.field;
     double number;
-    int count = fields_split(text, size, field);
-    if (count < 0) {
-        return track_fault(reader, "more than 32 fields");
+    if (lrcs_host_number_read(field->text, field->size, &number) == LRCS_E_SYNTAX) {
+        return names_read(reader, track);
     }
-    if ((count == 1 && field[0].size == 0) || (field[0].size > 0 && *field[0].text == '#')) {
-        return 0;
-    }
-    if (reader->fields == 0 &&
-        lrcs_host_number_read(field[0].text, field[0].size, &number) == LRCS_E_SYNTAX) {
-        return header_read(reader, field, count, track);
-    }
-    int code = reader->fields == 0 ? columns_assume(reader, count, track) : 0;
-    return code ? code : row_read(reader, field, count, track);
+    int code = columns_assume(reader, track);
+    return code ? code : row_read(reader, track);
 }
 
 static uint64_t bytes_hash(const unsigned char *bytes, size_t size)
@@ -170,36 +127,36 @@ static uint64_t bytes_hash(const unsigned char *bytes, size_t size)
 
 static int track_parse(track_reader *reader, const lrcs_host_file *file, sweep_track *track)
 {
-    const char *at = (const char *)file->bytes;
-    const char *end = at + file->size;
     size_t lines = 1;
     for (size_t i = 0; i < file->size; i++) {
-        lines += at[i] == '\n';
+        lines += file->bytes[i] == '\n' || file->bytes[i] == '\r';
     }
     track->row = calloc(lines, sizeof *track->row);
     if (!track->row) {
         return cli_out_of_memory();
     }
     int code = 0;
-    while (at < end && code == 0) {
-        const char *newline = memchr(at, '\n', (size_t)(end - at));
-        const char *stop = newline ? newline : end;
-        reader->line++;
-        code = line_read(reader, at, (size_t)(stop - at), track);
-        at = stop + (newline != NULL);
+    int status = lrcs_host_table_read(&reader->table, &reader->error);
+    for (int first = 1; status == 1 && code == 0; first = 0) {
+        code = first ? first_read(reader, track) : row_read(reader, track);
+        status = lrcs_host_table_read(&reader->table, &reader->error);
+    }
+    if (code == 0 && status < 0) {
+        return cli_failed(&reader->error);
     }
     return code == 0 && track->count == 0 ? track_fault(reader, "no attitude in the file") : code;
 }
 
-int cli_track_read(const cli_command *command, const char *path, sweep_track *track)
+int cli_track_read(const char *path, sweep_track *track)
 {
     lrcs_host_error error;
     lrcs_host_file file;
-    track_reader reader = {.command = command, .path = path};
+    track_reader reader;
     if (lrcs_host_file_read(path, &file, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
     track->hash = bytes_hash(file.bytes, file.size);
+    reader.table = lrcs_host_table_make(path, &file);
     int code = track_parse(&reader, &file, track);
     lrcs_host_file_free(&file);
     return code;

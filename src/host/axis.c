@@ -37,7 +37,7 @@ static lrcsi_tick *tick_add(lrcsi_axis *axis, double value, int major)
 }
 
 /* mantissa x 10^decade, without the printf that asks the locale for its point. */
-static void decimal_text(char text[48], long mantissa, int decade)
+static void axis_decimal(char text[48], long mantissa, int decade)
 {
     static const long power[] = {1, 10, 100, 1000, 10000, 100000, 1000000};
     if (mantissa == 0) {
@@ -56,7 +56,7 @@ static void decimal_text(char text[48], long mantissa, int decade)
 static void log_tick_name(lrcsi_tick *tick, long mantissa, int decade, int plain)
 {
     if (plain || mantissa != 1) {
-        decimal_text(tick->text, mantissa, decade);
+        axis_decimal(tick->text, mantissa, decade);
         return;
     }
     strcpy(tick->text, "10");
@@ -98,7 +98,7 @@ static void linear_ticks(lrcsi_axis *axis, double step)
         double value = (double)i * step / parts;
         lrcsi_tick *tick = tick_add(axis, value, i % parts == 0);
         if (tick->major) {
-            decimal_text(tick->text, i / parts * mantissa, decade);
+            axis_decimal(tick->text, i / parts * mantissa, decade);
         }
     }
 }

@@ -3,47 +3,29 @@
    is the caller's. Bytes that are not UTF-8 become U+FFFD, so that every reader accepts it. */
 #include <lrcs/host.h>
 
+#include "base/text.h"
+
 #include <math.h>
 
-/* Bytes of the well-formed UTF-8 sequence at text (Unicode 15, table 3-7), 0 for none. */
-static int json_sequence(const unsigned char *text)
-{
-    unsigned a = text[0];
-    unsigned low = 0x80;
-    unsigned high = 0xbf;
-    int more = a < 0x80 ? 0 : a < 0xe0 ? 1 : a < 0xf0 ? 2 : 3;
-    if ((a >= 0x80 && a < 0xc2) || a > 0xf4) {
-        return 0;
-    }
-    low = a == 0xe0 ? 0xa0 : a == 0xf0 ? 0x90 : low;
-    high = a == 0xed ? 0x9f : a == 0xf4 ? 0x8f : high;
-    for (int i = 1; i <= more; i++) {
-        if (text[i] < low || text[i] > high) {
-            return 0;
-        }
-        low = 0x80;
-        high = 0xbf;
-    }
-    return more + 1;
-}
+#define JSON_SEQUENCE 4 /* bytes; the terminator ends a shorter one */
 
 static void json_quote(FILE *out, const char *text)
 {
-    const unsigned char *at = (const unsigned char *)text;
     putc('"', out);
-    while (*at) {
-        int count = json_sequence(at);
+    while (*text) {
+        unsigned char byte = (unsigned char)*text;
+        size_t count = lrcsi_text_sequence(text, JSON_SEQUENCE);
         if (count == 0) {
             fputs("\\ufffd", out);
             count = 1;
-        } else if (*at == '"' || *at == '\\') {
-            fprintf(out, "\\%c", *at);
-        } else if (*at < 0x20 || *at == 0x7f) {
-            fprintf(out, "\\u%04x", *at);
+        } else if (byte == '"' || byte == '\\') {
+            fprintf(out, "\\%c", byte);
+        } else if (byte < 0x20 || byte == 0x7f) {
+            fprintf(out, "\\u%04x", byte);
         } else {
-            fwrite(at, 1, (size_t)count, out);
+            fwrite(text, 1, count, out);
         }
-        at += count;
+        text += count;
     }
     putc('"', out);
 }

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of readings, as goniometers and spreadsheets write them. It decides what a line, a field
-   and a column are, and refuses what it would have to guess; what readings mean, the fit says. */
-#include <lrcs/host.h>
+/* Tables of readings, as goniometers and spreadsheets write them. It decides what a column is, and
+   refuses what it would have to guess; what readings mean, the fit says. */
+#include <lrcs/table.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "host/fail.h"
-
-#define READINGS_FIELDS 64u
 
 enum readings_role {
     ROLE_ANGLE,
@@ -30,132 +27,28 @@ static const char *const role_names[ROLES][5] = {
     [ROLE_WEIGHT] = {"weight"},
     [ROLE_MATERIAL] = {"material", "sample"}};
 
-typedef struct readings_field {
-    const char *text;
-    int size;
-} readings_field;
-
 typedef struct readings_table {
-    const char *path;
-    const char *at, *end;
-    uint32_t line;  /* of the fields, from 1 */
-    char separator; /* ' ': any blanks */
-    readings_field field[READINGS_FIELDS];
-    uint32_t fields;
-    uint32_t columns;                  /* fields of every line */
+    lrcs_host_table text;
     uint32_t role[ROLES];              /* its column, LRCS_NONE for none */
-    uint32_t left_out, first_left_out; /* lines without a value */
+    uint64_t left_out, first_left_out; /* lines without a value */
     uint32_t room;
     lrcs_host_readings *out;
     lrcs_host_error *error;
 } readings_table;
 
-/* ---- lines and fields ---- */
-
-static int byte_is_blank(char c)
-{
-    return c == ' ' || c == '\t';
-}
-
-/* The next line that holds something; 0 where the text ends. */
-static int table_next(readings_table *table, const char **line, const char **end)
-{
-    while (table->at < table->end) {
-        const char *at = table->at;
-        while (table->at < table->end && *table->at != '\n' && *table->at != '\r') {
-            table->at++;
-        }
-        *end = table->at;
-        int cr_lf = table->end - table->at > 1 && table->at[0] == '\r' && table->at[1] == '\n';
-        table->at += table->at < table->end ? 1 + cr_lf : 0;
-        table->line++;
-        while (at < *end && byte_is_blank(*at)) {
-            at++;
-        }
-        if (at < *end && *at != '#') {
-            *line = at;
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* Commas may be in numbers of some countries: semicolons and tabs come first. */
-static char line_separator(const char *line, const char *end)
-{
-    size_t size = (size_t)(end - line);
-    return memchr(line, ';', size)    ? ';'
-           : memchr(line, '\t', size) ? '\t'
-           : memchr(line, ',', size)  ? ','
-                                      : ' ';
-}
-
-/* One field from *line on, which is moved to its separator. */
-static readings_field field_read(const readings_table *table, const char **line, const char *end)
-{
-    const char *at = *line;
-    while (at < end && byte_is_blank(*at) && *at != table->separator) {
-        at++;
-    }
-    const char *quote = at < end && *at == '"' ? memchr(at + 1, '"', (size_t)(end - at - 1)) : NULL;
-    const char *last = quote ? quote + 1 : at;
-    while (last < end && *last != table->separator &&
-           !(table->separator == ' ' && byte_is_blank(*last))) {
-        last++;
-    }
-    *line = last;
-    while (last > at && byte_is_blank(last[-1])) {
-        last--;
-    }
-    if (quote && last == quote + 1) {
-        at++;
-        last--;
-    }
-    return (readings_field){at, (int)(last - at)};
-}
-
-static int line_split(readings_table *table, const char *line, const char *end)
-{
-    table->fields = 0;
-    for (;;) {
-        if (table->fields == READINGS_FIELDS) {
-            return lrcsi_host_fail(table->error, LRCS_E_LIMIT, "%s: line %lu: more than %u columns",
-                                   table->path, (unsigned long)table->line, READINGS_FIELDS);
-        }
-        table->field[table->fields++] = field_read(table, &line, end);
-        while (table->separator == ' ' && line < end && byte_is_blank(*line)) {
-            line++;
-        }
-        if (line == end) {
-            return LRCS_OK;
-        }
-        line += table->separator != ' ';
-    }
-}
-
-static int field_refuse(const readings_table *table, int status, uint32_t column,
-                        const char *expected)
-{
-    const readings_field *field = &table->field[column];
-    return lrcsi_host_fail(table->error, status,
-                           "%s: line %lu, column %lu: found '%.*s', expected %s", table->path,
-                           (unsigned long)table->line, (unsigned long)column + 1,
-                           field->size < 64 ? field->size : 64, field->text, expected);
-}
-
 /* ---- columns ---- */
 
-static int field_begins(const readings_field *field, const char *name)
+static int column_refuse(const readings_table *table, int status, uint32_t column,
+                         const char *expected)
 {
-    size_t size = strlen(name);
-    return (size_t)field->size >= size && strncasecmp(field->text, name, size) == 0;
+    return lrcs_host_field_refuse(&table->text, status, column, expected, table->error);
 }
 
-static int field_role(const readings_field *field)
+static int field_role(const lrcs_host_field *field)
 {
     for (int role = 0; role < ROLES; role++) {
         for (int k = 0; k < 5 && role_names[role][k]; k++) {
-            if (field_begins(field, role_names[role][k])) {
+            if (lrcs_host_field_begins(field, role_names[role][k])) {
                 return role;
             }
         }
@@ -163,11 +56,11 @@ static int field_role(const readings_field *field)
     return ROLE_NONE;
 }
 
-static int field_has(const readings_field *field, const char *part)
+static int field_has(const lrcs_host_field *field, const char *part)
 {
-    for (int i = 0; i < field->size; i++) {
-        readings_field rest = {field->text + i, field->size - i};
-        if (field_begins(&rest, part)) {
+    for (size_t i = 0; i < field->size; i++) {
+        lrcs_host_field rest = {field->text + i, field->size - i};
+        if (lrcs_host_field_begins(&rest, part)) {
             return 1;
         }
     }
@@ -177,23 +70,23 @@ static int field_has(const readings_field *field, const char *part)
 /* The first line as names of columns. */
 static int header_read(readings_table *table)
 {
-    for (uint32_t i = 0; i < table->fields; i++) {
-        const readings_field *field = &table->field[i];
+    for (uint32_t i = 0; i < table->text.columns; i++) {
+        const lrcs_host_field *field = &table->text.field[i];
         int role = field_role(field);
         if (role == ROLE_NONE) {
-            lrcsi_host_note(&table->out->notices, "%s: column '%.*s' is not used", table->path,
-                            field->size < 64 ? field->size : 64, field->text);
+            lrcsi_host_note(&table->out->notices, "%s: column '%.*s' is not used", table->text.path,
+                            field->size < 64 ? (int)field->size : 64, field->text);
             continue;
         }
         if (table->role[role] != LRCS_NONE) {
-            return field_refuse(table, LRCS_E_NAME, i,
-                                role == ROLE_ANGLE
-                                    ? "one column of angles (mono-station readings: laser and "
-                                      "detector at the same angle)"
-                                    : "one column of a kind");
+            return column_refuse(table, LRCS_E_NAME, i,
+                                 role == ROLE_ANGLE
+                                     ? "one column of angles (mono-station readings: laser and "
+                                       "detector at the same angle)"
+                                     : "one column of a kind");
         }
         if (role == ROLE_ANGLE && field_has(field, "rad")) {
-            return field_refuse(table, LRCS_E_NAME, i, "angles in degrees");
+            return column_refuse(table, LRCS_E_NAME, i, "angles in degrees");
         }
         table->role[role] = i;
     }
@@ -202,7 +95,7 @@ static int header_read(readings_table *table)
             table->error, LRCS_E_NAME,
             "%s: line %lu: no column of %s; expected columns angle_deg and brdf, and sigma, weight "
             "and material where there are any",
-            table->path, (unsigned long)table->line,
+            table->text.path, (unsigned long)table->text.line,
             table->role[ROLE_ANGLE] == LRCS_NONE ? "angles" : "readings");
     }
     return LRCS_OK;
@@ -212,23 +105,22 @@ static int header_read(readings_table *table)
 static int columns_read(readings_table *table)
 {
     double number;
-    table->columns = table->fields;
     for (int role = 0; role < ROLES; role++) {
         table->role[role] = LRCS_NONE;
     }
-    if (lrcs_host_number_read(table->field[0].text, (size_t)table->field[0].size, &number) !=
+    if (lrcs_host_number_read(table->text.field[0].text, table->text.field[0].size, &number) !=
         LRCS_OK) {
         int status = header_read(table);
         return status == LRCS_OK ? 1 : status;
     }
-    if (table->fields < 2 || table->fields > 3) {
+    if (table->text.columns < 2 || table->text.columns > 3) {
         return lrcsi_host_fail(table->error, LRCS_E_SYNTAX,
                                "%s: line %lu: found %lu columns without names, expected angle_deg, "
                                "brdf and perhaps sigma, or a first line of names",
-                               table->path, (unsigned long)table->line,
-                               (unsigned long)table->fields);
+                               table->text.path, (unsigned long)table->text.line,
+                               (unsigned long)table->text.columns);
     }
-    for (uint32_t i = 0; i < table->fields; i++) {
+    for (uint32_t i = 0; i < table->text.columns; i++) {
         table->role[i] = i; /* ROLE_ANGLE, ROLE_VALUE, ROLE_SIGMA */
     }
     return 0;
@@ -236,23 +128,17 @@ static int columns_read(readings_table *table)
 
 /* ---- readings ---- */
 
-static int number_field(const readings_table *table, int role, const char *expected, double *value)
+static int role_read(const readings_table *table, int role, const char *expected, double *value)
 {
-    uint32_t column = table->role[role];
-    const readings_field *field = &table->field[column];
-    int status = lrcs_host_number_read(field->text, (size_t)field->size, value);
-    if (status == LRCS_E_SYNTAX && memchr(field->text, ',', (size_t)field->size)) {
-        return field_refuse(table, status, column, "a number with a decimal point");
-    }
-    return status == LRCS_OK ? LRCS_OK : field_refuse(table, status, column, expected);
+    return lrcs_host_field_read(&table->text, table->role[role], expected, value, table->error);
 }
 
 /* Nothing read: an empty field or a word for it. */
-static int value_is_missing(const readings_field *field)
+static int value_is_missing(const lrcs_host_field *field)
 {
     static const char *const word[] = {"", "nan", "na", "n/a", "null"};
     for (size_t i = 0; i < sizeof word / sizeof word[0]; i++) {
-        if ((size_t)field->size == strlen(word[i]) && field_begins(field, word[i])) {
+        if (lrcs_host_field_is(field, word[i])) {
             return 1;
         }
     }
@@ -264,29 +150,29 @@ static int reading_read(readings_table *table, lrcs_fit_reading *reading)
 {
     double weight = 1.0;
     *reading = (lrcs_fit_reading){0.0, 0.0, 0.0};
-    if (value_is_missing(&table->field[table->role[ROLE_VALUE]])) {
-        table->first_left_out = table->left_out++ ? table->first_left_out : table->line;
+    if (value_is_missing(&table->text.field[table->role[ROLE_VALUE]])) {
+        table->first_left_out = table->left_out++ ? table->first_left_out : table->text.line;
         return 0;
     }
-    int status = number_field(table, ROLE_ANGLE, "an angle in degrees", &reading->angle_deg);
+    int status = role_read(table, ROLE_ANGLE, "an angle in degrees", &reading->angle_deg);
     if (status == LRCS_OK && !(fabs(reading->angle_deg) < 90.0)) {
-        status = field_refuse(table, LRCS_E_NUMBER, table->role[ROLE_ANGLE],
-                              "an angle between -90 and 90 degrees");
+        status = column_refuse(table, LRCS_E_NUMBER, table->role[ROLE_ANGLE],
+                               "an angle between -90 and 90 degrees");
     }
     if (status == LRCS_OK) {
-        status = number_field(table, ROLE_VALUE, "a reading", &reading->value);
+        status = role_read(table, ROLE_VALUE, "a reading", &reading->value);
     }
     if (status == LRCS_OK && table->role[ROLE_SIGMA] != LRCS_NONE) {
-        status = number_field(table, ROLE_SIGMA, "a standard error above 0", &reading->sigma);
+        status = role_read(table, ROLE_SIGMA, "a standard error above 0", &reading->sigma);
         if (status == LRCS_OK && !(reading->sigma > 0.0)) {
-            status = field_refuse(table, LRCS_E_NUMBER, table->role[ROLE_SIGMA],
-                                  "a standard error above 0");
+            status = column_refuse(table, LRCS_E_NUMBER, table->role[ROLE_SIGMA],
+                                   "a standard error above 0");
         }
     } else if (status == LRCS_OK && table->role[ROLE_WEIGHT] != LRCS_NONE) {
-        status = number_field(table, ROLE_WEIGHT, "a weight, 0 or more", &weight);
+        status = role_read(table, ROLE_WEIGHT, "a weight, 0 or more", &weight);
         if (status == LRCS_OK && !(weight >= 0.0)) {
-            status =
-                field_refuse(table, LRCS_E_NUMBER, table->role[ROLE_WEIGHT], "a weight, 0 or more");
+            status = column_refuse(table, LRCS_E_NUMBER, table->role[ROLE_WEIGHT],
+                                   "a weight, 0 or more");
         }
         reading->sigma = weight > 0.0 ? 1.0 / sqrt(weight) : 0.0;
     }
@@ -321,7 +207,8 @@ static int readings_grow(readings_table *table)
         return LRCS_OK;
     }
     if (table->room >= UINT32_MAX / 2) {
-        return lrcsi_host_fail(table->error, LRCS_E_LIMIT, "%s: too many readings", table->path);
+        return lrcsi_host_fail(table->error, LRCS_E_LIMIT, "%s: too many readings",
+                               table->text.path);
     }
     table->room = table->room ? 2 * table->room : 256;
     size_t bytes = table->room * sizeof *out->reading;
@@ -335,14 +222,8 @@ static int readings_grow(readings_table *table)
 
 static int reading_add(readings_table *table)
 {
-    lrcs_host_reading reading = {.line = table->line};
+    lrcs_host_reading reading = {.line = (uint32_t)table->text.line};
     lrcs_host_readings *out = table->out;
-    if (table->fields != table->columns) {
-        return lrcsi_host_fail(table->error, LRCS_E_SYNTAX,
-                               "%s: line %lu: found %lu fields, expected %lu as in the first line",
-                               table->path, (unsigned long)table->line,
-                               (unsigned long)table->fields, (unsigned long)table->columns);
-    }
     int status = reading_read(table, &reading.fit);
     if (status <= 0) {
         return status;
@@ -352,8 +233,9 @@ static int reading_add(readings_table *table)
         return status;
     }
     uint32_t column = table->role[ROLE_MATERIAL];
-    readings_field name = column == LRCS_NONE ? (readings_field){"", 0} : table->field[column];
-    reading.material = name_index(out, name.text, (size_t)name.size);
+    lrcs_host_field name =
+        column == LRCS_NONE ? (lrcs_host_field){"", 0} : table->text.field[column];
+    reading.material = name_index(out, name.text, name.size);
     if (reading.material == LRCS_NONE) {
         return lrcsi_host_fail_memory(table->error, sizeof *out->name);
     }
@@ -363,29 +245,25 @@ static int reading_add(readings_table *table)
 
 static int table_read(readings_table *table)
 {
-    const char *line;
-    const char *end;
-    int status = LRCS_OK;
-    while (status == LRCS_OK && table_next(table, &line, &end)) {
-        int first = table->columns == 0;
-        table->separator = first ? line_separator(line, end) : table->separator;
-        status = line_split(table, line, end);
-        int named = status == LRCS_OK && first ? columns_read(table) : 0;
-        status = named < 0 ? named : status;
-        if (status == LRCS_OK && !named) {
-            status = reading_add(table);
-        }
+    int status = lrcs_host_table_read(&table->text, table->error);
+    if (status == 1) {
+        status = columns_read(table);
+        status = status == 0 ? reading_add(table) : status;
+    }
+    while (status >= 0 && (status = lrcs_host_table_read(&table->text, table->error)) == 1) {
+        status = reading_add(table);
     }
     if (status != LRCS_OK) {
         return status;
     }
     if (table->out->count == 0) {
-        return lrcsi_host_fail(table->error, LRCS_E_EMPTY, "%s: no readings in it", table->path);
+        return lrcsi_host_fail(table->error, LRCS_E_EMPTY, "%s: no readings in it",
+                               table->text.path);
     }
     if (table->left_out > 0) {
         lrcsi_host_note(&table->out->notices,
                         "%s: lines without a reading left out: %lu, the first is line %lu",
-                        table->path, (unsigned long)table->left_out,
+                        table->text.path, (unsigned long)table->left_out,
                         (unsigned long)table->first_left_out);
     }
     table->out->noise = table->role[ROLE_SIGMA] != LRCS_NONE    ? LRCS_FIT_GIVEN
@@ -403,14 +281,7 @@ int lrcs_host_readings_read(const char *path, lrcs_host_readings *readings, lrcs
     if (status != LRCS_OK) {
         return status;
     }
-    readings_table table = {.path = path,
-                            .at = (const char *)file.bytes,
-                            .end = (const char *)file.bytes + file.size,
-                            .out = &out,
-                            .error = error};
-    if (file.size >= 3 && memcmp(file.bytes, "\xef\xbb\xbf", 3) == 0) {
-        table.at += 3; /* a byte order mark */
-    }
+    readings_table table = {.text = lrcs_host_table_make(path, &file), .out = &out, .error = error};
     status = table_read(&table);
     lrcs_host_file_free(&file);
     if (status != LRCS_OK) {

@@ -104,3 +104,39 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
     lrcsi_host_area_free(&area);
     return status;
 }
+
+typedef struct emulate_step {
+    const lrcs_prepared *prepared;
+    const lrcs_pose *pose;
+    const lrcs_emulation_options *options;
+    lrcs_emulation *emulation;
+    lrcs_facet_record *records;
+} emulate_step;
+
+static int run_emulate(void *context, lrcs_work *work)
+{
+    emulate_step *step = context;
+    return lrcs_emulate_run(step->prepared, step->pose, step->options, work, step->emulation,
+                            step->records, NULL);
+}
+
+int lrcs_host_scene_emulate(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                            const lrcs_emulation_options *options, lrcs_emulation *emulation,
+                            lrcs_facet_record *records, double *seconds, lrcs_host_error *error)
+{
+    emulate_step step = {scene->prepared, pose, options, emulation, records};
+    lrcsi_host_area area = {NULL, 0};
+    double start = lrcsi_host_seconds();
+    int status = lrcsi_host_area_run(&area, lrcs_emulate_need(scene->prepared, options),
+                                     run_emulate, &step, error);
+    if (seconds) {
+        *seconds = lrcsi_host_seconds() - start;
+    }
+    lrcsi_host_area_free(&area);
+    if (status == LRCS_E_NUMBER) {
+        return lrcsi_host_fail(error, status,
+                               "emulating: sigma, or what one pixel adds to it, is beyond %s",
+                               lrcs_precision_text(options->precision));
+    }
+    return run_fail(error, status, "emulating");
+}

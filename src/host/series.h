@@ -7,8 +7,8 @@
 #include "host/pen.h"
 
 /* Paper, in units of which a PNG has two pixels each. */
-#define LRCSI_CHART_WIDTH  860.0
-#define LRCSI_CHART_HEIGHT 520.0
+#define LRCSI_CHART_WIDTH  LRCS_HOST_CHART_WIDTH
+#define LRCSI_CHART_HEIGHT LRCS_HOST_CHART_HEIGHT
 #define LRCSI_CHART_PIXELS 2.0
 #define LRCSI_CHART_LEFT   82.0
 #define LRCSI_CHART_TOP    60.0

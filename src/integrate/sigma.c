@@ -7,6 +7,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "integrate/image.h"
 #include "integrate/plan.h"
 #include "integrate/total.h"
 #include "visibility/occlude.h"
@@ -90,28 +91,6 @@ static int run_meets(const lrcsi_total *total, double tolerance)
     return run_bound(total) <= most && total->curvature <= most;
 }
 
-/* Hands the raster out as a picture, row 0 on top, and the place of its window. */
-static void image_fill(const lrcsi_raster *raster, lrcs_image *image)
-{
-    const lrcsi_view *view = raster->view;
-    const lrcs_prepared *p = view->prepared;
-    double corner[2] = {view->low[0], view->low[1] + view->side};
-    for (int k = 0; k < 2; k++) {
-        const double *axis = view->R[k];
-        const double *c = p->centre;
-        corner[k] += axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2];
-    }
-    image->left_m = ldexp(corner[0], p->exponent);
-    image->top_m = ldexp(corner[1], p->exponent);
-    image->side_m = ldexp(view->side, p->exponent);
-    for (uint32_t y = 0; y < raster->size; y++) {
-        const uint32_t *row = raster->owner + (size_t)(raster->size - 1 - y) * raster->size;
-        for (uint32_t x = 0; x < raster->size; x++) {
-            image->facet[(size_t)y * raster->size + x] = row[x];
-        }
-    }
-}
-
 static int run_image(sigma_run *run)
 {
     lrcsi_raster raster;
@@ -122,7 +101,7 @@ static int run_image(sigma_run *run)
         status = lrcsi_raster_make(&view, run->image->size, run->work, &raster);
     }
     if (status == LRCS_OK) {
-        image_fill(&raster, run->image);
+        lrcsi_image_fill(&view, raster.owner, run->image);
     }
     run->work->used = mark;
     return status;

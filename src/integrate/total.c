@@ -102,9 +102,14 @@ static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
     sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
 }
 
-/* One facet that reflects towards the laser. Returns its sigma. */
-static double add_reflecting(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
-                             const lrcsi_visible *visible)
+/* What one facet adds, scaled. */
+typedef struct total_return {
+    double glint, diffuse;
+} total_return;
+
+/* One facet that reflects towards the laser. */
+static total_return add_reflecting(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
+                                   const lrcsi_visible *visible)
 {
     const lrcs_prepared *p = job->view->prepared;
     total_sums *sums = &job->sums;
@@ -126,11 +131,11 @@ static double add_reflecting(total_job *job, uint32_t facet, const lrcsi_tilt *t
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
                       whole * most * (at.error + reflection_vague(&brdf, tilt, &at));
     add_seen(sums, &brdf);
-    return glint + diffuse;
+    return (total_return){glint, diffuse};
 }
 
 /* One with curved normals, which comes summed. */
-static double add_curved(total_job *job, uint32_t facet)
+static total_return add_curved(total_job *job, uint32_t facet)
 {
     const lrcsi_curved *curved = &job->curved[facet];
     total_sums *sums = &job->sums;
@@ -143,7 +148,7 @@ static double add_curved(total_job *job, uint32_t facet)
     sums->rounding += curved->rounding;
     sums->likely += curved->likely * curved->likely;
     sums->curvature += curved->estimate;
-    return curved->glint + curved->diffuse;
+    return (total_return){curved->glint, curved->diffuse};
 }
 
 /* Can what the facets err from the true shapes be bounded? Where nothing is searched, all that
@@ -184,15 +189,16 @@ static void count_facet(total_job *job, int reflects, const lrcsi_tilt *tilt,
 }
 
 static lrcs_facet_record record_of(const lrcsi_view *view, uint32_t facet, const lrcsi_tilt *tilt,
-                                   double visible, double sigma)
+                                   double visible, const total_return *sigma)
 {
     const lrcs_prepared *p = view->prepared;
-    lrcs_facet_record record = {0, 0, 0, 0};
+    lrcs_facet_record record = {0, 0, 0, 0, 0};
     if (!p->skip[facet]) {
         record.area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[facet].length);
         record.cos_theta = tilt->cos_theta;
         record.visible_area_m2 = lrcsi_prepared_area(p, visible);
-        record.sigma_m2 = lrcsi_prepared_area(p, sigma);
+        record.sigma_m2 = lrcsi_prepared_area(p, sigma->glint + sigma->diffuse);
+        record.sigma_glint_m2 = lrcsi_prepared_area(p, sigma->glint);
     }
     return record;
 }
@@ -254,7 +260,7 @@ static void sum_facet(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
 {
     const lrcsi_view *view = job->view;
     lrcsi_visible visible = facet_visible(job, facet, tilt);
-    double sigma = 0;
+    total_return sigma = {0, 0};
     if (view->facing[facet] != 0) {
         int reflects = lrcsi_view_reflects(view, facet);
         if (reflects && visible.high > 0) {
@@ -268,7 +274,7 @@ static void sum_facet(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
         job->sums.tessellation += facet_tessellation(job, facet, tilt);
     }
     if (record) {
-        *record = record_of(view, facet, tilt, visible.area, sigma);
+        *record = record_of(view, facet, tilt, visible.area, &sigma);
     }
 }
 

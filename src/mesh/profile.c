@@ -68,11 +68,11 @@
 #define REACH_MARGIN (1.0 + 1e-6)
 
 /* A strip's patch and facet: areas and vector areas in any one unit. */
-typedef struct strip {
+typedef struct profile_strip {
     double area, across, up; /* A, X, V */
     double gain;             /* X' / X */
     double low, high;        /* elevation of the true normal on the lower and the upper circle */
-} strip;
+} profile_strip;
 
 static int profile_straight(const lrcsi_profile *profile)
 {
@@ -112,33 +112,33 @@ static double profile_fraction(const lrcsi_profile *profile, uint32_t i)
     return (double)(profile->strips - i) / (double)profile->strips;
 }
 
-static strip strip_straight(const lrcsi_profile *profile)
+static profile_strip strip_straight(const lrcsi_profile *profile)
 {
     double fall = profile->base - profile->top;
     double slant = hypot(fall, profile->height);
     double unit = slant > 0.0 ? slant : 1.0;
     double elevation = atan2(fall, profile->height);
     double sinc = sin(profile->half) / profile->half;
-    return (strip){slant / unit, sinc * profile->height / unit,
-                   fall / unit,  profile->swell,
-                   elevation,    elevation};
+    return (profile_strip){slant / unit, sinc * profile->height / unit,
+                           fall / unit,  profile->swell,
+                           elevation,    elevation};
 }
 
 /* In units of the strip's area: with theta its middle and d its width on the meridian,
    A = 2 sin theta sin(d/2), V = A cos theta cos(d/2),
    Int rho dz = ((d - sin d) + 2 sin^2 theta sin d) / 2. */
-static strip strip_round(const lrcsi_profile *profile, uint32_t i)
+static profile_strip strip_round(const lrcsi_profile *profile, uint32_t i)
 {
     double d = profile->step;
     double theta = profile_polar(profile, i) - 0.5 * d;
     double sinc = sin(profile->half) / profile->half;
     double outward = sine_rest(d) / (4.0 * sin(theta) * sin(0.5 * d)) + sin(theta) * cos(0.5 * d);
-    return (strip){1.0,
-                   sinc * outward,
-                   cos(theta) * cos(0.5 * d),
-                   1.0,
-                   HALF_PI - profile_polar(profile, i),
-                   HALF_PI - profile_polar(profile, i + 1)};
+    return (profile_strip){1.0,
+                           sinc * outward,
+                           cos(theta) * cos(0.5 * d),
+                           1.0,
+                           HALF_PI - profile_polar(profile, i),
+                           HALF_PI - profile_polar(profile, i + 1)};
 }
 
 /* y = tan of the angle from the top = slope rho/R, y1 below, y0 = t y1 above. In units of
@@ -146,7 +146,7 @@ static strip strip_round(const lrcsi_profile *profile, uint32_t i)
    A from Int y sqrt(1 + y^2) dy = (q^3 - p^3)/3 with q, p = sqrt(1 + y^2), r = p/q and
        q - p = (y1^2 - y0^2)/(q + p);
    X = sinc y1 (1 + t + t^2) / 3; V = (1 + t) / 2. */
-static strip strip_paraboloid(const lrcsi_profile *profile, uint32_t i)
+static profile_strip strip_paraboloid(const lrcsi_profile *profile, uint32_t i)
 {
     double y1 = profile_tangent(profile, i);
     double y0 = profile_tangent(profile, i + 1);
@@ -154,15 +154,15 @@ static strip strip_paraboloid(const lrcsi_profile *profile, uint32_t i)
     double q = hypot(1.0, y1);
     double r = hypot(1.0, y0) / q;
     double sinc = sin(profile->half) / profile->half;
-    return (strip){(1.0 + t) * q * (1.0 + r + r * r) / (3.0 * (1.0 + r)),
-                   sinc * y1 * (1.0 + t + t * t) / 3.0,
-                   0.5 * (1.0 + t),
-                   1.0,
-                   atan2(1.0, y1),
-                   atan2(1.0, y0)};
+    return (profile_strip){(1.0 + t) * q * (1.0 + r + r * r) / (3.0 * (1.0 + r)),
+                           sinc * y1 * (1.0 + t + t * t) / 3.0,
+                           0.5 * (1.0 + t),
+                           1.0,
+                           atan2(1.0, y1),
+                           atan2(1.0, y0)};
 }
 
-static strip strip_make(const lrcsi_profile *profile, uint32_t i)
+static profile_strip strip_make(const lrcsi_profile *profile, uint32_t i)
 {
     if (profile_straight(profile)) {
         return strip_straight(profile);
@@ -202,7 +202,7 @@ static double profile_blur(const lrcsi_profile *profile, uint32_t i)
 
 static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
 {
-    strip s = strip_make(profile, i);
+    profile_strip s = strip_make(profile, i);
     double across = s.gain * s.across; /* X' */
     double facet = hypot(across, s.up);
     lrcs_curvature c = {0.0, 0.0, 0.0, 0.0};

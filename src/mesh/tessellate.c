@@ -185,7 +185,7 @@ static void row_add(row_builder *row, double r, double z, uint32_t count)
 
 /* The rings inside a polygon of `around` sides, the widest first: their corners, and their radii as
    parts of the polygon's. A ring is half as wide as its own sides are long. Returns how many. */
-static int ring_list(uint32_t around, uint32_t corners[RINGS_MOST], double radius[RINGS_MOST])
+static int list_rings(uint32_t around, uint32_t corners[RINGS_MOST], double radius[RINGS_MOST])
 {
     int rings = 0;
     double r = 1.0;
@@ -203,7 +203,7 @@ static void disc_close(row_builder *row, double r, double z)
 {
     uint32_t corners[RINGS_MOST];
     double radius[RINGS_MOST];
-    int rings = ring_list(row->count, corners, radius);
+    int rings = list_rings(row->count, corners, radius);
     for (int i = 0; i < rings; i++) {
         row_add(row, r * radius[i], z, corners[i]);
     }
@@ -217,7 +217,7 @@ static void disc_open(row_builder *row, double r, double z, uint32_t around)
     uint32_t corners[RINGS_MOST];
     double radius[RINGS_MOST];
     row_add(row, 0.0, z, 1);
-    for (int i = ring_list(around, corners, radius); i > 0; i--) {
+    for (int i = list_rings(around, corners, radius); i > 0; i--) {
         row_add(row, r * radius[i - 1], z, corners[i - 1]);
     }
     row_add(row, r, z, around);
@@ -298,7 +298,7 @@ static void disc_counts(uint32_t around, uint64_t *vertices, uint64_t *facets)
 {
     uint32_t corners[RINGS_MOST];
     double radius[RINGS_MOST];
-    int rings = ring_list(around, corners, radius);
+    int rings = list_rings(around, corners, radius);
     *vertices = 1;
     *facets = around;
     for (int i = 0; i < rings; i++) {

@@ -102,7 +102,7 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
     lrcs_divisions divisions;
     if (!part->file) {
         int status = count_shape(builder, part, &divisions, counts);
-        if (builder->divisions) {
+        if (status == LRCS_OK && builder->divisions) {
             builder->divisions[i] = divisions;
         }
         return status;

@@ -8,14 +8,14 @@
 #include "scene/recipe.h"
 #include "scene/unit.h"
 
-#define KEY_BIT(name) (1ul << LRCSI_KEY_##name)
+#define KEY_BIT(name) (UINT64_C(1) << LRCSI_KEY_##name)
 #define SHAPE_KEYS                                                                                 \
     (KEY_BIT(SIZE) | KEY_BIT(RADIUS) | KEY_BIT(RADIUS2) | KEY_BIT(LENGTH) |                        \
      KEY_BIT(HALF_ANGLE_DEG) | KEY_BIT(WALL_ONLY))
 
 /* What each kind of shape needs and may have besides. */
 typedef struct shape_rule {
-    unsigned long needs, allows;
+    uint64_t needs, allows;
     const char *expected;
 } shape_rule;
 
@@ -56,23 +56,23 @@ int lrcsi_recipe_unit(const lrcsi_draft *draft, double other, double *metres)
 }
 
 /* The keys of a shape that the draft gives. */
-static unsigned long given_shape_keys(const lrcsi_draft *draft)
+static uint64_t given_shape_keys(const lrcsi_draft *draft)
 {
-    unsigned long given = 0;
+    uint64_t given = 0;
     for (int key = 0; key < LRCSI_KEYS; key++) {
         if (lrcsi_draft_find(draft, key)) {
-            given |= 1ul << key;
+            given |= UINT64_C(1) << key;
         }
     }
     return given & SHAPE_KEYS;
 }
 
 /* Refuses the first shape key outside `allowed`. */
-static int refuse_others(const lrcsi_draft *draft, unsigned long allowed, const char *expected)
+static int refuse_others(const lrcsi_draft *draft, uint64_t allowed, const char *expected)
 {
-    unsigned long excess = given_shape_keys(draft) & ~allowed;
+    uint64_t excess = given_shape_keys(draft) & ~allowed;
     for (int key = 0; key < LRCSI_KEYS; key++) {
-        if (excess >> key & 1ul) {
+        if (excess >> key & 1u) {
             return lrcsi_draft_refuse_value(draft, key, LRCS_E_NAME, expected);
         }
     }

@@ -8,6 +8,7 @@
 
 #include "base/dd.h"
 #include "base/exact.h"
+#include "base/length.h"
 #include "base/range.h"
 #include "visibility/clip.h"
 #include "visibility/sample.h"
@@ -187,7 +188,7 @@ static int segment_kind(const contact_heights *h, lrcsi_contact *c, int above)
     const double *p = c->corner[h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2];
     const lrcsi_clip_line line = {{c->end[0][0], c->end[0][1]},
                                   {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]}};
-    double length = hypot(line.to[0], line.to[1]);
+    double length = lrcsi_length_flat(line.to[0], line.to[1]);
     double beyond = length > 0 ? lone * lrcsi_clip_side(&line, p) / length : 0;
     if (c->slip > 0 && slip_wide(c)) {
         return LRCSI_CONTACT_UNKNOWN;
@@ -275,11 +276,12 @@ static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contac
         way[i] = lrcsi_dd_sub(p[i], f->end[0][i]);
     }
     double off = c->off + 16 * U + c->slip;
-    double length = hypot(to[0].hi, to[1].hi);
+    double length = lrcsi_length_flat(to[0].hi, to[1].hi);
     double side =
         lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(to[0], way[1]), lrcsi_dd_mul(to[1], way[0])));
     double beyond = length > 0 ? lone * side / length : 0;
-    double turned = length > 0 ? 4 * hypot(way[0].hi, way[1].hi) / length * (c->off + c->slip) : 0;
+    double turned =
+        length > 0 ? 4 * lrcsi_length_flat(way[0].hi, way[1].hi) / length * (c->off + c->slip) : 0;
     if (c->slip > 0 && slip_wide(c)) {
         return LRCSI_CONTACT_UNKNOWN;
     }

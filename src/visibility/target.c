@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/length.h"
 #include "base/range.h"
 
 #define U 0x1p-53
@@ -60,7 +61,7 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
     for (int k = 0; k < 3; k++) {
         const double *p = t->corner[k];
         const double *q = t->corner[(k + 1) % 3];
-        double side = hypot(q[0] - p[0], q[1] - p[1]) + 32 * U * t->reach;
+        double side = lrcsi_length_flat(q[0] - p[0], q[1] - p[1]) + 32 * U * t->reach;
         t->diameter = lrcsi_most(t->diameter, side);
         t->perimeter += side;
     }

@@ -9,6 +9,7 @@ models=$root/../shared/models
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 failures=0
+export PYTHONDONTWRITEBYTECODE=1 # no traces in the tree
 
 ok() { echo "ok $1"; }
 not_ok() {

@@ -138,6 +138,7 @@ refused value_beyond_doubles "line 6, column 2: found '1e999'" "$rows\n60,1e999"
 refused angle_of_90 "line 6, column 1: found '90', expected an angle between -90 and 90" "$rows\n90,1"
 refused decimal_comma "line 1, column 2: found '0,5', expected a number with a decimal point" '1;0,5'
 refused another_number_of_fields "line 6: found 3 fields, expected 2" "$rows\n60,1,1"
+refused one_field_in_a_line "line 2: found 1 field, expected 2" '1,1\n2'
 refused sigma_of_0 "line 2, column 3: found '0', expected a standard error above 0" 'angle,brdf,sigma\n1,1,0'
 refused weight_below_0 "line 2, column 3: found '-1', expected a weight" 'angle,brdf,weight\n1,1,-1'
 refused two_angles "found 'theta_r', expected one column of angles (mono" 'theta_i,theta_r,brdf\n1,1,1'

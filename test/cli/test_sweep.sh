@@ -84,11 +84,11 @@ same a_row_of_a_track_is_what_run_says "$(sweep pair.toml --poses q.csv | tail -
 run run pair.toml --direction 0,1,0 --json
 same a_track_of_directions "$(sweep pair.toml --poses d.csv | tail -1 | column 2,3,4,5,6)" "1,0,1,0,$(value sigma_m2)"
 printf 'time,w,x,y,z\n0,1,0,0,0\n1,1,0,zero,0\n' >bad.csv
-failure a_bad_row_has_its_line "bad.csv: line 3: expected finite numbers" sweep pair.toml --poses bad.csv
+failure a_bad_row_has_its_line "bad.csv: line 3, column 4: found 'zero', expected a finite number" sweep pair.toml --poses bad.csv
 printf '0,1,0,0,0\n1,0,0,0,0\n' >bad.csv
 failure a_quaternion_of_zero "line 2: expected a quaternion or direction that is not zero" sweep pair.toml --poses bad.csv
 printf '0,1,0,0,0\n1,1,0,0\n' >bad.csv
-failure a_row_too_short "line 2: not as many fields" sweep pair.toml --poses bad.csv
+failure a_row_too_short "line 2: found 4 fields, expected 5 as in the first line" sweep pair.toml --poses bad.csv
 printf 'time,w,x,y\n0,1,0,0\n' >bad.csv
 failure a_column_missing "expected columns time,w,x,y,z" sweep pair.toml --poses bad.csv
 printf 'time,w,x,y,z,qx\n0,1,0,0,0,0\n' >bad.csv

@@ -52,11 +52,13 @@ usage_error unit_of_a_scene_file "its own units" run demo --unit mm
 usage_error image_size_without_image "needs --image" run demo --image-size 100
 usage_error image_size_small "found '4'" run demo --image x.png --image-size 4
 usage_error image_to_stdout "standard output" run demo --image -
+usage_error image_of_another_format "expected FILE.png, found 'x.JPG'" run demo --image x.JPG
 usage_error json_and_csv_on_stdout "both want standard output" run demo --json --facets -
 usage_error one_file_for_two "the same file" run demo --image "$scratch/x" --facets "$scratch/x"
 
 usage_error material_that_nothing_wears "no material named 'fool'; the nearest is 'foil'" run demo --material fool=1,0.2,0.3,1
 usage_error material_of_three_numbers "A,B,s,m" run demo --material foil=1,0.2,0.3
+usage_error three_numbers_are_no_library_name "(four finite numbers), found '1,0.2,0.3'" run demo --material 1,0.2,0.3
 usage_error material_unknown_in_library "the nearest in the library is solar-cell" run demo --material foil=solar-cel
 usage_error material_negative_A "A is negative" run demo --material -1,0,0.2,0
 usage_error material_negative_m "m is negative" run demo --material 1,0,0.2,-1
@@ -80,6 +82,8 @@ usage_error half_angle_of_a_cylinder "takes no --half-angle" shape cylinder --ra
 usage_error size_of_a_disc "takes no --size" shape disc --radius 1 --size 1,1
 usage_error half_angle_90 "0 < DEG < 90" shape cone --radius 1 --half-angle 90
 usage_error negative_radius "found '-1'" shape sphere --radius -1
+usage_error radius_too_large "radius: expected metres, 0 .. 1e100, found a larger number" shape sphere --radius 1e101
+failure radius_too_small_for_closed_forms "lengths are 0 or 1e-150 .. 1e100 m" shape sphere --radius 1e-200
 usage_error aspect_beyond_180 "0 .. 180" shape disc --radius 1 --aspect 180.5
 usage_error aspect_negative "found '-1'" shape disc --radius 1 --aspect -1
 usage_error direction_of_a_disc "takes --aspect" shape disc --radius 1 --direction 0,0,1

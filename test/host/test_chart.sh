@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # The tool's charts as others read them: Python's XML parser and zlib, where there is Python.
 tool=$1
-command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; exit 0; }
+command -v python3 -B >/dev/null || { echo "ok no_python3_here_skipped"; exit 0; }
 case $tool in /*) ;; *) tool=$PWD/$tool ;; esac
 root=$(cd "$(dirname "$0")/../.." && pwd)
 scratch=$(mktemp -d) || exit 1
@@ -11,7 +11,7 @@ cd "$scratch" || exit 1
 cp "$root/examples/plate.toml" 'a<b&"c.toml'
 "$tool" converge 'a<b&"c.toml' --azel 0,30 --seconds 0.05 --plot p.svg --plot p.png >/dev/null 2>&1
 "$tool" converge demo --azel 50,40 --seconds 0.5 --plot d.svg --csv d.csv >/dev/null 2>&1
-PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/test/host python3 - <<'END'
+PYTHONPATH=$root/test/host python3 -B - <<'END'
 import csv, math, sys
 import xml.etree.ElementTree as tree
 from png_file import Png

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: MIT
 # The tool's files as others read them: Python's zlib and json modules, where there is Python.
 tool=$1
-command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; exit 0; }
+command -v python3 -B >/dev/null || { echo "ok no_python3_here_skipped"; exit 0; }
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 "$tool" run demo --tolerance 0.01 --azel 30,20 --json --image "$scratch/i.png" --image-size 200 \
     --facets "$scratch/f.csv" >"$scratch/o.json" 2>/dev/null
 "$tool" info demo --json >"$scratch/info.json" 2>/dev/null
-PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$(dirname "$0") python3 - "$scratch" <<'END'
+PYTHONPATH=$(dirname "$0") python3 -B - "$scratch" <<'END'
 import csv, json, math, sys
 from png_file import Png
 at = sys.argv[1]

@@ -120,10 +120,13 @@ static void parts_add_up(void **state)
         check_rel(r.budget.visibility_m2 + r.budget.rounding_m2, r.bound_m2, 1e-15);
         check_same(r.budget.tessellation_m2, 0);
         double sum = 0;
+        double glint = 0;
         for (uint32_t f = 0; f < 24; f++) {
             sum += scene.record[f].sigma_m2;
+            glint += scene.record[f].sigma_glint_m2;
         }
         check_rel(sum, r.sigma_m2, 1e-14);
+        check_rel(glint, r.sigma_glint_m2, 1e-14);
         check_rel(scene_seen(&scene, 0, 24), r.projected_area_m2, 1e-14);
         assert_int_equal(r.facets_front, 12);
     }

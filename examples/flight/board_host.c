@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* A desk computer as the board. */
+#include "board.h"
+
+#include <stdio.h>
+
+void board_write(const char *text)
+{
+    fputs(text, stdout);
+}
+
+size_t board_stack_peak(void)
+{
+    return 0;
+}
+
+int main(void)
+{
+    return flight_main();
+}

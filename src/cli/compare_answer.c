@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+/* What a code with a certain mistake would answer to a case: the sum of Eq. 2 over the truth's
+   facets, as the mistake sees them. */
+#include "cli/compare.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ANSWER_PI 3.14159265358979323846
+
+/* The largest f_r cos. */
+static double view_peak(const mistake_view *view)
+{
+    double peak = 0.0;
+    for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
+        mistake_spot spot;
+        if (cli_mistake_seen(view, i, 0, &spot) > 0.0) {
+            peak = fmax(peak, cli_mistake_right(&spot, 0.0));
+        }
+    }
+    return peak;
+}
+
+/* The records of the case as somebody sees it: the truth's, or those of another run. 0 or
+   CLI_FAILED. */
+static int view_make(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
+                     mistake_view *view, lrcs_facet_record **own)
+{
+    lrcs_host_error error;
+    lrcs_run_options options = lrcs_run_options_default();
+    lrcs_result result;
+    lrcs_pose pose = one->pose;
+    int code = cli_compare_records(kit, one);
+    view->scene = &kit->scene[one->scene];
+    view->records = one->records;
+    if (code == 0 && one->peak == 0.0) {
+        one->peak = view_peak(view);
+    }
+    if (code != 0 || (!mistake->turn && !mistake->without)) {
+        return code;
+    }
+    if (mistake->turn && mistake->turn(one, mistake, &pose) != LRCS_OK) {
+        pose = one->pose;
+    }
+    *own = calloc((size_t)view->scene->host.scene.facet_count + 1, sizeof **own);
+    if (!*own) {
+        return cli_out_of_memory();
+    }
+    options.method = LRCS_METHOD_EXACT;
+    options.without = mistake->without;
+    if (lrcs_host_scene_run(&view->scene->host, &pose, &options, &result, *own, NULL, NULL,
+                            &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    view->records = *own;
+    return 0;
+}
+
+/* sigma / 4 pi of what somebody sees. */
+static double view_sum(const mistake_view *view, const compare_mistake *mistake, double peak)
+{
+    mistake_area *area = mistake->area ? mistake->area : cli_mistake_seen;
+    mistake_shade *shade = mistake->shade ? mistake->shade : cli_mistake_right;
+    int corners = mistake->corners > 0 ? mistake->corners : 1;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
+        for (int corner = 0; corner < corners; corner++) {
+            mistake_spot spot = {.peak = peak};
+            double part = area(view, i, corner, &spot);
+            sum += part > 0.0 ? part * shade(&spot, mistake->at) / corners : 0.0;
+        }
+    }
+    return sum;
+}
+
+int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
+                       double *sigma_m2)
+{
+    mistake_view view;
+    lrcs_facet_record *own = NULL;
+    int code = view_make(kit, one, mistake, &view, &own);
+    if (code == 0) {
+        memcpy(view.direction, one->direction, sizeof view.direction);
+        *sigma_m2 = 4.0 * ANSWER_PI * view_sum(&view, mistake, one->peak);
+    }
+    free(own);
+    return code;
+}

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT */
+/* The verdict for people: a line a scene, a line a tier, and why. */
+#include "cli/compare.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NAMES_MOST 8u /* unexplained cases that are named */
+
+typedef struct report_line {
+    uint32_t count[COMPARE_MISSING + 1];
+    double worst; /* relative to sigma */
+    const compare_case *at;
+} report_line;
+
+static double case_off(const compare_case *one)
+{
+    double off = fabs(one->theirs_m2 - one->sigma_m2);
+    return off == 0.0 ? 0.0 : one->sigma_m2 > 0.0 && isfinite(off) ? off / one->sigma_m2 : HUGE_VAL;
+}
+
+static report_line scene_line(const compare_job *job, const compare_scene *scene)
+{
+    report_line line = {.worst = -1.0};
+    for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
+        const compare_case *one = &job->kit.list[i];
+        double off = one->given ? case_off(one) : -1.0;
+        line.count[one->grade]++;
+        if (off > line.worst) {
+            line.worst = off;
+            line.at = one;
+        }
+    }
+    return line;
+}
+
+static void count_print(uint32_t count)
+{
+    if (count > 0) {
+        printf(" %6lu", (unsigned long)count);
+    } else {
+        printf("      .");
+    }
+}
+
+static void scene_print(const compare_job *job, const compare_scene *scene)
+{
+    report_line line = scene_line(job, scene);
+    printf("%4d  ", scene->tier);
+    cli_column(scene->name, 16);
+    for (int k = COMPARE_EXACT; k <= COMPARE_MISSING; k++) {
+        count_print(line.count[k]);
+    }
+    if (line.at && isfinite(line.worst)) {
+        printf("   %8.1e  %s\n", line.worst, line.at->attitude);
+    } else if (line.at) {
+        printf("   %8s  %s\n", "-", line.at->attitude);
+    } else {
+        putchar('\n');
+    }
+}
+
+static void tier_print(const compare_job *job, uint32_t tier)
+{
+    uint32_t cases = 0;
+    uint32_t failed = 0;
+    for (uint32_t i = 0; i < job->kit.cases; i++) {
+        const compare_case *one = &job->kit.list[i];
+        if ((uint32_t)one->tier == tier) {
+            cases++;
+            failed += (uint32_t)cli_compare_failed(job, one);
+        }
+    }
+    if (cases > 0 && failed == 0) {
+        printf("tier %lu       passed, %lu cases\n", (unsigned long)tier, (unsigned long)cases);
+    } else if (cases > 0) {
+        printf("tier %lu       FAILED, %lu of %lu cases\n", (unsigned long)tier,
+               (unsigned long)failed, (unsigned long)cases);
+    }
+}
+
+/* The tiers that a finding touches: " in tiers 1 2". */
+static void finding_tiers(const compare_job *job, int mark)
+{
+    for (int tier = 1; tier <= KIT_TIERS; tier++) {
+        for (uint32_t i = 0; i < job->kit.cases; i++) {
+            const compare_case *one = &job->kit.list[i];
+            if (one->tier == tier && one->explained == mark && cli_compare_failed(job, one)) {
+                printf(" %d", tier);
+                break;
+            }
+        }
+    }
+}
+
+static void findings_print(const compare_job *job)
+{
+    uint32_t failed = job->failed - (job->asked - job->given) - job->not_numbers;
+    for (uint32_t i = 0; i < job->findings; i++) {
+        const compare_finding *finding = &job->finding[i];
+        printf("why          %s\n", finding->text);
+        if (finding->explained == 0) {
+            continue;
+        }
+        printf("             explains %lu of %lu failing cases, in tiers",
+               (unsigned long)finding->explained, (unsigned long)failed);
+        finding_tiers(job, (int)i + 1);
+        if (finding->rest < 1.0) {
+            printf("; leaves %.2g %% of their differences", 100.0 * finding->rest);
+        }
+        putchar('\n');
+    }
+}
+
+static void unexplained_print(const compare_job *job)
+{
+    uint32_t named = 0;
+    if (job->unexplained == 0) {
+        return;
+    }
+    printf("unexplained  %lu failing cases:", (unsigned long)job->unexplained);
+    for (uint32_t i = 0; i < job->kit.cases && named <= NAMES_MOST; i++) {
+        const compare_case *one = &job->kit.list[i];
+        if (cli_compare_failed(job, one) && one->given && one->explained == 0) {
+            if (named++ < NAMES_MOST) {
+                printf("%s %s %s", named > 1 ? "," : "", job->kit.scene[one->scene].name,
+                       one->attitude);
+            } else {
+                printf(", ..");
+            }
+        }
+    }
+    putchar('\n');
+}
+
+void cli_compare_table(const compare_job *job)
+{
+    printf("kit          %s: %lu scenes, %lu cases\n", job->kit.folder,
+           (unsigned long)job->kit.scenes, (unsigned long)job->kit.cases);
+    printf("answers      %s: %lu of %lu cases of tiers 1 .. %lu\n", job->theirs,
+           (unsigned long)job->given, (unsigned long)job->asked, (unsigned long)job->tier);
+    printf("asked        class %s or better; a raster of %lu x %lu pixels\n\n",
+           cli_compare_grade(job->grade), (unsigned long)job->pixels, (unsigned long)job->pixels);
+    printf("tier  scene             exact  float raster   fail missing   worst of sigma\n");
+    for (uint32_t i = 0; i < job->kit.scenes; i++) {
+        if ((uint32_t)job->kit.scene[i].tier <= job->tier) {
+            scene_print(job, &job->kit.scene[i]);
+        }
+    }
+    putchar('\n');
+    for (uint32_t tier = 1; tier <= job->tier; tier++) {
+        tier_print(job, tier);
+    }
+    if (job->not_numbers > 0) {
+        printf("why          %lu answers are not numbers\n", (unsigned long)job->not_numbers);
+    }
+    findings_print(job);
+    unexplained_print(job);
+    printf("verdict      %s\n", cli_compare_passed(job) ? "passed" : "FAILED");
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* What the rooms that look for reasons share: the cases that fail still, and factors. */
+#ifndef LRCS_CLI_COMPARE_SEARCH_H
+#define LRCS_CLI_COMPARE_SEARCH_H
+
+#include "cli/compare.h"
+
+typedef struct compare_search {
+    compare_job *job;
+    compare_case **failing; /* not explained yet */
+    compare_case **passing; /* some of them */
+    uint32_t failings, passings;
+    double *answer; /* of a mistake: the failing cases, then the passing ones */
+    double *room;   /* to sort in */
+} compare_search;
+
+/* Parts the cases asked for into those that fail, unexplained so far, and some that pass. */
+void cli_search_part(compare_search *search);
+
+/* Does an expected answer explain what was handed in? */
+int cli_search_explained(const compare_search *search, const compare_case *one, double expected);
+
+/* The median, 0 of nothing; sorts the values. */
+double cli_search_median(double *value, uint32_t count);
+
+/* The next finding, empty; NULL where there is no room for one. */
+compare_finding *cli_search_finding(compare_job *job, const char *name);
+
+/* What needs no mistake of the catalogue to be told: coarse depths, single precision, a raster, a
+   factor that all answers share. */
+void cli_compare_signs(compare_search *search);
+
+/* A factor near one that is known by name, or itself; what it may mean, and its name. */
+double cli_factor_known(double factor, int *known);
+const char *cli_factor_text(const compare_job *job, double factor);
+const char *cli_factor_name(double factor);
+
+#endif

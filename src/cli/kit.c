@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/* What writing a kit and judging by it share: its paths, its poses, its scenes as the engine reads
+   them back. What is written is vectors*.c, how it is judged compare*.c. */
+#include "cli/kit.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+int cli_kit_path(char path[KIT_PATH], const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    int size = vsnprintf(path, KIT_PATH, format, list);
+    va_end(list);
+    if (size < 0 || (unsigned)size >= KIT_PATH) {
+        fprintf(stderr, "lrcs: a path of more than %u bytes\n", KIT_PATH);
+        return CLI_FAILED;
+    }
+    return 0;
+}
+
+int cli_kit_pose(const double quaternion[4], const double direction[3], lrcs_pose *pose)
+{
+    lrcs_pose turned;
+    lrcs_pose aimed;
+    int status = lrcs_pose_from_quaternion(quaternion, &turned);
+    status = status == LRCS_OK ? lrcs_pose_from_direction(direction, &aimed) : status;
+    if (status == LRCS_OK) {
+        memcpy(pose->direction, aimed.direction, sizeof pose->direction);
+        memcpy(pose->R, turned.R, sizeof pose->R);
+    }
+    return status;
+}
+
+int cli_kit_scene(const char *folder, const char *name, const lrcs_binding *binding, uint32_t count,
+                  lrcs_host_scene *scene)
+{
+    lrcs_host_error error;
+    lrcs_host_options options = lrcs_host_options_default();
+    char path[KIT_PATH];
+    memset(scene, 0, sizeof *scene);
+    options.binding = binding;
+    options.binding_count = count;
+    if (cli_kit_path(path, "%s/scenes/%s.obj", folder, name) != 0) {
+        return CLI_FAILED;
+    }
+    if (lrcs_host_scene_read(path, &options, scene, &error) != LRCS_OK ||
+        lrcs_host_scene_prepare(scene, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    return 0;
+}

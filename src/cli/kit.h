@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/* The conformance kit as lrcs vectors writes it and lrcs compare reads it back: what its files are
+   called, and its version. README.md of a kit says what they hold. */
+#ifndef LRCS_CLI_KIT_H
+#define LRCS_CLI_KIT_H
+
+#include "cli/cli.h"
+
+/* Changes whenever a scene, an attitude or a column does. */
+#define KIT_VERSION 1
+#define KIT_TIERS   5
+
+#define KIT_PATH 4096u /* room for a path */
+#define KIT_NAME 32u   /* room for the name of a scene, an attitude or a material */
+
+#define KIT_MATERIALS_FILE "materials.csv"
+#define KIT_CASES_FILE     "cases.csv"
+#define KIT_MATERIALS_HEAD "material,A,B,s,m,two_sided"
+#define KIT_CASES_HEAD                                                                             \
+    "scene,attitude,tier,qw,qx,qy,qz,sx,sy,sz,az_deg,el_deg,sigma_m2,bound_m2,glint_m2,"           \
+    "diffuse_m2,silhouette_m2,float_m2,edge_m2,left_m,top_m,side_m,image"
+
+/* A pose of the kit: the direction is the truth's to the last bit, the quaternion adds the roll.
+   Status: as lrcs_pose_from_quaternion. */
+int cli_kit_pose(const double quaternion[4], const double direction[3], lrcs_pose *pose);
+
+/* "DIR/a/b" in path. 0, or CLI_FAILED with the message printed where there is no room. */
+__attribute__((format(printf, 2, 3))) int cli_kit_path(char path[KIT_PATH], const char *format,
+                                                       ...);
+
+/* Reads scenes/NAME.obj of a kit, dressed by these bindings, and prepares it. 0 or CLI_FAILED with
+   the message printed; the caller frees the scene in any case. */
+int cli_kit_scene(const char *folder, const char *name, const lrcs_binding *binding, uint32_t count,
+                  lrcs_host_scene *scene);
+
+#endif

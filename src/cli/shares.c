@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: MIT */
+/* Adds up what single facets return, by part, by material and for the brightest facets. It decides
+   what a part is (a shape, a model, or each object of a model that has several) and which materials
+   are one (same name, same numbers); how the lists look is shares_report's. */
+#include "cli/shares.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DEGREES (180.0 / 3.14159265358979323846)
+
+/* Sums of one row, before it is sorted. */
+typedef struct shares_tally {
+    cli_sum sigma, glint, diffuse;
+    uint32_t facets;
+} shares_tally;
+
+/* Which row each facet belongs to. */
+typedef struct shares_plan {
+    const lrcs_host_scene *base;
+    const lrcs_scene *scene;
+    uint32_t *first_part;  /* by part of the scene: the row of its first object */
+    uint32_t *material_of; /* by material of the scene: its row */
+    uint32_t parts, materials;
+} shares_plan;
+
+/* ---- which rows there are ---- */
+
+/* The mesh of a part that has several objects, or NULL. */
+static const lrcs_mesh *part_objects(const shares_plan *plan, uint32_t part)
+{
+    const lrcs_mesh *mesh = &plan->base->model[part];
+    return plan->base->recipe.part[part].file && mesh->part_count > 1 ? mesh : NULL;
+}
+
+static void parts_number(shares_plan *plan)
+{
+    for (uint32_t i = 0; i < plan->scene->part_count; i++) {
+        const lrcs_mesh *mesh = part_objects(plan, i);
+        plan->first_part[i] = plan->parts;
+        plan->parts += mesh ? mesh->part_count : 1;
+    }
+}
+
+static uint32_t part_of_facet(const shares_plan *plan, uint32_t facet)
+{
+    uint32_t part = plan->scene->facet_part[facet];
+    const lrcs_mesh *mesh = part_objects(plan, part);
+    return plan->first_part[part] +
+           (mesh ? mesh->facet_part[facet - plan->scene->part[part].first_facet] : 0);
+}
+
+typedef struct shares_worn {
+    const lrcs_material *material;
+} shares_worn;
+
+/* Materials that look alike in a report are one: those of one name and the same numbers. */
+static int material_compare(const void *a, const void *b)
+{
+    const lrcs_material *x = ((const shares_worn *)a)->material;
+    const lrcs_material *y = ((const shares_worn *)b)->material;
+    int order = strcmp(x->name, y->name);
+    return order ? order : memcmp(&x->brdf, &y->brdf, sizeof x->brdf);
+}
+
+static int materials_number(shares_plan *plan)
+{
+    const lrcs_scene *scene = plan->scene;
+    shares_worn *sorted = calloc((size_t)scene->material_count + 1, sizeof *sorted);
+    if (!sorted) {
+        return -1;
+    }
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        sorted[i].material = &scene->material[i];
+    }
+    qsort(sorted, scene->material_count, sizeof *sorted, material_compare);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        int another = i > 0 && material_compare(&sorted[i - 1], &sorted[i]) != 0;
+        plan->materials += i == 0 || another;
+        plan->material_of[sorted[i].material - scene->material] = plan->materials - 1;
+    }
+    free(sorted);
+    return 0;
+}
+
+/* ---- names ---- */
+
+/* "part", or "part/object" where a scene of several parts has a model of several objects. */
+static char *part_name(const shares_plan *plan, uint32_t part, uint32_t object)
+{
+    const lrcs_mesh *mesh = part_objects(plan, part);
+    const char *whole = plan->scene->part[part].name;
+    const char *name = mesh ? mesh->part[object] : whole;
+    int both = mesh && plan->scene->part_count > 1;
+    size_t room = strlen(whole) + strlen(name) + 2;
+    char *text = malloc(room);
+    if (text) {
+        snprintf(text, room, "%s%s%s", both ? whole : "", both ? "/" : "", name);
+    }
+    return text;
+}
+
+typedef struct shares_alike {
+    char **name;
+    uint32_t object; /* from 1, in its model's order */
+} shares_alike;
+
+static int alike_compare(const void *a, const void *b)
+{
+    return strcmp(*((const shares_alike *)a)->name, *((const shares_alike *)b)->name);
+}
+
+/* "name #3" for objects whose name others have too, as 3DS files that allow 10 letters have many.
+ */
+static int alike_number(shares_alike *list, uint32_t count)
+{
+    for (uint32_t i = 0; i < count;) {
+        uint32_t end = i + 1;
+        while (end < count && strcmp(*list[i].name, *list[end].name) == 0) {
+            end++;
+        }
+        for (uint32_t last = end - i > 1 ? end : i; last-- > i;) {
+            size_t room = strlen(*list[last].name) + 14;
+            char *text = malloc(room);
+            if (!text) {
+                return -1;
+            }
+            snprintf(text, room, "%s #%lu", *list[last].name, (unsigned long)list[last].object);
+            free(*list[last].name);
+            *list[last].name = text;
+        }
+        i = end;
+    }
+    return 0;
+}
+
+/* Tells parts of one name apart. */
+static int parts_tell(const shares_plan *plan, cli_shares *shares)
+{
+    shares_alike *list = calloc((size_t)plan->parts + 1, sizeof *list);
+    if (!list) {
+        return -1;
+    }
+    for (uint32_t i = 0, part = 0; i < plan->parts; i++) {
+        while (part + 1 < plan->scene->part_count && plan->first_part[part + 1] <= i) {
+            part++;
+        }
+        list[i] = (shares_alike){&shares->part[i].name, i - plan->first_part[part] + 1};
+    }
+    qsort(list, plan->parts, sizeof *list, alike_compare);
+    int told = alike_number(list, plan->parts);
+    free(list);
+    return told;
+}
+
+static int rows_name(const shares_plan *plan, cli_shares *shares)
+{
+    for (uint32_t i = 0; i < plan->scene->part_count; i++) {
+        const lrcs_mesh *mesh = part_objects(plan, i);
+        for (uint32_t k = 0; k < (mesh ? mesh->part_count : 1); k++) {
+            shares->part[plan->first_part[i] + k].name = part_name(plan, i, k);
+        }
+    }
+    for (uint32_t i = 0; i < plan->scene->material_count; i++) {
+        shares_row *row = &shares->material[plan->material_of[i]];
+        row->name = row->name ? row->name : strdup(plan->scene->material[i].name);
+    }
+    shares->parts = plan->parts;
+    shares->materials = plan->materials;
+    int named = 1;
+    for (uint32_t i = 0; i < plan->parts; i++) {
+        named &= shares->part[i].name != NULL;
+    }
+    for (uint32_t i = 0; i < plan->materials; i++) {
+        named &= shares->material[i].name != NULL;
+    }
+    return named ? parts_tell(plan, shares) : -1;
+}
+
+/* ---- sums ---- */
+
+static void tally_add(shares_tally *tally, const lrcs_facet_record *record)
+{
+    cli_sum_add(&tally->sigma, record->sigma_m2);
+    cli_sum_add(&tally->glint, record->sigma_glint_m2);
+    cli_sum_add(&tally->diffuse, record->sigma_m2 - record->sigma_glint_m2);
+    tally->facets++;
+}
+
+static void row_fill(shares_row *row, const shares_tally *tally)
+{
+    row->facets = tally->facets;
+    row->sigma_m2 = cli_sum_value(&tally->sigma);
+    row->glint_m2 = cli_sum_value(&tally->glint);
+    row->diffuse_m2 = cli_sum_value(&tally->diffuse);
+}
+
+/* Keeps a facet where it is among the brightest. */
+static void facet_offer(const shares_plan *plan, uint32_t facet, const lrcs_facet_record *record,
+                        cli_shares *shares)
+{
+    uint32_t at = shares->facets;
+    while (at > 0 && shares->facet[at - 1].sigma_m2 < record->sigma_m2) {
+        at--;
+    }
+    if (at == SHARES_FACETS || !(record->sigma_m2 > 0.0)) {
+        return;
+    }
+    uint32_t last = shares->facets < SHARES_FACETS ? shares->facets++ : SHARES_FACETS - 1;
+    memmove(&shares->facet[at + 1], &shares->facet[at], (last - at) * sizeof shares->facet[0]);
+    shares->facet[at] = (shares_facet){
+        .facet = facet,
+        .part = shares->part[part_of_facet(plan, facet)].name,
+        .material = shares->material[plan->material_of[plan->scene->facet_material[facet]]].name,
+        .theta_deg = acos(fmin(fabs(record->cos_theta), 1.0)) * DEGREES,
+        .visible_area_m2 = record->visible_area_m2,
+        .sigma_m2 = record->sigma_m2,
+        .glint_m2 = record->sigma_glint_m2};
+}
+
+static void facets_add(const shares_plan *plan, const lrcs_facet_record *records,
+                       shares_tally *tally, cli_shares *shares)
+{
+    for (uint32_t i = 0; i < plan->scene->facet_count; i++) {
+        tally_add(&tally[part_of_facet(plan, i)], &records[i]);
+        tally_add(&tally[plan->parts + plan->material_of[plan->scene->facet_material[i]]],
+                  &records[i]);
+        facet_offer(plan, i, &records[i], shares);
+    }
+    for (uint32_t i = 0; i < plan->parts; i++) {
+        row_fill(&shares->part[i], &tally[i]);
+    }
+    for (uint32_t i = 0; i < plan->materials; i++) {
+        row_fill(&shares->material[i], &tally[plan->parts + i]);
+    }
+}
+
+/* ---- order ---- */
+
+/* The brightest first, of equals the one with more facets, then by name. */
+static int row_compare(const void *a, const void *b)
+{
+    const shares_row *x = a;
+    const shares_row *y = b;
+    int order = (x->sigma_m2 < y->sigma_m2) - (x->sigma_m2 > y->sigma_m2);
+    order = order ? order : (x->facets < y->facets) - (x->facets > y->facets);
+    return order ? order : strcmp(x->name, y->name);
+}
+
+/* Sorts, and drops what has no facets, which comes last. */
+static void rows_sort(shares_row *row, uint32_t *count)
+{
+    qsort(row, *count, sizeof *row, row_compare);
+    while (*count > 0 && row[*count - 1].facets == 0) {
+        free(row[--*count].name);
+    }
+}
+
+/* ---- in public ---- */
+
+static int shares_fill(shares_plan *plan, const lrcs_facet_record *records, cli_shares *shares)
+{
+    parts_number(plan);
+    if (materials_number(plan) != 0) {
+        return -1;
+    }
+    shares_tally *tally = calloc((size_t)plan->parts + plan->materials + 1, sizeof *tally);
+    shares->part = calloc((size_t)plan->parts + 1, sizeof *shares->part);
+    shares->material = calloc((size_t)plan->materials + 1, sizeof *shares->material);
+    int made = tally && shares->part && shares->material && rows_name(plan, shares) == 0;
+    if (made) {
+        facets_add(plan, records, tally, shares);
+        rows_sort(shares->part, &shares->parts);
+        rows_sort(shares->material, &shares->materials);
+    }
+    free(tally);
+    return made ? 0 : -1;
+}
+
+int cli_shares_make(const lrcs_host_scene *base, const lrcs_scene *scene,
+                    const lrcs_facet_record *records, double sigma_m2, cli_shares *shares)
+{
+    shares_plan plan = {.base = base, .scene = scene};
+    *shares = (cli_shares){.sigma_m2 = sigma_m2};
+    plan.first_part = calloc((size_t)scene->part_count + 1, sizeof *plan.first_part);
+    plan.material_of = calloc((size_t)scene->material_count + 1, sizeof *plan.material_of);
+    int made = plan.first_part && plan.material_of && shares_fill(&plan, records, shares) == 0;
+    free(plan.first_part);
+    free(plan.material_of);
+    return made ? 0 : cli_out_of_memory();
+}
+
+void cli_shares_free(cli_shares *shares)
+{
+    for (uint32_t i = 0; shares->part && i < shares->parts; i++) {
+        free(shares->part[i].name);
+    }
+    for (uint32_t i = 0; shares->material && i < shares->materials; i++) {
+        free(shares->material[i].name);
+    }
+    free(shares->part);
+    free(shares->material);
+    memset(shares, 0, sizeof *shares);
+}
+
+double cli_share_of(const cli_shares *shares, double part_m2)
+{
+    return shares->sigma_m2 > 0.0 ? part_m2 / shares->sigma_m2 : (double)NAN;
+}
+
+uint32_t cli_shares_shown(const shares_row *row, uint32_t count)
+{
+    uint32_t shown = 0;
+    while (shown < count && shown < SHARES_ROWS && row[shown].sigma_m2 > 0.0) {
+        shown++;
+    }
+    return shown;
+}
+
+shares_row cli_shares_others(const shares_row *row, uint32_t from, uint32_t count)
+{
+    shares_tally tally = {.facets = 0};
+    shares_row others = {.name = NULL};
+    for (uint32_t i = from; i < count; i++) {
+        cli_sum_add(&tally.sigma, row[i].sigma_m2);
+        cli_sum_add(&tally.glint, row[i].glint_m2);
+        cli_sum_add(&tally.diffuse, row[i].diffuse_m2);
+        tally.facets += row[i].facets;
+    }
+    row_fill(&others, &tally);
+    return others;
+}

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT */
+/* Shares of sigma as a table for people, cut to what matters, and as JSON, whole. */
+#include "cli/shares.h"
+
+#include <math.h>
+
+#define NAME_WIDTH 24
+
+/* ---- the table ---- */
+
+/* A share in percent; "-" of nothing. */
+static void percent_cell(double share)
+{
+    if (isfinite(share)) {
+        printf(" %7.2f %%", 100.0 * share);
+    } else {
+        printf(" %9s", "-");
+    }
+}
+
+static void row_line(const cli_shares *shares, const shares_row *row)
+{
+    printf(" %12.6g", row->sigma_m2);
+    percent_cell(cli_share_of(shares, row->sigma_m2));
+    printf(" %12.4g %12.4g\n", row->glint_m2, row->diffuse_m2);
+}
+
+static void rows_table(const cli_shares *shares, const char *what, const shares_row *row,
+                       uint32_t count)
+{
+    uint32_t shown = cli_shares_shown(row, count);
+    printf("  %-*s %12s %9s %12s %12s\n", NAME_WIDTH, what, "sigma m2", "share", "glint m2",
+           "diffuse m2");
+    for (uint32_t i = 0; i < shown; i++) {
+        printf("  ");
+        cli_column(row[i].name[0] ? row[i].name : "(no name)", NAME_WIDTH);
+        row_line(shares, &row[i]);
+    }
+    if (shown < count) {
+        char text[32];
+        shares_row others = cli_shares_others(row, shown, count);
+        snprintf(text, sizeof text, "%lu other%s", (unsigned long)(count - shown),
+                 count - shown > 1 ? "s" : "");
+        printf("  %-*s", NAME_WIDTH, text);
+        row_line(shares, &others);
+    }
+}
+
+static void facets_table(const cli_shares *shares)
+{
+    if (shares->facets == 0) {
+        return;
+    }
+    printf("  %-10s %-*s %-20s %9s %12s %12s %9s\n", "facet", NAME_WIDTH, "part", "material",
+           "theta deg", "visible m2", "sigma m2", "share");
+    for (uint32_t i = 0; i < shares->facets; i++) {
+        const shares_facet *facet = &shares->facet[i];
+        printf("  %-10lu ", (unsigned long)facet->facet);
+        cli_column(facet->part, NAME_WIDTH);
+        putchar(' ');
+        cli_column(facet->material[0] ? facet->material : "(default)", 20);
+        printf(" %9.3f %12.4g %12.6g", facet->theta_deg, facet->visible_area_m2, facet->sigma_m2);
+        percent_cell(cli_share_of(shares, facet->sigma_m2));
+        putchar('\n');
+    }
+}
+
+void cli_shares_table(const cli_shares *shares)
+{
+    printf("shares       who makes sigma; the brightest first\n");
+    rows_table(shares, "part", shares->part, shares->parts);
+    rows_table(shares, "material", shares->material, shares->materials);
+    facets_table(shares);
+}
+
+/* ---- JSON ---- */
+
+static void rows_json(const cli_shares *shares, const char *key, const shares_row *row,
+                      uint32_t count, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, key, LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < count; i++) {
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_text(json, "name", row[i].name);
+        lrcs_host_json_number(json, "sigma_m2", row[i].sigma_m2);
+        lrcs_host_json_number(json, "share", cli_share_of(shares, row[i].sigma_m2));
+        lrcs_host_json_number(json, "sigma_glint_m2", row[i].glint_m2);
+        lrcs_host_json_number(json, "sigma_diffuse_m2", row[i].diffuse_m2);
+        lrcs_host_json_count(json, "facets", row[i].facets);
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+}
+
+void cli_shares_json(const cli_shares *shares, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, "shares", LRCS_HOST_OBJECT);
+    rows_json(shares, "parts", shares->part, shares->parts, json);
+    rows_json(shares, "materials", shares->material, shares->materials, json);
+    lrcs_host_json_begin(json, "facets", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < shares->facets; i++) {
+        const shares_facet *facet = &shares->facet[i];
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_count(json, "facet", facet->facet);
+        lrcs_host_json_text(json, "part", facet->part);
+        lrcs_host_json_text(json, "material", facet->material);
+        lrcs_host_json_number(json, "theta_deg", facet->theta_deg);
+        lrcs_host_json_number(json, "visible_area_m2", facet->visible_area_m2);
+        lrcs_host_json_number(json, "sigma_m2", facet->sigma_m2);
+        lrcs_host_json_number(json, "sigma_glint_m2", facet->glint_m2);
+        lrcs_host_json_number(json, "share", cli_share_of(shares, facet->sigma_m2));
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_end(json);
+}

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+/* Text and bytes for an HTML page that is well-formed XML too. It decides what stands for
+   characters that are markup or may not stand in a page; the page is the caller's. */
+#include <lrcs/host.h>
+
+#include "base/text.h"
+
+#include <string.h>
+
+#define SEQUENCE_MOST 4 /* bytes; the terminator ends a shorter one */
+
+/* U+FFFE and U+FFFF, which XML leaves out. */
+static int html_is_none(const char *at, size_t count)
+{
+    return count == 3 && memcmp(at, "\xef\xbf", 2) == 0 && (unsigned char)at[2] >= 0xbe;
+}
+
+void lrcs_host_html_text(FILE *out, const char *text)
+{
+    while (*text) {
+        unsigned char byte = (unsigned char)*text;
+        size_t count = lrcsi_text_sequence(text, SEQUENCE_MOST);
+        if (byte == '<' || byte == '>') {
+            fputs(byte == '<' ? "&lt;" : "&gt;", out);
+        } else if (byte == '&' || byte == '"') {
+            fputs(byte == '&' ? "&amp;" : "&quot;", out);
+        } else if (count == 0 || (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f ||
+                   html_is_none(text, count)) {
+            fputs("\xef\xbf\xbd", out);
+        } else {
+            fwrite(text, 1, count, out);
+        }
+        text += count > 0 ? count : 1;
+    }
+}
+
+void lrcs_host_html_base64(FILE *out, const unsigned char *bytes, size_t size)
+{
+    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        size_t left = size - i;
+        unsigned long three = (unsigned long)bytes[i] << 16 |
+                              (left > 1 ? (unsigned long)bytes[i + 1] << 8 : 0) |
+                              (left > 2 ? bytes[i + 2] : 0);
+        putc(digit[three >> 18], out);
+        putc(digit[three >> 12 & 63], out);
+        putc(left > 1 ? digit[three >> 6 & 63] : '=', out);
+        putc(left > 2 ? digit[three & 63] : '=', out);
+    }
+}

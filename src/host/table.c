@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: MIT */
+/* Tables of text. It decides what a line and a field are, and refuses what it would have to guess;
+   what columns mean is for those who read them. */
+#include <lrcs/table.h>
+
+#include <string.h>
+#include <strings.h>
+
+#include "host/fail.h"
+
+static int byte_is_blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+/* The next line that holds something; 0 where the text ends. */
+static int text_line_next(lrcs_host_table *table, const char **line, const char **end)
+{
+    while (table->at < table->end) {
+        const char *at = table->at;
+        while (table->at < table->end && *table->at != '\n' && *table->at != '\r') {
+            table->at++;
+        }
+        *end = table->at;
+        int cr_lf = table->end - table->at > 1 && table->at[0] == '\r' && table->at[1] == '\n';
+        table->at += table->at < table->end ? 1 + cr_lf : 0;
+        table->line++;
+        while (at < *end && byte_is_blank(*at)) {
+            at++;
+        }
+        if (at < *end && *at != '#') {
+            *line = at;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Commas may be in numbers of some countries: semicolons and tabs come first. */
+static char line_separator(const char *line, const char *end)
+{
+    size_t size = (size_t)(end - line);
+    return memchr(line, ';', size)    ? ';'
+           : memchr(line, '\t', size) ? '\t'
+           : memchr(line, ',', size)  ? ','
+                                      : ' ';
+}
+
+/* One field from *line on, which is moved to its separator. */
+static lrcs_host_field field_cut(const lrcs_host_table *table, const char **line, const char *end)
+{
+    const char *at = *line;
+    while (at < end && byte_is_blank(*at) && *at != table->separator) {
+        at++;
+    }
+    const char *quote = at < end && *at == '"' ? memchr(at + 1, '"', (size_t)(end - at - 1)) : NULL;
+    const char *last = quote ? quote + 1 : at;
+    while (last < end && *last != table->separator &&
+           !(table->separator == ' ' && byte_is_blank(*last))) {
+        last++;
+    }
+    *line = last;
+    while (last > at && byte_is_blank(last[-1])) {
+        last--;
+    }
+    if (quote && last == quote + 1) {
+        at++;
+        last--;
+    }
+    return (lrcs_host_field){at, (size_t)(last - at)};
+}
+
+/* How many fields a line has; one more than there is room for where they do not fit. */
+static uint32_t line_split(lrcs_host_table *table, const char *line, const char *end)
+{
+    for (uint32_t fields = 0; fields < LRCS_HOST_FIELDS;) {
+        table->field[fields++] = field_cut(table, &line, end);
+        while (table->separator == ' ' && line < end && byte_is_blank(*line)) {
+            line++;
+        }
+        if (line == end) {
+            return fields;
+        }
+        line += table->separator != ' ';
+    }
+    return LRCS_HOST_FIELDS + 1;
+}
+
+lrcs_host_table lrcs_host_table_make(const char *path, const lrcs_host_file *file)
+{
+    static const char mark[] = "\xef\xbb\xbf"; /* a byte order mark is passed over */
+    lrcs_host_table table = {.path = path, .at = (const char *)file->bytes};
+    table.end = table.at + file->size;
+    if (file->size >= 3 && memcmp(table.at, mark, 3) == 0) {
+        table.at += 3;
+    }
+    return table;
+}
+
+int lrcs_host_table_read(lrcs_host_table *table, lrcs_host_error *error)
+{
+    const char *line;
+    const char *end;
+    if (!text_line_next(table, &line, &end)) {
+        return 0;
+    }
+    table->separator = table->columns ? table->separator : line_separator(line, end);
+    uint32_t fields = line_split(table, line, end);
+    if (fields > LRCS_HOST_FIELDS) {
+        return lrcsi_host_fail(error, LRCS_E_LIMIT, "%s: line %llu: more than %u columns",
+                               table->path, (unsigned long long)table->line, LRCS_HOST_FIELDS);
+    }
+    if (table->columns && fields != table->columns) {
+        return lrcsi_host_fail(
+            error, LRCS_E_SYNTAX,
+            "%s: line %llu: found %lu field%s, expected %lu as in the first line", table->path,
+            (unsigned long long)table->line, (unsigned long)fields, fields == 1 ? "" : "s",
+            (unsigned long)table->columns);
+    }
+    table->columns = fields;
+    return 1;
+}
+
+int lrcs_host_field_begins(const lrcs_host_field *field, const char *name)
+{
+    size_t size = strlen(name);
+    return field->size >= size && strncasecmp(field->text, name, size) == 0;
+}
+
+int lrcs_host_field_is(const lrcs_host_field *field, const char *name)
+{
+    return field->size == strlen(name) && lrcs_host_field_begins(field, name);
+}
+
+int lrcs_host_field_refuse(const lrcs_host_table *table, int status, uint32_t column,
+                           const char *expected, lrcs_host_error *error)
+{
+    const lrcs_host_field *field = &table->field[column];
+    return lrcsi_host_fail(error, status, "%s: line %llu, column %lu: found '%.*s', expected %s",
+                           table->path, (unsigned long long)table->line, (unsigned long)column + 1,
+                           field->size < 64 ? (int)field->size : 64, field->text, expected);
+}
+
+int lrcs_host_field_read(const lrcs_host_table *table, uint32_t column, const char *expected,
+                         double *value, lrcs_host_error *error)
+{
+    const lrcs_host_field *field = &table->field[column];
+    int status = lrcs_host_number_read(field->text, field->size, value);
+    if (status == LRCS_E_SYNTAX && memchr(field->text, ',', field->size)) {
+        return lrcs_host_field_refuse(table, status, column, "a number with a decimal point",
+                                      error);
+    }
+    return status == LRCS_OK ? LRCS_OK
+                             : lrcs_host_field_refuse(table, status, column, expected, error);
+}

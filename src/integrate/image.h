@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+/* An item buffer as a picture. */
+#ifndef LRCSI_IMAGE_H
+#define LRCSI_IMAGE_H
+
+#include "view/view.h"
+
+/* Given: the view that was drawn; owner, image->size squared, row 0 at the bottom. Returned: the
+   rest of the image. */
+void lrcsi_image_fill(const lrcsi_view *view, const uint32_t *owner, lrcs_image *image);
+
+#endif

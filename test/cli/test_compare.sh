@@ -1,0 +1,162 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# lrcs compare, judged by codes whose mistakes are known: a raster code of its own (examples/kit) that
+# is right, and wrong on purpose in one way after another; and tables made from the truth.
+. "$(dirname "$0")/check.sh"
+
+cd "$scratch" || exit 1
+${CC:-cc} -O2 -std=c11 -Wall -Wextra -Werror -ffp-contract=off -o raster "$root/examples/kit/raster.c" -lm ||
+    not_ok the_raster_code_compiles
+"$tool" vectors kit --tier 3 --resolution 96 >/dev/null
+"$tool" vectors whole --resolution 64 >/dev/null
+
+# why NAME EXIT WORDS: what the last verdict was, and that it says so.
+why() {
+    found=$(printf '%s\n' "$out" | grep -ac -- "$3")
+    same "$1" "$rc $found" "$2 1"
+}
+
+# judged KIT MISTAKE OPTIONS...: what the raster code answers, judged.
+judged() {
+    kit=$1
+    shift
+    ./raster "$kit" 96 "$1" >theirs.csv
+    shift
+    run compare "$kit" theirs.csv --pixels 96 --tier 5 "$@"
+}
+
+run compare whole whole/cases.csv --class exact
+why the_truth_is_exact 0 '^verdict      passed'
+same and_needs_no_reasons "$(printf '%s\n' "$out" | grep -cE '^(why|unexplained)')" 0
+judged whole none
+why a_raster_code_that_is_right_passes_every_tier 0 '^verdict      passed'
+same tier_by_tier "$(printf '%s\n' "$out" | grep -cE '^tier [1-5]       passed')" 5
+./raster kit 0 >theirs.csv
+run compare kit theirs.csv --tier 2 --class exact
+why a_sum_over_facets_is_exact_for_convex_bodies 0 '^verdict      passed'
+run compare kit theirs.csv
+why cases_that_are_missing_fail 1 '^tier 3       FAILED, 77 of 77 cases'
+
+# named MISTAKE WORDS: the raster code with a mistake fails, and the first reason is that one.
+named() {
+    judged kit "$1"
+    why "${1}_is_named" 1 "^why          $2"
+    same "${1}_is_the_one_reason" "$(printf '%s\n' "$out" | grep -cE '^(why|unexplained)')" 1
+}
+named shadows 'missing shadows'
+named backs 'back faces: visible backs of one-sided facets reflect'
+named hand 'wrong handedness: x mirrored'
+named frame 'wrong frame: R in place of its transpose'
+named degrees 'degrees for radians: theta in degrees'
+named radians 'degrees for radians: azimuth and elevation'
+named 4pi '0.0795775 times the truth everywhere: 4 pi is missing'
+named cos 'missing cos: a sum of f_r'
+named pixel '.*1.02.* pixel area: N - 1'
+named colour 'colour quantisation: f_r cos in 8 bits, 1 being'
+named glint 'under-resolved glint: theta rounded to 5 deg'
+named shadows+cos 'missing shadows.*; and missing cos'
+named hand+4pi 'wrong handedness: x mirrored; and 0.0795775 times that: 4 pi is missing'
+judged whole depth
+why depth_is_named 1 '^why          depth precision: skins 2^-14 m apart'
+./raster kit 0 float >theirs.csv
+run compare kit theirs.csv --tier 2 --class exact
+why float_is_named 1 '^why          single precision'
+run compare kit theirs.csv --tier 2 --class float
+why float_is_enough_where_it_is_asked 0 '^verdict      passed'
+
+# What else they hand in.
+mkdir images
+./raster kit 96 items=images >theirs.csv
+run compare kit theirs.csv --pixels 96 --items images
+why images_that_are_right_agree 0 '16 of 16 images handed in; 0 differ'
+for file in images/*.u32; do # rows of 384 bytes, the last one first
+    i=96
+    while [ $i -gt 0 ]; do
+        i=$((i - 1))
+        dd if="$file" bs=384 skip=$i count=1 2>/dev/null
+    done >flipped && mv flipped "$file"
+    case $file in */box.*) break ;; esac
+done
+run compare kit theirs.csv --pixels 96 --items images
+why images_upside_down_are_told 0 '  2 are upside down'
+head -c 100 images/box.a.item.u32 >short && mv short images/box.a.item.u32
+run compare kit theirs.csv --pixels 96 --items images
+same an_image_cut_short_is_refused "$rc $(printf '%s\n' "$err" | grep -c 'expected 96 x 96 pixels of 4 bytes, found 100 bytes')" "1 1"
+
+# Tables made from the truth's.
+truth() { awk -F, -v OFS=, 'NR == 1 { print "scene,attitude,sigma_m2"; next } { print $1, $2, '"$1"' }' kit/cases.csv; }
+truth '$16' >theirs.csv
+run compare kit theirs.csv
+why a_missing_glint_is_named 1 '^why          BRDF: the glint term is missing'
+truth '$13 * 3.7' >theirs.csv
+run compare kit theirs.csv
+why any_factor_is_named 1 '^why          3.7 times the truth everywhere'
+truth 'NR % 2 ? $13 * (1 + NR % 7) : $13 / (2 + NR % 5)' >theirs.csv
+run compare kit theirs.csv
+why what_nothing_explains_is_unexplained 1 '^unexplained  [0-9]* failing cases: '
+truth '$1 == "box" ? "nan" : $13' >theirs.csv
+run compare kit theirs.csv --json -
+same nan_fails "$rc $(printf '%s\n' "$out" | grep -c '"class": "fail", "passed": false')" "1 14"
+run compare kit theirs.csv
+why nan_is_told 1 '^why          14 answers are not numbers'
+awk -F, -v OFS=';' 'NR == 1 { print "Sigma_dBsm", "extra", "ATTITUDE", "scene"; next }
+    { print ($13 > 0 ? sprintf("%.15g", 10 * log($13) / log(10)) : "-inf"), "x", $2, $1 }' kit/cases.csv >theirs.csv
+run compare kit theirs.csv
+why dbsm_in_columns_of_any_order 0 '^verdict      passed'
+
+cat kit/truth/*.facets.csv | awk -F, -v OFS=, 'NR == 1 || $1 != "scene" {
+    if ($1 == "wings" && $2 == "a" && $3 == 4) $5 = 0
+    if ($1 == "box" && $2 == "b") next
+    print }' >facets.csv
+run compare kit kit/cases.csv --facets facets.csv
+why a_facet_that_they_lost_is_told 0 '  1 facets not seen by them'
+why and_which_one_it_is 0 '  wings a, facet 4 (metal): 0 m2, in truth 0.157895 m2'
+why and_how_many_cases_there_were 0 '^facets       of 189 cases'
+
+run compare kit kit/cases.csv --junit unit.xml --json all.json
+same files_do_not_change_the_verdict "$rc" 0
+if command -v python3 >/dev/null; then
+    truth '$13 * ($2 == "a" ? 3 : 1)' >theirs.csv
+    "$tool" compare kit theirs.csv --junit unit.xml --json all.json >/dev/null
+    same junit_and_json_agree "$(python3 -c '
+import json, xml.etree.ElementTree as tree
+x, j = tree.parse("unit.xml").getroot(), json.load(open("all.json"))
+failed = [(c["scene"], c["attitude"]) for c in j["cases"] if not c["passed"]]
+told = [(c.get("classname"), c.get("name")) for c in x.iter("testcase") if c.find("failure") is not None]
+print(failed == told, len(failed) == j["failed"] == int(x.get("failures")) > 0,
+      len(j["cases"]) == int(x.get("tests")) == sum(int(s.get("tests")) for s in x))')" "True True True"
+fi
+
+# What is no table of answers.
+refused() {
+    printf '%b' "$3" >theirs.csv
+    failure "$1" "$2" compare kit theirs.csv
+}
+refused an_empty_table 'line 0: expected a line that names the columns' ''
+refused a_table_without_sigma 'line 1: no column is named sigma_m2' 'scene,attitude\nbox,a\n'
+refused a_table_without_scenes 'line 1: no column is named scene' 'attitude,sigma_m2\n'
+refused a_number_that_is_none "line 3, column sigma_m2: expected a number, found '1,5x'" 'scene;attitude;sigma_m2\nbox;a;1\nbox;b;1,5x\n'
+refused a_line_that_is_short 'line 2: expected 3 fields, as in the first line, found 2' 'scene,attitude,sigma_m2\nbox,a\n'
+refused a_line_that_is_long 'found 4' 'scene,attitude,sigma_m2\nbox,a,1,2\n'
+refused a_scene_of_another_kit "line 2, column scene: expected a scene of the kit (the nearest is box), found 'boxx'" 'scene,attitude,sigma_m2\nboxx,a,1\n'
+refused an_attitude_of_another_scene 'expected an attitude of box' 'scene,attitude,sigma_m2\nbox,t05,1\n'
+refused a_case_given_twice "line 3, column attitude: this case was given before, found 'a'" 'scene,attitude,sigma_m2\nbox,a,1\nbox,a,1\n'
+refused a_name_that_is_a_path "expected a name of a-z" 'scene,attitude,sigma_m2\n../box,a,1\n'
+refused bytes_that_are_no_text "found '??'" 'scene,attitude,sigma_m2\nbox,a,\0001\0377\n'
+refused a_name_without_end 'expected a name of 1 .. 31 bytes' "scene,attitude,sigma_m2\n$(printf 'x%.0s' $(seq 300)),a,1\n"
+failure a_table_that_is_not_there 'none.csv' compare kit none.csv
+failure a_folder_that_is_no_kit 'materials.csv' compare images theirs.csv
+echo 'scene,attitude,facet,visible_area_m2
+box,a,12,1' >facets.csv
+run compare kit kit/cases.csv --facets facets.csv
+same a_facet_beyond_the_last "$rc $err" "1 lrcs: facets.csv: line 2, column facet: expected a facet 0 .. 11, found '12'"
+cp -r kit broken
+sed 's/^box,a,2,[^,]*/box,a,2,x/' kit/cases.csv >broken/cases.csv
+failure a_kit_that_was_damaged 'column qw: expected a number' compare broken kit/cases.csv
+
+usage_error two_names_are_asked_for "found 1 names" compare kit
+usage_error and_not_three "found 3 names" compare kit a b
+usage_error a_class_of_its_own "expected exact, float or raster, found 'good'" compare kit kit/cases.csv --class good
+usage_error answers_are_not_overwritten "would overwrite what is to be judged" compare kit theirs.csv --json theirs.csv
+usage_error one_file_for_two_outputs "name the same file" compare kit theirs.csv --json x --junit x
+finish

@@ -1,0 +1,58 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# examples/flight: on this machine, and on an emulated Cortex-M7 where compiler and emulator are.
+. "$(dirname "$0")/common.sh"
+
+flags='-std=c11 -pedantic -ffp-contract=off -Wall -Wextra -Wconversion -Werror'
+at=examples/flight
+
+# ---- this machine ----
+# shellcheck disable=SC2086 # flags are words
+"${CC:-cc}" $flags -O1 -Iinclude -o "$scratch/task" $at/task.c $at/main.c $at/board_host.c $library -lm
+same the_task_builds_here "$?" 0
+here=$("$scratch/task")
+same the_task_says_what_it_promises "$(echo "$here" | sed 's/ = [0-9a-f]*//g; s/ memory .*//')" \
+    "$(sed -n '/^\/\* expected output/,/^\*\/$/p' $at/main.c | sed '1d;$d')"
+
+# ---- Cortex-M7 ----
+needs the_task_flies_on_a_cortex_m7 arm-none-eabi-gcc qemu-system-arm
+m7='-mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard'
+# No start files and no stubs of system calls: were a heap or stdio asked for, linking would fail.
+# shellcheck disable=SC2086
+join_core "$scratch" &&
+    arm-none-eabi-gcc $m7 $flags -O0 -ffunction-sections -c -o "$scratch/lrcs.o" "$scratch/lrcs.c" &&
+    arm-none-eabi-gcc $m7 $flags -O2 -Iinclude -nostartfiles -T $at/board_m7.ld -Wl,--gc-sections \
+        -o "$scratch/task.elf" $at/task.c $at/main.c $at/board_m7.c "$scratch/lrcs.o" -lm
+same it_links_for_a_cortex_m7_without_heap_or_stdio "$?" 0
+there=$(timeout 300 qemu-system-arm -M mps2-an500 -nographic -semihosting-config enable=on,target=native \
+    -kernel "$scratch/task.elf" </dev/null 2>&1)
+same it_ends_there_with_success "$?" 0
+# words TEXT: its lines but for memory and stack, without the bits of areas.
+words() { echo "$1" | sed 's/ = [0-9a-f]*//g; s/ memory .*//'; }
+same it_says_the_same_there "$(words "$there")" "$(words "$here")"
+
+# The last bits: newlib's exp, log1p and pow are not glibc's.
+most=0
+areas() { echo "$1" | grep -o '= [0-9a-f]*' | cut -c3-; }
+areas "$here" >"$scratch/here"
+areas "$there" >"$scratch/there"
+while read -r a b; do
+    off=$((0x$a - 0x$b))
+    [ $off -ge 0 ] || off=$((-off))
+    [ $off -le $most ] || most=$off
+done <<END
+$(paste -d ' ' "$scratch/here" "$scratch/there")
+END
+if [ -s "$scratch/here" ] && [ $most -le 64 ]; then
+    ok "areas_are_within_64_ulp"
+else
+    not_ok areas_are_within_64_ulp "off by $most"
+fi
+# limit NAME WORD MOST: the number after that word of the last line.
+limit() {
+    got=$(echo "$there" | sed -n "s/^end:.* $2 \([0-9]*\).*/\1/p")
+    if [ "${got:-0}" -gt 0 ] && [ "$got" -le "$3" ]; then ok "$1"; else not_ok "$1" "got '$got'"; fi
+}
+limit memory_stays_in_the_arena memory 524288
+limit the_stack_stays_below_16_kb stack 16384
+finish

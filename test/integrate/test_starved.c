@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: MIT */
+/* Every public function that takes memory from a work area, given it byte by byte: from nothing to
+   what its _need says. Below what serves it says LRCS_E_MEMORY, takes nothing, touches neither its
+   output nor a byte beyond the area, and tells that it wanted more; once served it is served by
+   every larger area; at _need it is served, and undegraded. */
+#include <stdlib.h>
+
+#include "build3ds.h"
+#include "scenes.h"
+
+#define CANARY 64
+
+typedef struct starved {
+    const char *name;
+    size_t need;
+    int (*call)(lrcs_work *work);
+    const void *output;
+    size_t output_size;
+    int stays; /* 1: what it made stays in the work area */
+} starved;
+
+static const char text[] =
+    "[[material]]\nname='m'\nlike='mli-gold'\n[[part]]\nname='low'\nshape='plate'\n"
+    "size=[2,2]\nmaterial='m'\n[[part]]\nname='high'\nshape='plate'\nsize=[1,1]\n"
+    "translate=[0.5,0.5,1]\nrotate_axis=[1,0,0]\nrotate_deg=40\n";
+static const char object[] =
+    "mtllib a.mtl\no a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\ng b\n"
+    "usemtl y\nf 3 2 1\n";
+static const char solid[] = "solid s facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0\n"
+                            "vertex 0 1 0 endloop endfacet endsolid";
+
+static build3ds editor;
+static unsigned char base_memory[1 << 20];
+static lrcs_work base;
+static lrcs_recipe recipe;
+static lrcs_build_options build;
+static lrcs_scene scene;
+static const lrcs_prepared *prepared;
+static lrcs_pose pose;
+static lrcs_run_options options;
+static lrcs_shape shape;
+static lrcs_divisions divisions;
+static lrcs_fit_reading reading[9];
+
+/* Outputs. */
+static struct {
+    lrcs_recipe recipe;
+    lrcs_mesh mesh;
+    lrcs_mesh_report report;
+    lrcs_scene scene;
+    const lrcs_prepared *prepared;
+    lrcs_result result;
+    lrcs_polygons polygons;
+    lrcs_fit fit;
+} out;
+
+static int call_3ds(lrcs_work *work)
+{
+    return lrcs_3ds_read(editor.bytes, editor.size, work, &out.mesh, NULL);
+}
+
+static int call_obj(lrcs_work *work)
+{
+    return lrcs_obj_read(object, sizeof object - 1, work, &out.mesh, NULL);
+}
+
+static int call_stl(lrcs_work *work)
+{
+    return lrcs_stl_read(solid, sizeof solid - 1, work, &out.mesh, NULL);
+}
+
+static int call_shape(lrcs_work *work)
+{
+    return lrcs_shape_mesh(&shape, &divisions, work, &out.mesh, NULL);
+}
+
+static int call_check(lrcs_work *work)
+{
+    return lrcs_mesh_check(scene.vertex, scene.vertex_count, scene.facet, scene.facet_count, work,
+                           &out.report);
+}
+
+static int call_recipe(lrcs_work *work)
+{
+    return lrcs_recipe_read(text, sizeof text - 1, work, &out.recipe, NULL);
+}
+
+static int call_scene(lrcs_work *work)
+{
+    return lrcs_scene_build(&recipe, NULL, &build, work, &out.scene, NULL);
+}
+
+static int call_prepare(lrcs_work *work)
+{
+    return lrcs_prepare_run(&scene, work, &out.prepared);
+}
+
+static int call_sigma(lrcs_work *work)
+{
+    return lrcs_sigma_run(prepared, &pose, &options, work, &out.result, NULL, NULL);
+}
+
+static int call_polygons(lrcs_work *work)
+{
+    return lrcs_polygon_run(prepared, &pose, work, &out.polygons);
+}
+
+static int call_fit(lrcs_work *work)
+{
+    lrcs_fit_options fit = lrcs_fit_options_default();
+    return lrcs_fit_run(reading, sizeof reading / sizeof *reading, &fit, work, &out.fit, NULL);
+}
+
+/* One call in so many bytes, with a canary behind them. */
+static int feed(const starved *s, unsigned char *memory, size_t size)
+{
+    static unsigned char before[sizeof out];
+    memset(&out, 0x5a, sizeof out);
+    memcpy(before, s->output, s->output_size);
+    memset(memory + size, 0xc3, CANARY);
+    lrcs_work work = lrcs_work_make(memory, size);
+    int status = s->call(&work);
+    for (int i = 0; i < CANARY; i++) {
+        assert_int_equal(memory[size + (size_t)i], 0xc3);
+    }
+    if (status == LRCS_OK) {
+        int degraded = s->output == &out.result && (out.result.flags & LRCS_FLAG_MEMORY_FALLBACK);
+        assert_int_equal(work.peak > size, degraded); /* it tells what would have served in full */
+        assert_true(s->stays ? work.used > 0 : work.used == 0);
+    } else {
+        assert_int_equal(status, LRCS_E_MEMORY);
+        assert_int_equal(work.used, 0);
+        assert_true(work.peak > size);
+        assert_memory_equal(before, s->output, s->output_size);
+    }
+    return status;
+}
+
+/* Byte by byte, but for the middle of those that need much: the first and last 1024 sizes, and
+   every 31st between. */
+static void starve(const starved *s)
+{
+    unsigned char *memory = malloc(s->need + CANARY);
+    assert_non_null(memory);
+    int served = 0;
+    for (size_t size = 0; size <= s->need;) {
+        int status = feed(s, memory, size);
+        if (status != LRCS_OK && (served || size == s->need)) {
+            fprintf(stderr, "%s: not served by %zu of %zu bytes\n", s->name, size, s->need);
+            fail();
+        }
+        served |= status == LRCS_OK;
+        size += size < 1024 || size + 1024 > s->need ? 1 : 31;
+    }
+    assert_true(served);
+    free(memory);
+}
+
+#define STARVED(name, need, call, output, stays)                                                   \
+    (&(const starved){name, need, call, &(output), sizeof(output), stays})
+
+static void setup(void)
+{
+    build3ds_begin(&editor);
+    build3ds_mesh(&editor, "square");
+    build3ds_square(&editor, 0);
+    build3ds_faces(&editor);
+    build3ds_end(&editor);
+    base = lrcs_work_make(base_memory, sizeof base_memory);
+    build = lrcs_build_options_default();
+    options = lrcs_run_options_default();
+    options.resolution = 16;
+    shape = (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 1};
+    divisions = (lrcs_divisions){8, 2};
+    for (int i = 0; i < 9; i++) {
+        reading[i].angle_deg = 8.0 * i;
+        reading[i].value = 0.3 + exp(-0.02 * i * i);
+    }
+    assert_int_equal(lrcs_recipe_read(text, sizeof text - 1, &base, &recipe, NULL), LRCS_OK);
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &base, &scene, NULL), LRCS_OK);
+    assert_int_equal(lrcs_prepare_run(&scene, &base, &prepared), LRCS_OK);
+    assert_int_equal(lrcs_pose_from_azel(20, 60, &pose), LRCS_OK);
+}
+
+static void readers_grow_until_they_fit(void **state)
+{
+    (void)state;
+    lrcs_mesh_counts counts;
+    setup();
+    assert_int_equal(lrcs_3ds_count(editor.bytes, editor.size, &counts, NULL), LRCS_OK);
+    starve(STARVED("3ds", lrcs_mesh_need(&counts), call_3ds, out.mesh, 1));
+    assert_int_equal(lrcs_obj_count(object, sizeof object - 1, &counts, NULL), LRCS_OK);
+    starve(STARVED("obj", lrcs_mesh_need(&counts), call_obj, out.mesh, 1));
+    assert_int_equal(lrcs_stl_count(solid, sizeof solid - 1, &counts, NULL), LRCS_OK);
+    starve(STARVED("stl", lrcs_mesh_need(&counts), call_stl, out.mesh, 1));
+    starve(STARVED("recipe", lrcs_recipe_need(sizeof text - 1), call_recipe, out.recipe, 1));
+}
+
+static void building_grows_until_it_fits(void **state)
+{
+    (void)state;
+    setup();
+    const lrcs_mesh_counts dome = {33, 48, 0, 1, 8, 0}; /* two rings and a base, at most */
+    starve(STARVED("shape", lrcs_mesh_need(&dome), call_shape, out.mesh, 1));
+    starve(STARVED("check", lrcs_mesh_check_need(scene.vertex_count, scene.facet_count), call_check,
+                   out.report, 0));
+    starve(STARVED("scene", lrcs_scene_need(&recipe, NULL, &build), call_scene, out.scene, 1));
+    starve(STARVED("prepare", lrcs_prepare_need(&scene), call_prepare, out.prepared, 1));
+}
+
+static void a_pose_grows_until_it_fits(void **state)
+{
+    (void)state;
+    setup();
+    for (int method = LRCS_METHOD_AUTO; method <= LRCS_METHOD_EXACT; method++) {
+        options.method = method;
+        starve(STARVED(lrcs_method_text(method), lrcs_sigma_need(prepared, &options), call_sigma,
+                       out.result, 0));
+        assert_false(out.result.flags & LRCS_FLAG_MEMORY_FALLBACK); /* of the last, at _need */
+    }
+    starve(STARVED("polygons", lrcs_polygon_need(prepared), call_polygons, out.polygons, 1));
+}
+
+static void a_fit_grows_until_it_fits(void **state)
+{
+    (void)state;
+    setup();
+    starve(STARVED("fit", lrcs_fit_need(sizeof reading / sizeof *reading), call_fit, out.fit, 0));
+}
+
+/* Where size_t has 32 bits, a product of counts that wrapped would ask for too little. */
+static void needs_never_shrink_as_counts_grow(void **state)
+{
+    (void)state;
+    size_t last[5] = {0};
+    for (double count = 1; count < 4294967295.0; count *= 1.03) {
+        uint32_t n = (uint32_t)count;
+        const lrcs_mesh_counts facets = {n, n, 0, 1, 8, 0};
+        const lrcs_mesh_counts names = {3, 1, n, n, 8, n};
+        const size_t need[5] = {lrcs_mesh_check_need(n, n), lrcs_fit_need(n), lrcs_recipe_need(n),
+                                lrcs_mesh_need(&facets), lrcs_mesh_need(&names)};
+        for (int i = 0; i < 5; i++) {
+            assert_true(need[i] >= last[i] && need[i] >= n);
+            last[i] = need[i];
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(readers_grow_until_they_fit),
+        cmocka_unit_test(building_grows_until_it_fits),
+        cmocka_unit_test(a_pose_grows_until_it_fits),
+        cmocka_unit_test(a_fit_grows_until_it_fits),
+        cmocka_unit_test(needs_never_shrink_as_counts_grow),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
