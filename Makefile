@@ -45,7 +45,6 @@ LIB      = $(BUILD)/liblrcs.a
 TOOL     = $(BUILD)/lrcs
 FUZZ_TARGETS = $(patsubst test/fuzz/fuzz_%.c,%,$(sort $(wildcard test/fuzz/fuzz_*.c)))
 FUZZ_TESTS = $(FUZZ_TARGETS:%=$(BUILD)/test/fuzz/fuzz_%)
-CORE_TESTS = $(filter-out $(BUILD)/test/host/%,$(TESTS))
 BENCH_DIR = $(BUILD)/test/bench
 BENCH_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/bench.c %/scaling.c,$(wildcard test/bench/*.c)))
 
