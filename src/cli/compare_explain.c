@@ -261,7 +261,7 @@ static int answers_again(const compare_search *search, const explain_score *best
 static int finding_next(compare_search *search)
 {
     compare_job *job = search->job;
-    explain_score best = {.score = 0.0};
+    explain_score best = {.first = cli_compare_mistakes};
     int code = singles_try(search, &best);
     if (code == 0 && best.score < PAIRS_BELOW) {
         code = pairs_try(search, &best);
@@ -350,8 +350,8 @@ int cli_compare_explain(compare_job *job)
     compare_search search = {.job = job};
     search.failing = malloc(count * sizeof(compare_case *));
     search.passing = malloc(count * sizeof(compare_case *));
-    search.answer = malloc(count * sizeof(double));
-    search.room = malloc(count * sizeof(double));
+    search.answer = calloc(count, sizeof(double));
+    search.room = calloc(count, sizeof(double));
     int code = search.failing && search.passing && search.answer && search.room
                    ? findings_make(&search)
                    : cli_out_of_memory();
