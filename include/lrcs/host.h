@@ -253,9 +253,9 @@ void lrcs_host_html_base64(FILE *out, const unsigned char *bytes, size_t size);
  */
 #define LRCS_HOST_CHART_WIDTH      860.0
 #define LRCS_HOST_CHART_HEIGHT     520.0
-#define LRCS_HOST_CHART_TITLE      54.0
-#define LRCS_HOST_CHART_POLAR_LEFT 76.0
-#define LRCS_HOST_CHART_POLAR_SIDE 456.0
+#define LRCS_HOST_CHART_TITLE      50.0
+#define LRCS_HOST_CHART_POLAR_LEFT 72.0
+#define LRCS_HOST_CHART_POLAR_SIDE 464.0
 
 /* Colours that eyes of every kind tell apart (M. Okabe and K. Ito, 2008). */
 enum lrcs_host_colour {

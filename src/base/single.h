@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Arithmetic in float or double, chosen as it runs. The sum, difference, product, quotient or root
-   of floats, computed in double and then rounded to float, is the float operation's own result:
-   double has more than twice its bits and two (S. A. Figueroa, 1995), so that rounding twice rounds
-   once. */
+   of floats, computed in double and then rounded to float, is the float operation's own result: a
+   double has twice the bits of a float and two more, so that rounding twice rounds once (S. A.
+   Figueroa, ACM SIGNUM Newsletter 30, 1995). So it is where the result is subnormal: sums and
+   products are exact in double, and a quotient of floats that is no midpoint of two of them is
+   farther from it than a double's rounding. */
 #ifndef LRCSI_SINGLE_H
 #define LRCSI_SINGLE_H
 

@@ -164,6 +164,10 @@ double cli_sum_value(const cli_sum *sum);
 /* dBsm of a sigma > 0. */
 double cli_dbsm(double sigma_m2);
 
+/* A bound >= 0 as "%.*g" shows it, but never less than it is. */
+#define CLI_BOUND_SIZE 40
+void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
+
 /* Text on stdout, blanks after it up to `width`, control characters as '?'. */
 void cli_column(const char *text, int width);
 

@@ -3,11 +3,23 @@
 #include "cli/cli.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <time.h>
 
 double cli_dbsm(double sigma_m2)
 {
     return 10.0 * log10(sigma_m2);
+}
+
+/* A step of the last digit more where the nearest is less. */
+void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE])
+{
+    snprintf(text, CLI_BOUND_SIZE, "%.*g", digits, bound);
+    double shown = strtod(text, NULL);
+    if (shown < bound) {
+        double step = pow(10.0, floor(log10(shown > 0.0 ? shown : bound)) + 1.0 - digits);
+        snprintf(text, CLI_BOUND_SIZE, "%.*g", digits, shown + step);
+    }
 }
 
 /* Columns are counted in code points: every byte but the trailing ones of UTF-8. */

@@ -22,7 +22,7 @@ static const char report_help[] =
     "  -o FILE.html          the page ('-': standard output)\n"
     "\n"
     "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "  --seconds S           time for cuts, map and "
-                                                 "comparison, about (30): it decides their steps\n"
+    "comparison, about (40): it decides their steps\n"
     "                        and is exceeded where a single pose takes seconds\n"
     "  --cut-step DEG        of the cuts, a divisor of 90, in place of what time allows\n"
     "  --map-step DEG        of the map, likewise\n"
@@ -42,7 +42,8 @@ static const cli_option report_options[] = {
     CLI_POSE_OPTIONS,   CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"o", 1, 0},    {"seconds", 1, 0},
     {"cut-step", 1, 0}, {"map-step", 1, 0},   {"jobs", 1, 0},    {"help", 0, 0}, {NULL, 0, 0}};
 
-#define REPORT_SECONDS   30.0
+#define REPORT_SECONDS   40.0
+#define REPORT_COMPARE   0.25 /* of the time is for the comparison */
 #define REPORT_TOLERANCE 1e-2 /* of cuts and map */
 #define REPORT_JOBS      1024.0
 
@@ -106,14 +107,16 @@ static int report_read(report_job *job)
 
 /* ---- the comparison ---- */
 
-/* What accuracy costs: a third of the time. Of shapes, meshes are compared up to the run's own
+/* What accuracy costs. Of shapes, meshes are compared up to the run's own
    tolerance; none that would take most of the time for its first run. */
 static int report_compare(report_job *job)
 {
     converge_job *compare = &job->converge;
     double least = 1.0;
-    *compare = (converge_job){
-        .args = job->args, .pose = job->pose, .load = job->load, .seconds = job->seconds / 3.0};
+    *compare = (converge_job){.args = job->args,
+                              .pose = job->pose,
+                              .load = job->load,
+                              .seconds = REPORT_COMPARE * job->seconds};
     compare->load.build.normals = LRCS_NORMALS_FLAT; /* as lrcs converge has it */
     compare->digits = 1;
     while (compare->digits < CONVERGE_MESHES && least > 1.5 * job->options.tolerance &&

@@ -94,6 +94,7 @@ void cli_page_name(FILE *out, const char *name, const char *nameless);
 /* A number for people, to some digits, with its value for scripts; one that is not finite is a
    dash. id: NULL for none. Likewise a count. */
 void cli_page_number(FILE *out, const char *id, double value, int digits);
+void cli_page_bound(FILE *out, const char *id, double bound, int digits); /* shown no smaller */
 void cli_page_count(FILE *out, uint64_t value);
 void cli_page_percent(FILE *out, double share);
 
@@ -102,7 +103,8 @@ void cli_page_fact(FILE *out, const char *name);
 void cli_page_fact_end(FILE *out);
 
 /* A table that scrolls by itself where it is wide: columns as "name|name|#number", where '#' stands
-   before those of numbers; rows, the last of which may be what others add up to; cells. */
+   before those of numbers; rows, the last of which may be what others add up to; cells: of words,
+   which wrap, unless a number. */
 void cli_page_table(FILE *out, const char *label, const char *columns);
 void cli_page_row(FILE *out);
 void cli_page_row_others(FILE *out);
@@ -111,6 +113,7 @@ void cli_page_cell(FILE *out);
 void cli_page_cell_end(FILE *out);
 void cli_page_name_cell(FILE *out, const char *name, const char *nameless);
 void cli_page_number_cell(FILE *out, double value, int digits);
+void cli_page_bound_cell(FILE *out, double bound, int digits);
 void cli_page_count_cell(FILE *out, uint64_t value);
 void cli_page_share_cells(FILE *out, double share); /* in percent, and as a bar */
 void cli_page_table_end(FILE *out);

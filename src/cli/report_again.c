@@ -99,7 +99,11 @@ static void lines_write(FILE *out, const report_job *job)
     fputs("lrcs info", out);
     word_quote(out, job->args->operand);
     given_add(out, job->args, again_scene);
-    putc('\n', out);
+    fputs(cli_has_curved_shapes(&job->scene.scene) &&
+                  job->load.build.tolerance != lrcs_build_options_default().tolerance
+              ? " # shapes as fine as by default\n"
+              : "\n",
+          out);
     for (int kind = 0; kind < REPORT_SWEEPS; kind++) {
         sweep_line(out, job, kind);
     }
@@ -122,8 +126,8 @@ void cli_report_again(FILE *out, const report_job *job)
     fprintf(out, "<code id=\"scene_hash\">%016llx</code>",
             (unsigned long long)lrcs_scene_hash(&job->scene.scene));
     cli_page_fact_end(out);
-    fputs("</dl>\n<p>The first line makes this page, the others what stands on it; only times "
-          "differ.</p>\n",
+    fputs("</dl>\n<p>The first line makes this page again, the others what stands on it, one by "
+          "one.</p>\n",
           out);
     FILE *text = cli_report_bytes_begin(&lines);
     if (text) {

@@ -48,7 +48,7 @@ static void extremes_say(FILE *out, const report_sweep *sweep)
         fputs(" Nothing returns; each", out);
     }
     fputs(" \xcf\x83 is proved to within ", out);
-    cli_page_number(out, NULL, bound, 2);
+    cli_page_bound(out, NULL, bound, 2);
     fputs(" m\xc2\xb2 or better.", out);
 }
 
@@ -108,15 +108,21 @@ static void most_cell(FILE *out, const cli_shares *shares, const shares_row *row
                       const char *nameless)
 {
     double told = 0.0;
-    cli_page_cell(out);
-    for (uint32_t i = 0;
-         i < count && i < NAMED_MOST && told < NAMED_ENOUGH && row[i].sigma_m2 > 0.0; i++) {
+    uint32_t i = 0;
+    fputs("<td class=\"why\">", out);
+    for (; i < count && i < NAMED_MOST && told < NAMED_ENOUGH && row[i].sigma_m2 > 0.0; i++) {
         double share = cli_share_of(shares, row[i].sigma_m2);
         fputs(i > 0 ? ", " : "", out);
         cli_page_name(out, row[i].name, nameless);
         fputs("\xc2\xa0", out);
         cli_page_percent(out, share);
         told += share;
+    }
+    shares_row others = cli_shares_others(row, i, count);
+    if (others.sigma_m2 > 0.0) {
+        cli_page_say(out, ", %lu other%s\xc2\xa0", (unsigned long)(count - i),
+                     count - i > 1 ? "s" : "");
+        cli_page_percent(out, cli_share_of(shares, others.sigma_m2));
     }
     cli_page_cell_end(out);
 }
@@ -149,9 +155,8 @@ static void peaks_section(FILE *out, const report_job *job)
     cli_page_section(out, "peaks", "The brightest directions, and who makes them");
     cli_page_say(out, "Peaks of the map: directions that outshine all their neighbours.");
     if (job->peaks > 0) {
-        cli_page_table(
-            out, "Peaks of the map",
-            "#Azimuth, deg|#Elevation, deg|#\xcf\x83, m\xc2\xb2|#dBsm|#Glint|Parts|Materials");
+        cli_page_table(out, "Peaks of the map",
+                       "#Az, deg|#El, deg|#\xcf\x83, m\xc2\xb2|#dBsm|#Glint|Parts|Materials");
         for (uint32_t i = 0; i < job->peaks; i++) {
             peak_row(out, job, i);
         }
@@ -179,7 +184,7 @@ static void accuracy_row(FILE *out, const converge_job *job, const converge_sett
     cli_page_number_cell(out, 1e3 * one->pose_s, 3);
     cli_page_number_cell(out, one->sigma_m2, 8);
     cli_page_number_cell(out, cli_converge_relative(job, one->error_m2), 2);
-    cli_page_number_cell(out, cli_converge_known(cli_converge_relative(job, one->bound_m2)), 2);
+    cli_page_bound_cell(out, cli_converge_relative(job, one->bound_m2), 2);
     cli_page_number_cell(out, cli_converge_known(cli_converge_relative(job, one->estimate_m2)), 2);
     cli_page_row_end(out);
 }
@@ -207,9 +212,9 @@ void cli_report_accuracy(FILE *out, const report_job *job)
     fputs("</p>\n", out);
     cli_page_figure(out, &job->chart, "Chart of error and bound against the time of a pose",
                     chart_box);
-    cli_page_say(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2. %s%s%s", compare->truth.text,
-                 compare->truth.sigma_m2, compare->left_out, compare->left_out[0] ? ". " : "",
-                 compare->busy);
+    cli_page_say(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2%s%s%s%s.", compare->truth.text,
+                 compare->truth.sigma_m2, compare->left_out[0] ? "; " : "", compare->left_out,
+                 compare->busy[0] ? "; " : "", compare->busy);
     cli_page_figure_end(out);
     accuracy_table(out, compare);
     cli_page_section_end(out);

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define PLAIN_BELOW 1e7 /* whole numbers below it need no power of ten */
+
 /* ---- memory to write to ---- */
 
 FILE *cli_report_bytes_begin(report_bytes *bytes)
@@ -59,28 +61,51 @@ static void number_put(FILE *out, const char *text)
         fputs(*text == '-' ? "\xe2\x88\x92" : (const char[2]){*text, '\0'}, out);
     }
     if (*text == 'e') {
-        int power = atoi(text + 1);
+        long power = strtol(text + 1, NULL, 10);
         fprintf(out,
                 "\xc2\xb7"
-                "10<sup>%s%d</sup>",
-                power < 0 ? "\xe2\x88\x92" : "", abs(power));
+                "10<sup>%s%ld</sup>",
+                power < 0 ? "\xe2\x88\x92" : "", labs(power));
     }
+}
+
+static void data_put(FILE *out, const char *id, double value, const char *text)
+{
+    char exact[LRCS_HOST_NUMBER_SIZE];
+    lrcs_host_number_text(value, exact);
+    fputs("<data", out);
+    if (id) {
+        fprintf(out, " id=\"%s\"", id);
+    }
+    fprintf(out, " value=\"%s\">", exact);
+    number_put(out, text);
+    fputs("</data>", out);
 }
 
 void cli_page_number(FILE *out, const char *id, double value, int digits)
 {
     char text[64];
-    char exact[LRCS_HOST_NUMBER_SIZE];
-    if (!isfinite(value)) {
-        fputs("\xe2\x80\x93", out);
-        return;
+    if (fabs(value) >= pow(10.0, digits) && fabs(value) < PLAIN_BELOW) {
+        snprintf(text, sizeof text, "%.0f", value);
+    } else {
+        snprintf(text, sizeof text, "%.*g", digits, value);
     }
-    lrcs_host_number_text(value, exact);
-    snprintf(text, sizeof text, "%.*g", digits, value);
-    fprintf(out, id ? "<data id=\"%s\" value=\"%s\">" : "<data%s value=\"%s\">", id ? id : "",
-            exact);
-    number_put(out, text);
-    fputs("</data>", out);
+    if (isfinite(value)) {
+        data_put(out, id, value, text);
+    } else {
+        fputs("\xe2\x80\x93", out);
+    }
+}
+
+void cli_page_bound(FILE *out, const char *id, double bound, int digits)
+{
+    if (bound >= 0.0 && isfinite(bound)) {
+        char text[CLI_BOUND_SIZE];
+        cli_bound_text(bound, digits, text);
+        data_put(out, id, bound, text);
+    } else {
+        fputs("\xe2\x80\x93", out);
+    }
 }
 
 void cli_page_count(FILE *out, uint64_t value)
@@ -90,7 +115,11 @@ void cli_page_count(FILE *out, uint64_t value)
 
 void cli_page_percent(FILE *out, double share)
 {
-    if (isfinite(share)) {
+    if (share > 0.0 && share < 0.0005) {
+        fputs("&lt;\xc2\xa0"
+              "0.1\xc2\xa0%",
+              out);
+    } else if (isfinite(share)) {
         fprintf(out, "%.1f\xc2\xa0%%", 100.0 * share);
     } else {
         fputs("\xe2\x80\x93", out);
@@ -127,12 +156,11 @@ void cli_page_table(FILE *out, const char *label, const char *columns)
             "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"%s\">\n<table>\n"
             "<thead><tr>",
             label);
-    while (*columns) {
-        size_t size = strcspn(columns, "|");
-        int number = *columns == '#';
+    for (const char *at = columns; at; at = strchr(at, '|')) {
+        at += at > columns; /* past the bar */
+        int number = *at == '#';
         fprintf(out, "<th scope=\"col\"%s>%.*s</th>", number ? " class=\"n\"" : "",
-                (int)size - number, columns + number);
-        columns += size + (columns[size] == '|');
+                (int)strcspn(at, "|") - number, at + number);
     }
     fputs("</tr></thead>\n<tbody>", out);
 }
@@ -154,7 +182,7 @@ void cli_page_row_end(FILE *out)
 
 void cli_page_cell(FILE *out)
 {
-    fputs("<td>", out);
+    fputs("<td class=\"name\">", out);
 }
 
 void cli_page_cell_end(FILE *out)
@@ -173,6 +201,13 @@ void cli_page_number_cell(FILE *out, double value, int digits)
 {
     fputs("<td class=\"n\">", out);
     cli_page_number(out, NULL, value, digits);
+    fputs("</td>", out);
+}
+
+void cli_page_bound_cell(FILE *out, double bound, int digits)
+{
+    fputs("<td class=\"n\">", out);
+    cli_page_bound(out, NULL, bound, digits);
     fputs("</td>", out);
 }
 

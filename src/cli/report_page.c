@@ -14,7 +14,7 @@ static const struct {
                    {"effects", "Effects"}, {"shares", "Shares"},
                    {"cuts", "Cuts"},       {"map", "Map"},
                    {"peaks", "Peaks"},     {"accuracy", "Accuracy"},
-                   {"again", "Again"}};
+                   {"again", "Reproduce"}};
 
 static const char *scene_name(const report_job *job)
 {
@@ -57,15 +57,14 @@ static void lead_sigma(FILE *out, const report_job *job)
         fputs(" dBsm</span>", out);
     }
     fputs("</p>\n<p>Proved to within ", out);
-    cli_page_number(out, NULL, r->bound_m2, 2);
+    cli_page_bound(out, NULL, r->bound_m2, 2);
     fputs(" m\xc2\xb2", out);
     if (r->sigma_m2 > 0.0) {
         fputs(", which is ", out);
-        cli_page_number(out, NULL, r->bound_m2 / r->sigma_m2, 2);
+        cli_page_bound(out, NULL, r->bound_m2 / r->sigma_m2, 2);
         fputs(" of \xcf\x83", out);
     }
-    fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? "; the tolerance of " : "; the tolerance of ",
-          out);
+    fputs("; the tolerance of ", out);
     cli_page_number(out, NULL, job->options.tolerance, 3);
     fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>." : " is met.", out);
 }

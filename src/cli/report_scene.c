@@ -37,7 +37,7 @@ static void fact_box(FILE *out, const lrcs_mesh_report *r)
         fputs(k > 0 ? " \xc3\x97 " : "", out);
         cli_page_number(out, NULL, r->box_max[k] - r->box_min[k], 5);
     }
-    fputs(" m", out);
+    fputs("\xc2\xa0m", out);
     cli_page_fact_end(out);
 }
 
@@ -138,7 +138,7 @@ static void materials_section(FILE *out, const report_job *job)
           "glint, of "
           "rms slope s, and the diffuse part, of exponent m. A and B are per steradian.</p>\n",
           out);
-    cli_page_table(out, "Materials", "Material|#Facets|#Area, m\xc2\xb2|#A|#B|#s|#m|");
+    cli_page_table(out, "Materials", "Material|#Facets|#Area, m\xc2\xb2|#A|#B|#s|#m|Remarks");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         if (cli_info_shows(&job->info, i) && shown < REPORT_ROWS) {
             material_row(out, &scene->material[i], &job->info.material[i]);

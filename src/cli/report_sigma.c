@@ -26,7 +26,10 @@ static void sigma_facts(FILE *out, const report_job *job)
     }
     sigma_fact(out, "of it, glint", "sigma_glint_m2", r->sigma_glint_m2, 7, "m\xc2\xb2");
     sigma_fact(out, "of it, diffuse", "sigma_diffuse_m2", r->sigma_diffuse_m2, 7, "m\xc2\xb2");
-    sigma_fact(out, "Bound, proved", "bound_m2", r->bound_m2, 3, "m\xc2\xb2");
+    cli_page_fact(out, "Bound, proved");
+    cli_page_bound(out, "bound_m2", r->bound_m2, 3);
+    fputs(" m\xc2\xb2", out);
+    cli_page_fact_end(out);
     if (r->estimate_m2 >= 0.0) {
         sigma_fact(out, "Likely error, an estimate", "estimate_m2", r->estimate_m2, 3, "m\xc2\xb2");
     }
@@ -43,12 +46,10 @@ static void budget_row(FILE *out, const report_job *job, const char *name, const
 {
     cli_page_row(out);
     fprintf(out, "<td>%s</td><td class=\"n\">", name);
-    cli_page_number(out, id, value >= 0.0 ? value : (double)NAN, 3);
+    cli_page_bound(out, id, value, 3);
     fputs("</td>", out);
-    cli_page_number_cell(
-        out,
-        value >= 0.0 && job->result.sigma_m2 > 0.0 ? value / job->result.sigma_m2 : (double)NAN, 2);
-    fprintf(out, "<td>%s</td>", why);
+    cli_page_bound_cell(out, job->result.sigma_m2 > 0.0 ? value / job->result.sigma_m2 : -1.0, 2);
+    fprintf(out, "<td class=\"why\">%s</td>", why);
     cli_page_row_end(out);
 }
 
@@ -79,7 +80,7 @@ static void method_words(FILE *out, const report_job *job)
         cli_page_say(out, " on a raster of %lu x %lu", (unsigned long)r->resolution,
                      (unsigned long)r->resolution);
     }
-    fputs(job->options.method == LRCS_METHOD_AUTO ? ", chosen: " : ": ", out);
+    fputs(job->options.method == LRCS_METHOD_AUTO ? ", chosen by auto: " : ": ", out);
     cli_page_text(out, r->method_reason);
     cli_page_say(
         out,
@@ -184,7 +185,7 @@ static void share_facets(FILE *out, const cli_shares *shares)
 void cli_report_shares(FILE *out, const report_job *job)
 {
     const cli_shares *shares = &job->shares;
-    cli_page_section(out, "shares", "Who makes it");
+    cli_page_section(out, "shares", "Who makes \xcf\x83");
     fputs("<h3>Parts</h3>\n", out);
     share_table(out, shares, "Shares of parts",
                 "Part|#Facets|#\xcf\x83, m\xc2\xb2|#Share||#Glint, m\xc2\xb2|#Diffuse, m\xc2\xb2",

@@ -17,7 +17,7 @@ static const char *const style_parts[] = {
     ".chart polyline[stroke=\"#d9d9d9\"]{stroke:#3b424a}"
     ".chart polyline[stroke=\"#efefef\"]{stroke:#262b31}\n"
     ".chart polyline[stroke=\"#0072b2\"]{stroke:#5cb0e8}"
-    ".chart polygon[fill=\"#0072b2\"]{fill:#5cb0e8}}\n",
+    ".chart polygon[fill=\"#0072b2\"],.chart text[fill=\"#0072b2\"]{fill:#5cb0e8}}\n",
     /* text */
     "*{box-sizing:border-box}\n"
     "html{-webkit-text-size-adjust:100%;text-size-adjust:100%}\n"
@@ -61,7 +61,7 @@ static const char *const style_parts[] = {
     "th{text-align:left;font-weight:600;color:var(--faint);font-size:.82rem;vertical-align:bottom;"
     "white-space:nowrap}\n"
     "th,td{padding:.32rem .9rem .32rem 0;border-bottom:1px solid var(--rule)}\n"
-    "td{vertical-align:top}\n"
+    "td{vertical-align:top}.name{min-width:7.5rem;overflow-wrap:anywhere}.why{min-width:12rem}\n"
     "th:last-child,td:last-child{padding-right:0}\n"
     ".n{text-align:right;white-space:nowrap}\n"
     ".bar{width:7rem;min-width:4rem;vertical-align:middle}\n"
@@ -79,7 +79,7 @@ static const char *const style_parts[] = {
     "figcaption{margin-top:.45rem;max-width:44rem}\n"
     ".pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,17rem),1fr));"
     "gap:0 1.25rem}\n"
-    ".pair .chart svg{min-width:0}\n"
+    ".pair .chart svg{min-width:0}.pair .chart text{font-size:15px}\n"
     "pre{overflow-x:auto;margin:.5rem 0;padding:.75rem 1rem;background:var(--card);"
     "border:1px solid var(--rule);border-radius:6px;"
     "font:.86rem/1.5 ui-monospace,SFMono-Regular,Menlo,Consolas,\"Liberation Mono\",monospace}\n"

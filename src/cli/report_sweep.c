@@ -7,34 +7,38 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
-#define SWEEP_PART 0.6 /* of the time is for sweeps */
+#define SWEEP_PART 0.65 /* of the time is for sweeps */
 
 /* ---- how fine ---- */
 
 static const struct {
     uint32_t cut, map; /* deg */
-} sweep_steps[] = {{1, 5}, {2, 10}, {3, 10}, {3, 15}, {5, 18}, {10, 30}, {15, 30}, {30, 90}};
+} sweep_steps[] = {{1, 5}, {2, 10}, {3, 15}, {5, 15}, {5, 18}, {10, 18}, {15, 30}, {30, 30}};
 
 #define SWEEP_STEPS (sizeof sweep_steps / sizeof sweep_steps[0])
 
+/* Directions that differ. */
 static double steps_poses(uint32_t cut, uint32_t map)
 {
-    return 3.0 * (360.0 / cut + 1.0) + (360.0 / map + 1.0) * (180.0 / map + 1.0);
+    return 3.0 * (360.0 / cut) + (360.0 / map) * (180.0 / map - 1.0) + 2.0;
 }
 
-/* The time of a pose in the scene of the sweeps: of the second run, since the first finds out how
-   much memory it takes. */
+/* The time of a processor that a pose takes in the scene of the sweeps: of the second run, since
+   the first finds out how much memory it needs. */
 static int pose_measure(report_job *job, const lrcs_host_scene *scene, double *seconds)
 {
     lrcs_host_error error;
     lrcs_result result;
     for (int i = 0; i < 2; i++) {
-        if (lrcs_host_scene_run(scene, &job->pose, &job->sweep_options, &result, NULL, NULL,
-                                seconds, &error) != LRCS_OK) {
+        clock_t begun = clock();
+        if (lrcs_host_scene_run(scene, &job->pose, &job->sweep_options, &result, NULL, NULL, NULL,
+                                &error) != LRCS_OK) {
             return cli_failed(&error);
         }
+        *seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
     }
     return 0;
 }
@@ -49,7 +53,7 @@ static int steps_choose(report_job *job, const lrcs_host_scene *scene)
     int code = pose_measure(job, scene, &seconds);
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     double threads = job->threads > 0 ? job->threads : processors > 0 ? (double)processors : 1.0;
-    double poses = SWEEP_PART * job->seconds / fmax(seconds, 1e-6) * threads;
+    double poses = SWEEP_PART * job->seconds * threads / fmax(seconds, 1e-6);
     while (i + 1 < SWEEP_STEPS && steps_poses(sweep_steps[i].cut, sweep_steps[i].map) > poses) {
         i++;
     }
@@ -90,16 +94,41 @@ static void words_make(const report_job *job, int kind, report_sweep *sweep)
     word_add(sweep, "plot", kind == REPORT_MAP ? "map.svg" : "cut.svg");
 }
 
+static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
+{
+    words_make(job, kind, sweep);
+    int code = cli_plan_read(&sweep->args, &sweep->plan);
+    code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
+    sweep->plot.map = kind == REPORT_MAP; /* however few rows it has */
+    return code;
+}
+
 typedef struct sweep_walk {
     report_sweep *sweep;
+    uint64_t *list; /* rows to be run: one of each direction */
+    uint64_t listed;
     sweep_progress *progress;
     uint64_t before; /* rows of the sweeps before */
 } sweep_walk;
 
+/* The first row of the same direction: a full turn ends where it began, and at a pole all azimuths
+   are one. */
+static uint64_t row_first(const sweep_plan *plan, uint64_t row)
+{
+    uint64_t els = plan->axis[1].range.count;
+    uint64_t az = row / els;
+    uint64_t el = row % els;
+    int turns = plan->axis[0].range.count > 1;
+    int pole = turns && els > 1 && (el == 0 || el == els - 1);
+    az = pole || az == plan->axis[0].range.count - 1 ? 0 : az;
+    el = !turns && el == els - 1 ? 0 : el;
+    return az * els + el;
+}
+
 static int walk_pose(void *context, uint64_t index, lrcs_pose *pose)
 {
     const sweep_walk *walk = context;
-    return cli_plan_pose(&walk->sweep->plan, index, pose);
+    return cli_plan_pose(&walk->sweep->plan, walk->list[index], pose);
 }
 
 static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
@@ -108,30 +137,53 @@ static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
     sweep_walk *walk = context;
     (void)pose;
     (void)error;
-    walk->sweep->row[index][0] = result->sigma_m2;
-    walk->sweep->row[index][1] = result->bound_m2;
+    double *row = walk->sweep->row[walk->list[index]];
+    row[0] = result->sigma_m2;
+    row[1] = result->bound_m2;
     cli_progress_show(walk->progress, walk->before + index + 1);
     return LRCS_OK;
 }
 
-static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
+static int walk_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
 {
     lrcs_host_error error;
-    const lrcs_host_sweep sweep = {.count = walk->sweep->plan.rows,
+    const lrcs_host_sweep sweep = {.count = walk->listed,
                                    .threads = job->threads,
                                    .pose = walk_pose,
                                    .take = walk_take,
                                    .context = walk};
-    walk->sweep->row = calloc(walk->sweep->plan.rows, sizeof *walk->sweep->row);
-    if (!walk->sweep->row) {
-        return cli_out_of_memory();
-    }
     if (lrcs_host_sweep_run(scene, &job->sweep_options, &sweep, NULL, &error) != LRCS_OK) {
         cli_progress_clear(walk->progress);
         return cli_failed(&error);
     }
-    walk->before += walk->sweep->plan.rows;
+    walk->before += walk->listed;
     return 0;
+}
+
+/* Runs each direction once, and gives all rows of it the same. */
+static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
+{
+    const sweep_plan *plan = &walk->sweep->plan;
+    double(*row)[2] = calloc(plan->rows, sizeof *row);
+    uint64_t *list = calloc(plan->rows, sizeof *list);
+    walk->sweep->row = row;
+    walk->list = list;
+    walk->listed = 0;
+    if (!row || !list) {
+        free(list);
+        return cli_out_of_memory();
+    }
+    for (uint64_t i = 0; i < plan->rows; i++) {
+        if (row_first(plan, i) == i) {
+            list[walk->listed++] = i;
+        }
+    }
+    int code = walk_run(job, scene, walk);
+    for (uint64_t i = 0; i < plan->rows && code == 0; i++) {
+        memcpy(row[i], row[row_first(plan, i)], sizeof row[i]);
+    }
+    free(list);
+    return code;
 }
 
 /* Draws it, unless nothing returns anything anywhere. */
@@ -188,22 +240,16 @@ static int peaks_run(report_job *job, lrcs_host_scene *scene)
 int cli_report_sweeps(report_job *job)
 {
     lrcs_host_scene *scene = NULL;
-    uint64_t rows = 0;
     int code = scene_choose(job, &scene);
     code = code ? code : steps_choose(job, scene);
-    for (int kind = 0; kind < REPORT_SWEEPS && code == 0; kind++) {
-        report_sweep *sweep = &job->sweep[kind];
-        words_make(job, kind, sweep);
-        code = cli_plan_read(&sweep->args, &sweep->plan);
-        code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
-        rows += sweep->plan.rows;
-    }
-    sweep_progress progress = cli_progress_make(0, rows);
+    double poses = code ? 0.0 : steps_poses(job->cut_step, job->map_step);
+    sweep_progress progress = cli_progress_make(0, (uint64_t)poses);
     sweep_walk walk = {.progress = &progress};
     for (int kind = 0; kind < REPORT_SWEEPS && code == 0; kind++) {
         walk.sweep = &job->sweep[kind];
-        code = sweep_run(job, scene, &walk);
-        code = code ? code : sweep_draw(&job->sweep[kind]);
+        code = sweep_plan_make(job, kind, walk.sweep);
+        code = code ? code : sweep_run(job, scene, &walk);
+        code = code ? code : sweep_draw(walk.sweep);
     }
     cli_progress_clear(&progress);
     return code ? code : peaks_run(job, scene);

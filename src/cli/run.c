@@ -8,6 +8,9 @@
 /* What stopping may take beyond a time budget. */
 #define BUDGET_GRACE_MS 20.0
 
+/* Facets that take seconds or more. */
+#define RUN_MANY 200000u
+
 static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"
     "\n"
@@ -19,14 +22,14 @@ static const char run_help[] =
     "                        options give the same answer again. Ends early where nothing is left\n"
     "                        to gain, or a --tolerance is met; exit 3 where it took "
     "longer\n" CLI_SCENE_HELP
-    "  --precision P         float32 or float64: in place of a bounded answer that which graphics\n"
-    "                        hardware gives by the same method (a z-buffer of --resolution N, "
-    "1024\n"
-    "                        if not given), and what sampling, precision and depth each cost\n"
-    "  --depth-bits B        16, 24 or 32 of its depth buffer; alone it implies --precision "
-    "float64.\n"
-    "                        If not given: 32 with float32, 64 with float64. The bound is the\n"
-    "                        distance to method exact, and the bound of that\n"
+    "  --precision P         float32 or float64: graphics hardware emulated, a z-buffer of "
+    "--resolution N\n"
+    "                        (1024 if not given); sigma is what it gives, bound what method exact\n"
+    "                        proves of it, and a table says what sampling, precision, depth and a\n"
+    "                        running sum each cost. Of equal depths the first facet drawn wins\n"
+    "  --depth-bits B        16, 24 or 32 of its depth buffer (default: all that P holds); alone "
+    "it\n"
+    "                        means --precision float64\n"
     "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
     "                        where it is off; runs the pose for some 2 s more, or once for each\n"
     "  --shares              who makes sigma: parts, materials, and the ten brightest facets\n"
@@ -90,9 +93,24 @@ static int run_room(run_job *job)
     return 0;
 }
 
+/* Silence is no answer where shapes became very many facets. */
+static void run_patience(const run_job *job)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    if (scene->facet_count > RUN_MANY && cli_has_curved_shapes(scene)) {
+        fprintf(stderr,
+                "lrcs: %lu facets for a tolerance of %g: preparing and running them takes a "
+                "while\n",
+                (unsigned long)scene->facet_count, job->options.tolerance);
+    }
+}
+
 static int run_pose(run_job *job)
 {
     lrcs_host_error error;
+    if (!job->scene.prepared) {
+        run_patience(job);
+    }
     if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }

@@ -101,6 +101,59 @@ static char *part_name(const shares_plan *plan, uint32_t part, uint32_t object)
     return text;
 }
 
+typedef struct shares_alike {
+    char **name;
+    uint32_t object; /* from 1, in its model's order */
+} shares_alike;
+
+static int alike_compare(const void *a, const void *b)
+{
+    return strcmp(*((const shares_alike *)a)->name, *((const shares_alike *)b)->name);
+}
+
+/* "name #3" for objects whose name others have too, as 3DS files that allow 10 letters have many.
+ */
+static int alike_number(shares_alike *list, uint32_t count)
+{
+    for (uint32_t i = 0; i < count;) {
+        uint32_t end = i + 1;
+        while (end < count && strcmp(*list[i].name, *list[end].name) == 0) {
+            end++;
+        }
+        for (uint32_t last = end - i > 1 ? end : i; last-- > i;) {
+            size_t room = strlen(*list[last].name) + 14;
+            char *text = malloc(room);
+            if (!text) {
+                return -1;
+            }
+            snprintf(text, room, "%s #%lu", *list[last].name, (unsigned long)list[last].object);
+            free(*list[last].name);
+            *list[last].name = text;
+        }
+        i = end;
+    }
+    return 0;
+}
+
+/* Tells parts of one name apart. */
+static int parts_tell(const shares_plan *plan, cli_shares *shares)
+{
+    shares_alike *list = calloc((size_t)plan->parts + 1, sizeof *list);
+    if (!list) {
+        return -1;
+    }
+    for (uint32_t i = 0, part = 0; i < plan->parts; i++) {
+        while (part + 1 < plan->scene->part_count && plan->first_part[part + 1] <= i) {
+            part++;
+        }
+        list[i] = (shares_alike){&shares->part[i].name, i - plan->first_part[part] + 1};
+    }
+    qsort(list, plan->parts, sizeof *list, alike_compare);
+    int told = alike_number(list, plan->parts);
+    free(list);
+    return told;
+}
+
 static int rows_name(const shares_plan *plan, cli_shares *shares)
 {
     for (uint32_t i = 0; i < plan->scene->part_count; i++) {
@@ -122,7 +175,7 @@ static int rows_name(const shares_plan *plan, cli_shares *shares)
     for (uint32_t i = 0; i < plan->materials; i++) {
         named &= shares->material[i].name != NULL;
     }
-    return named ? 0 : -1;
+    return named ? parts_tell(plan, shares) : -1;
 }
 
 /* ---- sums ---- */

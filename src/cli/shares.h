@@ -10,7 +10,7 @@
 
 /* A part or a material. */
 typedef struct shares_row {
-    char *name;      /* owned */
+    char *name;      /* owned; "name #3" for the third object of a model where others share it */
     uint32_t facets; /* that it has */
     double sigma_m2, glint_m2, diffuse_m2;
 } shares_row;

@@ -104,6 +104,7 @@ static void numbers_print(const sweep_plan *plan, uint32_t rank, uint64_t row,
                           const double sigma[2], const cli_shares *shares)
 {
     double value[SWEEP_COLUMNS];
+    char bound[CLI_BOUND_SIZE];
     double glint = 0.0;
     cli_plan_values(plan, row, value);
     for (uint32_t i = 0; i < shares->parts; i++) {
@@ -113,7 +114,8 @@ static void numbers_print(const sweep_plan *plan, uint32_t rank, uint64_t row,
     for (uint32_t i = 0; i < plan->columns; i++) {
         printf(" %*.9g", column_width(plan, i), value[i]);
     }
-    printf(" %12.6g %9.3f %9.2g %6.1f %%\n", sigma[0], cli_dbsm(sigma[0]), sigma[1],
+    cli_bound_text(sigma[1], 2, bound);
+    printf(" %12.6g %9.3f %9s %6.1f %%\n", sigma[0], cli_dbsm(sigma[0]), bound,
            100.0 * cli_share_of(shares, glint));
 }
 

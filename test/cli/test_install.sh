@@ -85,7 +85,7 @@ if command -v bash >/dev/null; then
         bash -c '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _lrcs; echo "${COMPREPLY[*]}"' \
             "$at/share/bash-completion/completions/lrcs" lrcs "$@"
     }
-    same completion_offers_commands "$(complete ve)" verify
+    same completion_offers_commands "$(complete ver)" verify
     same completion_offers_options "$(complete run demo --tol)" --tolerance
     same completion_offers_values "$(complete run demo --method ex)" exact
     same completion_offers_values_after_an_equals_sign "$(complete run demo --method = fa)" facet

@@ -45,6 +45,20 @@ run run many.toml --shares --json
 printf '%s\n' "$out" >many.json
 
 command -v python3 >/dev/null || { echo "skip no_python3_here"; finish; exit; }
+
+# Objects of one name, as 3DS files have them.
+python3 - <<'END'
+import struct
+def chunk(id, body): return struct.pack("<HI", id, 6 + len(body)) + body
+def triangle(name, side):
+    points = chunk(0x4110, struct.pack("<H9f", 3, 0, 0, side, side, 0, side, 0, side, side))
+    return chunk(0x4000, name + b"\0" + chunk(0x4100, points + chunk(0x4120, struct.pack("<H4H", 1, 0, 1, 2, 0))))
+objects = triangle(b"a", 1) + triangle(b"b", 4) + triangle(b"a", 3)
+open("alike.3ds", "wb").write(chunk(0x4D4D, chunk(0x3D3D, objects)))
+END
+run run alike.3ds --method facet --shares --json
+same objects_of_one_name_are_told_apart "$(printf '%s\n' "$out" | sed -n '/"parts"/,/"materials"/s/.*"name": "\([^"]*\)".*/\1/p' | tr '\n' ' ')" "b a #3 a #1 "
+
 python3 - <<'END' || failures=1
 import csv, json, math, sys
 bad = 0
