@@ -68,7 +68,7 @@ static int case_touched(const compare_search *search, const compare_case *one, d
 static explain_score score_make(const compare_search *search, double factor)
 {
     explain_score score = {.factor = factor};
-    uint32_t touched = 0;
+    double touched = 0.0;
     double removed = 0.0;
     for (uint32_t i = 0; i < search->failings; i++) {
         const compare_case *one = search->failing[i];
@@ -80,10 +80,10 @@ static explain_score score_make(const compare_search *search, double factor)
         removed += right ? 1.0 - 0.5 * fmin(left, 1.0) : 0.0;
     }
     for (uint32_t i = 0; i < search->passings; i++) {
-        touched += (uint32_t)(case_touched(search, search->passing[i],
-                                           factor * search->answer[search->failings + i]));
+        double expected = factor * search->answer[search->failings + i];
+        touched += case_touched(search, search->passing[i], expected) ? search->weight : 0.0;
     }
-    double precise = touched > 0 ? (double)score.explained / touched : 0.0;
+    double precise = touched > 0.0 ? score.explained / touched : 0.0;
     int striking = removed >= (1.0 - 0.5 * STRIKING) * score.explained;
     if (score.explained > 0 && (score.explained >= ENOUGH || striking) && precise >= PRECISE) {
         score.score = precise * removed / search->failings;
@@ -323,7 +323,9 @@ void cli_search_part(compare_search *search)
     }
     list_shuffle(search->failing, search->failings);
     list_shuffle(search->passing, search->passings);
-    search->passings = search->passings < WITNESSES ? search->passings : WITNESSES;
+    uint32_t witnesses = search->passings < WITNESSES ? search->passings : WITNESSES;
+    search->weight = witnesses > 0 ? (double)search->passings / witnesses : 0.0;
+    search->passings = witnesses;
 }
 
 /* ---- the search ---- */
