@@ -42,11 +42,11 @@ static int materials_read(compare_kit *kit)
     }
     int more = 1;
     int code = cli_table_open(path, &table);
-    size_t lines = cli_table_lines(&table);
-    kit->binding = calloc(lines, sizeof *kit->binding);
-    kit->material = calloc(lines, sizeof *kit->material);
+    kit->binding = calloc(cli_table_lines(&table), sizeof *kit->binding);
+    kit->material = calloc(cli_table_lines(&table), sizeof *kit->material);
     if (!kit->binding || !kit->material) {
-        code = cli_out_of_memory();
+        cli_table_close(&table);
+        return cli_out_of_memory();
     }
     for (int i = 0; i < 6 && code == 0; i++) {
         code = cli_table_require(&table, name[i], &column[i]);
@@ -82,9 +82,8 @@ static const char *const case_names[CASE_COLUMNS] = {
 /* The scene of a line, which follows others of it. */
 static compare_scene *scene_of(compare_kit *kit, const char *name, int tier)
 {
-    compare_scene *last = kit->scenes > 0 ? &kit->scene[kit->scenes - 1] : NULL;
-    if (last && strcmp(last->name, name) == 0) {
-        return last;
+    if (kit->scenes > 0 && strcmp(kit->scene[kit->scenes - 1].name, name) == 0) {
+        return &kit->scene[kit->scenes - 1];
     }
     compare_scene *next = &kit->scene[kit->scenes++];
     memcpy(next->name, name, KIT_NAME);
@@ -141,11 +140,11 @@ static int cases_read(compare_kit *kit)
     }
     int more = 1;
     int code = cli_table_open(path, &table);
-    size_t lines = cli_table_lines(&table);
-    kit->list = calloc(lines, sizeof *kit->list);
-    kit->scene = calloc(lines, sizeof *kit->scene);
+    kit->list = calloc(cli_table_lines(&table), sizeof *kit->list);
+    kit->scene = calloc(cli_table_lines(&table), sizeof *kit->scene);
     if (!kit->list || !kit->scene) {
-        code = cli_out_of_memory();
+        cli_table_close(&table);
+        return cli_out_of_memory();
     }
     for (int i = 0; i < CASE_COLUMNS && code == 0; i++) {
         code = cli_table_require(&table, case_names[i], &column[i]);

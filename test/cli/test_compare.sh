@@ -115,6 +115,8 @@ why and_how_many_cases_there_were 0 '^facets       of 189 cases'
 
 run compare kit kit/cases.csv --junit unit.xml --json all.json
 same files_do_not_change_the_verdict "$rc" 0
+run compare kit kit/cases.csv --junit -
+same junit_in_place_of_the_table "$rc $(printf '%s\n' "$out" | grep -vc '^<')" "0 0"
 if command -v python3 >/dev/null; then
     truth '$13 * ($2 == "a" ? 3 : 1)' >theirs.csv
     "$tool" compare kit theirs.csv --junit unit.xml --json all.json >/dev/null
