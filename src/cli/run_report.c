@@ -137,30 +137,45 @@ static void json_tail(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
+static void table_bound(const char *label, double bound)
+{
+    char text[CLI_BOUND_SIZE];
+    cli_bound_text(bound, 3, text);
+    printf("%s%s m2", label, text);
+}
+
+static void table_budget(const lrcs_budget *budget)
+{
+    table_bound("  visibility ", budget->visibility_m2);
+    if (budget->tessellation_m2 >= 0.0) {
+        table_bound("\n  tessellation ", budget->tessellation_m2);
+    } else {
+        printf("\n  tessellation not known");
+    }
+    table_bound("\n  rounding   ", budget->rounding_m2);
+    putchar('\n');
+}
+
 static void table_sigma(const run_job *job)
 {
     const lrcs_result *r = &job->result;
+    char share[CLI_BOUND_SIZE];
     printf("sigma        %.10g m2", r->sigma_m2);
     if (r->sigma_m2 > 0.0) {
         printf("   %.6f dBsm", cli_dbsm(r->sigma_m2));
     }
     printf("\n  glint      %.10g m2\n  diffuse    %.10g m2\n", r->sigma_glint_m2,
            r->sigma_diffuse_m2);
-    printf("bound        %.3g m2", r->bound_m2);
+    table_bound("bound        ", r->bound_m2);
     if (r->sigma_m2 > 0.0) {
-        printf("   %.2g of sigma", r->bound_m2 / r->sigma_m2);
+        cli_bound_text(r->bound_m2 / r->sigma_m2, 2, share);
+        printf("   %s of sigma", share);
     }
     if (job->asked > 0.0) {
         printf("; tolerance %g %s", job->asked, job->met ? "met" : "NOT met");
     }
     putchar('\n');
-    printf("  visibility %.3g m2\n", r->budget.visibility_m2);
-    if (r->budget.tessellation_m2 >= 0.0) {
-        printf("  tessellation %.3g m2\n", r->budget.tessellation_m2);
-    } else {
-        printf("  tessellation not known\n");
-    }
-    printf("  rounding   %.3g m2\n", r->budget.rounding_m2);
+    table_budget(&r->budget);
     if (r->estimate_m2 >= 0.0) {
         printf("estimate     %.3g m2   likely error, not a bound\n", r->estimate_m2);
     }

@@ -208,6 +208,7 @@ int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_hos
 /* Below the title: what stayed as it was, and how well sigma is known. */
 static void plot_note(const sweep_plot *plot, const sweep_plan *plan, char note[512])
 {
+    char bound[CLI_BOUND_SIZE];
     double worst = 0.0;
     int dark = 0;
     int used = 0;
@@ -223,8 +224,9 @@ static void plot_note(const sweep_plot *plot, const sweep_plan *plan, char note[
         worst = fmax(worst, plot->row[i][1]);
         dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
     }
-    snprintf(note + used, 512 - (size_t)used, "each sigma is proved to within %.2g m2 or better%s",
-             worst,
+    cli_bound_text(worst, 2, bound);
+    snprintf(note + used, 512 - (size_t)used, "each sigma is proved to within %s m2 or better%s",
+             bound,
              !dark       ? ""
              : plot->map ? "; grey: sigma is 0"
                          : "; gaps: sigma is 0");
