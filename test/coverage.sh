@@ -19,7 +19,7 @@ gcov -b -n $counted 2>/dev/null | awk '
         if (/^Lines/) { lines[file] = of; ran[file] = done; all_lines += of; all_ran += done }
         else { branches[file] = of; taken[file] = done; all_branches += of; all_taken += done }
     }
-    /^$/ { ours = 0 }
+    /^(Calls executed|No calls)/ { ours = 0 }
     END {
         order = "LC_ALL=C sort"
         for (file in lines)

@@ -53,6 +53,22 @@ static void blocks_asked_cleared_are_zero(void **state)
     }
 }
 
+/* Its address is nobody else's; there is nothing to clear. */
+static void a_block_of_no_bytes_is_a_block(void **state)
+{
+    (void)state;
+    unsigned char bytes[128];
+    memset(bytes, 0xff, sizeof bytes);
+    lrcs_work work = lrcs_work_make(bytes, sizeof bytes);
+    const unsigned char *a = lrcsi_work_take_zero(&work, 0, 8);
+    const unsigned char *b = lrcsi_work_take_zero(&work, 8, 0);
+    const unsigned char *c = lrcsi_work_take(&work, 1, 1);
+    assert_non_null(a);
+    assert_true(a < b && b < c);
+    assert_int_equal(a[0], 0xff);
+    assert_int_equal(lrcsi_work_bytes(8, 0), lrcsi_work_bytes(0, 8));
+}
+
 static void an_empty_area_serves_nothing(void **state)
 {
     (void)state;
@@ -68,6 +84,7 @@ int main(void)
         cmocka_unit_test(refusal_takes_nothing_and_tells_the_need),
         cmocka_unit_test(overflowing_sizes_are_refused),
         cmocka_unit_test(blocks_asked_cleared_are_zero),
+        cmocka_unit_test(a_block_of_no_bytes_is_a_block),
         cmocka_unit_test(an_empty_area_serves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

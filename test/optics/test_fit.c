@@ -386,7 +386,9 @@ static void what_cannot_be_fitted_is_refused_and_leaves_no_trace(void **state)
         {10, 1e-300, 1, 1, 9, LRCS_FIT_ABSOLUTE, LRCS_E_NUMBER},
         {10, 1, 1, 0, 9, LRCS_FIT_ABSOLUTE, LRCS_E_ARGUMENT},
         {10, 1, 1, (double)NAN, 9, LRCS_FIT_ABSOLUTE, LRCS_E_ARGUMENT},
+        {10, 1, 1, (double)INFINITY, 9, LRCS_FIT_ABSOLUTE, LRCS_E_ARGUMENT},
         {10, 1, 1, 1, 9, 4, LRCS_E_ARGUMENT},
+        {10, 1, 1, 1, 9, -1, LRCS_E_ARGUMENT},
     };
     static unsigned char bytes[4096];
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {

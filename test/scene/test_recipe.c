@@ -243,6 +243,7 @@ static const refusal refusals[] = {
     {DISC WHITE WHITE, LRCS_E_NAME, 11},
     {DISC WHITE "like = \"solar-cell\"\n", LRCS_E_NAME, 5},
     {DISC "[[material]]\nname = \"w\"\nA = 0\nB = 0.1\ns = 0\n", LRCS_E_NAME, 5},
+    {DISC "[[material]]\nname = \"\"\nlike = \"solar-cell\"\n", LRCS_E_NAME, 5},
     {DISC "[[material]]\nname = \"w\"\nlike = \"none such\"\n", LRCS_E_NAME, 7},
     {DISC "[[material]]\nname = \"w\"\nA = -1\nB = 0.1\ns = 0.1\nm = 1\n", LRCS_E_NUMBER, 7},
     {DISC "[[material]]\nname = \"w\"\nA = 1\nB = 0.1\ns = 0\nm = 1\n", LRCS_E_NUMBER, 9},
