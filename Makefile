@@ -94,7 +94,7 @@ amalgamation: cmocka $(CORE_TESTS:$(BUILD)/%=$(JOINED)/%)
 
 # What the core takes of the stack here, and on a Cortex-M7 where its compiler is installed.
 stack: $(JOINED)/lrcs.c
-	for compiler in gcc "$(ARM) $(CORTEX_M7)"; do \
+	@for compiler in gcc "$(ARM) $(CORTEX_M7)"; do \
 	    command -v $${compiler%% *} >/dev/null || continue; \
 	    echo "$$compiler $(OPT)"; \
 	    $$compiler $(STD) $(OPT) -fcallgraph-info=su -c -o $(JOINED)/stack.o $< && \

@@ -60,6 +60,15 @@ licence() {
     licence
     echo '/* The core of lrcs in two files, made by make amalgamation: compile this one with'
     echo '   -std=c11 -ffp-contract=off, link it with -lm. */'
+    echo '#ifdef __FAST_MATH__'
+    echo '#error "bounds are proved for IEEE 754 arithmetic: not with -ffast-math"'
+    echo '#endif'
+    echo '/* a * b + c is rounded twice, whatever the options say: exact signs depend on it. */'
+    echo '#if defined(__clang__)'
+    echo '#pragma STDC FP_CONTRACT OFF'
+    echo '#elif defined(__GNUC__)'
+    echo '#pragma GCC optimize("fp-contract=off")'
+    echo '#endif'
     printf '#include "lrcs.h"\n\n'
     awk -v hidden='^include/' "$join" "$@" || exit 1
 } >"$folder/lrcs.c"

@@ -40,6 +40,24 @@ else
     echo "skip the_core_has_no_recursion: ${CC:-cc} writes no call graph"
 fi
 
+# ---- arithmetic: symptom: gcc left to its defaults fused a * b + c, and proved bounds did not hold ----
+contract() { "$1" -std=gnu11 -O2 "$2" -S -o - "$scratch/sum.c" 2>/dev/null | grep -c 'v*fmadd'; }
+for compiler in "${CC:-cc}" clang aarch64-linux-gnu-gcc; do
+    command -v "$compiler" >/dev/null || continue
+    case $("$compiler" -dumpmachine) in
+    x86_64*) fused=-mfma ;;
+    aarch64*) fused=-march=armv8-a ;;
+    *) continue ;;
+    esac
+    echo 'double f(double a, double b, double c) { return a * b + c; }' >"$scratch/plain.c"
+    cp "$scratch/plain.c" "$scratch/sum.c"
+    same "$compiler could_fuse" "$(contract "$compiler" $fused)" 1
+    sed '/lrcs\.h"$/,$d' "$scratch/joined/lrcs.c" | cat - "$scratch/plain.c" >"$scratch/sum.c"
+    same "$compiler is_kept_from_it" "$(contract "$compiler" $fused)" 0
+done
+"${CC:-cc}" -ffast-math -fsyntax-only "$scratch/joined/lrcs.c" 2>/dev/null
+same fast_math_is_refused "$?" 1
+
 # ---- a program ----
 same they_include_nothing_but_freestanding_like_headers \
     "$(sed -n 's/^#include //p' "$scratch/joined/lrcs.c" "$scratch/joined/lrcs.h" | LC_ALL=C sort -u | tr '\n' ' ')" \
