@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Proves the order of the rooms: a file includes its own layer or earlier ones, the tool only the
 # public headers, the core nothing of the system but freestanding-like headers; and that every
-# header compiles alone. Prints FILE:LINE and the reason for each breach.
+# header compiles alone, and the map names every file. Prints FILE:LINE and the reason for each breach.
 # usage: layers.sh    (in the root; CC names the compiler)
 core='base mesh optics scene view visibility integrate'
 layers="$core host cli"
@@ -127,6 +127,17 @@ for header in include/lrcs/*.h; do
     esac
     grep -q "^#include <lrcs/$base>" include/lrcs/lrcs.h ||
         echo "include/lrcs/lrcs.h: does not include <lrcs/$base>" >>"$log"
+done
+
+# The map names every room, by itself or as one of several (`toml*`).
+families=$(grep -oE '`[a-z0-9_]+\*`' src/README.md | tr -d '`*')
+for file in src/*/*.c; do
+    room=$(basename "$file" .c)
+    grep -q "\`$room\`" src/README.md && continue
+    for family in $families; do
+        case $room in "$family"*) continue 2 ;; esac
+    done
+    echo "src/README.md: does not name $file" >>"$log"
 done
 
 if [ -s "$log" ]; then

@@ -22,6 +22,8 @@ typedef struct lrcs_host_table {
     char separator;                          /* ' ': any blanks; 0 before the first row */
     uint32_t columns;                        /* fields of the first row, and of every other */
     lrcs_host_field field[LRCS_HOST_FIELDS]; /* of the row */
+    int named;                               /* do the columns have names? */
+    lrcs_host_field name[LRCS_HOST_FIELDS];
 } lrcs_host_table;
 
 /* A table before its first row. File and path must outlive it; path is for error messages. */
@@ -32,12 +34,18 @@ lrcs_host_table lrcs_host_table_make(const char *path, const lrcs_host_file *fil
    row has). */
 int lrcs_host_table_read(lrcs_host_table *table, lrcs_host_error *error);
 
+/* Takes the row for the names of the columns. Then the column of a name, whatever the case of its
+   letters, or LRCS_NONE. */
+void lrcs_host_table_names(lrcs_host_table *table);
+uint32_t lrcs_host_table_column(const lrcs_host_table *table, const char *name);
+
 /* Is the row's field `name`, whatever the case of letters? And does it begin so? 1 or 0. */
 int lrcs_host_field_is(const lrcs_host_field *field, const char *name);
 int lrcs_host_field_begins(const lrcs_host_field *field, const char *name);
 
 /* A field of the row as a finite number. Status: LRCS_OK; LRCS_E_SYNTAX; LRCS_E_NUMBER: the
-   sentence has file, line, column, what was found and what was `expected`. */
+   sentence has file, line, column (its name where it has one), what was found and what was
+   `expected`. */
 int lrcs_host_field_read(const lrcs_host_table *table, uint32_t column, const char *expected,
                          double *value, lrcs_host_error *error);
 

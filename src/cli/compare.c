@@ -29,7 +29,7 @@ static const char compare_help[] =
     "flips,\n"
     "                        shifted numbers, facets lost or seen through\n"
     "  --json FILE           verdict, findings and every case as JSON ('-': instead of the table)\n"
-    "  --junit FILE.xml      a test suite a tier, a test case a case\n"
+    "  --junit FILE.xml      a test suite a tier, a test case a case ('-' likewise)\n"
     "\n"
     "Exit: 0 every case of the tiers asked for was handed in and passed, 1 otherwise.\n"
     "\n"
@@ -119,14 +119,18 @@ static int compare_make(compare_job *job, const char *folder)
     return code ? code : cli_compare_explain(job);
 }
 
+static int to_stdout(const cli_output *output)
+{
+    return output->path && strcmp(output->path, "-") == 0;
+}
+
 static int compare_report(compare_job *job, const cli_output output[2])
 {
-    const char *json = output[0].path;
-    int code = 0;
-    code = json ? cli_output_write(json, cli_compare_json, job) : 0;
-    code = code == 0 && output[1].path ? cli_output_write(output[1].path, cli_compare_junit, job)
-                                       : code;
-    if (code == 0 && !(json && strcmp(json, "-") == 0)) {
+    int code = output[0].path ? cli_output_write(output[0].path, cli_compare_json, job) : 0;
+    if (code == 0 && output[1].path) {
+        code = cli_output_write(output[1].path, cli_compare_junit, job);
+    }
+    if (code == 0 && !to_stdout(&output[0]) && !to_stdout(&output[1])) {
         cli_compare_table(job);
         code = job->facets ? cli_compare_facets(job) : 0;
         code = code == 0 && job->items ? cli_compare_items(job) : code;

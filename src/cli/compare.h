@@ -6,24 +6,14 @@
 
 #include "cli/kit.h"
 
+#include <lrcs/table.h>
+
 /* ---- tables ---- */
 
-#define COMPARE_FIELDS 64u
-
-typedef struct compare_field {
-    const char *text;
-    int size;
-} compare_field;
-
-/* A CSV file; its first line names the columns. */
+/* A table whose first line names the columns, and its file. */
 typedef struct compare_table {
-    const char *path;
     lrcs_host_file file;
-    const char *at, *end;
-    uint32_t line; /* of the fields, from 1 */
-    char separator;
-    compare_field name[COMPARE_FIELDS], field[COMPARE_FIELDS];
-    uint32_t columns;
+    lrcs_host_table text;
 } compare_table;
 
 /* Opens a table and reads its names. 0 or CLI_FAILED with the message printed; closed in any

@@ -68,7 +68,7 @@ static int case_touched(const compare_search *search, const compare_case *one, d
 static explain_score score_make(const compare_search *search, double factor)
 {
     explain_score score = {.factor = factor};
-    uint32_t touched = 0;
+    double touched = 0.0;
     double removed = 0.0;
     for (uint32_t i = 0; i < search->failings; i++) {
         const compare_case *one = search->failing[i];
@@ -80,10 +80,10 @@ static explain_score score_make(const compare_search *search, double factor)
         removed += right ? 1.0 - 0.5 * fmin(left, 1.0) : 0.0;
     }
     for (uint32_t i = 0; i < search->passings; i++) {
-        touched += (uint32_t)(case_touched(search, search->passing[i],
-                                           factor * search->answer[search->failings + i]));
+        double expected = factor * search->answer[search->failings + i];
+        touched += case_touched(search, search->passing[i], expected) ? search->weight : 0.0;
     }
-    double precise = touched > 0 ? (double)score.explained / touched : 0.0;
+    double precise = touched > 0.0 ? score.explained / touched : 0.0;
     int striking = removed >= (1.0 - 0.5 * STRIKING) * score.explained;
     if (score.explained > 0 && (score.explained >= ENOUGH || striking) && precise >= PRECISE) {
         score.score = precise * removed / search->failings;
@@ -261,7 +261,7 @@ static int answers_again(const compare_search *search, const explain_score *best
 static int finding_next(compare_search *search)
 {
     compare_job *job = search->job;
-    explain_score best = {.score = 0.0};
+    explain_score best = {.first = cli_compare_mistakes};
     int code = singles_try(search, &best);
     if (code == 0 && best.score < PAIRS_BELOW) {
         code = pairs_try(search, &best);
@@ -323,7 +323,9 @@ void cli_search_part(compare_search *search)
     }
     list_shuffle(search->failing, search->failings);
     list_shuffle(search->passing, search->passings);
-    search->passings = search->passings < WITNESSES ? search->passings : WITNESSES;
+    uint32_t witnesses = search->passings < WITNESSES ? search->passings : WITNESSES;
+    search->weight = witnesses > 0 ? (double)search->passings / witnesses : 0.0;
+    search->passings = witnesses;
 }
 
 /* ---- the search ---- */
@@ -350,8 +352,8 @@ int cli_compare_explain(compare_job *job)
     compare_search search = {.job = job};
     search.failing = malloc(count * sizeof(compare_case *));
     search.passing = malloc(count * sizeof(compare_case *));
-    search.answer = malloc(count * sizeof(double));
-    search.room = malloc(count * sizeof(double));
+    search.answer = calloc(count, sizeof(double));
+    search.room = calloc(count, sizeof(double));
     int code = search.failing && search.passing && search.answer && search.room
                    ? findings_make(&search)
                    : cli_out_of_memory();

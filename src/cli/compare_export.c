@@ -50,6 +50,7 @@ int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
     lrcs_host_json_count(&json, "asked", job->asked);
     lrcs_host_json_count(&json, "given", job->given);
     lrcs_host_json_count(&json, "failed", job->failed);
+    lrcs_host_json_count(&json, "not_numbers", job->not_numbers);
     lrcs_host_json_count(&json, "unexplained", job->unexplained);
     lrcs_host_json_begin(&json, "findings", LRCS_HOST_ARRAY);
     for (uint32_t i = 0; i < job->findings; i++) {

@@ -80,8 +80,7 @@ static int facet_line(facets_read *facets, const compare_table *table, const int
     }
     uint32_t count = facets->job->kit.scene[one->scene].host.scene.facet_count;
     if (!(index >= 0.0 && index < count) || index != floor(index)) {
-        return cli_table_refuse(table, column[2], "expected a facet 0 .. %lu",
-                                (unsigned long)count - 1);
+        return cli_table_refuse(table, column[2], "a facet 0 .. %lu", (unsigned long)count - 1);
     }
     if (column[4] >= 0 && cli_table_number(table, column[4], &cosine) != 0) {
         return CLI_FAILED;

@@ -4,10 +4,9 @@
    alone. */
 #include "cli/compare.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
+#include <unistd.h>
 
 #define AGREE 0.98 /* of the pixels that show something: the rest are outlines */
 #define TOP   3    /* facets that are named an image */
@@ -113,11 +112,10 @@ static int image_read(const char *path, uint32_t side, items_image *image)
     lrcs_host_error error;
     size_t size = 4 * (size_t)side * side;
     *image = (items_image){.side = side};
-    errno = 0;
+    if (access(path, F_OK) != 0) {
+        return 0;
+    }
     if (lrcs_host_file_read(path, &image->file, &error) != LRCS_OK) {
-        if (errno == ENOENT) {
-            return 0;
-        }
         cli_failed(&error);
         return -1;
     }
@@ -177,14 +175,16 @@ static int case_judge(compare_job *job, const compare_case *one, items_tally *ta
         return found;
     }
     found = image_read(path[0], one->image, &image[0]);
-    if (found > 0 && cli_compare_scene(&job->kit, &job->kit.scene[one->scene]) == 0) {
-        image_judge(job, one, &image[0], &image[1], tally);
-        lrcs_host_file_free(&image[0].file);
-    } else if (found == 0) {
+    if (found == 0) {
         fprintf(stderr, "lrcs: %s: not there\n", path[0]);
     }
+    int good = found > 0 && cli_compare_scene(&job->kit, &job->kit.scene[one->scene]) == 0;
+    if (good) {
+        image_judge(job, one, &image[0], &image[1], tally);
+    }
+    lrcs_host_file_free(&image[0].file);
     lrcs_host_file_free(&image[1].file);
-    return found > 0 ? 1 : -1;
+    return good ? 1 : -1;
 }
 
 int cli_compare_items(compare_job *job)

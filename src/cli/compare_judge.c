@@ -54,9 +54,9 @@ static int answer_read(const compare_job *job, const compare_table *table, const
         return CLI_FAILED;
     }
     if (one->given) {
-        return cli_table_refuse(table, column[1], "this case was given before");
+        return cli_table_refuse(table, column[1], "every case once");
     }
-    if (linear || table->field[at].size > 0) {
+    if (linear || table->text.field[at].size > 0) {
         int code = cli_table_answer(table, at, &value);
         if (code != 0) {
             return code;

@@ -22,7 +22,7 @@ static int material_read(const compare_table *table, const int *column, compare_
     }
     lrcs_brdf brdf = {value[0], value[1], value[2], value[3]};
     if (lrcs_brdf_check(&brdf) < 0) {
-        return cli_table_refuse(table, column[0], "expected A, B, m >= 0 and s > 0");
+        return cli_table_refuse(table, column[0], "A, B, m >= 0 and s > 0");
     }
     kit->binding[kit->bindings++] = (lrcs_binding){.kind = LRCS_BIND_NAME,
                                                    .name = kit->material[i],
@@ -42,11 +42,11 @@ static int materials_read(compare_kit *kit)
     }
     int more = 1;
     int code = cli_table_open(path, &table);
-    size_t lines = cli_table_lines(&table);
-    kit->binding = calloc(lines, sizeof *kit->binding);
-    kit->material = calloc(lines, sizeof *kit->material);
+    kit->binding = calloc(cli_table_lines(&table), sizeof *kit->binding);
+    kit->material = calloc(cli_table_lines(&table), sizeof *kit->material);
     if (!kit->binding || !kit->material) {
-        code = cli_out_of_memory();
+        cli_table_close(&table);
+        return cli_out_of_memory();
     }
     for (int i = 0; i < 6 && code == 0; i++) {
         code = cli_table_require(&table, name[i], &column[i]);
@@ -82,9 +82,8 @@ static const char *const case_names[CASE_COLUMNS] = {
 /* The scene of a line, which follows others of it. */
 static compare_scene *scene_of(compare_kit *kit, const char *name, int tier)
 {
-    compare_scene *last = kit->scenes > 0 ? &kit->scene[kit->scenes - 1] : NULL;
-    if (last && strcmp(last->name, name) == 0) {
-        return last;
+    if (kit->scenes > 0 && strcmp(kit->scene[kit->scenes - 1].name, name) == 0) {
+        return &kit->scene[kit->scenes - 1];
     }
     compare_scene *next = &kit->scene[kit->scenes++];
     memcpy(next->name, name, KIT_NAME);
@@ -114,13 +113,13 @@ static int case_read(const compare_table *table, const int *column, compare_kit 
     one->float_m2 = value[CASE_FLOAT];
     one->edge_m2 = value[CASE_EDGE];
     if (!(value[CASE_TIER] >= 1.0 && value[CASE_TIER] <= KIT_TIERS)) {
-        return cli_table_refuse(table, column[CASE_TIER], "expected 1 .. %d", KIT_TIERS);
+        return cli_table_refuse(table, column[CASE_TIER], "1 .. %d", KIT_TIERS);
     }
     if (!(value[CASE_IMAGE] >= 0.0 && value[CASE_IMAGE] <= 16384.0)) {
-        return cli_table_refuse(table, column[CASE_IMAGE], "expected 0 .. 16384");
+        return cli_table_refuse(table, column[CASE_IMAGE], "0 .. 16384");
     }
     if (cli_kit_pose(one->quaternion, one->direction, &one->pose) != LRCS_OK) {
-        return cli_table_refuse(table, column[CASE_QUATERNION], "expected an attitude");
+        return cli_table_refuse(table, column[CASE_QUATERNION], "an attitude");
     }
     one->tier = (int)value[CASE_TIER];
     one->image = (uint32_t)value[CASE_IMAGE];
@@ -141,11 +140,11 @@ static int cases_read(compare_kit *kit)
     }
     int more = 1;
     int code = cli_table_open(path, &table);
-    size_t lines = cli_table_lines(&table);
-    kit->list = calloc(lines, sizeof *kit->list);
-    kit->scene = calloc(lines, sizeof *kit->scene);
+    kit->list = calloc(cli_table_lines(&table), sizeof *kit->list);
+    kit->scene = calloc(cli_table_lines(&table), sizeof *kit->scene);
     if (!kit->list || !kit->scene) {
-        code = cli_out_of_memory();
+        cli_table_close(&table);
+        return cli_out_of_memory();
     }
     for (int i = 0; i < CASE_COLUMNS && code == 0; i++) {
         code = cli_table_require(&table, case_names[i], &column[i]);
@@ -252,8 +251,7 @@ static compare_scene *scene_find(const compare_kit *kit, const compare_table *ta
         }
         best = cli_nearest(name, best, kit->scene[i].name);
     }
-    cli_table_refuse(table, column, "expected a scene of the kit (the nearest is %s)",
-                     best ? best : "none");
+    cli_table_refuse(table, column, "a scene of the kit (the nearest is %s)", best ? best : "none");
     return NULL;
 }
 
@@ -275,7 +273,7 @@ compare_case *cli_compare_find(const compare_kit *kit, const compare_table *tabl
         }
         best = cli_nearest(name, best, kit->list[i].attitude);
     }
-    cli_table_refuse(table, column[1], "expected an attitude of %s (the nearest is %s)",
-                     scene->name, best ? best : "none");
+    cli_table_refuse(table, column[1], "an attitude of %s (the nearest is %s)", scene->name,
+                     best ? best : "none");
     return NULL;
 }

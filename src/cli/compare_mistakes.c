@@ -5,7 +5,7 @@
 #include "cli/compare.h"
 
 #include <math.h>
-#include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define DEGREES_PER_RADIAN 57.295779513082320877
@@ -232,7 +232,7 @@ static int turn_axes(const compare_case *one, const compare_mistake *mistake, lr
     double s[3];
     for (int k = 0; k < 3; k++) {
         int axis = mistake->axes[k];
-        s[k] = axis < 0 ? -one->direction[-axis - 1] : one->direction[axis - 1];
+        s[k] = (axis < 0 ? -1.0 : 1.0) * one->direction[abs(axis) - 1];
     }
     return turn_to(s, pose);
 }

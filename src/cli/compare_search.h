@@ -10,6 +10,7 @@ typedef struct compare_search {
     compare_case **failing; /* not explained yet */
     compare_case **passing; /* some of them */
     uint32_t failings, passings;
+    double weight;  /* of how many passing cases each of them tells */
     double *answer; /* of a mistake: the failing cases, then the passing ones */
     double *room;   /* to sort in */
 } compare_search;

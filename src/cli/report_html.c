@@ -61,11 +61,11 @@ static void number_put(FILE *out, const char *text)
         fputs(*text == '-' ? "\xe2\x88\x92" : (const char[2]){*text, '\0'}, out);
     }
     if (*text == 'e') {
-        int power = atoi(text + 1);
+        long power = strtol(text + 1, NULL, 10);
         fprintf(out,
                 "\xc2\xb7"
-                "10<sup>%s%d</sup>",
-                power < 0 ? "\xe2\x88\x92" : "", abs(power));
+                "10<sup>%s%ld</sup>",
+                power < 0 ? "\xe2\x88\x92" : "", labs(power));
     }
 }
 
@@ -99,8 +99,8 @@ void cli_page_number(FILE *out, const char *id, double value, int digits)
 
 void cli_page_bound(FILE *out, const char *id, double bound, int digits)
 {
-    char text[CLI_BOUND_SIZE];
     if (bound >= 0.0 && isfinite(bound)) {
+        char text[CLI_BOUND_SIZE];
         cli_bound_text(bound, digits, text);
         data_put(out, id, bound, text);
     } else {

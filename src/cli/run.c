@@ -8,6 +8,9 @@
 /* What stopping may take beyond a time budget. */
 #define BUDGET_GRACE_MS 20.0
 
+/* Facets that take seconds or more. */
+#define RUN_MANY 200000u
+
 static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"
     "\n"
@@ -90,9 +93,24 @@ static int run_room(run_job *job)
     return 0;
 }
 
+/* Silence is no answer where shapes became very many facets. */
+static void run_patience(const run_job *job)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    if (scene->facet_count > RUN_MANY && cli_has_curved_shapes(scene)) {
+        fprintf(stderr,
+                "lrcs: %lu facets for a tolerance of %g: preparing and running them takes a "
+                "while\n",
+                (unsigned long)scene->facet_count, job->options.tolerance);
+    }
+}
+
 static int run_pose(run_job *job)
 {
     lrcs_host_error error;
+    if (!job->scene.prepared) {
+        run_patience(job);
+    }
     if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }

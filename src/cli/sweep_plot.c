@@ -356,7 +356,8 @@ static int sheet_make(const cli_args *args, const sweep_plot *plot, const sweep_
     uint64_t room = plan->rows + plot->x.count + plot->y.count;
     *sheet = (plot_sheet){.plot = plot, .plan = plan, .x = malloc(room * sizeof(double))};
     if (!sheet->x) {
-        return cli_out_of_memory();
+        cli_out_of_memory();
+        return CLI_FAILED;
     }
     sheet->y = sheet->x + plot->x.count;
     sheet->z = sheet->y + plot->y.count;

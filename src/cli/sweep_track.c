@@ -47,6 +47,7 @@ static int names_read(track_reader *reader, sweep_track *track)
 {
     const lrcs_host_table *table = &reader->table;
     int seen[5] = {0};
+    lrcs_host_table_names(&reader->table);
     for (uint32_t i = 0; i < table->columns; i++) {
         const track_name *name = name_find(&table->field[i]);
         track->quaternions |= name && name->quaternion == 1;

@@ -7,11 +7,11 @@
 #include "cli/kit.h"
 
 typedef struct vectors_material {
-    char letter; /* what items wear it by */
     const char *name;
     lrcs_brdf brdf;
     int two_sided;
     unsigned char rgb[3]; /* for viewers of the OBJ */
+    char letter;          /* what items wear it by */
 } vectors_material;
 
 enum vectors_kind {

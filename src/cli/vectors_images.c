@@ -118,8 +118,10 @@ static void depth_fill(images_case *file)
     file->nearest = -HUGE_VAL;
     file->farthest = HUGE_VAL;
     for (size_t i = 0; i < (size_t)image->size * image->size; i++) {
-        double x = image->left_m + ((double)(i % image->size) + 0.5) * step;
-        double y = image->top_m - ((double)(i / image->size) + 0.5) * step;
+        size_t row = i / image->size;
+        size_t column = i % image->size;
+        double x = image->left_m + ((double)column + 0.5) * step;
+        double y = image->top_m - ((double)row + 0.5) * step;
         int seen = image->facet[i] != LRCS_NONE;
         file->depth[i] = seen ? facet_depth(file, image->facet[i], x, y) : (double)NAN;
         file->nearest = seen ? fmax(file->nearest, file->depth[i]) : file->nearest;

@@ -111,6 +111,7 @@ static int columns_read(readings_table *table)
     if (lrcs_host_number_read(table->text.field[0].text, table->text.field[0].size, &number) !=
         LRCS_OK) {
         int status = header_read(table);
+        lrcs_host_table_names(&table->text);
         return status == LRCS_OK ? 1 : status;
     }
     if (table->text.columns < 2 || table->text.columns > 3) {

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/where.h"
 #include "host/fail.h"
 
 static int byte_is_blank(char c)
@@ -132,13 +133,37 @@ int lrcs_host_field_is(const lrcs_host_field *field, const char *name)
     return field->size == strlen(name) && lrcs_host_field_begins(field, name);
 }
 
+void lrcs_host_table_names(lrcs_host_table *table)
+{
+    memcpy(table->name, table->field, sizeof table->name);
+    table->named = 1;
+}
+
+uint32_t lrcs_host_table_column(const lrcs_host_table *table, const char *name)
+{
+    for (uint32_t i = 0; table->named && i < table->columns; i++) {
+        if (lrcs_host_field_is(&table->name[i], name)) {
+            return i;
+        }
+    }
+    return LRCS_NONE;
+}
+
 int lrcs_host_field_refuse(const lrcs_host_table *table, int status, uint32_t column,
                            const char *expected, lrcs_host_error *error)
 {
     const lrcs_host_field *field = &table->field[column];
-    return lrcsi_host_fail(error, status, "%s: line %llu, column %lu: found '%.*s', expected %s",
-                           table->path, (unsigned long long)table->line, (unsigned long)column + 1,
-                           field->size < 64 ? (int)field->size : 64, field->text, expected);
+    const lrcs_host_field *name = &table->name[column];
+    lrcs_where found; /* what can be printed of the bytes */
+    lrcs_where label;
+    snprintf(label.found, sizeof label.found, "%lu", (unsigned long)column + 1);
+    if (table->named) {
+        lrcsi_where_text(&label, status, 0, 0, "", "", name->text, name->size);
+    }
+    lrcsi_where_text(&found, status, 0, 0, "", "", field->text, field->size);
+    return lrcsi_host_fail(error, status, "%s: line %llu, column %s: found '%s', expected %s",
+                           table->path, (unsigned long long)table->line, label.found, found.found,
+                           expected);
 }
 
 int lrcs_host_field_read(const lrcs_host_table *table, uint32_t column, const char *expected,

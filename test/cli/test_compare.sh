@@ -115,6 +115,8 @@ why and_how_many_cases_there_were 0 '^facets       of 189 cases'
 
 run compare kit kit/cases.csv --junit unit.xml --json all.json
 same files_do_not_change_the_verdict "$rc" 0
+run compare kit kit/cases.csv --junit -
+same junit_in_place_of_the_table "$rc $(printf '%s\n' "$out" | grep -vc '^<')" "0 0"
 if command -v python3 >/dev/null; then
     truth '$13 * ($2 == "a" ? 3 : 1)' >theirs.csv
     "$tool" compare kit theirs.csv --junit unit.xml --json all.json >/dev/null
@@ -132,27 +134,27 @@ refused() {
     printf '%b' "$3" >theirs.csv
     failure "$1" "$2" compare kit theirs.csv
 }
-refused an_empty_table 'line 0: expected a line that names the columns' ''
+refused an_empty_table 'theirs.csv: expected a line that names the columns' ''
 refused a_table_without_sigma 'line 1: no column is named sigma_m2' 'scene,attitude\nbox,a\n'
 refused a_table_without_scenes 'line 1: no column is named scene' 'attitude,sigma_m2\n'
-refused a_number_that_is_none "line 3, column sigma_m2: expected a number, found '1,5x'" 'scene;attitude;sigma_m2\nbox;a;1\nbox;b;1,5x\n'
-refused a_line_that_is_short 'line 2: expected 3 fields, as in the first line, found 2' 'scene,attitude,sigma_m2\nbox,a\n'
+refused a_number_that_is_none "line 3, column sigma_m2: found '1,5x', expected a number with a decimal point" 'scene;attitude;sigma_m2\nbox;a;1\nbox;b;1,5x\n'
+refused a_line_that_is_short 'line 2: found 2 fields, expected 3 as in the first line' 'scene,attitude,sigma_m2\nbox,a\n'
 refused a_line_that_is_long 'found 4' 'scene,attitude,sigma_m2\nbox,a,1,2\n'
-refused a_scene_of_another_kit "line 2, column scene: expected a scene of the kit (the nearest is box), found 'boxx'" 'scene,attitude,sigma_m2\nboxx,a,1\n'
+refused a_scene_of_another_kit "line 2, column scene: found 'boxx', expected a scene of the kit (the nearest is box)" 'scene,attitude,sigma_m2\nboxx,a,1\n'
 refused an_attitude_of_another_scene 'expected an attitude of box' 'scene,attitude,sigma_m2\nbox,t05,1\n'
-refused a_case_given_twice "line 3, column attitude: this case was given before, found 'a'" 'scene,attitude,sigma_m2\nbox,a,1\nbox,a,1\n'
+refused a_case_given_twice "line 3, column attitude: found 'a', expected every case once" 'scene,attitude,sigma_m2\nbox,a,1\nbox,a,1\n'
 refused a_name_that_is_a_path "expected a name of a-z" 'scene,attitude,sigma_m2\n../box,a,1\n'
-refused bytes_that_are_no_text "found '??'" 'scene,attitude,sigma_m2\nbox,a,\0001\0377\n'
+refused bytes_that_are_no_text "found '\\x01\\xff', expected a number" 'scene,attitude,sigma_m2\nbox,a,\0001\0377\n'
 refused a_name_without_end 'expected a name of 1 .. 31 bytes' "scene,attitude,sigma_m2\n$(printf 'x%.0s' $(seq 300)),a,1\n"
 failure a_table_that_is_not_there 'none.csv' compare kit none.csv
 failure a_folder_that_is_no_kit 'materials.csv' compare images theirs.csv
 echo 'scene,attitude,facet,visible_area_m2
 box,a,12,1' >facets.csv
 run compare kit kit/cases.csv --facets facets.csv
-same a_facet_beyond_the_last "$rc $err" "1 lrcs: facets.csv: line 2, column facet: expected a facet 0 .. 11, found '12'"
+same a_facet_beyond_the_last "$rc $err" "1 lrcs: facets.csv: line 2, column facet: found '12', expected a facet 0 .. 11"
 cp -r kit broken
 sed 's/^box,a,2,[^,]*/box,a,2,x/' kit/cases.csv >broken/cases.csv
-failure a_kit_that_was_damaged 'column qw: expected a number' compare broken kit/cases.csv
+failure a_kit_that_was_damaged "column qw: found 'x', expected a number" compare broken kit/cases.csv
 
 usage_error two_names_are_asked_for "found 1 names" compare kit
 usage_error and_not_three "found 3 names" compare kit a b

@@ -139,8 +139,8 @@ refused angle_of_90 "line 6, column 1: found '90', expected an angle between -90
 refused decimal_comma "line 1, column 2: found '0,5', expected a number with a decimal point" '1;0,5'
 refused another_number_of_fields "line 6: found 3 fields, expected 2" "$rows\n60,1,1"
 refused one_field_in_a_line "line 2: found 1 field, expected 2" '1,1\n2'
-refused sigma_of_0 "line 2, column 3: found '0', expected a standard error above 0" 'angle,brdf,sigma\n1,1,0'
-refused weight_below_0 "line 2, column 3: found '-1', expected a weight" 'angle,brdf,weight\n1,1,-1'
+refused sigma_of_0 "line 2, column sigma: found '0', expected a standard error above 0" 'angle,brdf,sigma\n1,1,0'
+refused weight_below_0 "line 2, column weight: found '-1', expected a weight" 'angle,brdf,weight\n1,1,-1'
 refused two_angles "found 'theta_r', expected one column of angles (mono" 'theta_i,theta_r,brdf\n1,1,1'
 refused angles_in_radians "found 'theta_rad', expected angles in degrees" 'theta_rad,brdf\n1,1'
 refused no_column_of_readings "line 1: no column of readings" 'angle,power\n1,1'

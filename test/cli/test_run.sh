@@ -124,6 +124,13 @@ same model_files_are_relative_to_the_scene_file "$(value facets)" 1
 run info mats/m.obj --json --unit mm
 same unit_scales_the_model "$(value area_m2)" 4.9999999999999998e-07
 
+# ---- patience ----
+printf '[[part]]\nname = "ball"\nshape = "sphere"\nradius = 1\n' >ball.toml
+run run ball.toml --tolerance 5e-4
+same many_facets_are_announced "$(printf '%s\n' "$err" | grep -c '^lrcs: [0-9]* facets for a tolerance of 0.0005: .* takes a while$')" 1
+run run ball.toml --tolerance 1e-1
+same few_are_not "$(printf '%s\n' "$err" | grep -c 'takes a while')" 0
+
 # ---- locale ----
 for locale in de_DE.UTF-8 de_DE.utf8 fr_FR.UTF-8; do
     LC_ALL=$locale "$tool" run "$pair" --json --azel 10.5,20.5 | sed '/seconds/d' >there.txt

@@ -84,7 +84,7 @@ same a_row_of_a_track_is_what_run_says "$(sweep pair.toml --poses q.csv | tail -
 run run pair.toml --direction 0,1,0 --json
 same a_track_of_directions "$(sweep pair.toml --poses d.csv | tail -1 | column 2,3,4,5,6)" "1,0,1,0,$(value sigma_m2)"
 printf 'time,w,x,y,z\n0,1,0,0,0\n1,1,0,zero,0\n' >bad.csv
-failure a_bad_row_has_its_line "bad.csv: line 3, column 4: found 'zero', expected a finite number" sweep pair.toml --poses bad.csv
+failure a_bad_row_has_its_line "bad.csv: line 3, column y: found 'zero', expected a finite number" sweep pair.toml --poses bad.csv
 printf '0,1,0,0,0\n1,0,0,0,0\n' >bad.csv
 failure a_quaternion_of_zero "line 2: expected a quaternion or direction that is not zero" sweep pair.toml --poses bad.csv
 printf '0,1,0,0,0\n1,1,0,0\n' >bad.csv

@@ -110,6 +110,25 @@ static void numbers_are_refused_with_their_column(void **state)
     check_same(value, 1000.0);
 }
 
+static void columns_are_called_by_their_names(void **state)
+{
+    (void)state;
+    unsigned char text[] = "Angle, brdf\x01\n1,x\n";
+    lrcs_host_file file = {text, sizeof text - 1};
+    lrcs_host_table table = lrcs_host_table_make("t.csv", &file);
+    lrcs_host_error error;
+    double value;
+    assert_int_equal(lrcs_host_table_read(&table, &error), 1);
+    assert_true(lrcs_host_table_column(&table, "angle") == LRCS_NONE);
+    lrcs_host_table_names(&table);
+    assert_int_equal(lrcs_host_table_read(&table, &error), 1);
+    assert_true(lrcs_host_table_column(&table, "angle") == 0);
+    assert_true(lrcs_host_table_column(&table, "brdf") == LRCS_NONE);
+    assert_int_equal(lrcs_host_field_read(&table, 1, "a reading", &value, &error), LRCS_E_SYNTAX);
+    assert_string_equal(error.text,
+                        "t.csv: line 2, column brdf\\x01: found 'x', expected a reading");
+}
+
 static void names_match_in_either_case(void **state)
 {
     (void)state;
@@ -128,6 +147,7 @@ int main(void)
         cmocka_unit_test(quotes_hold_separators_and_blanks_around_are_dropped),
         cmocka_unit_test(rows_of_another_length_are_refused_with_their_line),
         cmocka_unit_test(numbers_are_refused_with_their_column),
+        cmocka_unit_test(columns_are_called_by_their_names),
         cmocka_unit_test(names_match_in_either_case),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -38,6 +38,7 @@ static lrcs_scene scene;
 static const lrcs_prepared *prepared;
 static lrcs_pose pose;
 static lrcs_run_options options;
+static const lrcs_emulation_options coarse = {16, LRCS_PRECISION_FLOAT32, 24};
 static lrcs_shape shape;
 static lrcs_divisions divisions;
 static lrcs_fit_reading reading[9];
@@ -51,6 +52,7 @@ static struct {
     const lrcs_prepared *prepared;
     lrcs_result result;
     lrcs_polygons polygons;
+    lrcs_emulation emulation;
     lrcs_fit fit;
 } out;
 
@@ -103,6 +105,11 @@ static int call_sigma(lrcs_work *work)
 static int call_polygons(lrcs_work *work)
 {
     return lrcs_polygon_run(prepared, &pose, work, &out.polygons);
+}
+
+static int call_emulation(lrcs_work *work)
+{
+    return lrcs_emulate_run(prepared, &pose, &coarse, work, &out.emulation, NULL, NULL);
 }
 
 static int call_fit(lrcs_work *work)
@@ -218,6 +225,8 @@ static void a_pose_grows_until_it_fits(void **state)
                        out.result, 0));
         assert_false(out.result.flags & LRCS_FLAG_MEMORY_FALLBACK); /* of the last, at _need */
     }
+    starve(STARVED("emulation", lrcs_emulate_need(prepared, &coarse), call_emulation, out.emulation,
+                   0));
     starve(STARVED("polygons", lrcs_polygon_need(prepared), call_polygons, out.polygons, 1));
 }
 

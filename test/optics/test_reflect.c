@@ -84,6 +84,7 @@ static void the_bound_covers_what_tan2_is_off_by(void **state)
 static void far_flanks_stay_within_their_error(void **state)
 {
     (void)state;
+    need_wide_long_double();
     static const double amplitude[] = {1e-305, 0x1p-501, 0x1p-500, 1e-9,  1.0,
                                        1e9,    0x1p70,   0x1p71,   1e200, 1e305};
     static const double slope[] = {0.003, 0.1, 0.5, 2.0, 1e100};

@@ -20,9 +20,10 @@
 #include "visible.h"
 
 /* glibc's exp, log1p and pow are within 1 ulp each; the glint's exponent multiplies that by up to
-   some hundred where the glint is faint. Measured: test/portable/README.md. */
+   some hundred where the glint is faint. Measured: 0 (examples/flight/README.md). */
 #define SIGMA_ULPS  64
 #define SIGMA_COUNT 2048
+#define PIXELS      48u
 #define SECTIONS    16
 #define FILE_MOST   (1 << 16)
 #define MEMORY      (96u << 20)
@@ -257,18 +258,35 @@ static void digest_poses(void)
 
 /* --- scenes ----------------------------------------------------------------------------------- */
 
+static lrcs_facet_record record[SCENE_FACETS];
+static uint32_t pixel[PIXELS * PIXELS];
+
+static void take_records(uint32_t facets)
+{
+    assert_true(facets <= SCENE_FACETS);
+    for (uint32_t i = 0; i < facets; i++) {
+        take_double(record[i].area_m2);
+        take_double(record[i].cos_theta);
+        take_double(record[i].visible_area_m2);
+    }
+}
+
+static void take_pixels(void)
+{
+    for (uint32_t i = 0; i < PIXELS * PIXELS; i++) {
+        take(pixel[i]);
+    }
+}
+
 /* One run: what is visible goes into the hash, sigma is kept. */
 static void run_one(const char *name, uint32_t number, const lrcs_prepared *prepared,
                     const lrcs_pose *pose, int method, lrcs_work *work, uint32_t facets)
 {
-    static lrcs_facet_record record[SCENE_FACETS];
-    static uint32_t pixel[48 * 48];
     lrcs_run_options options = lrcs_run_options_default();
-    lrcs_image image = {.size = 48, .facet = pixel};
+    lrcs_image image = {.size = PIXELS, .facet = pixel};
     lrcs_result result;
-    assert_true(facets <= SCENE_FACETS);
     options.method = method;
-    options.resolution = method == LRCS_METHOD_ZBUFFER ? 48 : 0;
+    options.resolution = method == LRCS_METHOD_ZBUFFER ? PIXELS : 0;
     assert_int_equal(lrcs_sigma_run(prepared, pose, &options, work, &result, record,
                                     method == LRCS_METHOD_ZBUFFER ? &image : NULL),
                      LRCS_OK);
@@ -278,13 +296,9 @@ static void run_one(const char *name, uint32_t number, const lrcs_prepared *prep
     take(result.facets_hidden);
     take(result.facets_partial);
     take(result.notices);
-    for (uint32_t i = 0; i < facets; i++) {
-        take_double(record[i].area_m2);
-        take_double(record[i].cos_theta);
-        take_double(record[i].visible_area_m2);
-    }
-    for (int i = 0; method == LRCS_METHOD_ZBUFFER && i < 48 * 48; i++) {
-        take(pixel[i]);
+    take_records(facets);
+    if (method == LRCS_METHOD_ZBUFFER) {
+        take_pixels();
     }
     keep_sigma(name, number, result.sigma_m2, result.bound_m2);
 }
@@ -301,6 +315,20 @@ static void digest_polygons(const lrcs_prepared *prepared, const lrcs_pose *pose
     }
     take_double(polygons.bound_m2);
     work->used = mark;
+}
+
+/* A z-buffer in floats, as graphics hardware has it. */
+static void digest_emulation(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
+                             uint32_t facets)
+{
+    lrcs_emulation_options options = {PIXELS, LRCS_PRECISION_FLOAT32, 24};
+    lrcs_image image = {.size = PIXELS, .facet = pixel};
+    lrcs_emulation emulation;
+    assert_int_equal(lrcs_emulate_run(prepared, pose, &options, work, &emulation, record, &image),
+                     LRCS_OK);
+    take_double(emulation.projected_area_m2);
+    take_records(facets);
+    take_pixels();
 }
 
 /* The 210 small scenes of degenerate contacts, at small integers. */
@@ -354,6 +382,9 @@ static void run_scene(const char *name, const char *text, size_t size, const lrc
                     &work, scene.facet_count);
         }
         digest_polygons(prepared, &pose, &work);
+        if (normals == LRCS_NORMALS_FLAT) {
+            digest_emulation(prepared, &pose, &work, scene.facet_count);
+        }
     }
     if (!hashed) { /* libm placed the vertices */
         section[section_count - 1].hash = before;

@@ -30,7 +30,7 @@ machine() {
 
 mkdir -p "$folder" || exit 1
 # shellcheck disable=SC2086 # flags are words
-cc $FLAGS -O2 $includes -o "$folder/digest" test/portable/digest.c "$folder/lrcs.c" -lm &&
+"${CC:-cc}" $FLAGS -O2 $includes -o "$folder/digest" test/portable/digest.c "$folder/lrcs.c" -lm &&
     "$folder/digest" 1 >"$folder/digest.here" || exit 1
 
 # one MACHINE COMPILER LEVEL TEST...: builds everything, runs it. Called in a folder of its own.

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Numbers of `lrcs study` from elsewhere: Eq. 2 integrated by mpmath at 40 digits over bodies whose
 dimensions follow from their surface, half-power angles as roots of it, means by their closed form.
