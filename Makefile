@@ -150,6 +150,8 @@ FUZZ_CFLAGS  = $(SANITIZE) -fno-sanitize-coverage=trace-cmp
 
 # Lines and branches of the core that its own tests run.
 coverage: cmocka
+	@mkdir -p $(BUILD)/coverage
+	find $(BUILD)/coverage -name '*.gcda' -exec rm -f {} +
 	$(MAKE) BUILD=$(BUILD)/coverage OPT=-O0 CFLAGS=--coverage LDLIBS="--coverage $(THREADS) -lm" test-core
 	sh test/coverage.sh $(BUILD)/coverage
 test-core: $(TOOL) $(CORE_TESTS) $(FUZZ_TESTS)

@@ -69,12 +69,13 @@ static void cut_figure(FILE *out, const report_sweep *sweep, const char *plane, 
 static void cuts_section(FILE *out, const report_job *job)
 {
     cli_page_section(out, "cuts", "Cuts through three planes");
+    fputs("<p>", out);
     cli_page_say(out,
                  "Away from the middle \xcf\x83 grows, in dBsm: the numbers stand on the rings. "
                  "The laser goes around the body in steps of %lu\xc2\xb0; what is narrower than "
                  "that may stand between them.",
                  (unsigned long)job->cut_step);
-    fputs("\n<div class=\"pair\">\n", out);
+    fputs("</p>\n<div class=\"pair\">\n", out);
     cut_figure(out, &job->sweep[REPORT_CUT_XY], "x and y",
                "the angle is the azimuth, at elevation 0");
     cut_figure(out, &job->sweep[REPORT_CUT_XZ], "x and z",
@@ -153,7 +154,8 @@ static void peak_row(FILE *out, const report_job *job, uint32_t i)
 static void peaks_section(FILE *out, const report_job *job)
 {
     cli_page_section(out, "peaks", "The brightest directions, and who makes them");
-    cli_page_say(out, "Peaks of the map: directions that outshine all their neighbours.");
+    fputs("<p>Peaks of the map: directions that outshine all their neighbours.", out);
+    fputs(job->peaks > 0 ? "</p>\n" : " There are none: nothing returns.</p>\n", out);
     if (job->peaks > 0) {
         cli_page_table(out, "Peaks of the map",
                        "#Az, deg|#El, deg|#\xcf\x83, m\xc2\xb2|#dBsm|#Glint|Parts|Materials");
@@ -161,8 +163,6 @@ static void peaks_section(FILE *out, const report_job *job)
             peak_row(out, job, i);
         }
         cli_page_table_end(out);
-    } else {
-        cli_page_say(out, " There are none: nothing returns.");
     }
     cli_page_section_end(out);
 }

@@ -6,6 +6,16 @@
 
 #define DEGREES (180.0 / 3.14159265358979323846)
 
+/* How many rows a table leaves out. */
+static void more_say(FILE *out, uint32_t more)
+{
+    if (more > 0) {
+        fputs("<p class=\"faint\">", out);
+        cli_page_say(out, "%lu more are not listed; lrcs info has them.", (unsigned long)more);
+        fputs("</p>\n", out);
+    }
+}
+
 /* ---- the model ---- */
 
 static void fact_number(FILE *out, const char *name, double value, const char *unit)
@@ -92,10 +102,7 @@ static void model_glint(FILE *out, const cli_info *info)
         cli_page_row_end(out);
     }
     cli_page_table_end(out);
-    if (info->glint_count > REPORT_ROWS) {
-        cli_page_say(out, "%lu more are not listed; lrcs info has them.",
-                     (unsigned long)(info->glint_count - REPORT_ROWS));
-    }
+    more_say(out, info->glint_count > REPORT_ROWS ? info->glint_count - REPORT_ROWS : 0);
 }
 
 /* ---- materials ---- */
@@ -148,11 +155,7 @@ static void materials_section(FILE *out, const report_job *job)
         }
     }
     cli_page_table_end(out);
-    if (more > 0) {
-        fputs("<p class=\"faint\">", out);
-        cli_page_say(out, "%lu more are not listed; lrcs info has them.", (unsigned long)more);
-        fputs("</p>\n", out);
-    }
+    more_say(out, more);
     cli_page_section_end(out);
 }
 

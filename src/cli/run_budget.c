@@ -27,6 +27,7 @@ typedef struct budget_answer {
     lrcs_result result;
     int rung;
     int named; /* the method was chosen, not found by auto */
+    int racer; /* whose answer it is, in the parent */
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
@@ -160,15 +161,24 @@ static double answer_error(const budget_answer *answer)
     return answer->result.bound_m2 + fmax(0.0, answer->result.curvature_estimate_m2);
 }
 
+/* Of equal answers the first racer's counts, whichever came first. */
+static int answer_beats(const budget_answer *answer, const budget_answer *best)
+{
+    double error = answer_error(answer);
+    double least = answer_error(best);
+    return error < least || (error <= least && answer->racer < best->racer);
+}
+
 /* Takes an answer of a racer into account: 1; 0 where it has ended. */
-static int race_take(run_job *job, budget_racer *racer, budget_answer *best)
+static int race_take(run_job *job, budget_racer racer[RACERS], int i, budget_answer *best)
 {
     budget_answer answer;
-    if (read(racer->end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
-        racer_stop(racer);
+    if (read(racer[i].end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
+        racer_stop(&racer[i]);
         return 0;
     }
-    if (answer_error(&answer) < answer_error(best)) {
+    answer.racer = i;
+    if (answer_beats(&answer, best)) {
         *best = answer;
     }
     job->budget.answered = 1;
@@ -201,7 +211,7 @@ static void race_watch(run_job *job, budget_racer racer[RACERS], budget_answer *
             break;
         }
         for (int i = 0; i < RACERS; i++) {
-            if (wait[i].revents != 0 && race_take(job, &racer[i], best) && i == 0) {
+            if (wait[i].revents != 0 && race_take(job, racer, i, best) && i == 0) {
                 racer_stop(&racer[1]);
             }
         }
@@ -288,6 +298,7 @@ int cli_run_budget(run_job *job)
     int rung = scales ? 0 : RUNG_NONE;
     memset(&best, 0, sizeof best);
     best.result.bound_m2 = HUGE_VAL; /* before the first answer */
+    best.racer = RACERS;
     if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }

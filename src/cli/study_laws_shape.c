@@ -229,8 +229,8 @@ static void face_law(study_job *job)
     }
     snprintf(
         law->text, sizeof law->text,
-        "The peak of a body with flat faces is that of its largest face seen along its normal, "
-        "4 pi (A + B) times the face's area. At 6 m² of surface: disc %.2f, cone (base) %.2f, "
+        "Disc, cube, cylinder and cone are brightest where their largest flat face is seen along "
+        "its normal: 4 pi (A + B) times its area. At 6 m² of surface: disc %.2f, cone (base) %.2f, "
         "cylinder (end) and cube %.2f dBsm.",
         peak_dbsm[STUDY_DISC], peak_dbsm[STUDY_CONE], peak_dbsm[STUDY_CUBE]);
     snprintf(law->range, sizeof law->range,
@@ -274,7 +274,7 @@ static void silhouette_law(study_job *job)
         law->range, sizeof law->range,
         "Seen at 90 deg from the axis, cone of half-angle %g deg: its wall is nowhere seen closer "
         "to its normal than that, and one of a half-angle below s or so would glint. Of the "
-        "diffuse cone and sphere the cone returns more for m below 1, the sphere above.",
+        "diffuse cone and sphere, this cone returns more for m below 1, the sphere above.",
         STUDY_HALF);
 }
 

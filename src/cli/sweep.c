@@ -295,12 +295,12 @@ static int job_show(sweep_job *job)
 
 static int job_rows(sweep_job *job)
 {
+    signals_watch(); /* before the rows that are there are read: that may take seconds */
     int code = job_room(job);
     code = code ? code : cli_file_open(job->args, &job->file, &job->head, &job->plan);
     if (code != 0) {
         return code;
     }
-    signals_watch();
     code = job_run(job);
     int closed = cli_file_close(&job->file, &job->plan, code == 0);
     if (code != 0 && job->file.next > job->plan.first && job->file.path && closed == 0) {

@@ -85,7 +85,7 @@ endless='box.toml --az 0:360:0.00001'
 if command -v timeout >/dev/null; then
     for signal in INT TERM; do
         # shellcheck disable=SC2086
-        timeout -s $signal 1 "$tool" sweep $endless -o cut.csv --jobs 2 --resume 2>stop.txt
+        timeout -s $signal 2 "$tool" sweep $endless -o cut.csv --jobs 2 --resume 2>stop.txt
         same "sig${signal}_says_how_to_go_on" "$(grep -c 'cut.csv.partial holds .* --resume goes on' stop.txt)" 1
         same "sig${signal}_leaves_no_file" "$([ -e cut.csv ] && echo there)" ""
         rows=$(grep -c '^[0-9]' cut.csv.partial)

@@ -38,8 +38,7 @@ static void build_and_run(const lrcs_recipe *recipe)
         run.options.resolution = 16;
         require(lrcs_pose_from_azel(30, 40, &run.pose) == LRCS_OK);
         lrcs_scene_hash(&scene);
-        lrcs_result result;
-        fuzz_scene(&scene, &run, &result);
+        fuzz_scene(&scene, &run);
     }
     free(work.bytes);
 }

@@ -77,12 +77,24 @@ static inline void require_result(const lrcs_scene *scene, const lrcs_result *r)
     require_records(scene, r);
 }
 
-/* Two answers to one question. Over curved normals a bound leaves the cubature aside. */
-static inline void require_meeting(const lrcs_scene *scene, const lrcs_result *a,
-                                   const lrcs_result *b)
+/* Where the truth is, after every answer so far. */
+typedef struct fuzz_truth {
+    long double low, high;
+} fuzz_truth;
+
+static inline void require_truth(const fuzz_truth *t)
 {
-    double room = (a->bound_m2 + b->bound_m2) * (1 + 4 * DBL_EPSILON);
-    require(scene->corner_normal || fabs(a->sigma_m2 - b->sigma_m2) <= room);
+    require(t->low - t->high <= 4 * LDBL_EPSILON * fabsl(t->high)); /* of its own rounding */
+}
+
+/* One answer more. Over curved normals a bound leaves the cubature aside and says less. */
+static inline void learn(fuzz_truth *truth, const lrcs_scene *scene, const lrcs_result *r)
+{
+    if (!scene->corner_normal) {
+        truth->low = fmaxl(truth->low, (long double)r->sigma_m2 - r->bound_m2);
+        truth->high = fminl(truth->high, (long double)r->sigma_m2 + r->bound_m2);
+        require_truth(truth);
+    }
 }
 
 /* One run in `size` bytes, which are given back; touches nothing where it fails. */
@@ -176,43 +188,34 @@ static inline void fuzz_polygons(const lrcs_prepared *prepared, const lrcs_scene
     require(fabs(off) <= room);
 }
 
-/* `first` becomes the first answer, that of method exact; the status, if there was none. */
-static inline int fuzz_methods(const lrcs_prepared *prepared, const lrcs_scene *scene,
-                               const fuzz_run *run, lrcs_result *first)
+/* One method in the memory it asks for, and the one of the input in a part of it too. */
+static inline void fuzz_method(const lrcs_prepared *prepared, const lrcs_scene *scene,
+                               const fuzz_run *run, int method, fuzz_truth *truth)
 {
-    int first_status = LRCS_E_EMPTY;
-    for (int method = LRCS_METHOD_EXACT; method >= LRCS_METHOD_AUTO; method--) {
-        lrcs_run_options options = run->options;
-        options.method = method;
-        options.resolution = method == LRCS_METHOD_EXACT ? 0 : options.resolution;
-        size_t need = run_need(prepared, &options);
-        lrcs_result result;
-        int status = fuzz_sigma(prepared, scene, run, &options, need, &result);
-        require(status != LRCS_E_MEMORY);
-        if (status != LRCS_OK) {
-            continue;
-        }
-        require(!(result.flags & LRCS_FLAG_MEMORY_FALLBACK));
-        if (first_status != LRCS_OK) {
-            *first = result;
-            first_status = status;
-        }
-        require_meeting(scene, first, &result);
-        if (method == LRCS_METHOD_EXACT && options.without == 0 && run->polygons) {
-            fuzz_polygons(prepared, scene, run);
-        }
-        if (method == run->options.method &&
-            fuzz_sigma(prepared, scene, run, &options, need * run->share / 256, &result) ==
-                LRCS_OK) {
-            require_meeting(scene, first, &result);
-        }
+    lrcs_run_options options = run->options;
+    options.method = method;
+    options.resolution = method == LRCS_METHOD_EXACT ? 0 : options.resolution;
+    size_t need = run_need(prepared, &options);
+    lrcs_result result;
+    int status = fuzz_sigma(prepared, scene, run, &options, need, &result);
+    require(status != LRCS_E_MEMORY);
+    if (status != LRCS_OK) {
+        return;
     }
-    return first_status;
+    require(!(result.flags & LRCS_FLAG_MEMORY_FALLBACK));
+    learn(truth, scene, &result);
+    if (method == LRCS_METHOD_EXACT && options.without == 0 && run->polygons) {
+        fuzz_polygons(prepared, scene, run);
+    }
+    if (method == run->options.method &&
+        fuzz_sigma(prepared, scene, run, &options, need * run->share / 256, &result) == LRCS_OK) {
+        learn(truth, scene, &result);
+    }
 }
 
 /* Prepares the scene, in no more memory than is said for ordinary scenes or, where facets pierce
    each other without number, in what it asks for. */
-static inline int fuzz_scene(const lrcs_scene *scene, const fuzz_run *run, lrcs_result *first)
+static inline fuzz_truth fuzz_scene(const lrcs_scene *scene, const fuzz_run *run)
 {
     const lrcs_prepared *prepared = NULL;
     size_t size = lrcs_prepare_need(scene);
@@ -228,7 +231,11 @@ static inline int fuzz_scene(const lrcs_scene *scene, const fuzz_run *run, lrcs_
         }
     }
     require(status == LRCS_OK && work.peak <= size);
-    return fuzz_methods(prepared, scene, run, first);
+    fuzz_truth truth = {0, HUGE_VALL};
+    for (int method = LRCS_METHOD_AUTO; method <= LRCS_METHOD_EXACT; method++) {
+        fuzz_method(prepared, scene, run, method, &truth);
+    }
+    return truth;
 }
 
 #endif
