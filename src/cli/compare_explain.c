@@ -16,6 +16,7 @@
 #define PROBE          16u  /* failing cases after which a hopeless mistake is given up */
 #define HOPELESS       0.1  /* share of them */
 #define WITNESSES      64u  /* passing cases that a mistake must not touch */
+#define LATER          0.05 /* of all failing cases, what a second finding must explain */
 #define PRICE          0.05 /* what a factor or a second mistake must gain to be believed */
 #define SURE           0.94 /* a score after which none is sought that is better */
 #define PAIRS_BELOW    0.9  /* where one mistake explains less, two at once are tried */
@@ -265,6 +266,9 @@ static int finding_next(compare_search *search)
     int code = singles_try(search, &best);
     if (code == 0 && best.score < PAIRS_BELOW) {
         code = pairs_try(search, &best);
+    }
+    if (job->findings > 0 && best.explained < LATER * job->failed) {
+        best.score = 0.0; /* of a few cases that are left, chance explains some */
     }
     if (code == 0 && best.score > 0.0) {
         code = answers_again(search, &best);
