@@ -38,7 +38,7 @@ static int file_fill(FILE *stream, size_t guess, const char *path, lrcs_host_fil
         bytes = grown;
     }
     if (!bytes) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: cannot read: no memory for %zu bytes",
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: out of memory: no room for %zu bytes",
                                path, room);
     }
     if (ferror(stream)) {
