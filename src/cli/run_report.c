@@ -159,7 +159,6 @@ static void table_budget(const lrcs_budget *budget)
 static void table_sigma(const run_job *job)
 {
     const lrcs_result *r = &job->result;
-    char share[CLI_BOUND_SIZE];
     printf("sigma        %.10g m2", r->sigma_m2);
     if (r->sigma_m2 > 0.0) {
         printf("   %.6f dBsm", cli_dbsm(r->sigma_m2));
@@ -168,6 +167,7 @@ static void table_sigma(const run_job *job)
            r->sigma_diffuse_m2);
     table_bound("bound        ", r->bound_m2);
     if (r->sigma_m2 > 0.0) {
+        char share[CLI_BOUND_SIZE];
         cli_bound_text(r->bound_m2 / r->sigma_m2, 2, share);
         printf("   %s of sigma", share);
     }
