@@ -5,18 +5,15 @@ case $1 in /*) bench=$(dirname "$1")/test/bench ;; *) bench=$PWD/$(dirname "$1")
 command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; exit 0; }
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
+tests=$(cd "$(dirname "$0")/.." && pwd)
 cd "$scratch" || exit 1
 "$bench/bench" --tiny --csv b.csv --plot b.svg --scratch b.stl >bench.txt; echo $? >bench.rc
 "$bench/bench" --sizes 3 >/dev/null 2>usage.txt; echo $? >usage.rc
 "$bench/scaling" --tiny >scaling.txt; echo $? >scaling.rc
-python3 - <<'END'
+PYTHONPATH=$tests python3 -B - <<'END'
 import csv, math, os, sys
 import xml.etree.ElementTree as tree
-bad = 0
-def check(name, good):
-    global bad
-    print(("ok " if good else "not ok ") + name)
-    bad += not good
+from told import check, finish
 def text(path):
     return open(path).read()
 def cells(line):
@@ -60,5 +57,5 @@ check("four_methods_are_fitted", [f[2] for f in fits] == ["prepare", "facet", "z
 check("two_points_are_on_their_line", all(abs(math.log(t[1] / t[0]) / math.log(s[1] / s[0]) - float(f[5])) < 0.006 and f[5] == f[7]
       and f[6] == "1.00" for f, s, t in zip(fits, sizes, times)))
 check("the_worst_cases_are_answered", sum(l.rstrip().endswith("| none |") for l in text("scaling.txt").splitlines()) == 6)
-sys.exit(bad > 0)
+finish()
 END

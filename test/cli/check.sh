@@ -9,7 +9,7 @@ models=$root/../shared/models
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 failures=0
-export PYTHONDONTWRITEBYTECODE=1 # no traces in the tree
+export PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/test # no traces in the tree; told, png_file
 
 ok() { echo "ok $1"; }
 not_ok() {

@@ -65,11 +65,7 @@ same they_make_what_stands_on_the_page "$(ls -s facets.csv sigma.png material.pn
 same they_make_the_same_map "$(cmp map.csv first.csv && echo same)" same
 python3 - <<'END' || failures=1
 import base64, csv, html.parser, json, math, re, sys, xml.etree.ElementTree as tree
-bad = 0
-def check(name, good):
-    global bad
-    print(("ok " if good else "not ok ") + name)
-    bad += not good
+from told import check, finish
 H, S = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
 VOID = {"meta", "img", "source", "br", "link", "hr", "input"}
 class Tags(html.parser.HTMLParser):  # every tag closes what was opened
@@ -149,6 +145,6 @@ for svg in svgs:  # of a chart only a box is shown: its words but the title and 
 check("what_is_cut_off_are_titles", inside == 5)
 dark = " ".join("".join(tree.parse("dark.html").getroot().itertext()).split())
 check("a_scene_without_a_return_says_so", "Nothing returns" in dark and "There are none: nothing returns." in dark and "NaN" not in dark and "nan" not in dark)
-sys.exit(bad != 0)
+finish()
 END
 finish

@@ -61,11 +61,7 @@ same objects_of_one_name_are_told_apart "$(printf '%s\n' "$out" | sed -n '/"part
 
 python3 - <<'END' || failures=1
 import csv, json, math, sys
-bad = 0
-def check(name, good):
-    global bad
-    print(("ok " if good else "not ok ") + name)
-    bad += not good
+from told import check, finish
 def near(a, b, most=4e-15):
     return abs(a - b) <= most * abs(b)
 def names(row): return [r["name"] for r in row]
@@ -116,6 +112,6 @@ others = [l.split() for l in lines if "3 others" in l]
 rest = math.fsum(s["sigma_m2"] for s in many["shares"]["parts"][10:])
 check("json_lists_all_parts", len(many["shares"]["parts"]) == 13)
 check("the_table_says_what_it_left_out", len(others) == 1 and float(others[0][2]) == float("%.6g" % rest))
-sys.exit(bad != 0)
+finish()
 END
 finish

@@ -54,11 +54,7 @@ printf '%s\n' "$out" >one.txt
 command -v python3 >/dev/null || { echo "skip no_python3_here"; finish; exit; }
 python3 - <<'END' || failures=1
 import csv, itertools, json, math, sys
-bad = 0
-def check(name, good):
-    global bad
-    print(("ok " if good else "not ok ") + name)
-    bad += not good
+from told import check, finish
 def rows(name): return list(csv.DictReader(l for l in open(name + ".csv") if not l.startswith("#")))
 def table(name): return [l.split() for l in open(name + ".txt") if l[:4].strip().isdigit()]
 def attitude(az, el):
@@ -129,6 +125,6 @@ check("parts_are_those_of_the_run", lines[3].split(None, 1)[1].split(", ") == to
 check("materials_are_those_of_the_run", lines[4].split(None, 1)[1].split(", ") == told(shares["shares"]["materials"])[:3])
 check("facets_are_those_of_the_run", lines[5].split(None, 1)[1].split(", ") == [
     "%d of %s at %.2f deg %.1f %%" % (f["facet"], f["part"], f["theta_deg"], 100 * f["share"]) for f in shares["shares"]["facets"][:3]])
-sys.exit(bad != 0)
+finish()
 END
 finish

@@ -53,11 +53,7 @@ command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; finish; ex
 python3 - <<'END' || failures=1
 import csv, math, struct, sys
 import xml.etree.ElementTree as tree
-bad = 0
-def check(name, good):
-    global bad
-    print(("ok " if good else "not ok ") + name)
-    bad += not good
+from told import check, finish
 NS = "{http://www.w3.org/2000/svg}"
 def table(path):
     return list(csv.DictReader(l for l in open(path) if not l.startswith("#")))
@@ -152,6 +148,6 @@ check("what_returns_nothing_is_a_gap", gaps > 0 and not any(abs(a[0] - b[0]) > 4
 for name in ("line", "map"):
     data = open(name + ".png", "rb").read(24)
     check(name + "_png_is_twice_the_size", data[:4] == b"\x89PNG" and struct.unpack(">II", data[16:]) == (1720, 1040))
-sys.exit(bad != 0)
+finish()
 END
 finish

@@ -32,15 +32,11 @@ run run kit/scenes/plate-turned.obj --direction "$(awk -F, '$1 == "plate-turned"
 same a_case_can_be_run_again "$(value sigma_m2)" "$(awk -F, '$1 == "plate-turned" && $2 == "a" { print $13 }' kit/cases.csv)"
 
 command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; finish; exit; }
-PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/test/host python3 - <<'END' || failures=1
+python3 - <<'END' || failures=1
 import csv, glob, json, math, os, struct, sys
 from png_file import Png
 
-bad = 0
-def check(name, good, why=""):
-    global bad
-    print("ok" if good else "not ok", name, "" if good else why)
-    bad += not good
+from told import check, finish
 
 def obj(path):
     v, f, m, now = [], [], [], None
@@ -157,6 +153,6 @@ check("most_scenes_have_images", shown > 30)
 check("item_images_show_the_nearest_facet", not wrong, wrong[:3])
 check("depths_are_those_of_the_planes", not deep, deep[:3])
 check("pngs_hold_the_same_items", not pictures, pictures[:3])
-sys.exit(bad > 0)
+finish()
 END
 finish

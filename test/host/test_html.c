@@ -4,18 +4,7 @@
 
 #include <stdlib.h>
 
-#include "check.h"
-
-/* What was written, as a string the caller frees. */
-static char *written(FILE *file)
-{
-    size_t size = (size_t)ftell(file);
-    char *text = calloc(size + 1, 1);
-    rewind(file);
-    assert_int_equal(fread(text, 1, size, file), size);
-    fclose(file);
-    return text;
-}
+#include "written.h"
 
 static void check_text(const char *text, const char *want)
 {

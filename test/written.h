@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* What a writer wrote into a temporary file. */
+#ifndef LRCS_TEST_WRITTEN_H
+#define LRCS_TEST_WRITTEN_H
+
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* The file as a string that the caller frees; closes it. */
+static inline char *written(FILE *file)
+{
+    size_t size = (size_t)ftell(file);
+    char *text = calloc(size + 1, 1);
+    rewind(file);
+    assert_int_equal(fread(text, 1, size, file), size);
+    fclose(file);
+    return text;
+}
+
+#endif
