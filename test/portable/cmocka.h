@@ -61,6 +61,8 @@ static inline void cmocka_check_int(unsigned long long a, unsigned long long b, 
     cmocka_check((const void *)(a) == (const void *)(b), #a " == " #b, __FILE__, __LINE__)
 #define assert_string_equal(a, b)                                                                  \
     cmocka_check(strcmp((a), (b)) == 0, #a " equals " #b, __FILE__, __LINE__)
+#define assert_string_not_equal(a, b)                                                              \
+    cmocka_check(strcmp((a), (b)) != 0, #a " differs from " #b, __FILE__, __LINE__)
 #define assert_memory_equal(a, b, size)                                                            \
     cmocka_check(memcmp((a), (b), (size)) == 0, #a " has the bytes of " #b, __FILE__, __LINE__)
 
