@@ -126,6 +126,9 @@ double cli_compare_allowed(const compare_case *one, int grade, uint32_t pixels);
 /* Did they pass? */
 int cli_compare_passed(const compare_job *job);
 
+/* Is a case of the tiers asked for? */
+int cli_compare_asked(const compare_job *job, const compare_case *one);
+
 /* Does a case fail the job? One that was not asked for does not. */
 int cli_compare_failed(const compare_job *job, const compare_case *one);
 

@@ -316,7 +316,7 @@ void cli_search_part(compare_search *search)
     search->failings = search->passings = 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         compare_case *one = &job->kit.list[i];
-        if (!one->given || !isfinite(one->theirs_m2) || (uint32_t)one->tier > job->tier) {
+        if (!one->given || !isfinite(one->theirs_m2) || !cli_compare_asked(job, one)) {
             continue;
         }
         if (!cli_compare_failed(job, one)) {

@@ -4,11 +4,6 @@
 
 #include <math.h>
 
-static int case_asked(const compare_job *job, const compare_case *one)
-{
-    return (uint32_t)one->tier <= job->tier;
-}
-
 static void finding_json(lrcs_host_json *json, const compare_finding *finding)
 {
     lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
@@ -59,7 +54,7 @@ int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
     lrcs_host_json_end(&json);
     lrcs_host_json_begin(&json, "cases", LRCS_HOST_ARRAY);
     for (uint32_t i = 0; i < job->kit.cases; i++) {
-        if (case_asked(job, &job->kit.list[i])) {
+        if (cli_compare_asked(job, &job->kit.list[i])) {
             case_json(&json, job, &job->kit.list[i]);
         }
     }

@@ -193,7 +193,7 @@ int cli_compare_items(compare_job *job)
     printf("items        in %s\n", job->items);
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
-        if (one->image > 0 && (uint32_t)one->tier <= job->tier) {
+        if (one->image > 0 && cli_compare_asked(job, one)) {
             int judged = case_judge(job, one, &tally);
             if (judged < 0) {
                 return CLI_FAILED;

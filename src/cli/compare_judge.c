@@ -38,9 +38,14 @@ int cli_compare_passed(const compare_job *job)
     return job->failed == 0 && !job->biased;
 }
 
+int cli_compare_asked(const compare_job *job, const compare_case *one)
+{
+    return (uint32_t)one->tier <= job->tier;
+}
+
 int cli_compare_failed(const compare_job *job, const compare_case *one)
 {
-    return (uint32_t)one->tier <= job->tier && one->grade > job->grade;
+    return cli_compare_asked(job, one) && one->grade > job->grade;
 }
 
 /* A line of theirs: sigma, or dBsm, of which nothing at all is none. */
@@ -94,7 +99,7 @@ int cli_compare_judge(compare_job *job)
     for (uint32_t i = 0; i < job->kit.cases && code == 0; i++) {
         compare_case *one = &job->kit.list[i];
         one->grade = one->given ? case_class(one, job->pixels) : COMPARE_MISSING;
-        if ((uint32_t)one->tier <= job->tier) {
+        if (cli_compare_asked(job, one)) {
             job->asked++;
             job->given += (uint32_t)one->given;
             job->failed += (uint32_t)cli_compare_failed(job, one);

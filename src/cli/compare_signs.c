@@ -96,7 +96,7 @@ static uint32_t bias_ratios(const compare_job *job, double *ratio)
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
-        if (one->given && (uint32_t)one->tier <= job->tier && one->sigma_m2 > 0.0 &&
+        if (one->given && cli_compare_asked(job, one) && one->sigma_m2 > 0.0 &&
             one->grade > COMPARE_EXACT && isfinite(one->theirs_m2)) {
             ratio[count++] = one->theirs_m2 / one->sigma_m2;
         }
