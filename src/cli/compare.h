@@ -223,6 +223,7 @@ typedef struct compare_mistake {
     int axes[3];      /* of turn: for x, y, z of s_hat, which component they take, 1 .. 3, negative
                          to mirror it */
     uint32_t without; /* effects that somebody leaves out, lrcs_run_options.without */
+    int skins;        /* of facets in one plane the wrong one is seen */
 } compare_mistake;
 
 /* The catalogue, ended by a NULL name; the first one is no mistake. */
@@ -233,6 +234,11 @@ double cli_mistake_right(const mistake_spot *spot, double at);
 
 /* The area as it should be. */
 double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot);
+
+/* The records of a case, had once already, where of facets in one plane the wrong one is seen. 0 or
+   CLI_FAILED with the message printed. */
+int cli_compare_skins(const compare_kit *kit, const compare_case *one,
+                      const lrcs_run_options *options, lrcs_facet_record *records);
 
 /* sigma of a case with a mistake. 0 or CLI_FAILED with the message printed. */
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
