@@ -495,12 +495,12 @@ static void the_demonstration_satellite_builds(void **state)
     free(area);
 }
 
-/* Nothing of that size is looked at: counts are summed first. A hundred cylinders as fine as can be
+/* Nothing of that size is looked at: counts are summed first. Seventy cylinders as fine as can be
    pass 2^32 facets together. */
 static void more_than_indices_reach_is_refused(void **state)
 {
     (void)state;
-    enum { N = 100 };
+    enum { N = 70 };
     static lrcs_recipe_part parts[N];
     static const char *const found[] = {"b", "a", "shape"};
     const lrcs_build_options options = {1e-300, UINT32_MAX, LRCS_NORMALS_FLAT};
