@@ -150,19 +150,20 @@ static void prepare_box(lrcs_prepared *p)
     }
 }
 
-/* What the live facets' materials and parts call for. */
+/* What the live facets' materials and parts call for. Curved is also what rounding left without
+   area. */
 static void prepare_effects(lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        const lrcs_material *material = lrcsi_prepared_material(p, f);
+        const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
+        p->curved |= !material->omitted && (part->reach > 0 || !part->curvature_known);
         if (p->skip[f]) {
             continue;
         }
-        const lrcs_material *material = lrcsi_prepared_material(p, f);
-        const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
         p->two_sided |= material->two_sided != 0;
         p->glint |= material->brdf.A > 0;
         p->diffuse |= material->brdf.B > 0;
-        p->curved |= part->reach > 0 || !part->curvature_known;
         p->articulated |= part->articulated != 0;
         p->smooth |= lrcsi_prepared_normals(p, f) != NULL;
     }
