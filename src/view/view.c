@@ -241,13 +241,11 @@ static void view_window(lrcsi_view *view)
     const lrcs_prepared *p = view->prepared;
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
-            const double *x = view->point[p->scene->facet[f].corner[corner]].x;
-            for (int k = 0; k < 2; k++) {
-                low[k] = lrcsi_least(low[k], x[k]);
-                high[k] = lrcsi_most(high[k], x[k]);
-            }
+    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
+        const double *x = view->point[v].x;
+        for (int k = 0; k < 2 && p->stood[v]; k++) {
+            low[k] = lrcsi_least(low[k], x[k]);
+            high[k] = lrcsi_most(high[k], x[k]);
         }
     }
     if (p->live > 0) {
