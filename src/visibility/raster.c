@@ -92,8 +92,8 @@ lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
     double n[3];
     plane_normal(view, facet, n);
     const double *a = view->point[view->prepared->scene->facet[facet].corner[0]].x;
-    double along = -n[0] / n[2];
-    double up = -n[1] / n[2];
+    double along = n[2] != 0 ? -n[0] / n[2] : 0; /* edge-on: nothing is decided by it, see below */
+    double up = n[2] != 0 ? -n[1] / n[2] : 0;
     lrcsi_plane plane;
     plane.at = a[2] - along * (a[0] - view->low[0]) - up * (a[1] - view->low[1]);
     plane.along = along * raster->pixel;
@@ -353,13 +353,12 @@ static uint32_t raster_tiles(uint32_t size)
 
 static size_t tile_count(uint32_t size)
 {
-    size_t tiles = raster_tiles(size);
-    return tiles * tiles;
+    return lrcsi_work_square(raster_tiles(size));
 }
 
 size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    size_t pixels = (size_t)size * size;
+    size_t pixels = lrcsi_work_square(size);
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_bytes(pixels, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
@@ -373,7 +372,7 @@ size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
 
 static int raster_arrays(lrcsi_raster *r, lrcs_work *work)
 {
-    size_t pixels = (size_t)r->size * r->size;
+    size_t pixels = lrcsi_work_square(r->size);
     size_t facets = r->view->prepared->scene->facet_count;
     r->owner = lrcsi_work_take(work, pixels, sizeof *r->owner);
     r->depth = lrcsi_work_take(work, pixels, sizeof *r->depth);
