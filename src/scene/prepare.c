@@ -129,7 +129,7 @@ static void prepare_normals(lrcs_prepared *p)
     }
 }
 
-/* The box around the live facets. */
+/* The box around the live facets, and where they stand. */
 static void prepare_box(lrcs_prepared *p)
 {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -137,6 +137,7 @@ static void prepare_box(lrcs_prepared *p)
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
             const double *x = lrcsi_prepared_corner(p, f, corner);
+            p->stood[p->scene->facet[f].corner[corner]] = 1;
             for (int k = 0; k < 3; k++) {
                 low[k] = fmin(low[k], x[k]);
                 high[k] = fmax(high[k], x[k]);
@@ -150,19 +151,20 @@ static void prepare_box(lrcs_prepared *p)
     }
 }
 
-/* What the live facets' materials and parts call for. */
+/* What the live facets' materials and parts call for. Curved is also what rounding left without
+   area. */
 static void prepare_effects(lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        const lrcs_material *material = lrcsi_prepared_material(p, f);
+        const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
+        p->curved |= !material->omitted && (part->reach > 0 || !part->curvature_known);
         if (p->skip[f]) {
             continue;
         }
-        const lrcs_material *material = lrcsi_prepared_material(p, f);
-        const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
         p->two_sided |= material->two_sided != 0;
         p->glint |= material->brdf.A > 0;
         p->diffuse |= material->brdf.B > 0;
-        p->curved |= part->reach > 0 || !part->curvature_known;
         p->articulated |= part->articulated != 0;
         p->smooth |= lrcsi_prepared_normals(p, f) != NULL;
     }
@@ -174,7 +176,8 @@ static int prepare_arrays(const lrcs_scene *scene, lrcs_work *work, lrcs_prepare
     p->skip = lrcsi_work_take_zero(work, scene->facet_count, sizeof *p->skip);
     p->idle = lrcsi_work_take(work, scene->facet_count, sizeof *p->idle);
     p->normal = lrcsi_work_take(work, scene->facet_count, sizeof *p->normal);
-    if (!p->vertex || !p->skip || !p->idle || !p->normal) {
+    p->stood = lrcsi_work_take_zero(work, scene->vertex_count, sizeof *p->stood);
+    if (!p->vertex || !p->skip || !p->idle || !p->normal || !p->stood) {
         return LRCS_E_MEMORY;
     }
     prepare_vertices(p);
@@ -254,6 +257,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, sizeof(lrcs_point)));
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, 1));
     need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
