@@ -256,7 +256,7 @@ static int emulate_in(lrcsi_view *view, const lrcs_emulation_options *options, l
     }
     gpu_totals totals = totals_make(&gpu, shade);
     lrcs_emulation e = emulation_make(&gpu, &totals);
-    if (!isfinite(e.sigma_m2) || !isfinite(e.running_m2)) {
+    if (!isfinite(e.sigma_m2 + e.running_m2)) {
         return LRCS_E_NUMBER;
     }
     *emulation = e;

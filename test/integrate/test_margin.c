@@ -348,6 +348,28 @@ static void what_takes_no_part_leaves_bounds_and_models_do_not_break_them(void *
     }
 }
 
+/* Where back sides were left out that open bodies show, what they hide is not known. */
+static void back_sides_left_out_leave_tubes_unknown(void **state)
+{
+    (void)state;
+    built b;
+    lrcs_pose pose;
+    build_odd(1e-1, 6, 0, &b);
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){0.2, 0.1, 1}, &pose), LRCS_OK);
+    for (int out = 0; out < 2; out++) {
+        lrcs_result r;
+        lrcs_run_options options = lrcs_run_options_default();
+        options.method = LRCS_METHOD_EXACT;
+        options.without = out ? 1u << LRCS_EFFECT_BACK_FACE_CASTERS : 0;
+        lrcs_work work = lrcs_work_make(run_memory, sizeof run_memory);
+        assert_int_equal(lrcs_sigma_run(b.prepared, &pose, &options, &work, &r, NULL, NULL),
+                         LRCS_OK);
+        assert_int_equal(r.budget.tessellation_m2 < 0, out);
+        assert_int_equal((r.notices & LRCS_NOTICE_TESSELLATION_UNKNOWN) != 0, out);
+    }
+    unbuild(&b);
+}
+
 /* --- what cannot be told ---------------------------------------------------------------------- */
 
 /* Of a ball as it is, as an ellipsoid, and so small for its place that rounding leaves its facets
@@ -387,6 +409,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(coarse_and_fine_agree_within_their_bounds),
         cmocka_unit_test(rays_stay_within_the_bound),
         cmocka_unit_test(what_takes_no_part_leaves_bounds_and_models_do_not_break_them),
+        cmocka_unit_test(back_sides_left_out_leave_tubes_unknown),
         cmocka_unit_test(what_is_not_known_of_one_part_is_known_of_no_sum),
     };
     if (argc > 2) {
