@@ -161,8 +161,9 @@ static void draw_run(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1
     double row = job->plane.at + job->plane.up * (y + 0.5);
     size_t at = (size_t)y * r->size + x0;
     uint32_t taken = 0;
-    for (uint32_t x = x0; x < x1; x++, at++) {
-        double height = row + job->plane.along * (x + 0.5);
+    double centre = x0 + 0.5;
+    for (uint32_t x = x0; x < x1; x++, at++, centre += 1) {
+        double height = row + job->plane.along * centre;
         uint32_t owner = r->owner[at];
         if (owner != LRCS_NONE) {
             if (r->slack[owner] < 0 || !job_nearer(job, owner, height - r->depth[at], x, y)) {
