@@ -5,6 +5,7 @@
    for their own rounding. */
 #include "integrate/total.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/range.h"
@@ -14,6 +15,10 @@
 
 #define U       0x1p-53
 #define FOUR_PI 12.566370614359172954
+
+/* What a facet's terms may lose to underflow, scaled: some 30 operations, of 2^-1075 each, and
+   nothing that comes after makes any of them larger than its term. */
+#define FACET_UNDERFLOW 0x1p-1070
 
 /* Running sums, in scaled units. */
 typedef struct total_sums {
@@ -120,6 +125,7 @@ static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
 
 static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
 {
+    sums->rounding += brdf->A > 0 || brdf->B > 0 ? FACET_UNDERFLOW : 0;
     sums->seen |= brdf->A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
     sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
 }
@@ -239,6 +245,14 @@ static lrcs_facet_record record_of(const lrcsi_view *view, uint32_t facet, const
     return record;
 }
 
+/* A bound in square metres. Where that is no normal double its rounding is made up for, and that of
+   the two values that it may hold for: half of 2^-1074 each. */
+static double bound_area(const lrcs_prepared *p, double scaled)
+{
+    double area = lrcsi_prepared_area(p, scaled);
+    return scaled > 0 && area < DBL_MIN ? area + 0x1p-1073 : area;
+}
+
 /* To square metres; the compensated sums' own error goes to rounding. */
 static void total_finish(total_job *job)
 {
@@ -253,11 +267,10 @@ static void total_finish(total_job *job)
     total->diffuse = lrcsi_prepared_area(p, diffuse);
     total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));
     total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
-    total->visibility = lrcsi_prepared_area(p, sums->visibility * outward);
-    total->tessellation =
-        sums->tessellation < 0 ? -1 : lrcsi_prepared_area(p, sums->tessellation * outward);
+    total->visibility = bound_area(p, sums->visibility * outward);
+    total->tessellation = sums->tessellation < 0 ? -1 : bound_area(p, sums->tessellation * outward);
     double adding = (glint + diffuse) * (4 * U + 3 * (count * U) * (count * U));
-    total->rounding = lrcsi_prepared_area(p, (sums->rounding + adding) * outward);
+    total->rounding = bound_area(p, (sums->rounding + adding) * outward);
     double likely = sqrt(sums->likely + sums->lean * sums->lean);
     total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
     total->curvature = lrcsi_prepared_area(p, sums->curvature);
