@@ -4,9 +4,9 @@
 # each public function, from the call graph that gcc writes (-fcallgraph-info=su). Fails on
 # recursion, on a call through a pointer, and on a frame whose size is not known when compiling.
 # The frames of libm and libc are not in it.
-# usage: stack.sh GRAPH.ci [PATTERN]    PATTERN: calls of such functions are left out
+# usage: stack.sh GRAPH.ci
 [ $# -ge 1 ] || { echo 'stack: the call graph of one file, please' >&2; exit 2; }
-awk -v left_out="${2:-^$}" '
+awk '
 function word(text, key,   from) { # the quoted text after key:
     from = index(text, key ": \"")
     if (!from) return ""
@@ -62,7 +62,6 @@ function largest(value, count, what,   f, best, used, i) {
 /^edge:/ {
     f = word($0, "sourcename")
     g = word($0, "targetname")
-    if (plain(g) ~ left_out) next
     calls[f] = calls[f] g "\n"
     if (g == "__indirect_call") fail(plain(f) " calls through a pointer")
 }

@@ -28,7 +28,7 @@ static const char compare_help[] =
     "  --items DIR           their item images, NAME.ATTITUDE.item.u32 as in the kit: finds "
     "flips,\n"
     "                        shifted numbers, facets lost or seen through\n"
-    "  --json FILE           verdict, findings and every case as JSON ('-': instead of the table)\n"
+    "  --json FILE           all of it as JSON, every case ('-': instead of the table)\n"
     "  --junit FILE.xml      a test suite a tier, a test case a case ('-' likewise)\n"
     "\n"
     "Exit: 0 every case of the tiers asked for was handed in and passed, 1 otherwise.\n"
@@ -116,7 +116,9 @@ static int compare_make(compare_job *job, const char *folder)
 {
     int code = cli_compare_kit(folder, &job->kit);
     code = code ? code : cli_compare_judge(job);
-    return code ? code : cli_compare_explain(job);
+    code = code ? code : cli_compare_explain(job);
+    code = code ? code : cli_compare_facets(job);
+    return code ? code : cli_compare_items(job);
 }
 
 static int to_stdout(const cli_output *output)
@@ -132,8 +134,6 @@ static int compare_report(compare_job *job, const cli_output output[2])
     }
     if (code == 0 && !to_stdout(&output[0]) && !to_stdout(&output[1])) {
         cli_compare_table(job);
-        code = job->facets ? cli_compare_facets(job) : 0;
-        code = code == 0 && job->items ? cli_compare_items(job) : code;
     }
     return code ? code : cli_compare_passed(job) ? CLI_DONE : CLI_FAILED;
 }

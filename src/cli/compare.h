@@ -104,6 +104,48 @@ typedef struct compare_finding {
     double rest;        /* of the differences of those, the median share that is left */
 } compare_finding;
 
+/* ---- what their facets and images show beside ---- */
+
+#define COMPARE_NAMED 8u /* facets, and images, that are named */
+#define COMPARE_TOP   3u /* facets that are named an image */
+
+enum compare_facet_way { FACET_SHOWN, FACET_LOST, FACET_WHOLE, FACET_ELSEWHERE, FACET_WAYS };
+
+/* A facet whose visible area differs. */
+typedef struct compare_facet {
+    const compare_case *one;
+    uint32_t facet;
+    double theirs_m2, truth_m2;
+    double sigma_m2; /* what it changes */
+    int way;
+} compare_facet;
+
+typedef struct compare_facets {
+    uint32_t cases;           /* handed in */
+    uint32_t way[FACET_WAYS]; /* facets that differ so */
+    uint32_t cosines, turned; /* given; with the other sign */
+    double cosine_most;       /* |difference| of those that are not turned round */
+    uint32_t worsts;
+    compare_facet worst[COMPARE_NAMED]; /* what changes sigma most, first */
+} compare_facets;
+
+/* An image that agrees with the truth in no way. */
+typedef struct compare_image {
+    const compare_case *one;
+    double agree;                /* share of the pixels that show something */
+    uint32_t facet[COMPARE_TOP]; /* that lose most pixels */
+    uint32_t lost[COMPARE_TOP];  /* so many; 0: no such facet */
+} compare_image;
+
+#define COMPARE_IMAGE_WAYS 10u
+
+typedef struct compare_items {
+    uint32_t images, handed, differ;
+    uint32_t way[COMPARE_IMAGE_WAYS]; /* images that agree so */
+    uint32_t named;
+    compare_image image[COMPARE_NAMED];
+} compare_items;
+
 typedef struct compare_job {
     const cli_args *args;
     const char *theirs, *facets, *items;
@@ -116,6 +158,8 @@ typedef struct compare_job {
     compare_finding finding[COMPARE_FINDINGS];
     uint32_t findings, unexplained;
     int biased; /* a factor that all answers share, each within its class */
+    compare_facets by_facet;
+    compare_items by_item;
 } compare_job;
 
 const char *cli_compare_grade(int grade);
@@ -188,11 +232,19 @@ double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mi
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
                        double *sigma_m2);
 
-/* ---- what else they handed in, and what is written ---- */
+/* ---- what else they handed in ---- */
 
-/* Which facets differ; what their images show. 0 or CLI_FAILED. */
+/* Which facets differ, where job->facets names a file; what the images show in job->items. 0 or
+   CLI_FAILED with the message printed. */
 int cli_compare_facets(compare_job *job);
 int cli_compare_items(compare_job *job);
+
+/* The ways in words, and what the cosines look like; NULL where none were given. */
+const char *cli_compare_facet_way(int way);
+const char *cli_compare_image_way(size_t way);
+const char *cli_compare_cosines(const compare_facets *facets);
+
+/* ---- what is written ---- */
 
 void cli_compare_table(const compare_job *job);
 int cli_compare_json(FILE *out, const void *job, lrcs_host_error *error);

@@ -8,36 +8,14 @@
 #include <string.h>
 
 #define FACETS_PI    3.14159265358979323846
-#define FACETS_NAMED 8u
 #define SEEN         0.02 /* of a facet's projected area: less is a pixel's worth */
 #define COSINE_WRONG 1e-3
 #define COSINE_FLOAT 1e-9
 
-enum facets_way { SHOWN, LOST, WHOLE, OFF, FACETS_WAYS };
-
-static const char *const way_text[FACETS_WAYS] = {
-    "seen by them, hidden in truth (missing shadow)",
-    "not seen by them, visible in truth (lost, culled or behind)",
-    "seen whole by them, partly hidden in truth (missing shadow)",
-    "seen in another part than in truth"};
-
-/* A facet that differs. */
-typedef struct facets_off {
-    const compare_case *one;
-    uint32_t facet;
-    double theirs_m2, truth_m2;
-    double sigma_m2; /* what it changes */
-    int way;
-} facets_off;
-
 typedef struct facets_read {
     compare_job *job;
     double **visible; /* by case: their areas, by facet; NULL: not handed in */
-    uint32_t ways[FACETS_WAYS];
-    uint32_t cosines, turned;
-    double cosine_most;             /* |difference| of cosines that are not turned round */
-    facets_off worst[FACETS_NAMED]; /* the largest first */
-    uint32_t worsts;
+    compare_facets *found;
 } facets_read;
 
 /* ---- reading ---- */
@@ -56,7 +34,7 @@ static double *facets_room(facets_read *facets, compare_case *one)
     return *visible;
 }
 
-static void cosine_take(facets_read *facets, double theirs, double truth)
+static void cosine_take(compare_facets *facets, double theirs, double truth)
 {
     double off = fabs(theirs - truth);
     facets->cosines++;
@@ -86,7 +64,7 @@ static int facet_line(facets_read *facets, const compare_table *table, const int
         return CLI_FAILED;
     }
     if (column[4] >= 0) {
-        cosine_take(facets, cosine, one->records[(uint32_t)index].cos_theta);
+        cosine_take(facets->found, cosine, one->records[(uint32_t)index].cos_theta);
     }
     visible[(uint32_t)index] = area;
     return 0;
@@ -113,14 +91,14 @@ static int facets_file(facets_read *facets)
 /* ---- differing ---- */
 
 /* Keeps the facets that change sigma most. */
-static void worst_take(facets_read *facets, const facets_off *off)
+static void worst_take(compare_facets *facets, const compare_facet *off)
 {
     uint32_t at = facets->worsts;
     while (at > 0 && facets->worst[at - 1].sigma_m2 < off->sigma_m2) {
         at--;
     }
-    if (at < FACETS_NAMED) {
-        facets->worsts += facets->worsts < FACETS_NAMED;
+    if (at < COMPARE_NAMED) {
+        facets->worsts += facets->worsts < COMPARE_NAMED;
         memmove(&facets->worst[at + 1], &facets->worst[at],
                 (facets->worsts - at - 1) * sizeof *facets->worst);
         facets->worst[at] = *off;
@@ -137,77 +115,38 @@ static void facet_compare(facets_read *facets, const compare_case *one, uint32_t
     double whole = record->area_m2 * c;
     double truth = record->visible_area_m2;
     double least = SEEN * whole;
-    facets_off off = {one, facet, theirs, truth, 0.0, OFF};
+    compare_facet off = {one, facet, theirs, truth, 0.0, FACET_ELSEWHERE};
     off.sigma_m2 = 4.0 * FACETS_PI * lrcs_brdf_eval(brdf, c) * c * fabs(theirs - truth);
     if (!(fabs(theirs - truth) > least)) {
         return;
     }
-    off.way = truth <= least            ? SHOWN
-              : theirs <= least         ? LOST
-              : theirs >= whole - least ? WHOLE
-                                        : OFF;
-    facets->ways[off.way]++;
-    worst_take(facets, &off);
-}
-
-/* ---- what is said ---- */
-
-static void cosines_print(const facets_read *facets)
-{
-    if (facets->cosines == 0) {
-        return;
-    }
-    if (2 * facets->turned > facets->cosines) {
-        printf("             cos theta has the other sign: normals point inward, or to the wrong "
-               "side\n");
-        return;
-    }
-    printf("             cos theta is off by at most %.1e: %s\n", facets->cosine_most,
-           facets->cosine_most > COSINE_WRONG   ? "wrong frame or normals"
-           : facets->cosine_most > COSINE_FLOAT ? "single precision"
-                                                : "double precision");
-}
-
-static void facets_print(const facets_read *facets, uint32_t cases)
-{
-    printf("facets       of %lu cases\n", (unsigned long)cases);
-    for (int way = 0; way < FACETS_WAYS; way++) {
-        if (facets->ways[way] > 0) {
-            printf("             %lu facets %s\n", (unsigned long)facets->ways[way], way_text[way]);
-        }
-    }
-    cosines_print(facets);
-    for (uint32_t i = 0; i < facets->worsts; i++) {
-        const facets_off *off = &facets->worst[i];
-        const compare_scene *scene = &facets->job->kit.scene[off->one->scene];
-        const lrcs_scene *mesh = &scene->host.scene;
-        printf("             %s %s, facet %lu (%s%s): %.6g m2, in truth %.6g m2; %.3g m2 of "
-               "sigma\n",
-               scene->name, off->one->attitude, (unsigned long)off->facet,
-               mesh->material[mesh->facet_material[off->facet]].name,
-               off->one->records[off->facet].cos_theta < 0.0 ? ", its back" : "", off->theirs_m2,
-               off->truth_m2, off->sigma_m2);
-    }
+    off.way = truth <= least            ? FACET_SHOWN
+              : theirs <= least         ? FACET_LOST
+              : theirs >= whole - least ? FACET_WHOLE
+                                        : FACET_ELSEWHERE;
+    facets->found->way[off.way]++;
+    worst_take(facets->found, &off);
 }
 
 static void facets_all(facets_read *facets)
 {
     const compare_kit *kit = &facets->job->kit;
-    uint32_t cases = 0;
     for (uint32_t i = 0; i < kit->cases; i++) {
         const compare_case *one = &kit->list[i];
         uint32_t count = kit->scene[one->scene].host.scene.facet_count;
-        cases += facets->visible[i] != NULL;
+        facets->found->cases += facets->visible[i] != NULL;
         for (uint32_t k = 0; facets->visible[i] && k < count; k++) {
             facet_compare(facets, one, k, facets->visible[i][k]);
         }
     }
-    facets_print(facets, cases);
 }
 
 int cli_compare_facets(compare_job *job)
 {
-    facets_read facets = {.job = job};
+    facets_read facets = {.job = job, .found = &job->by_facet};
+    if (!job->facets) {
+        return 0;
+    }
     facets.visible = calloc((size_t)job->kit.cases + 1, sizeof *facets.visible);
     if (!facets.visible) {
         return cli_out_of_memory();
@@ -221,4 +160,26 @@ int cli_compare_facets(compare_job *job)
     }
     free(facets.visible);
     return code;
+}
+
+/* ---- in words ---- */
+
+const char *cli_compare_facet_way(int way)
+{
+    static const char *const text[FACET_WAYS] = {
+        "seen by them, hidden in truth (missing shadow)",
+        "not seen by them, visible in truth (lost, culled or behind)",
+        "seen whole by them, partly hidden in truth (missing shadow)",
+        "seen in another part than in truth"};
+    return text[way];
+}
+
+const char *cli_compare_cosines(const compare_facets *facets)
+{
+    return facets->cosines == 0 ? NULL
+           : 2 * facets->turned > facets->cosines
+               ? "the other sign: normals point inward, or to the wrong side"
+           : facets->cosine_most > COSINE_WRONG ? "wrong frame or normals"
+           : facets->cosine_most > COSINE_FLOAT ? "single precision"
+                                                : "double precision";
 }

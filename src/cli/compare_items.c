@@ -9,9 +9,6 @@
 #include <unistd.h>
 
 #define AGREE 0.98 /* of the pixels that show something: the rest are outlines */
-#define TOP   3    /* facets that are named an image */
-
-#define IMAGES_NAMED 8u
 
 typedef struct items_image {
     uint32_t side;
@@ -32,7 +29,7 @@ typedef struct items_way {
     uint32_t add;                /* to the truth's facets, for theirs */
 } items_way;
 
-static const items_way item_ways[] = {
+static const items_way item_ways[COMPARE_IMAGE_WAYS] = {
     {"agree with the truth", 0, 0, 0, 0},
     {"are upside down: row 0 is at the bottom", 0, 1, 0, 0},
     {"are mirrored left to right: a left-handed view", 0, 0, 1, 0},
@@ -43,8 +40,6 @@ static const items_way item_ways[] = {
     {"have rows and columns exchanged and turned", 1, 1, 1, 0},
     {"agree, but their facets count from 1", 0, 0, 0, 1},
     {"are upside down, and their facets count from 1", 0, 1, 0, 1}};
-
-#define ITEM_WAYS (sizeof item_ways / sizeof item_ways[0])
 
 static uint32_t item_turned(const items_image *image, const items_way *way, uint32_t row,
                             uint32_t column)
@@ -80,30 +75,31 @@ static double images_agree(const items_image *truth, const items_image *theirs,
     return shown > 0 ? (double)same / (double)shown : 1.0;
 }
 
-/* The facets that lose most pixels: counts of the truth's pixels that others hold. */
-static void facets_lost(const compare_job *job, const compare_case *one, const items_image *truth,
-                        const items_image *theirs)
+/* The facets that lose most pixels, with how many of the truth's show something else. 0 or
+   CLI_FAILED. */
+static int facets_lost(const lrcs_scene *scene, const items_image *truth, const items_image *theirs,
+                       compare_image *image)
 {
-    const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
     uint32_t *lost = calloc((size_t)scene->facet_count + 1, sizeof *lost);
-    for (uint32_t i = 0; lost && i < truth->side * truth->side; i++) {
+    if (!lost) {
+        return cli_out_of_memory();
+    }
+    for (uint32_t i = 0; i < truth->side * truth->side; i++) {
         uint32_t a = item_at(truth, i / truth->side, i % truth->side);
         uint32_t b = item_at(theirs, i / truth->side, i % truth->side);
         lost[a < scene->facet_count ? a : scene->facet_count] += a != b;
     }
-    for (int n = 0; lost && n < TOP; n++) {
+    for (uint32_t n = 0; n < COMPARE_TOP; n++) {
         uint32_t best = 0;
         for (uint32_t i = 1; i < scene->facet_count; i++) {
             best = lost[i] > lost[best] ? i : best;
         }
-        if (lost[best] > 0) {
-            printf("             facet %lu (%s): %lu of its pixels show something else\n",
-                   (unsigned long)best, scene->material[scene->facet_material[best]].name,
-                   (unsigned long)lost[best]);
-        }
+        image->facet[n] = best;
+        image->lost[n] = lost[best];
         lost[best] = 0;
     }
     free(lost);
+    return 0;
 }
 
 /* 1 where the image is there, 0 where not, -1 with the message printed. */
@@ -129,35 +125,33 @@ static int image_read(const char *path, uint32_t side, items_image *image)
     return 1;
 }
 
-/* What is said of all images together. */
-typedef struct items_tally {
-    uint32_t images, handed, differ;
-    uint32_t way[ITEM_WAYS]; /* images that agree so */
-} items_tally;
-
-static void image_judge(const compare_job *job, const compare_case *one, const items_image *truth,
-                        const items_image *theirs, items_tally *tally)
+static int image_judge(compare_job *job, const compare_case *one, const items_image *truth,
+                       const items_image *theirs)
 {
+    compare_items *found = &job->by_item;
     double first = 0.0;
     double most = 0.0;
     size_t best = 0;
-    for (size_t i = 0; i < ITEM_WAYS; i++) {
+    for (size_t i = 0; i < COMPARE_IMAGE_WAYS; i++) {
         double agree = images_agree(truth, theirs, &item_ways[i]);
         first = i == 0 ? agree : first;
         best = agree > most ? i : best;
         most = fmax(agree, most);
     }
     if (first >= AGREE || most >= AGREE) {
-        tally->way[first >= AGREE ? 0 : best]++;
-    } else if (tally->differ++ < IMAGES_NAMED) {
-        printf("             %s %s: %.1f %% of the pixels agree\n", job->kit.scene[one->scene].name,
-               one->attitude, 100.0 * first);
-        facets_lost(job, one, truth, theirs);
+        found->way[first >= AGREE ? 0 : best]++;
+        return 0;
     }
+    if (found->differ++ >= COMPARE_NAMED) {
+        return 0;
+    }
+    compare_image *image = &found->image[found->named++];
+    *image = (compare_image){.one = one, .agree = first};
+    return facets_lost(&job->kit.scene[one->scene].host.scene, truth, theirs, image);
 }
 
 /* 1 for an image that was handed in, 0 for none, -1 on failure. */
-static int case_judge(compare_job *job, const compare_case *one, items_tally *tally)
+static int case_judge(compare_job *job, const compare_case *one)
 {
     char path[2][KIT_PATH];
     const char *const folder[2] = {job->kit.folder, job->items};
@@ -179,9 +173,7 @@ static int case_judge(compare_job *job, const compare_case *one, items_tally *ta
         fprintf(stderr, "lrcs: %s: not there\n", path[0]);
     }
     int good = found > 0 && cli_compare_scene(&job->kit, &job->kit.scene[one->scene]) == 0;
-    if (good) {
-        image_judge(job, one, &image[0], &image[1], tally);
-    }
+    good = good && image_judge(job, one, &image[0], &image[1]) == 0;
     lrcs_host_file_free(&image[0].file);
     lrcs_host_file_free(&image[1].file);
     return good ? 1 : -1;
@@ -189,25 +181,21 @@ static int case_judge(compare_job *job, const compare_case *one, items_tally *ta
 
 int cli_compare_items(compare_job *job)
 {
-    items_tally tally = {.images = 0};
-    printf("items        in %s\n", job->items);
-    for (uint32_t i = 0; i < job->kit.cases; i++) {
+    for (uint32_t i = 0; job->items && i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
         if (one->image > 0 && cli_compare_asked(job, one)) {
-            int judged = case_judge(job, one, &tally);
+            int judged = case_judge(job, one);
             if (judged < 0) {
                 return CLI_FAILED;
             }
-            tally.handed += (uint32_t)judged;
-            tally.images++;
-        }
-    }
-    printf("             %lu of %lu images handed in; %lu differ\n", (unsigned long)tally.handed,
-           (unsigned long)tally.images, (unsigned long)tally.differ);
-    for (size_t i = 0; i < ITEM_WAYS; i++) {
-        if (tally.way[i] > 0) {
-            printf("             %lu %s\n", (unsigned long)tally.way[i], item_ways[i].text);
+            job->by_item.handed += (uint32_t)judged;
+            job->by_item.images++;
         }
     }
     return 0;
+}
+
+const char *cli_compare_image_way(size_t way)
+{
+    return item_ways[way].text;
 }

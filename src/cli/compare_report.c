@@ -133,6 +133,68 @@ static void unexplained_print(const compare_job *job)
     putchar('\n');
 }
 
+/* ---- facets and images ---- */
+
+static const char *material_of(const compare_job *job, const compare_case *one, uint32_t facet)
+{
+    const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
+    return scene->material[scene->facet_material[facet]].name;
+}
+
+static void facets_print(const compare_job *job, const compare_facets *facets)
+{
+    const char *cosines = cli_compare_cosines(facets);
+    printf("facets       of %lu cases\n", (unsigned long)facets->cases);
+    for (int way = 0; way < FACET_WAYS; way++) {
+        if (facets->way[way] > 0) {
+            printf("             %lu facets %s\n", (unsigned long)facets->way[way],
+                   cli_compare_facet_way(way));
+        }
+    }
+    if (cosines) {
+        printf("             cos theta: %s (off by at most %.1e, turned signs aside)\n", cosines,
+               facets->cosine_most);
+    }
+    for (uint32_t i = 0; i < facets->worsts; i++) {
+        const compare_facet *off = &facets->worst[i];
+        printf("             %s %s, facet %lu (%s%s): %.6g m2, in truth %.6g m2; %.3g m2 of "
+               "sigma\n",
+               job->kit.scene[off->one->scene].name, off->one->attitude, (unsigned long)off->facet,
+               material_of(job, off->one, off->facet),
+               off->one->records[off->facet].cos_theta < 0.0 ? ", its back" : "", off->theirs_m2,
+               off->truth_m2, off->sigma_m2);
+    }
+}
+
+static void image_print(const compare_job *job, const compare_image *image)
+{
+    printf("             %s %s: %.1f %% of the pixels agree\n",
+           job->kit.scene[image->one->scene].name, image->one->attitude, 100.0 * image->agree);
+    for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
+        printf("             facet %lu (%s): %lu of its pixels show something else\n",
+               (unsigned long)image->facet[n], material_of(job, image->one, image->facet[n]),
+               (unsigned long)image->lost[n]);
+    }
+}
+
+static void items_print(const compare_job *job, const compare_items *items)
+{
+    printf("items        in %s: %lu of %lu images handed in; %lu differ\n", job->items,
+           (unsigned long)items->handed, (unsigned long)items->images,
+           (unsigned long)items->differ);
+    for (size_t way = 0; way < COMPARE_IMAGE_WAYS; way++) {
+        if (items->way[way] > 0) {
+            printf("             %lu %s\n", (unsigned long)items->way[way],
+                   cli_compare_image_way(way));
+        }
+    }
+    for (uint32_t i = 0; i < items->named; i++) {
+        image_print(job, &items->image[i]);
+    }
+}
+
+/* ---- all of it ---- */
+
 void cli_compare_table(const compare_job *job)
 {
     printf("kit          %s: %lu scenes, %lu cases\n", job->kit.folder,
@@ -156,5 +218,11 @@ void cli_compare_table(const compare_job *job)
     }
     findings_print(job);
     unexplained_print(job);
+    if (job->facets) {
+        facets_print(job, &job->by_facet);
+    }
+    if (job->items) {
+        items_print(job, &job->by_item);
+    }
     printf("verdict      %s\n", cli_compare_passed(job) ? "passed" : "FAILED");
 }

@@ -27,13 +27,14 @@
 #include <math.h>
 
 #include "base/range.h"
+#include "base/work.h"
 
 #define U 0x1p-53
 
 /* Halvings of a cell, and cells of one sum but for those that each triangle is granted. A
-   quartering leaves three cells more on the stack, for two halvings. */
+   quartering leaves three cells more waiting, for two halvings. */
 #define MOST_HALVINGS 64u
-#define STACK_SIZE    (3 * MOST_HALVINGS / 2 + 4)
+#define PARTS_WAITING (3 * MOST_HALVINGS / 2 + 4)
 /* Corners of a cell: one with so many is halved along a diagonal, which leaves fewer. */
 #define CORNERS     8
 #define MOST_SPLITS (1u << 15)
@@ -46,6 +47,8 @@
 /* Of the tolerance: what stays below this, relative to what a peak of the most and of the BRDF's
    own width would add over a radian, is nothing. It goes to the estimate all the same. */
 #define NOTHING 0x1p-20
+/* Of A and B: bounds on what underflows end here (optics/stray.c), and nothing less can be told. */
+#define LEAST_TOLD 0x1p-1008
 /* Beyond this tan^2 the laser is as good as in the plane. */
 #define MOST_TAN2 1e300
 
@@ -56,7 +59,7 @@ typedef struct cube_value {
 
 /* A convex polygon. Positions are relative to the first corner, so that they stay good to a few u
    of the cell's size however small it is. */
-typedef struct cube_cell {
+struct lrcsi_cubature_cell {
     double normal[CORNERS][3], at[CORNERS][2];
     int count;
     double unit;    /* area of the square of positions */
@@ -66,7 +69,8 @@ typedef struct cube_cell {
     int trusted;  /* the rule may be: `value` is its sum */
     double rough; /* relative error of that where it is small enough to go by, else 1 */
     cube_value value;
-} cube_cell;
+};
+typedef struct lrcsi_cubature_cell cube_cell;
 
 /* --- the rule --------------------------------------------------------------------------------- */
 
@@ -465,20 +469,19 @@ static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cu
 /* A triangle may always be parted once. */
 static void cells_add(lrcsi_cubature *sum, cube_cell first)
 {
-    cube_cell stack[STACK_SIZE];
     cube_cell part[4];
     uint32_t top = 0;
     cube_settle(&first);
-    stack[top++] = first;
+    sum->waiting[top++] = first;
     while (top > 0) {
-        cube_cell cell = stack[--top];
+        cube_cell cell = sum->waiting[--top];
         int may_part =
             cell.depth == 0 || (cell.depth + 2 <= MOST_HALVINGS && sum->splits < MOST_SPLITS);
         uint32_t parts = cube_step(sum, &cell, may_part, part);
         sum->splits += parts;
         for (uint32_t i = 0; i < parts; i++) {
             if (part[i].count >= 3 && cube_area(&part[i]) > 0) {
-                stack[top++] = part[i];
+                sum->waiting[top++] = part[i];
             }
         }
     }
@@ -497,10 +500,20 @@ static cube_cell cube_of(const double normal[3][3], double area)
     return cell;
 }
 
-lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
-                                   double tolerance)
+size_t lrcsi_cubature_need(void)
 {
-    lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance};
+    return lrcsi_work_bytes(PARTS_WAITING, sizeof(cube_cell));
+}
+
+lrcsi_cubature_cell *lrcsi_cubature_cells(lrcs_work *work)
+{
+    return lrcsi_work_take(work, PARTS_WAITING, sizeof(cube_cell));
+}
+
+lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
+                                   double tolerance, lrcsi_cubature_cell *waiting)
+{
+    lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance, .waiting = waiting};
     cube_cell cell = cube_of(normal, 0);
     cube_measure(&cell);
     sum.most = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
@@ -509,6 +522,7 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     sum.nothing =
         NOTHING * tolerance *
         (sum.most.glint * lrcsi_least(1, brdf->s * brdf->s) + sum.most.diffuse / (brdf->m + 1));
+    sum.nothing = lrcsi_most(sum.nothing, LEAST_TOLD * (brdf->A + brdf->B));
     return sum;
 }
 

@@ -4,8 +4,13 @@
 #ifndef LRCSI_CUBATURE_H
 #define LRCSI_CUBATURE_H
 
+#include <lrcs/work.h>
+
 #include "base/sum.h"
 #include "optics/reflect.h"
+
+/* A part of a triangle that is yet to be done. */
+typedef struct lrcsi_cubature_cell lrcsi_cubature_cell;
 
 /* A sum over triangles of one surface. Areas are in any one unit. */
 typedef struct lrcsi_cubature {
@@ -22,12 +27,18 @@ typedef struct lrcsi_cubature {
     double estimate; /* of the cubature's error */
     double rounding; /* bound on the error that rounding adds to the cubature's own sum */
     uint32_t splits;
+    lrcsi_cubature_cell *waiting; /* room for parts: nothing is kept there between triangles */
 } lrcsi_cubature;
 
-/* An empty sum over surfaces whose normals lie between these three (as below): whole and slip
-   are the caller's to set, and nothing and had where there are other surfaces. */
+/* The parts that wait at most: bytes, and room for them in a work area, NULL where it has none. */
+size_t lrcsi_cubature_need(void);
+lrcsi_cubature_cell *lrcsi_cubature_cells(lrcs_work *work);
+
+/* An empty sum over surfaces whose normals lie between these three (as below), with such room,
+   which sums may share: whole and slip are the caller's to set, and nothing and had where there
+   are other surfaces. */
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
-                                   double tolerance);
+                                   double tolerance, lrcsi_cubature_cell *waiting);
 
 /* Given: the normals at the corners, view axes (z to the laser), of about unit length; area.
    Normals with z <= 0 see nothing of the laser and add nothing. */

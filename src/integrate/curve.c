@@ -16,7 +16,6 @@
 #include <math.h>
 
 #include "base/range.h"
-#include "integrate/cubature.h"
 
 #define U          0x1p-53
 #define FOUR_PI    12.566370614359172954
@@ -32,8 +31,7 @@
    all together by twice the aim. */
 typedef struct curve_all {
     const lrcsi_view *view;
-    const lrcsi_plan *plan;
-    double tolerance;
+    const lrcsi_curving *how;
     double nothing;   /* f_r cos that is nothing to the brightest of them */
     double projected; /* area of all */
     double count;
@@ -71,10 +69,11 @@ static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
                                 (row[0] * n[i].x[0] + row[1] * n[i].x[1] + row[2] * n[i].x[2]);
         }
     }
-    double aim =
-        lrcsi_least(CUBATURE_MOST, lrcsi_most(CUBATURE_LEAST, CUBATURE_SHARE * all->tolerance));
-    job->brdf = lrcsi_plan_brdf(all->plan, lrcsi_prepared_material(view->prepared, facet));
-    job->sum = lrcsi_cubature_make(&job->brdf, (const double(*)[3])job->normal, aim);
+    double aim = lrcsi_least(CUBATURE_MOST,
+                             lrcsi_most(CUBATURE_LEAST, CUBATURE_SHARE * all->how->tolerance));
+    job->brdf = lrcsi_plan_brdf(all->how->plan, lrcsi_prepared_material(view->prepared, facet));
+    job->sum =
+        lrcsi_cubature_make(&job->brdf, (const double(*)[3])job->normal, aim, all->how->waiting);
     job->sum.whole = job->tilt.projected;
     job->sum.slip = SLIP_WHOLE;
     job->sum.nothing = lrcsi_most(job->sum.nothing, all->nothing);
@@ -82,9 +81,9 @@ static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
         all->had > 0 ? all->had / all->projected + all->had / all->count / job->tilt.projected : 0;
 }
 
-static curve_all all_make(const lrcsi_view *view, const lrcsi_plan *plan, double tolerance)
+static curve_all all_make(const lrcsi_view *view, const lrcsi_curving *how)
 {
-    curve_all all = {view, plan, tolerance, 0, 0, 0, 0};
+    curve_all all = {view, how, 0, 0, 0, 0};
     curve_job job;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (lrcsi_curve_wanted(view, f)) {
@@ -154,11 +153,11 @@ static lrcsi_curved curve_share(curve_job *job, const lrcsi_visible *visible)
     return part;
 }
 
-void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
-                        const lrcsi_visible *visible, double tolerance, lrcsi_curved *curved)
+void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_curving *how,
+                        const lrcsi_visible *visible, lrcsi_curved *curved)
 {
     curve_job job;
-    curve_all all = all_make(view, plan, tolerance);
+    curve_all all = all_make(view, how);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
         if (lrcsi_curve_wanted(view, f)) {
@@ -253,15 +252,15 @@ static uint32_t facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet,
     return starved;
 }
 
-int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
-                       int sampled, lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
+int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_curving *how, int sampled,
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
                        uint32_t *starved)
 {
     const lrcsi_view *view = contest->view;
     size_t mark = work->used;
     lrcsi_occluding o;
     curve_job job;
-    curve_all all = all_make(view, plan, tolerance);
+    curve_all all = all_make(view, how);
     int status = lrcsi_occlude_make(contest, work, &o);
     *starved = 0;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {

@@ -5,6 +5,7 @@
 #ifndef LRCSI_CURVE_H
 #define LRCSI_CURVE_H
 
+#include "integrate/cubature.h"
 #include "integrate/plan.h"
 #include "visibility/occlude.h"
 #include "visibility/visible.h"
@@ -18,22 +19,29 @@ typedef struct lrcsi_curved {
     double estimate;             /* of the cubature's error */
 } lrcsi_curved;
 
+/* How to integrate: what the plan leaves of the BRDF, the relative error asked for, and room for
+   parts of facets. */
+typedef struct lrcsi_curving {
+    const lrcsi_plan *plan;
+    double tolerance;
+    lrcsi_cubature_cell *waiting;
+} lrcsi_curving;
+
 /* Does the facet have curved normals, and is it on its reflecting side? */
 int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet);
 
 /* Facets of which an area is all that is known: the integral over the whole facet, times the share
    of it that is visible.
-   Given: visible; the relative error asked for. Returned: curved[facet_count] of the facets
-   wanted. */
-void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_plan *plan,
-                        const lrcsi_visible *visible, double tolerance, lrcsi_curved *curved);
+   Given: visible. Returned: curved[facet_count] of the facets wanted. */
+void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_curving *how,
+                        const lrcsi_visible *visible, lrcsi_curved *curved);
 
 /* Every facet by clipping, as lrcsi_occlude_all, and those wanted integrated over the pieces that
    are visible. Where visible is given, sampled, only those that are wanted and seen in part:
    samples tell how much of a facet is seen, but not where on it; one that finds no memory keeps its
    share. Status: as lrcsi_occlude_all. */
-int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_plan *plan, double tolerance,
-                       int sampled, lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
+int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_curving *how, int sampled,
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
                        uint32_t *starved);
 
 #endif

@@ -26,7 +26,8 @@ typedef struct sigma_run {
     lrcsi_margin margin;
     const lrcsi_margin *doubt; /* margin, or NULL where none was made */
     lrcsi_visible *visible;
-    lrcsi_curved *curved; /* NULL: all facets are flat */
+    lrcsi_curved *curved;         /* NULL: all facets are flat */
+    lrcsi_cubature_cell *waiting; /* NULL: the same */
     double tolerance;
     lrcsi_total total;
     lrcs_work *work;
@@ -69,7 +70,10 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
 {
     size_t facets = prepared->scene->facet_count;
     size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible));
-    size_t curved = prepared->smooth ? lrcsi_work_bytes(facets, sizeof(lrcsi_curved)) : 0;
+    size_t curved =
+        prepared->smooth
+            ? lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_curved)), lrcsi_cubature_need())
+            : 0;
     if (options->method == LRCS_METHOD_FACET && options->with == 0) {
         return lrcsi_work_add(lrcsi_view_face_need(prepared),
                               prepared->smooth ? lrcsi_work_add(areas, curved) : 0);
@@ -113,18 +117,24 @@ static void run_total(sigma_run *run, lrcs_facet_record *records)
         lrcsi_total_make(&run->view, &run->plan, run->visible, run->curved, run->doubt, records);
 }
 
+static lrcsi_curving run_curving(const sigma_run *run)
+{
+    return (lrcsi_curving){&run->plan, run->tolerance, run->waiting};
+}
+
 /* Areas are written down for curved normals only: the sum takes them from the plan. */
 static int run_facet(sigma_run *run)
 {
     if (run->curved) {
         const lrcsi_view *view = &run->view;
+        lrcsi_curving how = run_curving(run);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
-            run->visible[f] = lrcsi_grid_casts(view, f)
+            run->visible[f] = lrcsi_grid_faces(view, f)
                                   ? lrcsi_visible_unshadowed(&tilt, run->plan.graze)
                                   : (lrcsi_visible){0, 0, 0, 0, 0};
         }
-        lrcsi_curve_shares(&run->view, &run->plan, run->visible, run->tolerance, run->curved);
+        lrcsi_curve_shares(&run->view, &how, run->visible, run->curved);
     }
     run_total(run, NULL);
     return LRCS_OK;
@@ -164,10 +174,13 @@ static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
 static void sum_curved(sigma_run *run)
 {
     uint32_t starved;
-    if (lrcsi_curve_pieces(&run->contest, &run->plan, run->tolerance, 1, run->work, run->visible,
-                           run->curved, &starved) != LRCS_OK) {
-        lrcsi_curve_shares(&run->view, &run->plan, run->visible, run->tolerance, run->curved);
+    lrcsi_curving how = run_curving(run);
+    int status =
+        lrcsi_curve_pieces(&run->contest, &how, 1, run->work, run->visible, run->curved, &starved);
+    if (status != LRCS_OK) {
+        lrcsi_curve_shares(&run->view, &how, run->visible, run->curved);
     }
+    run->flags |= status != LRCS_OK || starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
 }
 
 /* The sum over visible areas found by sampling or clipping. */
@@ -213,8 +226,9 @@ static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
 static int run_exact(sigma_run *run, int method)
 {
     uint32_t starved = 0;
-    int status = run->curved ? lrcsi_curve_pieces(&run->contest, &run->plan, run->tolerance, 0,
-                                                  run->work, run->visible, run->curved, &starved)
+    lrcsi_curving how = run_curving(run);
+    int status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
+                                                  run->curved, &starved)
                              : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
     if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
         return LRCS_E_MEMORY;
@@ -335,7 +349,10 @@ static int run_take(sigma_run *run)
     int areas = run->plan.method != LRCS_METHOD_FACET || p->smooth;
     run->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *run->visible) : NULL;
     run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
-    return (run->visible || !areas) && (run->curved || !p->smooth) ? LRCS_OK : LRCS_E_MEMORY;
+    run->waiting = p->smooth ? lrcsi_cubature_cells(run->work) : NULL;
+    return (run->visible || !areas) && ((run->curved && run->waiting) || !p->smooth)
+               ? LRCS_OK
+               : LRCS_E_MEMORY;
 }
 
 int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,

@@ -108,6 +108,20 @@ typedef struct total_return {
     double glint, diffuse;
 } total_return;
 
+/* Of nearly all facets the whole is visible: no quotient, then. */
+static double share_of(double part, double whole)
+{
+    return part == whole ? 1 : part / whole;
+}
+
+static void add_doubt(total_sums *sums, double per_area, const lrcsi_visible *visible)
+{
+    double doubt = lrcsi_most(visible->area - visible->low, visible->high - visible->area);
+    sums->visibility += per_area * doubt;
+    sums->likely = lrcsi_length_flat(sums->likely, per_area * visible->likely);
+    sums->lean += per_area * visible->lean;
+}
+
 /* One facet that reflects towards the laser. */
 static total_return add_reflecting(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
                                    const lrcsi_visible *visible)
@@ -117,17 +131,15 @@ static total_return add_reflecting(total_job *job, uint32_t facet, const lrcsi_t
     lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, facet));
     lrcsi_reflection at = reflection_planned(&brdf, job->plan, tilt->tan2);
     double whole = FOUR_PI * 0.5 * p->normal[facet].length;
-    double share = visible->area / tilt->projected;
-    double most = visible->high / tilt->projected;
-    double doubt = lrcsi_most(visible->area - visible->low, visible->high - visible->area);
-    double per_area = whole * (at.glint + at.diffuse) / tilt->projected;
+    double share = share_of(visible->area, tilt->projected);
+    double most = share_of(visible->high, tilt->projected);
     double glint = whole * at.glint * share;
     double diffuse = whole * at.diffuse * share;
     lrcsi_sum_add(&sums->glint, glint);
     lrcsi_sum_add(&sums->diffuse, diffuse);
-    sums->visibility += per_area * doubt;
-    sums->likely = lrcsi_length_flat(sums->likely, per_area * visible->likely);
-    sums->lean += per_area * visible->lean;
+    if (visible->low < visible->high) {
+        add_doubt(sums, whole * (at.glint + at.diffuse) / tilt->projected, visible);
+    }
     /* S, 4 pi, two products and the share: 8 u, with the relative error of areas */
     sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
                       whole * most * (at.error + reflection_vague(&brdf, tilt, &at));
@@ -235,14 +247,14 @@ static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const l
     if (job->visible) {
         return job->visible[facet];
     }
-    return lrcsi_grid_casts(job->view, facet) ? lrcsi_visible_unshadowed(tilt, job->plan->graze)
+    return lrcsi_grid_faces(job->view, facet) ? lrcsi_visible_unshadowed(tilt, job->plan->graze)
                                               : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
 /* Could any of it be visible? The back sides of a closed body cannot, and cost no arithmetic. */
 static int may_show(const total_job *job, uint32_t facet)
 {
-    return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_casts(job->view, facet);
+    return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_faces(job->view, facet);
 }
 
 static double facet_tessellation(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)

@@ -255,9 +255,6 @@ static int fan_is_convex(const convex_mesh *m, fan_place start, uint32_t size)
             return 0;
         }
     }
-    if (p.facet != start.facet || creases == 1) {
-        return 0;
-    }
     if (creases == 0) {
         return flat_fan_winds_once(m, start, size);
     }

@@ -19,10 +19,10 @@ static int is_newline(char c)
     return c == '\n' || c == '\r';
 }
 
-/* Passes over one line ending, where one stands at `at`. */
+/* Passes over the line ending at `at`, unless the bytes end there. */
 static void pass_newline(lrcsi_lines *lines)
 {
-    if (lines->at < lines->end && is_newline(*lines->at)) {
+    if (lines->at < lines->end) {
         int cr_lf = lines->end - lines->at > 1 && lines->at[0] == '\r' && lines->at[1] == '\n';
         lines->at += cr_lf ? 2 : 1;
         lines->line++;
@@ -120,11 +120,11 @@ int lrcsi_lines_fail(lrcsi_lines *lines, int status, const char *item, const cha
     return lrcsi_where_text(where, status, offset, line, item, expected, found, size);
 }
 
-/* "nan", "-inf" and their like, as printf and others write them. */
+/* Of a word: "nan", "-inf" and their like, as printf and others write them. */
 static int is_non_finite_word(const lrcsi_lines *lines)
 {
     const char *at = lines->at;
-    at += at < lines->end && (*at == '-' || *at == '+');
+    at += *at == '-' || *at == '+';
     return lines->end - at >= 3 && ((at[0] | 0x20) == 'n' || (at[0] | 0x20) == 'i') &&
            (at[1] | 0x20) != 'o' && ((at[2] | 0x20) == 'n' || (at[2] | 0x20) == 'f');
 }

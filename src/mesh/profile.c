@@ -74,10 +74,11 @@ typedef struct profile_strip {
     double low, high;        /* elevation of the true normal on the lower and the upper circle */
 } profile_strip;
 
+/* Of a profile that has strips. */
 static int profile_straight(const lrcsi_profile *profile)
 {
-    return profile->kind == LRCS_SHAPE_DISC || profile->kind == LRCS_SHAPE_CYLINDER ||
-           profile->kind == LRCS_SHAPE_CONE || profile->kind == LRCS_SHAPE_FRUSTUM;
+    return profile->kind == LRCS_SHAPE_CYLINDER || profile->kind == LRCS_SHAPE_CONE ||
+           profile->kind == LRCS_SHAPE_FRUSTUM;
 }
 
 /* x - sin x for 0 <= x <= pi/2, to 4 units: the alternating series, 12 terms (pi/2^27 / 27! is

@@ -174,7 +174,9 @@ static int side_met(const touch_facet *t, const double *a, const double *b, cons
     return below != count && above != count;
 }
 
-/* Step 1. *rim: whether T may still meet a side of F. */
+/* Step 1. *rim, which is 0, becomes 1 where T may still meet a side of F. Not so where it is the
+   line of a side of T that separates: F has one corner on it at most, for two would be a side of F
+   with T beyond it. */
 static int separated_along_axis(const touch_facet *f, const touch_facet *t, int *rim)
 {
     const double *on[3];
@@ -187,14 +189,7 @@ static int separated_along_axis(const touch_facet *f, const touch_facet *t, int 
         return 1;
     }
     int t_turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], f->axis);
-    side = t_turn != 0 ? separating_side(t, t_turn, f, f->axis) : -1;
-    if (side >= 0) {
-        const double *end[2] = {t->x[side], t->x[(side + 1) % 3]};
-        int count = corners_on_line(end[0], end[1], f, f->axis, on);
-        *rim = count == 2 && side_met(t, on[0], on[1], end, 2, f->axis);
-        return 1;
-    }
-    return 0;
+    return t_turn != 0 && separating_side(t, t_turn, f, f->axis) >= 0;
 }
 
 static void plane_sides(const touch_facet *f, const touch_facet *t, int side[3])

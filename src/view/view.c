@@ -88,10 +88,37 @@ static double grazing_dot(const lrcsi_view *view, uint32_t facet)
 /* Nearer to edge-on than this, only a lower bound of tan^2 is known: a square that doubles hold. */
 #define GRAZING_LEAST 0x1p-500
 
+/* |N . d| and its error: what was computed, or near grazing the exact number, to 2 u; nearer to
+   edge-on than can be told, only a lower bound. */
+typedef struct tilt_dot {
+    double value, off;
+    int least;
+} tilt_dot;
+
+static tilt_dot tilt_dot_of(const lrcsi_view *view, uint32_t facet, double product, double off)
+{
+    tilt_dot dot = {fabs(product), off, 0};
+    if (!(dot.value > GRAZING_DOT * off)) {
+        dot.value = fabs(grazing_dot(view, facet));
+        dot.off = 2 * U * dot.value;
+    }
+    double least = GRAZING_LEAST * view->prepared->normal[facet].length * view->length;
+    if (dot.value < least) {
+        dot.value = least;
+        dot.least = 1;
+    }
+    return dot;
+}
+
+static double tilt_projected(const lrcsi_view *view, tilt_dot dot)
+{
+    return dot.value / (2 * view->length);
+}
+
 /* tan^2 = |N x d|^2 / (N . d)^2. Near normal incidence the cross product drowns in its own error
    and only an upper bound of tan^2 is known; near grazing the dot product does, and is taken
-   exactly, to 2 u. */
-static lrcsi_tilt tilt_make(const lrcsi_view *view, uint32_t facet, double dot,
+   exactly. */
+static lrcsi_tilt tilt_make(const lrcsi_view *view, uint32_t facet, double product,
                             const double cross_product[3])
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
@@ -101,30 +128,32 @@ static lrcsi_tilt tilt_make(const lrcsi_view *view, uint32_t facet, double dot,
         return tilt;
     }
     double off = normal_off(n) * view->length;
-    double dot_off = off;
-    dot = fabs(dot);
     double cross = lrcsi_length(cross_product);
-    if (!(dot > GRAZING_DOT * off)) {
-        dot = fabs(grazing_dot(view, facet));
-        dot_off = 2 * U * dot;
-    }
-    tilt.error = 2 * dot_off / dot + n->error / n->length + 8 * U;
-    tilt.stretch = 4 * dot_off / dot + 12 * U;
+    tilt_dot dot = tilt_dot_of(view, facet, product, off);
+    double relative = dot.off / dot.value;
+    tilt.error = dot.least ? 2 : 2 * relative + n->error / n->length + 8 * U;
+    tilt.stretch = 4 * relative + 12 * U;
     if (cross > 1000 * off) {
         tilt.stretch += 2.1 * off / cross;
     } else {
         cross += off;
         tilt.stretch = 1;
     }
-    if (dot < GRAZING_LEAST * n->length * view->length) {
-        dot = GRAZING_LEAST * n->length * view->length;
-        tilt.error = 2;
-        tilt.stretch = HUGE_VAL;
-    }
-    tilt.tan2 = (cross / dot) * (cross / dot);
-    tilt.cos_theta = facing * lrcsi_least(1, dot / (n->length * view->length));
-    tilt.projected = dot / (2 * view->length);
+    tilt.stretch = dot.least ? HUGE_VAL : tilt.stretch;
+    tilt.tan2 = (cross / dot.value) * (cross / dot.value);
+    tilt.cos_theta = facing * lrcsi_least(1, dot.value / (n->length * view->length));
+    tilt.projected = tilt_projected(view, dot);
     return tilt;
+}
+
+double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcsi_normal *n = &view->prepared->normal[facet];
+    if (view->facing[facet] == 0) {
+        return 0;
+    }
+    double product = normal_dot(n->high, n->low, view->direction);
+    return tilt_projected(view, tilt_dot_of(view, facet, product, normal_off(n) * view->length));
 }
 
 lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
@@ -212,13 +241,11 @@ static void view_window(lrcsi_view *view)
     const lrcs_prepared *p = view->prepared;
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
-            const double *x = view->point[p->scene->facet[f].corner[corner]].x;
-            for (int k = 0; k < 2; k++) {
-                low[k] = lrcsi_least(low[k], x[k]);
-                high[k] = lrcsi_most(high[k], x[k]);
-            }
+    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
+        const double *x = view->point[v].x;
+        for (int k = 0; k < 2 && p->stood[v]; k++) {
+            low[k] = lrcsi_least(low[k], x[k]);
+            high[k] = lrcsi_most(high[k], x[k]);
         }
     }
     if (p->live > 0) {

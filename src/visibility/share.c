@@ -32,10 +32,19 @@ size_t lrcsi_share_need(const lrcs_prepared *prepared)
 int lrcsi_share_make(const lrcsi_known *known, const lrcsi_raster *raster, lrcs_work *work,
                      lrcsi_sharing *sharing)
 {
+    const lrcsi_contest *contest = known->contest;
     uint32_t facets = raster->view->prepared->scene->facet_count;
     *sharing = (lrcsi_sharing){known, raster, NULL};
-    sharing->rest = lrcsi_work_take_zero(work, facets, sizeof *sharing->rest);
-    return sharing->rest ? LRCS_OK : LRCS_E_MEMORY;
+    sharing->rest = lrcsi_work_take(work, facets, sizeof *sharing->rest);
+    if (!sharing->rest) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t f = 0; f < facets; f++) { /* only those that are asked for: they are few */
+        if (contest->contested[f]) {
+            sharing->rest[contest->sheet[f]] = (lrcsi_share_rest){0, 0, 0, 0, 0, 0};
+        }
+    }
+    return LRCS_OK;
 }
 
 /* Adds the samples of one facet, or its area where it is known what it shows. */
@@ -46,7 +55,7 @@ static void share_add(const lrcsi_sharing *s, uint32_t facet, double *owned, dou
         *covered += s->raster->covered[facet];
         return;
     }
-    double area = lrcsi_view_tilt(s->raster->view, facet).projected;
+    double area = lrcsi_view_projected(s->raster->view, facet);
     double pixels = area / (s->raster->pixel * s->raster->pixel);
     *owned += s->known->answer[facet] == LRCSI_QUERY_VISIBLE ? pixels : 0;
     *covered += pixels;
@@ -180,10 +189,13 @@ void lrcsi_share_settle(const lrcsi_sharing *s, lrcsi_visible *visible)
 {
     const lrcsi_contest *contest = s->known->contest;
     for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count; f++) {
+        if (!contest->contested[f]) {
+            continue;
+        }
         const lrcsi_share_rest *sheet = &s->rest[contest->sheet[f]];
         lrcsi_visible *v = &visible[f];
         double samples[2];
-        if (contest->contested[f] && sheet->covered > 0 && v->high > v->low &&
+        if (sheet->covered > 0 && v->high > v->low &&
             share_row(s, f, share_longest(s->raster, f), &samples[0], &samples[1])) {
             v->area = lrcsi_least(v->high, lrcsi_most(v->low, share_settled(sheet, v)));
         }

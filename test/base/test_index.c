@@ -72,6 +72,13 @@ static void a_full_index_finds_every_name(void **state)
     }
 }
 
+static void more_names_than_memory_can_hold_need_all_of_it(void **state)
+{
+    (void)state;
+    assert_true(lrcsi_index_need(SIZE_MAX) == SIZE_MAX);
+    assert_true(lrcsi_index_need(SIZE_MAX / 2) == SIZE_MAX);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -79,6 +86,7 @@ int main(void)
         cmocka_unit_test(a_second_put_replaces_the_value),
         cmocka_unit_test(an_index_of_nothing_finds_nothing),
         cmocka_unit_test(a_full_index_finds_every_name),
+        cmocka_unit_test(more_names_than_memory_can_hold_need_all_of_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

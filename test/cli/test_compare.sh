@@ -67,6 +67,7 @@ why float_is_enough_where_it_is_asked 0 '^verdict      passed'
 # What else they hand in.
 mkdir images
 ./raster kit 96 items=images >theirs.csv
+mkdir mixed && cp images/box.a.item.u32 mixed && cp images/box.a.item.u32 mixed/comb.a.item.u32
 run compare kit theirs.csv --pixels 96 --items images
 why images_that_are_right_agree 0 '16 of 16 images handed in; 0 differ'
 for file in images/*.u32; do # rows of 384 bytes, the last one first
@@ -112,6 +113,19 @@ run compare kit kit/cases.csv --facets facets.csv
 why a_facet_that_they_lost_is_told 0 '  1 facets not seen by them'
 why and_which_one_it_is 0 '  wings a, facet 4 (metal): 0 m2, in truth 0.157895 m2'
 why and_how_many_cases_there_were 0 '^facets       of 189 cases'
+if command -v python3 >/dev/null; then
+    run compare kit kit/cases.csv --facets facets.csv --items mixed --json all.json
+    same facets_and_images_are_told_as_json_too "$rc $(python3 -c '
+import json
+told = json.load(open("all.json"))
+facets, items = told["facets"], told["items"]
+worst = facets["worst"][0]
+print(facets["cases"], facets["differ"][0]["text"][:16], facets["differ"][0]["count"], facets["cos_theta"],
+      worst["scene"], worst["attitude"], worst["facet"], worst["theirs_m2"], "%.6f" % worst["visible_area_m2"])
+print(items["asked"], items["given"], items["differ"], [(w["text"][:15], w["count"]) for w in items["ways"]],
+      items["worst"][0]["scene"], items["worst"][0]["lost"][0]["pixels"] > 100)')" "0 189 not seen by them 1 double precision wings a 4 0 0.157895
+16 2 1 [('agree with the ', 1)] comb True"
+fi
 
 run compare kit kit/cases.csv --junit unit.xml --json all.json
 same files_do_not_change_the_verdict "$rc" 0

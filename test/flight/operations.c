@@ -1,35 +1,101 @@
 /* SPDX-License-Identifier: MIT */
-/* One pose of one scene by method exact, and how many questions it may ask at most: the formula of
-   examples/flight/README.md. test/flight/operations.sh counts how many it did.
-   usage: operations KIND COUNT    KIND boxes (apart), sheets (over each other), random (pierced) */
+/* One pose of one scene, and how many steps it may take at most by the formulas of
+   examples/flight/README.md: questions of visibility, parts of curved facets, pixels drawn.
+   test/flight/operations.sh counts how many it did take.
+   usage: operations KIND COUNT
+   KIND: boxes (apart), sheets (over each other), random (pierced), half (curved, half hidden) by
+   method exact; patches, razors (curved, of a wide and of an all but singular BRDF) by method
+   facet; drawn (sheets as graphics hardware draws them) */
 #include <stdlib.h>
 
 #include "scene/prepare.h"
 #include "scenes.h"
 
+#define PIXELS 128u
+
 static test_scene scene;
+static lrcs_point normal[3 * SCENE_FACETS];
+static int method = LRCS_METHOD_EXACT;
+static double tolerance = 1e-4;
+static int drawn; /* by lrcs_emulate_run */
+
+static void make_boxes(uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        double at = 1.5 * i;
+        scene_box(&scene, (const double[3]){at, 0.3 * at, 0.2 * at},
+                  (const double[3]){at + 1, 0.3 * at + 1, 0.2 * at + 1});
+    }
+}
+
+static void make_sheets(uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        double z = 0x1p-6 * i;
+        scene_plate(&scene, (const double[3]){z, 0.5 * z, z}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 1, 0});
+    }
+}
+
+static void make_random(uint32_t count)
+{
+    uint64_t seed = 8;
+    for (uint32_t i = 0; i < count; i++) {
+        double corner[3][3];
+        for (int k = 0; k < 9; k++) {
+            corner[k / 3][k % 3] = scene_random(&seed, 4096) / 4096.0;
+        }
+        scene_triangle(&scene, corner[0], corner[1], corner[2]);
+    }
+}
+
+/* Normals at corners as on a sphere about a point below each facet. */
+static void curve_facets(void)
+{
+    for (uint32_t i = 0; i < 3 * scene.scene.facet_count; i++) {
+        const uint32_t *corner = scene.facet[i / 3].corner;
+        double n[3] = {0, 0, 0.3};
+        for (int k = 0; k < 3; k++) {
+            n[k] += scene.vertex[corner[i % 3]].x[k];
+            for (int j = 0; j < 3; j++) {
+                n[k] -= scene.vertex[corner[j]].x[k] / 3;
+            }
+        }
+        for (int k = 0; k < 3; k++) {
+            normal[i].x[k] = n[k] / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        }
+    }
+    scene.scene.corner_normal = normal;
+}
 
 static void make_scene(const char *kind, uint32_t count)
 {
-    uint64_t seed = 8;
     scene_start(&scene);
-    for (uint32_t i = 0; i < count; i++) {
-        if (strcmp(kind, "boxes") == 0) {
-            double at = 1.5 * i;
-            scene_box(&scene, (const double[3]){at, 0.3 * at, 0.2 * at},
-                      (const double[3]){at + 1, 0.3 * at + 1, 0.2 * at + 1});
-        } else if (strcmp(kind, "sheets") == 0) {
-            double z = 0x1p-6 * i;
-            scene_plate(&scene, (const double[3]){z, 0.5 * z, z}, (const double[3]){1, 0, 0},
-                        (const double[3]){0, 1, 0});
-        } else {
-            double corner[3][3];
-            for (int k = 0; k < 9; k++) {
-                corner[k / 3][k % 3] = scene_random(&seed, 4096) / 4096.0;
-            }
-            scene_triangle(&scene, corner[0], corner[1], corner[2]);
-        }
+    drawn = strcmp(kind, "drawn") == 0;
+    if (strcmp(kind, "boxes") == 0) {
+        make_boxes(count);
+    } else if (strcmp(kind, "random") == 0) {
+        make_random(count);
+    } else {
+        make_sheets(count);
     }
+    if (strcmp(kind, "half") == 0 || strcmp(kind, "patches") == 0) {
+        curve_facets();
+    }
+    if (strcmp(kind, "razors") == 0) { /* what the cubature can do least about */
+        curve_facets();
+        scene.material[0].brdf = (lrcs_brdf){1, 0.25, 1e-8, 1e13};
+        tolerance = 1e-8;
+    }
+    if (strcmp(kind, "patches") == 0 || strcmp(kind, "razors") == 0) {
+        method = LRCS_METHOD_FACET;
+    }
+}
+
+/* Cuts of one facet: edges, and three for each contact. */
+static double most_cuts(const lrcs_prepared *p, uint32_t facet)
+{
+    return p->topology.edge_count + 3.0 * (p->touches.first[facet + 1] - p->touches.first[facet]);
 }
 
 static double most_questions(const lrcs_prepared *p)
@@ -39,20 +105,59 @@ static double most_questions(const lrcs_prepared *p)
     double most = 48 * n * n * n + 208 * n * n + 32 * n * k + 1100 * n + 160000;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         double own = p->touches.first[f + 1] - p->touches.first[f];
-        double cuts = p->topology.edge_count + 3 * own;
+        double cuts = most_cuts(p, f);
         most += n * (cuts + own) + (8193 + 512 * cuts) * (4 * cuts + 2 * n * (1 + cuts));
     }
     return most;
+}
+
+static double most_parts(const lrcs_prepared *p)
+{
+    double most = 0;
+    for (uint32_t f = 0; f < p->scene->facet_count && p->smooth; f++) {
+        double triangles = method == LRCS_METHOD_FACET ? 1 : 30 * (8193 + 512 * most_cuts(p, f));
+        most += 5 * 32768 + 37 + 6 * triangles;
+    }
+    return most;
+}
+
+static double most_pixels(const lrcs_prepared *p)
+{
+    double n = p->scene->facet_count;
+    double N = PIXELS;
+    return p->scene->vertex_count + 2 * n + n * (N + N * N) + 2 * N * N;
+}
+
+static void draw(const lrcs_prepared *prepared, lrcs_work *work, const lrcs_pose *pose)
+{
+    lrcs_emulation emulation;
+    lrcs_emulation_options options = lrcs_emulation_options_default();
+    options.resolution = PIXELS;
+    assert_int_equal(lrcs_emulate_run(prepared, pose, &options, work, &emulation, NULL, NULL),
+                     LRCS_OK);
+}
+
+static void run(const lrcs_prepared *prepared, lrcs_work *work, const lrcs_pose *pose)
+{
+    lrcs_result result;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = method;
+    options.tolerance = tolerance;
+    assert_int_equal(lrcs_sigma_run(prepared, pose, &options, work, &result, NULL, NULL), LRCS_OK);
 }
 
 static void one_pose(void **state)
 {
     (void)state;
     lrcs_work work;
+    lrcs_pose pose;
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
-    scene_pose(&scene, prepared, &work, (const double[3]){0.25, -0.5, 1}, LRCS_METHOD_EXACT, 0);
-    printf("%u %u %.0f\n", (unsigned)scene.scene.facet_count,
-           (unsigned)prepared->touches.first[scene.scene.facet_count], most_questions(prepared));
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){0.25, -0.5, 1}, &pose), LRCS_OK);
+    (drawn ? draw : run)(prepared, &work, &pose);
+    printf("%u %u %.0f %.0f %.0f\n", (unsigned)scene.scene.facet_count,
+           (unsigned)prepared->touches.first[scene.scene.facet_count],
+           method == LRCS_METHOD_EXACT && !drawn ? most_questions(prepared) : 0,
+           most_parts(prepared), drawn ? most_pixels(prepared) : 0);
 }
 
 int main(int words, char **word)

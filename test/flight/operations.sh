@@ -1,34 +1,46 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# How many questions a pose asks (calls of the functions below, counted by gcov), beside how many it
-# may ask at most. Fails where it asks more.
+# How many steps a pose takes (calls of the functions below, counted by gcov), beside how many it
+# may take at most. Fails where it takes more.
 # usage: operations.sh FOLDER    (in the root; FOLDER holds lrcs.c, and takes what is built)
 folder=$1/operations
 mkdir -p "$folder" || exit 1
 # A facet or edge against an event, a line, a cut or a cell, each in bounded time.
-asked='boxes_apart edge_crosses touch_contests box_misses lrcsi_sample_covers_towards line_nearer
+questions='boxes_apart edge_crosses touch_contests box_misses lrcsi_sample_covers_towards line_nearer
 touched_by cover_add order_of line_meets line_hidden lrcsi_clip_meets lrcsi_cut_ends lrcsi_clip_within
 event_slack grid_put'
+# A curved facet, a triangle of it, a part of that.
+parts='lrcsi_cubature_make lrcsi_cubature_add cube_step'
+# A vertex, a facet, a row of one, a pixel of that; a pixel added to a sum.
+pixels='gpu_vertex facet_start shade_make row_span depth_kept pair_add'
 flags='-std=c11 -ffp-contract=off -O0'
 # shellcheck disable=SC2086 # flags are words
 cp "$1/lrcs.c" "$1/lrcs.h" "$folder" && (cd "$folder" && gcc $flags --coverage -c lrcs.c) &&
     gcc $flags -Itest/portable -Itest -Iinclude -Isrc -c -o "$folder/main.o" test/flight/operations.c &&
     gcc --coverage -o "$folder/operations" "$folder/main.o" "$folder/lrcs.o" -lm || exit 1
-printf '%-8s %6s %6s %9s %12s %14s\n' scene facets touch cells questions 'at most'
+printf '%-8s %6s %6s %9s %-10s %12s %14s\n' scene facets touch cells steps taken 'at most'
 bad=0
-for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' 'random 32' 'random 128'; do
+for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' 'random 32' 'random 128' \
+    'half 2' 'half 16' 'patches 1' 'patches 16' 'razors 1' 'drawn 1' 'drawn 64'; do
     rm -f "$folder"/*.gcda
     # shellcheck disable=SC2086
     said=$("$folder/operations" $scene | sed -n 1p)
     (cd "$folder" && gcov -b -c lrcs.gcda >/dev/null 2>&1)
-    echo "$said" | awk -v scene="${scene% *}" -v asked="$asked" '
-        BEGIN { count = split(asked, list, /[ \n]+/); for (i = 1; i <= count; i++) wanted[list[i]] = 1 }
-        FNR == NR { facets = $1; touches = $2; most = $3; next }
-        /^function / && ($2 in wanted) { sum += $4 }
+    echo "$said" | awk -v scene="${scene% *}" -v questions="$questions" -v parts="$parts" -v pixels="$pixels" '
+        function wanted(kind, list,   count, name, i) {
+            count = split(list, name, /[ \n]+/)
+            for (i = 1; i <= count; i++) kind_of[name[i]] = kind
+        }
+        function row(kind, most) {
+            if (most > 0)
+                printf "%-8s %6d %6d %9d %-10s %12d %14.3g\n", scene, facets, touches, cells, kind, sum[kind], most
+            return most > 0 ? sum[kind] > 0 && sum[kind] <= most : !sum[kind]
+        }
+        BEGIN { wanted("questions", questions); wanted("parts", parts); wanted("pixels", pixels) }
+        FNR == NR { facets = $1; touches = $2; most_q = $3; most_c = $4; most_p = $5; next }
+        /^function / && ($2 in kind_of) { sum[kind_of[$2]] += $4 }
         /^function cell_do / { cells = $4 }
-        END {
-            printf "%-8s %6d %6d %9d %12d %14.3g\n", scene, facets, touches, cells, sum, most
-            exit !(sum > 0 && sum <= most)
-        }' - "$folder/lrcs.c.gcov" || bad=1
+        END { exit !(row("questions", most_q) + row("parts", most_c) + row("pixels", most_p) == 3) }
+        ' - "$folder/lrcs.c.gcov" || bad=1
 done
 exit $bad

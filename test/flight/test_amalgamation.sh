@@ -21,8 +21,11 @@ fi
 
 # ---- the stack ----
 if [ -n "$graph" ]; then
-    said=$(sh test/stack.sh "$scratch/lrcs.ci" 2>&1 | head -1)
-    same the_core_has_no_recursion "${said#* functions, }" "no recursion, no calls through pointers, every frame known"
+    said=$(sh test/stack.sh "$scratch/lrcs.ci" 2>&1)
+    same the_core_has_no_recursion "$(echo "$said" | sed -n '1s/.* functions, //p')" \
+        "no recursion, no calls through pointers, every frame known"
+    bytes=$(echo "$said" | sed -n 's/^stack: at most \([0-9]*\) bytes.*/\1/p')
+    same it_takes_less_than_16_kb_of_stack_for_any_scene "$((${bytes:-16384} < 16384)): $bytes" "1: $bytes"
     # refused NAME CODE REASON: what the graph of that C code is refused for.
     refused() {
         echo "$2" >"$scratch/bad.c"

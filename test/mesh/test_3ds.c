@@ -2,6 +2,8 @@
 /* What 3DS files do in the wild, one habit a test; and what malformed ones must not do. */
 #include <lrcs/read.h>
 
+#include "mesh/3ds.h"
+
 #include "build3ds.h"
 #include "hostile.h"
 
@@ -935,6 +937,32 @@ static void chunks_nested_without_end_are_read_without_descent(void **state)
     }
 }
 
+/* A file with more than that in all would have some 2^36 bytes: so many are said to be read. */
+static void counts_end_where_indices_do(void **state)
+{
+    (void)state;
+    build3ds_begin(&file);
+    build3ds_mesh(&file, "square");
+    size_t at = file.open[file.depth - 1] + 6;
+    build3ds_square(&file, 0);
+    build3ds_faces(&file);
+    build3ds_end(&file);
+    static const char *const item[] = {"vertices", "faces", "mesh"};
+    for (int i = 0; i < 4; i++) {
+        lrcs_where where = {0};
+        lrcsi_tds_walk walk = {.bytes = file.bytes, .size = file.size, .where = &where};
+        uint32_t *count[] = {&walk.counts.vertices, &walk.counts.facets, &walk.counts.parts};
+        lrcsi_tds_chunk chunk = {LRCSI_TDS_TRIMESH, at, file.size};
+        if (i < 3) {
+            *count[i] = LRCS_NONE - 2;
+        }
+        int status = lrcsi_tds_read_trimesh(&walk, chunk, NULL);
+        assert_int_equal(status, i < 3 ? LRCS_E_LIMIT : LRCS_OK);
+        assert_true(i == 3 ? !where.item : strcmp(where.item, item[i]) == 0);
+        assert_true(i == 3 || *count[i] == LRCS_NONE - 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -988,6 +1016,7 @@ int main(void)
         cmocka_unit_test(inflated_counts_give_a_status_or_a_sound_mesh),
         cmocka_unit_test(a_starved_read_takes_and_touches_nothing),
         cmocka_unit_test(chunks_nested_without_end_are_read_without_descent),
+        cmocka_unit_test(counts_end_where_indices_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

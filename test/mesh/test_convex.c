@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Convexity is proved or refused: bodies one ulp either side, and closed surfaces that are convex
    at every edge and yet no convex body. */
-#include <lrcs/mesh.h>
+#include "mesh/convex.h"
 
 #include "check.h"
 
@@ -305,6 +305,106 @@ static void a_ring_of_boxes_is_refused(void **state)
     check_same(fabs(r.volume), 12.0);
 }
 
+/* The same body, the facets at `bottom` listed first: its point is then the first one judged. */
+static void add_spindle(uint32_t ring, uint32_t n, uint32_t top, uint32_t bottom, uint32_t from)
+{
+    for (uint32_t i = from; i < from + n; i++) {
+        add_facet(bottom, ring + (i + 1) % n, ring + i % n);
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        add_facet(top, ring + i, ring + (i + 1) % n);
+    }
+}
+
+/* A ring that winds twice: from +x by +y and -x to -y in the plane of the bottom point, then on
+   through three points above it. */
+static const double loop[8][3] = {{8, 0, 0}, {0, 8, 0},  {-8, 0, 0},  {0, -8, 0},
+                                  {8, 8, 8}, {-8, 8, 8}, {-8, -8, 8}, {0, 0, 16}};
+
+static void a_plane_fan_of_more_than_half_a_turn_is_refused(void **state)
+{
+    (void)state;
+    clear();
+    for (int i = 0; i < 8; i++) {
+        add_point(loop[i][0], loop[i][1], loop[i][2]);
+    }
+    add_spindle(0, 7, 7, add_point(0, 0, 0), 0);
+    lrcs_mesh_report r = report_now();
+    assert_true(r.closed && !convex_now());
+    assert_int_equal(r.nonmanifold_edges + r.misoriented_edges, 0);
+}
+
+/* The same where one of a wedge's two planes is wound one and a half times. */
+static void a_wedge_wound_more_than_once_is_refused(void **state)
+{
+    (void)state;
+    static const double x[8][3] = {{8, 0, 0},  {0, 8, 0},  {-8, 0, 0},  {0, -8, 0},
+                                   {16, 0, 0}, {0, 16, 0}, {-16, 0, 0}, {0, -8, 8}};
+    for (uint32_t from = 0; from < 8; from++) {
+        clear();
+        for (int i = 0; i < 8; i++) {
+            add_point(x[i][0], x[i][1], x[i][2]);
+        }
+        uint32_t top = add_point(0, 0, 16);
+        add_spindle(0, 8, top, add_point(0, 0, 0), from);
+        lrcs_mesh_report r = report_now();
+        assert_true(r.closed && !convex_now());
+        assert_int_equal(r.nonmanifold_edges + r.misoriented_edges, 0);
+    }
+}
+
+static void add_fan(uint32_t middle, uint32_t a, uint32_t b, uint32_t c)
+{
+    add_facet(middle, a, b);
+    add_facet(middle, b, c);
+    add_facet(middle, c, a);
+}
+
+/* Two facets of the body wound twice cross; a point on both makes two fans of one place. */
+static void a_point_of_two_fans_is_refused(void **state)
+{
+    (void)state;
+    clear();
+    for (int i = 0; i < 8; i++) {
+        add_point(loop[i][0], loop[i][1], loop[i][2]);
+    }
+    uint32_t bottom = add_point(0, 0, 0);
+    uint32_t both = add_point(2, -2, 2);
+    uint32_t below = add_point(1, -1, 1); /* on one of them only */
+    add_fan(both, 4, 3, bottom);
+    add_fan(both, 0, 6, below);
+    add_facet(below, 6, bottom);
+    add_facet(below, bottom, 0);
+    add_spindle(0, 7, 7, bottom, 0);
+    facet[8 + 3] = facet[--facets]; /* in place of the facets divided */
+    facet[8 + 6] = facet[--facets];
+    lrcs_mesh_report r = report_now();
+    assert_true(r.closed && !convex_now());
+    assert_int_equal(r.nonmanifold_edges + r.misoriented_edges, 0);
+}
+
+static void a_starved_proof_says_so(void **state)
+{
+    (void)state;
+    clear();
+    make_cube(0, 1);
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_topology topology;
+    assert_int_equal(lrcsi_topology_make(vertex, vertices, facet, facets, &work, &topology),
+                     LRCS_OK);
+    int status = LRCS_E_MEMORY;
+    int convex = 77;
+    for (size_t size = 0; status == LRCS_E_MEMORY; size++) {
+        lrcs_work little = lrcs_work_make(room + work.used, size);
+        assert_true(size <= lrcsi_convex_need(vertices, facets));
+        assert_int_equal(convex, 77);
+        status = lrcsi_convex_prove(vertex, vertices, facet, facets, &topology, &little, &convex);
+        assert_int_equal(little.used, 0);
+    }
+    assert_int_equal(status, LRCS_OK);
+    assert_int_equal(convex, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -318,6 +418,10 @@ int main(void)
         cmocka_unit_test(flat_bodies_are_refused),
         cmocka_unit_test(two_bodies_that_share_a_point_are_refused),
         cmocka_unit_test(a_ring_of_boxes_is_refused),
+        cmocka_unit_test(a_plane_fan_of_more_than_half_a_turn_is_refused),
+        cmocka_unit_test(a_wedge_wound_more_than_once_is_refused),
+        cmocka_unit_test(a_point_of_two_fans_is_refused),
+        cmocka_unit_test(a_starved_proof_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -122,9 +122,11 @@ static void unknown_kinds_and_parts_are_refused(void **state)
     (void)state;
     lrcs_where where = {0};
     lrcs_shape shape = good[3];
-    shape.kind = LRCS_SHAPE_KINDS;
-    assert_int_equal(lrcs_shape_check(&shape, &where), LRCS_E_ARGUMENT);
-    assert_string_equal(where.item, "kind");
+    for (int kind = -1; kind <= LRCS_SHAPE_KINDS; kind += LRCS_SHAPE_KINDS + 1) {
+        shape.kind = kind;
+        assert_int_equal(lrcs_shape_check(&shape, &where), LRCS_E_ARGUMENT);
+        assert_string_equal(where.item, "kind");
+    }
     shape = good[3];
     shape.parts = 2;
     assert_int_equal(lrcs_shape_check(&shape, &where), LRCS_E_ARGUMENT);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* STL: the two kinds told apart, welding, and what malformed files must not do. */
+#include "mesh/stl.h"
+
 #include <lrcs/read.h>
 
 #include "hostile.h"
@@ -536,6 +538,24 @@ static void a_starved_read_takes_and_touches_nothing(void **state)
     attack_by_starving(&reader_stl, text, sizeof text - 1);
 }
 
+/* A text with more facets would have some 2^36 bytes: so many are said to be read. */
+static void facets_end_where_indices_of_their_corners_do(void **state)
+{
+    (void)state;
+    static const char text[] = "solid s facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0\n"
+                               "vertex 0 1 0 endloop endfacet endsolid";
+    for (uint32_t less = 0; less < 2; less++) {
+        lrcs_where where = {0};
+        lrcsi_stl_walk walk = {.bytes = (const unsigned char *)text,
+                               .size = sizeof text - 1,
+                               .where = &where,
+                               .facets = (LRCS_NONE - 1) / 3 - less};
+        assert_int_equal(lrcsi_stl_read_text(&walk), less ? LRCS_OK : LRCS_E_LIMIT);
+        assert_int_equal(walk.facets, (LRCS_NONE - 1) / 3);
+        assert_true(less ? !where.item : strcmp(where.item, "facet") == 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -570,6 +590,7 @@ int main(void)
         cmocka_unit_test(cut_files_give_a_status_or_a_sound_mesh),
         cmocka_unit_test(changed_bytes_give_a_status_or_a_sound_mesh),
         cmocka_unit_test(a_starved_read_takes_and_touches_nothing),
+        cmocka_unit_test(facets_end_where_indices_of_their_corners_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Facet meshes of shapes: closed, outward, convex, symmetric to the bit; and the curvature numbers
    against an integration over each patch that shares nothing with their derivation. */
-#include <lrcs/shape.h>
+#include "mesh/tessellate.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -459,6 +459,9 @@ static void extreme_dimensions_stay_finite(void **state)
         lrcs_curvature c;
         lrcs_mesh mesh = make(&shape, 8, along, &c);
         assert_true(isfinite(c.turn + c.area_error + c.lean + c.spread));
+        double reach = lrcsi_tessellate_reach(&shape, &(lrcs_divisions){8, along});
+        double size = shape.radius + shape.radius2 + shape.length;
+        assert_true(reach >= 0.0 && reach <= 3.0 * size + 1e-300);
         for (uint32_t v = 0; v < mesh.vertex_count; v++) {
             const double *x = mesh.vertex[v].x;
             assert_true(isfinite(x[0] + x[1] + x[2]));
@@ -490,6 +493,17 @@ static void divisions_that_do_not_suit_are_refused(void **state)
     lrcs_work work = lrcs_work_make(area, sizeof area);
     lrcs_mesh mesh;
     assert_int_equal(lrcs_shape_mesh(&sphere, &huge, &work, &mesh, NULL), LRCS_E_ARGUMENT);
+    huge = (lrcs_divisions){8, (1u << 24) + 1};
+    assert_int_equal(lrcs_shape_mesh(&sphere, &huge, &work, &mesh, NULL), LRCS_E_ARGUMENT);
+    const lrcs_divisions whole[] = {{8, 1}, {4, 2}};
+    lrcs_shape box = {.kind = LRCS_SHAPE_BOX, .size = {1, 1, 1}};
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(lrcs_shape_mesh(&box, &whole[i], &work, &mesh, NULL), LRCS_E_ARGUMENT);
+    }
+    box.size[1] = -1;
+    assert_int_equal(lrcs_shape_mesh(&box, &(lrcs_divisions){4, 1}, &work, &mesh, NULL),
+                     LRCS_E_ARGUMENT);
+    assert_int_equal(work.used, 0);
 }
 
 static void a_starved_work_area_is_left_as_it_was(void **state)

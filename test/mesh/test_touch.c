@@ -409,6 +409,48 @@ static void starved_searches_fail_clean(void **state)
     assert_int_equal(status, LRCS_OK);
 }
 
+/* In a line through the other facet's plane, whichever corner is off it. */
+static void three_corners_in_the_plane_are_what_makes_one_plane(void **state)
+{
+    (void)state;
+    static const lrcs_point x[6] = {{{0, 0, 0}}, {{4, 0, 0}}, {{0, 4, 0}},
+                                    {{1, 1, 0}}, {{2, 1, 0}}, {{1, 2, 0}}};
+    assert_true(lrcsi_touch_coplanar(x, first_three, last_three));
+    for (int off = 3; off < 6; off++) {
+        lrcs_point moved[6];
+        memcpy(moved, x, sizeof moved);
+        moved[off].x[2] = 0x1p-1000;
+        assert_false(lrcsi_touch_coplanar(moved, first_three, last_three));
+    }
+}
+
+/* Boxes of no size at all, and facets that name a corner twice or three times. */
+static void facets_in_one_place_are_found_there(void **state)
+{
+    (void)state;
+    enum { N = 40 };
+    for (int doubled = 0; doubled < 2; doubled++) {
+        for (uint32_t f = 0; f < N; f++) {
+            facet[f] = (lrcs_facet){{3 * f, 3 * f + 1, 3 * f + 2}};
+            if (doubled) {
+                facet[f] = (lrcs_facet){{0, 0, f % 3}};
+            }
+            for (uint32_t k = 3 * f; k < 3 * f + 3; k++) {
+                vertex[k] = (lrcs_point){{0.1, 0.2, 0.3}};
+            }
+        }
+        lrcs_work work = lrcs_work_make(room, ROOM);
+        lrcsi_tree tree;
+        assert_int_equal(lrcsi_tree_make(vertex, facet, N, NULL, NULL, &work, &tree), LRCS_OK);
+        lrcsi_tree_walk walk = lrcsi_tree_within(&tree, facet[7], 1e-9, LRCS_NONE);
+        uint32_t found = 0;
+        while (lrcsi_tree_next(&walk) != LRCS_NONE) {
+            found++;
+        }
+        assert_int_equal(found, N);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -425,6 +467,8 @@ int main(void)
         cmocka_unit_test(folded_neighbours_in_one_plane_touch),
         cmocka_unit_test(an_empty_list_and_a_skipped_one_have_no_contacts),
         cmocka_unit_test(starved_searches_fail_clean),
+        cmocka_unit_test(three_corners_in_the_plane_are_what_makes_one_plane),
+        cmocka_unit_test(facets_in_one_place_are_found_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
