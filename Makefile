@@ -71,7 +71,7 @@ test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scalin
 
 asan: cmocka
 	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) $(THREADS) -lm" test
-SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+SANITIZE = -fsanitize=address,undefined,float-divide-by-zero,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer
 
 # The threads under ThreadSanitizer.
 tsan: cmocka
@@ -128,24 +128,37 @@ PORTABLE_TESTS = $(filter-out $(addprefix %/test_,$(addsuffix .c,bound closed cu
     margin mean polygon random shadows switch workspace)),$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 
 # Every target of test/fuzz under libFuzzer and the sanitizers (needs clang), each for FUZZ_SECONDS;
-# fuzz-NAME: one of them; fuzz-long: FUZZ_RUNS executions of each. Corpora and what breaks a target
-# are left in $(BUILD)/fuzz. Comparisons are not watched: arithmetic would be four times slower, and
-# the seeds hold the formats' words.
+# fuzz-NAME: one of them. fuzz-long, fuzz-long-NAME: FUZZ_RUNS executions of each, without
+# AddressSanitizer, which takes most of the time: work areas end where memory does. FUZZ_FLAGS=-fork=2
+# uses two processors. Corpora and what breaks a target are left in $(FUZZ_DIR). Comparisons are not
+# watched: arithmetic would be four times slower, and the seeds hold the formats' words; nor is it
+# weighed how rare what an input reaches is, which took longer than to run it.
 fuzz: $(FUZZ_TARGETS:%=fuzz-%)
-fuzz-long:
-	$(MAKE) FUZZ_LIMIT=-runs=$(FUZZ_RUNS) fuzz
+fuzz-long: $(FUZZ_TARGETS:%=fuzz-long-%)
+fuzz-long-%:
+	$(MAKE) FUZZ_DIR=$(BUILD)/fuzz-long FUZZ_SANITIZE="$(FUZZ_TRAPS)" FUZZ_LIMIT=-runs=$(FUZZ_RUNS) fuzz-$*
 fuzz-%:
-	$(MAKE) CC=clang BUILD=$(BUILD)/fuzz OPT="-O2 -g1" CFLAGS="-fsanitize=fuzzer-no-link $(FUZZ_CFLAGS)" \
-	    $(BUILD)/fuzz/liblrcs.a
-	clang $(STD) -O2 -g1 -fsanitize=fuzzer $(FUZZ_CFLAGS) -Iinclude -o $(BUILD)/fuzz/$* \
-	    test/fuzz/fuzz_$*.c $(BUILD)/fuzz/liblrcs.a $(LDLIBS)
-	@mkdir -p $(BUILD)/fuzz/corpus/$*
-	$(BUILD)/fuzz/$* $(FUZZ_LIMIT) -max_len=512 -rss_limit_mb=3000 -print_final_stats=1 \
-	    -artifact_prefix=$(BUILD)/fuzz/$*- $(BUILD)/fuzz/corpus/$* test/fuzz/seeds/$*
-FUZZ_SECONDS = 20
-FUZZ_RUNS    = 10000000
-FUZZ_LIMIT   = -max_total_time=$(FUZZ_SECONDS)
-FUZZ_CFLAGS  = $(SANITIZE) -fno-sanitize-coverage=trace-cmp
+	$(MAKE) CC=clang BUILD=$(FUZZ_DIR) OPT="-O2 -g1" CFLAGS="-fsanitize=fuzzer-no-link $(FUZZ_CFLAGS)" \
+	    $(FUZZ_DIR)/liblrcs.a
+	clang $(STD) -O2 -g1 -D_XOPEN_SOURCE=700 -DFUZZ_CHOOSE -fsanitize=fuzzer $(FUZZ_CFLAGS) -Iinclude \
+	    -o $(FUZZ_DIR)/$* test/fuzz/fuzz_$*.c $(FUZZ_DIR)/liblrcs.a $(LDLIBS)
+	@mkdir -p $(FUZZ_DIR)/corpus/$*
+	$(FUZZ_DIR)/$* $(FUZZ_LIMIT) -max_len=$(FUZZ_LENGTH) -entropic=0 -rss_limit_mb=3000 \
+	    -print_final_stats=1 -artifact_prefix=$(FUZZ_DIR)/$*- $(FUZZ_FLAGS) \
+	    $(FUZZ_DIR)/corpus/$* test/fuzz/seeds/$*
+FUZZ_DIR      = $(BUILD)/fuzz
+FUZZ_SECONDS  = 20
+FUZZ_RUNS     = 10000000
+FUZZ_LIMIT    = -max_total_time=$(FUZZ_SECONDS)
+FUZZ_LENGTH   = 512
+FUZZ_FLAGS    =
+FUZZ_SANITIZE = $(SANITIZE)
+FUZZ_TRAPS    = -fsanitize=bounds,shift,signed-integer-overflow,integer-divide-by-zero,float-cast-overflow \
+                -fsanitize-trap=all
+FUZZ_CFLAGS   = $(FUZZ_SANITIZE) -fno-sanitize-coverage=trace-cmp
+# Scenes of few facets: they meet in as many ways.
+fuzz-pose:   FUZZ_LENGTH = 80
+fuzz-curved: FUZZ_LENGTH = 60
 
 # Lines and branches of the core that its own tests run.
 coverage: cmocka

@@ -17,6 +17,7 @@
 typedef struct curved_case {
     lrcs_mesh mesh;
     lrcs_place place;
+    lrcs_joint joint;
     lrcs_brdf brdf;
     int two_sided;
     double tolerance;
@@ -63,7 +64,8 @@ static inline void curved_build(curved_case *c, int normals)
 {
     static lrcs_recipe_part part;
     static lrcs_binding binding;
-    part = (lrcs_recipe_part){.name = "model", .file = "model", .place = c->place, .wears = -1};
+    part = (lrcs_recipe_part){
+        .name = "model", .file = "model", .place = c->place, .joint = c->joint, .wears = -1};
     binding = (lrcs_binding){.kind = LRCS_BIND_DEFAULT, .brdf = c->brdf, .two_sided = c->two_sided};
     lrcs_recipe recipe = {.part = &part, .part_count = 1, .binding = &binding, .binding_count = 1};
     lrcs_build_options options = {c->tolerance, 64, normals};

@@ -47,6 +47,8 @@
 /* Of the tolerance: what stays below this, relative to what a peak of the most and of the BRDF's
    own width would add over a radian, is nothing. It goes to the estimate all the same. */
 #define NOTHING 0x1p-20
+/* Of A and B: bounds on what underflows end here (optics/stray.c), and nothing less can be told. */
+#define LEAST_TOLD 0x1p-1008
 /* Beyond this tan^2 the laser is as good as in the plane. */
 #define MOST_TAN2 1e300
 
@@ -520,6 +522,7 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     sum.nothing =
         NOTHING * tolerance *
         (sum.most.glint * lrcsi_least(1, brdf->s * brdf->s) + sum.most.diffuse / (brdf->m + 1));
+    sum.nothing = lrcsi_most(sum.nothing, LEAST_TOLD * (brdf->A + brdf->B));
     return sum;
 }
 

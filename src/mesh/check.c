@@ -14,9 +14,9 @@
 #include <math.h>
 
 #include "base/dd.h"
-#include "base/sort.h"
 #include "base/work.h"
 #include "mesh/convex.h"
+#include "mesh/same.h"
 #include "mesh/topology.h"
 
 /* A mesh on its way to being measured. */
@@ -150,73 +150,24 @@ static void count_edge_uses(const lrcsi_topology *t, lrcs_mesh_report *report)
     }
 }
 
-/* The three points of a facet in ascending order, and the parity of the reordering. */
-typedef struct facet_key {
-    uint32_t low, middle, high;
-    int odd;
-} facet_key;
-
-static facet_key facet_key_of(const lrcsi_topology *t, const lrcs_facet *facet)
+/* Each facet is compared with the first of its place, the earliest one there. */
+static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, lrcs_work *work,
+                            lrcs_mesh_report *report)
 {
-    uint32_t a = t->weld[facet->corner[0]];
-    uint32_t b = t->weld[facet->corner[1]];
-    uint32_t c = t->weld[facet->corner[2]];
-    int odd = (a > b) ^ (b > c) ^ (a > c); /* one inversion each */
-    uint32_t low = a < b ? (a < c ? a : c) : (b < c ? b : c);
-    uint32_t high = a > b ? (a > c ? a : c) : (b > c ? b : c);
-    return (facet_key){low, a ^ b ^ c ^ low ^ high, high, odd};
-}
-
-static size_t duplicate_scratch(uint32_t facet_count)
-{
-    return lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
-                          2 * lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
-}
-
-/* Facets ordered by their points, equal ones by index: each is compared with the first of its
-   group, the earliest facet in that place. */
-static void count_group_repeats(const measured_mesh *m, const lrcsi_topology *t,
-                                const uint32_t *order, uint32_t count, lrcs_mesh_report *report)
-{
-    facet_key first = {LRCS_NONE, LRCS_NONE, LRCS_NONE, 0};
+    const uint32_t *order = NULL;
+    uint32_t count = 0;
+    int status = lrcsi_same_order(t, m->facet, m->facet_count, work, &order, &count);
+    lrcsi_same_key first = {LRCS_NONE, LRCS_NONE, LRCS_NONE, 0};
     for (uint32_t i = 0; i < count; i++) {
-        facet_key key = facet_key_of(t, &m->facet[order[i]]);
-        if (key.low == first.low && key.middle == first.middle && key.high == first.high) {
+        lrcsi_same_key key = lrcsi_same_key_of(t, &m->facet[order[i]]);
+        if (lrcsi_same_place(&key, &first)) {
             report->duplicate++;
             report->opposite_pairs += key.odd != first.odd;
         } else {
             first = key;
         }
     }
-}
-
-static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, lrcs_work *work,
-                            lrcs_mesh_report *report)
-{
-    size_t mark = work->used;
-    uint64_t *key = lrcsi_work_take(work, m->facet_count, sizeof *key);
-    uint64_t *key_spare = lrcsi_work_take(work, m->facet_count, sizeof *key);
-    uint32_t *order = lrcsi_work_take(work, m->facet_count, sizeof *order);
-    uint32_t *order_spare = lrcsi_work_take(work, m->facet_count, sizeof *order);
-    work->used = mark;
-    if (!key || !key_spare || !order || !order_spare) {
-        return LRCS_E_MEMORY;
-    }
-    uint32_t n = 0;
-    for (uint32_t f = 0; f < m->facet_count; f++) {
-        if (!t->degenerate[f]) {
-            key[n] = facet_key_of(t, &m->facet[f]).high;
-            order[n++] = f;
-        }
-    }
-    lrcsi_sort_pairs(key, order, key_spare, order_spare, n);
-    for (uint32_t i = 0; i < n; i++) {
-        facet_key k = facet_key_of(t, &m->facet[order[i]]);
-        key[i] = (uint64_t)k.low << 32 | k.middle;
-    }
-    lrcsi_sort_pairs(key, order, key_spare, order_spare, n);
-    count_group_repeats(m, t, order, n, report);
-    return LRCS_OK;
+    return status;
 }
 
 static int count_used_points(const measured_mesh *m, const lrcsi_topology *t, uint32_t vertex_count,
@@ -255,7 +206,7 @@ static void measure_mesh(const measured_mesh *m, const unsigned char *degenerate
 size_t lrcs_mesh_check_need(uint32_t vertex_count, uint32_t facet_count)
 {
     size_t convex = lrcsi_convex_need(vertex_count, facet_count);
-    size_t duplicates = duplicate_scratch(facet_count);
+    size_t duplicates = lrcsi_same_need(facet_count);
     size_t points = lrcsi_work_bytes(vertex_count, 1);
     size_t most = convex > duplicates ? convex : duplicates;
     return lrcsi_work_add(lrcsi_topology_need(vertex_count, facet_count),

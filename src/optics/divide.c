@@ -89,12 +89,14 @@ static plan_value plan_circle(const facet_plan *plan, double psi, double alpha)
 {
     plan_value sum = {0.0, 0.0};
     double near = plan_near(plan, PLAN_PI);
+    const double up[2] = {cos(psi), sin(psi)};
+    const double laser[2] = {cos(alpha), sin(alpha)};
     for (int k = 0; k < PLAN_NODES; k++) {
         double weight = 0.0;
         double phi = plan_node(k, near, PLAN_PI, &weight);
-        double cosine = sin(psi) * cos(alpha) + cos(psi) * sin(alpha) * cos(phi);
-        double x = cos(psi) * sin(phi);
-        double y = sin(psi) * sin(alpha) - cos(psi) * cos(phi) * cos(alpha);
+        double cosine = up[1] * laser[0] + up[0] * laser[1] * cos(phi);
+        double x = up[0] * sin(phi);
+        double y = up[1] * laser[1] - up[0] * cos(phi) * laser[0];
         double tan2 = cosine == 0.0 ? HUGE_VAL : (x * x + y * y) / (cosine * cosine);
         plan_value value = plan_at(plan, cosine, tan2);
         sum.sigma += weight / PLAN_PI * value.sigma;
@@ -296,6 +298,9 @@ static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32
 static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *fineness, uint32_t most)
 {
     lrcs_brdf brdf = fineness->brdf;
+    if (most == AROUND_LEAST) { /* no choice is left */
+        return most;
+    }
     if (brdf.A > 0.0 && !(plan_error(shape, &brdf, most) < 1.0)) {
         brdf.A = 0.0;
     }

@@ -17,7 +17,8 @@ typedef struct lrcsi_reflection {
    at most tan2_error. Parts are finite and not NaN for every brdf in its domain; where the glint
    exceeds the largest double it is that double, and error is infinite.
    Notes: 1. Assumes exp, pow and log1p within 2 ulp.
-   2. Costs one exp and one pow; a part whose amplitude is 0 costs nothing. */
+   2. Costs one exp and one pow (none for m = 0, 1/2, 1 and 2); a part whose amplitude is 0 costs
+   nothing. */
 lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error);
 
 /* Bound on the flat-facet error of a curved patch, per unit of facet area:

@@ -51,18 +51,25 @@ double lrcsi_special_cosine_power(double nu)
     return SPECIAL_SQRT_PI / sqrt(w) * sum * (above / below);
 }
 
-/* The quantile 0.975: eight from 30 digits, then the expansion in 1/freedom about the normal
-   distribution's (Abramowitz and Stegun 1964, 26.7.5), which is off by 7e-6 at 9 and less beyond.
+/* The quantile 0.975: none for no freedom, eight from 30 digits, then the expansion in 1/freedom
+   about the normal distribution's (Abramowitz and Stegun 1964, 26.7.5), which is off by 7e-6 at 9
+   and less beyond.
  */
 double lrcsi_special_student(uint32_t freedom)
 {
-    static const double few[] = {12.7062047361747046, 4.30265272974946385, 3.18244630528370959,
-                                 2.77644510519779436, 2.57058183563631551, 2.44691185114496997,
-                                 2.36462425159278534, 2.30600413520416668};
+    static const double few[] = {HUGE_VAL,
+                                 12.7062047361747046,
+                                 4.30265272974946385,
+                                 3.18244630528370959,
+                                 2.77644510519779436,
+                                 2.57058183563631551,
+                                 2.44691185114496997,
+                                 2.36462425159278534,
+                                 2.30600413520416668};
     static const double c[] = {1.58953405339382354, 2.55584967950772333, 2.8224986157396118,
                                2.37227123029856278, 1.95996398454005423};
-    if (freedom >= 1 && freedom <= sizeof few / sizeof few[0]) {
-        return few[freedom - 1];
+    if (freedom < sizeof few / sizeof few[0]) {
+        return few[freedom];
     }
     double sum = 0.0;
     for (int k = 0; k < 5; k++) {

@@ -13,8 +13,9 @@ double lrcsi_special_erfcx(double x);
    relative error at most 48 * 2^-53. */
 double lrcsi_special_cosine_power(double nu);
 
-/* The t that Student's distribution with `freedom` >= 1 degrees of freedom exceeds either way in
-   1 of 20 cases: relative error at most 1e-5. The normal distribution's: that of UINT32_MAX. */
+/* The t that Student's distribution with `freedom` degrees of freedom exceeds either way in 1 of 20
+   cases: relative error at most 1e-5; infinite for 0. The normal distribution's: that of
+   UINT32_MAX. */
 double lrcsi_special_student(uint32_t freedom);
 
 #endif

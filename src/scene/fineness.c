@@ -38,9 +38,9 @@ double lrcsi_fineness_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh)
     const double *s = shape->size;
     double r = fmax(shape->radius, shape->radius2);
     double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]) + 6.0 * r * (r + shape->length);
-    if (part->file) {
+    if (mesh) {
         area = 0.0;
-        for (uint32_t f = 0; mesh && f < mesh->facet_count; f++) {
+        for (uint32_t f = 0; f < mesh->facet_count; f++) {
             area += mesh_facet_area(mesh, f);
         }
     }

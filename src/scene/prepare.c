@@ -8,9 +8,11 @@
 
 #include "base/dd.h"
 #include "base/exact.h"
+#include "base/ieee.h"
 #include "base/length.h"
 #include "base/work.h"
 #include "mesh/tree.h"
+#include "scene/copy.h"
 #include "scene/solid.h"
 
 #define U 0x1p-53
@@ -123,11 +125,12 @@ static void prepare_normals(lrcs_prepared *p)
         normal_make(lrcsi_prepared_corner(p, f, 0), lrcsi_prepared_corner(p, f, 1),
                     lrcsi_prepared_corner(p, f, 2), &p->normal[f]);
         p->skip[f] = p->topology.degenerate[f] || lrcsi_prepared_material(p, f)->omitted;
+        p->idle[f] = p->skip[f];
         p->live += !p->skip[f];
     }
 }
 
-/* The box around the live facets. */
+/* The box around the live facets, and where they stand. */
 static void prepare_box(lrcs_prepared *p)
 {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -135,6 +138,7 @@ static void prepare_box(lrcs_prepared *p)
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
             const double *x = lrcsi_prepared_corner(p, f, corner);
+            p->stood[p->scene->facet[f].corner[corner]] = 1;
             for (int k = 0; k < 3; k++) {
                 low[k] = fmin(low[k], x[k]);
                 high[k] = fmax(high[k], x[k]);
@@ -148,19 +152,20 @@ static void prepare_box(lrcs_prepared *p)
     }
 }
 
-/* What the live facets' materials and parts call for. */
+/* What the live facets' materials and parts call for. Curved is also what rounding left without
+   area. */
 static void prepare_effects(lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        const lrcs_material *material = lrcsi_prepared_material(p, f);
+        const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
+        p->curved |= !material->omitted && (part->reach > 0 || !part->curvature_known);
         if (p->skip[f]) {
             continue;
         }
-        const lrcs_material *material = lrcsi_prepared_material(p, f);
-        const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
         p->two_sided |= material->two_sided != 0;
         p->glint |= material->brdf.A > 0;
         p->diffuse |= material->brdf.B > 0;
-        p->curved |= part->reach > 0 || !part->curvature_known;
         p->articulated |= part->articulated != 0;
         p->smooth |= lrcsi_prepared_normals(p, f) != NULL;
     }
@@ -170,8 +175,10 @@ static int prepare_arrays(const lrcs_scene *scene, lrcs_work *work, lrcs_prepare
 {
     p->vertex = lrcsi_work_take(work, scene->vertex_count, sizeof *p->vertex);
     p->skip = lrcsi_work_take_zero(work, scene->facet_count, sizeof *p->skip);
+    p->idle = lrcsi_work_take(work, scene->facet_count, sizeof *p->idle);
     p->normal = lrcsi_work_take(work, scene->facet_count, sizeof *p->normal);
-    if (!p->vertex || !p->skip || !p->normal) {
+    p->stood = lrcsi_work_take_zero(work, scene->vertex_count, sizeof *p->stood);
+    if (!p->vertex || !p->skip || !p->idle || !p->normal || !p->stood) {
         return LRCS_E_MEMORY;
     }
     prepare_vertices(p);
@@ -213,7 +220,7 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work, int *lone)
         return LRCS_E_MEMORY;
     }
     int closed = lrcsi_solid_pieces(p, piece);
-    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, p->skip,
+    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, p->idle,
                                     closed ? piece : NULL, work, &p->touches);
     if (status == LRCS_OK && closed && !p->touches.self) {
         status = lrcsi_solid_outward(p, piece, work, &p->solid);
@@ -231,7 +238,10 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     p->solid = 0;
     p->convex = p->live == 0;
     int lone = 0;
-    int status = prepare_contacts(p, work, &lone);
+    int status = lrcsi_copies_mark(p, work);
+    if (status == LRCS_OK) {
+        status = prepare_contacts(p, work, &lone);
+    }
     if (status == LRCS_OK && p->solid && lone) {
         status = lrcsi_convex_exact(p, work, &p->convex);
     }
@@ -247,7 +257,9 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     size_t need = lrcsi_work_bytes(1, sizeof(lrcs_prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, sizeof(lrcs_point)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, 1));
     need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
@@ -260,7 +272,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
 
 int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared)
 {
-    int status = prepare_door(scene);
+    int status = lrcsi_ieee_kept() ? prepare_door(scene) : LRCS_E_UNSUPPORTED;
     if (status != LRCS_OK) {
         return status;
     }

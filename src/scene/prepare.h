@@ -26,13 +26,16 @@ typedef struct lrcsi_normal {
 
 struct lrcs_prepared {
     const lrcs_scene *scene;
-    int exponent;        /* scene coordinate = vertex * 2^exponent */
-    lrcs_point *vertex;  /* scaled */
-    unsigned char *skip; /* facet: 1 where degenerate or omitted; it takes part in nothing */
+    int exponent;         /* scene coordinate = vertex * 2^exponent */
+    lrcs_point *vertex;   /* scaled */
+    unsigned char *skip;  /* facet: 1 where degenerate or omitted; it takes part in nothing */
+    unsigned char *idle;  /* facet: 1 where skipped, or where another in its very place is seen in
+                             its stead from everywhere (scene/copy.h): it hides nothing */
+    unsigned char *stood; /* vertex: 1 where a live facet stands on it */
     lrcsi_normal *normal;
     lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
     lrcsi_across across;     /* live facets across the sides of live facets */
-    lrcsi_touches touches;   /* between facets that are not skipped */
+    lrcsi_touches touches;   /* between facets that are not idle */
     double centre[3];        /* of the box around the live facets */
     double radius;           /* no live vertex is farther from the centre in any coordinate */
     uint32_t live;           /* facets not skipped */

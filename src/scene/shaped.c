@@ -61,7 +61,8 @@ static double misplacement(double most, const lrcs_divisions *divisions, const l
     return lrcsi_placer_error(placer, most + error, error);
 }
 
-/* The least altitude of a facet of the part placed last, m: its area over its longest side. */
+/* The least altitude of a facet of the part placed last, m: its area over its longest side; 0 where
+   one is but a point. */
 static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
 {
     double least = HUGE_VAL;
@@ -81,21 +82,23 @@ static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
             square = fmax(square, s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
             area += n * n;
         }
-        least = fmin(least, sqrt(area) / sqrt(square));
+        least = square > 0.0 ? fmin(least, sqrt(area) / sqrt(square)) : 0.0;
     }
     return least;
 }
 
 /* Rounding in placing moves corners by at most e: each tilts its facet by at most e over the
    altitude on it, and changes its area by at most that part. Facets' own numbers hold per unit of
-   their area, and patches may be larger. */
+   their area, and patches may be larger. Of a facet left without area nothing can be told. */
 void lrcsi_shaped_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double most,
                        lrcs_part *part)
 {
     double e = lrcsi_placer_error(placer, most, 0.0);
     if (part->reach > 0.0 && e > 0.0) {
         double wide = 3.0 * (1.0 + part->curvature.area_error);
-        part->tilted = 1.000001 * wide * e / least_altitude(scene, part);
+        double altitude = least_altitude(scene, part);
+        part->tilted = 1.000001 * wide * e / altitude;
+        part->curvature_known = part->curvature_known && altitude > 0.0;
         part->curvature = part->curvature.turn > 0.0
                               ? lrcsi_profile_blurred(&part->curvature, part->tilted)
                               : part->curvature;

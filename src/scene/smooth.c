@@ -169,7 +169,9 @@ static lrcs_point group_mean(const smooth_job *job, uint32_t vertex, uint32_t gr
             mean.x[j] += angle * job->unit[facet].x[j];
         }
     }
-    if (!(lrcsi_length(mean.x) > SMOOTH_CANCEL * weight) || !make_unit(mean.x)) {
+    if (lrcsi_length(mean.x) > SMOOTH_CANCEL * weight) {
+        make_unit(mean.x);
+    } else {
         memset(&mean, 0, sizeof mean);
     }
     return mean;

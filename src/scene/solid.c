@@ -218,7 +218,7 @@ int lrcsi_convex_exact(const lrcs_prepared *p, lrcs_work *work, int *proved)
         lrcs_mesh_report report;
         status = lrcs_mesh_check(p->vertex, p->scene->vertex_count, facet, count, work, &report);
         if (status == LRCS_OK) {
-            *proved = report.convex && report.volume > 0;
+            *proved = report.convex;
         }
     }
     work->used = mark;

@@ -5,52 +5,23 @@
 
 #include <math.h>
 
-#include "base/dd.h"
 #include "base/exact.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "base/work.h"
+#include "view/frame.h"
+#include "view/product.h"
 
 #define U 0x1p-53
-
-/* N . d, N being high + low. Products and sums are split into what doubles hold of them and what
-   they lose, and only the sum of the lost parts is rounded: with P = sum |N_k d_k|, at most
-   |N| |d|, the three pairs of up to 2 u P and their products 3 u^2 P, the pairs' sums 4 u^2 P,
-   those of the sums' own lost parts 2 u^2 P, the two together 4 u^2 P. Off by at most N's own error
-   times |d|, 14 u^2 |N| |d|, and the last rounding, u |N . d|. */
-static inline double normal_dot(const double *high, const double *low, const double *d)
-{
-    lrcsi_dd x = lrcsi_dd_two_product(high[0], d[0]);
-    lrcsi_dd y = lrcsi_dd_two_product(high[1], d[1]);
-    lrcsi_dd z = lrcsi_dd_two_product(high[2], d[2]);
-    lrcsi_dd xy = lrcsi_dd_two_sum(x.hi, y.hi);
-    lrcsi_dd xyz = lrcsi_dd_two_sum(xy.hi, z.hi);
-    double lost = ((x.lo + low[0] * d[0]) + (y.lo + low[1] * d[1])) + (z.lo + low[2] * d[2]);
-    return xyz.hi + (lost + (xy.lo + xyz.lo));
-}
-
-/* N_i d_j - N_j d_i in the same way: with Q = |N_i d_j| + |N_j d_i|, the products' lost parts and
-   that of their difference 3 u^2 Q, N's low parts 2 u^2 Q, all together 3 u^2 Q: 8 u^2 Q and the
-   last rounding. The three Q of N x d are at most sqrt(2) |N| |d| in norm: |N x d| is off by at
-   most N's own error times |d|, 12 u^2 |N| |d|, and 3.5 u |N x d| for the last roundings and the
-   norm's. */
-static inline double normal_turn(const double *high, const double *low, const double *d, int i,
-                                 int j)
-{
-    lrcsi_dd p = lrcsi_dd_two_product(high[i], d[j]);
-    lrcsi_dd q = lrcsi_dd_two_product(high[j], d[i]);
-    lrcsi_dd s = lrcsi_dd_two_sum(p.hi, -q.hi);
-    return s.hi + (((p.lo - q.lo) + s.lo) + (low[i] * d[j] - low[j] * d[i]));
-}
 
 /* N . d and N x d. */
 static inline double normal_products(const double *high, const double *low, const double *d,
                                      double *cross)
 {
-    cross[0] = normal_turn(high, low, d, 1, 2);
-    cross[1] = normal_turn(high, low, d, 2, 0);
-    cross[2] = normal_turn(high, low, d, 0, 1);
-    return normal_dot(high, low, d);
+    cross[0] = lrcsi_product_turn(high, low, d, 1, 2);
+    cross[1] = lrcsi_product_turn(high, low, d, 2, 0);
+    cross[2] = lrcsi_product_turn(high, low, d, 0, 1);
+    return lrcsi_product_dot(high, low, d);
 }
 
 /* The absolute error of both, per unit of |d|. */
@@ -88,10 +59,37 @@ static double grazing_dot(const lrcsi_view *view, uint32_t facet)
 /* Nearer to edge-on than this, only a lower bound of tan^2 is known: a square that doubles hold. */
 #define GRAZING_LEAST 0x1p-500
 
+/* |N . d| and its error: what was computed, or near grazing the exact number, to 2 u; nearer to
+   edge-on than can be told, only a lower bound. */
+typedef struct tilt_dot {
+    double value, off;
+    int least;
+} tilt_dot;
+
+static tilt_dot tilt_dot_of(const lrcsi_view *view, uint32_t facet, double product, double off)
+{
+    tilt_dot dot = {fabs(product), off, 0};
+    if (!(dot.value > GRAZING_DOT * off)) {
+        dot.value = fabs(grazing_dot(view, facet));
+        dot.off = 2 * U * dot.value;
+    }
+    double least = GRAZING_LEAST * view->prepared->normal[facet].length * view->length;
+    if (dot.value < least) {
+        dot.value = least;
+        dot.least = 1;
+    }
+    return dot;
+}
+
+static double tilt_projected(const lrcsi_view *view, tilt_dot dot)
+{
+    return dot.value / (2 * view->length);
+}
+
 /* tan^2 = |N x d|^2 / (N . d)^2. Near normal incidence the cross product drowns in its own error
    and only an upper bound of tan^2 is known; near grazing the dot product does, and is taken
-   exactly, to 2 u. */
-static lrcsi_tilt tilt_make(const lrcsi_view *view, uint32_t facet, double dot,
+   exactly. */
+static lrcsi_tilt tilt_make(const lrcsi_view *view, uint32_t facet, double product,
                             const double cross_product[3])
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
@@ -101,30 +99,32 @@ static lrcsi_tilt tilt_make(const lrcsi_view *view, uint32_t facet, double dot,
         return tilt;
     }
     double off = normal_off(n) * view->length;
-    double dot_off = off;
-    dot = fabs(dot);
     double cross = lrcsi_length(cross_product);
-    if (!(dot > GRAZING_DOT * off)) {
-        dot = fabs(grazing_dot(view, facet));
-        dot_off = 2 * U * dot;
-    }
-    tilt.error = 2 * dot_off / dot + n->error / n->length + 8 * U;
-    tilt.stretch = 4 * dot_off / dot + 12 * U;
+    tilt_dot dot = tilt_dot_of(view, facet, product, off);
+    double relative = dot.off / dot.value;
+    tilt.error = dot.least ? 2 : 2 * relative + n->error / n->length + 8 * U;
+    tilt.stretch = 4 * relative + 12 * U;
     if (cross > 1000 * off) {
         tilt.stretch += 2.1 * off / cross;
     } else {
         cross += off;
         tilt.stretch = 1;
     }
-    if (dot < GRAZING_LEAST * n->length * view->length) {
-        dot = GRAZING_LEAST * n->length * view->length;
-        tilt.error = 2;
-        tilt.stretch = HUGE_VAL;
-    }
-    tilt.tan2 = (cross / dot) * (cross / dot);
-    tilt.cos_theta = facing * lrcsi_least(1, dot / (n->length * view->length));
-    tilt.projected = dot / (2 * view->length);
+    tilt.stretch = dot.least ? HUGE_VAL : tilt.stretch;
+    tilt.tan2 = (cross / dot.value) * (cross / dot.value);
+    tilt.cos_theta = facing * lrcsi_least(1, dot.value / (n->length * view->length));
+    tilt.projected = tilt_projected(view, dot);
     return tilt;
+}
+
+double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcsi_normal *n = &view->prepared->normal[facet];
+    if (view->facing[facet] == 0) {
+        return 0;
+    }
+    double product = lrcsi_product_dot(n->high, n->low, view->direction);
+    return tilt_projected(view, tilt_dot_of(view, facet, product, normal_off(n) * view->length));
 }
 
 lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
@@ -212,13 +212,11 @@ static void view_window(lrcsi_view *view)
     const lrcs_prepared *p = view->prepared;
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
-            const double *x = view->point[p->scene->facet[f].corner[corner]].x;
-            for (int k = 0; k < 2; k++) {
-                low[k] = lrcsi_least(low[k], x[k]);
-                high[k] = lrcsi_most(high[k], x[k]);
-            }
+    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
+        const double *x = view->point[v].x;
+        for (int k = 0; k < 2 && p->stood[v]; k++) {
+            low[k] = lrcsi_least(low[k], x[k]);
+            high[k] = lrcsi_most(high[k], x[k]);
         }
     }
     if (p->live > 0) {
@@ -238,20 +236,17 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
                     lrcsi_view *view)
 {
     lrcsi_view v = {.prepared = prepared};
+    int status = lrcsi_frame_make(pose, v.direction, v.R);
+    if (status != LRCS_OK) {
+        return status;
+    }
     v.backs_cast = v.backs_reflect = !prepared->solid;
     v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
     if (!v.facing) {
         return LRCS_E_MEMORY;
     }
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        v.direction[k] = fabs(pose->direction[k]) < LRCSI_COORDINATE_LEAST ? 0 : pose->direction[k];
-        square += v.direction[k] * v.direction[k];
-        for (int j = 0; j < 3; j++) {
-            v.R[k][j] = pose->R[k][j];
-        }
-    }
-    v.length = sqrt(square);
+    v.length = sqrt(v.direction[0] * v.direction[0] + v.direction[1] * v.direction[1] +
+                    v.direction[2] * v.direction[2]);
     view_facings(&v);
     *view = v;
     return LRCS_OK;
@@ -265,7 +260,7 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
         return LRCS_E_MEMORY;
     }
     /* A coordinate is three products of |R| <= 1 with a rounded difference: 6 u times the reach,
-       and R's own rows are off by a few u; a lifted point adds u of the centre. */
+       and R's own rows are off by 4 u (view/frame.h); a lifted point adds u of the centre. */
     double reach = 0;
     for (int k = 0; k < 3; k++) {
         reach = lrcsi_most(reach, fabs(p->centre[k]));

@@ -56,7 +56,10 @@ static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 /* The incidence of a facet that is not skipped. */
 lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet);
 
-/* Those of up to LRCSI_TILTS facets, the same to the last bit, in half the time.
+/* Its projected area alone, the same to the last bit, in a fourth of the time. */
+double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
+
+/* The incidence of up to LRCSI_TILTS facets, the same to the last bit, in half the time.
    Returned: tilt[count]. */
 #define LRCSI_TILTS 32u
 void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t count,

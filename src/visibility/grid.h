@@ -111,10 +111,16 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_cells *cells, const unsigned char *wanted,
                       lrcs_work *work, lrcsi_grid *grid);
 
-/* Can the facet hide anything in this view? */
-static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
+/* Has the facet a side in this view that counts? */
+static inline int lrcsi_grid_faces(const lrcsi_view *view, uint32_t facet)
 {
     return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_cast);
+}
+
+/* Can it hide anything, and be seen? */
+static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
+{
+    return lrcsi_grid_faces(view, facet) && !view->prepared->idle[facet];
 }
 
 #endif

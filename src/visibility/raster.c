@@ -92,8 +92,8 @@ lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
     double n[3];
     plane_normal(view, facet, n);
     const double *a = view->point[view->prepared->scene->facet[facet].corner[0]].x;
-    double along = -n[0] / n[2];
-    double up = -n[1] / n[2];
+    double along = n[2] != 0 ? -n[0] / n[2] : 0; /* edge-on: nothing is decided by it, see below */
+    double up = n[2] != 0 ? -n[1] / n[2] : 0;
     lrcsi_plane plane;
     plane.at = a[2] - along * (a[0] - view->low[0]) - up * (a[1] - view->low[1]);
     plane.along = along * raster->pixel;
@@ -160,20 +160,23 @@ static void draw_run(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1
     lrcsi_raster *r = job->raster;
     double row = job->plane.at + job->plane.up * (y + 0.5);
     size_t at = (size_t)y * r->size + x0;
-    r->covered[job->facet] += x1 - x0;
-    for (uint32_t x = x0; x < x1; x++, at++) {
-        double height = row + job->plane.along * (x + 0.5);
+    uint32_t taken = 0;
+    double centre = x0 + 0.5;
+    for (uint32_t x = x0; x < x1; x++, at++, centre += 1) {
+        double height = row + job->plane.along * centre;
         uint32_t owner = r->owner[at];
         if (owner != LRCS_NONE) {
-            if (r->depth[at] == HUGE_VAL || !job_nearer(job, owner, height - r->depth[at], x, y)) {
+            if (r->slack[owner] < 0 || !job_nearer(job, owner, height - r->depth[at], x, y)) {
                 continue;
             }
             r->owned[owner]--;
         }
-        r->owned[job->facet]++;
+        taken++;
         r->owner[at] = job->facet;
         r->depth[at] = height;
     }
+    r->covered[job->facet] += x1 - x0;
+    r->owned[job->facet] += taken;
 }
 
 static void draw_doubtful(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
@@ -206,28 +209,47 @@ static size_t tile_at(const lrcsi_raster *r, uint32_t x, uint32_t y)
     return (size_t)(y / LRCSI_RASTER_TILE) * r->tiles + x / LRCSI_RASTER_TILE;
 }
 
-/* The first pixel of the row, from x on and before x1, whose tile is wanted (or is not, for
-   `wanted` 0); x1 where there is none. */
-static uint32_t tile_next(const lrcsi_raster *r, uint32_t y, uint32_t x, uint32_t x1, int wanted)
+/* The first pixel of a row of the tiles given, from x on and before x1, whose tile is wanted (or is
+   not, for `wanted` 0); x1 where there is none. */
+static inline uint32_t tile_next(const unsigned char *tiles, uint32_t x, uint32_t x1, int wanted)
 {
-    while (x < x1 && r->wanted[tile_at(r, x, y)] != wanted) {
-        x = (x / LRCSI_RASTER_TILE + 1) * LRCSI_RASTER_TILE;
+    if (x < x1 && tiles[x / LRCSI_RASTER_TILE] != wanted) {
+        uint32_t tile = x / LRCSI_RASTER_TILE + 1;
+        uint32_t end = (x1 - 1) / LRCSI_RASTER_TILE + 1;
+        while (tile < end && tiles[tile] != wanted) {
+            tile++;
+        }
+        x = tile * LRCSI_RASTER_TILE;
     }
     return x < x1 ? x : x1;
 }
 
+static const unsigned char *tile_row(const lrcsi_raster *r, uint32_t y)
+{
+    return r->wanted + tile_at(r, 0, y);
+}
+
+/* Pixels x0 <= x < x1 of a row of tiles, the lowest row of which is y. All bits of LRCS_NONE are
+   set. */
+static void clear_run(lrcsi_raster *r, uint32_t y, uint32_t x0, uint32_t x1)
+{
+    for (uint32_t row = y; row < y + LRCSI_RASTER_TILE && row < r->size; row++) {
+        size_t at = (size_t)row * r->size + x0;
+        memset(r->owner + at, 0xff, (x1 - x0) * sizeof *r->owner);
+        memset(r->pure + at, 0, x1 - x0);
+    }
+}
+
 void lrcsi_raster_clear(lrcsi_raster *raster)
 {
-    for (uint32_t y = 0; y < raster->size; y++) {
-        uint32_t x = tile_next(raster, y, 0, raster->size, 1);
-        while (x < raster->size) {
-            uint32_t end = tile_next(raster, y, x, raster->size, 0);
-            size_t row = (size_t)y * raster->size;
-            memset(raster->pure + row + x, 0, end - x);
-            for (; x < end; x++) {
-                raster->owner[row + x] = LRCS_NONE;
-            }
-            x = tile_next(raster, y, x, raster->size, 1);
+    uint32_t size = raster->size;
+    for (uint32_t y = 0; y < size; y += LRCSI_RASTER_TILE) {
+        const unsigned char *tiles = tile_row(raster, y);
+        uint32_t x = tile_next(tiles, 0, size, 1);
+        while (x < size) {
+            uint32_t end = tile_next(tiles, x, size, 0);
+            clear_run(raster, y, x, end);
+            x = tile_next(tiles, end, size, 1);
         }
     }
 }
@@ -274,32 +296,40 @@ static int facet_wanted(const lrcsi_raster *r, uint32_t facet)
     }
     for (uint32_t y = tile[1][0]; y <= tile[1][1]; y++) {
         const unsigned char *row = r->wanted + (size_t)y * r->tiles;
-        if (memchr(row + tile[0][0], 1, tile[0][1] - tile[0][0] + 1)) {
-            return 1;
+        for (uint32_t x = tile[0][0]; x <= tile[0][1]; x++) { /* few: so no memchr */
+            if (row[x]) {
+                return 1;
+            }
         }
     }
     return 0;
 }
 
-static void claim_row(const raster_job *job, uint32_t y)
+static void claim_run(const raster_job *job, const lrcsi_row *row, uint32_t y, uint32_t x0,
+                      uint32_t x1)
 {
     lrcsi_raster *r = job->raster;
-    if (tile_next(r, y, job->edges.x0, job->edges.x1, 1) == job->edges.x1) {
+    size_t start = (size_t)y * r->size;
+    for (uint32_t x = x0; x < x1; x++) {
+        if (lrcsi_span_has(row->sure, x) || job_covers(job, x, y)) {
+            r->owner[start + x] = job->facet;
+            r->pure[start + x] = (unsigned char)lrcsi_span_has(row->whole, x);
+        }
+    }
+}
+
+static void claim_row(const raster_job *job, uint32_t y)
+{
+    const unsigned char *tiles = tile_row(job->raster, y);
+    if (tile_next(tiles, job->edges.x0, job->edges.x1, 1) == job->edges.x1) {
         return;
     }
     lrcsi_row row = lrcsi_span_row(&job->edges, y);
-    uint32_t x = tile_next(r, y, row.may.x0, row.may.x1, 1);
+    uint32_t x = tile_next(tiles, row.may.x0, row.may.x1, 1);
     while (x < row.may.x1) {
-        uint32_t end = tile_next(r, y, x, row.may.x1, 0);
-        for (; x < end; x++) {
-            if (lrcsi_span_has(row.sure, x) || job_covers(job, x, y)) {
-                size_t at = (size_t)y * r->size + x;
-                r->owner[at] = job->facet;
-                r->depth[at] = HUGE_VAL;
-                r->pure[at] = lrcsi_span_has(row.whole, x) ? 1 : 0;
-            }
-        }
-        x = tile_next(r, y, x, row.may.x1, 1);
+        uint32_t end = tile_next(tiles, x, row.may.x1, 0);
+        claim_run(job, &row, y, x, end);
+        x = tile_next(tiles, end, row.may.x1, 1);
     }
 }
 
@@ -310,6 +340,7 @@ void lrcsi_raster_claim(lrcsi_raster *raster, uint32_t facet)
     }
     raster_job job = {.raster = raster, .facet = facet};
     job.edges = lrcsi_raster_edges(raster, facet);
+    raster->slack[facet] = -1;
     for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
         claim_row(&job, y);
     }
@@ -325,13 +356,12 @@ static uint32_t raster_tiles(uint32_t size)
 
 static size_t tile_count(uint32_t size)
 {
-    size_t tiles = raster_tiles(size);
-    return tiles * tiles;
+    return lrcsi_work_square(raster_tiles(size));
 }
 
 size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    size_t pixels = (size_t)size * size;
+    size_t pixels = lrcsi_work_square(size);
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_bytes(pixels, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
@@ -345,7 +375,7 @@ size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
 
 static int raster_arrays(lrcsi_raster *r, lrcs_work *work)
 {
-    size_t pixels = (size_t)r->size * r->size;
+    size_t pixels = lrcsi_work_square(r->size);
     size_t facets = r->view->prepared->scene->facet_count;
     r->owner = lrcsi_work_take(work, pixels, sizeof *r->owner);
     r->depth = lrcsi_work_take(work, pixels, sizeof *r->depth);

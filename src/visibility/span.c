@@ -22,11 +22,11 @@ typedef struct span_ends {
     double from[KINDS], to[KINDS];
 } span_ends;
 
-/* Of a number from 0 to 2^32. */
-static double round_up(double x)
+/* Of a number from 0 to below 2^32. */
+static inline uint32_t round_up(double x)
 {
     uint32_t down = (uint32_t)x;
-    return down < x ? down + 1.0 : down;
+    return down + (down < x);
 }
 
 /* Half of what an edge function changes over a pixel, in all. */
@@ -64,7 +64,7 @@ void lrcsi_span_prepare(lrcsi_edges *edges)
 }
 
 /* A side along the row: it tells of all its pixels at once. */
-static void ends_judge(span_ends *ends, const lrcsi_edges *e, int k, double row)
+static inline void ends_judge(span_ends *ends, const lrcsi_edges *e, int k, double row)
 {
     double far = e->off + side_bend(e, k);
     ends->to[TOUCHED] = row < -far ? 0 : ends->to[TOUCHED];
@@ -74,53 +74,50 @@ static void ends_judge(span_ends *ends, const lrcsi_edges *e, int k, double row)
 }
 
 /* Narrows the ends to one side of an edge. */
-static void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, double cy)
+static inline void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, double cy)
 {
     double row = e->at[k] + e->up[k] * cy;
     double zero = -row * e->over[k];
-    const double shift[KINDS] = {-e->far[k], -e->near[k], e->near[k], e->far[k]};
     if (e->over[k] > 0) {
-        for (int i = 0; i < KINDS; i++) {
-            ends->from[i] = lrcsi_most(ends->from[i], zero + shift[i]);
-        }
+        ends->from[TOUCHED] = lrcsi_most(ends->from[TOUCHED], zero - e->far[k]);
+        ends->from[MAY] = lrcsi_most(ends->from[MAY], zero - e->near[k]);
+        ends->from[SURE] = lrcsi_most(ends->from[SURE], zero + e->near[k]);
+        ends->from[WHOLE] = lrcsi_most(ends->from[WHOLE], zero + e->far[k]);
     } else if (e->over[k] < 0) {
-        for (int i = 0; i < KINDS; i++) {
-            ends->to[i] = lrcsi_least(ends->to[i], zero - shift[i]);
-        }
+        ends->to[TOUCHED] = lrcsi_least(ends->to[TOUCHED], zero + e->far[k]);
+        ends->to[MAY] = lrcsi_least(ends->to[MAY], zero + e->near[k]);
+        ends->to[SURE] = lrcsi_least(ends->to[SURE], zero - e->near[k]);
+        ends->to[WHOLE] = lrcsi_least(ends->to[WHOLE], zero - e->far[k]);
     } else {
         ends_judge(ends, e, k, row);
     }
 }
 
-/* Both within x0 .. x1, and whole numbers but for one fraction to be dropped. */
-static lrcsi_pixels span_of(double from, double to)
+static inline lrcsi_pixels span_of(uint32_t x0, uint32_t x1)
 {
-    uint32_t x0 = (uint32_t)from;
-    uint32_t x1 = (uint32_t)to;
     return (lrcsi_pixels){x0 < x1 ? x0 : x1, x1};
 }
 
-static lrcsi_pixels outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
+static inline lrcsi_pixels outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
 {
-    return span_of(round_up(lrcsi_least(ends->from[kind], x1)), lrcsi_most(ends->to[kind], x0));
+    return span_of(round_up(lrcsi_least(ends->from[kind], x1)),
+                   (uint32_t)lrcsi_most(ends->to[kind], x0));
 }
 
-static lrcsi_pixels inner_span(const span_ends *ends, int kind, lrcsi_pixels outer)
+static inline lrcsi_pixels inner_span(const span_ends *ends, int kind, lrcsi_pixels outer)
 {
-    return span_of(lrcsi_most(lrcsi_least(ends->from[kind], outer.x1), outer.x0),
+    return span_of((uint32_t)lrcsi_most(lrcsi_least(ends->from[kind], outer.x1), outer.x0),
                    round_up(lrcsi_least(lrcsi_most(ends->to[kind], outer.x0), outer.x1)));
 }
 
 lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
 {
-    span_ends ends;
-    for (int i = 0; i < KINDS; i++) {
-        ends.from[i] = i == TOUCHED ? edges->left : edges->x0;
-        ends.to[i] = i == TOUCHED ? edges->right : edges->x1;
-    }
-    for (int k = 0; k < 3; k++) {
-        ends_narrow(&ends, edges, k, y + 0.5);
-    }
+    double x0 = edges->x0;
+    double x1 = edges->x1;
+    span_ends ends = {{edges->left, x0, x0, x0}, {edges->right, x1, x1, x1}};
+    ends_narrow(&ends, edges, 0, y + 0.5); /* no loop: so compilers keep the ends in registers */
+    ends_narrow(&ends, edges, 1, y + 0.5);
+    ends_narrow(&ends, edges, 2, y + 0.5);
     lrcsi_row row;
     row.touched = outer_span(&ends, TOUCHED, edges->left, edges->right);
     row.may = outer_span(&ends, MAY, edges->x0, edges->x1);

@@ -1,13 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* A scene to sigma by every method: what a result promises, that the methods' intervals meet, that
-   memory is what was said, and that a failure touches nothing. Room for FUZZ_FACETS facets. */
+/* A scene to sigma by several methods: what a result promises, that the methods' intervals meet,
+   that memory is what was said, and that a failure touches nothing. Room for FUZZ_FACETS facets.
+   An execution under libFuzzer runs what its bytes choose; one in the tests runs everything. */
 #ifndef TEST_FUZZ_SIGMA_H
 #define TEST_FUZZ_SIGMA_H
 
 #include <float.h>
 #include <math.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "fuzz.h"
+
+#ifdef FUZZ_CHOOSE
+#define fuzz_chosen(choice) (choice)
+#else
+#define fuzz_chosen(choice) ((void)(choice), 1)
+#endif
 
 #define FUZZ_FACETS  512u
 #define FUZZ_PICTURE 8u
@@ -15,17 +24,30 @@
 
 static lrcs_facet_record fuzz_records[FUZZ_FACETS];
 
-/* Work areas at the end of these: what is written beyond is seen there as on the heap, which is ten
-   times slower under AddressSanitizer for areas of this size. */
-static unsigned char prepare_room[FUZZ_ROOM];
-static unsigned char run_room[FUZZ_ROOM];
+/* Work areas at the end of rooms of FUZZ_ROOM bytes, behind which the machine itself refuses every
+   access: what is written beyond is seen there with and without AddressSanitizer. */
+static unsigned char *prepare_end, *run_end;
+
+static inline lrcs_work fuzz_area_before(unsigned char **end, size_t size)
+{
+    if (!*end) {
+        size_t page = (size_t)sysconf(_SC_PAGESIZE);
+        unsigned char *room = aligned_alloc(page, FUZZ_ROOM + page);
+        require(room != NULL);
+        *end = room + FUZZ_ROOM;
+        require(mprotect(*end, page, PROT_NONE) == 0);
+    }
+    return lrcs_work_make(*end - size, size);
+}
 
 /* How a scene is run, from the input. */
 typedef struct fuzz_run {
     lrcs_pose pose;
     lrcs_run_options options;
-    int polygons;   /* wanted too */
-    unsigned share; /* of the memory that is needed, in 256ths, for a run that starves */
+    unsigned methods; /* which ones, bits 1u << LRCS_METHOD_... */
+    int polygons;     /* wanted too */
+    int starved;      /* once more by the method of the options, in too little memory */
+    unsigned share;   /* of the memory that is needed, in 256ths, for that */
 } fuzz_run;
 
 static inline double scene_extent(const lrcs_scene *scene)
@@ -104,7 +126,7 @@ static inline int fuzz_sigma(const lrcs_prepared *prepared, const lrcs_scene *sc
 {
     uint32_t picture[FUZZ_PICTURE * FUZZ_PICTURE];
     lrcs_image image = {.size = options->resolution != 0 ? 0 : FUZZ_PICTURE, .facet = picture};
-    lrcs_work work = lrcs_work_make(run_room + FUZZ_ROOM - size, size);
+    lrcs_work work = fuzz_area_before(&run_end, size);
     memset(result, FUZZ_PATTERN, sizeof *result);
     memset(fuzz_records, FUZZ_PATTERN, scene->facet_count * sizeof *fuzz_records);
     memset(picture, FUZZ_PATTERN, sizeof picture);
@@ -159,7 +181,7 @@ static inline void fuzz_polygons(const lrcs_prepared *prepared, const lrcs_scene
     lrcs_polygons list;
     size_t size = lrcs_polygon_need(prepared);
     require(size < FUZZ_ROOM);
-    lrcs_work work = lrcs_work_make(run_room + FUZZ_ROOM - size, size);
+    lrcs_work work = fuzz_area_before(&run_end, size);
     int status = lrcs_polygon_run(prepared, &run->pose, &work, &list);
     require(status == LRCS_OK || (status == LRCS_E_MEMORY && work.used == 0));
     if (status != LRCS_OK) {
@@ -204,10 +226,10 @@ static inline void fuzz_method(const lrcs_prepared *prepared, const lrcs_scene *
     }
     require(!(result.flags & LRCS_FLAG_MEMORY_FALLBACK));
     learn(truth, scene, &result);
-    if (method == LRCS_METHOD_EXACT && options.without == 0 && run->polygons) {
+    if (method == LRCS_METHOD_EXACT && options.without == 0 && fuzz_chosen(run->polygons)) {
         fuzz_polygons(prepared, scene, run);
     }
-    if (method == run->options.method &&
+    if (method == run->options.method && fuzz_chosen(run->starved) &&
         fuzz_sigma(prepared, scene, run, &options, need * run->share / 256, &result) == LRCS_OK) {
         learn(truth, scene, &result);
     }
@@ -223,7 +245,7 @@ static inline fuzz_truth fuzz_scene(const lrcs_scene *scene, const fuzz_run *run
     int status = LRCS_E_MEMORY;
     while (status == LRCS_E_MEMORY) {
         require(size < FUZZ_ROOM);
-        work = lrcs_work_make(prepare_room + FUZZ_ROOM - size, size);
+        work = fuzz_area_before(&prepare_end, size);
         status = lrcs_prepare_run(scene, &work, &prepared);
         if (status == LRCS_E_MEMORY) {
             require(prepared == NULL && work.used == 0 && work.peak > size);
@@ -233,7 +255,9 @@ static inline fuzz_truth fuzz_scene(const lrcs_scene *scene, const fuzz_run *run
     require(status == LRCS_OK && work.peak <= size);
     fuzz_truth truth = {0, HUGE_VALL};
     for (int method = LRCS_METHOD_AUTO; method <= LRCS_METHOD_EXACT; method++) {
-        fuzz_method(prepared, scene, run, method, &truth);
+        if (fuzz_chosen(run->methods >> method & 1)) {
+            fuzz_method(prepared, scene, run, method, &truth);
+        }
     }
     return truth;
 }

@@ -7,7 +7,8 @@ for source in "$root"/test/fuzz/fuzz_*.c; do
     name=$(basename "$source" .c)
     name=${name#fuzz_}
     case $name in
-    pose) mutations=5000 ;;
+    pose) mutations=4000 ;;
+    curved | fit) mutations=100 ;;
     scene) mutations=500 ;;
     *) mutations=20000 ;;
     esac

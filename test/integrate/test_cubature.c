@@ -86,6 +86,19 @@ static void both_parts_together_are_each_what_they_are_alone(void **state)
     }
 }
 
+/* No bound tells how far below the least double a flank is: no halving could. */
+static void a_mirror_that_shows_no_glint_is_done_at_once(void **state)
+{
+    (void)state;
+    const double normal[3][3] = {{-0.4, -0.2, 0.9}, {-0.2, -0.2, 0.95}, {-0.3, -0.1, 0.95}};
+    const lrcs_brdf dark[2] = {{1, 0, 1e-3, 0}, {0, 1, 1e-3, 1e5}};
+    for (int i = 0; i < 2; i++) {
+        lrcsi_cubature sum = integrate(&dark[i], normal, 1e-3);
+        check_most(sum.estimate, 1e-300);
+        assert_true(sum.splits < 64);
+    }
+}
+
 /* Beside brighter surfaces an error may be theirs to measure; the estimate still holds it. */
 static void beside_others_the_error_is_larger_and_within_its_estimate(void **state)
 {
@@ -215,6 +228,7 @@ int main(void)
         cmocka_unit_test(the_glint_is_within_its_estimate_and_that_within_the_tolerance),
         cmocka_unit_test(the_diffuse_part_is_too),
         cmocka_unit_test(both_parts_together_are_each_what_they_are_alone),
+        cmocka_unit_test(a_mirror_that_shows_no_glint_is_done_at_once),
         cmocka_unit_test(beside_others_the_error_is_larger_and_within_its_estimate),
         cmocka_unit_test(a_dark_edge_is_within_its_estimate),
         cmocka_unit_test(a_flat_triangle_is_its_value_to_rounding),

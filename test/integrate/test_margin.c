@@ -21,13 +21,14 @@ typedef struct built {
 
 static unsigned char run_memory[1u << 27];
 
-static void build(const nasty_scene *s, double tolerance, uint32_t facets, built *b)
+static void build_recipe(const lrcs_recipe *recipe, const lrcs_mesh *models, double tolerance,
+                         uint32_t facets, built *b)
 {
     lrcs_build_options options = {tolerance, facets, LRCS_NORMALS_FLAT};
-    size_t need = lrcs_scene_need(&s->recipe, NULL, &options);
+    size_t need = lrcs_scene_need(recipe, models, &options);
     b->area = malloc(need);
     lrcs_work work = lrcs_work_make(b->area, need);
-    assert_int_equal(lrcs_scene_build(&s->recipe, NULL, &options, &work, &b->scene, NULL), LRCS_OK);
+    assert_int_equal(lrcs_scene_build(recipe, models, &options, &work, &b->scene, NULL), LRCS_OK);
     int status = LRCS_E_MEMORY;
     b->scratch = NULL;
     for (need = lrcs_prepare_need(&b->scene); status == LRCS_E_MEMORY; need *= 2) {
@@ -37,6 +38,11 @@ static void build(const nasty_scene *s, double tolerance, uint32_t facets, built
         status = lrcs_prepare_run(&b->scene, &work, &b->prepared);
     }
     assert_int_equal(status, LRCS_OK);
+}
+
+static void build(const nasty_scene *s, double tolerance, uint32_t facets, built *b)
+{
+    build_recipe(&s->recipe, NULL, tolerance, facets, b);
 }
 
 static void unbuild(built *b)
@@ -263,11 +269,148 @@ static int many(unsigned long count, int side)
     return failures != 0;
 }
 
+/* --- among models of any kind ----------------------------------------------------------------- */
+
+/* A plate above two tubes that stand on each other; a fin on its edge that turns the wrong way, a
+   third facet on its diagonal; then a pane of glass and a facet of no area, which take no part. */
+static lrcs_point odd_vertex[7] = {{{0, 0, 3}},   {{0.5, 0, 3}},    {{0.5, 0.5, 3}},
+                                   {{0, 0.5, 3}}, {{0.25, 0, 3.5}}, {{0.25, 0.25, 2.5}},
+                                   {{1, 0.25, 3}}};
+static lrcs_facet odd_facet[6] = {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 1, 4}},
+                                  {{0, 2, 5}}, {{1, 6, 2}}, {{0, 1, 1}}};
+static uint32_t odd_material[6] = {0, 0, 0, 0, 1, 0};
+static uint32_t odd_zero[6], odd_smooth[6] = {0, 1, 1, 0, 0, 0};
+static lrcs_surface odd_surface[2] = {{.name = "skin"}, {.name = "glass", .transparency = 1}};
+static const char *odd_name[1] = {"odd"};
+
+static lrcs_mesh odd_mesh(uint32_t facets)
+{
+    return (lrcs_mesh){.vertex_count = 7,
+                       .facet_count = facets,
+                       .material_count = 2,
+                       .part_count = 1,
+                       .vertex = odd_vertex,
+                       .facet = odd_facet,
+                       .facet_material = odd_material,
+                       .facet_part = odd_zero,
+                       .facet_smooth = odd_smooth,
+                       .material = odd_surface,
+                       .part = odd_name};
+}
+
+/* Two tubes, a ball within the upper one, and the model. */
+static void build_odd(double tolerance, uint32_t facets, int two_sided, built *b)
+{
+    const lrcs_mesh mesh = odd_mesh(facets);
+    const lrcs_mesh models[4] = {{0}, {0}, {0}, mesh};
+    lrcs_recipe_part part[4];
+    for (int i = 0; i < 4; i++) {
+        part[i] = (lrcs_recipe_part){.name = "p", .place = lrcs_place_default(), .wears = -1};
+        part[i].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .parts = LRCS_SHAPE_WALL};
+        part[i].shape.radius = 0.5;
+        part[i].shape.length = 1;
+    }
+    part[1].place.translate[2] = 1;
+    part[2].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.25};
+    part[2].place.translate[2] = 1.5;
+    part[3].file = "odd";
+    lrcs_binding binding = {
+        .kind = LRCS_BIND_DEFAULT, .brdf = {1, 0.25, 0.3, 0.5}, .two_sided = two_sided};
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = 4, .binding = &binding, .binding_count = 1};
+    build_recipe(&recipe, models, tolerance, 20000, b);
+}
+
+static void what_takes_no_part_leaves_bounds_and_models_do_not_break_them(void **state)
+{
+    (void)state;
+    static const double from[4][3] = {{0.2, 0.1, 1}, {1, 0.5, 0.25}, {0.1, -0.05, -1}, {0, 0, 1}};
+    for (int two_sided = 0; two_sided < 2; two_sided++) {
+        built coarse;
+        built fine;
+        built bare; /* without glass and the facet of no area */
+        build_odd(1e-2, 6, two_sided, &coarse);
+        build_odd(3e-3, 6, two_sided, &fine);
+        build_odd(1e-2, 4, two_sided, &bare);
+        for (int i = 0; i < 8; i++) {
+            int method = i % 2 ? LRCS_METHOD_EXACT : LRCS_METHOD_ZBUFFER;
+            lrcs_result a = look(&coarse, from[i / 2], method);
+            lrcs_result b = look(&fine, from[i / 2], LRCS_METHOD_EXACT);
+            lrcs_result c = look(&bare, from[i / 2], method);
+            assert_true(a.budget.tessellation_m2 > 0 && b.budget.tessellation_m2 > 0);
+            check_abs(a.sigma_m2, b.sigma_m2, a.bound_m2 + b.bound_m2);
+            check_rel(a.sigma_m2, c.sigma_m2, 1e-12);
+            check_rel(a.budget.tessellation_m2, c.budget.tessellation_m2, 1e-12);
+        }
+        unbuild(&coarse);
+        unbuild(&fine);
+        unbuild(&bare);
+    }
+}
+
+/* Where back sides were left out that open bodies show, what they hide is not known. */
+static void back_sides_left_out_leave_tubes_unknown(void **state)
+{
+    (void)state;
+    built b;
+    lrcs_pose pose;
+    build_odd(1e-1, 6, 0, &b);
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){0.2, 0.1, 1}, &pose), LRCS_OK);
+    for (int out = 0; out < 2; out++) {
+        lrcs_result r;
+        lrcs_run_options options = lrcs_run_options_default();
+        options.method = LRCS_METHOD_EXACT;
+        options.without = out ? 1u << LRCS_EFFECT_BACK_FACE_CASTERS : 0;
+        lrcs_work work = lrcs_work_make(run_memory, sizeof run_memory);
+        assert_int_equal(lrcs_sigma_run(b.prepared, &pose, &options, &work, &r, NULL, NULL),
+                         LRCS_OK);
+        assert_int_equal(r.budget.tessellation_m2 < 0, out);
+        assert_int_equal((r.notices & LRCS_NOTICE_TESSELLATION_UNKNOWN) != 0, out);
+    }
+    unbuild(&b);
+}
+
+/* --- what cannot be told ---------------------------------------------------------------------- */
+
+/* Of a ball as it is, as an ellipsoid, and so small for its place that rounding leaves its facets
+   without area: beside a plate and alone. */
+static void what_is_not_known_of_one_part_is_known_of_no_sum(void **state)
+{
+    (void)state;
+    static const double d[3] = {0.1, 0.2, 1};
+    for (int i = 0; i < 6; i++) {
+        lrcs_recipe_part part[2];
+        for (int k = 0; k < 2; k++) {
+            part[k] = (lrcs_recipe_part){.name = "p", .place = lrcs_place_default(), .wears = -1};
+        }
+        part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = i % 3 < 2 ? 0.5 : 1e-17};
+        part[0].place.scale[0] = i % 3 == 1 ? 2 : 1;
+        for (int k = 0; k < 3 && i % 3 == 2; k++) {
+            part[0].place.translate[k] = 1;
+        }
+        part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {1, 1}};
+        part[1].place.translate[2] = 2;
+        const lrcs_recipe recipe = {.part = part, .part_count = i < 3 ? 2 : 1};
+        built b;
+        build_recipe(&recipe, NULL, 1e-2, 2000, &b);
+        for (int method = LRCS_METHOD_FACET; method <= LRCS_METHOD_EXACT; method++) {
+            lrcs_result r = look(&b, d, method);
+            int known = i % 3 == 0;
+            assert_int_equal(r.budget.tessellation_m2 >= 0, known);
+            assert_int_equal((r.notices & LRCS_NOTICE_TESSELLATION_UNKNOWN) != 0, !known);
+        }
+        unbuild(&b);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coarse_and_fine_agree_within_their_bounds),
         cmocka_unit_test(rays_stay_within_the_bound),
+        cmocka_unit_test(what_takes_no_part_leaves_bounds_and_models_do_not_break_them),
+        cmocka_unit_test(back_sides_left_out_leave_tubes_unknown),
+        cmocka_unit_test(what_is_not_known_of_one_part_is_known_of_no_sum),
     };
     if (argc > 2) {
         nasty_seed = strtoull(argv[2], NULL, 10);

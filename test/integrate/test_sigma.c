@@ -186,6 +186,59 @@ static void a_plate_nearly_edge_on_keeps_a_useful_bound(void **state)
     }
 }
 
+/* The bracket again. Where no resolution is given the first serves a loose tolerance, a finer one a
+   strict one; one that no raster meets, or no sum of doubles, ends at the finest for which there is
+   memory. */
+static void rasters_are_refined_until_they_meet_the_tolerance(void **state)
+{
+    (void)state;
+    static const double tolerance[] = {0.1, 0.01, 1e-9, 1e-17};
+    static const double d[3] = {0.7071, 0.1, 1};
+    const double square = 0.7071 * 0.7071 + 0.1 * 0.1 + 1;
+    scene_start(&scene);
+    unit_plate(0);
+    scene_material(&scene, 0, 0, 0.2, 0);
+    scene_plate(&scene, (const double[3]){1, -1, 0}, (const double[3]){0, 3, 0},
+                (const double[3]){0, 0, 1});
+    double want =
+        (1 - 0.7071) * (double)scene_eq2(&scene.material[0].brdf, 1, 1 / (long double)square);
+    lrcs_work work;
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    lrcs_pose pose;
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    for (int i = 0; i < 4; i++) {
+        lrcs_result r;
+        lrcs_run_options options = {.tolerance = tolerance[i], .method = LRCS_METHOD_ZBUFFER};
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
+        check_abs(r.sigma_m2, want, r.bound_m2 + 1e-15 * want);
+        assert_int_equal(r.bound_m2 <= tolerance[i] * r.sigma_m2, i < 2);
+        assert_int_equal(r.resolution > 512, i > 0);
+        assert_int_equal((r.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0, i >= 2);
+    }
+}
+
+/* A term that is not there may be asked for; a glint without a slope cannot even be evaluated. */
+static void a_glint_forced_on_a_matt_surface_adds_nothing(void **state)
+{
+    (void)state;
+    static const double d[3] = {0.5, 0.25, 1};
+    lrcs_pose pose;
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    for (int i = 0; i < 2; i++) {
+        scene_start(&scene);
+        unit_plate(0);
+        scene.material[0].brdf = (lrcs_brdf){0, 0.25, i ? 0.2 : 0, 0.5};
+        lrcs_work work;
+        const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+        lrcs_run_options options = lrcs_run_options_default();
+        options.with = 1u << LRCS_EFFECT_GLINT;
+        lrcs_result r;
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
+        check_bound(r, (double)scene_eq2(&(lrcs_brdf){0, 0.25, 1, 0.5}, 1, 1 / 1.3125L));
+        check_same(r.sigma_glint_m2, 0.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -195,6 +248,8 @@ int main(void)
         cmocka_unit_test(arrays_and_cube_shade_each_other),
         cmocka_unit_test(arrays_and_cube_at_sixty_and_eighty_degrees),
         cmocka_unit_test(a_plate_nearly_edge_on_keeps_a_useful_bound),
+        cmocka_unit_test(rasters_are_refined_until_they_meet_the_tolerance),
+        cmocka_unit_test(a_glint_forced_on_a_matt_surface_adds_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,8 +7,10 @@
 
 #include "build3ds.h"
 #include "integrate/cubature.h"
-#include "scene/prepare.h"
+#include "scene/near.h"
+#include "scene/solid.h"
 #include "scenes.h"
+#include "visibility/margin.h"
 
 #define CANARY 64
 
@@ -289,6 +291,83 @@ static void needs_never_shrink_as_counts_grow(void **state)
     }
 }
 
+/* A step within a run never meets the end of an area of which an earlier one needed more. Given
+   little of its own, each says so. */
+typedef struct inner_steps {
+    lrcs_prepared prepared;
+    uint32_t piece[14];
+    lrcsi_view view;
+    lrcsi_contest contest;
+    lrcsi_margin margin;
+    int proved;
+} inner_steps;
+
+static int step_nears(inner_steps *s, lrcs_work *work)
+{
+    int status = lrcsi_nears_make(&s->prepared, work);
+    work->used = 0; /* the caller's to put back */
+    return status;
+}
+
+static int step_outward(inner_steps *s, lrcs_work *work)
+{
+    return lrcsi_solid_outward(&s->prepared, s->piece, work, &s->proved);
+}
+
+static int step_convex(inner_steps *s, lrcs_work *work)
+{
+    return lrcsi_convex_exact(&s->prepared, work, &s->proved);
+}
+
+static int step_margin(inner_steps *s, lrcs_work *work)
+{
+    int status = lrcsi_margin_make(&s->contest, work, &s->margin);
+    assert_true(status == LRCS_OK || work->used == 0);
+    work->used = 0;
+    return status;
+}
+
+static void steps_within_grow_until_they_fit(void **state)
+{
+    (void)state;
+    static int (*const step[])(inner_steps *, lrcs_work *) = {step_nears, step_outward, step_convex,
+                                                              step_margin};
+    static test_scene boxed; /* a box that passes for curved, and a plate over it */
+    static unsigned char little[1 << 16];
+    static inner_steps s;
+    scene_start(&boxed);
+    scene_box(&boxed, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+    scene_plate(&boxed, (const double[3]){0, 0, 2}, (const double[3]){1, 0, 0},
+                (const double[3]){0, 1, 0});
+    lrcs_part part[2] = {boxed.part, boxed.part};
+    part[0].facet_count = 12;
+    part[0].curvature = (lrcs_curvature){0.1, 0.01, 0.01, 0.1};
+    part[0].reach = 0.01;
+    part[1].first_facet = 12;
+    part[1].facet_count = 2;
+    boxed.part_of[12] = boxed.part_of[13] = 1;
+    boxed.scene.part = part;
+    boxed.scene.part_count = 2;
+    lrcs_work work;
+    s.prepared = *scene_prepare(&boxed, &work);
+    assert_int_equal(lrcs_pose_from_azel(20, 60, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(&s.prepared, &pose, &work, &s.view), LRCS_OK);
+    assert_int_equal(lrcsi_view_project(&work, &s.view), LRCS_OK);
+    assert_int_equal(lrcsi_contest_make(&s.view, &work, &s.contest), LRCS_OK);
+    for (int i = 0; i < 4; i++) {
+        int status = LRCS_E_MEMORY;
+        size_t size = 0;
+        for (; status == LRCS_E_MEMORY && size <= sizeof little; size++) {
+            lrcs_work area = lrcs_work_make(little, size);
+            status = step[i](&s, &area);
+            assert_int_equal(area.used, 0);
+            assert_true(status == LRCS_OK || area.peak > size);
+        }
+        assert_int_equal(status, LRCS_OK);
+        assert_true(size > 100);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -298,6 +377,7 @@ int main(void)
         cmocka_unit_test(a_pose_over_curved_normals_grows_until_it_fits),
         cmocka_unit_test(a_fit_grows_until_it_fits),
         cmocka_unit_test(needs_never_shrink_as_counts_grow),
+        cmocka_unit_test(steps_within_grow_until_they_fit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,6 +55,7 @@ static void f_r_agrees_with_its_formula(void **state)
     check_rel(lrcs_brdf_eval(&brdf, 0.9375), 0.2890799976968470, 1e-14);
     check_rel(lrcs_brdf_eval(&brdf, 0.5), 0.1767766952966369, 1e-14);
     check_rel(lrcs_brdf_eval(&brdf, 0x1p-1000), 0.25 * 0x1p-500, 1e-15);
+    check_rel(lrcs_brdf_eval(&(lrcs_brdf){0, 0.25, 0, 0.5}, 0.5), 0.1767766952966369, 1e-14);
     check_same(lrcs_brdf_eval(&brdf, 0.0), 0.0);
     check_same(lrcs_brdf_eval(&brdf, -1.0), 0.0);
     lrcs_brdf wide = {1.0, 0.0, 1e3, 0.0};

@@ -272,12 +272,31 @@ static void what_is_outside_the_domain_is_refused(void **state)
     assert_int_equal(lrcs_closed_eval(&sphere, &wrong, &aspect, &c), LRCS_E_NUMBER);
     lrcs_brdf vast = {1e300, 0, 1e30, 0};
     assert_int_equal(lrcs_closed_eval(&sphere, &vast, &aspect, &c), LRCS_E_NUMBER);
+    lrcs_brdf narrow = {1, 0.25, 0x1p-334, 0.5};
+    assert_int_equal(lrcs_closed_eval(&sphere, &narrow, &aspect, &c), LRCS_E_NUMBER);
+    lrcs_brdf wide = {1, 0.25, 0x1p334, 0.5};
+    assert_int_equal(lrcs_closed_eval(&sphere, &wide, &aspect, &c), LRCS_E_NUMBER);
     sphere.radius = 1e-151;
     assert_int_equal(lrcs_closed_eval(&sphere, &brdf, &aspect, &c), LRCS_E_NUMBER);
     sphere.radius = -1;
     assert_int_equal(lrcs_closed_eval(&sphere, &brdf, &aspect, &c), LRCS_E_NUMBER);
     check_same(c.sigma_m2, 1.0);
     check_same(c.bound_m2, 4.0);
+}
+
+/* 4 pi B times the integral of cos^(2+m) over a hemisphere, 2 pi r^2 / (3 + m). */
+static void a_matt_sphere_needs_no_slope(void **state)
+{
+    (void)state;
+    lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE, .radius = 2};
+    lrcs_aspect aspect = {0, 30, {0, 0, 0}};
+    for (int m = 0; m < 4; m++) {
+        lrcs_brdf brdf = {0, 0.25, 0, m};
+        lrcs_closed c;
+        assert_int_equal(lrcs_closed_eval(&sphere, &brdf, &aspect, &c), LRCS_OK);
+        check_same(c.sigma_glint_m2, 0.0);
+        check_abs(c.sigma_m2, 78.956835208714869 / (3 + m), c.bound_m2 + 1e-14);
+    }
 }
 
 int main(void)
@@ -294,6 +313,7 @@ int main(void)
         cmocka_unit_test(a_direction_and_its_angle_give_the_same),
         cmocka_unit_test(no_corner_of_the_domain_gives_a_nan),
         cmocka_unit_test(what_is_outside_the_domain_is_refused),
+        cmocka_unit_test(a_matt_sphere_needs_no_slope),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,11 +53,20 @@ static void the_count_is_the_least_that_serves(void **state)
     }
 }
 
+static void no_count_serves_a_slope_narrower_than_rounding(void **state)
+{
+    (void)state;
+    double n = lrcsi_comb_around(1e-20, 1e-3);
+    assert_true(n >= 1e15 && n <= 2e15);
+    assert_true(lrcsi_comb_error(2 * 3.14159265358979323846 / n, 1e-20) > 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_estimate_is_the_worst_error_of_a_polygon_or_up_to_three_times_that),
         cmocka_unit_test(the_count_is_the_least_that_serves),
+        cmocka_unit_test(no_count_serves_a_slope_narrower_than_rounding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

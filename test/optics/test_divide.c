@@ -148,8 +148,29 @@ static void a_glint_too_sharp_for_any_count_takes_few_facets(void **state)
     fineness.brdf.s = 1e-300;
     assert_int_equal(lrcs_shape_count(&bodies[0], &fineness, &divisions, &counts), LRCS_OK);
     assert_true(counts.facets < 200000);
-    fineness.brdf = (lrcs_brdf){0.0, 0.0, 0.0, 0.0};
-    assert_int_equal(lrcs_shape_count(&bodies[0], &fineness, &divisions, &counts), LRCS_OK);
+    const lrcs_brdf dark[] = {{0.0, 0.0, 0.0, 0.0}, {1e-320, 0.0, 1e-3, 0.0}};
+    for (size_t i = 0; i < BODIES * 2; i++) { /* of the second nothing is left but rounding */
+        fineness.brdf = dark[i % 2];
+        assert_int_equal(lrcs_shape_count(&bodies[i / 2], &fineness, &divisions, &counts), LRCS_OK);
+        assert_true(counts.facets < 200000);
+    }
+}
+
+/* tan(0.1 deg) by mpmath. Half of the aspects about its glint would look from beyond the axis. */
+static void a_cone_nearly_flat_is_divided_by_either_of_its_numbers(void **state)
+{
+    (void)state;
+    lrcs_fineness fineness = lrcs_fineness_default();
+    lrcs_divisions divisions[2];
+    lrcs_mesh_counts counts;
+    const lrcs_shape cone[] = {
+        {.kind = LRCS_SHAPE_CONE, .radius = 1, .half_angle_deg = 89.9},
+        {.kind = LRCS_SHAPE_CONE, .radius = 1, .length = 0.0017453310241888004}};
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(lrcs_shape_count(&cone[i], &fineness, &divisions[i], &counts), LRCS_OK);
+        assert_true(counts.facets < fineness.max_facets);
+    }
+    assert_int_equal(divisions[0].around, divisions[1].around);
 }
 
 static void plane_faces_and_discs_need_no_planning(void **state)
@@ -198,6 +219,7 @@ int main(void)
         cmocka_unit_test(a_tighter_tolerance_never_has_fewer_facets),
         cmocka_unit_test(no_count_exceeds_its_cap),
         cmocka_unit_test(a_glint_too_sharp_for_any_count_takes_few_facets),
+        cmocka_unit_test(a_cone_nearly_flat_is_divided_by_either_of_its_numbers),
         cmocka_unit_test(plane_faces_and_discs_need_no_planning),
         cmocka_unit_test(bad_arguments_leave_the_outputs_alone),
     };

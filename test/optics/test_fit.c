@@ -478,8 +478,61 @@ static void every_verdict_has_its_sentence(void **state)
             assert_int_equal(strcmp(lrcs_fit_verdict_text(p, v), unknown) == 0, never);
         }
     }
+    assert_string_equal(lrcs_fit_verdict_text(-1, 0), unknown);
     assert_string_equal(lrcs_fit_verdict_text(4, 0), unknown);
     assert_string_equal(lrcs_fit_verdict_text(0, 6), unknown);
+}
+
+/* Steeper than the search goes: cos^3125 beside a glint of slope 0.03, 1 in 1000 of error. */
+static void a_fall_beyond_the_search_is_limited_below_only(void **state)
+{
+    (void)state;
+    lrcs_fit_reading reading[20];
+    lrcs_fit_options options = lrcs_fit_options_default();
+    options.noise = LRCS_FIT_ABSOLUTE;
+    lrcs_brdf brdf = {0.5, 1, 0.03, 3125};
+    for (int i = 0; i < 20; i++) {
+        reading[i] = (lrcs_fit_reading){0.3 * i, f_of(&brdf, 0.3 * i) + 1e-3 * (i * 7 % 5 - 2), 0};
+    }
+    lrcs_fit fit = fit_of(reading, 20, &options, NULL);
+    assert_int_equal(fit.parameter[LRCS_FIT_M].verdict, LRCS_FIT_AT_LEAST);
+    assert_true(holds(&fit, LRCS_FIT_M, brdf.m) && fit.parameter[LRCS_FIT_M].low > 100);
+}
+
+/* Equal readings at the normal alone: either part explains them, to the bit. */
+static void readings_of_one_value_at_the_normal_leave_both_parts_open(void **state)
+{
+    (void)state;
+    for (int noise = LRCS_FIT_ABSOLUTE; noise <= LRCS_FIT_GIVEN; noise++) {
+        lrcs_fit_reading reading[20];
+        lrcs_fit_options options = lrcs_fit_options_default();
+        options.noise = noise;
+        for (int i = 0; i < 20; i++) {
+            reading[i] = (lrcs_fit_reading){0, 0.5, 0.01};
+        }
+        lrcs_fit fit = fit_of(reading, 20, &options, NULL);
+        check_rel(fit.brdf.A + fit.brdf.B, 0.5, 1e-12);
+        assert_int_equal(fit.parameter[LRCS_FIT_A].verdict, LRCS_FIT_ABSENT);
+        assert_int_equal(fit.parameter[LRCS_FIT_B].verdict, LRCS_FIT_ABSENT);
+        check_most(fit.rms, 1e-12);
+    }
+}
+
+/* So far from the normal the steepest falls of the search are nothing at any reading. */
+static void grazing_readings_alone_give_back_a_matt_surface(void **state)
+{
+    (void)state;
+    lrcs_fit_reading reading[16];
+    lrcs_fit_options options = lrcs_fit_options_default();
+    lrcs_brdf brdf = {0, 0.25, 0, 0.5};
+    uint64_t random = 23;
+    for (int i = 0; i < 16; i++) {
+        double f = f_of(&brdf, 72 + i) + 1e-3 * random_normal(&random);
+        reading[i] = (lrcs_fit_reading){72 + i, f, 0};
+    }
+    lrcs_fit fit = fit_of(reading, 16, &options, NULL);
+    assert_true(holds(&fit, LRCS_FIT_B, brdf.B) && holds(&fit, LRCS_FIT_M, brdf.m));
+    assert_true(fit.parameter[LRCS_FIT_A].low == 0 && isfinite(fit.brdf.A + fit.brdf.B));
 }
 
 int main(void)
@@ -502,6 +555,9 @@ int main(void)
         cmocka_unit_test(the_work_area_is_what_need_says),
         cmocka_unit_test(any_readings_give_finite_values_between_their_limits),
         cmocka_unit_test(every_verdict_has_its_sentence),
+        cmocka_unit_test(a_fall_beyond_the_search_is_limited_below_only),
+        cmocka_unit_test(readings_of_one_value_at_the_normal_leave_both_parts_open),
+        cmocka_unit_test(grazing_readings_alone_give_back_a_matt_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,6 +83,7 @@ static void student_is_within_its_claim(void **state)
         check_rel(lrcsi_special_student(vectors[i].freedom), vectors[i].t, 1e-5);
     }
     check_rel(lrcsi_special_student(UINT32_MAX), 1.95996398454005424, 1e-9);
+    check_same(lrcsi_special_student(0), HUGE_VAL);
 }
 
 int main(void)

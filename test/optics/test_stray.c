@@ -293,6 +293,35 @@ static void the_most_of_f_r_cos_is_its_largest_value_over_the_range(void **state
     }
 }
 
+static void each_number_of_a_curvature_counts_for_itself(void **state)
+{
+    (void)state;
+    lrcs_brdf brdf = {1, 0.25, 0.2, 0.5};
+    double f = lrcsi_reflect(&brdf, 0.01, 0).glint + lrcsi_reflect(&brdf, 0.01, 0).diffuse;
+    double cosine = 1 / sqrt(1.01);
+    const lrcs_curvature larger = {0, 0.125, 0, 0};
+    const lrcs_curvature leaning = {0, 0, 0.125, 0}; /* all normals alike: they lean nowhere */
+    const lrcs_curvature spread = {0, 0, 0, 0.125};
+    double stray = lrcsi_reflect_stray(&brdf, cosine, 0.01, &larger);
+    assert_true(stray >= 0.125 * f && stray <= 0.126 * f);
+    check_same(lrcsi_reflect_stray(&brdf, cosine, 0.01, &leaning), 0.0);
+    assert_true(lrcsi_reflect_stray(&brdf, cosine, 0.01, &spread) > 0.0);
+}
+
+/* Where tan^2 overflows the facet itself reflects nothing, its patch may. */
+static void a_patch_about_edge_on_strays_by_what_it_reflects(void **state)
+{
+    (void)state;
+    lrcs_brdf brdf = {1, 0.25, 0.2, 0.5};
+    const lrcs_curvature c = {0.1, 0.001, 0.001, 0.06};
+    lrcsi_stray stray = lrcsi_stray_make(&brdf, 1e-200, HUGE_VAL, &c);
+    double t = 1 / tan(0.1);
+    lrcsi_reflection f = lrcsi_reflect(&brdf, t * t, 0);
+    check_same(stray.here, 0.0);
+    assert_true(stray.most >= f.glint + f.diffuse && stray.most <= 1.5 * (f.glint + f.diffuse));
+    assert_true(stray.apart >= f.glint + f.diffuse && isfinite(stray.whole));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -303,6 +332,8 @@ int main(void)
         cmocka_unit_test(no_corner_of_the_domain_gives_nan_or_less_than_zero),
         cmocka_unit_test(a_finer_patch_strays_less),
         cmocka_unit_test(the_most_of_f_r_cos_is_its_largest_value_over_the_range),
+        cmocka_unit_test(each_number_of_a_curvature_counts_for_itself),
+        cmocka_unit_test(a_patch_about_edge_on_strays_by_what_it_reflects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -250,6 +250,12 @@ static void parts_wear_the_recipes_materials_before_the_librarys(void **state)
     assert_string_equal(material.name, "solar-cell");
     part.material = "none such";
     assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_E_NAME);
+    part.material = "mli-geld";
+    assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_E_NAME);
+    part.material = "mli-gold";
+    part.wears = 1; /* beyond the recipe's materials: by name */
+    assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_OK);
+    assert_int_equal(worn, 0);
     part.material = NULL;
     assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_OK);
     assert_int_equal(worn, LRCS_NONE);
@@ -258,15 +264,15 @@ static void parts_wear_the_recipes_materials_before_the_librarys(void **state)
 static void the_slow_binder_agrees_with_the_indexed_one(void **state)
 {
     (void)state;
-    static const char *const name[] = {"skin", "own", "mli-gold", "other"};
+    static const char *const name[] = {"skin", "own", "mli-gold", "other", "shin"};
     lrcs_binding binding[5];
     lrcs_recipe recipe;
     for (uint32_t count = 0; count <= 5; count++) {
         make_recipe(binding, count, &recipe);
         lrcsi_binder plain = lrcsi_binder_plain(&recipe);
-        for (size_t i = 0; i < 8; i++) {
-            uint32_t worn = i < 4 ? 0 : LRCS_NONE;
-            const lrcs_surface surface = surface_of(name[i % 4]);
+        for (size_t i = 0; i < 10; i++) {
+            uint32_t worn = i < 5 ? 0 : LRCS_NONE;
+            const lrcs_surface surface = surface_of(name[i % 5]);
             lrcs_material a = bind(&recipe, worn, &surface, NULL);
             lrcs_material b = lrcsi_binder_surface(&plain, worn, &surface);
             check_same(a.brdf.A, b.brdf.A);

@@ -346,10 +346,18 @@ static void unfit_scenes_are_refused_with_the_parts_name(void **state)
     uint32_t wrong_material[4] = {0, 3, 0, 0};
     mesh.facet_material = wrong_material;
     assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_INDEX);
-    lrcs_facet wrong_facet[4] = {{{0, 2, 1}}, {{0, 1, 4}}, {{0, 3, 2}}, {{1, 2, 3}}};
-    mesh = tetra();
-    mesh.facet = wrong_facet;
-    assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_INDEX);
+    for (int k = 0; k < 3; k++) {
+        lrcs_facet wrong_facet[4] = {{{0, 2, 1}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 2, 3}}};
+        wrong_facet[1].corner[k] = 4;
+        mesh = tetra();
+        mesh.facet = wrong_facet;
+        assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_INDEX);
+        assert_string_equal(where.found, "culprit");
+    }
+    part.name = NULL;
+    part.place.scale[1] = 0.0;
+    assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_ARGUMENT);
+    assert_string_equal(where.found, "");
 }
 
 static void unfit_shapes_materials_and_options_are_refused(void **state)
@@ -371,8 +379,21 @@ static void unfit_shapes_materials_and_options_are_refused(void **state)
     part = model_part("m");
     assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_NUMBER);
     assert_string_equal(where.item, "material");
-    static const lrcs_build_options options[4] = {
-        {0.0, 64, 0}, {(double)NAN, 64, 0}, {1e-3, 63, 0}, {1e-3, 64, LRCS_NORMALS_SMOOTH + 1}};
+    uint32_t none[4] = {LRCS_NONE, LRCS_NONE, LRCS_NONE, LRCS_NONE};
+    mesh.facet_material = none;
+    mesh.material_count = 0; /* the bad default is worn by the facets themselves */
+    assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_NUMBER);
+    assert_string_equal(where.item, "material");
+    part = shape_part(LRCS_SHAPE_SPHERE, 1.0, 0.0, 0.0);
+    part.material = "none such";
+    assert_int_equal(refused(&recipe, NULL, &where), LRCS_E_NAME);
+    assert_string_equal(where.found, "none such");
+    part = model_part("m");
+    static const lrcs_build_options options[5] = {{0.0, 64, 0},
+                                                  {(double)NAN, 64, 0},
+                                                  {HUGE_VAL, 64, 0},
+                                                  {1e-3, 63, 0},
+                                                  {1e-3, 64, LRCS_NORMALS_SMOOTH + 1}};
     recipe.binding_count = 0;
     for (size_t i = 0; i < ROWS(options); i++) {
         lrcs_work work = lrcs_work_make(NULL, 0);
@@ -474,6 +495,53 @@ static void the_demonstration_satellite_builds(void **state)
     free(area);
 }
 
+/* Nothing of that size is looked at: counts are summed first. Seventy cylinders as fine as can be
+   pass 2^32 facets together. */
+static void more_than_indices_reach_is_refused(void **state)
+{
+    (void)state;
+    enum { N = 70 };
+    static lrcs_recipe_part parts[N];
+    static const char *const found[] = {"b", "a", "shape"};
+    const lrcs_build_options options = {1e-300, UINT32_MAX, LRCS_NORMALS_FLAT};
+    for (int i = 0; i < 3; i++) {
+        lrcs_mesh meshes[2] = {tetra(), tetra()};
+        lrcs_recipe recipe = {.part = parts, .part_count = i < 2 ? 2 : N};
+        for (uint32_t k = 0; k < recipe.part_count; k++) {
+            parts[k] = i < 2 ? model_part(found[1 - k]) : shape_part(LRCS_SHAPE_CYLINDER, 1, 1, 0);
+        }
+        meshes[0].vertex_count = i == 0 ? LRCS_NONE - 4 : 4;
+        meshes[0].material_count = i == 1 ? LRCS_NONE - 4 : 3;
+        unsigned char area[16 * N];
+        lrcs_work work = lrcs_work_make(area, sizeof area);
+        lrcs_where where = {0};
+        lrcs_scene scene;
+        assert_int_equal(lrcs_scene_build(&recipe, meshes, &options, &work, &scene, &where),
+                         LRCS_E_LIMIT);
+        assert_string_equal(where.found, found[i]);
+        assert_int_equal(work.used, 0);
+    }
+}
+
+/* A rim is divided for its shadows up to a million corners; beyond, for itself alone. */
+static void a_rim_no_count_can_refine_stays_as_its_disc_has_it(void **state)
+{
+    (void)state;
+    lrcs_recipe_part parts[2] = {shape_part(LRCS_SHAPE_DISC, 1, 0, 0),
+                                 shape_part(LRCS_SHAPE_DISC, 1, 0, 0)};
+    lrcs_recipe recipe = {.part = parts, .part_count = 2};
+    const lrcs_build_options options = {1e-12, 256, LRCS_NORMALS_FLAT};
+    static unsigned char area[1 << 17];
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcs_scene scene;
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);
+    lrcs_divisions divisions;
+    lrcs_mesh_counts counts;
+    const lrcs_fineness fineness = {1e-12, lrcs_brdf_default(), 256};
+    assert_int_equal(lrcs_shape_count(&parts[0].shape, &fineness, &divisions, &counts), LRCS_OK);
+    assert_int_equal(scene.facet_count, 2 * counts.facets);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -490,6 +558,8 @@ int main(void)
         cmocka_unit_test(too_small_an_area_is_refused_until_it_suffices),
         cmocka_unit_test(the_hash_is_fnv_1a_of_what_it_says),
         cmocka_unit_test(the_demonstration_satellite_builds),
+        cmocka_unit_test(more_than_indices_reach_is_refused),
+        cmocka_unit_test(a_rim_no_count_can_refine_stays_as_its_disc_has_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -185,6 +185,14 @@ static void door_refuses_what_a_built_scene_never_holds(void **state)
         }
         assert_int_equal(prepare_status(), LRCS_E_INDEX);
     }
+    for (int i = 0; i < 3; i++) {
+        lrcs_point normal[36] = {{{0, 0, 0}}};
+        scene_start(&scene);
+        scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+        scene.scene.corner_normal = normal;
+        normal[35].x[2] = i == 0 ? 1.0 : i == 1 ? nextafter(-1, -2) : wrong[0];
+        assert_int_equal(prepare_status(), i == 0 ? LRCS_OK : LRCS_E_NUMBER);
+    }
     scene_start(&scene);
     scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1e100});
     assert_int_equal(prepare_status(), LRCS_OK);

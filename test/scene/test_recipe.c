@@ -237,6 +237,9 @@ static const refusal refusals[] = {
     {"[[part]]\nname = \"a\"\nshape = \"cone\"\nradius = 1\n", LRCS_E_NAME, 1},
     {"[[part]]\nname = \"a\"\nshape = \"cone\"\nradius = 1\nlength = 1\nhalf_angle_deg = 9\n",
      LRCS_E_NAME, 1},
+    {"[[part]]\nname = \"a\"\nshape = \"cylinder\"\nradius = 1\nlength = -1\n", LRCS_E_NUMBER, 5},
+    {"[[part]]\nname = \"a\"\nshape = \"frustum\"\nradius = 1\nradius2 = -1\nlength = 1\n",
+     LRCS_E_NUMBER, 5},
     {MODEL "radius = 1\n", LRCS_E_NAME, 4},
     {MODEL "size = [1, 2]\n", LRCS_E_NAME, 4},
     {DISC "[[material]]\nA = 0\nB = 0.1\ns = 0\nm = 1\n", LRCS_E_NAME, 5},
@@ -442,6 +445,36 @@ static void the_example_file_is_a_scene(void **state)
     free(area);
 }
 
+static void a_reader_that_does_not_ask_where_is_told_what(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < ROWS(refusals); i++) {
+        static unsigned char area[1 << 16];
+        size_t size = strlen(refusals[i].text);
+        lrcs_work work = lrcs_work_make(area, sizeof area);
+        lrcs_recipe recipe;
+        assert_int_equal(lrcs_recipe_read(refusals[i].text, size, &work, &recipe, NULL),
+                         refusals[i].status);
+    }
+}
+
+static void a_body_is_whole_unless_only_its_wall_is_wanted(void **state)
+{
+    (void)state;
+    static const char *const said[] = {"", "wall_only = false\n", "wall_only = true\n"};
+    for (int i = 0; i < 3; i++) {
+        char text[128];
+        void *area;
+        lrcs_recipe recipe;
+        lrcs_where where;
+        snprintf(text, sizeof text, "[[part]]\nname = \"a\"\nshape = \"dome\"\nradius = 1\n%s",
+                 said[i]);
+        assert_int_equal(read_text(text, strlen(text), &area, &recipe, &where), LRCS_OK);
+        assert_int_equal(recipe.part[0].shape.parts, i == 2 ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL);
+        free(area);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -456,6 +489,8 @@ int main(void)
         cmocka_unit_test(every_prefix_is_read_or_refused),
         cmocka_unit_test(flipped_bytes_are_read_or_refused),
         cmocka_unit_test(the_example_file_is_a_scene),
+        cmocka_unit_test(a_reader_that_does_not_ask_where_is_told_what),
+        cmocka_unit_test(a_body_is_whole_unless_only_its_wall_is_wanted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

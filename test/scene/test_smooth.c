@@ -160,6 +160,9 @@ static void normals_turn_with_place_and_joint(void **state)
     memcpy(c.place.rotate, turn, sizeof turn);
     curved_build(&c, LRCS_NORMALS_SMOOTH);
     check_radial(&c, 24, 4e-16);
+    c.joint = (lrcs_joint){1, {0, 0, 1}, {0, 0, 3}, 90};
+    curved_build(&c, LRCS_NORMALS_SMOOTH);
+    check_radial(&c, 24, 4e-16);
     curved_free(&c);
 }
 
@@ -202,11 +205,11 @@ static void degenerate_facets_disturb_no_normal(void **state)
 {
     (void)state;
     roof_text("s 1", "s 1", 0);
-    strcat(text, "f 1 2 2\nf 1 1 1\n");
+    strcat(text, "f 1 2 2\nf 1 1 1\nf 1 2 1\n");
     curved_case c = curved_obj(text);
     curved_build(&c, LRCS_NORMALS_SMOOTH);
     check_normal(&c, 0, 0, 0, 0, 1, 4e-16);
-    assert_true(is_flat(&c, 4) && is_flat(&c, 5));
+    assert_true(is_flat(&c, 4) && is_flat(&c, 5) && is_flat(&c, 6));
     curved_free(&c);
 }
 
@@ -296,6 +299,98 @@ static void names_and_kinds_of_normals_go_both_ways(void **state)
     assert_null(lrcs_normals_text(-1));
 }
 
+/* The left one has 135 deg at the first vertex, the right one 45: their normals count so. */
+static void facets_count_by_their_angle_at_the_vertex(void **state)
+{
+    (void)state;
+    curved_case c = curved_obj("v 0 0 0\nv 0 1 0\nv -1 -1 0\nv 0 1 -1\ns 1\nf 1 2 3\nf 1 4 2\n");
+    curved_build(&c, LRCS_NORMALS_SMOOTH);
+    check_normal(&c, 0, 0, 1, 0, 3, 4e-16);
+    check_normal(&c, 0, 1, CURVED_PI / 2, 0, 0.46364760900080612, 4e-16); /* atan(1/2) */
+    curved_free(&c);
+}
+
+/* A fan of facets about the first vertex, no two in the same groups, all in the last. */
+static void a_vertex_of_many_sets_of_groups_keeps_them_apart(void **state)
+{
+    (void)state;
+    enum { N = 40 };
+    text[0] = '\0';
+    curved_line(text, "v 0 0 1");
+    for (int i = 0; i < N; i++) {
+        curved_line(text, "v %.17g %.17g 0", cos(2 * CURVED_PI * i / N),
+                    sin(2 * CURVED_PI * i / N));
+    }
+    for (int i = 0; i < N; i++) {
+        curved_line(text, "f 1 %d %d", i + 2, (i + 1) % N + 2);
+    }
+    curved_case c = curved_obj(text);
+    for (uint32_t f = 0; f < N; f++) {
+        c.mesh.facet_smooth[f] = 1u << 31 | f;
+    }
+    curved_build(&c, LRCS_NORMALS_SMOOTH);
+    for (uint32_t f = 0; f < N; f++) {
+        check_normal(&c, f, 0, 0, 0, 1, 1e-15);
+    }
+    curved_free(&c);
+}
+
+static void normals_that_do_not_turn_are_not_called_for(void **state)
+{
+    (void)state;
+    curved_case c = curved_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0.1 0 1\nf 1//1 2//1 3//1\n");
+    c.brdf.s = 0.001;
+    curved_build(&c, LRCS_NORMALS_AUTO);
+    assert_null(c.scene.corner_normal);
+    curved_build(&c, LRCS_NORMALS_SMOOTH);
+    check_normal(&c, 0, 2, 0.1, 0, 1, 4e-16);
+    curved_free(&c);
+}
+
+/* By a right angle and by all but two, the second to the last bit. */
+static void normals_that_turn_beyond_a_right_angle_are_called_for(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        curved_case c = curved_obj(i ? "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 1e-30\nvn -1 0 1e-30\n"
+                                       "f 1//1 2//2 3//1\n"
+                                     : "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0.1\nvn -1 0 0.1\n"
+                                       "f 1//1 2//2 3//1\n");
+        c.brdf = (lrcs_brdf){1, 0, 10, 0}; /* so wide a glint minds only the chords: turn^2 / 24 */
+        c.tolerance = i ? 0.40 : 0.35;
+        curved_build(&c, LRCS_NORMALS_AUTO);
+        assert_non_null(c.scene.corner_normal);
+        c.tolerance = i ? 0.42 : 0.37;
+        curved_build(&c, LRCS_NORMALS_AUTO);
+        assert_null(c.scene.corner_normal);
+        curved_free(&c);
+    }
+}
+
+static void facets_without_normals_of_their_own_ask_for_none(void **state)
+{
+    (void)state;
+    curved_case c =
+        curved_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0.1 1\nf 1 2 3\nf 1//1 2//1 3//1\n");
+    assert_true(lrcsi_smooth_given(&c.mesh));
+    c.mesh.facet_count = 1;
+    assert_false(lrcsi_smooth_given(&c.mesh));
+    for (int k = 0; k < 3; k++) {
+        c.mesh.facet_normal[0] = (lrcs_facet){{LRCS_NONE, LRCS_NONE, LRCS_NONE}};
+        c.mesh.facet_normal[0].corner[k] = 0;
+        assert_true(lrcsi_smooth_given(&c.mesh));
+    }
+    curved_free(&c);
+}
+
+static void more_corners_than_indices_are_refused(void **state)
+{
+    (void)state;
+    lrcs_work work = lrcs_work_make(NULL, 0);
+    const lrcs_mesh mesh = {.facet_count = UINT32_MAX / 3 + 1};
+    assert_int_equal(lrcsi_smooth_run(&mesh, NULL, NULL, &work, &(lrcs_scene){0}), LRCS_E_LIMIT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -314,6 +409,12 @@ int main(void)
         cmocka_unit_test(too_small_an_area_is_refused_until_it_suffices),
         cmocka_unit_test(a_normal_that_the_mesh_does_not_have_is_refused),
         cmocka_unit_test(names_and_kinds_of_normals_go_both_ways),
+        cmocka_unit_test(facets_count_by_their_angle_at_the_vertex),
+        cmocka_unit_test(a_vertex_of_many_sets_of_groups_keeps_them_apart),
+        cmocka_unit_test(normals_that_do_not_turn_are_not_called_for),
+        cmocka_unit_test(normals_that_turn_beyond_a_right_angle_are_called_for),
+        cmocka_unit_test(facets_without_normals_of_their_own_ask_for_none),
+        cmocka_unit_test(more_corners_than_indices_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -185,6 +185,16 @@ static void invalid_bytes_are_found_wherever_they_stand(void **state)
     }
 }
 
+static void lines_beyond_the_text_begin_at_its_end(void **state)
+{
+    (void)state;
+    static const char text[] = "a\nbc\nd";
+    static const size_t at[] = {0, 0, 2, 5, 6, 6};
+    for (uint32_t line = 0; line < 6; line++) {
+        assert_int_equal(lrcsi_toml_offset(text, sizeof text - 1, line), at[line]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -195,6 +205,7 @@ int main(void)
         cmocka_unit_test(arrays_count_beyond_what_they_keep),
         cmocka_unit_test(errors_tell_line_offset_and_bytes),
         cmocka_unit_test(invalid_bytes_are_found_wherever_they_stand),
+        cmocka_unit_test(lines_beyond_the_text_begin_at_its_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
