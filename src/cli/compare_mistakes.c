@@ -147,6 +147,7 @@ const compare_mistake cli_compare_mistakes[] = {
      .text = "BRDF: tan^2 / (2 s^2) in place of tan^2 / s^2",
      .shade = cli_shade_slope,
      .at = 0.5},
+    {.name = "sine", .text = "BRDF: sin^2 / s^2 in place of tan^2 / s^2", .shade = cli_shade_sine},
     {.name = "small-angle",
      .text = "BRDF: theta^2 / s^2 in place of tan^2 / s^2",
      .shade = cli_shade_small_angle},

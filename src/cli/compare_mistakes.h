@@ -12,6 +12,7 @@ mistake_shade cli_shade_cosine;
 mistake_shade cli_shade_degrees;
 mistake_shade cli_shade_power;
 mistake_shade cli_shade_slope;
+mistake_shade cli_shade_sine;
 mistake_shade cli_shade_small_angle;
 mistake_shade cli_shade_tan_degrees;
 mistake_shade cli_shade_lambert;

@@ -16,11 +16,34 @@ typedef struct compare_search {
     double *room;   /* to sort in */
 } compare_search;
 
+/* How well a mistake explains. */
+typedef struct search_score {
+    const compare_mistake *first, *second; /* second: NULL, or made as well */
+    double factor;
+    double score; /* share of the differences that it removes, where it is right */
+    double price; /* of what it assumes, taken off the score */
+    uint32_t explained;
+} search_score;
+
 /* Parts the cases asked for into those that fail, unexplained so far, and some that pass. */
 void cli_search_part(compare_search *search);
 
 /* Does an expected answer explain what was handed in? */
 int cli_search_explained(const compare_search *search, const compare_case *one, double expected);
+
+/* How well a mistake's answers explain, times a factor. */
+search_score cli_search_score(const compare_search *search, double factor);
+
+/* The median ratio of what was handed in to what the mistake answers, over the first failing cases;
+   a known number where it is near one. */
+double cli_search_factor(const compare_search *search, uint32_t failings, int *known);
+
+/* A mistake with another one's shade; the second may be NULL. */
+compare_mistake cli_mistake_both(const compare_mistake *first, const compare_mistake *second);
+
+/* Makes a finding of the best explanation and marks its cases. 0, or -1 with the message printed.
+ */
+int cli_search_say(compare_search *search, const search_score *best);
 
 /* The median, 0 of nothing; sorts the values. */
 double cli_search_median(double *value, uint32_t count);

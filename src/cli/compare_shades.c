@@ -53,6 +53,13 @@ double cli_shade_slope(const mistake_spot *spot, double at)
     return shade_terms(spot, 6.0, spot_tan2(spot) * (at > 0.0 ? at / (s * s) : 1.0 / s));
 }
 
+double cli_shade_sine(const mistake_spot *spot, double at)
+{
+    double s = spot->brdf->s;
+    (void)at;
+    return shade_terms(spot, 6.0, (1.0 - spot->c * spot->c) / (s * s));
+}
+
 double cli_shade_small_angle(const mistake_spot *spot, double at)
 {
     double theta = acos(spot->c) / spot->brdf->s;

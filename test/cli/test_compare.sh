@@ -68,6 +68,9 @@ reason tan 'degrees for radians: theta in degrees goes into tan'
 ./raster kit 96 winding >theirs.csv
 run compare kit theirs.csv --pixels 96 --tier 1
 why what_explains_as_well_is_named_too 1 '^why          winding: .*; or, equally well: wrong frame: the laser on the other side'
+./raster kit 96 frame | awk -F, -v OFS=, '$1 == "comb" { $3 *= 0.7 } { print }' >theirs.csv
+run compare kit theirs.csv --pixels 96
+why what_the_window_cuts_off_is_told 1 '^why          wrong frame: R in place of its transpose.*; in [0-9]* cases less than that: part of the scene is outside'
 judged whole depth
 why depth_is_named 1 '^why          depth precision: skins 2^-14 m apart'
 judged whole fight
