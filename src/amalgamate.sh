@@ -60,9 +60,6 @@ licence() {
     licence
     echo '/* The core of lrcs in two files, made by make amalgamation: compile this one with'
     echo '   -std=c11 -ffp-contract=off, link it with -lm. */'
-    echo '#ifdef __FAST_MATH__'
-    echo '#error "bounds are proved for IEEE 754 arithmetic: not with -ffast-math"'
-    echo '#endif'
     echo '/* a * b + c is rounded twice, whatever the options say: exact signs depend on it. */'
     echo '#if defined(__clang__)'
     echo '#pragma STDC FP_CONTRACT OFF'

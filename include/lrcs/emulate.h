@@ -37,9 +37,9 @@ size_t lrcs_emulate_need(const lrcs_prepared *prepared, const lrcs_emulation_opt
    Returned: emulation; records[facet_count] unless NULL, whose visible area is that of the pixels
    owned; image unless NULL, its size the options' resolution: the item buffer. Finite, not bounded:
    compare with lrcs_sigma_run.
-   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_UNSUPPORTED (curved normals);
-   LRCS_E_NUMBER (sigma beyond double range, or a pixel's share of it beyond that of float32).
-   Work: nothing stays in the work area. O(vertices + facets + fragments + N^2).
+   Status: LRCS_OK; LRCS_E_ARGUMENT (options or the pose); LRCS_E_MEMORY; LRCS_E_UNSUPPORTED (curved
+   normals); LRCS_E_NUMBER (the pose, sigma beyond double range, or a pixel's share of it beyond
+   that of float32). Work: nothing stays in the work area. O(vertices + facets + fragments + N^2).
    Notes: 1. Each operation on vertices, depths, shades and sums is one IEEE operation at the
    precision, none of them fused. The host's part is in double, rounded once as it is uploaded:
    vertices about the scene's centre in units of a power of two near its reach, one matrix to the

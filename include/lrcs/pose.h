@@ -7,11 +7,15 @@
 
 #include <lrcs/status.h>
 
-/* The certificate takes `direction` as exact: s_hat = direction / |direction|. R only carries
-   areas and pictures; its third row equals s_hat to rounding. */
+/* The certificate takes `direction` as exact: s_hat = direction / |direction|. Of R only the roll
+   about it counts, which places pictures and samples: runs take R's first row and make the axes
+   anew, so that rounding in R does no harm. A pose that is none is refused, wherever it comes from:
+   LRCS_E_NUMBER where a number is not finite; LRCS_E_ARGUMENT where the direction's largest
+   component is not in [0.5, 1], or R differs by more than 2^-20 from a rotation that takes s_hat to
+   z (single precision is near enough). */
 typedef struct lrcs_pose {
-    double direction[3]; /* body frame, to the laser; finite, not zero, |largest| in [0.5, 1];
-                            what is below 2^-300 counts as 0 */
+    double direction[3]; /* body frame, to the laser; |largest| in [0.5, 1]; what is below 2^-300
+                            counts as 0 */
     double R[3][3];      /* rows: observation x, y, z axes in the body frame */
 } lrcs_pose;
 

@@ -28,7 +28,9 @@ size_t lrcs_prepare_need(const lrcs_scene *scene);
 
 /* Prepares a scene, which must outlive the result. Coordinates below 2^-300 of the largest one
    count as zero. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 neighbours in a
-   list); LRCS_E_INDEX, LRCS_E_NUMBER (a scene not made by lrcs_scene_build). */
+   list); LRCS_E_INDEX, LRCS_E_NUMBER (a scene not made by lrcs_scene_build); LRCS_E_UNSUPPORTED
+   (this thread or build rounds doubles otherwise than IEEE 754 to nearest, fuses products and sums,
+   or flushes what is below DBL_MIN to zero: nothing that is proved would hold). */
 int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared);
 
 /* What the engine can leave out. */
@@ -134,7 +136,7 @@ typedef struct lrcs_result {
 /* What the laser sees, pixel by pixel (row 0 on top, column 0 left; x right, y up), and which
    square of the observation frame that is, about the body's origin, to rounding. */
 typedef struct lrcs_image {
-    uint32_t size;                /* N, given */
+    uint32_t size;                /* N, given, at most 16384; 0: none wanted */
     uint32_t *facet;              /* N * N, room given: facet index, or LRCS_NONE */
     double left_m, top_m, side_m; /* returned */
 } lrcs_image;
@@ -149,10 +151,10 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    Given: prepared; pose; options; work.
    Returned: result; records[facet_count] unless NULL; image unless NULL: then a raster is drawn
    whatever the method, image->size > 0 asks for its size and image->facet has room for it.
-   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_MEMORY; LRCS_E_NUMBER (sigma beyond double range);
-   LRCS_E_LIMIT (more than 2^32 - 2 candidates in a grid).
-   Work: nothing stays in the work area. Every loop is bounded: at most how many steps a pose takes,
-   and how many it does take, stands in examples/flight/README.md.
+   Status: LRCS_OK; LRCS_E_ARGUMENT (options, the image's size or the pose); LRCS_E_MEMORY;
+   LRCS_E_NUMBER (the pose, or sigma beyond double range); LRCS_E_LIMIT (more than 2^32 - 2
+   candidates in a grid). Work: nothing stays in the work area. Every loop is bounded: at most how
+   many steps a pose takes, and how many it does take, stands in examples/flight/README.md.
    Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
    cubature errs by about curvature_estimate_m2, which is not proved and not in the bound.
    2. Of a facet with curved normals that is seen in part, samples tell how much is seen but not

@@ -5,6 +5,8 @@
 #ifndef LRCSI_DD_H
 #define LRCSI_DD_H
 
+#include "base/ieee.h"
+
 typedef struct lrcsi_dd {
     double hi, lo;
 } lrcsi_dd;

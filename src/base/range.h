@@ -4,6 +4,8 @@
 #ifndef LRCSI_RANGE_H
 #define LRCSI_RANGE_H
 
+#include "base/ieee.h"
+
 static inline double lrcsi_least(double a, double b)
 {
     return a < b ? a : b;

@@ -11,7 +11,6 @@
 #include <float.h>
 
 _Static_assert(FLT_RADIX == 2 && FLT_MANT_DIG == 24 && DBL_MANT_DIG == 53, "IEC 60559");
-_Static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1, "double operations round to double");
 
 /* The result of one operation, rounded to float where `single`. */
 static inline double lrcsi_single(int single, double x)

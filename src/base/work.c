@@ -26,6 +26,11 @@ size_t lrcsi_work_bytes(size_t count, size_t size)
     return lrcsi_work_add(bytes > 0 ? bytes : 1, LRCS_WORK_ALIGN - 1);
 }
 
+size_t lrcsi_work_square(uint32_t side)
+{
+    return side != 0 && side > SIZE_MAX / side ? SIZE_MAX : (size_t)side * side;
+}
+
 /* Bytes from `at` to the next aligned address. */
 static size_t padding(const unsigned char *at)
 {

@@ -5,6 +5,8 @@
 
 #include <lrcs/work.h>
 
+#include <stdint.h>
+
 /* Room for `count` items of `size` bytes, not cleared, or NULL (peak then says what was missing).
    A count of 0 gives a valid pointer. */
 void *lrcsi_work_take(lrcs_work *work, size_t count, size_t size);
@@ -14,6 +16,9 @@ void *lrcsi_work_take_zero(lrcs_work *work, size_t count, size_t size);
 
 /* Bytes lrcsi_work_take uses at most for such a block: for the _need functions. Saturates. */
 size_t lrcsi_work_bytes(size_t count, size_t size);
+
+/* side * side, saturating. */
+size_t lrcsi_work_square(uint32_t side);
 
 /* a + b, saturating at SIZE_MAX. */
 size_t lrcsi_work_add(size_t a, size_t b);

@@ -53,6 +53,7 @@ typedef struct compare_case {
     double sigma_m2, bound_m2, float_m2, edge_m2;
     uint32_t image;   /* side of its pictures, 0: none */
     double theirs_m2; /* may be NaN */
+    double printed;   /* the same as their table has it */
     int given;        /* did they answer? */
     int grade;        /* compare_grade */
     int explained;    /* by which finding, from 1 */
@@ -150,11 +151,12 @@ typedef struct compare_job {
     const cli_args *args;
     const char *theirs, *facets, *items;
     uint32_t pixels, tier;
-    int grade; /* the least that passes */
+    int grade;    /* the least that passes */
+    int decibels; /* did they hand in dBsm? */
     compare_kit kit;
     uint32_t asked, given,
         failed; /* cases of the tiers asked for; failed: those not handed in too */
-    uint32_t not_numbers;
+    uint32_t not_numbers, negatives; /* that no finding explains */
     compare_finding finding[COMPARE_FINDINGS];
     uint32_t findings, unexplained;
     int biased; /* a factor that all answers share, each within its class */
@@ -175,6 +177,10 @@ int cli_compare_asked(const compare_job *job, const compare_case *one);
 
 /* Does a case fail the job? One that was not asked for does not. */
 int cli_compare_failed(const compare_job *job, const compare_case *one);
+
+/* What is wrong with a failing case that no finding explains. */
+enum compare_lack { LACK_NONE, LACK_ANSWER, LACK_NUMBER, LACK_SIGN, LACK_REASON };
+int cli_compare_lack(const compare_job *job, const compare_case *one);
 
 /* Reads the answers and puts every case into its class. 0 or CLI_FAILED. */
 int cli_compare_judge(compare_job *job);

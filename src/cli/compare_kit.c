@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- materials ---- */
 
@@ -158,8 +159,16 @@ static int cases_read(compare_kit *kit)
 
 int cli_compare_kit(const char *folder, compare_kit *kit)
 {
+    char path[KIT_PATH];
     memset(kit, 0, sizeof *kit);
     kit->folder = folder;
+    if (cli_kit_path(path, "%s/" KIT_CASES_FILE, folder) != 0) {
+        return CLI_FAILED;
+    }
+    if (access(path, F_OK) != 0) {
+        fprintf(stderr, "lrcs: %s: not a kit's folder (lrcs vectors DIR makes one)\n", folder);
+        return CLI_FAILED;
+    }
     int code = materials_read(kit);
     return code ? code : cases_read(kit);
 }
@@ -245,13 +254,17 @@ static compare_scene *scene_find(const compare_kit *kit, const compare_table *ta
                                  const char *name)
 {
     const char *best = NULL;
+    int tiers = 0;
     for (uint32_t i = 0; i < kit->scenes; i++) {
         if (strcmp(kit->scene[i].name, name) == 0) {
             return &kit->scene[i];
         }
         best = cli_nearest(name, best, kit->scene[i].name);
+        tiers = kit->scene[i].tier > tiers ? kit->scene[i].tier : tiers;
     }
-    cli_table_refuse(table, column, "a scene of the kit (the nearest is %s)", best ? best : "none");
+    cli_table_refuse(table, column,
+                     "a scene of the kit, which has tiers 1 .. %d (the nearest is %s)", tiers,
+                     best ? best : "none");
     return NULL;
 }
 

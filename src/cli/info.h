@@ -29,6 +29,10 @@ typedef struct cli_info {
 /* Reads the command's scene with what its files say of normals, and looks at all of it. To be freed
    in any case. 0 or an exit code with the message printed. */
 int cli_info_read(const cli_args *args, const lrcs_host_options *options, cli_info *info);
+
+/* The same of a scene that has been read, which must outlive the info. */
+int cli_info_make(const cli_args *args, const lrcs_host_scene *base,
+                  const lrcs_build_options *build, cli_info *info);
 void cli_info_free(cli_info *info);
 
 /* Whether a material is worth a line: the default is not when nothing wears it. */

@@ -59,18 +59,13 @@ static int mesh_examine(cli_info *info)
     return status;
 }
 
-int cli_info_read(const cli_args *args, const lrcs_host_options *options, cli_info *info)
+/* Looks at a scene that was built from what `base` was read from. */
+static int info_look(const char *operand, const lrcs_host_scene *base, cli_info *info)
 {
     lrcs_host_error error;
-    lrcs_host_options load = *options;
-    load.build.normals = LRCS_NORMALS_SMOOTH; /* to see what the files say of them */
-    int code = cli_scene_read(args, &load, &info->scene);
-    if (code != 0) {
-        return code;
-    }
     int status = mesh_examine(info);
     if (status != LRCS_OK || materials_count(info) != 0) {
-        fprintf(stderr, "lrcs: %s: %s\n", args->operand,
+        fprintf(stderr, "lrcs: %s: %s\n", operand,
                 status == LRCS_OK || status == LRCS_E_MEMORY ? "out of memory"
                                                              : lrcs_status_text(status));
         return CLI_FAILED;
@@ -79,8 +74,27 @@ int cli_info_read(const cli_args *args, const lrcs_host_options *options, cli_in
         LRCS_OK) {
         return cli_failed(&error);
     }
-    info->parts = parts_count(&info->scene);
+    info->parts = parts_count(base);
     return 0;
+}
+
+int cli_info_read(const cli_args *args, const lrcs_host_options *options, cli_info *info)
+{
+    lrcs_host_options load = *options;
+    load.build.normals = LRCS_NORMALS_SMOOTH;
+    int code = cli_scene_read(args, &load, &info->scene);
+    return code ? code : info_look(args->operand, &info->scene, info);
+}
+
+int cli_info_make(const cli_args *args, const lrcs_host_scene *base,
+                  const lrcs_build_options *build, cli_info *info)
+{
+    lrcs_host_error error;
+    lrcs_build_options smooth = *build;
+    smooth.normals = LRCS_NORMALS_SMOOTH;
+    return lrcs_host_scene_vary(base, &base->recipe, &smooth, &info->scene, &error) == LRCS_OK
+               ? info_look(args->operand, base, info)
+               : cli_failed(&error);
 }
 
 void cli_info_free(cli_info *info)

@@ -9,34 +9,33 @@
 static const char report_help[] =
     "usage: lrcs report SCENE [pose] -o FILE.html [options]\n"
     "\n"
-    "Writes one page about SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo': what it\n"
-    "holds, what the laser sees, sigma (m2) with its certificate, who makes it, what was "
-    "simulated\n"
-    "and why, cuts through three planes and a map of all directions (dBsm), the peaks and who "
-    "makes\n"
-    "them, what accuracy costs in time, and the commands that make all of it again. The page is "
-    "one\n"
-    "file for any browser, with its pictures inside and no scripts.\n"
+    "Writes one page about SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo': what\n"
+    "it holds, what the laser sees, sigma (m2) with its certificate, who makes it, what was\n"
+    "simulated and why, cuts through three planes and a map of all directions (dBsm), the\n"
+    "peaks and who makes them, what accuracy costs in time, and the commands that make all\n"
+    "of it again. The page is one file for any browser, with its pictures inside and no\n"
+    "scripts.\n"
     "\n" CLI_POSE_HELP "\n"
     "output\n"
     "  -o FILE.html          the page ('-': standard output)\n"
     "\n"
-    "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "  --seconds S           time for cuts, map and "
-    "comparison, about (40): it decides their steps\n"
-    "                        and is exceeded where a single pose takes seconds\n"
+    "options\n"
+    "  --seconds S           time for cuts, map and comparison, about (40): it decides\n"
+    "                        their steps and is exceeded where a pose takes seconds\n"
     "  --cut-step DEG        of the cuts, a divisor of 90, in place of what time allows\n"
     "  --map-step DEG        of the map, likewise\n"
     "  --jobs N              threads for cuts and map (one for each processor)\n"
     "\n"
-    "Cuts and map are drawn to a tolerance of 0.01, or REL where that is coarser: their shapes "
-    "are\n"
-    "tessellated for it. Exit 3 where the run at the pose misses its own tolerance.\n"
+    "run and scene\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
+    "Cuts and map are drawn to a tolerance of 0.01, or REL where that is coarser: their\n"
+    "shapes are tessellated for it. Exit 3 where the run at the pose misses its own\n"
+    "tolerance.\n"
     "\n"
     "examples\n"
     "  lrcs report demo --azel 50,40 -o demo.html\n"
     "  lrcs report aura.3ds --unit in --azel 30,20 --material solar=solar-cell -o aura.html\n"
-    "  lrcs report examples/satellites/lander.toml --tolerance 0.003 --seconds 300 -o "
-    "lander.html\n";
+    "  lrcs report examples/satellites/lander.toml --tolerance 0.003 --seconds 300 "
+    "-o lander.html\n";
 
 static const cli_option report_options[] = {
     CLI_POSE_OPTIONS,   CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"o", 1, 0},    {"seconds", 1, 0},
@@ -143,8 +142,9 @@ static int report_compare(report_job *job)
 static int report_measure(report_job *job)
 {
     const cli_output file = {"o", job->path};
-    int code = cli_info_read(job->args, &job->load, &job->info);
-    code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->info.scene);
+    int code = cli_scene_read(job->args, &job->load, &job->scene);
+    code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->scene);
+    code = code ? code : cli_info_make(job->args, &job->scene, &job->load.build, &job->info);
     code = code ? code : cli_report_run(job);
     code = code ? code : cli_report_sweeps(job);
     return code ? code : report_compare(job);

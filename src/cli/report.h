@@ -64,7 +64,7 @@ typedef struct report_job {
 
 /* ---- what it measures: 0 or an exit code with the message printed ---- */
 
-/* The scene, what it holds, and the run with its pictures and shares. */
+/* The run of its scene, with pictures and shares. */
 int cli_report_run(report_job *job);
 
 /* The sweeps, their drawings and peaks. */

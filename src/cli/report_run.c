@@ -57,10 +57,6 @@ static int picture_make(report_job *job, int kind)
 int cli_report_run(report_job *job)
 {
     lrcs_host_error error;
-    int code = cli_scene_read(job->args, &job->load, &job->scene);
-    if (code != 0) {
-        return code;
-    }
     job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
     if (!job->records) {
         return cli_out_of_memory();
@@ -73,8 +69,8 @@ int cli_report_run(report_job *job)
     if (status != LRCS_OK) {
         return cli_failed(&error);
     }
-    code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
-                           &job->shares);
+    int code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
+                               &job->shares);
     for (int kind = 0; kind < REPORT_PICTURES && code == 0; kind++) {
         code = picture_make(job, kind);
     }

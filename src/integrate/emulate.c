@@ -12,8 +12,7 @@
 #include "integrate/image.h"
 #include "visibility/gpu.h"
 
-#define MOST_PIXELS 16384u
-#define FOUR_PI     12.566370614359172954
+#define FOUR_PI 12.566370614359172954
 
 static const char *const precision_name[] = {"float64", "float32"};
 
@@ -214,7 +213,7 @@ static int emulation_check(const lrcs_prepared *prepared, const lrcs_emulation_o
                            const lrcs_image *image)
 {
     uint32_t bits = options->depth_bits;
-    if (options->resolution < 1 || options->resolution > MOST_PIXELS ||
+    if (options->resolution < 1 || options->resolution > LRCSI_IMAGE_MOST ||
         !lrcs_precision_text(options->precision) ||
         (bits != 16 && bits != 24 && bits != 32 && bits != 64) ||
         (image && image->size != options->resolution)) {

@@ -5,6 +5,9 @@
 
 #include "view/view.h"
 
+/* Pixels along a side at most, of rasters too: 2^28 in all. */
+#define LRCSI_IMAGE_MOST 16384u
+
 /* Given: the view that was drawn; owner, image->size squared, row 0 at the bottom. Returned: the
    rest of the image. */
 void lrcsi_image_fill(const lrcsi_view *view, const uint32_t *owner, lrcs_image *image);

@@ -16,7 +16,6 @@
    costs; below 16 there is nothing to gain. */
 #define FIRST_SIZE 512u
 #define LAST_SIZE  4096u
-#define MOST_SIZE  16384u
 
 /* What a run passes from stage to stage. */
 typedef struct sigma_run {
@@ -41,12 +40,12 @@ lrcs_run_options lrcs_run_options_default(void)
     return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0};
 }
 
-static int options_check(const lrcs_run_options *options)
+static int run_check(const lrcs_run_options *options, const lrcs_image *image)
 {
     if (options->method < LRCS_METHOD_AUTO || options->method > LRCS_METHOD_EXACT ||
-        !(options->tolerance > 0) || options->resolution > MOST_SIZE ||
+        !(options->tolerance > 0) || options->resolution > LRCSI_IMAGE_MOST ||
         ((options->without | options->with) & ~LRCS_EFFECTS_SWITCHED) != 0 ||
-        (options->without & options->with) != 0) {
+        (options->without & options->with) != 0 || (image && image->size > LRCSI_IMAGE_MOST)) {
         return LRCS_E_ARGUMENT;
     }
     return LRCS_OK;
@@ -359,7 +358,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                    const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,
                    lrcs_facet_record *records, lrcs_image *image)
 {
-    int status = options_check(options);
+    int status = run_check(options, image);
     if (status != LRCS_OK) {
         return status;
     }

@@ -276,15 +276,6 @@ int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet othe
     return surely_on_one_side(&f, &t) ? LRCSI_TOUCH_NONE : touch_kind(&f, &t, &rim);
 }
 
-int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
-{
-    touch_facet f = corners_of(vertex, facet);
-    touch_facet t = corners_of(vertex, other);
-    int side[3];
-    plane_sides(&f, &t, side);
-    return side[0] == 0 && side[1] == 0 && side[2] == 0;
-}
-
 /* Is p on the segment a b, which is longer than 0, and not at its ends? */
 static int is_inside_segment(const double *a, const double *b, const double *p)
 {

@@ -34,9 +34,6 @@ typedef struct lrcsi_touches {
    degenerate. */
 int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);
 
-/* 1 where two facets lie exactly in one plane. Neither may be degenerate. */
-int lrcsi_touch_coplanar(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);
-
 /* Finds all of them. Facets marked in `skip` (degenerate, omitted) neither touch nor are touched.
    `piece`, unless NULL, names the piece of surface that each facet belongs to: then `self` is told
    also. Inside a side: a corner of one facet on a side of the other, ends excluded, of which no

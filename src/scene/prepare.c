@@ -8,6 +8,7 @@
 
 #include "base/dd.h"
 #include "base/exact.h"
+#include "base/ieee.h"
 #include "base/length.h"
 #include "base/work.h"
 #include "mesh/tree.h"
@@ -255,7 +256,8 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     size_t facets = scene->facet_count;
     size_t need = lrcsi_work_bytes(1, sizeof(lrcs_prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, sizeof(lrcs_point)));
-    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, 1));
     need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
@@ -270,7 +272,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
 
 int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared)
 {
-    int status = prepare_door(scene);
+    int status = lrcsi_ieee_kept() ? prepare_door(scene) : LRCS_E_UNSUPPORTED;
     if (status != LRCS_OK) {
         return status;
     }

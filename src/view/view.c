@@ -5,52 +5,23 @@
 
 #include <math.h>
 
-#include "base/dd.h"
 #include "base/exact.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "base/work.h"
+#include "view/frame.h"
+#include "view/product.h"
 
 #define U 0x1p-53
-
-/* N . d, N being high + low. Products and sums are split into what doubles hold of them and what
-   they lose, and only the sum of the lost parts is rounded: with P = sum |N_k d_k|, at most
-   |N| |d|, the three pairs of up to 2 u P and their products 3 u^2 P, the pairs' sums 4 u^2 P,
-   those of the sums' own lost parts 2 u^2 P, the two together 4 u^2 P. Off by at most N's own error
-   times |d|, 14 u^2 |N| |d|, and the last rounding, u |N . d|. */
-static inline double normal_dot(const double *high, const double *low, const double *d)
-{
-    lrcsi_dd x = lrcsi_dd_two_product(high[0], d[0]);
-    lrcsi_dd y = lrcsi_dd_two_product(high[1], d[1]);
-    lrcsi_dd z = lrcsi_dd_two_product(high[2], d[2]);
-    lrcsi_dd xy = lrcsi_dd_two_sum(x.hi, y.hi);
-    lrcsi_dd xyz = lrcsi_dd_two_sum(xy.hi, z.hi);
-    double lost = ((x.lo + low[0] * d[0]) + (y.lo + low[1] * d[1])) + (z.lo + low[2] * d[2]);
-    return xyz.hi + (lost + (xy.lo + xyz.lo));
-}
-
-/* N_i d_j - N_j d_i in the same way: with Q = |N_i d_j| + |N_j d_i|, the products' lost parts and
-   that of their difference 3 u^2 Q, N's low parts 2 u^2 Q, all together 3 u^2 Q: 8 u^2 Q and the
-   last rounding. The three Q of N x d are at most sqrt(2) |N| |d| in norm: |N x d| is off by at
-   most N's own error times |d|, 12 u^2 |N| |d|, and 3.5 u |N x d| for the last roundings and the
-   norm's. */
-static inline double normal_turn(const double *high, const double *low, const double *d, int i,
-                                 int j)
-{
-    lrcsi_dd p = lrcsi_dd_two_product(high[i], d[j]);
-    lrcsi_dd q = lrcsi_dd_two_product(high[j], d[i]);
-    lrcsi_dd s = lrcsi_dd_two_sum(p.hi, -q.hi);
-    return s.hi + (((p.lo - q.lo) + s.lo) + (low[i] * d[j] - low[j] * d[i]));
-}
 
 /* N . d and N x d. */
 static inline double normal_products(const double *high, const double *low, const double *d,
                                      double *cross)
 {
-    cross[0] = normal_turn(high, low, d, 1, 2);
-    cross[1] = normal_turn(high, low, d, 2, 0);
-    cross[2] = normal_turn(high, low, d, 0, 1);
-    return normal_dot(high, low, d);
+    cross[0] = lrcsi_product_turn(high, low, d, 1, 2);
+    cross[1] = lrcsi_product_turn(high, low, d, 2, 0);
+    cross[2] = lrcsi_product_turn(high, low, d, 0, 1);
+    return lrcsi_product_dot(high, low, d);
 }
 
 /* The absolute error of both, per unit of |d|. */
@@ -152,7 +123,7 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
     if (view->facing[facet] == 0) {
         return 0;
     }
-    double product = normal_dot(n->high, n->low, view->direction);
+    double product = lrcsi_product_dot(n->high, n->low, view->direction);
     return tilt_projected(view, tilt_dot_of(view, facet, product, normal_off(n) * view->length));
 }
 
@@ -265,20 +236,17 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
                     lrcsi_view *view)
 {
     lrcsi_view v = {.prepared = prepared};
+    int status = lrcsi_frame_make(pose, v.direction, v.R);
+    if (status != LRCS_OK) {
+        return status;
+    }
     v.backs_cast = v.backs_reflect = !prepared->solid;
     v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
     if (!v.facing) {
         return LRCS_E_MEMORY;
     }
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        v.direction[k] = fabs(pose->direction[k]) < LRCSI_COORDINATE_LEAST ? 0 : pose->direction[k];
-        square += v.direction[k] * v.direction[k];
-        for (int j = 0; j < 3; j++) {
-            v.R[k][j] = pose->R[k][j];
-        }
-    }
-    v.length = sqrt(square);
+    v.length = sqrt(v.direction[0] * v.direction[0] + v.direction[1] * v.direction[1] +
+                    v.direction[2] * v.direction[2]);
     view_facings(&v);
     *view = v;
     return LRCS_OK;
@@ -292,7 +260,7 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
         return LRCS_E_MEMORY;
     }
     /* A coordinate is three products of |R| <= 1 with a rounded difference: 6 u times the reach,
-       and R's own rows are off by a few u; a lifted point adds u of the centre. */
+       and R's own rows are off by 4 u (view/frame.h); a lifted point adds u of the centre. */
     double reach = 0;
     for (int k = 0; k < 3; k++) {
         reach = lrcsi_most(reach, fabs(p->centre[k]));

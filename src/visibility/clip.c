@@ -147,7 +147,7 @@ double lrcsi_clip_within(const lrcsi_clip_polygon *polygon, const lrcsi_clip_lin
         if (fabs(from) <= strip) {
             range_grow(range, along);
         }
-        for (int k = -1; k <= 1; k += 2) {
+        for (int k = -1; k <= 1 && rise != 0; k += 2) {
             double t = (k * strip - from) / rise;
             if (t > 0 && t < 1) {
                 range_grow(range, along + t * run);

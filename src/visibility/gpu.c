@@ -239,7 +239,7 @@ static void facet_draw(lrcsi_gpu *gpu, uint32_t facet)
 
 size_t lrcsi_gpu_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    size_t pixels = (size_t)size * size;
+    size_t pixels = lrcsi_work_square(size);
     size_t need = lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_gpu_vertex));
     need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
@@ -247,7 +247,7 @@ size_t lrcsi_gpu_need(const lrcs_prepared *prepared, uint32_t size)
 
 static int gpu_arrays(lrcsi_gpu *gpu, lrcs_work *work)
 {
-    size_t pixels = (size_t)gpu->size * gpu->size;
+    size_t pixels = lrcsi_work_square(gpu->size);
     gpu->vertex =
         lrcsi_work_take(work, gpu->view->prepared->scene->vertex_count, sizeof *gpu->vertex);
     gpu->owner = lrcsi_work_take(work, pixels, sizeof *gpu->owner);

@@ -92,8 +92,8 @@ lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
     double n[3];
     plane_normal(view, facet, n);
     const double *a = view->point[view->prepared->scene->facet[facet].corner[0]].x;
-    double along = -n[0] / n[2];
-    double up = -n[1] / n[2];
+    double along = n[2] != 0 ? -n[0] / n[2] : 0; /* edge-on: nothing is decided by it, see below */
+    double up = n[2] != 0 ? -n[1] / n[2] : 0;
     lrcsi_plane plane;
     plane.at = a[2] - along * (a[0] - view->low[0]) - up * (a[1] - view->low[1]);
     plane.along = along * raster->pixel;
@@ -161,11 +161,12 @@ static void draw_run(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1
     double row = job->plane.at + job->plane.up * (y + 0.5);
     size_t at = (size_t)y * r->size + x0;
     uint32_t taken = 0;
-    for (uint32_t x = x0; x < x1; x++, at++) {
-        double height = row + job->plane.along * (x + 0.5);
+    double centre = x0 + 0.5;
+    for (uint32_t x = x0; x < x1; x++, at++, centre += 1) {
+        double height = row + job->plane.along * centre;
         uint32_t owner = r->owner[at];
         if (owner != LRCS_NONE) {
-            if (r->depth[at] == HUGE_VAL || !job_nearer(job, owner, height - r->depth[at], x, y)) {
+            if (r->slack[owner] < 0 || !job_nearer(job, owner, height - r->depth[at], x, y)) {
                 continue;
             }
             r->owned[owner]--;
@@ -295,8 +296,10 @@ static int facet_wanted(const lrcsi_raster *r, uint32_t facet)
     }
     for (uint32_t y = tile[1][0]; y <= tile[1][1]; y++) {
         const unsigned char *row = r->wanted + (size_t)y * r->tiles;
-        if (memchr(row + tile[0][0], 1, tile[0][1] - tile[0][0] + 1)) {
-            return 1;
+        for (uint32_t x = tile[0][0]; x <= tile[0][1]; x++) { /* few: so no memchr */
+            if (row[x]) {
+                return 1;
+            }
         }
     }
     return 0;
@@ -310,7 +313,6 @@ static void claim_run(const raster_job *job, const lrcsi_row *row, uint32_t y, u
     for (uint32_t x = x0; x < x1; x++) {
         if (lrcsi_span_has(row->sure, x) || job_covers(job, x, y)) {
             r->owner[start + x] = job->facet;
-            r->depth[start + x] = HUGE_VAL;
             r->pure[start + x] = (unsigned char)lrcsi_span_has(row->whole, x);
         }
     }
@@ -338,6 +340,7 @@ void lrcsi_raster_claim(lrcsi_raster *raster, uint32_t facet)
     }
     raster_job job = {.raster = raster, .facet = facet};
     job.edges = lrcsi_raster_edges(raster, facet);
+    raster->slack[facet] = -1;
     for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
         claim_row(&job, y);
     }
@@ -353,13 +356,12 @@ static uint32_t raster_tiles(uint32_t size)
 
 static size_t tile_count(uint32_t size)
 {
-    size_t tiles = raster_tiles(size);
-    return tiles * tiles;
+    return lrcsi_work_square(raster_tiles(size));
 }
 
 size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    size_t pixels = (size_t)size * size;
+    size_t pixels = lrcsi_work_square(size);
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_bytes(pixels, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
@@ -373,7 +375,7 @@ size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
 
 static int raster_arrays(lrcsi_raster *r, lrcs_work *work)
 {
-    size_t pixels = (size_t)r->size * r->size;
+    size_t pixels = lrcsi_work_square(r->size);
     size_t facets = r->view->prepared->scene->facet_count;
     r->owner = lrcsi_work_take(work, pixels, sizeof *r->owner);
     r->depth = lrcsi_work_take(work, pixels, sizeof *r->depth);

@@ -23,10 +23,10 @@ typedef struct lrcsi_raster {
     uint32_t tiles;           /* along each side */
     unsigned char *wanted;    /* tiles * tiles: 1 where samples are drawn */
     uint32_t *owner;          /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
-    double *depth;            /* N * N: height of the owner's plane; HUGE_VAL where it is claimed */
+    double *depth;            /* N * N: height of the owner's plane, where its facet was drawn */
     unsigned char *pure;      /* N * N: 1 where the owner covers the whole pixel and is visible all
                                  over it; set by claims alone */
-    double *slack;            /* facet drawn: error bound of such a height */
+    double *slack;            /* facet drawn: error bound of such a height; claimed: -1 */
     uint32_t *covered;        /* facet drawn: samples it would own if alone; else 0 */
     uint32_t *owned;          /* facet drawn: samples it owns; else 0 */
     unsigned char *undecided; /* facet: 1 where a depth could not be told */

@@ -366,7 +366,9 @@ static void known_list(lrcsi_known *k, uint32_t facet, uint32_t crossings)
 {
     uint32_t used = k->first[facet];
     if (crossings <= known_room(k->contest->view->prepared) - used) {
-        memcpy(k->crossing + used, k->contest->crossing, crossings * sizeof *k->crossing);
+        if (crossings != 0) { /* mostly there are none */
+            memcpy(k->crossing + used, k->contest->crossing, crossings * sizeof *k->crossing);
+        }
         k->first[facet + 1] = used + crossings;
         k->listed++;
     }

@@ -46,6 +46,8 @@ named() {
 named shadows 'missing shadows'
 named backs 'back faces: visible backs of one-sided facets reflect'
 named hand 'wrong handedness: x mirrored'
+named mirror 'wrong handedness: y mirrored, which turns the winding as well$'
+named winding 'winding: fronts are taken for backs'
 named frame 'wrong frame: R in place of its transpose'
 named degrees 'degrees for radians: theta in degrees'
 named radians 'degrees for radians: azimuth and elevation'
@@ -56,6 +58,17 @@ named colour 'colour quantisation: f_r cos in 8 bits, 1 being'
 named glint 'under-resolved glint: theta rounded to 5 deg'
 named shadows+cos 'missing shadows.*; and missing cos'
 named hand+4pi 'wrong handedness: x mirrored; and 0.0795775 times that: 4 pi is missing'
+# reason MISTAKE WORDS: the same, where rounding may leave some cases without a reason.
+reason() {
+    judged kit "$1"
+    why "${1}_is_named" 1 "^why          $2"
+    same "${1}_is_the_one_reason" "$(printf '%s\n' "$out" | grep -c '^why')" 1
+}
+reason farthest 'inverted depth: the farthest facet is seen'
+reason tan 'degrees for radians: theta in degrees goes into tan'
+./raster kit 96 winding >theirs.csv
+run compare kit theirs.csv --pixels 96 --tier 1
+why what_explains_as_well_is_named_too 1 '^why          winding: .*; or, equally well: wrong frame: the laser on the other side'
 judged whole depth
 why depth_is_named 1 '^why          depth precision: skins 2^-14 m apart'
 ./raster kit 0 float >theirs.csv
@@ -94,12 +107,47 @@ run compare kit theirs.csv
 why any_factor_is_named 1 '^why          3.7 times the truth everywhere'
 truth 'NR % 2 ? $13 * (1 + NR % 7) : $13 / (2 + NR % 5)' >theirs.csv
 run compare kit theirs.csv
-why what_nothing_explains_is_unexplained 1 '^unexplained  [0-9]* failing cases: '
+why what_nothing_explains_is_unexplained 1 '^unexplained  [0-9]* failing cases$'
+why with_numbers 1 '^             plate-white nose: 1.571 m2, truth 6.283 (0.25 of it), allowed 0.0'
+truth '$1 == "comb" && $2 == "f" ? 3 : $13' >theirs.csv
+run compare kit theirs.csv
+why one_case_is_no_cases 1 '^unexplained  1 failing case$'
+truth 0 >theirs.csv
+run compare kit theirs.csv
+why nothing_but_zeros_is_told 1 '^why          every answer is 0: nothing drawn'
+same and_needs_no_other_reason "$(printf '%s\n' "$out" | grep -cE '^(why|unexplained)')" 1
+
+# read_as NAME WORDS TABLE...: what a table holds if it is not what its columns say.
+read_as() {
+    name=$1
+    words=$2
+    shift 2
+    "$@" >theirs.csv
+    run compare kit theirs.csv
+    why "$name" 1 "^why          $words"
+    same "${name}_and_that_is_all" "$(printf '%s\n' "$out" | grep -c '^why')" 1
+}
+decibels() { awk -F, -v OFS=, 'NR == 1 { print "scene,attitude,'"$2"'"; next }
+    { print $1, $2, ($13 > 0 ? sprintf("%.12g", '"$1"' * log($13) / log(10)) : "-inf") }' kit/cases.csv; }
+read_as dbsm_in_place_of_m2 'the column sigma_m2 holds dBsm' decibels 10 sigma_m2
+read_as twenty_logarithms 'decibels: 20 log10 in place of 10 log10' decibels 20 sigma_dbsm
+read_as m2_in_place_of_dbsm 'the column sigma_dbsm holds m2' awk -F, -v OFS=, 'NR == 1 { $13 = "sigma_dbsm" }
+    { print $1, $2, $13 }' kit/cases.csv
+read_as two_digits_are_too_few 'few digits: every answer is rounded to 2 digits' truth 'sprintf("%.2g", $13)'
+read_as rows_that_moved 'rows: every answer stands one line too late' awk -F, -v OFS=, '
+    NR == 1 { print "scene,attitude,sigma_m2"; next } { print $1, $2, (NR == 2 ? 6 : last); last = $13 }' kit/cases.csv
 truth '$1 == "box" ? "nan" : $13' >theirs.csv
 run compare kit theirs.csv --json -
 same nan_fails "$rc $(printf '%s\n' "$out" | grep -c '"class": "fail", "passed": false')" "1 14"
 run compare kit theirs.csv
-why nan_is_told 1 '^why          14 answers are not numbers'
+why nan_is_told 1 '^why          14 answers are not numbers: box nose, box a, '
+truth '$1 == "box" && $2 == "a" ? -1 : $13' >theirs.csv
+run compare kit theirs.csv
+why a_negative_answer_is_told 1 '^why          1 answer is negative: box a$'
+same and_is_not_told_twice "$(printf '%s\n' "$out" | grep -c '^unexplained')" 0
+grep -v '^box,[ab],' kit/cases.csv >theirs.csv
+run compare kit theirs.csv
+why missing_cases_are_named 1 '^missing      2 cases: box a, box b$'
 awk -F, -v OFS=';' 'NR == 1 { print "Sigma_dBsm", "extra", "ATTITUDE", "scene"; next }
     { print ($13 > 0 ? sprintf("%.15g", 10 * log($13) / log(10)) : "-inf"), "x", $2, $1 }' kit/cases.csv >theirs.csv
 run compare kit theirs.csv
@@ -149,19 +197,22 @@ refused() {
     failure "$1" "$2" compare kit theirs.csv
 }
 refused an_empty_table 'theirs.csv: expected a line that names the columns' ''
-refused a_table_without_sigma 'line 1: no column is named sigma_m2' 'scene,attitude\nbox,a\n'
+refused a_table_without_sigma 'line 1: no column is named sigma_m2 or sigma_dbsm' 'scene,attitude\nbox,a\n'
 refused a_table_without_scenes 'line 1: no column is named scene' 'attitude,sigma_m2\n'
 refused a_number_that_is_none "line 3, column sigma_m2: found '1,5x', expected a number with a decimal point" 'scene;attitude;sigma_m2\nbox;a;1\nbox;b;1,5x\n'
 refused a_line_that_is_short 'line 2: found 2 fields, expected 3 as in the first line' 'scene,attitude,sigma_m2\nbox,a\n'
 refused a_line_that_is_long 'found 4' 'scene,attitude,sigma_m2\nbox,a,1,2\n'
-refused a_scene_of_another_kit "line 2, column scene: found 'boxx', expected a scene of the kit (the nearest is box)" 'scene,attitude,sigma_m2\nboxx,a,1\n'
+refused a_scene_of_another_kit "line 2, column scene: found 'boxx', expected a scene of the kit, which has tiers 1 .. 3 (the nearest is box)" 'scene,attitude,sigma_m2\nboxx,a,1\n'
 refused an_attitude_of_another_scene 'expected an attitude of box' 'scene,attitude,sigma_m2\nbox,t05,1\n'
 refused a_case_given_twice "line 3, column attitude: found 'a', expected every case once" 'scene,attitude,sigma_m2\nbox,a,1\nbox,a,1\n'
 refused a_name_that_is_a_path "expected a name of a-z" 'scene,attitude,sigma_m2\n../box,a,1\n'
 refused bytes_that_are_no_text "found '\\x01\\xff', expected a number" 'scene,attitude,sigma_m2\nbox,a,\0001\0377\n'
 refused a_name_without_end 'expected a name of 1 .. 31 bytes' "scene,attitude,sigma_m2\n$(printf 'x%.0s' $(seq 300)),a,1\n"
 failure a_table_that_is_not_there 'none.csv' compare kit none.csv
-failure a_folder_that_is_no_kit 'materials.csv' compare images theirs.csv
+failure a_folder_that_is_no_kit "images: not a kit's folder (lrcs vectors DIR makes one)" compare images theirs.csv
+failure a_folder_of_images_that_is_not_there 'nodir: cannot open folder' compare kit kit/cases.csv --items nodir
+./raster kit 96 shadow >raster.out 2>&1
+same the_raster_code_refuses_what_it_cannot_do "$? $(grep -c 'no mistake of mine is called shadow; these are: none shadows' raster.out)" "2 1"
 echo 'scene,attitude,facet,visible_area_m2
 box,a,12,1' >facets.csv
 run compare kit kit/cases.csv --facets facets.csv

@@ -3,6 +3,10 @@
    notices, pictures. */
 #include "scenes.h"
 
+#include <fenv.h>
+#include <lrcs/emulate.h>
+#include <lrcs/polygon.h>
+
 static test_scene scene;
 static lrcs_work work;
 static const double oblique[3] = {1, 2, 3};
@@ -79,11 +83,128 @@ static void picture_too_large_for_the_work_area_is_refused(void **state)
 {
     (void)state;
     uint32_t pixel = 7;
-    lrcs_image image = {.size = 100000, .facet = &pixel};
+    lrcs_image image = {.size = 16384, .facet = &pixel};
     unit_cube();
     lrcs_run_options options = lrcs_run_options_default();
     fails_and_touches_nothing(&options, &image, LRCS_E_MEMORY);
     assert_int_equal(pixel, 7);
+}
+
+static void picture_of_more_pixels_than_any_raster_is_refused(void **state)
+{
+    (void)state;
+    static const uint32_t size[] = {16385, 65536, 100000, 524288, UINT32_MAX};
+    uint32_t pixel = 7;
+    unit_cube();
+    for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
+        lrcs_image image = {.size = size[i], .facet = &pixel};
+        lrcs_run_options options = lrcs_run_options_default();
+        fails_and_touches_nothing(&options, &image, LRCS_E_ARGUMENT);
+        assert_int_equal(pixel, 7);
+    }
+}
+
+/* A pose of which one number is wrong, 0 to 2 the direction's, from 3 on R's. */
+static void pose_is_refused(int number, double value, int status)
+{
+    lrcs_pose pose;
+    lrcs_result result;
+    lrcs_result same;
+    memset(&result, 0x55, sizeof result);
+    memset(&same, 0x55, sizeof same);
+    assert_int_equal(lrcs_pose_from_direction(oblique, &pose), LRCS_OK);
+    double *at = number < 3 ? &pose.direction[number] : &pose.R[number / 3 - 1][number % 3];
+    *at = value;
+    unit_cube();
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    for (int method = LRCS_METHOD_AUTO; method <= LRCS_METHOD_EXACT; method++) {
+        lrcs_run_options options = {1e-4, method, 0, 0, 0};
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &result, NULL, NULL),
+                         status);
+        assert_memory_equal(&result, &same, sizeof same);
+    }
+    lrcs_polygons polygons;
+    assert_int_equal(lrcs_polygon_run(prepared, &pose, &work, &polygons), status);
+    const lrcs_emulation_options options = {8, LRCS_PRECISION_FLOAT32, 24};
+    lrcs_emulation emulation;
+    assert_int_equal(lrcs_emulate_run(prepared, &pose, &options, &work, &emulation, NULL, NULL),
+                     status);
+}
+
+static void pose_that_is_none_is_refused(void **state)
+{
+    (void)state;
+    static const double none[] = {NAN, HUGE_VAL, -HUGE_VAL};
+    static const double wrong[] = {1.5, 1e160, 1e308, -0.25};
+    for (int number = 0; number < 12; number++) {
+        for (int i = 0; i < 3; i++) {
+            pose_is_refused(number, none[i], LRCS_E_NUMBER);
+        }
+        for (int i = 0; i < 4; i++) {
+            pose_is_refused(number, wrong[i], LRCS_E_ARGUMENT);
+        }
+    }
+}
+
+static void pose_of_another_attitude_or_hand_is_refused(void **state)
+{
+    (void)state;
+    lrcs_result r;
+    lrcs_run_options options = lrcs_run_options_default();
+    unit_cube();
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    lrcs_pose pose = lrcs_pose_default();
+    pose.direction[0] = 0.5;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL),
+                     LRCS_E_ARGUMENT);
+    pose = lrcs_pose_default();
+    pose.R[0][0] = -1; /* mirrored */
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL),
+                     LRCS_E_ARGUMENT);
+    pose = (lrcs_pose){.direction = {0, 0, 0}};
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL),
+                     LRCS_E_ARGUMENT);
+    pose = lrcs_pose_default();
+    memset(pose.R, 0, sizeof pose.R);
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL),
+                     LRCS_E_ARGUMENT);
+}
+
+/* R in single precision: a roll that is good enough, and the very sigma. */
+static void pose_whose_matrix_is_rounded_to_floats_does_no_harm(void **state)
+{
+    (void)state;
+    lrcs_result r[2];
+    lrcs_pose pose;
+    lrcs_run_options options = lrcs_run_options_default();
+    unit_cube();
+    scene_box(&scene, (const double[3]){0.25, 0.5, 2}, (const double[3]){3, 1, 3});
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(oblique, &pose), LRCS_OK);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r[i], NULL, NULL),
+                         LRCS_OK);
+        for (int k = 0; k < 9; k++) {
+            pose.R[k / 3][k % 3] = (float)pose.R[k / 3][k % 3];
+        }
+    }
+    assert_true(fabs(r[0].sigma_m2 - r[1].sigma_m2) <= r[0].bound_m2 + r[1].bound_m2);
+    assert_true(r[1].bound_m2 < 1e-11 * r[1].sigma_m2);
+}
+
+static void thread_that_rounds_upward_is_told(void **state)
+{
+    (void)state;
+    const lrcs_prepared *prepared = NULL;
+    unit_cube();
+    lrcs_work room = work;
+    if (fesetround(FE_UPWARD) != 0) {
+        skip();
+    }
+    int status = lrcs_prepare_run(&scene.scene, &room, &prepared);
+    fesetround(FE_TONEAREST);
+    assert_int_equal(status, LRCS_E_UNSUPPORTED);
+    assert_null(prepared);
 }
 
 static void tolerance_not_met_is_a_flag_not_a_failure(void **state)
@@ -191,6 +312,11 @@ int main(void)
         cmocka_unit_test(bad_options_are_refused),
         cmocka_unit_test(sigma_beyond_doubles_is_refused),
         cmocka_unit_test(picture_too_large_for_the_work_area_is_refused),
+        cmocka_unit_test(picture_of_more_pixels_than_any_raster_is_refused),
+        cmocka_unit_test(pose_that_is_none_is_refused),
+        cmocka_unit_test(pose_of_another_attitude_or_hand_is_refused),
+        cmocka_unit_test(pose_whose_matrix_is_rounded_to_floats_does_no_harm),
+        cmocka_unit_test(thread_that_rounds_upward_is_told),
         cmocka_unit_test(tolerance_not_met_is_a_flag_not_a_failure),
         cmocka_unit_test(parts_add_up),
         cmocka_unit_test(picture_shows_what_is_where),

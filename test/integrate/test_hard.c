@@ -594,6 +594,24 @@ static void facet_order_shuffled_gives_the_same_sum(void **state)
     }
 }
 
+/* A triangle of area 2^-1201 that reflects f_r = 2^k: sigma = 4 pi 2^(k - 127) times 2^-1074. */
+static void sigma_below_the_least_normal_double_is_within_its_bound(void **state)
+{
+    (void)state;
+    for (int k = 118; k < 134; k++) {
+        double want = ldexp(12.566370614359172954, k - 127);
+        scene_start(&scene);
+        scene_material(&scene, 0, ldexp(1, k), 1, 0);
+        scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){0x1p-600, 0, 0},
+                       (const double[3]){0, 0x1p-600, 0});
+        for (int m = 0; m < 4; m++) {
+            lrcs_result r = scene_run(&scene, (const double[3]){0, 0, 1}, methods[m], 16);
+            check_abs(ldexp(r.sigma_m2, 1074), want, ldexp(r.bound_m2, 1074));
+            check_most(ldexp(r.budget.rounding_m2, 1074), 2);
+        }
+    }
+}
+
 /* --- what is refused ---------------------------------------------------------------------------
  */
 
@@ -697,6 +715,7 @@ int main(void)
         cmocka_unit_test(scaled_by_a_power_of_two_is_exact),
         cmocka_unit_test(mesh_rotated_with_the_laser_is_the_same),
         cmocka_unit_test(facet_order_shuffled_gives_the_same_sum),
+        cmocka_unit_test(sigma_below_the_least_normal_double_is_within_its_bound),
         cmocka_unit_test(nan_inf_and_1e308_are_refused),
         cmocka_unit_test(coordinates_above_1e100_m_are_refused_with_the_reason),
     };

@@ -330,7 +330,6 @@ static void a_strut_touches_the_plate_and_not_the_other_way(void **state)
                              {{2, 2, 0}}, {{3, 2, 0}}, {{2, 2, 5}}};
     assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_TOUCH_CROSS);
     assert_int_equal(lrcsi_touch_pair(v, last_three, first_three), LRCSI_TOUCH_NONE);
-    assert_int_equal(lrcsi_touch_coplanar(v, first_three, last_three), 0);
 }
 
 static void a_plate_one_ulp_above_another_does_not_touch(void **state)
@@ -340,12 +339,10 @@ static void a_plate_one_ulp_above_another_does_not_touch(void **state)
                        {{1, 1, 0.1}}, {{3, 1, 0.1}}, {{1, 3, 0.1}}};
     assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_TOUCH_COPLANAR);
     assert_int_equal(lrcsi_touch_pair(v, last_three, first_three), LRCSI_TOUCH_COPLANAR);
-    assert_int_equal(lrcsi_touch_coplanar(v, first_three, last_three), 1);
     v[3].x[2] = nextafter(0.1, 1.0);
     assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_TOUCH_CROSS);
     v[4].x[2] = v[5].x[2] = nextafter(0.1, 1.0);
     assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_TOUCH_NONE);
-    assert_int_equal(lrcsi_touch_coplanar(v, first_three, last_three), 0);
 }
 
 static void folded_neighbours_in_one_plane_touch(void **state)
@@ -409,21 +406,6 @@ static void starved_searches_fail_clean(void **state)
     assert_int_equal(status, LRCS_OK);
 }
 
-/* In a line through the other facet's plane, whichever corner is off it. */
-static void three_corners_in_the_plane_are_what_makes_one_plane(void **state)
-{
-    (void)state;
-    static const lrcs_point x[6] = {{{0, 0, 0}}, {{4, 0, 0}}, {{0, 4, 0}},
-                                    {{1, 1, 0}}, {{2, 1, 0}}, {{1, 2, 0}}};
-    assert_true(lrcsi_touch_coplanar(x, first_three, last_three));
-    for (int off = 3; off < 6; off++) {
-        lrcs_point moved[6];
-        memcpy(moved, x, sizeof moved);
-        moved[off].x[2] = 0x1p-1000;
-        assert_false(lrcsi_touch_coplanar(moved, first_three, last_three));
-    }
-}
-
 /* Boxes of no size at all, and facets that name a corner twice or three times. */
 static void facets_in_one_place_are_found_there(void **state)
 {
@@ -467,7 +449,6 @@ int main(void)
         cmocka_unit_test(folded_neighbours_in_one_plane_touch),
         cmocka_unit_test(an_empty_list_and_a_skipped_one_have_no_contacts),
         cmocka_unit_test(starved_searches_fail_clean),
-        cmocka_unit_test(three_corners_in_the_plane_are_what_makes_one_plane),
         cmocka_unit_test(facets_in_one_place_are_found_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

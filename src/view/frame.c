@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+/* The axes of a view from a pose. Decides which poses are none, and what is left of an R that is
+   rounded: with d the direction and a the first row given, the axes are those of a less its part
+   along d, of d x a, and of d. */
+#include "view/frame.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "scene/prepare.h"
+#include "view/product.h"
+
+/* How far R may be from what it should be: single precision is near enough. */
+#define NEAR 0x1p-20
+
+static const double nothing[3];
+
+/* A dot product to one rounding, the square root and quotients to another each: its length is off
+   by 1.5 u, and the rounded quotients add a vector of at most u. */
+static void unit(const double v[3], double out[3])
+{
+    double length = sqrt(lrcsi_product_dot(v, nothing, v));
+    for (int k = 0; k < 3; k++) {
+        out[k] = v[k] / length;
+    }
+}
+
+/* Is x within `near` of y? Not if one is no number. */
+static int is_near(double x, double y, double near)
+{
+    return fabs(x - y) <= near;
+}
+
+static int pose_check(const lrcs_pose *pose)
+{
+    double largest = 0;
+    for (int k = 0; k < 3; k++) {
+        for (int j = 0; j < 3; j++) {
+            if (!isfinite(pose->direction[j]) || !isfinite(pose->R[k][j])) {
+                return LRCS_E_NUMBER;
+            }
+            if (fabs(pose->R[k][j]) > 1 + NEAR) {
+                return LRCS_E_ARGUMENT;
+            }
+        }
+        largest = fmax(largest, fabs(pose->direction[k]));
+    }
+    return largest >= 0.5 && largest <= 1 ? LRCS_OK : LRCS_E_ARGUMENT;
+}
+
+/* Let e be the unit vector along the first row made, less its part along d. The row's part along d
+   is what rounding leaves of a - t d (t is good to 4 u and below 2^-19), u, and of the quotients,
+   u; its length is off by 2.5 u. The second row: d x the first is exactly along d x e, its
+   components are rounded once, u, and `unit` adds 2.5 u. The third: 2.5 u. All below 4 u. */
+int lrcsi_frame_make(const lrcs_pose *pose, double direction[3], double R[3][3])
+{
+    int status = pose_check(pose);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    double d[3];
+    double row[3];
+    double made[3][3];
+    for (int k = 0; k < 3; k++) {
+        d[k] = fabs(pose->direction[k]) < LRCSI_COORDINATE_LEAST ? 0 : pose->direction[k];
+    }
+    double t = lrcsi_product_dot(pose->R[0], nothing, d) / lrcsi_product_dot(d, nothing, d);
+    for (int k = 0; k < 3; k++) {
+        row[k] = pose->R[0][k] - t * d[k];
+    }
+    if (!is_near(t, 0, 2 * NEAR) || !is_near(lrcsi_product_dot(row, nothing, row), 1, 4 * NEAR)) {
+        return LRCS_E_ARGUMENT;
+    }
+    unit(row, made[0]);
+    for (int k = 0; k < 3; k++) {
+        row[k] = lrcsi_product_turn(d, nothing, made[0], (k + 1) % 3, (k + 2) % 3);
+    }
+    unit(row, made[1]);
+    unit(d, made[2]);
+    for (int k = 0; k < 9; k++) {
+        if (!is_near(made[k / 3][k % 3], pose->R[k / 3][k % 3], NEAR)) {
+            return LRCS_E_ARGUMENT;
+        }
+    }
+    memcpy(direction, d, sizeof d);
+    memcpy(R, made, sizeof made);
+    return LRCS_OK;
+}
