@@ -423,10 +423,9 @@ static int findings_make(compare_search *search)
         more = finding_next(search);
         cli_search_part(search);
     }
-    if (more < 0) {
+    if (more < 0 || cli_compare_signs(search) != 0) {
         return CLI_FAILED;
     }
-    cli_compare_signs(search);
     lacks_count(search->job);
     return 0;
 }

@@ -72,13 +72,15 @@ enum {
     CASE_BOUND,
     CASE_FLOAT,
     CASE_EDGE,
+    CASE_SIDE,
     CASE_IMAGE,
     CASE_COLUMNS
 };
 
 static const char *const case_names[CASE_COLUMNS] = {
-    "scene", "attitude", "tier",   "qw",       "qx",       "qy",       "qz",      "sx",   "sy",
-    "sz",    "az_deg",   "el_deg", "sigma_m2", "bound_m2", "float_m2", "edge_m2", "image"};
+    "scene",    "attitude", "tier",     "qw",      "qx",     "qy",
+    "qz",       "sx",       "sy",       "sz",      "az_deg", "el_deg",
+    "sigma_m2", "bound_m2", "float_m2", "edge_m2", "side_m", "image"};
 
 /* The scene of a line, which follows others of it. */
 static compare_scene *scene_of(compare_kit *kit, const char *name, int tier)
@@ -113,6 +115,7 @@ static int case_read(const compare_table *table, const int *column, compare_kit 
     one->bound_m2 = value[CASE_BOUND];
     one->float_m2 = value[CASE_FLOAT];
     one->edge_m2 = value[CASE_EDGE];
+    one->side_m = value[CASE_SIDE];
     if (!(value[CASE_TIER] >= 1.0 && value[CASE_TIER] <= KIT_TIERS)) {
         return cli_table_refuse(table, column[CASE_TIER], "1 .. %d", KIT_TIERS);
     }

@@ -196,11 +196,12 @@ static const char *material_of(const compare_job *job, const compare_case *one, 
 static void facets_print(const compare_job *job, const compare_facets *facets)
 {
     const char *cosines = cli_compare_cosines(facets);
-    printf("facets       of %lu cases\n", (unsigned long)facets->cases);
+    printf("facets       of %lu case%s%s\n", (unsigned long)facets->cases, plural(facets->cases),
+           facets->worsts == 0 ? ": none differs by more than it is allowed" : "");
     for (int way = 0; way < FACET_WAYS; way++) {
         if (facets->way[way] > 0) {
-            printf("             %lu facets %s\n", (unsigned long)facets->way[way],
-                   cli_compare_facet_way(way));
+            printf("             %lu facet%s %s\n", (unsigned long)facets->way[way],
+                   plural(facets->way[way]), cli_compare_facet_way(way));
         }
     }
     if (cosines) {

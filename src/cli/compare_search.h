@@ -33,8 +33,8 @@ compare_finding *cli_search_finding(compare_job *job, const char *name);
 void cli_compare_misread(compare_search *search);
 
 /* What needs no mistake of the catalogue to be told: coarse depths, single precision, a raster, a
-   factor that all answers share. */
-void cli_compare_signs(compare_search *search);
+   factor that all answers share. 0, or -1 with the message printed. */
+int cli_compare_signs(compare_search *search);
 
 /* A factor near one that is known by name, or itself; what it may mean, and its name. */
 double cli_factor_known(double factor, int *known);
