@@ -107,7 +107,7 @@ CORTEX_M7 = -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard
 flight: $(FLIGHT)/task $(FLIGHT)/task.elf
 	$(FLIGHT)/task
 	arm-none-eabi-size $(FLIGHT)/task.elf
-	qemu-system-arm -M mps2-an500 -nographic -semihosting-config enable=on,target=native \
+	qemu-system-arm -M mps2-an500 -nographic -icount shift=0 -semihosting-config enable=on,target=native \
 	    -kernel $(FLIGHT)/task.elf </dev/null
 
 # How many steps a pose takes, counted, beside how many it may take at most.

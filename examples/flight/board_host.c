@@ -14,6 +14,11 @@ size_t board_stack_peak(void)
     return 0;
 }
 
+uint32_t board_ticks(void)
+{
+    return 0;
+}
+
 int main(void)
 {
     return flight_main();

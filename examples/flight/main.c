@@ -45,7 +45,7 @@ static void line_area(telemetry_line *line, const char *name, double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
-    line_number(line, name, (uint64_t)(value * 1e6 + 0.5), 10, 1);
+    line_number(line, name, value < 1e12 ? (uint64_t)(value * 1e6 + 0.5) : UINT64_MAX, 10, 1);
     line_number(line, " = ", bits, 16, 16);
 }
 
@@ -56,9 +56,13 @@ int flight_main(void)
                                          {0.1, 0.9, 0.5, 1}, {0, 0, 1, 0.2}};
     int32_t status = flight_start();
     flight_telemetry t = {.status = status};
+    uint32_t most = 0;
     for (size_t i = 0; status == 0 && i < sizeof attitude / sizeof *attitude; i++) {
         telemetry_line line = {.length = 0};
+        uint32_t start = board_ticks();
         flight_cycle(attitude[i], &t);
+        uint32_t ticks = (board_ticks() - start) & 0xffffffu;
+        most = ticks > most ? ticks : most;
         line_number(&line, "cycle ", t.cycle, 10, 1);
         line_status(&line, " status ", t.status);
         line_number(&line, " stale ", t.stale, 10, 1);
@@ -71,7 +75,9 @@ int flight_main(void)
     telemetry_line line = {.length = 0};
     line_status(&line, "end: status ", status);
     line_number(&line, " failures ", t.failures, 10, 1);
-    line_number(&line, " memory ", t.memory_peak, 10, 1);
+    line_number(&line, " memory ", t.memory_used, 10, 1);
+    line_number(&line, " of ", t.memory_peak, 10, 1);
+    line_number(&line, " ticks ", most, 10, 1);
     line_number(&line, " stack ", board_stack_peak(), 10, 1);
     line_text(&line, "\n");
     board_write(line.text);

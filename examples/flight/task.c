@@ -6,7 +6,11 @@
 
 #include <lrcs/lrcs.h>
 
+#include <math.h>
+
+#ifndef FLIGHT_MEMORY
 #define FLIGHT_MEMORY (512u << 10)
+#endif
 
 /* The scene lies in read-only memory; shapes are divided once, by flight_start. */
 static const char scene_text[] =
@@ -22,7 +26,7 @@ static lrcs_work work;
 static lrcs_scene scene;
 static const lrcs_prepared *prepared;
 static lrcs_run_options options;
-static flight_telemetry last;
+static flight_telemetry last = {.bound_m2 = HUGE_VAL};
 
 int32_t flight_start(void)
 {
@@ -33,7 +37,8 @@ int32_t flight_start(void)
     options = lrcs_run_options_default();
     options.method = LRCS_METHOD_EXACT;
     options.tolerance = 0.05;
-    last = (flight_telemetry){.status = LRCS_E_EMPTY};
+    last = (flight_telemetry){.status = LRCS_E_EMPTY, .bound_m2 = HUGE_VAL};
+    prepared = NULL;
     work = lrcs_work_make(arena, sizeof arena);
     int status = lrcs_recipe_read(scene_text, sizeof scene_text - 1, &work, &recipe, NULL);
     if (status == LRCS_OK) {
@@ -45,8 +50,10 @@ int32_t flight_start(void)
     /* Refuse now what a cycle might refuse later: from here on no attitude lacks memory. */
     if (status == LRCS_OK && lrcs_sigma_need(prepared, &options) > work.size - work.used) {
         status = LRCS_E_MEMORY;
+        prepared = NULL;
     }
-    last.memory_peak = work.peak;
+    last.memory_used = (uint32_t)work.used;
+    last.memory_peak = (uint32_t)work.peak;
     return status;
 }
 
@@ -54,16 +61,17 @@ void flight_cycle(const double attitude[4], flight_telemetry *telemetry)
 {
     lrcs_pose pose;
     lrcs_result result;
-    int status = lrcs_pose_from_quaternion(attitude, &pose);
+    int status = prepared ? lrcs_pose_from_quaternion(attitude, &pose) : LRCS_E_EMPTY;
     if (status == LRCS_OK) {
         status = lrcs_sigma_run(prepared, &pose, &options, &work, &result, NULL, NULL);
     }
     last.cycle++;
     last.status = status;
-    last.memory_peak = work.peak;
+    last.memory_peak = (uint32_t)work.peak;
     if (status == LRCS_OK) {
         last.stale = 0;
         last.flags = result.flags;
+        last.notices = result.notices;
         last.sigma_m2 = result.sigma_m2;
         last.bound_m2 = result.bound_m2;
     } else {

@@ -3,7 +3,6 @@
 #ifndef FLIGHT_TASK_H
 #define FLIGHT_TASK_H
 
-#include <stddef.h>
 #include <stdint.h>
 
 /* What goes down after every cycle. */
@@ -13,14 +12,18 @@ typedef struct flight_telemetry {
     uint32_t stale;    /* cycles since sigma and bound were good; 0: they are this cycle's */
     uint32_t failures; /* since start */
     uint32_t flags;    /* lrcs_flag: how the last good answer is degraded */
-    double sigma_m2, bound_m2;
-    size_t memory_peak; /* bytes of the arena that were ever in use */
+    uint32_t notices;  /* lrcs_notice: what it refers to */
+    double sigma_m2;   /* the last good answer; before the first, 0 and a bound that is infinite */
+    double bound_m2;
+    uint32_t memory_used; /* bytes of the arena that stay in use between cycles */
+    uint32_t memory_peak; /* that were ever in use */
 } flight_telemetry;
 
 /* Once, before the first cycle. Returns 0, or the lrcs_status that forbids to go on. */
 int32_t flight_start(void);
 
-/* One cycle. Attitude: quaternion (w, x, y, z), body to observation frame; not trusted. */
+/* One cycle; without a flight_start that returned 0 its status is LRCS_E_EMPTY. Attitude:
+ * quaternion (w, x, y, z), body to observation frame; not trusted. */
 void flight_cycle(const double attitude[4], flight_telemetry *telemetry);
 
 #endif

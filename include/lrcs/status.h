@@ -14,7 +14,8 @@
 /* "No such index": a facet without a material, a missing neighbour. */
 #define LRCS_NONE UINT32_MAX
 
-/* Every fallible function returns one of these; on failure its outputs are untouched
+/* Pointers are not NULL unless a comment says so.
+   Every fallible function returns one of these; on failure its outputs are untouched
    (but for `where`, which then tells the place). */
 enum lrcs_status {
     LRCS_OK = 0,
