@@ -25,9 +25,13 @@ function expand(path, public, private,   line, name, private_path) {
         } else if (line ~ /^#include </) {
             if (!(line in known)) system_headers = system_headers line "\n"
             known[line] = 1
-        } else if (line !~ /^#(ifndef|define) LRCSI?_[A-Z0-9_]+_H$/ && line !~ /^#endif/ &&
-                   line !~ /^\/\* SPDX-License-Identifier/)
+        } else if (line ~ /^#endif/ && !inside[path]) { # of the guard
+        } else if (line !~ /^#(ifndef|define) LRCSI?_[A-Z0-9_]+_H$/ &&
+                   line !~ /^\/\* SPDX-License-Identifier/) {
+            inside[path] += line ~ /^#if/
+            inside[path] -= line ~ /^#endif/
             body[path] = body[path] line "\n"
+        }
     }
     if (status < 0) { print "amalgamate: cannot read " path >"/dev/stderr"; failed = 1; exit 1 }
     close(path)

@@ -3,13 +3,14 @@
    and sums, as a GPU would. It knows the kit's README.md and nothing of lrcs.
 
      lrcs vectors kit
-     cc -O2 -o raster raster.c -lm
+     cc -O2 -o raster examples/kit/raster.c -lm
      ./raster kit 512 >theirs.csv
      lrcs compare kit theirs.csv --pixels 512
 
    raster KIT N [MISTAKE] [items=DIR]: N x N pixels, 0: no raster, whole facets (tiers 1 and 2).
    With a MISTAKE it is wrong on purpose, so that the judge can be judged:
-     shadows backs hand frame degrees radians 4pi cos pixel colour glint depth float
+     shadows backs hand mirror winding farthest frame degrees tan radians 4pi cos pixel colour glint
+     depth fight float
    and several at once, shadows+cos. */
 #include <math.h>
 #include <stdint.h>
@@ -32,7 +33,24 @@ static int material_count;
 static double vertex[MOST][3], seen[MOST][3]; /* body frame; observation frame */
 static int facet[MOST][3], wears[MOST];
 static int vertex_count, facet_count;
-static const char *mistake = "";
+static const char *mistake = "none";
+
+static const char *const mistakes[] = {"none",    "shadows",  "backs", "hand",    "mirror",
+                                       "winding", "farthest", "frame", "degrees", "tan",
+                                       "radians", "4pi",      "cos",   "pixel",   "colour",
+                                       "glint",   "depth",    "fight", "float"};
+
+/* Is every word between the '+' a mistake? */
+static int are_mistakes(const char *words)
+{
+    size_t known = 0, count = sizeof mistakes / sizeof mistakes[0];
+    size_t length = strcspn(words, "+");
+    while (known < count &&
+           (strlen(mistakes[known]) != length || strncmp(mistakes[known], words, length) != 0)) {
+        known++;
+    }
+    return known < count && (words[length] == '\0' || are_mistakes(words + length + 1));
+}
 
 static int is(const char *name)
 {
@@ -89,6 +107,7 @@ static void read_scene(const char *kit, const char *name)
         double *v = vertex[vertex_count];
         int *f = facet[facet_count];
         if (sscanf(line, "v %lf %lf %lf", &v[0], &v[1], &v[2]) == 3) {
+            v[1] = is("mirror") ? -v[1] : v[1];
             vertex_count++;
         } else if (sscanf(line, "usemtl %63s", word) == 1) {
             wear = find_material(word);
@@ -133,6 +152,9 @@ static double shade(const material *m, double c)
         used = cos(floor(acos(fmin(c, 1)) * 36 / PI + 0.5) * PI / 36); /* steps of 5 deg */
     }
     double t2 = keep(1 / (used * used) - 1);
+    if (is("tan")) {
+        t2 = tan(acos(fmin(c, 1)) * 180 / PI) * tan(acos(fmin(c, 1)) * 180 / PI);
+    }
     double f = keep(m->A * exp(-t2 / (m->s * m->s)) / pow(used, 6)) + keep(m->B * pow(used, m->m));
     f = used > 0 ? f : 0;
     f = is("cos") ? f : keep(f * c);
@@ -160,7 +182,7 @@ static double cosine(int i, const double s[3], double *area)
         dot += keep(n[k] / length * s[k]);
     }
     *area = keep(length / 2);
-    return keep(dot);
+    return keep(is("winding") ? -dot : dot);
 }
 
 static double of3(double (*best)(double, double), const double *a, const double *b, const double *c,
@@ -192,9 +214,10 @@ static long draw(int i, const double window[3], int N, double *depth, uint32_t *
             }
             double z = a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2]);
             z = is("depth") ? floor(z / (2 * window[2]) * 65536) * window[2] / 32768 : keep(z);
+            z = is("farthest") ? -z : z;
             size_t at = (size_t)y * (size_t)N + (size_t)x;
             count++;
-            if (z > depth[at] + 1e-14 * window[2]) {
+            if (z > depth[at] + (is("fight") ? 0 : 1e-14 * window[2])) {
                 depth[at] = z;
                 item[at] = (uint32_t)i;
             }
@@ -286,7 +309,15 @@ int main(int count, char **word)
         return 2;
     }
     const char *items = strncmp(word[count - 1], "items=", 6) == 0 ? word[count - 1] + 6 : NULL;
-    mistake = count > 3 && word[3] != items - 6 ? word[3] : "";
+    mistake = count > 3 && (!items || count > 4) ? word[3] : "none";
+    if (!are_mistakes(mistake)) {
+        fprintf(stderr, "raster: no mistake of mine is called %s; these are:", mistake);
+        for (size_t i = 0; i < sizeof mistakes / sizeof mistakes[0]; i++) {
+            fprintf(stderr, " %s", mistakes[i]);
+        }
+        fputc('\n', stderr);
+        return 2;
+    }
     double *depth = malloc(((size_t)N * (size_t)N + 1) * sizeof *depth);
     uint32_t *item = malloc(((size_t)N * (size_t)N + 1) * sizeof *item);
     FILE *cases = open_file(word[1], "cases", ".csv");

@@ -51,8 +51,10 @@ typedef struct compare_case {
     int tier;
     double quaternion[4], direction[3], azel_deg[2];
     double sigma_m2, bound_m2, float_m2, edge_m2;
+    double side_m;    /* of the square that is shown */
     uint32_t image;   /* side of its pictures, 0: none */
     double theirs_m2; /* may be NaN */
+    double printed;   /* the same as their table has it */
     int given;        /* did they answer? */
     int grade;        /* compare_grade */
     int explained;    /* by which finding, from 1 */
@@ -109,7 +111,15 @@ typedef struct compare_finding {
 #define COMPARE_NAMED 8u /* facets, and images, that are named */
 #define COMPARE_TOP   3u /* facets that are named an image */
 
-enum compare_facet_way { FACET_SHOWN, FACET_LOST, FACET_WHOLE, FACET_ELSEWHERE, FACET_WAYS };
+enum compare_facet_way {
+    FACET_SHOWN,
+    FACET_LOST,
+    FACET_WHOLE,
+    FACET_PART,
+    FACET_LARGER,
+    FACET_ELSEWHERE,
+    FACET_WAYS
+};
 
 /* A facet whose visible area differs. */
 typedef struct compare_facet {
@@ -117,6 +127,8 @@ typedef struct compare_facet {
     uint32_t facet;
     double theirs_m2, truth_m2;
     double sigma_m2; /* what it changes */
+    double weight;   /* the same, of what the case is allowed */
+    int failed;      /* does its case fail? */
     int way;
 } compare_facet;
 
@@ -126,7 +138,7 @@ typedef struct compare_facets {
     uint32_t cosines, turned; /* given; with the other sign */
     double cosine_most;       /* |difference| of those that are not turned round */
     uint32_t worsts;
-    compare_facet worst[COMPARE_NAMED]; /* what changes sigma most, first */
+    compare_facet worst[COMPARE_NAMED]; /* of cases that fail, then what changes most, first */
 } compare_facets;
 
 /* An image that agrees with the truth in no way. */
@@ -150,11 +162,12 @@ typedef struct compare_job {
     const cli_args *args;
     const char *theirs, *facets, *items;
     uint32_t pixels, tier;
-    int grade; /* the least that passes */
+    int grade;    /* the least that passes */
+    int decibels; /* did they hand in dBsm? */
     compare_kit kit;
     uint32_t asked, given,
         failed; /* cases of the tiers asked for; failed: those not handed in too */
-    uint32_t not_numbers;
+    uint32_t not_numbers, negatives; /* that no finding explains */
     compare_finding finding[COMPARE_FINDINGS];
     uint32_t findings, unexplained;
     int biased; /* a factor that all answers share, each within its class */
@@ -175,6 +188,10 @@ int cli_compare_asked(const compare_job *job, const compare_case *one);
 
 /* Does a case fail the job? One that was not asked for does not. */
 int cli_compare_failed(const compare_job *job, const compare_case *one);
+
+/* What is wrong with a failing case that no finding explains. */
+enum compare_lack { LACK_NONE, LACK_ANSWER, LACK_NUMBER, LACK_SIGN, LACK_REASON };
+int cli_compare_lack(const compare_job *job, const compare_case *one);
 
 /* Reads the answers and puts every case into its class. 0 or CLI_FAILED. */
 int cli_compare_judge(compare_job *job);
@@ -217,6 +234,7 @@ typedef struct compare_mistake {
     int axes[3];      /* of turn: for x, y, z of s_hat, which component they take, 1 .. 3, negative
                          to mirror it */
     uint32_t without; /* effects that somebody leaves out, lrcs_run_options.without */
+    int skins;        /* of facets in one plane the wrong one is seen */
 } compare_mistake;
 
 /* The catalogue, ended by a NULL name; the first one is no mistake. */
@@ -227,6 +245,11 @@ double cli_mistake_right(const mistake_spot *spot, double at);
 
 /* The area as it should be. */
 double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot);
+
+/* The records of a case, had once already, where of facets in one plane the wrong one is seen. 0 or
+   CLI_FAILED with the message printed. */
+int cli_compare_skins(const compare_kit *kit, const compare_case *one,
+                      const lrcs_run_options *options, lrcs_facet_record *records);
 
 /* sigma of a case with a mistake. 0 or CLI_FAILED with the message printed. */
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,

@@ -22,39 +22,48 @@ static double view_peak(const mistake_view *view)
     return peak;
 }
 
-/* The records of the case as somebody sees it: the truth's, or those of another run. 0 or
-   CLI_FAILED. */
-static int view_make(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
-                     mistake_view *view, lrcs_facet_record **own)
+/* The records of a run of its own. 0 or CLI_FAILED. */
+static int records_own(const compare_kit *kit, const compare_case *one,
+                       const compare_mistake *mistake, lrcs_facet_record *own)
 {
     lrcs_host_error error;
     lrcs_run_options options = lrcs_run_options_default();
     lrcs_result result;
     lrcs_pose pose = one->pose;
+    options.method = LRCS_METHOD_EXACT;
+    options.without = mistake->without;
+    if (mistake->skins) {
+        return cli_compare_skins(kit, one, &options, own);
+    }
+    if (mistake->turn && mistake->turn(one, mistake, &pose) != LRCS_OK) {
+        pose = one->pose;
+    }
+    return lrcs_host_scene_run(&kit->scene[one->scene].host, &pose, &options, &result, own, NULL,
+                               NULL, &error) == LRCS_OK
+               ? 0
+               : cli_failed(&error);
+}
+
+/* The records of the case as somebody sees it: the truth's, or those of another run. 0 or
+   CLI_FAILED. */
+static int view_make(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
+                     mistake_view *view, lrcs_facet_record **own)
+{
     int code = cli_compare_records(kit, one);
     view->scene = &kit->scene[one->scene];
     view->records = one->records;
     if (code == 0 && one->peak == 0.0) {
         one->peak = view_peak(view);
     }
-    if (code != 0 || (!mistake->turn && !mistake->without)) {
+    if (code != 0 || (!mistake->turn && !mistake->without && !mistake->skins)) {
         return code;
-    }
-    if (mistake->turn && mistake->turn(one, mistake, &pose) != LRCS_OK) {
-        pose = one->pose;
     }
     *own = calloc((size_t)view->scene->host.scene.facet_count + 1, sizeof **own);
     if (!*own) {
         return cli_out_of_memory();
     }
-    options.method = LRCS_METHOD_EXACT;
-    options.without = mistake->without;
-    if (lrcs_host_scene_run(&view->scene->host, &pose, &options, &result, *own, NULL, NULL,
-                            &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
     view->records = *own;
-    return 0;
+    return records_own(kit, one, mistake, *own);
 }
 
 /* sigma / 4 pi of what somebody sees. */

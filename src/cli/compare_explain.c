@@ -6,6 +6,7 @@
 #include "cli/compare_search.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,17 +17,20 @@
 #define PROBE          16u  /* failing cases after which a hopeless mistake is given up */
 #define HOPELESS       0.1  /* share of them */
 #define WITNESSES      64u  /* passing cases that a mistake must not touch */
-#define LATER          0.05 /* of all failing cases, what a second finding must explain */
+#define LATER          0.1  /* of all failing cases, what a second finding must explain */
 #define PRICE          0.05 /* what a factor or a second mistake must gain to be believed */
 #define SURE           0.94 /* a score after which none is sought that is better */
 #define PAIRS_BELOW    0.9  /* where one mistake explains less, two at once are tried */
 #define ENOUGH         3u   /* cases that make a finding by themselves */
+#define TIED           2e-3 /* scores this near are equally good */
+#define TIES_MOST      3u   /* mistakes that explain equally well, and are named */
 
 /* How well a mistake explains. */
 typedef struct explain_score {
     const compare_mistake *first, *second; /* second: NULL, or made as well */
     double factor;
     double score; /* share of the differences that it removes, where it is right */
+    double price; /* of what it assumes, taken off the score */
     uint32_t explained;
 } explain_score;
 
@@ -65,18 +69,30 @@ static int case_touched(const compare_search *search, const compare_case *one, d
     return fabs(expected - one->sigma_m2) > case_room(search, one, expected);
 }
 
+/* An answer of 0 that is expected is no evidence where others tell more: many mistakes let facets
+   vanish. */
+static int case_mute(const compare_search *search, const compare_case *one)
+{
+    return search->telling && one->theirs_m2 == 0.0;
+}
+
 /* How well a mistake's answers explain, times a factor. */
 static explain_score score_make(const compare_search *search, double factor)
 {
     explain_score score = {.factor = factor};
     double touched = 0.0;
     double removed = 0.0;
+    uint32_t mute = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
         const compare_case *one = search->failing[i];
         double expected = factor * search->answer[i];
         double left = fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
         int right = cli_search_explained(search, one, expected);
         score.explained += (uint32_t)right;
+        if (right && case_mute(search, one)) {
+            mute++;
+            continue;
+        }
         touched += right || case_touched(search, one, expected);
         removed += right ? 1.0 - 0.5 * fmin(left, 1.0) : 0.0;
     }
@@ -84,10 +100,11 @@ static explain_score score_make(const compare_search *search, double factor)
         double expected = factor * search->answer[search->failings + i];
         touched += case_touched(search, search->passing[i], expected) ? search->weight : 0.0;
     }
-    double precise = touched > 0.0 ? score.explained / touched : 0.0;
-    int striking = removed >= (1.0 - 0.5 * STRIKING) * score.explained;
-    if (score.explained > 0 && (score.explained >= ENOUGH || striking) && precise >= PRECISE) {
-        score.score = precise * removed / search->failings;
+    uint32_t told = score.explained - mute;
+    double precise = touched > 0.0 ? told / touched : 0.0;
+    int striking = removed >= (1.0 - 0.5 * STRIKING) * told;
+    if (told > 0 && (told >= ENOUGH || striking) && precise >= PRECISE) {
+        score.score = precise * removed / (search->failings - mute);
     }
     return score;
 }
@@ -170,10 +187,11 @@ static int mistake_try(const compare_search *search, const compare_mistake *firs
     explain_score try[2] = {score_make(search, 1.0), {.score = 0.0}};
     if (factor > 0.0) {
         try[1] = score_make(search, factor);
-        try[1].score -= known ? PRICE : 2.0 * PRICE;
+        try[1].price = known ? PRICE : 2.0 * PRICE;
     }
     for (int i = 0; i < 2; i++) {
-        try[i].score -= second ? PRICE : 0.0;
+        try[i].price += second ? PRICE : 0.0;
+        try[i].score -= try[i].price;
         if (try[i].score > best->score) {
             *best = try[i];
             best->first = first;
@@ -193,13 +211,14 @@ static int singles_try(const compare_search *search, explain_score *best)
     return code;
 }
 
-/* Every pair of a mistake in which areas are summed and one in how they are shaded. */
+/* Every pair of a mistake in which areas are summed and one in how they are shaded; none that takes
+   a run of its own for each case. */
 static int pairs_try(const compare_search *search, explain_score *best)
 {
     int code = 0;
     for (const compare_mistake *a = cli_compare_mistakes + 1; a->name && code == 0; a++) {
         for (const compare_mistake *b = cli_compare_mistakes + 1; b->name && code == 0; b++) {
-            if (a->area && b->shade) {
+            if (a->area && !a->turn && b->shade) {
                 code = mistake_try(search, a, b, best);
             }
         }
@@ -225,37 +244,85 @@ static double finding_rest(const compare_search *search, const explain_score *be
     return cli_search_median(search->room, count);
 }
 
+/* Adds to a text what there is room for. */
+__attribute__((format(printf, 2, 3))) static void text_add(char text[COMPARE_TEXT],
+                                                           const char *format, ...)
+{
+    size_t used = strlen(text);
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text + used, COMPARE_TEXT - used, format, list);
+    va_end(list);
+}
+
 static void finding_say(const compare_job *job, const explain_score *best, compare_finding *finding)
 {
-    const char *text = best->first->text;
-    size_t room = sizeof finding->text;
-    size_t used = 0;
+    char *text = finding->text;
     finding->factor = best->factor;
     if (best->first == cli_compare_mistakes) {
         finding->name = cli_factor_name(best->factor);
-        snprintf(finding->text, room, "%.6g times the truth everywhere: %s", best->factor,
+        text_add(text, "%.6g times the truth everywhere: %s", best->factor,
                  cli_factor_text(job, best->factor));
         return;
     }
-    used = (size_t)snprintf(finding->text, room, "%s", text);
-    if (best->second && used < room) {
-        used += (size_t)snprintf(finding->text + used, room - used, "; and %s", best->second->text);
+    text_add(text, "%s", best->first->text);
+    if (best->second) {
+        text_add(text, "; and %s", best->second->text);
     }
-    if (best->factor != 1.0 && used < room) {
-        snprintf(finding->text + used, room - used, "; and %.6g times that: %s", best->factor,
+    if (best->factor != 1.0) {
+        text_add(text, "; and %.6g times that: %s", best->factor,
                  cli_factor_text(job, best->factor));
     }
 }
 
-/* The answers of the best to the cases that fail, once more. 0 or -1. */
-static int answers_again(const compare_search *search, const explain_score *best)
+/* The answers of a mistake to the cases that fail and to those that pass. 0 or -1. */
+static int answers_all(const compare_search *search, const compare_mistake *mistake)
 {
-    compare_mistake both = mistakes_both(best->first, best->second);
     int code = 0;
-    for (uint32_t i = 0; i < search->failings && code == 0; i++) {
-        code = cli_compare_answer(&search->job->kit, search->failing[i], &both, &search->answer[i]);
+    for (uint32_t i = 0; i < search->failings + search->passings && code == 0; i++) {
+        compare_case *one =
+            i < search->failings ? search->failing[i] : search->passing[i - search->failings];
+        code = cli_compare_answer(&search->job->kit, one, mistake, &search->answer[i]);
     }
     return code;
+}
+
+/* Does a mistake explain the cases of a finding, and no others? 1, 0, or -1 on failure. */
+static int mistake_fits(const compare_search *search, const compare_mistake *mistake, double factor,
+                        int mark)
+{
+    for (uint32_t i = 0; i < search->failings; i++) {
+        compare_case *one = search->failing[i];
+        double answer = 0.0;
+        if (cli_compare_answer(&search->job->kit, one, mistake, &answer) != 0) {
+            return -1;
+        }
+        if (cli_search_explained(search, one, factor * answer) != (one->explained == mark)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Says which other mistakes explain the same cases equally well. 0 or -1. */
+static int ties_say(const compare_search *search, const explain_score *best,
+                    compare_finding *finding)
+{
+    uint32_t ties = 0;
+    for (const compare_mistake *a = cli_compare_mistakes + 1; a->name && ties < TIES_MOST; a++) {
+        compare_mistake both = mistakes_both(a, best->second);
+        int alone = a != best->first && best->first != cli_compare_mistakes && a != best->second;
+        int fits =
+            alone ? mistake_fits(search, &both, best->factor, (int)search->job->findings) : 0;
+        if (fits < 0 || (fits > 0 && answers_all(search, &both) != 0)) {
+            return -1;
+        }
+        double score = fits ? score_make(search, best->factor).score - best->price : 0.0;
+        if (fits && fabs(score - best->score) <= TIED) {
+            text_add(finding->text, "%s%s", ties++ > 0 ? "; " : "; or, equally well: ", a->text);
+        }
+    }
+    return 0;
 }
 
 /* The best explanation of what fails still; 1 where there is one, 0 where not, -1 on failure. */
@@ -271,7 +338,8 @@ static int finding_next(compare_search *search)
         best.score = 0.0; /* of a few cases that are left, chance explains some */
     }
     if (code == 0 && best.score > 0.0) {
-        code = answers_again(search, &best);
+        compare_mistake both = mistakes_both(best.first, best.second);
+        code = answers_all(search, &both);
     }
     if (code != 0) {
         return -1;
@@ -283,7 +351,7 @@ static int finding_next(compare_search *search)
     finding->explained = best.explained;
     finding_say(job, &best, finding);
     finding->rest = finding_rest(search, &best, (int)job->findings);
-    return 1;
+    return ties_say(search, &best, finding) == 0 ? 1 : -1;
 }
 
 compare_finding *cli_search_finding(compare_job *job, const char *name)
@@ -314,6 +382,7 @@ void cli_search_part(compare_search *search)
 {
     compare_job *job = search->job;
     search->failings = search->passings = 0;
+    search->telling = 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         compare_case *one = &job->kit.list[i];
         if (!one->given || !isfinite(one->theirs_m2) || !cli_compare_asked(job, one)) {
@@ -323,6 +392,7 @@ void cli_search_part(compare_search *search)
             search->passing[search->passings++] = one;
         } else if (one->explained == 0) {
             search->failing[search->failings++] = one;
+            search->telling |= one->theirs_m2 != 0.0;
         }
     }
     list_shuffle(search->failing, search->failings);
@@ -334,19 +404,29 @@ void cli_search_part(compare_search *search)
 
 /* ---- the search ---- */
 
+static void lacks_count(compare_job *job)
+{
+    for (uint32_t i = 0; i < job->kit.cases; i++) {
+        int lack = cli_compare_lack(job, &job->kit.list[i]);
+        job->not_numbers += lack == LACK_NUMBER;
+        job->negatives += lack == LACK_SIGN;
+        job->unexplained += lack == LACK_REASON;
+    }
+}
+
 static int findings_make(compare_search *search)
 {
     int more = 1;
     cli_search_part(search);
+    cli_compare_misread(search);
     while (more > 0 && search->failings > 0) {
         more = finding_next(search);
         cli_search_part(search);
     }
-    if (more < 0) {
+    if (more < 0 || cli_compare_signs(search) != 0) {
         return CLI_FAILED;
     }
-    cli_compare_signs(search);
-    search->job->unexplained = search->failings;
+    lacks_count(search->job);
     return 0;
 }
 

@@ -29,6 +29,7 @@ static void case_json(lrcs_host_json *json, const compare_job *job, const compar
     lrcs_host_json_count(json, "tier", (uint64_t)one->tier);
     lrcs_host_json_number(json, "sigma_m2", one->sigma_m2);
     lrcs_host_json_number(json, "theirs_m2", one->given ? one->theirs_m2 : (double)NAN);
+    lrcs_host_json_number(json, "allowed_m2", cli_compare_allowed(one, job->grade, job->pixels));
     lrcs_host_json_text(json, "class", cli_compare_grade(one->grade));
     lrcs_host_json_bool(json, "passed", !cli_compare_failed(job, one));
     lrcs_host_json_text(json, "finding", finding > 0 ? job->finding[finding - 1].name : NULL);
@@ -130,6 +131,7 @@ int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
     lrcs_host_json_count(&json, "given", job->given);
     lrcs_host_json_count(&json, "failed", job->failed);
     lrcs_host_json_count(&json, "not_numbers", job->not_numbers);
+    lrcs_host_json_count(&json, "negatives", job->negatives);
     lrcs_host_json_count(&json, "unexplained", job->unexplained);
     lrcs_host_json_begin(&json, "findings", LRCS_HOST_ARRAY);
     for (uint32_t i = 0; i < job->findings; i++) {

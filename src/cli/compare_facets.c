@@ -8,7 +8,8 @@
 #include <string.h>
 
 #define FACETS_PI    3.14159265358979323846
-#define SEEN         0.02 /* of a facet's projected area: less is a pixel's worth */
+#define SEEN         0.02 /* of a facet's projected area: what may be off */
+#define NONE_SEEN    1e-3 /* less of it is none, and all but that is all of it */
 #define COSINE_WRONG 1e-3
 #define COSINE_FLOAT 1e-9
 
@@ -90,11 +91,16 @@ static int facets_file(facets_read *facets)
 
 /* ---- differing ---- */
 
-/* Keeps the facets that change sigma most. */
+/* Facets of cases that fail come first, then those that change most of what the case is allowed. */
+static int facet_before(const compare_facet *a, const compare_facet *b)
+{
+    return a->failed != b->failed ? a->failed : a->weight > b->weight;
+}
+
 static void worst_take(compare_facets *facets, const compare_facet *off)
 {
     uint32_t at = facets->worsts;
-    while (at > 0 && facets->worst[at - 1].sigma_m2 < off->sigma_m2) {
+    while (at > 0 && facet_before(off, &facets->worst[at - 1])) {
         at--;
     }
     if (at < COMPARE_NAMED) {
@@ -105,25 +111,49 @@ static void worst_take(compare_facets *facets, const compare_facet *off)
     }
 }
 
+/* How far an area may be off: a share of the facet, or a pixel along its outline where a raster was
+   asked for, two where others draw outlines across it, and a pixel. */
+static double area_allowed(const compare_job *job, const compare_case *one, uint32_t facet,
+                           double whole, double truth)
+{
+    const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
+    double pixel = one->side_m / job->pixels;
+    double outlines = truth >= (1.0 - NONE_SEEN) * whole ? 1.0 : 2.0;
+    double raster = outlines * cli_kit_outline(scene, facet, &one->pose) * pixel + pixel * pixel;
+    return job->grade == COMPARE_RASTER ? fmax(SEEN * whole, raster) : SEEN * whole;
+}
+
+static int facet_way(double whole, double truth, double theirs, double allowed)
+{
+    double none = NONE_SEEN * whole;
+    return truth <= none              ? FACET_SHOWN
+           : theirs <= none           ? FACET_LOST
+           : theirs > whole + allowed ? FACET_LARGER
+           : truth >= whole - none    ? FACET_PART
+           : theirs >= whole - none   ? FACET_WHOLE
+                                      : FACET_ELSEWHERE;
+}
+
 static void facet_compare(facets_read *facets, const compare_case *one, uint32_t facet,
                           double theirs)
 {
-    const lrcs_scene *scene = &facets->job->kit.scene[one->scene].host.scene;
+    const compare_job *job = facets->job;
+    const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
     const lrcs_facet_record *record = &one->records[facet];
     const lrcs_brdf *brdf = &scene->material[scene->facet_material[facet]].brdf;
     double c = fabs(record->cos_theta);
     double whole = record->area_m2 * c;
     double truth = record->visible_area_m2;
-    double least = SEEN * whole;
-    compare_facet off = {one, facet, theirs, truth, 0.0, FACET_ELSEWHERE};
-    off.sigma_m2 = 4.0 * FACETS_PI * lrcs_brdf_eval(brdf, c) * c * fabs(theirs - truth);
-    if (!(fabs(theirs - truth) > least)) {
+    double allowed = area_allowed(job, one, facet, whole, truth);
+    compare_facet off = {.one = one, .facet = facet, .theirs_m2 = theirs, .truth_m2 = truth};
+    if (fabs(theirs - truth) <= allowed) {
         return;
     }
-    off.way = truth <= least            ? FACET_SHOWN
-              : theirs <= least         ? FACET_LOST
-              : theirs >= whole - least ? FACET_WHOLE
-                                        : FACET_ELSEWHERE;
+    off.sigma_m2 = 4.0 * FACETS_PI * lrcs_brdf_eval(brdf, c) * c * fabs(theirs - truth);
+    double sigma_allowed = cli_compare_allowed(one, job->grade, job->pixels);
+    off.weight = sigma_allowed > 0.0 ? off.sigma_m2 / sigma_allowed : 0.0;
+    off.failed = cli_compare_failed(job, one);
+    off.way = facet_way(whole, truth, theirs, allowed);
     facets->found->way[off.way]++;
     worst_take(facets->found, &off);
 }
@@ -170,6 +200,8 @@ const char *cli_compare_facet_way(int way)
         "seen by them, hidden in truth (missing shadow)",
         "not seen by them, visible in truth (lost, culled or behind)",
         "seen whole by them, partly hidden in truth (missing shadow)",
+        "seen in part by them, whole in truth (clipped, or hidden by what is behind?)",
+        "seen larger by them than they are (area of a pixel, or of the window?)",
         "seen in another part than in truth"};
     return text[way];
 }

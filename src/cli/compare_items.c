@@ -4,8 +4,11 @@
    alone. */
 #include "cli/compare.h"
 
+#include <dirent.h>
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #define AGREE 0.98 /* of the pixels that show something: the rest are outlines */
@@ -179,8 +182,22 @@ static int case_judge(compare_job *job, const compare_case *one)
     return good ? 1 : -1;
 }
 
+static int folder_check(const char *path)
+{
+    DIR *folder = opendir(path);
+    if (!folder) {
+        fprintf(stderr, "lrcs: %s: cannot open folder: %s\n", path, strerror(errno));
+        return CLI_FAILED;
+    }
+    closedir(folder);
+    return 0;
+}
+
 int cli_compare_items(compare_job *job)
 {
+    if (job->items && folder_check(job->items) != 0) {
+        return CLI_FAILED;
+    }
     for (uint32_t i = 0; job->items && i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
         if (one->image > 0 && cli_compare_asked(job, one)) {

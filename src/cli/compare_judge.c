@@ -48,6 +48,15 @@ int cli_compare_failed(const compare_job *job, const compare_case *one)
     return cli_compare_asked(job, one) && one->grade > job->grade;
 }
 
+int cli_compare_lack(const compare_job *job, const compare_case *one)
+{
+    return !cli_compare_failed(job, one) || one->explained ? LACK_NONE
+           : !one->given                                   ? LACK_ANSWER
+           : !isfinite(one->theirs_m2)                     ? LACK_NUMBER
+           : one->theirs_m2 < 0.0                          ? LACK_SIGN
+                                                           : LACK_REASON;
+}
+
 /* A line of theirs: sigma, or dBsm, of which nothing at all is none. */
 static int answer_read(const compare_job *job, const compare_table *table, const int *column)
 {
@@ -67,12 +76,13 @@ static int answer_read(const compare_job *job, const compare_table *table, const
             return code;
         }
     }
+    one->printed = value;
     one->theirs_m2 = linear ? value : pow(10.0, value / 10.0);
     one->given = 1;
     return 0;
 }
 
-static int answers_read(const compare_job *job)
+static int answers_read(compare_job *job)
 {
     compare_table table;
     int column[4];
@@ -83,9 +93,11 @@ static int answers_read(const compare_job *job)
     if (code == 0) {
         column[2] = cli_table_column(&table, "sigma_m2");
         column[3] = cli_table_column(&table, "sigma_dbsm");
-        code = column[2] >= 0 || column[3] >= 0 ? 0
-                                                : cli_table_require(&table, "sigma_m2", &column[2]);
+        code = column[2] >= 0 || column[3] >= 0
+                   ? 0
+                   : cli_table_require(&table, "sigma_m2 or sigma_dbsm", &column[2]);
     }
+    job->decibels = code == 0 && column[2] < 0;
     while (code == 0 && (more = cli_table_next(&table)) > 0) {
         code = answer_read(job, &table, column);
     }
@@ -103,7 +115,6 @@ int cli_compare_judge(compare_job *job)
             job->asked++;
             job->given += (uint32_t)one->given;
             job->failed += (uint32_t)cli_compare_failed(job, one);
-            job->not_numbers += one->given && !isfinite(one->theirs_m2);
         }
     }
     return code;

@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- materials ---- */
 
@@ -71,13 +72,15 @@ enum {
     CASE_BOUND,
     CASE_FLOAT,
     CASE_EDGE,
+    CASE_SIDE,
     CASE_IMAGE,
     CASE_COLUMNS
 };
 
 static const char *const case_names[CASE_COLUMNS] = {
-    "scene", "attitude", "tier",   "qw",       "qx",       "qy",       "qz",      "sx",   "sy",
-    "sz",    "az_deg",   "el_deg", "sigma_m2", "bound_m2", "float_m2", "edge_m2", "image"};
+    "scene",    "attitude", "tier",     "qw",      "qx",     "qy",
+    "qz",       "sx",       "sy",       "sz",      "az_deg", "el_deg",
+    "sigma_m2", "bound_m2", "float_m2", "edge_m2", "side_m", "image"};
 
 /* The scene of a line, which follows others of it. */
 static compare_scene *scene_of(compare_kit *kit, const char *name, int tier)
@@ -112,6 +115,7 @@ static int case_read(const compare_table *table, const int *column, compare_kit 
     one->bound_m2 = value[CASE_BOUND];
     one->float_m2 = value[CASE_FLOAT];
     one->edge_m2 = value[CASE_EDGE];
+    one->side_m = value[CASE_SIDE];
     if (!(value[CASE_TIER] >= 1.0 && value[CASE_TIER] <= KIT_TIERS)) {
         return cli_table_refuse(table, column[CASE_TIER], "1 .. %d", KIT_TIERS);
     }
@@ -158,8 +162,16 @@ static int cases_read(compare_kit *kit)
 
 int cli_compare_kit(const char *folder, compare_kit *kit)
 {
+    char path[KIT_PATH];
     memset(kit, 0, sizeof *kit);
     kit->folder = folder;
+    if (cli_kit_path(path, "%s/" KIT_CASES_FILE, folder) != 0) {
+        return CLI_FAILED;
+    }
+    if (access(path, F_OK) != 0) {
+        fprintf(stderr, "lrcs: %s: not a kit's folder (lrcs vectors DIR makes one)\n", folder);
+        return CLI_FAILED;
+    }
     int code = materials_read(kit);
     return code ? code : cases_read(kit);
 }
@@ -245,13 +257,17 @@ static compare_scene *scene_find(const compare_kit *kit, const compare_table *ta
                                  const char *name)
 {
     const char *best = NULL;
+    int tiers = 0;
     for (uint32_t i = 0; i < kit->scenes; i++) {
         if (strcmp(kit->scene[i].name, name) == 0) {
             return &kit->scene[i];
         }
         best = cli_nearest(name, best, kit->scene[i].name);
+        tiers = kit->scene[i].tier > tiers ? kit->scene[i].tier : tiers;
     }
-    cli_table_refuse(table, column, "a scene of the kit (the nearest is %s)", best ? best : "none");
+    cli_table_refuse(table, column,
+                     "a scene of the kit, which has tiers 1 .. %d (the nearest is %s)", tiers,
+                     best ? best : "none");
     return NULL;
 }
 

@@ -9,8 +9,8 @@
 
 typedef struct report_line {
     uint32_t count[COMPARE_MISSING + 1];
-    double worst; /* relative to sigma */
-    const compare_case *at;
+    double worst;           /* difference, of what is allowed */
+    const compare_case *at; /* there */
 } report_line;
 
 static double case_off(const compare_case *one)
@@ -19,15 +19,23 @@ static double case_off(const compare_case *one)
     return off == 0.0 ? 0.0 : one->sigma_m2 > 0.0 && isfinite(off) ? off / one->sigma_m2 : HUGE_VAL;
 }
 
+/* How far it is off, of what it is allowed. */
+static double case_share(const compare_job *job, const compare_case *one)
+{
+    double off = fabs(one->theirs_m2 - one->sigma_m2);
+    double allowed = cli_compare_allowed(one, job->grade, job->pixels);
+    return off == 0.0 ? 0.0 : allowed > 0.0 && isfinite(off) ? off / allowed : HUGE_VAL;
+}
+
 static report_line scene_line(const compare_job *job, const compare_scene *scene)
 {
     report_line line = {.worst = -1.0};
     for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
         const compare_case *one = &job->kit.list[i];
-        double off = one->given ? case_off(one) : -1.0;
+        double share = one->given ? case_share(job, one) : -1.0;
         line.count[one->grade]++;
-        if (off > line.worst) {
-            line.worst = off;
+        if (share > line.worst) {
+            line.worst = share;
             line.at = one;
         }
     }
@@ -51,8 +59,9 @@ static void scene_print(const compare_job *job, const compare_scene *scene)
     for (int k = COMPARE_EXACT; k <= COMPARE_MISSING; k++) {
         count_print(line.count[k]);
     }
-    if (line.at && isfinite(line.worst)) {
-        printf("   %8.1e  %s\n", line.worst, line.at->attitude);
+    double off = line.at ? case_off(line.at) : 0.0;
+    if (line.at && isfinite(off)) {
+        printf("   %8.1e  %s\n", off, line.at->attitude);
     } else if (line.at) {
         printf("   %8s  %s\n", "-", line.at->attitude);
     } else {
@@ -93,22 +102,60 @@ static void finding_tiers(const compare_job *job, int mark)
     }
 }
 
+static const char *plural(uint32_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
 static void findings_print(const compare_job *job)
 {
-    uint32_t failed = job->failed - (job->asked - job->given) - job->not_numbers;
     for (uint32_t i = 0; i < job->findings; i++) {
         const compare_finding *finding = &job->finding[i];
+        uint32_t failed = job->failed - (job->asked - job->given) - job->not_numbers;
         printf("why          %s\n", finding->text);
         if (finding->explained == 0) {
             continue;
         }
-        printf("             explains %lu of %lu failing cases, in tiers",
-               (unsigned long)finding->explained, (unsigned long)failed);
+        printf("             explains %lu of %lu failing case%s, in tiers",
+               (unsigned long)finding->explained, (unsigned long)failed, plural(failed));
         finding_tiers(job, (int)i + 1);
         if (finding->rest < 1.0) {
             printf("; leaves %.2g %% of their differences", 100.0 * finding->rest);
         }
         putchar('\n');
+    }
+}
+
+/* The first cases that lack something: "box nose, box a, ..". */
+static void lacks_print(const compare_job *job, int lack)
+{
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < job->kit.cases && named <= NAMES_MOST; i++) {
+        const compare_case *one = &job->kit.list[i];
+        if (cli_compare_lack(job, one) == lack && named++ < NAMES_MOST) {
+            printf("%s%s %s", named > 1 ? ", " : "", job->kit.scene[one->scene].name,
+                   one->attitude);
+        }
+    }
+    puts(named > NAMES_MOST ? ", .." : "");
+}
+
+static void answers_print(const compare_job *job)
+{
+    uint32_t missing = job->asked - job->given;
+    if (missing > 0) {
+        printf("missing      %lu case%s: ", (unsigned long)missing, plural(missing));
+        lacks_print(job, LACK_ANSWER);
+    }
+    if (job->not_numbers > 0) {
+        printf("why          %lu answer%s not numbers: ", (unsigned long)job->not_numbers,
+               job->not_numbers == 1 ? " is" : "s are");
+        lacks_print(job, LACK_NUMBER);
+    }
+    if (job->negatives > 0) {
+        printf("why          %lu answer%s negative: ", (unsigned long)job->negatives,
+               job->negatives == 1 ? " is" : "s are");
+        lacks_print(job, LACK_SIGN);
     }
 }
 
@@ -118,19 +165,24 @@ static void unexplained_print(const compare_job *job)
     if (job->unexplained == 0) {
         return;
     }
-    printf("unexplained  %lu failing cases:", (unsigned long)job->unexplained);
-    for (uint32_t i = 0; i < job->kit.cases && named <= NAMES_MOST; i++) {
+    printf("unexplained  %lu failing case%s\n", (unsigned long)job->unexplained,
+           plural(job->unexplained));
+    for (uint32_t i = 0; i < job->kit.cases && named < NAMES_MOST; i++) {
         const compare_case *one = &job->kit.list[i];
-        if (cli_compare_failed(job, one) && one->given && one->explained == 0) {
-            if (named++ < NAMES_MOST) {
-                printf("%s %s %s", named > 1 ? "," : "", job->kit.scene[one->scene].name,
-                       one->attitude);
-            } else {
-                printf(", ..");
-            }
+        if (cli_compare_lack(job, one) != LACK_REASON) {
+            continue;
         }
+        printf("             %s %s: %.4g m2, truth %.4g", job->kit.scene[one->scene].name,
+               one->attitude, one->theirs_m2, one->sigma_m2);
+        if (one->sigma_m2 > 0.0) {
+            printf(" (%.3g of it)", one->theirs_m2 / one->sigma_m2);
+        }
+        printf(", allowed %.2g\n", cli_compare_allowed(one, job->grade, job->pixels));
+        named++;
     }
-    putchar('\n');
+    if (named < job->unexplained) {
+        printf("             and %lu more\n", (unsigned long)(job->unexplained - named));
+    }
 }
 
 /* ---- facets and images ---- */
@@ -144,11 +196,12 @@ static const char *material_of(const compare_job *job, const compare_case *one, 
 static void facets_print(const compare_job *job, const compare_facets *facets)
 {
     const char *cosines = cli_compare_cosines(facets);
-    printf("facets       of %lu cases\n", (unsigned long)facets->cases);
+    printf("facets       of %lu case%s%s\n", (unsigned long)facets->cases, plural(facets->cases),
+           facets->worsts == 0 ? ": none differs by more than it is allowed" : "");
     for (int way = 0; way < FACET_WAYS; way++) {
         if (facets->way[way] > 0) {
-            printf("             %lu facets %s\n", (unsigned long)facets->way[way],
-                   cli_compare_facet_way(way));
+            printf("             %lu facet%s %s\n", (unsigned long)facets->way[way],
+                   plural(facets->way[way]), cli_compare_facet_way(way));
         }
     }
     if (cosines) {
@@ -213,9 +266,7 @@ void cli_compare_table(const compare_job *job)
     for (uint32_t tier = 1; tier <= job->tier; tier++) {
         tier_print(job, tier);
     }
-    if (job->not_numbers > 0) {
-        printf("why          %lu answers are not numbers\n", (unsigned long)job->not_numbers);
-    }
+    answers_print(job);
     findings_print(job);
     unexplained_print(job);
     if (job->facets) {

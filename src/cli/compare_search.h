@@ -10,6 +10,7 @@ typedef struct compare_search {
     compare_case **failing; /* not explained yet */
     compare_case **passing; /* some of them */
     uint32_t failings, passings;
+    int telling;    /* is an answer of those that fail not 0? */
     double weight;  /* of how many passing cases each of them tells */
     double *answer; /* of a mistake: the failing cases, then the passing ones */
     double *room;   /* to sort in */
@@ -27,9 +28,13 @@ double cli_search_median(double *value, uint32_t count);
 /* The next finding, empty; NULL where there is no room for one. */
 compare_finding *cli_search_finding(compare_job *job, const char *name);
 
+/* What shows in the table before any physics: nothing but zeros, another unit, rows moved, few
+   digits. */
+void cli_compare_misread(compare_search *search);
+
 /* What needs no mistake of the catalogue to be told: coarse depths, single precision, a raster, a
-   factor that all answers share. */
-void cli_compare_signs(compare_search *search);
+   factor that all answers share. 0, or -1 with the message printed. */
+int cli_compare_signs(compare_search *search);
 
 /* A factor near one that is known by name, or itself; what it may mean, and its name. */
 double cli_factor_known(double factor, int *known);

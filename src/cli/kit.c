@@ -3,6 +3,7 @@
    them back. What is written is vectors*.c, how it is judged compare*.c. */
 #include "cli/kit.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
@@ -30,6 +31,22 @@ int cli_kit_pose(const double quaternion[4], const double direction[3], lrcs_pos
         memcpy(pose->R, turned.R, sizeof pose->R);
     }
     return status;
+}
+
+double cli_kit_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_pose *pose)
+{
+    double length = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double *a = scene->vertex[scene->facet[facet].corner[k]].x;
+        const double *b = scene->vertex[scene->facet[facet].corner[(k + 1) % 3]].x;
+        double side[2] = {0.0, 0.0};
+        for (int i = 0; i < 3; i++) {
+            side[0] += pose->R[0][i] * (b[i] - a[i]);
+            side[1] += pose->R[1][i] * (b[i] - a[i]);
+        }
+        length += hypot(side[0], side[1]);
+    }
+    return length;
 }
 
 int cli_kit_scene(const char *folder, const char *name, const lrcs_binding *binding, uint32_t count,

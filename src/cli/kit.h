@@ -28,6 +28,9 @@ int cli_kit_pose(const double quaternion[4], const double direction[3], lrcs_pos
 __attribute__((format(printf, 2, 3))) int cli_kit_path(char path[KIT_PATH], const char *format,
                                                        ...);
 
+/* The length of a facet's outline in the view plane, m. */
+double cli_kit_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_pose *pose);
+
 /* Reads scenes/NAME.obj of a kit, dressed by these bindings, and prepares it. 0 or CLI_FAILED with
    the message printed; the caller frees the scene in any case. */
 int cli_kit_scene(const char *folder, const char *name, const lrcs_binding *binding, uint32_t count,

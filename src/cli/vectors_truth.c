@@ -45,23 +45,6 @@ static double facet_float(const lrcs_facet_record *record, const lrcs_brdf *brdf
                    lrcs_brdf_eval(&diffuse, c) * (16.0 + 4.0 * (1.0 + brdf->m) / c));
 }
 
-/* The length of a facet's outline in the view plane, m. */
-static double facet_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_pose *pose)
-{
-    double length = 0.0;
-    for (int k = 0; k < 3; k++) {
-        const double *a = scene->vertex[scene->facet[facet].corner[k]].x;
-        const double *b = scene->vertex[scene->facet[facet].corner[(k + 1) % 3]].x;
-        double side[2] = {0.0, 0.0};
-        for (int i = 0; i < 3; i++) {
-            side[0] += pose->R[0][i] * (b[i] - a[i]);
-            side[1] += pose->R[1][i] * (b[i] - a[i]);
-        }
-        length += hypot(side[0], side[1]);
-    }
-    return length;
-}
-
 /* Half a pixel along the outline of each facet, errors of different facets independent: a raster's
    usual error is a tenth of that, its worst is where an outline lies along rows or columns. */
 static double facet_edge(const lrcs_scene *scene, const lrcs_facet_record *record, uint32_t facet,
@@ -72,7 +55,8 @@ static double facet_edge(const lrcs_scene *scene, const lrcs_facet_record *recor
         return 0.0;
     }
     double pixels = record->visible_area_m2 < PARTLY_SEEN * whole ? 1.0 : 0.5;
-    return pixels * facet_outline(scene, facet, pose) * record->sigma_m2 / record->visible_area_m2;
+    return pixels * cli_kit_outline(scene, facet, pose) * record->sigma_m2 /
+           record->visible_area_m2;
 }
 
 static void case_allow(const truth_run *run, vectors_case *one)

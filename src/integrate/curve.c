@@ -148,7 +148,7 @@ static lrcsi_curved curve_share(curve_job *job, const lrcsi_visible *visible)
     lrcsi_curved part = job_part(job, whole > 0 ? value / whole : 0);
     part.visibility = FOUR_PI * lrcsi_most(high - value, value - low);
     part.rounding = job_part(job, 1).rounding;
-    part.likely = part.visibility > 0 ? (FOUR_PI * value / projected) * visible->likely : 0;
+    part.likely = part.visibility > 0 ? (FOUR_PI * whole / projected) * visible->likely : 0;
     part.estimate = FOUR_PI * job->sum.estimate;
     return part;
 }

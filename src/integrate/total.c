@@ -8,6 +8,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/length.h"
 #include "base/range.h"
 #include "base/sum.h"
 #include "integrate/tessellation.h"
@@ -24,7 +25,7 @@
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
     double visibility, tessellation, rounding, curvature;
-    double likely, lean; /* of errors that add up by chance, squares; of those that lean one way */
+    double likely, lean; /* of errors that add up by chance; of those that lean one way */
     uint32_t seen;
 } total_sums;
 
@@ -145,7 +146,7 @@ static void add_doubt(total_sums *sums, double per_area, const lrcsi_visible *vi
 {
     double doubt = lrcsi_most(visible->area - visible->low, visible->high - visible->area);
     sums->visibility += per_area * doubt;
-    sums->likely += (per_area * visible->likely) * (per_area * visible->likely);
+    sums->likely = lrcsi_length_flat(sums->likely, per_area * visible->likely);
     sums->lean += per_area * visible->lean;
 }
 
@@ -186,7 +187,7 @@ static total_return add_curved(total_job *job, uint32_t facet)
     lrcsi_sum_add(&sums->diffuse, curved->diffuse);
     sums->visibility += curved->visibility;
     sums->rounding += curved->rounding;
-    sums->likely += curved->likely * curved->likely;
+    sums->likely = lrcsi_length_flat(sums->likely, curved->likely);
     sums->curvature += curved->estimate;
     return (total_return){curved->glint, curved->diffuse};
 }
@@ -271,7 +272,7 @@ static void total_finish(total_job *job)
     total->tessellation = sums->tessellation < 0 ? -1 : bound_area(p, sums->tessellation * outward);
     double adding = (glint + diffuse) * (4 * U + 3 * (count * U) * (count * U));
     total->rounding = bound_area(p, (sums->rounding + adding) * outward);
-    double likely = sqrt(sums->likely + sums->lean * sums->lean);
+    double likely = lrcsi_length_flat(sums->likely, sums->lean);
     total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
     total->curvature = lrcsi_prepared_area(p, sums->curvature);
     total->seen = sums->seen;

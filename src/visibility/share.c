@@ -5,13 +5,15 @@
    would err one way. There a facet takes the samples that it owns, as they are, and only of the
    rest of its area the share of its samples and its neighbours' together; what its bounds cut off
    is passed on within its sheet, so that the row together shows what its samples show. Small
-   facets need none of this: their shares, or a query in the middle of each, err less than pixels
-   do. Nothing here depends on the order of facets. The bounds are not its business, nor how far
+   facets need none of this: their shares, or a query somewhere in each, err less than pixels do.
+   Nothing here depends on the order of facets. The bounds are not its business, nor how far
    the areas may be off. */
 #include "visibility/share.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "base/fnv.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/query.h"
@@ -110,16 +112,46 @@ static int share_row(const lrcsi_sharing *s, uint32_t facet, double longest, dou
     return 1;
 }
 
+/* A point of the facet, anywhere: where depends on its first corner, as if by chance. */
+static void share_point(const lrcsi_raster *raster, uint32_t facet, double point[3])
+{
+    const lrcs_prepared *p = raster->view->prepared;
+    double at[2];
+    uint64_t bits[2];
+    lrcsi_raster_point(raster, p->scene->facet[facet].corner[0], at);
+    memcpy(bits, at, sizeof bits);
+    uint64_t chance = lrcsi_fnv_bits(lrcsi_fnv_bits(LRCSI_FNV_START, bits[0], 8), bits[1], 8);
+    double along = (double)(chance >> 32) * 0x1p-32;
+    double up = (double)(chance & 0xffffffff) * 0x1p-32;
+    int beyond = along + up > 1;
+    for (int k = 0; k < 3; k++) {
+        double corner = lrcsi_prepared_corner(p, facet, 0)[k];
+        point[k] = corner +
+                   (beyond ? 1 - along : along) * (lrcsi_prepared_corner(p, facet, 1)[k] - corner) +
+                   (beyond ? 1 - up : up) * (lrcsi_prepared_corner(p, facet, 2)[k] - corner);
+    }
+}
+
+/* What is visible of a facet that lies between samples, alone: all or nothing, as one point of it
+   is. In the middle of each, many facets hidden alike, as cells of a panel are, would err alike. */
+static double share_asked(const lrcsi_sharing *s, uint32_t facet)
+{
+    static const double share[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
+    double point[3];
+    share_point(s->raster, facet, point);
+    int answer = lrcsi_query_point(&s->known->facets, facet, point);
+    return share[answer != LRCSI_QUERY_UNDECIDED ? answer
+                                                 : lrcsi_query_facet(&s->known->facets, facet)];
+}
+
 lrcsi_share lrcsi_share_facet(const lrcsi_sharing *s, uint32_t facet)
 {
-    static const double answer[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
     double owned;
     double covered;
     lrcsi_share share;
     share.longest = share_longest(s->raster, facet);
     share.row = share_row(s, facet, share.longest, &owned, &covered);
-    share.share =
-        covered > 0 ? owned / covered : answer[lrcsi_query_facet(&s->known->facets, facet)];
+    share.share = covered > 0 ? owned / covered : share_asked(s, facet);
     return share;
 }
 

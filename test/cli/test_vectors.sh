@@ -31,6 +31,10 @@ usage_error not_a_picture_of_that_size "--resolution" vectors kit --resolution 1
 run run kit/scenes/plate-turned.obj --direction "$(awk -F, '$1 == "plate-turned" && $2 == "a" { print $8 "," $9 "," $10 }' kit/cases.csv)" --material reference=1,0.25,0.2,0.5 --json
 same a_case_can_be_run_again "$(value sigma_m2)" "$(awk -F, '$1 == "plate-turned" && $2 == "a" { print $13 }' kit/cases.csv)"
 
+# So says the kit's README; it also shows any case.
+run image kit/scenes/comb.obj --quaternion "$(awk -F, '$1 == "comb" && $2 == "f" { print $4 "," $5 "," $6 "," $7 }' kit/cases.csv)" --by facet -o comb.png
+same a_case_can_be_looked_at "$rc $(head -c 4 comb.png | tail -c 3)" "0 PNG"
+
 command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; finish; exit; }
 python3 - <<'END' || failures=1
 import csv, glob, json, math, os, struct, sys
