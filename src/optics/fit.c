@@ -262,18 +262,28 @@ static void parts_choose(fit_job *job)
     }
 }
 
-/* What the residuals say of the errors, each part that is there taking two parameters. */
-static void errors_estimate(fit_job *job)
+/* The sum of the squares of readings, by their weights or, where `all`, in their errors. */
+static double readings_size(const lrcsi_fit_data *data, int all)
 {
     double size = 0.0;
-    int parts = 2 - job->absent[0] - job->absent[1];
-    uint32_t freedom = job->kept - 2 * (uint32_t)parts;
-    for (uint32_t i = 0; i < job->data.count; i++) {
-        double y = job->data.weight[i] * job->data.y[i];
+    for (uint32_t i = 0; i < data->count; i++) {
+        double y = (all ? data->inverse[i] : data->weight[i]) * data->y[i];
         size += y * y;
     }
-    double rounding = FIT_ROUNDING * size / job->kept;
+    return size;
+}
+
+/* What the residuals say of the errors, each part that is there taking two parameters: no less than
+   rounding, of those set aside too where the squares of all that are kept vanish. */
+static void errors_estimate(fit_job *job)
+{
+    int parts = 2 - job->absent[0] - job->absent[1];
+    uint32_t freedom = job->kept - 2 * (uint32_t)parts;
+    double rounding = FIT_ROUNDING * readings_size(&job->data, 0) / job->kept;
     double variance = lrcsi_most(job->best.square / freedom, rounding);
+    if (!(variance > 0.0)) {
+        variance = FIT_ROUNDING * readings_size(&job->data, 1) / job->kept;
+    }
     int known = job->noise == LRCS_FIT_GIVEN && variance < 1.0;
     double t = lrcsi_special_student(known ? UINT32_MAX : freedom);
     job->error = sqrt(variance);

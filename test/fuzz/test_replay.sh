@@ -8,7 +8,7 @@ for source in "$root"/test/fuzz/fuzz_*.c; do
     name=${name#fuzz_}
     case $name in
     pose) mutations=4000 ;;
-    curved | fit) mutations=100 ;;
+    curved | fit) mutations=200 ;;
     scene) mutations=500 ;;
     *) mutations=20000 ;;
     esac

@@ -519,6 +519,29 @@ static void readings_of_one_value_at_the_normal_leave_both_parts_open(void **sta
 }
 
 /* So far from the normal the steepest falls of the search are nothing at any reading. */
+static void readings_of_nothing_beside_outliers_have_finite_errors(void **state)
+{
+    (void)state;
+    static const double nothing[] = {0, 1e-200, 1e-160, 1e-30};
+    for (int n = 0; n < 4; n++) {
+        for (int noise = LRCS_FIT_ABSOLUTE; noise <= LRCS_FIT_WEIGHTED; noise++) {
+            lrcs_fit_reading reading[10];
+            lrcs_fit_point point[10];
+            lrcs_fit_options options = lrcs_fit_options_default();
+            options.noise = noise;
+            for (int i = 0; i < 10; i++) {
+                double value = i < 2 ? 12 - 4 * i : nothing[n] * (i % 3);
+                reading[i] = (lrcs_fit_reading){4 + 5 * i, value, 1};
+            }
+            lrcs_fit fit = fit_of(reading, 10, &options, point);
+            assert_true(isfinite(fit.noise) && isfinite(fit.rms));
+            for (int i = 0; i < 10; i++) {
+                assert_true(isfinite(point[i].fitted) && isfinite(point[i].standard));
+            }
+        }
+    }
+}
+
 static void grazing_readings_alone_give_back_a_matt_surface(void **state)
 {
     (void)state;
@@ -557,6 +580,7 @@ int main(void)
         cmocka_unit_test(every_verdict_has_its_sentence),
         cmocka_unit_test(a_fall_beyond_the_search_is_limited_below_only),
         cmocka_unit_test(readings_of_one_value_at_the_normal_leave_both_parts_open),
+        cmocka_unit_test(readings_of_nothing_beside_outliers_have_finite_errors),
         cmocka_unit_test(grazing_readings_alone_give_back_a_matt_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
