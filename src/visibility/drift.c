@@ -28,8 +28,8 @@
 #define NONE      2.0  /* of one that owns none of them */
 #define SMALL     0.8  /* of any at most so much, times the square of its area */
 #define UNSAMPLED 0.5  /* of one that has no samples, likewise */
-#define ROW       0.6  /* of one that shares its samples, times its width */
-#define ROW_SEEN  4.5  /* and so much more, times its width and share (1 - share) */
+#define ROW       0.5  /* of one that shares its samples, times its width */
+#define ROW_SEEN  3.0  /* and so much more, times its width and share (1 - share) */
 
 /* A facet on the raster. */
 typedef struct drift_facet {
