@@ -229,8 +229,8 @@ typedef struct compare_mistake {
     mistake_shade *shade;
     double at;
     mistake_area *area;
-    int corners; /* 3: the facet is the mean of what it is at its corners */
     int (*turn)(const compare_case *one, const struct compare_mistake *mistake, lrcs_pose *pose);
+    int corners;      /* 3: the facet is the mean of what it is at its corners */
     int axes[3];      /* of turn: for x, y, z of s_hat, which component they take, 1 .. 3, negative
                          to mirror it */
     uint32_t without; /* effects that somebody leaves out, lrcs_run_options.without */

@@ -60,17 +60,18 @@ int cli_compare_skins(const compare_kit *kit, const compare_case *one,
     moved.scene.facet = malloc(((size_t)from->facet_count + 1) * sizeof(lrcs_facet));
     lrcs_point *vertex = moved.scene.vertex;
     lrcs_facet *facet = moved.scene.facet;
-    int code = vertex && facet ? 0 : cli_out_of_memory();
-    if (code == 0) {
-        scene_move(one, from, &moved.scene);
-        int status = lrcs_host_scene_prepare(&moved, &error);
-        status = status == LRCS_OK ? lrcs_host_scene_run(&moved, &one->pose, options, &result,
-                                                         records, NULL, NULL, &error)
-                                   : status;
-        code = status == LRCS_OK ? 0 : cli_failed(&error);
+    if (!vertex || !facet) {
+        free(vertex);
+        free(facet);
+        return cli_out_of_memory();
     }
+    scene_move(one, from, &moved.scene);
+    int status = lrcs_host_scene_prepare(&moved, &error);
+    status = status == LRCS_OK ? lrcs_host_scene_run(&moved, &one->pose, options, &result, records,
+                                                     NULL, NULL, &error)
+                               : status;
     lrcs_host_scene_free(&moved);
     free(vertex);
     free(facet);
-    return code;
+    return status == LRCS_OK ? 0 : cli_failed(&error);
 }

@@ -179,9 +179,9 @@ static int side_met(const touch_facet *t, const double *a, const double *b, cons
    with T beyond it. */
 static int separated_along_axis(const touch_facet *f, const touch_facet *t, int *rim)
 {
-    const double *on[3];
     int side = separating_side(f, f->turn, t, f->axis);
     if (side >= 0) {
+        const double *on[3];
         const double *a = f->x[side];
         const double *b = f->x[(side + 1) % 3];
         int count = corners_on_line(a, b, t, f->axis, on);
