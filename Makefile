@@ -71,7 +71,7 @@ test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scalin
 
 asan: cmocka
 	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) $(THREADS) -lm" test
-SANITIZE = -fsanitize=address,undefined,float-divide-by-zero,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer
+SANITIZE = -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer
 
 # The threads under ThreadSanitizer.
 tsan: cmocka

@@ -323,6 +323,7 @@ static void unfit_scenes_are_refused_with_the_parts_name(void **state)
     lrcs_recipe_part part = model_part("culprit");
     lrcs_recipe recipe = {.part = &part, .part_count = 1};
     lrcs_where where;
+    lrcs_facet wrong_facet[4];
     part.place.scale[2] = 1e100;
     assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_NUMBER);
     assert_string_equal(where.found, "culprit");
@@ -347,9 +348,9 @@ static void unfit_scenes_are_refused_with_the_parts_name(void **state)
     mesh.facet_material = wrong_material;
     assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_INDEX);
     for (int k = 0; k < 3; k++) {
-        lrcs_facet wrong_facet[4] = {{{0, 2, 1}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 2, 3}}};
-        wrong_facet[1].corner[k] = 4;
         mesh = tetra();
+        memcpy(wrong_facet, mesh.facet, sizeof wrong_facet);
+        wrong_facet[1].corner[k] = 4;
         mesh.facet = wrong_facet;
         assert_int_equal(refused(&recipe, &mesh, &where), LRCS_E_INDEX);
         assert_string_equal(where.found, "culprit");
