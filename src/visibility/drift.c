@@ -244,9 +244,7 @@ static void drift_add_sides(const drift_facet *d, lrcsi_drift *drift)
 /* In square pixels. */
 static double drift_area(const lrcsi_raster *raster, uint32_t facet)
 {
-    int faces = raster->view->facing[facet] != 0;
-    double projected = faces ? lrcsi_view_tilt(raster->view, facet).projected : 0;
-    return projected * raster->scale * raster->scale;
+    return lrcsi_view_projected(raster->view, facet) * raster->scale * raster->scale;
 }
 
 /* The area, at most, of what may hide some of a facet that owns all of its samples: of the facets
