@@ -262,15 +262,30 @@ static void ends_finely(const contact_heights *h, contact_finely *f, lrcsi_conta
     }
 }
 
-/* As segment_kind, before anything is clipped. Ends and corner are off by e: the line turns by 2 e
-   over its length, and what the corner is beyond it is off by as much of the way there, and 2 e.
-   Where that is long, it counts: `turned`. */
+/* Rounds the ends of a segment that no clipping will shorten, since it meets the facet. That may
+   turn its line anywhere: it is the rounded one that parts. 1 where it is so short. */
+static int ends_round(contact_finely *f)
+{
+    int brief = 1;
+    for (int i = 0; i < 2; i++) {
+        brief &= fabs(f->end[1][i].hi - f->end[0][i].hi) < 0.5;
+    }
+    for (int i = 0; i < 4 && brief; i++) {
+        f->end[i / 2][i % 2] = (lrcsi_dd){lrcsi_dd_value(f->end[i / 2][i % 2]), 0};
+    }
+    return brief;
+}
+
+/* As segment_kind, of a short segment; a long one is not clipped yet. Of that, ends and corner are
+   off by e: the line turns by 2 e over its length, and what the corner is beyond it is off by as
+   much of the way there, and 2 e. Where that is long, it counts: `turned`. */
 static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c, int above)
 {
     int lone = above == 1 ? 1 : -1;
     const lrcsi_dd *p = f->corner[h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2];
     lrcsi_dd to[2];
     lrcsi_dd way[2];
+    int brief = ends_round(f);
     for (int i = 0; i < 2; i++) {
         to[i] = lrcsi_dd_sub(f->end[1][i], f->end[0][i]);
         way[i] = lrcsi_dd_sub(p[i], f->end[0][i]);
@@ -280,8 +295,9 @@ static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contac
     double side =
         lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(to[0], way[1]), lrcsi_dd_mul(to[1], way[0])));
     double beyond = length > 0 ? lone * side / length : 0;
-    double turned =
-        length > 0 ? 4 * lrcsi_length_flat(way[0].hi, way[1].hi) / length * (c->off + c->slip) : 0;
+    double turned = length > 0 && !brief
+                        ? 4 * lrcsi_length_flat(way[0].hi, way[1].hi) / length * (c->off + c->slip)
+                        : 0;
     if (c->slip > 0 && slip_wide(c)) {
         return LRCSI_CONTACT_UNKNOWN;
     }

@@ -369,6 +369,25 @@ static void interpenetrating_plates_hide_part_of_each_other(void **state)
 
 /* Fins of height h stand every p along x on a plate; light from (t, 0, 1). The next fin shades each
    below h - p / t, and each gap of the plate is lit over p - h t. */
+/* A needle whose edge on x = -7 passes a corner of another facet by 1.4e-5, and which falls away so
+   steeply that the other passes through it within 7e-12 of that corner, in a segment whose ends are
+   one and the same to 1e-17 of the needle. It hides what lies between y = u / 2 and 25/21 u over
+   the corner, u = x + 7, as far as the needle's third side. */
+static void needle_pierced_beside_a_corner_is_hidden_as_by_hand(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){-7, -2e6, 7}, (const double[3]){-6, 3, -2e6},
+                   (const double[3]){-7, -5, -7});
+    scene_triangle(&scene, (const double[3]){-2e-12, 4 / 3.0, 3}, (const double[3]){-3, -5, -7},
+                   (const double[3]){-7, -7, -7});
+    long double low = 1999993 / (2000003 - 0.5L);
+    long double high = 1999993 / (2000003 - 25 / 21.0L);
+    long double seen = 999997.5L - 0.5L * low * high * (25 / 21.0L - 0.5L);
+    scene_run(&scene, (const double[3]){0, 0, 1}, LRCS_METHOD_EXACT, 0);
+    check_abs(scene_seen(&scene, 0, 1), (double)seen, 1e-12 * 999997.5);
+}
+
 static void combs_of_thin_fins_shade_as_by_hand(void **state)
 {
     (void)state;
@@ -705,6 +724,7 @@ int main(void)
         cmocka_unit_test(t_junctions_leave_no_crack),
         cmocka_unit_test(directions_in_a_facets_plane_are_exactly_edge_on),
         cmocka_unit_test(interpenetrating_plates_hide_part_of_each_other),
+        cmocka_unit_test(needle_pierced_beside_a_corner_is_hidden_as_by_hand),
         cmocka_unit_test(combs_of_thin_fins_shade_as_by_hand),
         cmocka_unit_test(inverted_closed_box_reflects_nothing_and_is_noticed),
         cmocka_unit_test(near_coplanar_skins_one_ulp_apart_keep_their_order),
