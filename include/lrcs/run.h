@@ -57,9 +57,10 @@ typedef struct lrcs_run_options {
     uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
     uint32_t without;    /* effects to leave out, bits 1u << LRCS_EFFECT_...: note 1 */
     uint32_t with;       /* effects to simulate, none of them in `without`: note 2 */
+    uint64_t steps;      /* most steps of finding what is seen, 0: no limit: note 3 */
 } lrcs_run_options;
 
-/* 1e-4, auto, 0, 0, 0.
+/* 1e-4, auto, 0, 0, 0, 0.
 
    Notes: 1. `without` shows what an effect does and costs; leaving out one that is off changes
    nothing. Without self-shadowing a run is one by method facet, whatever the method: the bound
@@ -71,7 +72,13 @@ typedef struct lrcs_run_options {
    within the bounds. Self-shadowing is computed though proved absent (where the method is facet,
    as auto would do it), back sides are looked for and cast shadows though proved never seen, a
    term of amplitude 0 is evaluated. Where self-shadowing is left out, back sides are not looked
-   for: nothing could hide them. */
+   for: nothing could hide them.
+   3. Where `steps` are spent a run stops looking: facets, or parts of them, of which it is not known
+   then whether they are seen count by half and widen the bound, normals are integrated coarsely over
+   facets that are left (curvature_estimate_m2 tells), and LRCS_FLAG_STEPS_SPENT is set. What grows
+   faster than the scene is counted, machine-independently: passes over facets, edges and contacts
+   are not, nor are a raster's pixels (examples/flight/README.md). lrcs_result.steps tells how many
+   a run took. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {
@@ -87,7 +94,8 @@ enum lrcs_flag {
     /* for want of memory: a raster in place of clipping, or a coarser one than asked, or facets
        that were not clipped */
     LRCS_FLAG_MEMORY_FALLBACK = 1 << 1,
-    LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2 /* two facets too close at a sample to tell apart */
+    LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2, /* two facets too close at a sample to tell apart */
+    LRCS_FLAG_STEPS_SPENT = 1 << 3      /* lrcs_run_options.steps did not suffice */
 };
 const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 
@@ -131,6 +139,7 @@ typedef struct lrcs_result {
     uint32_t facets_total, facets_front, facets_hidden, facets_partial;
     lrcs_effect effect[LRCS_EFFECTS];
     uint32_t flags, notices;
+    uint64_t steps; /* of finding what is seen: note 3 of lrcs_run_options_default */
 } lrcs_result;
 
 /* What the laser sees, pixel by pixel (row 0 on top, column 0 left; x right, y up), and which

@@ -11,6 +11,8 @@
 /* Facets that take seconds or more. */
 #define RUN_MANY 200000u
 
+#define STEPS_MOST 4294967295.0
+
 static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"
     "\n"
@@ -20,8 +22,11 @@ static const char run_help[] =
     "MS milliseconds buy, loading and\n"
     "                        preparing included; tries rasters and tolerances, and says which\n"
     "                        options give the same answer again. Ends early where nothing is left\n"
-    "                        to gain, or a --tolerance is met; exit 3 where it took "
-    "longer\n" CLI_SCENE_HELP
+    "                        to gain, or a --tolerance is met; exit 3 where it took longer\n"
+    "  --steps N             at most N steps of finding what is seen, counted the same on every\n"
+    "                        machine, however long one takes; what they leave open is in the "
+    "bound.\n"
+    "                        A raster's pixels are not counted\n" CLI_SCENE_HELP
     "  --precision P         float32 or float64: graphics hardware emulated, a z-buffer of "
     "--resolution N\n"
     "                        (1024 if not given); sigma is what it gives, bound what method exact\n"
@@ -46,6 +51,7 @@ static const char run_help[] =
     "  lrcs run demo --azel 30,-20 --explain\n"
     "  lrcs run demo --azel 30,-20 --shares\n"
     "  lrcs run demo --azel 30,-20 --time-budget 200\n"
+    "  lrcs run demo --azel 30,-20 --steps 20000\n"
     "  lrcs run demo --azel 30,-20 --resolution 512 --precision float32 --depth-bits 24\n"
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
@@ -54,15 +60,18 @@ static const cli_option run_options[] = {
     CLI_POSE_OPTIONS,     CLI_ACCURACY_OPTIONS,  CLI_SCENE_OPTIONS, {"json", 0, 0},
     {"facets", 1, 0},     {"polygons", 1, 0},    {"image", 1, 0},   {"image-size", 1, 0},
     {"explain", 0, 0},    {"time-budget", 1, 0}, {"shares", 0, 0},  {"precision", 1, 0},
-    {"depth-bits", 1, 0}, {"help", 0, 0},        {NULL, 0, 0}};
+    {"depth-bits", 1, 0}, {"steps", 1, 0},       {"help", 0, 0},    {NULL, 0, 0}};
 
 /* ---- options ---- */
 
 static int options_read(run_job *job)
 {
     const cli_args *args = job->args;
+    uint32_t steps = 0;
     int code = cli_pose_read(args, &job->pose);
     code = code ? code : cli_accuracy_read(args, &job->options);
+    code = code ? code : cli_whole(args, "steps", 1.0, STEPS_MOST, &steps);
+    job->options.steps = steps;
     code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->asked = job->options.tolerance;

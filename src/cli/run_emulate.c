@@ -12,7 +12,8 @@
 /* Neither a method that draws nothing nor outputs that show another answer go with it. */
 static int emulation_alone(const run_job *job)
 {
-    static const char *const clash[] = {"image", "polygons", "explain", "time-budget", "shares"};
+    static const char *const clash[] = {"image",       "polygons", "explain",
+                                        "time-budget", "shares",   "steps"};
     const int clashes = sizeof clash / sizeof clash[0];
     const cli_args *args = job->args;
     const char *given = cli_value(args, "precision") ? "precision" : "depth-bits";
@@ -20,8 +21,9 @@ static int emulation_alone(const run_job *job)
     const char *normals = cli_value(args, "normals");
     for (int i = 0; i < clashes; i++) {
         if (cli_value(args, clash[i])) {
-            return cli_usage(args->command, "--%s does not go with --%s, which shows the reference",
-                             given, clash[i]);
+            return cli_usage(args->command,
+                             "--%s does not go with --%s, which is for the reference", given,
+                             clash[i]);
         }
     }
     if (method && strcmp(method, "zbuffer") != 0) {

@@ -74,6 +74,12 @@ static void json_head(const run_job *job, lrcs_host_json *json)
         lrcs_host_json_text(json, "same_as", job->budget.same);
         lrcs_host_json_end(json);
     }
+    if (job->options.steps != 0) {
+        lrcs_host_json_begin(json, "steps", LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_count(json, "asked", job->options.steps);
+        lrcs_host_json_count(json, "taken", result->steps);
+        lrcs_host_json_end(json);
+    }
     if (job->emulation.asked) {
         cli_run_emulation_json(job, json);
     }
@@ -246,6 +252,10 @@ void cli_run_table(const run_job *job)
     if (job->budget.asked_ms > 0.0) {
         printf("time budget  %g ms, of which %.3g were spent; the same again: %s\n",
                job->budget.asked_ms, job->budget.spent_ms, job->budget.same);
+    }
+    if (job->options.steps != 0) {
+        printf("steps        %llu of at most %llu\n", (unsigned long long)r->steps,
+               (unsigned long long)job->options.steps);
     }
     printf("time         load %.3g ms, prepare %.3g ms, pose %.3g ms\n",
            1e3 * job->scene.seconds_load, 1e3 * job->scene.seconds_prepare, 1e3 * job->seconds);

@@ -41,6 +41,8 @@
 /* By how much the tolerance grows where cells run out, and until when. */
 #define COARSER     100
 #define MOST_COARSE 1e-2
+/* Steps that a part takes: quarters, the rule on each, bounds. */
+#define PART_STEPS 256
 /* No cell's normals turn by more than this (rad) where a rule is trusted. */
 #define MOST_TURN 0.5
 #define HALF_TURN 3.14159265358979323846
@@ -466,7 +468,7 @@ static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cu
     return 0;
 }
 
-/* A triangle may always be parted once. */
+/* A triangle may always be parted once; what is left when the meter is spent, no more. */
 static void cells_add(lrcsi_cubature *sum, cube_cell first)
 {
     cube_cell part[4];
@@ -475,8 +477,9 @@ static void cells_add(lrcsi_cubature *sum, cube_cell first)
     sum->waiting[top++] = first;
     while (top > 0) {
         cube_cell cell = sum->waiting[--top];
-        int may_part =
-            cell.depth == 0 || (cell.depth + 2 <= MOST_HALVINGS && sum->splits < MOST_SPLITS);
+        int left = lrcsi_meter_take(sum->meter, PART_STEPS);
+        int may_part = cell.depth == 0 ||
+                       (left && cell.depth + 2 <= MOST_HALVINGS && sum->splits < MOST_SPLITS);
         uint32_t parts = cube_step(sum, &cell, may_part, part);
         sum->splits += parts;
         for (uint32_t i = 0; i < parts; i++) {
@@ -540,7 +543,8 @@ void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double a
     }
     lrcsi_cubature start = *sum;
     cells_add(sum, lit);
-    while (sum->splits >= MOST_SPLITS && start.tolerance < MOST_COARSE) {
+    while (sum->splits >= MOST_SPLITS && start.tolerance < MOST_COARSE &&
+           !lrcsi_meter_spent(sum->meter)) {
         start.tolerance *= COARSER;
         *sum = start;
         cells_add(sum, lit);

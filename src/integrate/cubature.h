@@ -6,6 +6,7 @@
 
 #include <lrcs/work.h>
 
+#include "base/meter.h"
 #include "base/sum.h"
 #include "optics/reflect.h"
 
@@ -27,6 +28,7 @@ typedef struct lrcsi_cubature {
     double estimate; /* of the cubature's error */
     double rounding; /* bound on the error that rounding adds to the cubature's own sum */
     uint32_t splits;
+    lrcsi_meter *meter;           /* once spent, no part is divided further; NULL: no limit */
     lrcsi_cubature_cell *waiting; /* room for parts: nothing is kept there between triangles */
 } lrcsi_cubature;
 
@@ -35,8 +37,8 @@ size_t lrcsi_cubature_need(void);
 lrcsi_cubature_cell *lrcsi_cubature_cells(lrcs_work *work);
 
 /* An empty sum over surfaces whose normals lie between these three (as below), with such room,
-   which sums may share: whole and slip are the caller's to set, and nothing and had where there
-   are other surfaces. */
+   which sums may share: whole, slip and the meter are the caller's to set, and nothing and had where
+   there are other surfaces. */
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
                                    double tolerance, lrcsi_cubature_cell *waiting);
 

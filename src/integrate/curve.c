@@ -76,6 +76,7 @@ static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
         lrcsi_cubature_make(&job->brdf, (const double(*)[3])job->normal, aim, all->how->waiting);
     job->sum.whole = job->tilt.projected;
     job->sum.slip = SLIP_WHOLE;
+    job->sum.meter = view->meter;
     job->sum.nothing = lrcsi_most(job->sum.nothing, all->nothing);
     job->sum.had =
         all->had > 0 ? all->had / all->projected + all->had / all->count / job->tilt.projected : 0;

@@ -28,6 +28,7 @@ typedef struct sigma_run {
     lrcsi_curved *curved;         /* NULL: all facets are flat */
     lrcsi_cubature_cell *waiting; /* NULL: the same */
     double tolerance;
+    lrcsi_meter meter; /* of the view, but while samples look: those need every crossing */
     lrcsi_total total;
     lrcs_work *work;
     lrcs_image *image;
@@ -37,7 +38,7 @@ typedef struct sigma_run {
 
 lrcs_run_options lrcs_run_options_default(void)
 {
-    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0};
+    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0};
 }
 
 static int run_check(const lrcs_run_options *options, const lrcs_image *image)
@@ -206,10 +207,12 @@ static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
     lrcsi_raster raster;
     size_t mark = run->work->used;
     int status = LRCS_E_MEMORY;
+    run->view.meter = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
         status = lrcsi_visible_sampled(known, size, run->work, &raster, run->visible);
         run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
     }
+    run->view.meter = &run->meter;
     if (status == LRCS_OK) {
         run->size = raster.size;
         for (uint32_t f = 0; f < run->view.prepared->scene->facet_count; f++) {
@@ -256,7 +259,9 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
     lrcsi_known known;
     size_t mark = run->work->used;
+    run->view.meter = NULL;
     int status = lrcsi_visible_known(&run->contest, run->work, &known);
+    run->view.meter = &run->meter;
     if (status == LRCS_OK) {
         status =
             run_raster(run, &known, options->resolution != 0 ? options->resolution : FIRST_SIZE);
@@ -312,6 +317,11 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
     return status;
 }
 
+static uint64_t run_steps(const lrcs_run_options *options)
+{
+    return options->steps != 0 ? options->steps : UINT64_MAX;
+}
+
 static void result_fill(const sigma_run *run, const lrcs_run_options *options, lrcs_result *result)
 {
     const lrcsi_total *t = &run->total;
@@ -332,9 +342,11 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
                      .facets_front = run->view.front,
                      .facets_hidden = t->hidden,
                      .facets_partial = t->partial,
-                     .flags = run->flags};
+                     .flags = run->flags,
+                     .steps = run_steps(options) - run->meter.left};
     lrcsi_plan_effects(&run->view, &run->plan, t->seen, r.effect);
     r.flags |= run_meets(t, options->tolerance) ? 0u : LRCS_FLAG_TOLERANCE_NOT_MET;
+    r.flags |= run->meter.spent ? LRCS_FLAG_STEPS_SPENT : 0u;
     r.notices |= t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
     r.notices |= t->tessellation < 0 ? LRCS_NOTICE_TESSELLATION_UNKNOWN : 0u;
     *result = r;
@@ -363,9 +375,13 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         return status;
     }
     size_t mark = work->used;
-    sigma_run run = {.work = work, .image = image, .tolerance = options->tolerance};
+    sigma_run run = {.work = work,
+                     .image = image,
+                     .tolerance = options->tolerance,
+                     .meter = {run_steps(options), 0}};
     status = lrcsi_view_face(prepared, pose, work, &run.view);
     if (status == LRCS_OK) {
+        run.view.meter = &run.meter;
         lrcsi_plan_backs(options, &run.view);
         run.plan = lrcsi_plan_make(&run.view, options);
         status = run_take(&run);

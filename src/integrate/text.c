@@ -37,6 +37,8 @@ const char *lrcs_flag_text(int bit)
         return "memory_fallback";
     case LRCS_FLAG_DEPTH_UNDECIDED:
         return "depth_undecided";
+    case LRCS_FLAG_STEPS_SPENT:
+        return "steps_spent";
     default:
         return "unknown_flag";
     }

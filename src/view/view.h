@@ -5,6 +5,7 @@
 #ifndef LRCSI_VIEW_H
 #define LRCSI_VIEW_H
 
+#include "base/meter.h"
 #include "scene/prepare.h"
 
 /* The part of a facet's geometry that depends on direction. Lengths are scaled, as in
@@ -32,6 +33,7 @@ typedef struct lrcsi_view {
     int backs_cast;       /* facets facing away hide others and may be seen: not where the scene is
                              proved to show none, unless the planner was told otherwise */
     int backs_reflect;    /* they reflect, where their material is two-sided */
+    lrcsi_meter *meter;   /* steps that may be made to tell what is seen; NULL: no limit */
 } lrcsi_view;
 
 /* A view without coordinates (point, off and the window), which method facet does without: they

@@ -115,7 +115,8 @@ static int boxes_apart(const lrcsi_contest_edge *event, const contest_ask *ask)
            (double)event->high[1] < ask->low[1];
 }
 
-/* At most `most` of them, so that one who only wants to know whether there are any can stop. */
+/* At most `most` of them, so that one who only wants to know whether there are any can stop. Fewer
+   where the meter is spent. */
 static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t most)
 {
     const lrcsi_grid *grid = &contest->grid;
@@ -127,6 +128,9 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
         uint32_t end = grid->first[(size_t)y * grid->size + cells.x1];
+        if (!lrcsi_meter_take(contest->view->meter, end - i)) {
+            break;
+        }
         for (; i < end && count < most; i++) { /* a row's cells lie one behind the other */
             lrcsi_contest_edge *event = &contest->event[grid->item[i]];
             if (boxes_apart(event, &ask) || event->asked == contest->asked) {
@@ -145,7 +149,7 @@ uint32_t lrcsi_contest_crossings(lrcsi_contest *contest, uint32_t facet)
 {
     if (contest->crossed != facet) {
         contest->crossings = contest_find(contest, facet, LRCS_NONE);
-        contest->crossed = facet;
+        contest->crossed = lrcsi_meter_spent(contest->view->meter) ? LRCS_NONE : facet;
     }
     return contest->crossings;
 }
@@ -239,7 +243,8 @@ static void contest_decide(lrcsi_contest *c)
         if (c->kin[f] != 0) {
             c->along = 0;
             c->contested[f] = touch_contests(c->view, f) ||
-                              (lrcsi_grid_any(&c->grid, c->cells[f]) && contest_find(c, f, 1) > 0);
+                              (lrcsi_grid_any(&c->grid, c->cells[f]) && contest_find(c, f, 1) > 0) ||
+                              lrcsi_meter_spent(c->view->meter);
             c->contested_count += c->contested[f];
             if (c->contested[f] || c->along || p->touches.rim[f]) {
                 c->kin[f] = 0;

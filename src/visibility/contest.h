@@ -54,7 +54,8 @@ typedef struct lrcsi_contest {
 /* Bytes at most. */
 size_t lrcsi_contest_need(const lrcs_prepared *prepared);
 
-/* Decides every facet that faces either way (front ones only where back sides are never seen).
+/* Decides every facet that faces either way (front ones only where back sides are never seen). Once
+   the view's meter is spent all others count as contested.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The result stays in the work area. */
 int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *contest);
 
@@ -62,7 +63,8 @@ int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *c
 void lrcsi_contest_regions(const lrcsi_contest *contest);
 
 /* The event edges that cross the inside of a facet, nearer than it somewhere: their count; the
-   topology edges are then in contest->crossing. The facet last asked about costs no search. */
+   topology edges are then in contest->crossing. The facet last asked about costs no search. Where
+   the view's meter is spent some may be missing. */
 uint32_t lrcsi_contest_crossings(lrcsi_contest *contest, uint32_t facet);
 
 /* Puts there what it found before. */

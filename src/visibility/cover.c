@@ -85,6 +85,9 @@ void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = facets->first[(size_t)y * facets->size + cells.x0];
         uint32_t end = facets->first[(size_t)y * facets->size + cells.x1];
+        if (!lrcsi_meter_take(facets->view->meter, end - i)) {
+            return;
+        }
         for (; i < end; i++) {
             uint32_t other = facets->item[i];
             if (cover->asked[other] != cover->asks) {
@@ -123,9 +126,14 @@ static uint32_t order_mixed(const lrcsi_cuts *cuts, uint32_t other)
     return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
 }
 
+/* ORDER_NEW where the meter is spent. */
 static uint32_t order_of(const lrcsi_cuts *cuts, uint32_t other)
 {
     const lrcsi_target *t = cuts->target;
+    const uint32_t *first = t->view->prepared->touches.first + t->facet;
+    if (!lrcsi_meter_take(t->view->meter, (uint64_t)1 + cuts->count + (first[1] - first[0]))) {
+        return ORDER_NEW;
+    }
     int side = lrcsi_contact_side(t->view, t->facet, other);
     return side > 0 ? ORDER_FRONT : side < 0 ? ORDER_BEHIND : order_mixed(cuts, other);
 }
@@ -254,9 +262,13 @@ static void line_lift(cover_line *line)
 #define LINE_AGAIN (-1)
 static int line_tells(const cover_line *line, lrcsi_cover *cover, uint32_t *sheet)
 {
+    lrcsi_meter *meter = cover->facets.view->meter;
     int answer = LRCSI_COVER_NONE;
     uint32_t fewest = LRCS_NONE;
     for (uint32_t i = 0; i < cover->count; i++) {
+        if (!lrcsi_meter_take(meter, 1)) {
+            return LRCSI_COVER_UNKNOWN;
+        }
         lrcsi_cover_facet *c = &cover->candidate[i];
         int meets = line_meets(line, c);
         int hidden = meets > 0 ? line_hidden(line, c) : -1;
@@ -267,6 +279,9 @@ static int line_tells(const cover_line *line, lrcsi_cover *cover, uint32_t *shee
             answer = LRCSI_COVER_UNKNOWN;
         } else if (hidden > 0) {
             uint32_t its = cover->contest->sheet[c->facet];
+            if (!lrcsi_meter_take(meter, line->count)) {
+                return LRCSI_COVER_UNKNOWN;
+            }
             uint32_t ends = lrcsi_cuts_of(line->cuts, line->count, its);
             if (ends == 0) {
                 lrcsi_cover_facet found = *c;

@@ -11,7 +11,7 @@ enum lrcsi_cover_answer {
     LRCSI_COVER_NONE,   /* nothing hides the point */
     LRCSI_COVER_ALL,    /* a sheet hides it that ends nowhere in the cell: it hides all of that */
     LRCSI_COVER_SOME,   /* only sheets hide it that may end in the cell */
-    LRCSI_COVER_UNKNOWN /* it cannot be told */
+    LRCSI_COVER_UNKNOWN /* it cannot be told, or the view's meter is spent */
 };
 
 /* A facet that may hide some of the target. */
@@ -39,7 +39,7 @@ size_t lrcsi_cover_need(const lrcs_prepared *prepared);
    stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover);
 
-/* Lists what may hide some of a facet. */
+/* Lists what may hide some of a facet: not all of it where the view's meter is spent. */
 void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target);
 
 /* A place of the target's frame at which to ask. */

@@ -184,6 +184,7 @@ static double event_slack(const margin_job *job, uint32_t facet, uint32_t event)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
+/* All of it where the meter is spent. */
 static double event_shares(margin_job *job, uint32_t facet, const double low[2],
                            const double high[2])
 {
@@ -193,6 +194,9 @@ static double event_shares(margin_job *job, uint32_t facet, const double low[2],
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = job->grid.first[(size_t)y * job->grid.size + cells.x0];
         uint32_t end = job->grid.first[(size_t)y * job->grid.size + cells.x1];
+        if (!lrcsi_meter_take(job->view->meter, end - i)) {
+            return 1;
+        }
         for (; i < end && share < 1; i++) {
             uint32_t event = job->grid.item[i];
             if (job->seen[event] == facet + 1) {

@@ -25,7 +25,8 @@
    sheet.
 
    A cell of which the sample is a guess, or that could not be divided further, counts as in doubt:
-   the bounds let all of it be visible, or hidden.
+   the bounds let all of it be visible, or hidden. So does one that is left when the view's meter is
+   spent, as half visible.
 
    A split puts two corners on the sides of a piece to within 5 u d. Both parts share them, so that
    only the two sides bend, by 5 u d d' of area in a cell of diameter d'; and there are two more
@@ -136,6 +137,15 @@ static int cell_show(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double 
     o->area += area;
     o->doubt[1] += cell->sure ? 0 : area;
     return cell->sure;
+}
+
+/* No steps are left for the cell. */
+static void cell_leave(lrcsi_occluding *o, double area)
+{
+    o->off += U * o->frame.diameter * o->frame.perimeter;
+    o->area += 0.5 * area;
+    o->doubt[0] += 0.5 * area;
+    o->doubt[1] += 0.5 * area;
 }
 
 /* Strikes a cut from the cell's list, and charges its strip. */
@@ -274,14 +284,20 @@ static int cell_do(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
 }
 
 /* Does one cell after the other until one has shown a piece: 1; 0 where no cell is left. Cells
-   reorder only what is theirs of the list, so that a sibling done later finds its cuts. */
+   reorder only what is theirs of the list, so that a sibling done later finds its cuts. A cell's
+   cuts are gone through four times. */
 static int occlude_cells(lrcsi_occluding *o)
 {
+    lrcsi_meter *meter = o->contest->view->meter;
     while (o->top > 0) {
         lrcsi_occlude_cell cell = o->stack[--o->top];
         double area = lrcsi_clip_area(&cell.shape);
-        /* no area, or less than the splits' error already holds: nothing */
-        if (area > 0 && cell_do(o, &cell, area)) {
+        if (!(area > 0)) {
+            continue; /* no area, or less than the splits' error already holds: nothing */
+        }
+        if (!lrcsi_meter_take(meter, 1 + 4 * (uint64_t)cell.count)) {
+            cell_leave(o, area);
+        } else if (cell_do(o, &cell, area)) {
             return 1;
         }
     }
@@ -290,7 +306,8 @@ static int occlude_cells(lrcsi_occluding *o)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* Readies a contested facet: all of it as the first cell. */
+/* Readies a contested facet: all of it as the first cell. Candidates and cuts may be missing where
+   the meter is spent: then none of it is done. */
 static int cells_open(lrcsi_occluding *o, uint32_t facet)
 {
     lrcsi_target_make(o->contest->view, facet, &o->target);

@@ -109,7 +109,7 @@ static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet
 }
 
 /* The next other facet that the line meets, not all of it behind the line's own, or LRCS_NONE; some
-   come more than once. */
+   come more than once. None any more where the meter is spent. */
 static uint32_t line_next(query_line *line)
 {
     const lrcsi_grid *grid = line->grid;
@@ -121,6 +121,9 @@ static uint32_t line_next(query_line *line)
             size_t row = (size_t)line->y++ * grid->size;
             line->item = grid->first[row + line->cells.x0];
             line->end = grid->first[row + line->cells.x1];
+            if (!lrcsi_meter_take(grid->view->meter, line->end - line->item)) {
+                return LRCS_NONE;
+            }
         }
         uint32_t other = grid->item[line->item++];
         if (other != line->facet && !box_misses(grid->view, other, line->xy) &&
@@ -152,7 +155,7 @@ static int line_answer(query_line *line)
         }
         answer = nearer == 0 ? LRCSI_QUERY_UNDECIDED : answer;
     }
-    return answer;
+    return lrcsi_meter_spent(line->grid->view->meter) ? LRCSI_QUERY_UNDECIDED : answer;
 }
 
 int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
@@ -216,9 +219,18 @@ int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_gri
     return status;
 }
 
-/* Does `other` touch the inside of the facet? */
-static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other)
+static uint32_t touches_of(const lrcs_prepared *p, uint32_t facet)
 {
+    return p->touches.first[facet + 1] - p->touches.first[facet];
+}
+
+/* Does `other` touch the inside of the facet? Where the meter is spent, perhaps. */
+static int touched_by(const lrcsi_view *view, uint32_t facet, uint32_t other)
+{
+    const lrcs_prepared *p = view->prepared;
+    if (!lrcsi_meter_take(view->meter, touches_of(p, facet))) {
+        return 1;
+    }
     for (uint32_t i = p->touches.first[facet]; i < p->touches.first[facet + 1]; i++) {
         if (p->touches.touch[i].other == other) {
             return 1;
@@ -231,9 +243,16 @@ static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other)
 static int sheet_unbroken(lrcsi_contest *contest, uint32_t sheet, uint32_t facet)
 {
     const lrcs_prepared *p = contest->view->prepared;
+    lrcsi_meter *meter = contest->view->meter;
     uint32_t crossings = lrcsi_contest_crossings(contest, facet);
+    if (!lrcsi_meter_take(meter, touches_of(p, facet))) { /* nor are those all, perhaps */
+        return 0;
+    }
     for (uint32_t i = 0; i < crossings; i++) {
         const lrcsi_edge *edge = &p->topology.edge[contest->crossing[i]];
+        if (!lrcsi_meter_take(meter, edge->uses)) {
+            return 0;
+        }
         for (uint32_t k = 0; k < edge->uses; k++) {
             if (contest->sheet[p->topology.use[edge->first_use + k].facet] == sheet) {
                 return 0;
@@ -258,7 +277,7 @@ int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint3
     uint32_t other;
     while ((other = line_next(&line)) != LRCS_NONE) {
         if (contest->sheet[other] == broken ||
-            touched_by(facets->view->prepared, other, facet) || /* order perhaps a guess */
+            touched_by(facets->view, other, facet) || /* order perhaps a guess */
             line_nearer(&line, other) <= 0) {
             continue;
         }

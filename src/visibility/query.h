@@ -8,7 +8,8 @@
 enum lrcsi_query_answer {
     LRCSI_QUERY_HIDDEN = 0,
     LRCSI_QUERY_VISIBLE = 1,
-    LRCSI_QUERY_UNDECIDED = 2 /* no point inside the facet was found, or depths too close */
+    LRCSI_QUERY_UNDECIDED = 2 /* no point inside the facet was found, depths too close, or the
+                                 view's meter spent */
 };
 
 /* Asks at the facet's centroid, or at another inside point where that one rounds outside. */
@@ -22,7 +23,8 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
 int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_grid *facets,
                         unsigned char *answer);
 
-/* 1 where a contested facet is proved to be hidden, all of it behind one sheet; else 0. It may ask
+/* 1 where a contested facet is proved to be hidden, all of it behind one sheet; else 0, as where the
+   view's meter is spent. It may ask
    contest for the facet's crossings, which are then at hand (visibility/contest.h). */
 int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint32_t facet);
 

@@ -71,7 +71,7 @@ static inline double take_scale(fuzz_input *in)
 }
 
 /* Two methods, that of the options and another, now and then all; and one thing more: to starve, to
-   turn, or polygons. */
+   turn, polygons, or few steps. */
 static inline void take_choices(unsigned effects, unsigned share, fuzz_run *run, int *turned)
 {
     unsigned other = ((unsigned)run->options.method + 1 + share % 3) & 3;
@@ -80,6 +80,7 @@ static inline void take_choices(unsigned effects, unsigned share, fuzz_run *run,
     run->starved = effects >> 4 & 1;
     *turned = (effects >> 6 & 1) && fuzz_chosen(!run->starved);
     run->polygons = (effects >> 7 & 1) && !run->starved && !*turned;
+    run->options.steps = run->starved || run->polygons || share % 4 ? 0 : (uint64_t)share * share;
 }
 
 static inline void take_run(fuzz_input *in, fuzz_run *run, int *turned)

@@ -136,6 +136,7 @@ static inline int fuzz_sigma(const lrcs_prepared *prepared, const lrcs_scene *sc
     require(work.used == 0);
     if (status == LRCS_OK) {
         require_result(scene, result);
+        require(options->steps == 0 || result->steps <= options->steps);
         for (uint32_t i = 0; image.size != 0 && i < image.size * image.size; i++) {
             require(picture[i] < scene->facet_count || picture[i] == LRCS_NONE);
         }
@@ -228,7 +229,8 @@ static inline void fuzz_method(const lrcs_prepared *prepared, const lrcs_scene *
     }
     require(!(result.flags & LRCS_FLAG_MEMORY_FALLBACK));
     learn(truth, scene, &result);
-    if (method == LRCS_METHOD_EXACT && options.without == 0 && fuzz_chosen(run->polygons)) {
+    if (method == LRCS_METHOD_EXACT && options.without == 0 && options.steps == 0 &&
+        fuzz_chosen(run->polygons)) {
         fuzz_polygons(prepared, scene, run);
     }
     if (method == run->options.method && fuzz_chosen(run->starved) &&

@@ -118,7 +118,7 @@ static void pose_is_refused(int number, double value, int status)
     unit_cube();
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     for (int method = LRCS_METHOD_AUTO; method <= LRCS_METHOD_EXACT; method++) {
-        lrcs_run_options options = {1e-4, method, 0, 0, 0};
+        lrcs_run_options options = {.tolerance = 1e-4, .method = method};
         assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &result, NULL, NULL),
                          status);
         assert_memory_equal(&result, &same, sizeof same);

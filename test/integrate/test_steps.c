@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT */
+/* Runs that may take so many steps and no more: from one to what serves them they stop there, say
+   so, and their bounds hold what is found without a limit; from there on they are it, to the bit.
+ */
+#include "scenes.h"
+
+#include "scene/prepare.h"
+
+static test_scene scene;
+static unsigned char scene_area[4u << 20];
+static lrcs_work work;
+static const lrcs_prepared *prepared;
+static lrcs_pose pose;
+static lrcs_run_options options;
+static lrcs_result truth; /* by clipping */
+static lrcs_facet_record record[SCENE_FACETS];
+
+static lrcs_result run(int method, uint64_t steps)
+{
+    lrcs_result r;
+    options.method = method;
+    options.steps = steps;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, record, NULL), LRCS_OK);
+    return r;
+}
+
+/* Less is known than without a limit, and nothing that is wrong. Returns what true curves may cost:
+   the more steps, the less. */
+static double check_part(const lrcs_result *all, int method, uint64_t steps)
+{
+    lrcs_result r = run(method, steps);
+    assert_true(r.steps <= steps);
+    assert_true(r.flags & LRCS_FLAG_STEPS_SPENT);
+    assert_int_equal(r.method, all->method);
+    double cubature = prepared->smooth ? r.curvature_estimate_m2 + truth.curvature_estimate_m2 : 0;
+    check_abs(r.sigma_m2, truth.sigma_m2, r.bound_m2 + truth.bound_m2 + cubature);
+    double least = 1 - 1e-9;
+    assert_true(r.budget.tessellation_m2 >= least * all->budget.tessellation_m2);
+    if (method == LRCS_METHOD_ZBUFFER) {
+        assert_true(r.bound_m2 >= least * all->bound_m2);
+    }
+    for (uint32_t f = 0; f < prepared->scene->facet_count; f++) {
+        double whole = record[f].area_m2 * fabs(record[f].cos_theta);
+        assert_true(record[f].visible_area_m2 >= 0);
+        assert_true(record[f].visible_area_m2 <= whole * (1 + 1e-12));
+    }
+    return r.budget.tessellation_m2;
+}
+
+/* Every number of steps, in strides that grow by one part in `fine`. */
+static void check_method(int method, uint32_t fine)
+{
+    lrcs_result all = run(method, 0);
+    assert_true(all.steps > 0);
+    assert_false(all.flags & LRCS_FLAG_STEPS_SPENT);
+    double curves = HUGE_VAL;
+    for (uint64_t steps = 1; steps < all.steps; steps += 1 + steps / fine) {
+        double less = check_part(&all, method, steps);
+        assert_true(less <= curves * (1 + 1e-9));
+        curves = less;
+    }
+    check_part(&all, method, all.steps - 1);
+    for (uint64_t more = 0; more < 2; more++) {
+        lrcs_result same = run(method, all.steps + more);
+        assert_memory_equal(&same.sigma_m2, &all.sigma_m2, sizeof same.sigma_m2);
+        assert_memory_equal(&same.bound_m2, &all.bound_m2, sizeof same.bound_m2);
+        assert_int_equal(same.steps, all.steps);
+        assert_int_equal(same.flags, all.flags);
+    }
+}
+
+#define ALL_STEPS 1000000u
+
+static void look(double x, double y, double z, double tolerance)
+{
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){x, y, z}, &pose), LRCS_OK);
+    options = lrcs_run_options_default();
+    options.tolerance = tolerance;
+    truth = run(LRCS_METHOD_EXACT, 0);
+}
+
+static void sheets(uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        double z = 0x1p-4 * i;
+        scene_plate(&scene, (const double[3]){z, 0.5 * z, z}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 1, 0});
+    }
+}
+
+/* Contours cross facets: cells, candidates, sheets that screen. */
+static void sheets_over_each_other(void **state)
+{
+    (void)state;
+    for (uint32_t count = 2; count <= 12; count += 5) {
+        scene_start(&scene);
+        scene_material(&scene, 1, 0.5, 0.1, 2)->two_sided = 1;
+        sheets(count);
+        prepared = scene_prepare(&scene, &work);
+        look(0.25, -0.5, 1, 1e-4);
+        check_method(LRCS_METHOD_EXACT, count < 5 ? ALL_STEPS : 10);
+        check_method(LRCS_METHOD_AUTO, 10);
+    }
+}
+
+/* Facets pierce each other and lie in each other's planes: contacts order them. */
+static void triangles_through_each_other(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 24; seed++) {
+        uint64_t random = seed;
+        scene_start(&scene);
+        scene_material(&scene, 1, 0.5, 0.1, 2)->two_sided = (unsigned char)(seed % 2);
+        for (int i = 0; i < (seed < 24 ? 5 : 14); i++) {
+            double corner[3][3];
+            for (int k = 0; k < 9; k++) {
+                corner[k / 3][k % 3] = scene_random(&random, seed % 4 < 2 ? 5 : 4096);
+            }
+            scene_triangle(&scene, corner[0], corner[1], corner[2]);
+        }
+        prepared = scene_prepare(&scene, &work);
+        look(1, -2, 5, 1e-4);
+        check_method(LRCS_METHOD_EXACT, seed < 24 ? ALL_STEPS : 10);
+    }
+}
+
+/* Facets that nothing divides, asked for region by region; those of a sphere, some of which a
+   larger sheet hides though contours cross it. */
+static void bodies_behind_each_other(void **state)
+{
+    (void)state;
+    for (int aside = 0; aside < 2; aside++) {
+        scene_start(&scene);
+        scene_box(&scene, (const double[3]){-1, -1, -1}, (const double[3]){1, 1, 0});
+        scene_box(&scene, (const double[3]){2, 2, -1}, (const double[3]){3, 3, 0});
+        scene_plate(&scene, (const double[3]){-2 + 2 * aside, -2, 1}, (const double[3]){4, 0, 0},
+                    (const double[3]){0, 3, 0});
+        scene_plate(&scene, (const double[3]){-0.5, -0.5, 0.5}, (const double[3]){0.75, 0, 0},
+                    (const double[3]){0, 0.25, 0});
+        prepared = scene_prepare(&scene, &work);
+        look(0.01, 0.02, 1, 1e-4);
+        check_method(LRCS_METHOD_EXACT, ALL_STEPS);
+    }
+}
+
+/* Normals to integrate over, of facets that are seen whole, in part, and not at all. */
+static void curved_normals(void **state)
+{
+    (void)state;
+    static lrcs_point normal[3 * 64];
+    scene_start(&scene);
+    scene_material(&scene, 1, 0.5, 0.02, 2);
+    sheets(6);
+    for (uint32_t i = 0; i < 3 * scene.scene.facet_count; i++) {
+        const double *x = scene.vertex[scene.facet[i / 3].corner[i % 3]].x;
+        double n[3] = {0.4 * sin(3 * x[0]), 0.4 * sin(3 * x[1]), 1};
+        double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        normal[i] = (lrcs_point){{n[0] / length, n[1] / length, n[2] / length}};
+    }
+    scene.scene.corner_normal = normal;
+    prepared = scene_prepare(&scene, &work);
+    look(0.25, -0.5, 1, 1e-3);
+    options.resolution = 256;
+    check_method(LRCS_METHOD_EXACT, 10);
+    check_method(LRCS_METHOD_FACET, 10);
+    check_method(LRCS_METHOD_ZBUFFER, 10);
+}
+
+/* Curved shapes, of which true curves may show more or less than their facets. */
+static void curved_shapes(void **state)
+{
+    (void)state;
+    static const char text[] = "[[part]]\nname='ball'\nshape='sphere'\nradius=1\n"
+                               "[[part]]\nname='can'\nshape='cylinder'\nradius=0.4\nlength=1\n"
+                               "translate=[0.5,0,1.2]\n";
+    lrcs_recipe recipe;
+    lrcs_scene shapes;
+    lrcs_build_options build = {1e-2, 200, LRCS_NORMALS_FLAT};
+    lrcs_work room = lrcs_work_make(scene_area, sizeof scene_area);
+    assert_int_equal(lrcs_recipe_read(text, sizeof text - 1, &room, &recipe, NULL), LRCS_OK);
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &room, &shapes, NULL), LRCS_OK);
+    work = lrcs_work_make(scene_memory, sizeof scene_memory);
+    assert_int_equal(lrcs_prepare_run(&shapes, &work, &prepared), LRCS_OK);
+    look(0.3, 0.2, 1, 1e-4);
+    assert_true(truth.budget.tessellation_m2 > 0);
+    check_method(LRCS_METHOD_EXACT, 20);
+}
+
+/* A raster is not counted, and cannot do with fewer crossings than there are. */
+static void a_raster_looks_at_every_crossing(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    sheets(12);
+    prepared = scene_prepare(&scene, &work);
+    look(0.25, -0.5, 1, 1e-4);
+    options.resolution = 64;
+    check_method(LRCS_METHOD_ZBUFFER, ALL_STEPS);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sheets_over_each_other),
+        cmocka_unit_test(triangles_through_each_other),
+        cmocka_unit_test(bodies_behind_each_other),
+        cmocka_unit_test(curved_normals),
+        cmocka_unit_test(curved_shapes),
+        cmocka_unit_test(a_raster_looks_at_every_crossing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
