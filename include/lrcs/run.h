@@ -73,12 +73,12 @@ typedef struct lrcs_run_options {
    as auto would do it), back sides are looked for and cast shadows though proved never seen, a
    term of amplitude 0 is evaluated. Where self-shadowing is left out, back sides are not looked
    for: nothing could hide them.
-   3. Where `steps` are spent a run stops looking: facets, or parts of them, of which it is not known
-   then whether they are seen count by half and widen the bound, normals are integrated coarsely over
-   facets that are left (curvature_estimate_m2 tells), and LRCS_FLAG_STEPS_SPENT is set. What grows
-   faster than the scene is counted, machine-independently: passes over facets, edges and contacts
-   are not, nor are a raster's pixels (examples/flight/README.md). lrcs_result.steps tells how many
-   a run took. */
+   3. Where `steps` are spent a run stops looking: facets, or parts of them, of which it is not
+   known then whether they are seen count by half and widen the bound, normals are integrated
+   coarsely over facets that are left (curvature_estimate_m2 tells), and LRCS_FLAG_STEPS_SPENT is
+   set. What grows faster than the scene is counted, machine-independently: passes over facets,
+   edges and contacts are not, nor are a raster's pixels (examples/flight/README.md).
+   lrcs_result.steps tells how many a run took. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {
