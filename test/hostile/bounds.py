@@ -315,11 +315,35 @@ def odd(r):
                                                 x * 1e6, x * 1e6, x * 1e9))
 
 
+def pricked(r, s):  # corners of others stand within next to nothing of a long needle's plane, or side
+    def grid():
+        return tuple(float(r.randint(-7, 8)) for _ in range(3))
+
+    def along(x, step, t):
+        return tuple(a + t * b for a, b in zip(x, step))
+
+    def step():
+        return r.choice(((0, 1, 0), (0, -1, 0), (0, 0, -1), (1, 0, 0), grid()))
+
+    far = 10.0 ** r.randint(2, 9)
+    side, a = step(), grid()
+    b = along(along(a, side, far), grid(), r.choice((0, 1)))
+    c = along(grid(), step(), r.choice((0, 1, far)))
+    s.tri(*r.sample((a, b, c), 3))
+    for _ in range(r.randint(1, 4)):
+        p = along(a, side, r.choice((0, 1, 2, r.randint(0, 9), r.random(), far * r.random())))
+        p = along(p, grid(), r.choice((0, 0, 0, 1)) * 10.0 ** -r.randint(3, 16))
+        s.tri(*r.choice(((p, grid(), grid()), (p, a, grid()), (grid(), p, b))))
+
+
 def make_lattice(r):
     s = Scene()
-    few = [odd(r) for _ in range(r.choice((4, 6, 30)))]
-    v = [tuple(r.choice(few) for _ in range(3)) for _ in range(r.randint(4, 11))]
-    s.add(v, [tuple(r.sample(range(len(v)), 3)) for _ in range(r.randint(2, 10))])
+    if r.random() < 0.5:
+        pricked(r, s)
+    else:
+        few = [odd(r) for _ in range(r.choice((4, 6, 30)))]
+        v = [tuple(r.choice(few) for _ in range(3)) for _ in range(r.randint(4, 11))]
+        s.add(v, [tuple(r.sample(range(len(v)), 3)) for _ in range(r.randint(2, 10))])
     valid(s)
     d = r.choice(((0.0, 0.0, 1.0), tuple(odd(r) for _ in range(3))))
     return "lattice", s, d if max(map(abs, d)) > 0 else (0.0, 0.0, 1.0)
