@@ -37,6 +37,7 @@ int32_t flight_start(void)
     options = lrcs_run_options_default();
     options.method = LRCS_METHOD_EXACT;
     options.tolerance = 0.05;
+    options.steps = FLIGHT_STEPS;
     last = (flight_telemetry){.status = LRCS_E_EMPTY, .bound_m2 = HUGE_VAL};
     prepared = NULL;
     work = lrcs_work_make(arena, sizeof arena);
@@ -72,6 +73,7 @@ void flight_cycle(const double attitude[4], flight_telemetry *telemetry)
         last.stale = 0;
         last.flags = result.flags;
         last.notices = result.notices;
+        last.steps = (uint32_t)result.steps;
         last.sigma_m2 = result.sigma_m2;
         last.bound_m2 = result.bound_m2;
     } else {

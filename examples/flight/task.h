@@ -5,6 +5,12 @@
 
 #include <stdint.h>
 
+/* Steps that a cycle may take; where they do not suffice, the answer comes all the same, its bound
+ * holds what they left open, and its flags say so. */
+#ifndef FLIGHT_STEPS
+#define FLIGHT_STEPS 150000u
+#endif
+
 /* What goes down after every cycle. */
 typedef struct flight_telemetry {
     uint32_t cycle;
@@ -15,6 +21,7 @@ typedef struct flight_telemetry {
     uint32_t notices;  /* lrcs_notice: what it refers to */
     double sigma_m2;   /* the last good answer; before the first, 0 and a bound that is infinite */
     double bound_m2;
+    uint32_t steps;       /* of the last good answer, of at most FLIGHT_STEPS */
     uint32_t memory_used; /* bytes of the arena that stay in use between cycles */
     uint32_t memory_peak; /* that were ever in use */
 } flight_telemetry;

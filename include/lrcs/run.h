@@ -76,9 +76,9 @@ typedef struct lrcs_run_options {
    3. Where `steps` are spent a run stops looking: facets, or parts of them, of which it is not
    known then whether they are seen count by half and widen the bound, normals are integrated
    coarsely over facets that are left (curvature_estimate_m2 tells), and LRCS_FLAG_STEPS_SPENT is
-   set. What grows faster than the scene is counted, machine-independently: passes over facets,
-   edges and contacts are not, nor are a raster's pixels (examples/flight/README.md).
-   lrcs_result.steps tells how many a run took. */
+   set. What grows faster than the scene is counted, alike on every machine (over curved normals
+   but for libm's last bits): passes over facets, edges and contacts are not, nor are a raster's
+   pixels (examples/flight/README.md). lrcs_result.steps tells how many a run took. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {
@@ -163,7 +163,8 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    Status: LRCS_OK; LRCS_E_ARGUMENT (options, the image's size or the pose); LRCS_E_MEMORY;
    LRCS_E_NUMBER (the pose, or sigma beyond double range); LRCS_E_LIMIT (more than 2^32 - 2
    candidates in a grid). Work: nothing stays in the work area. Every loop is bounded: at most how
-   many steps a pose takes, and how many it does take, stands in examples/flight/README.md.
+   many steps a pose takes, and how many it does take, stands in examples/flight/README.md;
+   options->steps bounds them closely.
    Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
    cubature errs by about curvature_estimate_m2, which is not proved and not in the bound.
    2. Of a facet with curved normals that is seen in part, samples tell how much is seen but not

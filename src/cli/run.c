@@ -24,9 +24,8 @@ static const char run_help[] =
     "                        options give the same answer again. Ends early where nothing is left\n"
     "                        to gain, or a --tolerance is met; exit 3 where it took longer\n"
     "  --steps N             at most N steps of finding what is seen, counted the same on every\n"
-    "                        machine, however long one takes; what they leave open is in the "
-    "bound.\n"
-    "                        A raster's pixels are not counted\n" CLI_SCENE_HELP
+    "                        machine; what they leave open is in the bound. A raster's pixels are\n"
+    "                        not counted\n" CLI_SCENE_HELP
     "  --precision P         float32 or float64: graphics hardware emulated, a z-buffer of "
     "--resolution N\n"
     "                        (1024 if not given); sigma is what it gives, bound what method exact\n"

@@ -200,15 +200,18 @@ static int line_meets_finely(const cover_line *line, const lrcsi_cover_facet *c)
     return inside;
 }
 
+/* Does the line pass the candidate by, or is that one behind? Most are told so. */
+static int line_misses(const cover_line *line, const lrcsi_cover_facet *c)
+{
+    double off = 4 * line->cuts->target->view->off;
+    return line->xy[0] < c->low[0] - off || line->xy[0] > c->high[0] + off ||
+           line->xy[1] < c->low[1] - off || line->xy[1] > c->high[1] + off ||
+           c->order == ORDER_BEHIND;
+}
+
 /* 1 the line meets the candidate, -1 not, 0 it must be asked another way. */
 static int line_meets(const cover_line *line, lrcsi_cover_facet *c)
 {
-    double off = 4 * line->cuts->target->view->off;
-    if (line->xy[0] < c->low[0] - off || line->xy[0] > c->high[0] + off ||
-        line->xy[1] < c->low[1] - off || line->xy[1] > c->high[1] + off ||
-        c->order == ORDER_BEHIND) {
-        return -1;
-    }
     if (line->way == LINE_EXACT) {
         return lrcsi_sample_covers(line->cuts->target->view, c->facet, line->point) ? 1 : -1;
     }
@@ -257,44 +260,55 @@ static void line_lift(cover_line *line)
     line->off = t->needle ? HUGE_VAL : 100 * U * t->reach + 8 * U;
 }
 
-/* What hides the target on a line: a lrcsi_cover_answer, or LINE_AGAIN where it must be asked
-   another way. Candidates that hide all of a cell come to stand first. */
+/* Of the sheets that hide a point, the one that ends at the fewest cuts. */
+typedef struct cover_found {
+    uint32_t sheet, ends;
+} cover_found;
+
 #define LINE_AGAIN (-1)
+
+/* One candidate more: what is known then, a lrcsi_cover_answer, or LINE_AGAIN where the line must
+   be asked another way. One that hides all of a cell comes to stand first. */
+static int line_ask(const cover_line *line, lrcsi_cover *cover, lrcsi_cover_facet *c, int answer,
+                    cover_found *found)
+{
+    int meets = line_meets(line, c);
+    int hidden = meets > 0 ? line_hidden(line, c) : -1;
+    if (meets == 0 || (hidden == 0 && c->order == ORDER_ASKED && line->way == LINE_PLACED)) {
+        return LINE_AGAIN;
+    }
+    if (hidden <= 0) {
+        return hidden == 0 && answer == LRCSI_COVER_NONE ? LRCSI_COVER_UNKNOWN : answer;
+    }
+    if (!lrcsi_meter_take(cover->facets.view->meter, line->count)) {
+        return LRCSI_COVER_UNKNOWN;
+    }
+    uint32_t sheet = cover->contest->sheet[c->facet];
+    uint32_t ends = lrcsi_cuts_of(line->cuts, line->count, sheet);
+    if (ends == 0) {
+        lrcsi_cover_facet first = cover->candidate[0];
+        cover->candidate[0] = *c;
+        *c = first;
+        return LRCSI_COVER_ALL;
+    }
+    if (ends < found->ends) {
+        *found = (cover_found){sheet, ends};
+    }
+    return LRCSI_COVER_SOME;
+}
+
+/* What hides the target on a line, likewise. Candidates are counted once they have been asked. */
 static int line_tells(const cover_line *line, lrcsi_cover *cover, uint32_t *sheet)
 {
-    lrcsi_meter *meter = cover->facets.view->meter;
+    cover_found found = {*sheet, LRCS_NONE};
     int answer = LRCSI_COVER_NONE;
-    uint32_t fewest = LRCS_NONE;
-    for (uint32_t i = 0; i < cover->count; i++) {
-        if (!lrcsi_meter_take(meter, 1)) {
-            return LRCSI_COVER_UNKNOWN;
-        }
-        lrcsi_cover_facet *c = &cover->candidate[i];
-        int meets = line_meets(line, c);
-        int hidden = meets > 0 ? line_hidden(line, c) : -1;
-        if (meets == 0 || (hidden == 0 && c->order == ORDER_ASKED && line->way == LINE_PLACED)) {
-            return LINE_AGAIN;
-        }
-        if (hidden == 0 && answer == LRCSI_COVER_NONE) {
-            answer = LRCSI_COVER_UNKNOWN;
-        } else if (hidden > 0) {
-            uint32_t its = cover->contest->sheet[c->facet];
-            if (!lrcsi_meter_take(meter, line->count)) {
-                return LRCSI_COVER_UNKNOWN;
-            }
-            uint32_t ends = lrcsi_cuts_of(line->cuts, line->count, its);
-            if (ends == 0) {
-                lrcsi_cover_facet found = *c;
-                *c = cover->candidate[0];
-                cover->candidate[0] = found;
-                return LRCSI_COVER_ALL;
-            }
-            *sheet = ends < fewest ? its : *sheet;
-            fewest = ends < fewest ? ends : fewest;
-            answer = LRCSI_COVER_SOME;
-        }
+    uint32_t asked = 0;
+    while (asked < cover->count && answer != LINE_AGAIN && answer != LRCSI_COVER_ALL) {
+        lrcsi_cover_facet *c = &cover->candidate[asked++];
+        answer = line_misses(line, c) ? answer : line_ask(line, cover, c, answer, &found);
     }
-    return answer;
+    *sheet = found.sheet;
+    return lrcsi_meter_take(cover->facets.view->meter, asked) ? answer : LRCSI_COVER_UNKNOWN;
 }
 
 int lrcsi_cover_sample(lrcsi_cover *cover, const lrcsi_cuts *cuts, uint32_t count,

@@ -2,7 +2,7 @@
 /* One pose of one scene, and how many steps it may take at most by the formulas of
    examples/flight/README.md: questions of visibility, parts of curved facets, pixels drawn.
    test/flight/operations.sh counts how many it did take.
-   usage: operations KIND COUNT
+   usage: operations KIND COUNT [STEPS]     STEPS: lrcs_run_options.steps
    KIND: boxes (apart), sheets (over each other), random (pierced), half (curved, half hidden) by
    method exact; patches, razors (curved, of a wide and of an all but singular BRDF) by method
    facet; drawn (sheets as graphics hardware draws them) */
@@ -17,6 +17,7 @@ static test_scene scene;
 static lrcs_point normal[3 * SCENE_FACETS];
 static int method = LRCS_METHOD_EXACT;
 static double tolerance = 1e-4;
+static uint64_t steps;
 static int drawn; /* by lrcs_emulate_run */
 
 static void make_boxes(uint32_t count)
@@ -98,10 +99,20 @@ static double most_cuts(const lrcs_prepared *p, uint32_t facet)
     return p->topology.edge_count + 3.0 * (p->touches.first[facet + 1] - p->touches.first[facet]);
 }
 
+/* What is left when steps have been spent. */
+static double most_passes(const lrcs_prepared *p)
+{
+    double k = p->touches.first[p->scene->facet_count];
+    return 1100.0 * p->scene->facet_count + 32 * k + 160000;
+}
+
 static double most_questions(const lrcs_prepared *p)
 {
     double n = p->scene->facet_count;
     double k = p->touches.first[p->scene->facet_count];
+    if (steps != 0) {
+        return 4.0 * (double)steps + most_passes(p);
+    }
     double most = 48 * n * n * n + 208 * n * n + 32 * n * k + 1100 * n + 160000;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         double own = p->touches.first[f + 1] - p->touches.first[f];
@@ -114,6 +125,9 @@ static double most_questions(const lrcs_prepared *p)
 static double most_parts(const lrcs_prepared *p)
 {
     double most = 0;
+    if (steps != 0) {
+        return p->smooth ? 2 * ((double)steps / 256) + 8.0 * p->scene->facet_count + 240 : 0;
+    }
     for (uint32_t f = 0; f < p->scene->facet_count && p->smooth; f++) {
         double triangles = method == LRCS_METHOD_FACET ? 1 : 30 * (8193 + 512 * most_cuts(p, f));
         most += 5 * 32768 + 37 + 6 * triangles;
@@ -143,6 +157,7 @@ static void run(const lrcs_prepared *prepared, lrcs_work *work, const lrcs_pose 
     lrcs_run_options options = lrcs_run_options_default();
     options.method = method;
     options.tolerance = tolerance;
+    options.steps = steps;
     assert_int_equal(lrcs_sigma_run(prepared, pose, &options, work, &result, NULL, NULL), LRCS_OK);
 }
 
@@ -163,6 +178,7 @@ static void one_pose(void **state)
 int main(int words, char **word)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_pose)};
+    steps = words > 3 ? strtoull(word[3], NULL, 10) : 0;
     make_scene(words > 1 ? word[1] : "boxes", words > 2 ? (uint32_t)strtoul(word[2], NULL, 10) : 4);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

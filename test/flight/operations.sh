@@ -7,7 +7,7 @@ folder=$1/operations
 mkdir -p "$folder" || exit 1
 # A facet or edge against an event, a line, a cut or a cell, each in bounded time.
 questions='boxes_apart edge_crosses touch_contests box_misses lrcsi_sample_covers_towards line_nearer
-touched_by cover_add order_of line_meets line_hidden lrcsi_clip_meets lrcsi_cut_ends lrcsi_clip_within
+touched_by cover_add order_of line_misses line_hidden lrcsi_clip_meets lrcsi_cut_ends lrcsi_clip_within
 event_slack grid_put'
 # A curved facet, a triangle of it, a part of that.
 parts='lrcsi_cubature_make lrcsi_cubature_add cube_step'
@@ -18,22 +18,23 @@ flags='-std=c11 -ffp-contract=off -O0'
 cp "$1/lrcs.c" "$1/lrcs.h" "$folder" && (cd "$folder" && gcc $flags --coverage -c lrcs.c) &&
     gcc $flags -Itest/portable -Itest -Iinclude -Isrc -c -o "$folder/main.o" test/flight/operations.c &&
     gcc --coverage -o "$folder/operations" "$folder/main.o" "$folder/lrcs.o" -lm || exit 1
-printf '%-8s %6s %6s %9s %-10s %12s %14s\n' scene facets touch cells steps taken 'at most'
+printf '%-18s %6s %6s %9s %-10s %12s %14s\n' scene facets touch cells steps taken 'at most'
 bad=0
 for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' 'random 32' 'random 128' \
-    'half 2' 'half 16' 'patches 1' 'patches 16' 'razors 1' 'drawn 1' 'drawn 64'; do
+    'half 2' 'half 16' 'patches 1' 'patches 16' 'razors 1' 'drawn 1' 'drawn 64' \
+    'sheets 64 1000' 'sheets 64 100000' 'random 128 1000' 'random 128 100000' 'half 16 10000'; do
     rm -f "$folder"/*.gcda
     # shellcheck disable=SC2086
     said=$("$folder/operations" $scene | sed -n 1p)
     (cd "$folder" && gcov -b -c lrcs.gcda >/dev/null 2>&1)
-    echo "$said" | awk -v scene="${scene% *}" -v questions="$questions" -v parts="$parts" -v pixels="$pixels" '
+    echo "$said" | awk -v scene="$scene" -v questions="$questions" -v parts="$parts" -v pixels="$pixels" '
         function wanted(kind, list,   count, name, i) {
             count = split(list, name, /[ \n]+/)
             for (i = 1; i <= count; i++) kind_of[name[i]] = kind
         }
         function row(kind, most) {
             if (most > 0)
-                printf "%-8s %6d %6d %9d %-10s %12d %14.3g\n", scene, facets, touches, cells, kind, sum[kind], most
+                printf "%-18s %6d %6d %9d %-10s %12d %14.3g\n", scene, facets, touches, cells, kind, sum[kind], most
             return most > 0 ? sum[kind] > 0 && sum[kind] <= most : !sum[kind]
         }
         BEGIN { wanted("questions", questions); wanted("parts", parts); wanted("pixels", pixels) }

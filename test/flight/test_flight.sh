@@ -14,6 +14,14 @@ here=$("$scratch/task")
 same the_task_says_what_it_promises "$(echo "$here" | sed 's/ = [0-9a-f]*//g; s/ memory .*//')" \
     "$(sed -n '/^\/\* expected output/,/^\*\/$/p' $at/main.c | sed '1d;$d')"
 
+# Cycles that may take few steps answer all the same, and say so.
+# shellcheck disable=SC2086
+"${CC:-cc}" $flags -O1 -DFLIGHT_STEPS=2000u -Iinclude -o "$scratch/brief" $at/task.c $at/main.c $at/board_host.c \
+    $library -lm
+brief=$("$scratch/brief")
+same few_steps_are_flagged_in_every_good_cycle "$(echo "$brief" | grep -c 'status 0 stale 0 flags 9 steps [12]\?[0-9]\{1,3\} ')" 6
+same and_fail_none "$(echo "$brief" | grep -c '^end: status 0 failures 2 ')" 1
+
 cat >"$scratch/misuse.c" <<'END'
 #include "task.h"
 #include <math.h>
