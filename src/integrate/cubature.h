@@ -37,8 +37,8 @@ size_t lrcsi_cubature_need(void);
 lrcsi_cubature_cell *lrcsi_cubature_cells(lrcs_work *work);
 
 /* An empty sum over surfaces whose normals lie between these three (as below), with such room,
-   which sums may share: whole, slip and the meter are the caller's to set, and nothing and had where
-   there are other surfaces. */
+   which sums may share: whole, slip and the meter are the caller's to set, and nothing and had
+   where there are other surfaces. */
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
                                    double tolerance, lrcsi_cubature_cell *waiting);
 

@@ -295,9 +295,8 @@ static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contac
     double side =
         lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(to[0], way[1]), lrcsi_dd_mul(to[1], way[0])));
     double beyond = length > 0 ? lone * side / length : 0;
-    double turned = length > 0 && !brief
-                        ? 4 * lrcsi_length_flat(way[0].hi, way[1].hi) / length * (c->off + c->slip)
-                        : 0;
+    double far = lrcsi_length_flat(way[0].hi, way[1].hi);
+    double turned = brief ? 0 : 4 * far / length * (c->off + c->slip);
     if (c->slip > 0 && slip_wide(c)) {
         return LRCSI_CONTACT_UNKNOWN;
     }

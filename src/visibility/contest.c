@@ -242,9 +242,10 @@ static void contest_decide(lrcsi_contest *c)
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         if (c->kin[f] != 0) {
             c->along = 0;
-            c->contested[f] = touch_contests(c->view, f) ||
-                              (lrcsi_grid_any(&c->grid, c->cells[f]) && contest_find(c, f, 1) > 0) ||
-                              lrcsi_meter_spent(c->view->meter);
+            c->contested[f] =
+                touch_contests(c->view, f) ||
+                (lrcsi_grid_any(&c->grid, c->cells[f]) && contest_find(c, f, 1) > 0) ||
+                lrcsi_meter_spent(c->view->meter);
             c->contested_count += c->contested[f];
             if (c->contested[f] || c->along || p->touches.rim[f]) {
                 c->kin[f] = 0;

@@ -80,7 +80,7 @@ static inline void take_choices(unsigned effects, unsigned share, fuzz_run *run,
     run->starved = effects >> 4 & 1;
     *turned = (effects >> 6 & 1) && fuzz_chosen(!run->starved);
     run->polygons = (effects >> 7 & 1) && !run->starved && !*turned;
-    run->options.steps = run->starved || run->polygons || share % 4 ? 0 : (uint64_t)share * share;
+    run->hurried = !run->starved && !run->polygons && share % 4 == 0;
 }
 
 static inline void take_run(fuzz_input *in, fuzz_run *run, int *turned)

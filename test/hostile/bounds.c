@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Every bound that the engine proves, against exact answers (bounds.py): each method, rasters of
-   several sizes, clipping that may take few steps, one-sided and two-sided. Prints what is violated; how loose the bounds are, as
-   quantiles of bound / error, the least coming nearest to a violation, and of bound / sigma; and
-   what the estimate is worth. An error that rounding alone could make (a tie) says nothing of
-   looseness or of the estimate and is left out of their quantiles. */
+   several sizes, clipping that may take few steps, one-sided and two-sided. Prints what is
+   violated; how loose the bounds are, as quantiles of bound / error, the least coming nearest to a
+   violation, and of bound / sigma; and what the estimate is worth. An error that rounding alone
+   could make (a tie) says nothing of looseness or of the estimate and is left out of their
+   quantiles. */
 #include <lrcs/lrcs.h>
 
 #include <math.h>
@@ -147,8 +148,8 @@ static int read_case(FILE *in, hostile_case *c)
 }
 
 /* Areas of the exact method: 1e-12 of the facet's projection and 1e-15 of the extent squared. Where
-   planes are parallel to 1e-19, as on a lattice, double-double ends: those that miss it are told, but
-   only their bounds count. */
+   planes are parallel to 1e-19, as on a lattice, double-double ends: those that miss it are told,
+   but only their bounds count. */
 static void check_areas(const hostile_case *c, const lrcs_facet_record *records)
 {
     double low[3];
