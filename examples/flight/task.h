@@ -10,6 +10,7 @@
 #ifndef FLIGHT_STEPS
 #define FLIGHT_STEPS 150000u
 #endif
+_Static_assert(FLIGHT_STEPS > 0 && FLIGHT_STEPS <= UINT32_MAX, "0 would be no limit at all");
 
 /* What goes down after every cycle. */
 typedef struct flight_telemetry {

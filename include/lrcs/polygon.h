@@ -34,7 +34,8 @@ size_t lrcs_polygon_need(const lrcs_prepared *prepared);
 /* The visible polygons of a pose.
    Given: prepared; pose; work.
    Returned: polygons, in the work area.
-   Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (the pose); LRCS_E_MEMORY; LRCS_E_LIMIT.
+   Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (the pose); LRCS_E_MEMORY; LRCS_E_LIMIT;
+   LRCS_E_UNSUPPORTED (this thread's arithmetic, as lrcs_prepare_run).
    Notes: 1. A facet that is visible whole, or cannot be told from one that is, has one ring: its
    own three corners, exactly. One that cannot be told from a hidden one has none, nor has one of
    which nothing is known; bound_m2 holds both.

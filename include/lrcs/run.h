@@ -74,11 +74,13 @@ typedef struct lrcs_run_options {
    term of amplitude 0 is evaluated. Where self-shadowing is left out, back sides are not looked
    for: nothing could hide them.
    3. Where `steps` are spent a run stops looking: facets, or parts of them, of which it is not
-   known then whether they are seen count by half and widen the bound, normals are integrated
-   coarsely over facets that are left (curvature_estimate_m2 tells), and LRCS_FLAG_STEPS_SPENT is
-   set. What grows faster than the scene is counted, alike on every machine (over curved normals
-   but for libm's last bits): passes over facets, edges and contacts are not, nor are a raster's
-   pixels (examples/flight/README.md). lrcs_result.steps tells how many a run took. */
+   known then whether they are seen count by half, of curved normals perhaps not at all, and widen
+   the bound; over facets that are left, curved normals are integrated coarsely, which is no part of
+   the bound: curvature_estimate_m2 tells. LRCS_FLAG_STEPS_SPENT is set. What grows faster than the
+   scene is counted, alike on every machine (over curved normals but for libm's last bits): passes
+   over facets, edges and contacts are not, nor are a raster's pixels and searches, by method
+   zbuffer or for want of memory (examples/flight/README.md). lrcs_result.steps tells how many a run
+   took. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {
@@ -162,9 +164,10 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    whatever the method, image->size > 0 asks for its size and image->facet has room for it.
    Status: LRCS_OK; LRCS_E_ARGUMENT (options, the image's size or the pose); LRCS_E_MEMORY;
    LRCS_E_NUMBER (the pose, or sigma beyond double range); LRCS_E_LIMIT (more than 2^32 - 2
-   candidates in a grid). Work: nothing stays in the work area. Every loop is bounded: at most how
-   many steps a pose takes, and how many it does take, stands in examples/flight/README.md;
-   options->steps bounds them closely.
+   candidates in a grid); LRCS_E_UNSUPPORTED (this thread's arithmetic, as lrcs_prepare_run). Work:
+   nothing stays in the work area. Every loop is bounded: at most how much
+   a pose asks, and how much it does, stands in examples/flight/README.md; options->steps bounds it
+   closely.
    Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
    cubature errs by about curvature_estimate_m2, which is not proved and not in the bound.
    2. Of a facet with curved normals that is seen in part, samples tell how much is seen but not

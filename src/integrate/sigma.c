@@ -302,7 +302,8 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
     }
     status = run_method(run, options);
     if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
-        run->plan.method == LRCS_METHOD_ZBUFFER && !run_meets(&run->total, options->tolerance)) {
+        run->plan.method == LRCS_METHOD_ZBUFFER && !run->meter.spent &&
+        !run_meets(&run->total, options->tolerance)) {
         run->plan.method = LRCS_METHOD_EXACT;
         run->plan.reason = "the raster asked for misses the tolerance";
         run->flags = 0;

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/exact.h"
+#include "base/ieee.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "base/work.h"
@@ -236,7 +237,7 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
                     lrcsi_view *view)
 {
     lrcsi_view v = {.prepared = prepared};
-    int status = lrcsi_frame_make(pose, v.direction, v.R);
+    int status = lrcsi_ieee_kept() ? lrcsi_frame_make(pose, v.direction, v.R) : LRCS_E_UNSUPPORTED;
     if (status != LRCS_OK) {
         return status;
     }

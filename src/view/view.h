@@ -37,7 +37,8 @@ typedef struct lrcsi_view {
 } lrcsi_view;
 
 /* A view without coordinates (point, off and the window), which method facet does without: they
-   follow by lrcsi_view_project. Status: LRCS_OK; LRCS_E_MEMORY. It stays in the work area. */
+   follow by lrcsi_view_project. Status: LRCS_OK; LRCS_E_MEMORY; those of lrcsi_frame_make;
+   LRCS_E_UNSUPPORTED (this thread rounds otherwise: base/ieee.h). It stays in the work area. */
 size_t lrcsi_view_face_need(const lrcs_prepared *prepared);
 int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view);

@@ -99,6 +99,18 @@ static void cuts_edge(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t e
     }
 }
 
+/* Those that cross it: not all of them where the view's meter is spent. */
+static void cuts_crossing(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t crossings)
+{
+    const lrcsi_edge *edge = contest->view->prepared->topology.edge;
+    for (uint32_t i = 0; i < crossings; i++) {
+        if (!lrcsi_meter_take(contest->view->meter, edge[contest->crossing[i]].uses)) {
+            return;
+        }
+        cuts_edge(cuts, contest, contest->crossing[i]);
+    }
+}
+
 /* The sides of a facet that touches the target. */
 static void cuts_outline(lrcsi_cuts *cuts, uint32_t other, const lrcsi_contact *c, double width)
 {
@@ -164,9 +176,7 @@ int lrcsi_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_wor
     if (!cuts->cut || !cuts->list) {
         return LRCS_E_MEMORY;
     }
-    for (uint32_t i = 0; i < crossings; i++) {
-        cuts_edge(cuts, contest, contest->crossing[i]);
-    }
+    cuts_crossing(cuts, contest, crossings);
     for (uint32_t i = first; i < end; i++) {
         if (lrcsi_contest_touch_hides(target->view, target->facet, &touches->touch[i])) {
             cuts_contact(cuts, contest, touches->touch[i].other);

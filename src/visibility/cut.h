@@ -34,7 +34,8 @@ typedef struct lrcsi_cuts {
 /* Bytes at most for those of one facet. */
 size_t lrcsi_cuts_need(const lrcs_prepared *prepared);
 
-/* Finds those of a contested facet. They stay in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
+/* Finds those of a contested facet, not all of them where the view's meter is spent. They stay in
+   the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_work *work,
                     lrcsi_cuts *cuts);
 

@@ -147,13 +147,17 @@ static int edge_behind(const margin_job *job, uint32_t facet, const lrcsi_edge *
            lrcsi_most(height[0], height[1]) < -(3 * slack + job->off) * n->length;
 }
 
-/* Is an edge of a part's own a rim beyond which its wall faces the laser, or may? */
+/* Is an edge of a part's own a rim beyond which its wall faces the laser, or may? Where the meter
+   is spent, perhaps. */
 static int own_rim(const margin_job *job, const lrcsi_edge *edge, uint32_t part)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge_use *use = p->topology.use + edge->first_use;
     uint32_t count = 0;
     int facing = 0;
+    if (!lrcsi_meter_take(job->view->meter, edge->uses)) {
+        return 1;
+    }
     for (uint32_t i = 0; i < edge->uses; i++) {
         if (margin_part(job, use[i].facet) != part || p->skip[use[i].facet]) {
             continue;
@@ -194,7 +198,7 @@ static double event_shares(margin_job *job, uint32_t facet, const double low[2],
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = job->grid.first[(size_t)y * job->grid.size + cells.x0];
         uint32_t end = job->grid.first[(size_t)y * job->grid.size + cells.x1];
-        if (!lrcsi_meter_take(job->view->meter, end - i)) {
+        if (!lrcsi_meter_take(job->view->meter, (uint64_t)1 + end - i)) {
             return 1;
         }
         for (; i < end && share < 1; i++) {

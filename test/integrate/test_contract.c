@@ -198,11 +198,17 @@ static void thread_that_rounds_upward_is_told(void **state)
     const lrcs_prepared *prepared = NULL;
     unit_cube();
     lrcs_work room = work;
+    lrcs_result result;
+    lrcs_pose pose = lrcs_pose_default();
+    lrcs_run_options options = lrcs_run_options_default();
+    const lrcs_prepared *good = scene_prepare(&scene, &room);
     if (fesetround(FE_UPWARD) != 0) {
         skip();
     }
+    int run = lrcs_sigma_run(good, &pose, &options, &room, &result, NULL, NULL);
     int status = lrcs_prepare_run(&scene.scene, &room, &prepared);
     fesetround(FE_TONEAREST);
+    assert_int_equal(run, LRCS_E_UNSUPPORTED);
     assert_int_equal(status, LRCS_E_UNSUPPORTED);
     assert_null(prepared);
 }
