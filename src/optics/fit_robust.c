@@ -18,8 +18,10 @@
 #define ROBUST_CUT    3.5
 #define ROBUST_FEWEST 8u
 
-/* Of readings whose fitted value is nearly 0 a share of the largest is expected as error. */
+/* Of readings whose fitted value is nearly 0 a share of the largest is expected as error. A fit
+   that is nothing to the largest reading says nothing of errors, and squares over it overflow. */
 #define ROBUST_RELATIVE 1e-4
+#define ROBUST_LEAST    0x1p-400
 
 /* Residuals this small against the readings are those of rounding. */
 #define ROBUST_ROUNDING 0x1p-44
@@ -69,7 +71,7 @@ void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_spot
         data->spare[i] = data->y[i] - data->rest[i];
         most = lrcsi_most(most, data->spare[i]);
     }
-    for (uint32_t i = 0; i < data->count && most > 0.0; i++) {
+    for (uint32_t i = 0; i < data->count && most > ROBUST_LEAST; i++) {
         data->inverse[i] = 1.0 / lrcsi_most(data->spare[i], ROBUST_RELATIVE * most);
     }
 }

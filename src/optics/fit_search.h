@@ -12,7 +12,7 @@
 uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_spot start[LRCSI_FIT_STARTS]);
 
 /* The errors that readings are expected to have at a spot, into inverse[]; nothing where they do
-   not depend on it. */
+   not depend on it, or the spot is nothing to the readings. */
 void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_spot *spot);
 
 /* Descends from a start with Huber's weights, so that single readings pull with a bounded force.
