@@ -40,12 +40,12 @@ size_t lrcs_emulate_need(const lrcs_prepared *prepared, const lrcs_emulation_opt
    Status: LRCS_OK; LRCS_E_ARGUMENT (options or the pose); LRCS_E_MEMORY; LRCS_E_UNSUPPORTED (curved
    normals; this thread's arithmetic, as lrcs_prepare_run); LRCS_E_NUMBER (the pose, sigma beyond
    double range, or a pixel's share of it beyond that of float32). Work: nothing stays in the work
-   area. O(vertices + facets + fragments + N^2). Notes: 1. Each operation on vertices, depths,
-   shades and sums is one IEEE operation at the precision, none of them fused. The host's part is in
-   double, rounded once as it is uploaded: vertices about the scene's centre in units of a power of
-   two near its reach, one matrix to the clip cube, unit normals, materials. exp and pow are libm's
-   for doubles, rounded to the precision: the bits of floats hang on libm in some one of 2^28
-   values, those of doubles in its last place.
+   area. O(vertices + facets + fragments + N^2).
+   Notes: 1. Each operation on vertices, depths, shades and sums is one IEEE operation at the
+   precision, none of them fused. The host's part is in double, rounded once as it is uploaded:
+   vertices about the scene's centre in units of a power of two near its reach, one matrix to the
+   clip cube, unit normals, materials. exp and pow are libm's for doubles, rounded to the precision:
+   the bits of floats hang on libm in some one of 2^28 values, those of doubles in its last place.
    2. Clip and window coordinates follow OpenGL, depth from 0 (near) to 1; the scene takes the
    middle of the depth range, 1/128 of the window's side left free at both ends. Corners are snapped
    to 1/256 pixel, those flung beyond 2^15 pixels held there; a pixel belongs to a facet whose

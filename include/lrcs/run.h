@@ -165,9 +165,8 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    Status: LRCS_OK; LRCS_E_ARGUMENT (options, the image's size or the pose); LRCS_E_MEMORY;
    LRCS_E_NUMBER (the pose, or sigma beyond double range); LRCS_E_LIMIT (more than 2^32 - 2
    candidates in a grid); LRCS_E_UNSUPPORTED (this thread's arithmetic, as lrcs_prepare_run). Work:
-   nothing stays in the work area. Every loop is bounded: at most how much
-   a pose asks, and how much it does, stands in examples/flight/README.md; options->steps bounds it
-   closely.
+   nothing stays in the work area. Every loop is bounded: at most how much a pose asks, and how much
+   it does, stands in examples/flight/README.md; options->steps bounds it closely.
    Notes: 1. Over curved normals an integral takes the place of f_r cos^2 times an area. Its
    cubature errs by about curvature_estimate_m2, which is not proved and not in the bound.
    2. Of a facet with curved normals that is seen in part, samples tell how much is seen but not

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 typedef struct lrcsi_meter {
-    uint64_t left;
+    uint64_t most, taken;
     int spent;
 } lrcsi_meter;
 
@@ -19,11 +19,11 @@ static inline int lrcsi_meter_take(lrcsi_meter *meter, uint64_t steps)
     if (!meter) {
         return 1;
     }
-    if (meter->spent || steps > meter->left) {
+    if (meter->spent || steps > meter->most - meter->taken) {
         meter->spent = 1;
         return 0;
     }
-    meter->left -= steps;
+    meter->taken += steps;
     return 1;
 }
 

@@ -229,6 +229,7 @@ int cli_run_meets(const lrcs_result *result, double tolerance)
 int cli_run_budget_read(run_job *job)
 {
     static const char *const clash[] = {"method", "resolution", "explain", "steps"};
+    const int clashes = sizeof clash / sizeof clash[0];
     const cli_args *args = job->args;
     run_budget *budget = &job->budget;
     budget->start = cli_seconds();
@@ -240,7 +241,7 @@ int cli_run_budget_read(run_job *job)
         return cli_usage(args->command, "--time-budget: expected milliseconds > 0, found '%s'",
                          cli_value(args, "time-budget"));
     }
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < clashes; i++) {
         if (cli_value(args, clash[i])) {
             return cli_usage(args->command, "--time-budget chooses for itself: leave out --%s",
                              clash[i]);

@@ -318,11 +318,6 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
     return status;
 }
 
-static uint64_t run_steps(const lrcs_run_options *options)
-{
-    return options->steps != 0 ? options->steps : UINT64_MAX;
-}
-
 static void result_fill(const sigma_run *run, const lrcs_run_options *options, lrcs_result *result)
 {
     const lrcsi_total *t = &run->total;
@@ -344,7 +339,7 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
                      .facets_hidden = t->hidden,
                      .facets_partial = t->partial,
                      .flags = run->flags,
-                     .steps = run_steps(options) - run->meter.left};
+                     .steps = run->meter.taken};
     lrcsi_plan_effects(&run->view, &run->plan, t->seen, r.effect);
     r.flags |= run_meets(t, options->tolerance) ? 0u : LRCS_FLAG_TOLERANCE_NOT_MET;
     r.flags |= run->meter.spent ? LRCS_FLAG_STEPS_SPENT : 0u;
@@ -379,7 +374,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     sigma_run run = {.work = work,
                      .image = image,
                      .tolerance = options->tolerance,
-                     .meter = {run_steps(options), 0}};
+                     .meter = {.most = options->steps != 0 ? options->steps : UINT64_MAX}};
     status = lrcsi_view_face(prepared, pose, work, &run.view);
     if (status == LRCS_OK) {
         run.view.meter = &run.meter;

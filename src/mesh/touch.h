@@ -30,6 +30,12 @@ typedef struct lrcsi_touches {
     int self; /* a facet meets the inside or a side of another of its own piece; 0 if not asked */
 } lrcsi_touches;
 
+/* How many contacts a facet has. */
+static inline uint32_t lrcsi_touches_of(const lrcsi_touches *touches, uint32_t facet)
+{
+    return touches->first[facet + 1] - touches->first[facet];
+}
+
 /* How `other` (closed) meets the relative interior of `facet`: a lrcsi_touch_kind. Neither may be
    degenerate. */
 int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);

@@ -130,8 +130,8 @@ static uint32_t order_mixed(const lrcsi_cuts *cuts, uint32_t other)
 static uint32_t order_of(const lrcsi_cuts *cuts, uint32_t other)
 {
     const lrcsi_target *t = cuts->target;
-    const uint32_t *first = t->view->prepared->touches.first + t->facet;
-    if (!lrcsi_meter_take(t->view->meter, (uint64_t)1 + cuts->count + (first[1] - first[0]))) {
+    uint32_t touches = lrcsi_touches_of(&t->view->prepared->touches, t->facet);
+    if (!lrcsi_meter_take(t->view->meter, (uint64_t)1 + cuts->count + touches)) {
         return ORDER_NEW;
     }
     int side = lrcsi_contact_side(t->view, t->facet, other);

@@ -154,7 +154,7 @@ size_t lrcsi_cuts_need(const lrcs_prepared *prepared)
     const lrcsi_touches *touches = &prepared->touches;
     size_t most = 0;
     for (uint32_t f = 0; f < prepared->scene->facet_count; f++) {
-        size_t count = touches->first[f + 1] - touches->first[f];
+        size_t count = lrcsi_touches_of(touches, f);
         most = count > most ? count : most;
     }
     size_t room = prepared->topology.edge_count + 3 * most;

@@ -219,16 +219,11 @@ int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_gri
     return status;
 }
 
-static uint32_t touches_of(const lrcs_prepared *p, uint32_t facet)
-{
-    return p->touches.first[facet + 1] - p->touches.first[facet];
-}
-
 /* Does `other` touch the inside of the facet? Where the meter is spent, perhaps. */
 static int touched_by(const lrcsi_view *view, uint32_t facet, uint32_t other)
 {
     const lrcs_prepared *p = view->prepared;
-    if (!lrcsi_meter_take(view->meter, touches_of(p, facet))) {
+    if (!lrcsi_meter_take(view->meter, lrcsi_touches_of(&p->touches, facet))) {
         return 1;
     }
     for (uint32_t i = p->touches.first[facet]; i < p->touches.first[facet + 1]; i++) {
@@ -245,8 +240,8 @@ static int sheet_unbroken(lrcsi_contest *contest, uint32_t sheet, uint32_t facet
     const lrcs_prepared *p = contest->view->prepared;
     lrcsi_meter *meter = contest->view->meter;
     uint32_t crossings = lrcsi_contest_crossings(contest, facet);
-    if (!lrcsi_meter_take(meter, touches_of(p, facet))) { /* nor are those all, perhaps */
-        return 0;
+    if (!lrcsi_meter_take(meter, lrcsi_touches_of(&p->touches, facet))) {
+        return 0; /* nor are those all the crossings, perhaps */
     }
     for (uint32_t i = 0; i < crossings; i++) {
         const lrcsi_edge *edge = &p->topology.edge[contest->crossing[i]];

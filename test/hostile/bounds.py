@@ -537,7 +537,7 @@ def main():
     else:
         wanted = [(sys.argv[3], sys.argv[2], number) for number in range(int(sys.argv[1]))]
     for family, seed, number in wanted:
-        r = random.Random("%s%d %d" % ("" if family == "hostile" else family + " ", int(seed), int(number)))
+        r = random.Random("%s%s %s" % ("" if family == "hostile" else family + " ", seed, number))
         name, s, d = FAMILIES[family](r)
         if not s.f:
             continue

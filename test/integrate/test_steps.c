@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Runs that may take so many steps and no more: from one to what serves them they stop there, say
-   so, and their bounds hold what is found without a limit; from there on they are it, to the bit.
+   so, and their bounds hold what is found without a limit; from there on they are its, to the bit.
  */
 #include "scenes.h"
 
@@ -124,8 +124,8 @@ static void triangles_through_each_other(void **state)
     }
 }
 
-/* Facets that nothing divides, asked for region by region; those of a sphere, some of which a
-   larger sheet hides though contours cross it. */
+/* Facets that nothing divides, asked for region by region, and some behind a larger sheet that
+   contours cross. */
 static void bodies_behind_each_other(void **state)
 {
     (void)state;
