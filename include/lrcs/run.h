@@ -75,12 +75,11 @@ typedef struct lrcs_run_options {
    for: nothing could hide them.
    3. Where `steps` are spent a run stops looking: facets, or parts of them, of which it is not
    known then whether they are seen count by half, of curved normals perhaps not at all, and widen
-   the bound; over facets that are left, curved normals are integrated coarsely, which is no part of
-   the bound: curvature_estimate_m2 tells. LRCS_FLAG_STEPS_SPENT is set. What grows faster than the
-   scene is counted, alike on every machine (over curved normals but for libm's last bits): passes
-   over facets, edges and contacts are not, nor are a raster's pixels and searches, by method
-   zbuffer or for want of memory (examples/flight/README.md). lrcs_result.steps tells how many a run
-   took. */
+   the bound; so do parts that are seen over which curved normals would have been integrated closer.
+   LRCS_FLAG_STEPS_SPENT is set. What grows faster than the scene is counted, alike on every machine
+   (over curved normals but for libm's last bits): passes over facets, edges and contacts are not,
+   nor are a raster's pixels and searches, by method zbuffer or for want of memory
+   (examples/flight/README.md). lrcs_result.steps tells how many a run took. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {
@@ -109,7 +108,7 @@ enum lrcs_notice {
 const char *lrcs_notice_text(int bit);
 
 typedef struct lrcs_budget {
-    double visibility_m2;   /* raster or clip */
+    double visibility_m2;   /* raster or clip, and what steps that ran out left */
     double tessellation_m2; /* negative: not known */
     double rounding_m2;
 } lrcs_budget;

@@ -21,7 +21,7 @@
      edge, the rule alone serves: its error is of the order of p^6, which then is the estimate.
    Where halvings run out, the bound on the cell stands as the estimate. Where cells run out, the
    triangle is done again to a coarser tolerance: all of it a little coarse beats a part untouched.
- */
+   Where steps run out, what no rule may be trusted with is left, and its bound is no estimate. */
 #include "integrate/cubature.h"
 
 #include <math.h>
@@ -414,13 +414,37 @@ static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell, double estimate
     sum->estimate += estimate;
 }
 
-/* No halvings are left for a cell that no rule is good for: the most that it may hold is its
-   estimate. */
+/* The most that a cell may hold, and the rule find there: all that is known of a cell which no rule
+   is good for. The normals lie in the cone of those at its corners, each off by the slip. */
+static double cube_most(const lrcsi_cubature *sum, const cube_cell *cell)
+{
+    double shortest = HUGE_VAL;
+    for (int i = 0; i < cell->count; i++) {
+        shortest = lrcsi_least(shortest, sqrt(square_of(cell->normal[i])));
+    }
+    double off = 2 * sum->slip / shortest;
+    double turn = off <= 1 ? cube_turn(cell) + off : HALF_TURN;
+    lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
+    return cube_area(cell) * (most.glint + most.diffuse);
+}
+
+/* What a cell that is not divided further may be off by, where the rule puts that at `estimate`,
+   and is not to be trusted. */
+static void sum_leave(lrcsi_cubature *sum, const cube_cell *cell, double estimate)
+{
+    if (lrcsi_meter_spent(sum->meter)) {
+        sum->left += cube_most(sum, cell);
+    } else {
+        sum->estimate += estimate;
+    }
+}
+
+/* No halvings are left for a cell that no rule is good for. */
 static void cube_give_up(lrcsi_cubature *sum, cube_cell *cell)
 {
-    lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, cube_turn(cell));
     cell->value = rule_value(sum, cell);
-    sum_keep(sum, cell, cube_area(cell) * (most.glint + most.diffuse));
+    sum_keep(sum, cell, 0);
+    sum_leave(sum, cell, cube_most(sum, cell));
 }
 
 /* Keeps the quarters where they agree with the whole, or must. 0: they are not kept. */
@@ -435,11 +459,16 @@ static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_
     double off = fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
     double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
     double most = sum->tolerance * (all.glint + all.diffuse + had * (area / sum->whole));
-    if (!must && !(off <= most + nothing_to(sum) * area)) {
+    int agree = off <= most + nothing_to(sum) * area;
+    if (!must && !agree) {
         return 0;
     }
+    double estimate = off + cell->unheard * area;
+    if (!agree) {
+        sum_leave(sum, cell, estimate);
+    }
     for (int i = 0; i < 4; i++) {
-        sum_keep(sum, &quarter[i], i == 0 ? off + cell->unheard * area : 0);
+        sum_keep(sum, &quarter[i], agree && i == 0 ? estimate : 0);
     }
     return 1;
 }

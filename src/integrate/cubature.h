@@ -26,6 +26,7 @@ typedef struct lrcsi_cubature {
                               of the tolerance times this, per area, is small enough */
     lrcsi_sum glint, diffuse;
     double estimate; /* of the cubature's error */
+    double left;     /* bound on the error where the meter left no steps to look closer */
     double rounding; /* bound on the error that rounding adds to the cubature's own sum */
     uint32_t splits;
     lrcsi_meter *meter;           /* once spent, no part is divided further; NULL: no limit */

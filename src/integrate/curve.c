@@ -7,7 +7,8 @@
        I - F (P - low) <= integral over V <= F high,  and it lies in [0, I].
    Where only an area is known, any value in that interval is off by at most its longer part. Pieces
    differ from V by an area of at most high - low, both ways, and by their corners' rounding
-   (visibility/occlude.h): F times as much.
+   (visibility/occlude.h): F times as much. An I that steps left off by as much moves all of these
+   by no more.
 
    Rounding: normals in view axes are off by 12 u (a rotation's rows, three products, two sums), by
    4 u more at each of 64 halvings at most, and by 8 u at a rule's point: 2^-44 covers it. */
@@ -147,7 +148,7 @@ static lrcsi_curved curve_share(curve_job *job, const lrcsi_visible *visible)
     }
     double value = lrcsi_least(high, lrcsi_most(low, visible->area / projected * whole));
     lrcsi_curved part = job_part(job, whole > 0 ? value / whole : 0);
-    part.visibility = FOUR_PI * lrcsi_most(high - value, value - low);
+    part.visibility = FOUR_PI * (lrcsi_most(high - value, value - low) + job->sum.left);
     part.rounding = job_part(job, 1).rounding;
     part.likely = part.visibility > 0 ? (FOUR_PI * whole / projected) * visible->likely : 0;
     part.estimate = FOUR_PI * job->sum.estimate;
@@ -227,7 +228,8 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
     off += o->bent;
     *visible = facet_known(job->view, job->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = job_part(job, 1);
-    part.visibility = FOUR_PI * job_most(job) * (visible->high - visible->low + off);
+    part.visibility =
+        FOUR_PI * (job_most(job) * (visible->high - visible->low + off) + job->sum.left);
     return part;
 }
 

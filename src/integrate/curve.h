@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Eq. 2 over facets with curved normals: 4 pi times the integral of f_r cos(theta) over what is
-   visible of each, with what visibility and rounding leave open as bounds, and what the cubature
-   leaves as an estimate. */
+   visible of each, with what visibility, rounding and steps that ran out leave open as bounds, and
+   what the cubature leaves as an estimate. */
 #ifndef LRCSI_CURVE_H
 #define LRCSI_CURVE_H
 
@@ -13,7 +13,7 @@
 /* One facet's part of sigma, in scaled units of area. */
 typedef struct lrcsi_curved {
     double glint, diffuse;
-    double visibility, rounding; /* bounds */
+    double visibility, rounding; /* bounds; where steps ran out, what they left is in the first */
     double likely;               /* likely error of a sampled share; 0: none */
     double most;                 /* bound on what all of the facet could add, were it seen */
     double estimate;             /* of the cubature's error */
