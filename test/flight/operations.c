@@ -3,9 +3,9 @@
    examples/flight/README.md: questions of visibility, parts of curved facets, pixels drawn.
    test/flight/operations.sh counts how many it did take.
    usage: operations KIND COUNT [STEPS]     STEPS: lrcs_run_options.steps
-   KIND: boxes (apart), sheets (over each other), random (pierced), half (curved, half hidden) by
-   method exact; patches, razors (curved, of a wide and of an all but singular BRDF) by method
-   facet; drawn (sheets as graphics hardware draws them) */
+   KIND: boxes (apart), sheets (over each other), random (pierced), book (on one edge), half
+   (curved, half hidden) by method exact; patches, razors (curved, of a wide and of an all but
+   singular BRDF) by method facet; drawn (sheets as graphics hardware draws them) */
 #include <stdlib.h>
 
 #include "scene/prepare.h"
@@ -50,6 +50,16 @@ static void make_random(uint32_t count)
     }
 }
 
+/* Leaves, all on one edge. */
+static void make_book(uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        double angle = 3.14159265358979 * (i + 0.5) / count;
+        scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                       (const double[3]){0.5, cos(angle), sin(angle)});
+    }
+}
+
 /* Normals at corners as on a sphere about a point below each facet. */
 static void curve_facets(void)
 {
@@ -77,6 +87,8 @@ static void make_scene(const char *kind, uint32_t count)
         make_boxes(count);
     } else if (strcmp(kind, "random") == 0) {
         make_random(count);
+    } else if (strcmp(kind, "book") == 0) {
+        make_book(count);
     } else {
         make_sheets(count);
     }

@@ -21,8 +21,9 @@ cp "$1/lrcs.c" "$1/lrcs.h" "$folder" && (cd "$folder" && gcc $flags --coverage -
 printf '%-18s %6s %6s %9s %-10s %12s %14s\n' scene facets touch cells steps taken 'at most'
 bad=0
 for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' 'random 32' 'random 128' \
-    'half 2' 'half 16' 'patches 1' 'patches 16' 'razors 1' 'drawn 1' 'drawn 64' \
-    'sheets 64 1000' 'sheets 64 100000' 'random 128 1000' 'random 128 100000' 'half 16 10000'; do
+    'book 16' 'book 256' 'half 2' 'half 16' 'patches 1' 'patches 16' 'razors 1' 'drawn 1' 'drawn 64' \
+    'sheets 64 1000' 'sheets 64 100000' 'random 128 1000' 'random 128 100000' 'book 256 1000' \
+    'book 256 100000' 'half 16 10000'; do
     rm -f "$folder"/*.gcda
     # shellcheck disable=SC2086
     said=$("$folder/operations" $scene | sed -n 1p)
