@@ -6,6 +6,8 @@
 #ifndef LRCSI_EXACT_H
 #define LRCSI_EXACT_H
 
+#include "base/dd.h"
+
 /* Sign (-1, 0, 1) of det(b - a, c - a, d): seen with d pointing at the eye, positive where
    a, b, c turn counter-clockwise. Exactly the sign of (b-a) x (c-a) . d. */
 int lrcsi_exact_turn(const double a[3], const double b[3], const double c[3], const double d[3]);
@@ -21,6 +23,10 @@ int lrcsi_exact_collinear(const double a[3], const double b[3], const double c[3
    slivers, whose normals drown in rounding. */
 void lrcsi_exact_normal(const double a[3], const double b[3], const double c[3], double high[3],
                         double low[3]);
+
+/* det(b - a, c - a, p - a), of which lrcsi_exact_side is the sign, within 100 u^2 of itself. */
+lrcsi_dd lrcsi_exact_height(const double a[3], const double b[3], const double c[3],
+                            const double p[3]);
 
 /* (b - a) x (c - a) . d, within 2 u of itself: for facets all but edge-on. */
 double lrcsi_exact_dot(const double a[3], const double b[3], const double c[3], const double d[3]);

@@ -14,6 +14,8 @@
 #include "visibility/sample.h"
 
 #define U 0x1p-53
+/* How many times its error a height must be, so that where it is 0 is told to a double. */
+#define TOLD 0x1p53
 
 /* The corners of a facet above the target's plane. */
 typedef struct contact_heights {
@@ -104,16 +106,34 @@ int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
     return order;
 }
 
+/* In double-double where that tells it to TOLD, else exactly: planes all but parallel. Returns its
+   sign. */
+static int height_find(const lrcsi_target *t, const double *x, lrcsi_dd *height, double *off)
+{
+    const lrcs_prepared *p = t->view->prepared;
+    *height = height_finely(t, x, off);
+    if (fabs(height->hi) > TOLD * *off) {
+        return height->hi > 0 ? 1 : -1;
+    }
+    int above = lrcsi_sample_above(t->view, t->facet, x);
+    lrcsi_dd up = {0, 0};
+    if (above != 0) {
+        up = lrcsi_exact_height(lrcsi_prepared_corner(p, t->facet, 0),
+                                lrcsi_prepared_corner(p, t->facet, 1),
+                                lrcsi_prepared_corner(p, t->facet, 2), x);
+    }
+    *height = t->view->facing[t->facet] > 0 ? up : lrcsi_dd_negate(up);
+    *off = 128 * U * U * fabs(up.hi);
+    return above;
+}
+
 static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
 {
     contact_heights h;
     for (int k = 0; k < 3; k++) {
         const double *x = lrcsi_target_corner(t->view, other, k);
-        h.fine[k] = height_finely(t, x, &h.off[k]);
-        double height = lrcsi_dd_value(h.fine[k]);
-        h.height[k] = height;
-        h.above[k] = fabs(height) > h.off[k] ? (height > 0 ? 1 : -1)
-                                             : lrcsi_sample_above(t->view, t->facet, x);
+        h.above[k] = height_find(t, x, &h.fine[k], &h.off[k]);
+        h.height[k] = lrcsi_dd_value(h.fine[k]);
     }
     return h;
 }

@@ -29,8 +29,10 @@
    in those of quotients and places, some 2^-1074, is lost in this. */
 #define UNDERFLOWN 0x1p-900
 
-/* A needle is so much longer than wide, or more; the rest of 2^106 is left to tell it by. */
+/* A needle is so much longer than wide, or more; the rest of 2^106 is left to tell it by. One that
+   spans the scene, so that some u of its length count there, is one earlier. */
 #define NEEDLE_LEAST 0x1p20
+#define NEEDLE_LARGE 0x1p8
 #define NEEDLE_MOST  0x1p76
 
 lrcsi_dd lrcsi_needle_quotient(lrcsi_dd a, lrcsi_dd b)
@@ -72,7 +74,8 @@ int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corne
                       double reach, lrcsi_needle *n)
 {
     double turn = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
-    if (turn * NEEDLE_LEAST > reach * reach) {
+    double least = reach > view->prepared->radius ? NEEDLE_LARGE : NEEDLE_LEAST;
+    if (turn * least > reach * reach) {
         return 0;
     }
     n->origin = lrcsi_target_corner(view, facet, 0);

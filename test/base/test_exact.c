@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Exact signs: against rational arithmetic (vectors/exact_signs.py), against 64-bit integers, and
-   the identities that a determinant obeys. */
+/* Exact signs and values: against rational arithmetic (vectors/exact_signs.py), against 64-bit
+   integers, and the identities that a determinant obeys. */
 #include "base/exact.h"
 
 #include <string.h>
@@ -10,7 +10,7 @@
 typedef struct sign_case {
     char kind; /* s: side, t: turn */
     int sign;
-    double x[12]; /* a, b, c, and p or d */
+    double x[14]; /* a, b, c, and p or d; the determinant, the rest of it */
 } sign_case;
 
 static const sign_case sign_cases[] = {
@@ -143,6 +143,23 @@ static void far_from_the_origin_agrees_with_integers(void **state)
     }
 }
 
+/* To double-double, or the dot to a double, however much cancels. */
+static void values_agree_with_rational_arithmetic(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SIGN_CASES; i++) {
+        const double *x = sign_cases[i].x;
+        const double *value = x + 12;
+        if (sign_cases[i].kind == 's') {
+            lrcsi_dd height = lrcsi_exact_height(x, x + 3, x + 6, x + 9);
+            lrcsi_dd off = lrcsi_dd_sub(height, (lrcsi_dd){value[0], value[1]});
+            check_abs(off.hi, 0, 100 * 0x1p-106 * fabs(value[0]));
+        } else {
+            check_rel(lrcsi_exact_dot(x, x + 3, x + 6, x + 9), value[0], 0x1p-52);
+        }
+    }
+}
+
 /* d = 2^44 p + e with small integers: the large part lies in the plane of p and q. */
 static void dot_keeps_its_digits_where_all_but_e_cancels(void **state)
 {
@@ -239,6 +256,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(signs_agree_with_rational_arithmetic),
+        cmocka_unit_test(values_agree_with_rational_arithmetic),
         cmocka_unit_test(swapping_two_points_negates),
         cmocka_unit_test(cyclic_shift_keeps_the_sign),
         cmocka_unit_test(mirroring_negates),

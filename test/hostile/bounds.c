@@ -147,9 +147,9 @@ static int read_case(FILE *in, hostile_case *c)
     return read_numbers(in, c->vertex[0].x, (int)(3 * vertices)) && read_facets(in, c);
 }
 
-/* Areas of the exact method: 1e-12 of the facet's projection and 1e-15 of the extent squared. Where
-   planes are parallel to 1e-19, as on a lattice, double-double ends: those that miss it are told,
-   but only their bounds count. */
+/* Areas of the exact method: 1e-12 of the facet's projection and 1e-15 of the extent squared. A facet
+   of which more cells are left than it may have misses it, as one of some 10,000 scenes on a lattice
+   has: that is told, but only its bound counts. */
 static void check_areas(const hostile_case *c, const lrcs_facet_record *records)
 {
     double low[3];

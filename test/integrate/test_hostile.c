@@ -154,6 +154,26 @@ static void needles_of_some_ulps_show_their_exact_shares(void **state)
     check_case("skins 1:4284");
 }
 
+/* Facets that pierce each other at angles of 1e-19 and less: where they do was not told to
+   double-double, and all of both was in doubt. */
+static void planes_all_but_parallel_meet_where_they_do(void **state)
+{
+    (void)state;
+    check_case("lattice 1:298");
+}
+
+/* A millionth as wide as long, and as long as the scene: what was left of some u of the length is
+   more than areas may be off by. */
+static void long_slivers_show_their_exact_shares(void **state)
+{
+    (void)state;
+    check_case("lattice 1:820");
+    check_case("lattice 1:2227");
+    check_case("lattice 1:2416");
+    check_case("lattice 2:4035");
+    check_case("lattice 4:606");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,6 +184,8 @@ int main(void)
         cmocka_unit_test(facet_thinner_than_its_rounding_is_asked_at_a_corner),
         cmocka_unit_test(needle_sampled_at_a_common_corner_is_decided),
         cmocka_unit_test(needles_of_some_ulps_show_their_exact_shares),
+        cmocka_unit_test(planes_all_but_parallel_meet_where_they_do),
+        cmocka_unit_test(long_slivers_show_their_exact_shares),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Writes exact_signs.inc: near-degenerate determinants and their signs.
+"""Writes exact_signs.inc: near-degenerate determinants, their signs and values.
 
-Signs come from rational arithmetic (fractions.Fraction of the very doubles printed). Each case is
+Both come from rational arithmetic (fractions.Fraction of the very doubles printed). Each case is
 four points; the turn case uses the fourth as a direction. usage: exact_signs.py > exact_signs.inc
 """
 import math
@@ -27,7 +27,7 @@ def sub(a, b):
 
 def answer(kind, a, b, c, d):
     last = sub(d, a) if kind == 's' else [F(x) for x in d]
-    return sign(det(sub(b, a), sub(c, a), last))
+    return det(sub(b, a), sub(c, a), last)
 
 
 def number(bits):
@@ -77,11 +77,13 @@ def text(x):
 
 
 def main():
-    print('/* Made by exact_signs.py: kind (s: side, t: turn), sign, a, b, c, and p or d. */')
+    print('/* Made by exact_signs.py: kind (s: side, t: turn), sign, a, b, c, and p or d; the value, the rest of it. */')
     for bits, exact, count in ((53, False, 400), (12, False, 1150), (12, True, 500)):
         for _ in range(count):
             kind, a, b, c, p = case(bits, exact)
-            row = [str(answer(kind, a, b, c, p))] + [text(x) for q in (a, b, c, p) for x in q]
+            value = answer(kind, a, b, c, p)
+            rest = float(value - F(float(value)))
+            row = [str(sign(value))] + [text(x) for q in (a, b, c, p, (float(value), rest)) for x in q]
             print("CASE('%s',%s)," % (kind, ','.join(row)))
 
 
