@@ -147,9 +147,9 @@ static int read_case(FILE *in, hostile_case *c)
     return read_numbers(in, c->vertex[0].x, (int)(3 * vertices)) && read_facets(in, c);
 }
 
-/* Areas of the exact method: 1e-12 of the facet's projection and 1e-15 of the extent squared. A facet
-   of which more cells are left than it may have misses it, as one of some 10,000 scenes on a lattice
-   has: that is told, but only its bound counts. */
+/* Areas of the exact method: 1e-12 of the facet's projection and 1e-15 of the extent squared. A
+   facet of which more cells are left than it may have misses it, as one of 40,000 scenes on a
+   lattice did: that is told, but only its bound counts. */
 static void check_areas(const hostile_case *c, const lrcs_facet_record *records)
 {
     double low[3];
