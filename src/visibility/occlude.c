@@ -57,7 +57,7 @@
 #define THIN 0x1p-20
 #define FAR  0x1p22
 /* A cell without place for a sample whose area is more than so many margins wide is only odd in
-   shape: it is halved. */
+   shape: it is halved, but half of all cells are for those that cuts divide. */
 #define NARROW 64.0
 /* A cell no larger than so many margins is left in doubt. */
 #define TINY_MARGINS 64.0
@@ -270,7 +270,7 @@ static int cell_do(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
             return 0;
         }
         cell->sure = 0;
-    } else if (!cell->sure &&
+    } else if (!cell->sure && o->cells > o->spare &&
                area > NARROW * cell_margin(o, cell->inset) * lrcsi_clip_perimeter(&cell->shape) &&
                cell_halve(o, cell)) {
         return 0;
@@ -317,6 +317,7 @@ static int cells_open(lrcsi_occluding *o, uint32_t facet)
     if (status == LRCS_OK) {
         lrcsi_cover_start(&o->cover, &o->target);
         o->cells = PARTS_MOST + (uint64_t)PARTS_A_CUT * o->cuts.count;
+        o->spare = o->cells / 2;
         o->stack[0] = (lrcsi_occlude_cell){.count = o->cuts.count};
         lrcsi_clip_triangle((const double(*)[2])o->frame.corner, &o->stack[0].shape);
         o->top = 1;

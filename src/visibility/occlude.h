@@ -41,6 +41,7 @@ typedef struct lrcsi_occluding {
     int contested;
     int whole;       /* all of it is visible, and no piece has been asked for yet */
     uint64_t cells;  /* that may yet be divided */
+    uint64_t spare;  /* of these, for cells that cuts divide */
     double area;     /* visible so far */
     double doubt[2]; /* area of cells that could not be told: hidden, visible by a guess */
     double off;      /* by which the area may be wrong */

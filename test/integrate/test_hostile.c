@@ -174,6 +174,14 @@ static void long_slivers_show_their_exact_shares(void **state)
     check_case("lattice 4:606");
 }
 
+/* Three sides of three facets lie in one line, but for some ulps: the strips between them took all
+   the cells that the facet may fall into, and the rest of it stayed in doubt. */
+static void strips_that_nothing_tells_leave_cells_for_the_rest(void **state)
+{
+    (void)state;
+    check_case("lattice 5:3187");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -186,6 +194,7 @@ int main(void)
         cmocka_unit_test(needles_of_some_ulps_show_their_exact_shares),
         cmocka_unit_test(planes_all_but_parallel_meet_where_they_do),
         cmocka_unit_test(long_slivers_show_their_exact_shares),
+        cmocka_unit_test(strips_that_nothing_tells_leave_cells_for_the_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
