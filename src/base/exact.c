@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Signs of 3 x 3 determinants of differences of points, and what slivers and grazing light leave of
-   normals. No tolerance. A
-   floating-point value with a proved error bound settles almost every call; what it leaves is
-   evaluated without error in expansion arithmetic (Priest 1991; Shewchuk 1997, "Adaptive precision
-   floating-point arithmetic and fast robust geometric predicates"): sums of doubles that do not
-   overlap, smallest first, zeros left out, so that the sign of the whole is that of the last term.
+   normals and heights. No tolerance. A floating-point value with a proved error bound settles
+   almost every call; what it leaves is evaluated without error in expansion arithmetic (Priest
+   1991; Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric
+   predicates"): sums of doubles that do not overlap, smallest first, zeros left out, so that the
+   sign of the whole is that of the last term.
 
    Filter. Let u = 2^-53 and let each rounding multiply by (1 + e), |e| <= u. The three vectors are
    differences of doubles (one rounding each) or given. A term d_k (u_i v_j - u_j v_i) then carries
@@ -269,11 +269,11 @@ int lrcsi_exact_collinear(const double a[3], const double b[3], const double c[3
     return 1;
 }
 
-/* The sum of an expansion. Its terms, smallest first, do not overlap, not even next to each other
-   but for pairs of powers of two (Shewchuk's strongly nonoverlapping): each is at most half of the
-   next, so that partial sums are at most twice their last term, those of all of them together four
-   times the largest, and the whole is at least a quarter of that. Additions of 3 u^2 each make 48
-   u^2. */
+/* The sum of an expansion. Its terms, smallest first, do not overlap, none is next to two others,
+   and two that are next to each other are powers of two (Shewchuk's strongly nonoverlapping). So
+   each is at most half of the next, partial sums are at most twice their last term, those of all of
+   them together four times the largest, and the whole is at least a quarter of that. Additions of 3
+   u^2 each make 48 u^2. */
 static lrcsi_dd expansion_value(const double *e, int n)
 {
     lrcsi_dd sum = {0.0, 0.0};
@@ -312,20 +312,13 @@ lrcsi_dd lrcsi_exact_height(const double a[3], const double b[3], const double c
     return expansion_value(all, expansion_det(bb, cc, pp, all));
 }
 
-/* The terms do not overlap: added from the smallest on, all but the last make at most a unit of the
-   last, and so do their roundings; the last addition is one more. */
 double lrcsi_exact_dot(const double a[3], const double b[3], const double c[3], const double d[3])
 {
     lrcsi_dd pp[3];
     lrcsi_dd qq[3];
     double all[EXACT_DET];
-    double sum = 0.0;
     exact_difference(a, b, pp);
     exact_difference(a, c, qq);
     const lrcsi_dd rr[3] = {{d[0], 0.0}, {d[1], 0.0}, {d[2], 0.0}};
-    int n = expansion_det(pp, qq, rr, all);
-    for (int i = 0; i < n; i++) {
-        sum += all[i];
-    }
-    return sum;
+    return lrcsi_dd_value(expansion_value(all, expansion_det(pp, qq, rr, all)));
 }

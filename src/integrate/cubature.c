@@ -21,7 +21,8 @@
      edge, the rule alone serves: its error is of the order of p^6, which then is the estimate.
    Where halvings run out, the bound on the cell stands as the estimate. Where cells run out, the
    triangle is done again to a coarser tolerance: all of it a little coarse beats a part untouched.
-   Where steps run out, what no rule may be trusted with is left, and its bound is no estimate. */
+   Where steps run out, cells that should be divided are left as they are, and what that may cost is
+   a bound and no estimate. */
 #include "integrate/cubature.h"
 
 #include <math.h>
@@ -120,10 +121,18 @@ static void value_add(cube_value *sum, double weight, const cube_value *value)
     sum->rounding += weight * value->rounding;
 }
 
+/* What rounding may add to the area of the triangle of corners 0, i and i + 1, in units of the
+   cell's: positions lose 2 u of the cell's size at every halving, the area that times the size, and
+   4 u itself. */
+static double fan_slack(const cube_cell *cell, int i)
+{
+    const double *u = cell->at[i];
+    const double *v = cell->at[i + 1];
+    return 8 * U * (1 + cell->depth) * (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1]);
+}
+
 /* The rule over the triangle of corners 0, i and i + 1: centroid 9/40; points (a, a, 1 - 2 a) and
-   turned, a = (6 -+ sqrt 15)/21, (155 -+ sqrt 15)/1200. Weights and sums are good to 16 u;
-   positions lose 2 u of the cell's size at every halving, the area that times the size, and 4 u
-   itself. */
+   turned, a = (6 -+ sqrt 15)/21, (155 -+ sqrt 15)/1200. Weights and sums are good to 16 u. */
 static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cube_value *value)
 {
     static const double rule[3][3] = {
@@ -133,8 +142,7 @@ static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cu
     const double *u = cell->at[i];
     const double *v = cell->at[i + 1];
     double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
-    double slack =
-        8 * U * (1 + cell->depth) * (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1]);
+    double slack = fan_slack(cell, i);
     cube_value mean = {0, 0, 0};
     for (int k = 0; k < 7 && area > 0; k++) {
         const double *node = rule[(k + 2) / 3]; /* the centroid once, the others three times */
@@ -406,17 +414,16 @@ static void cube_quarter(const lrcsi_cubature *sum, const cube_cell *cell, cube_
     }
 }
 
-static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell, double estimate)
+static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell)
 {
     lrcsi_sum_add(&sum->glint, cell->value.glint);
     lrcsi_sum_add(&sum->diffuse, cell->value.diffuse);
     sum->rounding += cell->value.rounding;
-    sum->estimate += estimate;
 }
 
-/* The most that a cell may hold, and the rule find there: all that is known of a cell which no rule
-   is good for. The normals lie in the cone of those at its corners, each off by the slip. */
-static double cube_most(const lrcsi_cubature *sum, const cube_cell *cell)
+/* The most that f_r cos reaches over normals in the cone of a cell's corners, each off by the slip.
+ */
+static double cube_peak(const lrcsi_cubature *sum, const cube_cell *cell)
 {
     double shortest = HUGE_VAL;
     for (int i = 0; i < cell->count; i++) {
@@ -425,25 +432,35 @@ static double cube_most(const lrcsi_cubature *sum, const cube_cell *cell)
     double off = 2 * sum->slip / shortest;
     double turn = off <= 1 ? cube_turn(cell) + off : HALF_TURN;
     lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
-    return cube_area(cell) * (most.glint + most.diffuse);
+    return most.glint + most.diffuse;
 }
 
-/* What a cell that is not divided further may be off by, where the rule puts that at `estimate`,
-   and is not to be trusted. */
-static void sum_leave(lrcsi_cubature *sum, const cube_cell *cell, double estimate)
+/* The most that a cell may hold, and that the rule may find there. */
+static double cube_most(const lrcsi_cubature *sum, const cube_cell *cell)
+{
+    double slack = 0;
+    for (int i = 1; i + 1 < cell->count; i++) {
+        slack += fan_slack(cell, i);
+    }
+    return (cube_area(cell) + cell->unit * slack) * cube_peak(sum, cell);
+}
+
+/* What a cell that is not divided further, though it should be, may be off by: of the rule's guess
+   where that could be had for more cells; where the steps are spent, for certain. */
+static void sum_leave(lrcsi_cubature *sum, const cube_cell *cell, double guess)
 {
     if (lrcsi_meter_spent(sum->meter)) {
         sum->left += cube_most(sum, cell);
     } else {
-        sum->estimate += estimate;
+        sum->estimate += guess;
     }
 }
 
-/* No halvings are left for a cell that no rule is good for. */
+/* A cell that no rule is good for, and that is not divided further. */
 static void cube_give_up(lrcsi_cubature *sum, cube_cell *cell)
 {
     cell->value = rule_value(sum, cell);
-    sum_keep(sum, cell, 0);
+    sum_keep(sum, cell);
     sum_leave(sum, cell, cube_most(sum, cell));
 }
 
@@ -463,12 +480,14 @@ static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_
     if (!must && !agree) {
         return 0;
     }
-    double estimate = off + cell->unheard * area;
-    if (!agree) {
-        sum_leave(sum, cell, estimate);
+    double guess = off + cell->unheard * area;
+    if (agree) {
+        sum->estimate += guess;
+    } else {
+        sum_leave(sum, cell, guess);
     }
     for (int i = 0; i < 4; i++) {
-        sum_keep(sum, &quarter[i], agree && i == 0 ? estimate : 0);
+        sum_keep(sum, &quarter[i]);
     }
     return 1;
 }
@@ -482,7 +501,8 @@ static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cu
     double area = cube_area(cell);
     double value = cell->value.glint + cell->value.diffuse;
     if (cell->trusted && cell->rough * value <= sum->tolerance * value + nothing_to(sum) * area) {
-        sum_keep(sum, cell, cell->rough * value + cell->unheard * area);
+        sum_keep(sum, cell);
+        sum->estimate += cell->rough * value + cell->unheard * area;
         return 0;
     }
     if (cell->trusted) {
@@ -558,22 +578,48 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     return sum;
 }
 
+/* What may be missed, per area, where normals that are off by the slip face the laser and do not
+   seem to: those are off the plane by no more than the slip over their length, which is at least
+   the shortest corner's times the cosine of the turn. */
+static double dark_slip(const lrcsi_cubature *sum, const cube_cell *whole)
+{
+    double shortest = HUGE_VAL;
+    double least = HUGE_VAL;
+    double most = -HUGE_VAL;
+    for (int i = 0; i < 3; i++) {
+        shortest = lrcsi_least(shortest, sqrt(square_of(whole->normal[i])));
+        least = lrcsi_least(least, whole->normal[i][2]);
+        most = lrcsi_most(most, whole->normal[i][2]);
+    }
+    if (least > sum->slip || most < -sum->slip) {
+        return 0;
+    }
+    double turn = cube_turn(whole);
+    double off = turn < HALF_TURN / 2 ? 2 * sum->slip / (shortest * cos(turn)) : HALF_TURN;
+    lrcsi_reflection near =
+        lrcsi_reflect_most(sum->brdf, HALF_TURN / 2, off <= 1 ? off : HALF_TURN);
+    return near.glint + near.diffuse;
+}
+
 void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area)
 {
     double level[CORNERS] = {0};
     cube_cell whole = cube_of(normal, area);
     cube_cell lit = {.unit = whole.unit};
+    if (!(area > 0)) {
+        return;
+    }
     for (int i = 0; i < 3; i++) {
         level[i] = normal[i][2];
     }
     cube_cut(&whole, level, 1, &lit);
-    if (!(area > 0) || lit.count < 3) {
+    sum->rounding += area * dark_slip(sum, &whole);
+    if (lit.count < 3) {
         return;
     }
     lrcsi_cubature start = *sum;
     cells_add(sum, lit);
-    while (sum->splits >= MOST_SPLITS && start.tolerance < MOST_COARSE &&
-           !lrcsi_meter_spent(sum->meter)) {
+    while (sum->splits >= MOST_SPLITS && start.tolerance < MOST_COARSE) {
         start.tolerance *= COARSER;
         *sum = start;
         cells_add(sum, lit);

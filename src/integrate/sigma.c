@@ -267,8 +267,8 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
             run_raster(run, &known, options->resolution != 0 ? options->resolution : FIRST_SIZE);
     }
     while (status == LRCS_OK && options->resolution == 0 && run->size < LAST_SIZE &&
-           !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) && run->contest.contested_count != 0 &&
-           !run_meets(&run->total, options->tolerance)) {
+           !run->meter.spent && !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) &&
+           run->contest.contested_count != 0 && !run_meets(&run->total, options->tolerance)) {
         uint32_t size = next_size(run, options->tolerance);
         status = run_raster(run, &known, size > run->size ? size : LAST_SIZE);
     }

@@ -106,25 +106,20 @@ int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
     return order;
 }
 
-/* In double-double where that tells it to TOLD, else exactly: planes all but parallel. Returns its
-   sign. */
+/* In double-double where that tells it to TOLD, else exactly; in a needle, of which others may be
+   2^76 times as long as it is wide, always. Returns its sign. */
 static int height_find(const lrcsi_target *t, const double *x, lrcsi_dd *height, double *off)
 {
     const lrcs_prepared *p = t->view->prepared;
     *height = height_finely(t, x, off);
-    if (fabs(height->hi) > TOLD * *off) {
-        return height->hi > 0 ? 1 : -1;
+    if (t->needle || !(fabs(height->hi) > TOLD * *off)) {
+        lrcsi_dd up = lrcsi_exact_height(lrcsi_prepared_corner(p, t->facet, 0),
+                                         lrcsi_prepared_corner(p, t->facet, 1),
+                                         lrcsi_prepared_corner(p, t->facet, 2), x);
+        *height = t->view->facing[t->facet] > 0 ? up : lrcsi_dd_negate(up);
+        *off = 128 * U * U * fabs(up.hi);
     }
-    int above = lrcsi_sample_above(t->view, t->facet, x);
-    lrcsi_dd up = {0, 0};
-    if (above != 0) {
-        up = lrcsi_exact_height(lrcsi_prepared_corner(p, t->facet, 0),
-                                lrcsi_prepared_corner(p, t->facet, 1),
-                                lrcsi_prepared_corner(p, t->facet, 2), x);
-    }
-    *height = t->view->facing[t->facet] > 0 ? up : lrcsi_dd_negate(up);
-    *off = 128 * U * U * fabs(up.hi);
-    return above;
+    return (height->hi > 0) - (height->hi < 0);
 }
 
 static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
@@ -138,18 +133,19 @@ static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
     return h;
 }
 
-/* Where side k of the facet passes through the target's plane, and how far that may be off: the
-   share t = h / (h - h') moves by at most the heights' errors over |h| + |h'|. */
+/* Where side k of the facet passes through the target's plane, its ends on both sides of it, and
+   how far that may be off: the share t = h / (h - h') moves by at most the heights' errors over |h|
+   + |h'|. */
 static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, double at[2])
 {
     int next = (k + 1) % 3;
     double span = fabs(h->height[k]) + fabs(h->height[next]);
     double off = h->off[k] + h->off[next];
-    double t = span > 0 ? lrcsi_least(1, fabs(h->height[k]) / span) : 0.5;
+    double t = lrcsi_least(1, fabs(h->height[k]) / span);
     for (int i = 0; i < 2; i++) {
         at[i] = c->corner[k][i] + t * (c->corner[next][i] - c->corner[k][i]);
     }
-    return span > 2 * off ? 4 * c->reach * (off / span) : HUGE_VAL;
+    return 4 * c->reach * (off / span);
 }
 
 /* May the segment be off by more than the facet is wide, about? */
@@ -246,26 +242,20 @@ static void corners_finely(const lrcsi_target *t, uint32_t other, contact_finely
     }
 }
 
-/* As side_cut, the share rounded to double-double (visibility/needle.c). Heights of wrong signs are
-   within their errors of 0, so that |h - h'| is at least 3/4 of |h| + |h'| where that is told, and
-   the share is off by at most the errors over it. */
+/* As side_cut, the share rounded to double-double (visibility/needle.c). */
 static double side_cut_finely(const contact_heights *h, contact_finely *f, int k, lrcsi_dd at[2])
 {
     int next = (k + 1) % 3;
     double span = fabs(h->height[k]) + fabs(h->height[next]);
     double off = h->off[k] + h->off[next];
-    int told = span > 8 * off;
     double length = 0;
-    lrcsi_dd t = {0.5, 0};
-    if (told) {
-        t = lrcsi_needle_quotient(h->fine[k], lrcsi_dd_sub(h->fine[k], h->fine[next]));
-    }
+    lrcsi_dd t = lrcsi_needle_quotient(h->fine[k], lrcsi_dd_sub(h->fine[k], h->fine[next]));
     for (int i = 0; i < 2; i++) {
         lrcsi_dd along = lrcsi_dd_sub(f->corner[next][i], f->corner[k][i]);
         at[i] = lrcsi_dd_add(f->corner[k][i], lrcsi_dd_mul(t, along));
         length += fabs(along.hi);
     }
-    return told ? 2 * length * (off / span) : HUGE_VAL;
+    return 2 * length * (off / span);
 }
 
 static void ends_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c)

@@ -159,14 +159,66 @@ static void a_flat_triangle_is_its_value_to_rounding(void **state)
     }
 }
 
+/* f_r cos theta at a normal of any length, plainly. */
+static double value_at(const lrcs_brdf *brdf, const double n[3])
+{
+    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double c = n[2] / length;
+    if (!(c > 0)) {
+        return 0;
+    }
+    double tan2 = (n[0] * n[0] + n[1] * n[1]) / (n[2] * n[2]);
+    return brdf->A / pow(c, 5) * exp(-tan2 / (brdf->s * brdf->s)) + brdf->B * pow(c, brdf->m + 1);
+}
+
 static void normals_that_face_away_see_nothing(void **state)
 {
     (void)state;
-    const double normal[3][3] = {{1, 0, -0.1}, {0, 1, -0.5}, {1, 1, 0}};
+    const double normal[3][3] = {{1, 0, -0.1}, {0, 1, -0.5}, {1, 1, -1e-12}};
     lrcs_brdf brdf = {1, 1, 0.2, 0};
     lrcsi_cubature sum = integrate(&brdf, normal, 1e-5);
     check_same(lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse), 0);
     check_same(sum.estimate + sum.rounding, 0);
+}
+
+/* By the slip, they may see something all the same, or more than they seem to. */
+static void normals_all_but_in_the_plane_may_see_what_the_slip_lets_them(void **state)
+{
+    (void)state;
+    lrcs_brdf brdf = {0, 1, 0.2, 0};
+    for (int i = -4; i <= 4; i++) {
+        double z = 0x1p-46 * i;
+        const double normal[3][3] = {{1, 0, z}, {1, 0, z}, {1, 0, z}};
+        lrcsi_cubature sum = integrate(&brdf, normal, 1e-5);
+        double most = lrcsi_sum_value(&sum.diffuse) + sum.rounding;
+        check_most(value_at(&brdf, (const double[3]){1, 0, z + sum.slip}), most);
+        check_most(most, 8 * sum.slip);
+    }
+}
+
+/* Where no steps are left, what was not looked at closer is within a bound, not an estimate; also
+   where the normals are as far off as is said. */
+static void without_steps_what_is_left_is_within_its_bound(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < 4 * VECTORS; i++) {
+        const vector *v = &vectors[i / 4];
+        lrcs_brdf brdf = {1, 0.25, v->s, v->m};
+        double slip = i % 2 ? 1e-3 : 0x1p-44;
+        double normal[3][3];
+        for (int k = 0; k < 9; k++) {
+            normal[k / 3][k % 3] = v->normal[k / 3][k % 3] + (k % 3 == 0 ? 0.99 : 0) * slip;
+        }
+        lrcsi_meter meter = {.most = i % 4 < 2 ? 0 : 2000};
+        lrcsi_cubature sum = start(&brdf, (const double(*)[3])normal, 1e-5);
+        sum.slip = slip;
+        sum.meter = &meter;
+        lrcsi_cubature_add(&sum, (const double(*)[3])normal, 1);
+        double want = v->glint + 0.25 * v->diffuse;
+        double got = lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse);
+        check_most(sum.estimate, 1e-4 * (want + got + sum.left));
+        check_abs(got, want, sum.left + sum.rounding + sum.estimate + 1e-12 * want);
+    }
 }
 
 /* Whatever the slope, it ends; where it cannot do what is asked, the estimate says so. */
@@ -187,18 +239,6 @@ static void absurd_slopes_end_in_finite_work_and_an_estimate_that_tells(void **s
             }
         }
     }
-}
-
-/* f_r cos theta at a normal of any length, plainly. */
-static double value_at(const lrcs_brdf *brdf, const double n[3])
-{
-    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    double c = n[2] / length;
-    if (!(c > 0)) {
-        return 0;
-    }
-    double tan2 = (n[0] * n[0] + n[1] * n[1]) / (n[2] * n[2]);
-    return brdf->A / pow(c, 5) * exp(-tan2 / (brdf->s * brdf->s)) + brdf->B * pow(c, brdf->m + 1);
 }
 
 static void the_most_is_above_every_value_and_near_the_largest(void **state)
@@ -233,6 +273,8 @@ int main(void)
         cmocka_unit_test(a_dark_edge_is_within_its_estimate),
         cmocka_unit_test(a_flat_triangle_is_its_value_to_rounding),
         cmocka_unit_test(normals_that_face_away_see_nothing),
+        cmocka_unit_test(normals_all_but_in_the_plane_may_see_what_the_slip_lets_them),
+        cmocka_unit_test(without_steps_what_is_left_is_within_its_bound),
         cmocka_unit_test(absurd_slopes_end_in_finite_work_and_an_estimate_that_tells),
         cmocka_unit_test(the_most_is_above_every_value_and_near_the_largest),
     };

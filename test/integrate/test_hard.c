@@ -367,8 +367,6 @@ static void interpenetrating_plates_hide_part_of_each_other(void **state)
     }
 }
 
-/* Fins of height h stand every p along x on a plate; light from (t, 0, 1). The next fin shades each
-   below h - p / t, and each gap of the plate is lit over p - h t. */
 /* A needle whose edge on x = -7 passes a corner of another facet by 1.4e-5, and which falls away so
    steeply that the other passes through it within 7e-12 of that corner, in a segment whose ends are
    one and the same to 1e-17 of the needle. It hides what lies between y = u / 2 and 25/21 u over
@@ -388,6 +386,27 @@ static void needle_pierced_beside_a_corner_is_hidden_as_by_hand(void **state)
     check_abs(scene_seen(&scene, 0, 1), (double)seen, 1e-12 * 999997.5);
 }
 
+/* The back of a facet above one quarter of a needle 2^-40 wide, and below the rest; by less and
+   less. */
+static void needle_pierced_by_a_plane_all_but_its_own_shows_what_is_above_it(void **state)
+{
+    (void)state;
+    static const double height[] = {1e-3, 1e-9, 1e-12, 2e-14, 1.2e-14, 1e-20, 1e-60};
+    for (size_t i = 0; i < sizeof height / sizeof *height; i++) {
+        double z = height[i];
+        scene_start(&scene);
+        scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                       (const double[3]){0.5, 0x1p-40, 0});
+        scene_triangle(&scene, (const double[3]){0, -1, z}, (const double[3]){0, 1, z},
+                       (const double[3]){1, 0, -3 * z});
+        lrcs_result r = scene_run(&scene, (const double[3]){0, 0, 1}, LRCS_METHOD_EXACT, 0);
+        check_abs(scene_seen(&scene, 0, 1), 0.875 * 0x1p-41, 1e-12 * 0x1p-41);
+        check_most(r.bound_m2, 1e-11 * r.sigma_m2);
+    }
+}
+
+/* Fins of height h stand every p along x on a plate; light from (t, 0, 1). The next fin shades each
+   below h - p / t, and each gap of the plate is lit over p - h t. */
 static void combs_of_thin_fins_shade_as_by_hand(void **state)
 {
     (void)state;
@@ -725,6 +744,7 @@ int main(void)
         cmocka_unit_test(directions_in_a_facets_plane_are_exactly_edge_on),
         cmocka_unit_test(interpenetrating_plates_hide_part_of_each_other),
         cmocka_unit_test(needle_pierced_beside_a_corner_is_hidden_as_by_hand),
+        cmocka_unit_test(needle_pierced_by_a_plane_all_but_its_own_shows_what_is_above_it),
         cmocka_unit_test(combs_of_thin_fins_shade_as_by_hand),
         cmocka_unit_test(inverted_closed_box_reflects_nothing_and_is_noticed),
         cmocka_unit_test(near_coplanar_skins_one_ulp_apart_keep_their_order),

@@ -39,6 +39,7 @@ static double check_part(const lrcs_result *all, int method, uint64_t steps)
     assert_true(r.budget.tessellation_m2 >= least * all->budget.tessellation_m2);
     if (method == LRCS_METHOD_ZBUFFER) {
         assert_true(r.bound_m2 >= least * all->bound_m2);
+        assert_true(r.resolution <= all->resolution); /* a finer one would not find them */
     }
     for (uint32_t f = 0; f < prepared->scene->facet_count; f++) {
         double whole = record[f].area_m2 * fabs(record[f].cos_theta);
@@ -170,6 +171,8 @@ static void curved_normals(void **state)
     options.resolution = 256;
     check_method(LRCS_METHOD_EXACT, 10);
     check_method(LRCS_METHOD_FACET, 10);
+    check_method(LRCS_METHOD_ZBUFFER, 10);
+    options.resolution = 0;
     check_method(LRCS_METHOD_ZBUFFER, 10);
 }
 

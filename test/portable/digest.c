@@ -224,6 +224,9 @@ static void digest_predicates(void)
         take_doubles(high, 3);
         take_doubles(low, 3);
         take_double(lrcsi_exact_dot(p[0], p[1], p[2], p[3]));
+        lrcsi_dd height = lrcsi_exact_height(p[0], p[1], p[2], p[3]);
+        take_double(height.hi);
+        take_double(height.lo);
     }
 }
 
