@@ -421,15 +421,19 @@ static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell)
     sum->rounding += cell->value.rounding;
 }
 
-/* The most that f_r cos reaches over normals in the cone of a cell's corners, each off by the slip.
- */
-static double cube_peak(const lrcsi_cubature *sum, const cube_cell *cell)
+static double cube_shortest(const cube_cell *cell)
 {
     double shortest = HUGE_VAL;
     for (int i = 0; i < cell->count; i++) {
         shortest = lrcsi_least(shortest, sqrt(square_of(cell->normal[i])));
     }
-    double off = 2 * sum->slip / shortest;
+    return shortest;
+}
+
+/* The most that f_r cos reaches in the cone of the corners' normals, each off by the slip. */
+static double cube_peak(const lrcsi_cubature *sum, const cube_cell *cell)
+{
+    double off = 2 * sum->slip / cube_shortest(cell);
     double turn = off <= 1 ? cube_turn(cell) + off : HALF_TURN;
     lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
     return most.glint + most.diffuse;
@@ -445,8 +449,8 @@ static double cube_most(const lrcsi_cubature *sum, const cube_cell *cell)
     return (cube_area(cell) + cell->unit * slack) * cube_peak(sum, cell);
 }
 
-/* What a cell that is not divided further, though it should be, may be off by: of the rule's guess
-   where that could be had for more cells; where the steps are spent, for certain. */
+/* What a cell that should be divided and is not may be off by: a guess or, where it is for want of
+   steps, for certain. */
 static void sum_leave(lrcsi_cubature *sum, const cube_cell *cell, double guess)
 {
     if (lrcsi_meter_spent(sum->meter)) {
@@ -583,11 +587,9 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
    the shortest corner's times the cosine of the turn. */
 static double dark_slip(const lrcsi_cubature *sum, const cube_cell *whole)
 {
-    double shortest = HUGE_VAL;
     double least = HUGE_VAL;
     double most = -HUGE_VAL;
     for (int i = 0; i < 3; i++) {
-        shortest = lrcsi_least(shortest, sqrt(square_of(whole->normal[i])));
         least = lrcsi_least(least, whole->normal[i][2]);
         most = lrcsi_most(most, whole->normal[i][2]);
     }
@@ -595,10 +597,11 @@ static double dark_slip(const lrcsi_cubature *sum, const cube_cell *whole)
         return 0;
     }
     double turn = cube_turn(whole);
-    double off = turn < HALF_TURN / 2 ? 2 * sum->slip / (shortest * cos(turn)) : HALF_TURN;
-    lrcsi_reflection near =
+    double length = turn < HALF_TURN / 2 ? cube_shortest(whole) * cos(turn) : 0;
+    double off = 2 * sum->slip / length;
+    lrcsi_reflection seen =
         lrcsi_reflect_most(sum->brdf, HALF_TURN / 2, off <= 1 ? off : HALF_TURN);
-    return near.glint + near.diffuse;
+    return seen.glint + seen.diffuse;
 }
 
 void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area)
