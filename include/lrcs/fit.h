@@ -83,8 +83,9 @@ size_t lrcs_fit_need(uint32_t count);
    Given: `count` readings in any order, several at an angle allowed.
    Returned: fit; point[count] unless NULL.
    Status: LRCS_OK; LRCS_E_EMPTY (fewer than LRCS_FIT_READINGS, or no value above 0);
-   LRCS_E_NUMBER (a reading not finite or outside its range; the largest f_r, or it in units of
-   some sigma, outside 1e-100 .. 1e100); LRCS_E_ARGUMENT (options); LRCS_E_MEMORY.
+   LRCS_E_NUMBER (a reading not finite or outside its range; the largest f_r outside 1e-100 ..
+   1e100, or in units of some sigma outside 1e-70 .. 1e70); LRCS_E_ARGUMENT (options);
+   LRCS_E_MEMORY.
    Work: lrcs_fit_need(count) bytes; time in proportion to count, some 5e3 evaluations of f_r each.
    Notes: 1. Least squares over the readings that are kept; A and B, which enter linearly, are
    solved for at every s and m (Golub and Pereyra 1973), never below 0.

@@ -28,8 +28,10 @@
    as uncertain as this share. */
 #define FIT_FIRST_SHARE 0.01
 
-/* Of the largest f_r, and of it in standard errors: 1e-100 .. 1e100. */
-#define FIT_SIZE_MOST 1e100
+/* Of the largest f_r, and of it in standard errors, of which determinants take the fourth power;
+   and one over that. */
+#define FIT_SIZE_MOST  1e100
+#define FIT_RATIO_MOST 1e70
 
 #define FIT_TRIMS 20 /* rounds of setting outliers aside */
 #define FIT_LOOKS 4  /* fits after a profile that met a better one */
@@ -62,19 +64,19 @@ static int reading_is_good(const lrcs_fit_reading *reading)
     return fabs(reading->angle_deg) < 90.0 && isfinite(reading->value);
 }
 
-/* Sizes whose squares neither overflow nor vanish in a sum; a NaN is none. */
-static int size_is_good(double size)
+/* A NaN is none. */
+static int size_is_good(double size, double most)
 {
-    return size > 1.0 / FIT_SIZE_MOST && size < FIT_SIZE_MOST;
+    return size > 1.0 / most && size < most;
 }
 
 static int sizes_are_good(const lrcs_fit_reading *reading, uint32_t count,
                           const lrcs_fit_options *options, double largest)
 {
     int given = options->noise == LRCS_FIT_GIVEN || options->noise == LRCS_FIT_WEIGHTED;
-    int good = size_is_good(options->unit * largest);
+    int good = size_is_good(options->unit * largest, FIT_SIZE_MOST);
     for (uint32_t i = 0; i < count && given && good; i++) {
-        good = size_is_good(largest / reading[i].sigma);
+        good = size_is_good(largest / reading[i].sigma, FIT_RATIO_MOST);
     }
     return good;
 }

@@ -382,6 +382,8 @@ static void what_cannot_be_fitted_is_refused_and_leaves_no_trace(void **state)
         {10, 1, 0, 1, 9, LRCS_FIT_WEIGHTED, LRCS_E_NUMBER},
         {10, 1, 1e-310, 1, 9, LRCS_FIT_WEIGHTED, LRCS_E_NUMBER},
         {10, 1, 1e300, 1, 9, LRCS_FIT_GIVEN, LRCS_E_NUMBER},
+        {10, 1, 1e-72, 1, 9, LRCS_FIT_GIVEN, LRCS_E_NUMBER},
+        {10, 1, 1e72, 1, 9, LRCS_FIT_WEIGHTED, LRCS_E_NUMBER},
         {10, 1, 1, 1e300, 9, LRCS_FIT_ABSOLUTE, LRCS_E_NUMBER},
         {10, 1e-300, 1, 1, 9, LRCS_FIT_ABSOLUTE, LRCS_E_NUMBER},
         {10, 1, 1, 0, 9, LRCS_FIT_ABSOLUTE, LRCS_E_ARGUMENT},
