@@ -450,11 +450,11 @@ static double cube_most(const lrcsi_cubature *sum, const cube_cell *cell)
 }
 
 /* What a cell that should be divided and is not may be off by: a guess or, where it is for want of
-   steps, for certain. */
-static void sum_leave(lrcsi_cubature *sum, const cube_cell *cell, double guess)
+   steps, the most. */
+static void sum_leave(lrcsi_cubature *sum, double most, double guess)
 {
     if (lrcsi_meter_spent(sum->meter)) {
-        sum->left += cube_most(sum, cell);
+        sum->left += most;
     } else {
         sum->estimate += guess;
     }
@@ -463,9 +463,10 @@ static void sum_leave(lrcsi_cubature *sum, const cube_cell *cell, double guess)
 /* A cell that no rule is good for, and that is not divided further. */
 static void cube_give_up(lrcsi_cubature *sum, cube_cell *cell)
 {
+    double most = cube_most(sum, cell);
     cell->value = rule_value(sum, cell);
     sum_keep(sum, cell);
-    sum_leave(sum, cell, cube_most(sum, cell));
+    sum_leave(sum, most, most);
 }
 
 /* Keeps the quarters where they agree with the whole, or must. 0: they are not kept. */
@@ -488,7 +489,7 @@ static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_
     if (agree) {
         sum->estimate += guess;
     } else {
-        sum_leave(sum, cell, guess);
+        sum_leave(sum, cube_most(sum, cell), guess);
     }
     for (int i = 0; i < 4; i++) {
         sum_keep(sum, &quarter[i]);

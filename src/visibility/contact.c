@@ -111,8 +111,12 @@ int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
 static int height_find(const lrcsi_target *t, const double *x, lrcsi_dd *height, double *off)
 {
     const lrcs_prepared *p = t->view->prepared;
-    *height = height_finely(t, x, off);
-    if (t->needle || !(fabs(height->hi) > TOLD * *off)) {
+    int told = 0;
+    if (!t->needle) {
+        *height = height_finely(t, x, off);
+        told = fabs(height->hi) > TOLD * *off;
+    }
+    if (!told) {
         lrcsi_dd up = lrcsi_exact_height(lrcsi_prepared_corner(p, t->facet, 0),
                                          lrcsi_prepared_corner(p, t->facet, 1),
                                          lrcsi_prepared_corner(p, t->facet, 2), x);

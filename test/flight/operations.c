@@ -108,7 +108,7 @@ static void make_scene(const char *kind, uint32_t count)
 /* Cuts of one facet: edges, and three for each contact. */
 static double most_cuts(const lrcs_prepared *p, uint32_t facet)
 {
-    return p->topology.edge_count + 3.0 * (p->touches.first[facet + 1] - p->touches.first[facet]);
+    return p->topology.edge_count + 3.0 * lrcsi_touches_of(&p->touches, facet);
 }
 
 /* What is left when steps have been spent. */
@@ -127,7 +127,7 @@ static double most_questions(const lrcs_prepared *p)
     }
     double most = 48 * n * n * n + 208 * n * n + 32 * n * k + 1100 * n + 160000;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        double own = p->touches.first[f + 1] - p->touches.first[f];
+        double own = lrcsi_touches_of(&p->touches, f);
         double cuts = most_cuts(p, f);
         most += n * (cuts + own) + (8193 + 512 * cuts) * (4 * cuts + 2 * n * (1 + cuts));
     }
