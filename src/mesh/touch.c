@@ -366,6 +366,37 @@ static int append_found(touch_search *search, touch_found found)
     return LRCS_OK;
 }
 
+/* Do segments a b and p q lie on one line, with more than a point in common? */
+static int segments_overlap(const double *a, const double *b, const double *p, const double *q)
+{
+    int longer = 0;
+    for (int k = 0; k < 3; k++) {
+        double low = a[k] < b[k] ? a[k] : b[k];
+        double high = a[k] < b[k] ? b[k] : a[k];
+        double from = p[k] < q[k] ? p[k] : q[k];
+        double to = p[k] < q[k] ? q[k] : p[k];
+        if (low > to || from > high) {
+            return 0;
+        }
+        longer |= (low > from ? low : from) < (high < to ? high : to);
+    }
+    return longer && lrcsi_exact_collinear(a, b, p) && lrcsi_exact_collinear(a, b, q);
+}
+
+/* The sides of f that lie along a part of a side of t, a bit each; not those that both have. */
+static unsigned sides_along(const touch_facet *f, const touch_facet *t)
+{
+    unsigned sides = 0;
+    for (int n = 0; n < 9; n++) {
+        const double *a = f->x[n / 3];
+        const double *b = f->x[(n / 3 + 1) % 3];
+        int both = is_corner_of(t, a) && is_corner_of(t, b);
+        sides |= (unsigned)(!both && segments_overlap(a, b, t->x[n % 3], t->x[(n + 1) % 3]))
+                 << n / 3;
+    }
+    return sides;
+}
+
 /* What `other` does to `facet`, one of a pair that may have more in common than corners. */
 static int meet_one(touch_search *search, uint32_t facet, const touch_facet *f, uint32_t other,
                     const touch_facet *t)
@@ -373,7 +404,7 @@ static int meet_one(touch_search *search, uint32_t facet, const touch_facet *f, 
     lrcsi_touches *touches = search->touches;
     int rim;
     int kind = touch_kind(f, t, &rim);
-    touches->rim[facet] |= rim != 0;
+    touches->rim[facet] |= rim ? (unsigned char)(1 | sides_along(f, t) << 1) : 0;
     if (search->piece && !touches->self && search->piece[facet] == search->piece[other]) {
         touches->self = kind != LRCSI_TOUCH_NONE || touches_side(f, t);
     }

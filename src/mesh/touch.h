@@ -26,7 +26,8 @@ typedef struct lrcsi_touches {
     lrcsi_touch *touch; /* by facet, then by other */
     uint32_t count;
     unsigned char *rim; /* facet: 1 where another may meet its rim other than in one of its corners
-                           or along a side that both have */
+                           or along a side that both have; then also a bit for each of its sides
+                           (lrcsi_touches_along) */
     int self; /* a facet meets the inside or a side of another of its own piece; 0 if not asked */
 } lrcsi_touches;
 
@@ -34,6 +35,13 @@ typedef struct lrcsi_touches {
 static inline uint32_t lrcsi_touches_of(const lrcsi_touches *touches, uint32_t facet)
 {
     return touches->first[facet + 1] - touches->first[facet];
+}
+
+/* Does side k of a facet, from its corner k to k + 1, have more than a point in common with a side
+   of another, but not both ends? */
+static inline int lrcsi_touches_along(const lrcsi_touches *touches, uint32_t facet, int k)
+{
+    return (touches->rim[facet] >> (k + 1) & 1) != 0;
 }
 
 /* How `other` (closed) meets the relative interior of `facet`: a lrcsi_touch_kind. Neither may be

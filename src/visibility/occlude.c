@@ -44,6 +44,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/cells.h"
 #include "visibility/query.h"
 
 #define U 0x1p-53
@@ -411,7 +412,10 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_cover_need(prepared), lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_WAITING, sizeof(lrcsi_occlude_cell)));
-    return lrcsi_work_add(need, lrcsi_cuts_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    size_t cuts = lrcsi_cuts_need(prepared);
+    size_t cells = lrcsi_cells_need(prepared);
+    return lrcsi_work_add(need, cuts > cells ? cuts : cells);
 }
 
 int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)
@@ -442,8 +446,18 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
     if (status == LRCS_OK) {
         lrcsi_visible_answered(view, o.uniform, visible);
     }
+    /* 1. Undecided facets all together, by cells of the view plane. */
+    unsigned char *open = lrcsi_work_take(work, view->prepared->scene->facet_count, 1);
+    status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        int parted = contest->contested[f];
+        open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
+    }
+    if (status == LRCS_OK && contest->contested_count > 0) {
+        lrcsi_cells_areas(contest, work, open, visible);
+    }
+    /* 2. One by one what that left open. */
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
+        int parted = open[f];
         if (parted && lrcsi_occlude_open(&o, f) == LRCS_OK) {
             visible[f] = lrcsi_occlude_area(&o);
         } else if (parted || o.uniform[f] == LRCSI_QUERY_UNDECIDED) {

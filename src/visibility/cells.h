@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* Visible areas by cells of the view plane: whatever lies behind a surface that covers a cell is
+   dropped there once, not facet by facet. */
+#ifndef LRCSI_CELLS_H
+#define LRCSI_CELLS_H
+
+#include "visibility/visible.h"
+
+/* Bytes at most. */
+size_t lrcsi_cells_need(const lrcs_prepared *prepared);
+
+/* Visible areas of the facets with open[facet] not 0, which must cast (visibility/grid.h). Where an
+   area is found to 1e-12 of the facet's projected area and 1e-15 of the square of the scene's
+   extent, it goes to visible[facet] and open[facet] becomes 0; facets that stay open are to be
+   clipped one by one. None is found where memory does not suffice; only some where the view's meter
+   is spent. Nothing stays in the work area. */
+void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned char *open,
+                       lrcsi_visible *visible);
+
+#endif
