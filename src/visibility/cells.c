@@ -1599,6 +1599,7 @@ void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned c
     const lrcs_prepared *p = view->prepared;
     uint32_t count = p->scene->facet_count;
     size_t mark = work->used;
+    size_t peak = work->peak; /* nothing is missing where this finds no memory */
     cells_work c = {.contest = contest, .view = view, .open = open};
     c.room = list_room(p);
     c.segment_room = count + SEGMENT_LEAST;
