@@ -154,7 +154,7 @@ static int previews_add(converge_job *job)
         setting->mesh = mesh;
         code = setting_run(job, setting);
         if (setting->method == LRCS_METHOD_FACET) {
-            job->settings--;
+            job->setting[--job->settings] = (converge_setting){.dial = 0};
             break;
         }
     }
