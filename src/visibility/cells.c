@@ -86,6 +86,8 @@
 /* An area may be off by so much of itself, and of the square of the scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
+/* A cell whose area is less than this of that may be charged whole. */
+#define SPARED 0.05
 
 /* A facet that casts, in view coordinates. */
 typedef struct cells_facet {
@@ -156,7 +158,7 @@ typedef struct cells_border {
     cells_part part;
 } cells_border;
 
-enum { FOUND_SEEN = 1, FOUND_HIDDEN = 2, FOUND_OPEN = 4 };
+enum { FOUND_SEEN = 1, FOUND_HIDDEN = 2, FOUND_OPEN = 4, FOUND_SPARED = 8 };
 
 /* A vertex in the view, once it is made. */
 typedef struct cells_point {
@@ -559,6 +561,22 @@ static uint32_t *cell_segments(const cells_work *c, const cells_cell *cell)
 static void facet_charge(cells_work *c, uint32_t facet, double doubt)
 {
     c->area[facet].doubt += c->open[facet] ? doubt : 0;
+}
+
+/* Charges all of a cell that has no room for a sample, where it is next to nothing. */
+static int cell_spare(cells_work *c, const cells_cell *cell, const cells_sides *s)
+{
+    double extent = 2 * c->view->prepared->radius;
+    double area = lrcsi_clip_area(&cell->shape) + 2 * s->g * s->perimeter;
+    if (!(area < SPARED * ACCURACY_OF_SCENE * extent * extent)) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < cell->facets; i++) {
+        uint32_t facet = c->list[cell->first + i];
+        c->found[facet] |= FOUND_SPARED;
+        facet_charge(c, facet, cell->doubt + area);
+    }
+    return 1;
 }
 
 /* Nothing can be told of the cell. */
@@ -1206,6 +1224,10 @@ static void cell_do(cells_work *c, cells_cell *cell)
         }
     }
 
+    if (answer == SAMPLE_UNSURE && cell_spare(c, cell, &s)) {
+        return;
+    }
+
     /* 2. The component, and what is behind it. */
     double doubt = 0;
     int covers = 0;
@@ -1630,6 +1652,8 @@ void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned c
             }
         }
         areas_tell(&c, visible);
+    } else {
+        work->peak = peak;
     }
     work->used = mark;
 }
