@@ -79,6 +79,9 @@
 #define TRIES 3
 /* Edges of a component at the border of a cell. */
 #define MOST_BORDERS 128u
+/* Steps that a block may take, and for each facet and segment in it. */
+#define STEPS_LEAST 65536u
+#define STEPS_EACH  256u
 /* Room for lists, a facet and beside that; for segments of a grid cell likewise. */
 #define LIST_A_FACET  8u
 #define LIST_LEAST    65536u
@@ -86,8 +89,8 @@
 /* An area may be off by so much of itself, and of the square of the scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
-/* A cell whose area is less than this of that may be charged whole. */
-#define SPARED 0.05
+/* A cell that is no wider than so many strips may be charged whole. */
+#define SLIVER 8
 
 /* A facet that casts, in view coordinates. */
 typedef struct cells_facet {
@@ -121,6 +124,7 @@ typedef struct cells_cell {
     size_t first;
     uint32_t facets, segments;
     uint32_t cuts, struck;
+    double drift;  /* how far a place that belongs to it may be from it */
     double doubt;  /* area that may be wrong for any facet, yet to be charged */
     double inset;  /* the widest w of what was struck */
     double cut[3]; /* the line along which it was last cut, */
@@ -139,11 +143,12 @@ typedef struct cells_sides {
 } cells_sides;
 
 /* What is found of a facet that is asked about. */
-typedef struct cells_area {
+typedef struct cells_found {
     double seen;  /* area in cells where it is seen */
     double off;   /* by which that may be wrong */
-    double doubt; /* area of strips */
-} cells_area;
+    double doubt; /* area of strips, */
+    double cut;   /* and their length */
+} cells_found;
 
 /* What of a segment is in a cell, or within w of it: between two shares of its length; at the
    border, how deep. */
@@ -153,7 +158,7 @@ typedef struct cells_part {
 
 /* A segment at the border of a cell. */
 typedef struct cells_border {
-    const double *line, *start; /* of it, and where it starts */
+    double line[3], start[2]; /* of it, and where it starts */
     double length, w;
     cells_part part;
 } cells_border;
@@ -175,15 +180,14 @@ typedef struct cells_work {
     unsigned char *found; /* facet: FOUND_... */
     unsigned char *kind;  /* facet: KIND_... */
     cells_facet *facet;
-    cells_area *area;
+    cells_found *area;
     uint32_t *event_listed; /* event: the look that last met it */
     uint32_t *listed;       /* facet: the look that found it in the list */
     uint32_t *met; /* facet: 2 look + 1 where it surely covers the sample, 2 look where perhaps */
     uint32_t *joined; /* facet: the look whose component it is in */
     uint32_t *component, *hit;
     uint32_t components, look;
-    cells_border border[MOST_BORDERS];
-    double border_from[MOST_BORDERS][2];
+    cells_border *border; /* of the component, at the border of the cell */
     uint32_t borders;
     uint32_t *list;
     size_t room;
@@ -252,7 +256,7 @@ static const double *point_of(cells_work *c, uint32_t vertex)
 /* The same from the middle of the block at hand; *off grows to how far that may be off, and lines
    through it (0.5 u of the sum of its coordinates from the centre of the view, and of those from
    the middle 0.5 u, and 5 u for a line); *z_err to the error of z. */
-static void point_place(cells_work *c, uint32_t vertex, double out[3], double *off, double *z_err)
+static void point_local(cells_work *c, uint32_t vertex, double out[3], double *off, double *z_err)
 {
     const double *x = point_of(c, vertex);
     out[0] = x[0] - c->middle[0];
@@ -281,7 +285,7 @@ static double line_at(const double line[3], double x, double y)
 }
 
 /* The plane and its error, as told above; HUGE_VAL where it is so narrow that only corners tell. */
-static void facet_plane(cells_facet *f, const double z[3])
+static void facet_slope(cells_facet *f, const double z[3])
 {
     double dx[2] = {f->x[1] - f->x[0], f->x[2] - f->x[0]};
     double dy[2] = {f->y[1] - f->y[0], f->y[2] - f->y[0]};
@@ -317,7 +321,7 @@ static const cells_facet *facet_make(cells_work *c, uint32_t facet)
     double z[3];
     f->off = f->z_err = 0;
     for (int k = 0; k < 3; k++) {
-        point_place(c, corner[view->facing[facet] > 0 ? k : (3 - k) % 3], p[k], &f->off, &f->z_err);
+        point_local(c, corner[view->facing[facet] > 0 ? k : (3 - k) % 3], p[k], &f->off, &f->z_err);
         f->x[k] = p[k][0];
         f->y[k] = p[k][1];
         z[k] = p[k][2];
@@ -331,7 +335,7 @@ static const cells_facet *facet_make(cells_work *c, uint32_t facet)
         f->low[i] = lrcsi_least(p[0][i], lrcsi_least(p[1][i], p[2][i]));
         f->high[i] = lrcsi_most(p[0][i], lrcsi_most(p[1][i], p[2][i]));
     }
-    facet_plane(f, z);
+    facet_slope(f, z);
     return f;
 }
 
@@ -367,7 +371,7 @@ static uint32_t odd_neighbour(const lrcsi_view *view, uint32_t facet, uint32_t e
 
 /* Who continues a facet across a side of its own numbering, events of the view being the only edges
    where nobody does (visibility/event.h); LRCS_NONE where nobody does. */
-static uint32_t facet_across(const lrcsi_view *view, uint32_t facet, int k)
+static uint32_t facet_joined(const lrcsi_view *view, uint32_t facet, int k)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t other = p->across.facet[facet].corner[k];
@@ -383,7 +387,7 @@ static uint32_t facet_across(const lrcsi_view *view, uint32_t facet, int k)
 /* Who continues it for all that is done here. */
 static uint32_t facet_next(const cells_work *c, uint32_t facet, int k)
 {
-    uint32_t other = facet_across(c->view, facet, k);
+    uint32_t other = facet_joined(c->view, facet, k);
     return other != LRCS_NONE && ((c->kind[facet] | c->kind[other]) & KIND_APART) == 0 &&
                    !lrcsi_touches_along(&c->view->prepared->touches, facet, k)
                ? other
@@ -403,7 +407,7 @@ static void sides_of(const cells_work *c, const cells_cell *cell, cells_sides *s
 {
     const lrcsi_clip_polygon *p = &cell->shape;
     s->count = p->count;
-    s->g = (16 + 4 * (double)cell->cuts) * U * c->reach;
+    s->g = 16 * U * c->reach + cell->drift;
     lrcsi_clip_box(p, s->low, s->high);
     s->perimeter = 2 * ((s->high[0] - s->low[0]) + (s->high[1] - s->low[1]));
     for (uint32_t i = 0; i < p->count; i++) {
@@ -507,8 +511,8 @@ static double sides_clear(const cells_sides *s, const double at[2])
 
 /* Charges what it puts in doubt to the facets that come near: no more than the strip has along the
    length of the facet. What is next to nothing goes to all of them, later. */
-static void cell_charge(cells_work *c, cells_cell *cell, const cells_sides *s,
-                        const cells_border *e)
+static void cells_charge(cells_work *c, cells_cell *cell, const cells_sides *s,
+                         const cells_border *e)
 {
     double strip = e->w + lrcsi_most(0, e->part.deep);
     double doubt = strip * ((e->part.to - e->part.from) * e->length + FAR * e->w);
@@ -548,12 +552,14 @@ static void cell_charge(cells_work *c, cells_cell *cell, const cells_sides *s,
         double beyond = FAR * e->w + far;
         if (across[1] > -far && across[0] < far && along[1] > e->part.from * cut - beyond &&
             along[0] < e->part.to * e->length + beyond) {
-            c->area[facet].doubt += lrcsi_least(doubt, strip * (along[1] - along[0] + 2 * far));
+            double length = along[1] - along[0] + 2 * far;
+            c->area[facet].doubt += lrcsi_least(doubt, strip * length);
+            c->area[facet].cut += lrcsi_least(doubt / strip, length);
         }
     }
 }
 
-static uint32_t *cell_segments(const cells_work *c, const cells_cell *cell)
+static uint32_t *cells_segments(const cells_work *c, const cells_cell *cell)
 {
     return c->list + cell->first + cell->facets;
 }
@@ -563,24 +569,27 @@ static void facet_charge(cells_work *c, uint32_t facet, double doubt)
     c->area[facet].doubt += c->open[facet] ? doubt : 0;
 }
 
-/* Charges all of a cell that has no room for a sample, where it is next to nothing. */
-static int cell_spare(cells_work *c, const cells_cell *cell, const cells_sides *s)
+/* Charges all of a cell that has no room for a sample, where it is a sliver. */
+static int cells_spare(cells_work *c, const cells_cell *cell, const cells_sides *s)
 {
-    double extent = 2 * c->view->prepared->radius;
+    double wide = SLIVER * (cell->inset + c->off + s->g);
     double area = lrcsi_clip_area(&cell->shape) + 2 * s->g * s->perimeter;
-    if (!(area < SPARED * ACCURACY_OF_SCENE * extent * extent)) {
+    if (!(area < wide * s->perimeter)) {
         return 0;
     }
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t facet = c->list[cell->first + i];
         c->found[facet] |= FOUND_SPARED;
-        facet_charge(c, facet, cell->doubt + area);
+        if (c->open[facet]) {
+            c->area[facet].doubt += cell->doubt + area;
+            c->area[facet].cut += 0.5 * s->perimeter;
+        }
     }
     return 1;
 }
 
 /* Nothing can be told of the cell. */
-static void cell_leave(cells_work *c, const cells_cell *cell)
+static void cells_leave(cells_work *c, const cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
         c->found[c->list[cell->first + i]] |= FOUND_OPEN;
@@ -588,7 +597,7 @@ static void cell_leave(cells_work *c, const cells_cell *cell)
 }
 
 /* Is a facet in the list whose area is wanted? */
-static int cell_wanted(const cells_work *c, const cells_cell *cell)
+static int cells_wanted(const cells_work *c, const cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = c->list[cell->first + i];
@@ -644,8 +653,8 @@ enum { SAMPLE_UNSURE, SAMPLE_NONE, SAMPLE_FOUND };
 
 /* The facet nearest to the laser at a place; all others that may cover it are then surely behind.
  */
-static int cell_sample(cells_work *c, const cells_cell *cell, const cells_sides *s,
-                       const double at[2], uint32_t *best)
+static int cells_sample(cells_work *c, const cells_cell *cell, const cells_sides *s,
+                        const double at[2], uint32_t *best)
 {
     uint32_t hits = 0;
     double most = -HUGE_VAL;
@@ -703,8 +712,8 @@ static int cell_sample(cells_work *c, const cells_cell *cell, const cells_sides 
 
 /* Follows the surface around a facet through the cell. 1 where it covers the cell once, unless
    events or contacts in the list cross it; its edges at the border of the cell are noted. */
-static int cell_component(cells_work *c, const cells_cell *cell, const cells_sides *s,
-                          uint32_t best)
+static int cells_component(cells_work *c, const cells_cell *cell, const cells_sides *s,
+                           uint32_t best)
 {
     int whole = 1;
     c->borders = 0;
@@ -738,9 +747,12 @@ static int cell_component(cells_work *c, const cells_cell *cell, const cells_sid
             if (place == PLACE_BORDER && next != LRCS_NONE) {
                 whole &= c->borders < MOST_BORDERS;
                 if (whole) {
-                    c->border[c->borders] = (cells_border){f->side[k], NULL, f->length[k], w, part};
-                    c->border_from[c->borders][0] = p[0];
-                    c->border_from[c->borders++][1] = p[1];
+                    c->border[c->borders++] =
+                        (cells_border){{f->side[k][0], f->side[k][1], f->side[k][2]},
+                                       {p[0], p[1]},
+                                       f->length[k],
+                                       w,
+                                       part};
                 }
             } else if (place == PLACE_BORDER) {
                 continue;
@@ -887,7 +899,7 @@ static void shape_clip(lrcsi_clip_polygon *shape, const double line[3])
 static void facet_seen(cells_work *c, const cells_cell *cell, const cells_sides *s, uint32_t facet)
 {
     const cells_facet *f = &c->facet[facet];
-    cells_area *area = &c->area[facet];
+    cells_found *area = &c->area[facet];
     lrcsi_clip_polygon piece = cell->shape;
     double w = f->off + s->g;
     double diameter = 0.5 * s->perimeter;
@@ -908,7 +920,7 @@ static void facet_seen(cells_work *c, const cells_cell *cell, const cells_sides 
 }
 
 /* All of the cell shows the component, or nothing where that has no facets. */
-static void cell_decide(cells_work *c, const cells_cell *cell, const cells_sides *s, double doubt)
+static void cells_decide(cells_work *c, const cells_cell *cell, const cells_sides *s, double doubt)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = c->list[cell->first + i];
@@ -972,14 +984,14 @@ static void part_near(const cells_facet *f, const lrcsi_clip_polygon *left,
 
 /* Cuts a cell along a line: the part on the left stays where it is, that on the right goes behind
    it. 0 where there is no room. */
-static int cell_cut(cells_work *c, const cells_cell *cell, const cells_sides *s,
-                    const double line[3], const cells_segment *along)
+static int cells_cut(cells_work *c, const cells_cell *cell, const cells_sides *s,
+                     const double line[3], const cells_segment *along)
 {
     uint32_t struck = along ? (uint32_t)(along - c->segment) : LRCS_NONE;
     cells_part part = {0, 1, 0};
     double strip = 0;
     if (along) {
-        strip = along->off + s->g + 4 * U * c->reach;
+        strip = along->off + s->g + 4 * U * c->reach + U * s->perimeter;
         segment_place(cell, s, along->end[0], along->end[1], along->line, strip, &part);
     }
     double from = part.from * 0.7 * (along ? along->length : 0);
@@ -990,6 +1002,7 @@ static int cell_cut(cells_work *c, const cells_cell *cell, const cells_sides *s,
     const lrcsi_clip_polygon *p = &cell->shape;
     const double *common[2]; /* corners of both parts */
     int commons = 0;
+    double longest = 0; /* of the sides that are cut */
     side[0]->count = side[1]->count = 0;
     if (p->count + 2 > LRCSI_CLIP_SIDES) {
         return 0;
@@ -1008,12 +1021,14 @@ static int cell_cut(cells_work *c, const cells_cell *cell, const cells_sides *s,
                 double *corner = side[k]->corner[side[k]->count++];
                 corner[0] = here[0] + t * (next[0] - here[0]);
                 corner[1] = here[1] + t * (next[1] - here[1]);
+                longest = lrcsi_most(longest, fabs(next[0] - here[0]) + fabs(next[1] - here[1]));
                 if (k == 0 && commons < 2) {
                     common[commons++] = corner;
                 }
             }
         }
     }
+    double drift = cell->drift + U * longest + 0.75 * U * c->reach;
     memcpy(left.cut, line, sizeof left.cut);
     memcpy(right.cut, line, sizeof right.cut);
     left.sign = 1;
@@ -1023,7 +1038,8 @@ static int cell_cut(cells_work *c, const cells_cell *cell, const cells_sides *s,
     left.inset = right.inset = lrcsi_most(cell->inset, 2 * strip);
     uint32_t total = cell->facets + cell->segments;
     size_t end = cell->first + total;
-    double g = (16 + 4 * (double)left.cuts) * U * c->reach;
+    double g = 16 * U * c->reach + drift;
+    left.drift = right.drift = drift;
     if (c->top + 2 > MOST_WAITING || end + total > c->room) {
         return 0;
     }
@@ -1056,6 +1072,7 @@ static int cell_cut(cells_work *c, const cells_cell *cell, const cells_sides *s,
             double length = lrcsi_least(near[1] + beyond, to + beyond) -
                             lrcsi_most(near[0] - beyond, from - beyond);
             c->area[index].doubt += 2 * strip * lrcsi_most(0, length);
+            c->area[index].cut += lrcsi_most(0, length);
         }
         if (on_left && on_right) {
             part_near(f, &left.shape, &right.shape, common, commons, g, &on_left, &on_right);
@@ -1090,12 +1107,12 @@ static int cell_cut(cells_work *c, const cells_cell *cell, const cells_sides *s,
     return 1;
 }
 
-static int cell_halve(cells_work *c, const cells_cell *cell, const cells_sides *s)
+static int cells_halve(cells_work *c, const cells_cell *cell, const cells_sides *s)
 {
     int wide = s->high[0] - s->low[0] > s->high[1] - s->low[1];
     const double line[3] = {
         wide, !wide, wide ? -0.5 * (s->low[0] + s->high[0]) : -0.5 * (s->low[1] + s->high[1])};
-    return cell_cut(c, cell, s, line, NULL);
+    return cells_cut(c, cell, s, line, NULL);
 }
 
 /* --- one cell --------------------------------------------------------------------------------- */
@@ -1114,9 +1131,9 @@ static int segment_stays(const cells_cell *cell, const cells_segment *e, double 
 }
 
 /* Strikes what is apart from the cell, or only at its border, which is charged. */
-static void cell_strike(cells_work *c, cells_cell *cell, const cells_sides *s)
+static void cells_strike(cells_work *c, cells_cell *cell, const cells_sides *s)
 {
-    uint32_t *list = cell_segments(c, cell);
+    uint32_t *list = cells_segments(c, cell);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const cells_segment *e = &c->segment[list[i]];
@@ -1132,21 +1149,26 @@ static void cell_strike(cells_work *c, cells_cell *cell, const cells_sides *s)
         } else if (place == PLACE_BORDER) {
             cell->struck++;
             cell->inset = lrcsi_most(cell->inset, w + lrcsi_most(0, part.deep));
-            cell_charge(c, cell, s, &(cells_border){e->line, e->end[0], e->length, w, part});
+            cells_charge(c, cell, s,
+                         &(cells_border){{e->line[0], e->line[1], e->line[2]},
+                                         {e->end[0][0], e->end[0][1]},
+                                         e->length,
+                                         w,
+                                         part});
         }
     }
     cell->segments = kept;
 }
 
 /* Drops facets behind the component, which covers the cell, and the edges behind it. */
-static void cell_drop(cells_work *c, cells_cell *cell, const cells_sides *s, double doubt)
+static void cells_drop(cells_work *c, cells_cell *cell, const cells_sides *s, double doubt)
 {
     double low = HUGE_VAL;
     for (uint32_t i = 0; i < c->components; i++) {
         low = lrcsi_least(low, box_height(&c->facet[c->component[i]], s, -1));
     }
     uint32_t *list = c->list + cell->first;
-    uint32_t *segments = cell_segments(c, cell);
+    uint32_t *segments = cells_segments(c, cell);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = list[i];
@@ -1175,9 +1197,9 @@ static void cell_drop(cells_work *c, cells_cell *cell, const cells_sides *s, dou
 enum { CHOOSE_OWN, CHOOSE_EDGES, CHOOSE_ANY };
 
 /* The longest of the segments of a kind, or NULL. */
-static const cells_segment *cell_choose(const cells_work *c, const cells_cell *cell, int which)
+static const cells_segment *cells_choose(const cells_work *c, const cells_cell *cell, int which)
 {
-    const uint32_t *list = cell_segments(c, cell);
+    const uint32_t *list = cells_segments(c, cell);
     const cells_segment *best = NULL;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const cells_segment *e = &c->segment[list[i]];
@@ -1191,14 +1213,14 @@ static const cells_segment *cell_choose(const cells_work *c, const cells_cell *c
 }
 
 /* Does one cell: it is decided, cut, or left. */
-static void cell_do(cells_work *c, cells_cell *cell)
+static void cells_do(cells_work *c, cells_cell *cell)
 {
     cells_sides s;
-    if (!cell_wanted(c, cell)) {
+    if (!cells_wanted(c, cell)) {
         return;
     }
     sides_of(c, cell, &s);
-    cell_strike(c, cell, &s);
+    cells_strike(c, cell, &s);
     c->components = 0;
 
     /* 1. A sample; where it cannot be told, another. */
@@ -1220,11 +1242,11 @@ static void cell_do(cells_work *c, cells_cell *cell)
         clear = sides_clear(&s, at);
         c->look++;
         if (clear > 4 * (cell->inset + c->off + s.g)) {
-            answer = cell_sample(c, cell, &s, at, &best);
+            answer = cells_sample(c, cell, &s, at, &best);
         }
     }
 
-    if (answer == SAMPLE_UNSURE && cell_spare(c, cell, &s)) {
+    if (answer == SAMPLE_UNSURE && cells_spare(c, cell, &s)) {
         return;
     }
 
@@ -1233,8 +1255,8 @@ static void cell_do(cells_work *c, cells_cell *cell)
     int covers = 0;
     const cells_segment *cut = NULL;
     if (answer == SAMPLE_FOUND) {
-        covers = cell_component(c, cell, &s, best);
-        cut = cell_choose(c, cell, CHOOSE_OWN);
+        covers = cells_component(c, cell, &s, best);
+        cut = cells_choose(c, cell, CHOOSE_OWN);
         covers = covers && !cut;
         if (clear < THIN * s.perimeter) {
             double strips = 2 * ((double)cell->struck + c->borders) * (cell->inset + c->off + s.g) *
@@ -1242,30 +1264,29 @@ static void cell_do(cells_work *c, cells_cell *cell)
             doubt = lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s.g * s.perimeter);
         }
         for (uint32_t i = 0; i < c->borders && covers; i++) {
-            c->border[i].start = c->border_from[i];
-            cell_charge(c, cell, &s, &c->border[i]);
+            cells_charge(c, cell, &s, &c->border[i]);
         }
         if (covers) {
-            cell_drop(c, cell, &s, doubt);
+            cells_drop(c, cell, &s, doubt);
         }
     }
 
     /* 3. Decided, or cut. */
     if (!cut) {
         int told = covers || answer == SAMPLE_NONE;
-        cut = cell_choose(c, cell, told ? CHOOSE_EDGES : CHOOSE_ANY);
+        cut = cells_choose(c, cell, told ? CHOOSE_EDGES : CHOOSE_ANY);
         if (!cut && told) {
-            cell_decide(c, cell, &s, cell->doubt + doubt);
+            cells_decide(c, cell, &s, cell->doubt + doubt);
             return;
         }
     }
     int done = 0;
     if (cut && cell->cuts < MOST_CUTS) {
-        done = cell->shape.count > MANY_CORNERS ? cell_halve(c, cell, &s)
-                                                : cell_cut(c, cell, &s, cut->line, cut);
+        done = cell->shape.count > MANY_CORNERS ? cells_halve(c, cell, &s)
+                                                : cells_cut(c, cell, &s, cut->line, cut);
     }
     if (!done) {
-        cell_leave(c, cell);
+        cells_leave(c, cell);
     }
 }
 
@@ -1307,8 +1328,8 @@ static int open_edge(cells_work *c, uint32_t edge)
         }
     }
     e->edge = owners > 2 ? edge : LRCS_NONE;
-    point_place(c, of->low, e->end[0], &e->off, &e->z_err);
-    point_place(c, of->high, e->end[1], &e->off, &e->z_err);
+    point_local(c, of->low, e->end[0], &e->off, &e->z_err);
+    point_local(c, of->high, e->end[1], &e->off, &e->z_err);
     segment_line(e);
     return 1;
 }
@@ -1321,7 +1342,7 @@ static int open_joins(cells_work *c, uint32_t facet)
         return 1;
     }
     for (int k = 0; k < 3; k++) {
-        uint32_t other = facet_across(c->view, facet, k);
+        uint32_t other = facet_joined(c->view, facet, k);
         if (other != LRCS_NONE && facet_next(c, facet, k) == LRCS_NONE &&
             !open_edge(c, c->view->prepared->topology.facet_edge[facet].corner[k])) {
             return 0;
@@ -1370,7 +1391,7 @@ static int open_contacts(cells_work *c, uint32_t facet)
             return 0;
         }
         double origin[3];
-        point_place(c, view->prepared->scene->facet[facet].corner[0], origin, &e->off, &e->z_err);
+        point_local(c, view->prepared->scene->facet[facet].corner[0], origin, &e->off, &e->z_err);
         for (int n = 0; n < 2; n++) {
             e->end[n][0] = origin[0] + contact.end[n][0];
             e->end[n][1] = origin[1] + contact.end[n][1];
@@ -1546,23 +1567,27 @@ static void block_do(cells_work *c, uint32_t x, uint32_t y)
         block_leave(c, block);
         return;
     }
+    /* Where cells become too many, clipping is left to itself. */
+    uint64_t most = STEPS_LEAST + STEPS_EACH * (uint64_t)(cell.facets + cell.segments);
     c->stack[0] = cell;
     c->top = 1;
     while (c->top > 0) {
         cell = c->stack[--c->top];
-        if (!lrcsi_meter_take(meter, (uint64_t)1 + cell.facets + cell.segments)) {
+        uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
+        if (steps > most || !lrcsi_meter_take(meter, steps)) {
             block_leave(c, block);
             return;
         }
-        cell_do(c, &cell);
+        most -= steps;
+        cells_do(c, &cell);
     }
 }
 
 /* --- all cells -------------------------------------------------------------------------------- */
 
-static lrcsi_visible facet_area(const cells_work *c, uint32_t facet, double *off)
+static lrcsi_visible facet_told(const cells_work *c, uint32_t facet, double *off)
 {
-    const cells_area *a = &c->area[facet];
+    const cells_found *a = &c->area[facet];
     double whole = lrcsi_view_tilt(c->view, facet).projected;
     double seen = (c->found[facet] & FOUND_HIDDEN) == 0 ? whole
                   : (c->found[facet] & FOUND_SEEN) == 0 ? 0
@@ -1572,17 +1597,32 @@ static lrcsi_visible facet_area(const cells_work *c, uint32_t facet, double *off
     return (lrcsi_visible){seen, lrcsi_most(0, seen - *off), lrcsi_least(whole, seen + *off), 0, 0};
 }
 
+/* What a facet's area may be off by, so that it is told: as said in the header, and as much as
+   clipping the facet alone would cost (visibility/occlude.c): for each cut a strip as wide as
+   128 u of the facet's diameter, or wider. */
+static double facet_accuracy(const cells_work *c, uint32_t facet)
+{
+    const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
+    double extent = 2 * c->view->prepared->radius;
+    double diameter = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *p = c->view->point[corner[k]].x;
+        const double *q = c->view->point[corner[(k + 1) % 3]].x;
+        diameter = lrcsi_most(diameter, lrcsi_most(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
+    }
+    return ACCURACY_OF_FACET * lrcsi_view_projected(c->view, facet) +
+           ACCURACY_OF_SCENE * extent * extent + 128 * U * diameter * c->area[facet].cut;
+}
+
 static void areas_tell(const cells_work *c, lrcsi_visible *visible)
 {
-    double extent = 2 * c->view->prepared->radius;
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
         if (!c->open[f] || (c->found[f] & FOUND_OPEN) != 0 || c->found[f] == 0) {
             continue;
         }
         double off;
-        lrcsi_visible area = facet_area(c, f, &off);
-        if (off <= ACCURACY_OF_FACET * lrcsi_view_projected(c->view, f) +
-                       ACCURACY_OF_SCENE * extent * extent) {
+        lrcsi_visible area = facet_told(c, f, &off);
+        if (off <= facet_accuracy(c, f)) {
             visible[f] = area;
             c->open[f] = 0;
         }
@@ -1604,13 +1644,14 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     need =
         lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_GRID_FACET_CELLS * facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(cells_facet)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(cells_area)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(cells_found)));
     need =
         lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(cells_point)));
     need = lrcsi_work_add(need, 5 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(prepared->topology.edge_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(list_room(prepared), sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets + SEGMENT_LEAST, sizeof(cells_segment)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_BORDERS, sizeof(cells_border)));
     return lrcsi_work_add(need, lrcsi_work_bytes(MOST_WAITING, sizeof(cells_cell)));
 }
 
@@ -1638,10 +1679,11 @@ void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned c
     c.hit = lrcsi_work_take(work, count, sizeof *c.hit);
     c.list = lrcsi_work_take(work, c.room, sizeof *c.list);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
+    c.border = lrcsi_work_take(work, MOST_BORDERS, sizeof *c.border);
     c.stack = lrcsi_work_take(work, MOST_WAITING, sizeof *c.stack);
     if (!p->convex && c.point && c.event_listed && c.found && c.kind && c.facet && c.area &&
-        c.listed && c.met && c.joined && c.component && c.hit && c.list && c.segment && c.stack &&
-        blocks_make(&c, work)) {
+        c.listed && c.met && c.joined && c.component && c.hit && c.list && c.segment && c.border &&
+        c.stack && blocks_make(&c, work)) {
         axes_make(&c);
         for (uint32_t f = 0; f < count; f++) {
             c.kind[f] = lrcsi_grid_casts(view, f) && facet_apart(view, f) ? KIND_APART : 0;

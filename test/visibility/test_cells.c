@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: MIT */
+/* Cells of the view plane find the areas that clipping finds facet by facet, within both bounds,
+   whatever touches what. */
+#include "visibility/cells.h"
+
+#include "base/work.h"
+#include "scenes.h"
+#include "visibility/occlude.h"
+
+static test_scene scene;
+static lrcs_work work;
+static lrcsi_view view;
+static lrcsi_contest contest;
+static lrcsi_visible found[SCENE_FACETS];
+static unsigned char open[SCENE_FACETS];
+
+static void turned(const double direction[3])
+{
+    lrcs_pose pose;
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+}
+
+/* Asks for all undecided facets. Returns how many there are; *left is how many stay open. */
+static uint32_t ask(uint32_t *left)
+{
+    uint32_t asked = 0;
+    *left = 0;
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        open[f] = contest.contested[f] && lrcsi_grid_casts(&view, f);
+        asked += open[f];
+    }
+    lrcsi_cells_areas(&contest, &work, open, found);
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        *left += open[f];
+    }
+    return asked;
+}
+
+/* What is found against clipping: the bounds overlap, and cells are as good as is said. Returns how
+   many facets cells decided. */
+static uint32_t agree(const double direction[3])
+{
+    uint32_t left;
+    turned(direction);
+    uint32_t asked = ask(&left);
+    lrcsi_occluding o;
+    assert_int_equal(lrcsi_occlude_make(&contest, &work, &o), LRCS_OK);
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        if (!contest.contested[f] || !lrcsi_grid_casts(&view, f) || open[f]) {
+            continue;
+        }
+        assert_int_equal(lrcsi_occlude_open(&o, f), LRCS_OK);
+        lrcsi_visible clipped = lrcsi_occlude_area(&o);
+        double rounding = 1e-16 * lrcsi_view_projected(&view, f);
+        check_most(found[f].low - clipped.high, rounding);
+        check_most(clipped.low - found[f].high, rounding);
+        check_most(found[f].low - found[f].area, 0);
+        check_most(found[f].area - found[f].high, 0);
+    }
+    return asked - left;
+}
+
+/* The share of a facet that is seen, cells having decided it. */
+static double share(uint32_t facet)
+{
+    assert_int_equal(open[facet], 0);
+    assert_true(contest.contested[facet]);
+    return found[facet].area / lrcsi_view_projected(&view, facet);
+}
+
+static void point(double x, double y, double z)
+{
+    scene_vertex(&scene, x, y, z);
+}
+
+static void flip(void)
+{
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        uint32_t corner = scene.facet[f].corner[1];
+        scene.facet[f].corner[1] = scene.facet[f].corner[2];
+        scene.facet[f].corner[2] = corner;
+    }
+    scene.material[0].two_sided = 1;
+}
+
+/* K is z = 0 left of the y axis and falls on its right; Q rises to the axis and is level beyond: no
+   insides meet, and both folds join two facets, yet behind the axis the one is nearer that was
+   farther before it. */
+static void surfaces_that_change_order_along_a_fold_of_both(void **state)
+{
+    (void)state;
+    for (int winding = 0; winding < 2; winding++) {
+        scene_start(&scene);
+        for (int i = 0; i < 2; i++) {
+            double y = i == 0 ? 1 : 2;
+            uint32_t v = scene.scene.vertex_count;
+            point(-1, -y, i == 0 ? 0 : -1);
+            point(0, -y, 0);
+            point(1, -y, i == 0 ? -1 : 0);
+            point(-1, y, i == 0 ? 0 : -1);
+            point(0, y, 0);
+            point(1, y, i == 0 ? -1 : 0);
+            scene_facet(&scene, v, v + 1, v + 4);
+            scene_facet(&scene, v, v + 4, v + 3);
+            scene_facet(&scene, v + 1, v + 2, v + 5);
+            scene_facet(&scene, v + 1, v + 5, v + 4);
+        }
+        if (winding) {
+            flip();
+        }
+        assert_true(agree((const double[3]){0, 0, 1}) >= 4);
+        for (uint32_t f = 0; f < 8; f++) { /* left of K, right of K, left of Q, right of Q */
+            static const double sum[4] = {2, 0, 2, 4};
+            double left = contest.contested[f] ? found[f].area : -1;
+            if (f % 2 == 1) {
+                double both = 0;
+                for (uint32_t i = f - 1; i <= f; i++) {
+                    both += contest.contested[i] ? lrcsi_prepared_area(view.prepared, found[i].area)
+                                                 : sum[f / 2] / 2;
+                }
+                check_abs(both, sum[f / 2], 1e-14);
+            }
+            assert_true(left == -1 || !open[f]);
+        }
+        agree((const double[3]){0.1, 0.2, 1});
+    }
+}
+
+/* A square twice, its facets 0 and 3 on one diagonal, 1 and 2 on the other: 0 wins, 3 loses. */
+static void square_stored_twice_with_both_diagonals(void **state)
+{
+    (void)state;
+    for (int winding = 0; winding < 2; winding++) {
+        scene_start(&scene);
+        point(0, 0, 0);
+        point(1, 0, 0);
+        point(1, 1, 0);
+        point(0, 1, 0);
+        scene_facet(&scene, 0, 1, 2);
+        scene_facet(&scene, 0, 1, 3);
+        scene_facet(&scene, 1, 2, 3);
+        scene_facet(&scene, 0, 2, 3);
+        if (winding) {
+            flip();
+        }
+        turned((const double[3]){0.1, 0.3, 1});
+        uint32_t left;
+        ask(&left);
+        assert_true(!contest.contested[0]); /* it is seen whole: nothing hides it */
+        check_abs(share(1), 0.5, 1e-13);
+        check_abs(share(2), 0.5, 1e-13);
+        check_abs(share(3), 0, 1e-13);
+        agree((const double[3]){0, 0, 1});
+        agree((const double[3]){0.3, -0.2, 1});
+    }
+}
+
+/* One plate pierces another at a slant: a contact divides both. */
+static void plates_that_pierce_each_other(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                (const double[3]){0, 1, 0});
+    scene_plate(&scene, (const double[3]){-1, -1, -0.75}, (const double[3]){3, 0, 1.5},
+                (const double[3]){0, 3, 0});
+    assert_int_equal(agree((const double[3]){0, 0, 1}), 4);
+    double first = share(0) + share(1); /* z = 0 beyond x = 1/2 is behind */
+    check_abs(first, 1, 1e-13);
+}
+
+/* A ramp that winds around an axis twice passes behind itself: one component, two layers. */
+static void ramp_that_passes_behind_itself(void **state)
+{
+    (void)state;
+    for (int winding = 0; winding < 2; winding++) {
+        scene_start(&scene);
+        for (int i = 0; i <= 48; i++) {
+            double t = 4 * (double)SCENE_PI * i / 48;
+            point(0.2 * cos(t), 0.2 * sin(t), -0.05 * i);
+            point(cos(t), sin(t), -0.05 * i);
+        }
+        for (uint32_t i = 0; i < 48; i++) {
+            scene_facet(&scene, 2 * i, 2 * i + 1, 2 * i + 3);
+            scene_facet(&scene, 2 * i, 2 * i + 3, 2 * i + 2);
+        }
+        if (winding) {
+            flip();
+        }
+        assert_true(agree((const double[3]){0.3, 0.2, 1}) > 10);
+        agree((const double[3]){0, 0, 1});
+        agree((const double[3]){1, 0.2, 0.3});
+    }
+}
+
+/* --- at random -------------------------------------------------------------------------------- */
+
+static uint32_t dice_state;
+
+static uint32_t dice(uint32_t most)
+{
+    dice_state = dice_state * 1664525u + 1013904223u;
+    return (dice_state >> 8) % most;
+}
+
+/* Facets on few points: they pierce, stand on, share and double each other, in every way; pinched,
+   of three to an edge, and one-sided. */
+static void soup(uint32_t seed, uint32_t points, uint32_t side, uint32_t facets)
+{
+    dice_state = seed;
+    scene_start(&scene);
+    for (uint32_t i = 0; i < points; i++) {
+        double x = dice(side);
+        double y = dice(side);
+        point(x, y, dice(side));
+    }
+    for (uint32_t i = 0; i < facets; i++) {
+        uint32_t a = dice(points);
+        uint32_t b = dice(points);
+        scene_facet(&scene, a, b, dice(points));
+    }
+    scene.material[0].two_sided = (unsigned char)(seed % 2);
+}
+
+static void soups_on_few_points_agree_with_clipping(void **state)
+{
+    (void)state;
+    static const double direction[][3] = {{0, 0, 1},       {1, 0, 0},    {1, 1, 1},
+                                          {0.3, -0.2, 0.9}, {-1, 2, 0.5}, {0, 1, 1}};
+    uint32_t decided = 0;
+    for (uint32_t seed = 0; seed < 150; seed++) {
+        soup(seed, 6 + seed % 20, 3 + seed % 5, 8 + seed % 40);
+        for (int winding = 0; winding < 2; winding++) {
+            for (size_t i = 0; i < sizeof direction / sizeof *direction; i++) {
+                decided += agree(direction[i]);
+            }
+            flip();
+        }
+    }
+    assert_true(decided > 10000);
+}
+
+/* --- limits ----------------------------------------------------------------------------------- */
+
+static void hatch(int n)
+{
+    scene_start(&scene);
+    for (int i = 0; i < n; i++) {
+        double at = (double)i / n;
+        scene_plate(&scene, (const double[3]){0, at, 0}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 0.5 / n, 0});
+        scene_plate(&scene, (const double[3]){at, 0, -1}, (const double[3]){0.5 / n, 0, 0},
+                    (const double[3]){0, 1, 0});
+    }
+}
+
+/* Twice the strips are four times the pieces that are seen: the steps grow as those do. */
+static void hatch_takes_steps_like_the_pieces_that_are_seen(void **state)
+{
+    (void)state;
+    uint64_t steps[2];
+    for (int i = 0; i < 2; i++) {
+        uint32_t left;
+        lrcsi_meter meter = {.most = UINT64_MAX};
+        hatch(50 << i);
+        turned((const double[3]){0, 0, 1});
+        view.meter = &meter;
+        assert_int_equal(ask(&left), 4 * (50 << i) / 2);
+        assert_int_equal(left, 0);
+        steps[i] = meter.taken;
+    }
+    assert_true(steps[1] < 6 * steps[0]);
+    assert_true(steps[1] < 2000000);
+}
+
+static void steps_that_run_out_leave_facets_open(void **state)
+{
+    (void)state;
+    hatch(20);
+    for (uint64_t most = 1; most < 200000; most *= 4) {
+        uint32_t left;
+        lrcsi_meter meter = {.most = most};
+        turned((const double[3]){0, 0, 1});
+        view.meter = &meter;
+        uint32_t asked = ask(&left);
+        assert_true(meter.spent ? left > 0 : left == 0);
+        assert_true(left <= asked && meter.taken <= most);
+    }
+}
+
+static void memory_that_does_not_suffice_leaves_all_open(void **state)
+{
+    (void)state;
+    uint32_t left;
+    hatch(10);
+    turned((const double[3]){0, 0, 1});
+    size_t size = work.size;
+    size_t used = work.used;
+    size_t peak = work.peak;
+    work.size = work.used + lrcsi_cells_need(view.prepared) / 4;
+    uint32_t asked = ask(&left);
+    assert_int_equal(left, asked);
+    assert_int_equal(work.used, used);
+    assert_int_equal(work.peak, peak);
+    work.size = work.used + lrcsi_cells_need(view.prepared);
+    ask(&left);
+    assert_int_equal(left, 0);
+    assert_true(work.peak <= work.size);
+    work.size = size;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(surfaces_that_change_order_along_a_fold_of_both),
+        cmocka_unit_test(square_stored_twice_with_both_diagonals),
+        cmocka_unit_test(plates_that_pierce_each_other),
+        cmocka_unit_test(ramp_that_passes_behind_itself),
+        cmocka_unit_test(soups_on_few_points_agree_with_clipping),
+        cmocka_unit_test(hatch_takes_steps_like_the_pieces_that_are_seen),
+        cmocka_unit_test(steps_that_run_out_leave_facets_open),
+        cmocka_unit_test(memory_that_does_not_suffice_leaves_all_open),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
