@@ -178,6 +178,14 @@ bounds: $(LIB)
 	    python3 test/hostile/bounds.py $(BOUNDS_SCENES) $(BOUNDS_SEED) $$kind >$(BUILD)/test/hostile/$$kind && \
 	    $(BUILD)/test/hostile/bounds $(BUILD)/test/hostile/$$kind || exit 1; \
 	done
+# Areas by cells of the view plane against facets one by one, on MODELS from AGREE directions each.
+agree: $(LIB)
+	@mkdir -p $(BUILD)/test/visibility
+	$(CC) $(STD) $(OPT) $(WARN) -Iinclude -Isrc -o $(BUILD)/test/visibility/agree test/visibility/agree.c $(LIB) $(LDLIBS)
+	$(BUILD)/test/visibility/agree $(AGREE) $(MODELS)
+AGREE  = 100
+MODELS = $(sort $(wildcard ../shared/models/*.3ds ../shared/models/*.obj ../shared/models/*.stl))
+
 BOUNDS_SCENES = 500
 BOUNDS_SEED   = 1
 
@@ -267,7 +275,7 @@ cmocka:
 
 .PHONY: all demo charts study install uninstall clean cmocka
 .PHONY: test asan tsan lint purity layers amalgamation stack flight operations misra portable
-.PHONY: fuzz fuzz-long coverage test-core bounds estimate shadows bench scaling big
+.PHONY: fuzz fuzz-long coverage test-core bounds agree estimate shadows bench scaling big
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------

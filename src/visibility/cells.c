@@ -44,11 +44,12 @@
    the cell (`BORDER`) has its part in the cell within 2 w of the line along a side of the cell, or
    of its own line with the cell on one side. P is clear of these by c. So the way from P to x
    crosses the segment only if x lies within 2 w of that line, and no farther along it from the
-   segment than 2 w / c of the cell's diameter, which is below FAR w where c is above THIN of the
-   perimeter. That area is in doubt; it is charged to the facets of the list that come near, when
-   the segment is struck from the list; all cells that come of the cell are then rid of it. In a
-   thin cell the strips of all that were struck run along the whole of it. The area of a facet in a
-   cell is off by w times the length of its sides there, and 4 u b n times the cell's perimeter.
+   segment than 2 w / c of the cell's diameter, which is below CELLS_FAR w where c is above
+   CELLS_THIN of the perimeter. That area is in doubt; it is charged to the facets of the list that
+   come near, when the segment is struck from the list; all cells that come of the cell are then rid
+   of it. In a thin cell the strips of all that were struck run along the whole of it. The area of a
+   facet in a cell is off by w times the length of its sides there, and 4 u b n times the cell's
+   perimeter.
 
    Heights. In a facet of height H above each side, a place within w of it has barycentric
    coordinates off by w / H; with the facet's slope at most G, twice what it is as computed, its z
@@ -69,12 +70,12 @@
 #define U 0x1p-53
 
 /* The clearance of a sample in a cell that is not thin, of the perimeter, and what follows. */
-#define THIN 0x1p-32
-#define FAR  0x1p34
+#define CELLS_THIN 0x1p-32
+#define CELLS_FAR  0x1p34
 /* Cuts on the way to a cell, at most; cells that wait; corners above which a cell is halved. */
-#define MOST_CUTS    200u
-#define MOST_WAITING (MOST_CUTS + 2)
-#define MANY_CORNERS 20u
+#define MOST_CUTS     200u
+#define CELLS_WAITING (MOST_CUTS + 2)
+#define MANY_CORNERS  20u
 /* Samples that may be tried in a cell. */
 #define TRIES 3
 /* Edges of a component at the border of a cell. */
@@ -515,7 +516,7 @@ static void cells_charge(cells_work *c, cells_cell *cell, const cells_sides *s,
                          const cells_border *e)
 {
     double strip = e->w + lrcsi_most(0, e->part.deep);
-    double doubt = strip * ((e->part.to - e->part.from) * e->length + FAR * e->w);
+    double doubt = strip * ((e->part.to - e->part.from) * e->length + CELLS_FAR * e->w);
     if (doubt < 0x1p-58 * c->reach * c->reach) {
         cell->doubt += doubt;
         return;
@@ -534,7 +535,7 @@ static void cells_charge(cells_work *c, cells_cell *cell, const cells_sides *s,
             continue;
         }
         double far = 4 * strip + f->off + s->g;
-        double reject = far + FAR * e->w;
+        double reject = far + CELLS_FAR * e->w;
         if (f->low[0] > box[1][0] + reject || f->high[0] < box[0][0] - reject ||
             f->low[1] > box[1][1] + reject || f->high[1] < box[0][1] - reject) {
             continue;
@@ -549,7 +550,7 @@ static void cells_charge(cells_work *c, cells_cell *cell, const cells_sides *s,
             along[0] = lrcsi_least(along[0], t);
             along[1] = lrcsi_most(along[1], t);
         }
-        double beyond = FAR * e->w + far;
+        double beyond = CELLS_FAR * e->w + far;
         if (across[1] > -far && across[0] < far && along[1] > e->part.from * cut - beyond &&
             along[0] < e->part.to * e->length + beyond) {
             double length = along[1] - along[0] + 2 * far;
@@ -1040,7 +1041,7 @@ static int cells_cut(cells_work *c, const cells_cell *cell, const cells_sides *s
     size_t end = cell->first + total;
     double g = 16 * U * c->reach + drift;
     left.drift = right.drift = drift;
-    if (c->top + 2 > MOST_WAITING || end + total > c->room) {
+    if (c->top + 2 > CELLS_WAITING || end + total > c->room) {
         return 0;
     }
     if (left.shape.count < 3 || right.shape.count < 3) {
@@ -1068,7 +1069,7 @@ static int cells_cut(cells_work *c, const cells_cell *cell, const cells_sides *s
                 near[0] = lrcsi_least(near[0], t);
                 near[1] = lrcsi_most(near[1], t);
             }
-            double beyond = FAR * strip + f->off;
+            double beyond = CELLS_FAR * strip + f->off;
             double length = lrcsi_least(near[1] + beyond, to + beyond) -
                             lrcsi_most(near[0] - beyond, from - beyond);
             c->area[index].doubt += 2 * strip * lrcsi_most(0, length);
@@ -1258,7 +1259,7 @@ static void cells_do(cells_work *c, cells_cell *cell)
         covers = cells_component(c, cell, &s, best);
         cut = cells_choose(c, cell, CHOOSE_OWN);
         covers = covers && !cut;
-        if (clear < THIN * s.perimeter) {
+        if (clear < CELLS_THIN * s.perimeter) {
             double strips = 2 * ((double)cell->struck + c->borders) * (cell->inset + c->off + s.g) *
                             s.perimeter;
             doubt = lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s.g * s.perimeter);
@@ -1652,7 +1653,7 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     need = lrcsi_work_add(need, lrcsi_work_bytes(list_room(prepared), sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets + SEGMENT_LEAST, sizeof(cells_segment)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_BORDERS, sizeof(cells_border)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(MOST_WAITING, sizeof(cells_cell)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(CELLS_WAITING, sizeof(cells_cell)));
 }
 
 void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned char *open,
@@ -1680,7 +1681,7 @@ void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned c
     c.list = lrcsi_work_take(work, c.room, sizeof *c.list);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.border = lrcsi_work_take(work, MOST_BORDERS, sizeof *c.border);
-    c.stack = lrcsi_work_take(work, MOST_WAITING, sizeof *c.stack);
+    c.stack = lrcsi_work_take(work, CELLS_WAITING, sizeof *c.stack);
     if (!p->convex && c.point && c.event_listed && c.found && c.kind && c.facet && c.area &&
         c.listed && c.met && c.joined && c.component && c.hit && c.list && c.segment && c.border &&
         c.stack && blocks_make(&c, work)) {
