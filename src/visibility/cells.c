@@ -90,6 +90,8 @@
 /* An area may be off by so much of itself, and of the square of the scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
+/* A facet with less of its diameter's square is a needle. */
+#define NEEDLE 0x1p-18
 /* A cell that is no wider than so many strips may be charged whole. */
 #define SLIVER 8
 
@@ -104,6 +106,7 @@ typedef struct cells_facet {
     double low[2], high[2]; /* its box */
     double off;             /* of its vertices */
     double z_err;           /* of their z */
+    int thin;               /* its sides are those of a band */
 } cells_facet;
 
 /* An event edge or a contact. */
@@ -285,6 +288,34 @@ static double line_at(const double line[3], double x, double y)
     return line[0] * x + line[1] * y + line[2];
 }
 
+static int longest_side(const cells_facet *f)
+{
+    int k = f->length[1] > f->length[0] ? 1 : 0;
+    return f->length[2] > f->length[k] ? 2 : k;
+}
+
+/* Its least height, as computed: negative where rounding has turned it over. */
+static double facet_least(const cells_facet *f)
+{
+    int k = (longest_side(f) + 2) % 3;
+    return line_at(f->side[longest_side(f)], f->x[k], f->y[k]);
+}
+
+/* A facet so narrow that it may have been turned over: its sides are replaced by those of the band
+   about its longest side that has all of it. It covers nothing surely, and is not decided. */
+static void facet_flatten(cells_facet *f)
+{
+    double wide = fabs(facet_least(f)) + 4 * f->off;
+    double line[3];
+    memcpy(line, f->side[longest_side(f)], sizeof line);
+    for (int k = 0; k < 3; k++) {
+        int sign = k == 1 ? -1 : 1;
+        f->side[k][0] = sign * line[0];
+        f->side[k][1] = sign * line[1];
+        f->side[k][2] = sign * line[2] + wide;
+    }
+}
+
 /* The plane and its error, as told above; HUGE_VAL where it is so narrow that only corners tell. */
 static void facet_slope(cells_facet *f, const double z[3])
 {
@@ -337,6 +368,11 @@ static const cells_facet *facet_make(cells_work *c, uint32_t facet)
         f->high[i] = lrcsi_most(p[0][i], lrcsi_most(p[1][i], p[2][i]));
     }
     facet_slope(f, z);
+    f->thin = !(facet_least(f) > 16 * f->off);
+    if (f->thin) {
+        facet_flatten(f);
+        c->found[facet] |= FOUND_OPEN;
+    }
     return f;
 }
 
@@ -676,10 +712,11 @@ static int cells_sample(cells_work *c, const cells_cell *cell, const cells_sides
             continue;
         }
         c->hit[hits++] = index;
-        c->met[index] = 2 * c->look + (inside > w);
+        int covers = inside > w && !f->thin;
+        c->met[index] = 2 * c->look + (uint32_t)covers;
         double range[2];
         facet_height(f, at, s->g, range);
-        if (inside > w && (*best == LRCS_NONE || range[0] > most)) {
+        if (covers && (*best == LRCS_NONE || range[0] > most)) {
             *best = index;
             most = range[0];
         }
@@ -734,26 +771,27 @@ static int cells_component(cells_work *c, const cells_cell *cell, const cells_si
             if (next != LRCS_NONE && c->joined[next] == c->look) {
                 continue;
             }
-            box_range(s->low, s->high, f->side[k], range);
-            if (range[0] > w || range[1] < -w) {
-                continue;
-            }
             int n = k == 2 ? 0 : k + 1;
             const double p[2] = {f->x[k], f->y[k]};
             const double q[2] = {f->x[n], f->y[n]};
-            int place = segment_place(cell, s, p, q, f->side[k], w, &part);
+            double line[3];
+            memcpy(line, f->side[k], sizeof line);
+            if (f->thin) {
+                line_through(p, q, line);
+            }
+            box_range(s->low, s->high, line, range);
+            if (range[0] > w || range[1] < -w) {
+                continue;
+            }
+            int place = segment_place(cell, s, p, q, line, w, &part);
             if (place == PLACE_APART) {
                 continue;
             }
             if (place == PLACE_BORDER && next != LRCS_NONE) {
                 whole &= c->borders < MOST_BORDERS;
                 if (whole) {
-                    c->border[c->borders++] =
-                        (cells_border){{f->side[k][0], f->side[k][1], f->side[k][2]},
-                                       {p[0], p[1]},
-                                       f->length[k],
-                                       w,
-                                       part};
+                    c->border[c->borders++] = (cells_border){
+                        {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], w, part};
                 }
             } else if (place == PLACE_BORDER) {
                 continue;
@@ -862,7 +900,7 @@ static int segment_behind(const cells_work *c, const cells_cell *cell, const cel
     }
     for (uint32_t i = 0; i < c->components; i++) {
         const cells_facet *f = &c->facet[c->component[i]];
-        double clear = 2 * f->off + w;
+        double clear = f->thin ? HUGE_VAL : 2 * f->off + w;
         if (line_at(f->side[0], middle[0], middle[1]) > clear &&
             line_at(f->side[1], middle[0], middle[1]) > clear &&
             line_at(f->side[2], middle[0], middle[1]) > clear) {
@@ -1598,23 +1636,29 @@ static lrcsi_visible facet_told(const cells_work *c, uint32_t facet, double *off
     return (lrcsi_visible){seen, lrcsi_most(0, seen - *off), lrcsi_least(whole, seen + *off), 0, 0};
 }
 
-/* What a facet's area may be off by, so that it is told: as said in the header, and as much as
-   clipping the facet alone would cost (visibility/occlude.c): for each cut a strip as wide as
-   128 u of the facet's diameter, or wider. */
+/* What a facet's area may be off by, so that it is told: as much as clipping the facet alone would
+   cost (visibility/occlude.c), 52 u of its diameter times its perimeter, and for each cut a strip
+   128 u of the diameter wide, or wider; or so little that it does not matter. Clipping finds
+   needles better than that. */
 static double facet_accuracy(const cells_work *c, uint32_t facet)
 {
     const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
-    double extent = 2 * c->view->prepared->radius;
+    double projected = lrcsi_view_projected(c->view, facet);
     double diameter = 0;
     for (int k = 0; k < 3; k++) {
         const double *p = c->view->point[corner[k]].x;
         const double *q = c->view->point[corner[(k + 1) % 3]].x;
         diameter = lrcsi_most(diameter, lrcsi_most(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
     }
-    return ACCURACY_OF_FACET * lrcsi_view_projected(c->view, facet) +
-           ACCURACY_OF_SCENE * extent * extent + 128 * U * diameter * c->area[facet].cut;
+    double alone = U * diameter * (104 * diameter + 128 * c->area[facet].cut);
+    double extent = 2 * c->view->prepared->radius;
+    return projected > NEEDLE * diameter * diameter
+               ? alone + ACCURACY_OF_FACET * projected + ACCURACY_OF_SCENE * extent * extent
+               : 0;
 }
 
+/* Only where no facet stands for a curved surface may one that is hidden be so but for a strip
+   (integrate/tessellation.c). */
 static void areas_tell(const cells_work *c, lrcsi_visible *visible)
 {
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
@@ -1623,7 +1667,8 @@ static void areas_tell(const cells_work *c, lrcsi_visible *visible)
         }
         double off;
         lrcsi_visible area = facet_told(c, f, &off);
-        if (off <= facet_accuracy(c, f)) {
+        int hidden = area.area == 0;
+        if (hidden ? off == 0 : off <= facet_accuracy(c, f)) {
             visible[f] = area;
             c->open[f] = 0;
         }
