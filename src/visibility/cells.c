@@ -1652,13 +1652,13 @@ static double facet_accuracy(const cells_work *c, uint32_t facet)
     }
     double alone = U * diameter * (104 * diameter + 128 * c->area[facet].cut);
     double extent = 2 * c->view->prepared->radius;
-    return projected > NEEDLE * diameter * diameter
-               ? alone + ACCURACY_OF_FACET * projected + ACCURACY_OF_SCENE * extent * extent
-               : 0;
+    return ACCURACY_OF_FACET * projected + (projected > NEEDLE * diameter * diameter
+                                                ? alone + ACCURACY_OF_SCENE * extent * extent
+                                                : 0);
 }
 
-/* Only where no facet stands for a curved surface may one that is hidden be so but for a strip
-   (integrate/tessellation.c). */
+/* Where facets stand for curved surfaces, one that is hidden but for strips is left to be found
+   hidden whole: else it costs more than its strips (integrate/tessellation.c). */
 static void areas_tell(const cells_work *c, lrcsi_visible *visible)
 {
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
@@ -1667,8 +1667,8 @@ static void areas_tell(const cells_work *c, lrcsi_visible *visible)
         }
         double off;
         lrcsi_visible area = facet_told(c, f, &off);
-        int hidden = area.area == 0;
-        if (hidden ? off == 0 : off <= facet_accuracy(c, f)) {
+        int hidden = area.area == 0 && c->view->prepared->curved;
+        if (off <= (hidden ? 0 : facet_accuracy(c, f))) {
             visible[f] = area;
             c->open[f] = 0;
         }

@@ -64,6 +64,8 @@
 #define TINY_MARGINS 64.0
 /* Cells that wait at most. Of two, that with the sample comes first: the other has all the room. */
 #define MOST_WAITING 256u
+/* So many undecided facets, or more, are done together (visibility/cells.h). */
+#define CELLS_LEAST 192u
 /* Cells that a facet may be cut into: so many, and so many a cut. */
 #define PARTS_MOST  4096u
 #define PARTS_A_CUT 256u
@@ -452,7 +454,7 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
     }
-    if (status == LRCS_OK && contest->contested_count > 0) {
+    if (status == LRCS_OK && contest->contested_count >= CELLS_LEAST) {
         lrcsi_cells_areas(contest, work, open, visible);
     }
     /* 2. One by one what that left open. */

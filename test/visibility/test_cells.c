@@ -50,11 +50,12 @@ static uint32_t agree(const double direction[3])
     lrcsi_occluding o;
     assert_int_equal(lrcsi_occlude_make(&contest, &work, &o), LRCS_OK);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        if (!lrcsi_grid_casts(&view, f) || open[f]) {
+        if (!lrcsi_grid_casts(&view, f)) {
             continue;
         }
         assert_int_equal(lrcsi_occlude_open(&o, f), LRCS_OK);
         lrcsi_visible clipped = lrcsi_occlude_area(&o);
+        found[f] = open[f] ? clipped : found[f];
         double rounding = 1e-16 * lrcsi_view_projected(&view, f);
         check_most(found[f].low - clipped.high, rounding);
         check_most(clipped.low - found[f].high, rounding);
