@@ -12,6 +12,7 @@
 #include "base/length.h"
 #include "base/work.h"
 #include "mesh/tree.h"
+#include "scene/bulk.h"
 #include "scene/copy.h"
 #include "scene/solid.h"
 
@@ -130,11 +131,12 @@ static void prepare_normals(lrcs_prepared *p)
     }
 }
 
-/* The box around the live facets, and where they stand. */
+/* The box around the live facets and that around most vertices, and where facets stand. */
 static void prepare_box(lrcs_prepared *p)
 {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double half[3] = {0, 0, 0};
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
             const double *x = lrcsi_prepared_corner(p, f, corner);
@@ -147,9 +149,10 @@ static void prepare_box(lrcs_prepared *p)
     }
     for (int k = 0; k < 3 && p->live > 0; k++) {
         p->centre[k] = 0.5 * (low[k] + high[k]);
-        double half = fmax(high[k] - p->centre[k], p->centre[k] - low[k]);
-        p->radius = fmax(p->radius, half);
+        half[k] = fmax(high[k] - p->centre[k], p->centre[k] - low[k]);
+        p->radius = fmax(p->radius, half[k]);
     }
+    lrcsi_bulk_find(p, half);
 }
 
 /* What the live facets' materials and parts call for. Curved is also what rounding left without

@@ -16,11 +16,12 @@ enum lrcsi_cover_answer {
 
 /* A facet that may hide some of the target. */
 typedef struct lrcsi_cover_facet {
-    double low[2], high[2]; /* its box in the view */
+    lrcsi_box box;
     uint32_t facet;
-    uint32_t order;      /* against the target's plane */
-    double corner[3][2]; /* in the target's frame, once it is wanted */
-    double width;        /* by which its sides there may be off; 0: not wanted yet */
+    uint32_t order;          /* against the target's plane */
+    int placed;              /* what follows is known: */
+    lrcsi_clip_line side[3]; /* its sides in the target's frame, */
+    double clear[3];         /* and what lrcsi_clip_side may be off of each */
 } lrcsi_cover_facet;
 
 typedef struct lrcsi_cover {
@@ -39,7 +40,7 @@ size_t lrcsi_cover_need(const lrcs_prepared *prepared);
    stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover);
 
-/* Lists what may hide some of a facet: not all of it where the view's meter is spent. */
+/* Lists what may hide some of a facet that casts: not all of it where the view's meter is spent. */
 void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target);
 
 /* A place of the target's frame at which to ask. */

@@ -64,7 +64,17 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
         double side = lrcsi_length_flat(q[0] - p[0], q[1] - p[1]) + 32 * U * t->reach;
         t->diameter = lrcsi_most(t->diameter, side);
         t->perimeter += side;
+        for (int i = 0; i < 3; i++) {
+            t->size = lrcsi_most(t->size, fabs(lrcsi_target_corner(view, facet, k)[i]));
+        }
     }
+}
+
+/* Shares are off by 100 u of the reach. A sum of three products, of shares that add up to 1, is off
+   by 3 u of the largest coordinate in each, below 6 u in norm. */
+double lrcsi_target_lift_off(const lrcsi_target *t)
+{
+    return 100 * U * t->reach + 8 * U * t->size;
 }
 
 void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_target *refined)
@@ -74,6 +84,7 @@ void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_targ
         *refined = (lrcsi_target){.view = t->view,
                                   .facet = t->facet,
                                   .corner = {{0, 0}, {1, 0}, {0, 1}},
+                                  .size = 1,
                                   .diameter = 1.4143,
                                   .perimeter = 3.4143,
                                   .slip = needle->off * needle->reach,

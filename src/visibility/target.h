@@ -12,6 +12,7 @@ typedef struct lrcsi_target {
     uint32_t facet;
     double corner[3][2];        /* counter-clockwise in the view */
     double reach;               /* largest distance, in space, of a corner from the first */
+    double size;                /* largest coordinate of a corner, in space */
     double diameter;            /* its longest side in the view, upper bound */
     double perimeter;           /* in the view, upper bound */
     double slip;                /* by which its corners may be off, but for 10 u reach */
@@ -20,6 +21,10 @@ typedef struct lrcsi_target {
 } lrcsi_target;
 
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *target);
+
+/* How far from a place of the frame of view axes, in the view, a point of the facet is that is put
+   there by its corners' shares, its coordinates rounded. */
+double lrcsi_target_lift_off(const lrcsi_target *target);
 
 /* The same in the frame that its parts are told apart in: of its shares, where it is a needle. */
 void lrcsi_target_refine(const lrcsi_target *target, lrcsi_needle *needle, lrcsi_target *refined);
