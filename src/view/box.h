@@ -12,9 +12,9 @@
 
 /* In units of 1 / view->unit, so that the bulk of the scene fills [-1, 1] whatever stands far
    away: x right, y up, z to the laser. */
-typedef struct lrcsi_box {
+typedef struct lrcsi_view_box {
     float low[3], high[3];
-} lrcsi_box;
+} lrcsi_view_box;
 
 static inline float lrcsi_box_float(double x)
 {
@@ -22,18 +22,18 @@ static inline float lrcsi_box_float(double x)
 }
 
 /* The box of bounds. */
-static inline lrcsi_box lrcsi_box_round(const lrcsi_view *view, const double low[3],
-                                        const double high[3])
+static inline lrcsi_view_box lrcsi_box_round(const lrcsi_view *view, const double low[3],
+                                             const double high[3])
 {
     double unit = view->unit;
-    return (lrcsi_box){{lrcsi_box_float(low[0] * unit), lrcsi_box_float(low[1] * unit),
-                        lrcsi_box_float(low[2] * unit)},
-                       {lrcsi_box_float(high[0] * unit), lrcsi_box_float(high[1] * unit),
-                        lrcsi_box_float(high[2] * unit)}};
+    return (lrcsi_view_box){{lrcsi_box_float(low[0] * unit), lrcsi_box_float(low[1] * unit),
+                             lrcsi_box_float(low[2] * unit)},
+                            {lrcsi_box_float(high[0] * unit), lrcsi_box_float(high[1] * unit),
+                             lrcsi_box_float(high[2] * unit)}};
 }
 
 /* The box of some vertices. */
-static inline lrcsi_box lrcsi_box_of(const lrcsi_view *view, const uint32_t *vertex, int count)
+static inline lrcsi_view_box lrcsi_box_of(const lrcsi_view *view, const uint32_t *vertex, int count)
 {
     double low[3];
     double high[3];
@@ -42,7 +42,7 @@ static inline lrcsi_box lrcsi_box_of(const lrcsi_view *view, const uint32_t *ver
 }
 
 /* The box of a point of view coordinates x, each off by at most `off`. */
-static inline lrcsi_box lrcsi_box_about(const lrcsi_view *view, const double x[3], double off)
+static inline lrcsi_view_box lrcsi_box_about(const lrcsi_view *view, const double x[3], double off)
 {
     const double low[3] = {x[0] - off, x[1] - off, x[2] - off};
     const double high[3] = {x[0] + off, x[1] + off, x[2] + off};
@@ -50,14 +50,14 @@ static inline lrcsi_box lrcsi_box_about(const lrcsi_view *view, const double x[3
 }
 
 /* Do they lie beside each other in the view? */
-static inline int lrcsi_box_beside(const lrcsi_box *a, const lrcsi_box *b)
+static inline int lrcsi_box_beside(const lrcsi_view_box *a, const lrcsi_view_box *b)
 {
     return a->high[0] < b->low[0] || a->low[0] > b->high[0] || a->high[1] < b->low[1] ||
            a->low[1] > b->high[1];
 }
 
 /* Is all of a farther from the laser than all of b? */
-static inline int lrcsi_box_behind(const lrcsi_box *a, const lrcsi_box *b)
+static inline int lrcsi_box_behind(const lrcsi_view_box *a, const lrcsi_view_box *b)
 {
     return a->high[2] < b->low[2];
 }

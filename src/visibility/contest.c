@@ -109,7 +109,7 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
     const lrcsi_grid *grid = &contest->grid;
     const contest_ask ask = {facet, view->facing[facet],
                              view->prepared->scene->facet[facet].corner};
-    lrcsi_box box = contest->box[facet];
+    lrcsi_view_box box = contest->box[facet];
     lrcsi_cells cells = contest->cells[facet];
     uint32_t count = 0;
     contest->asked++;
@@ -247,7 +247,7 @@ size_t lrcsi_contest_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_box)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_view_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells)));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_contest_edge)));

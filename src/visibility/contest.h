@@ -26,7 +26,7 @@
 
 /* An event edge's box in the view, and who asked about it last. */
 typedef struct lrcsi_contest_edge {
-    lrcsi_box box;
+    lrcsi_view_box box;
     uint32_t edge;
     uint32_t asked;
 } lrcsi_contest_edge;
@@ -36,7 +36,7 @@ typedef struct lrcsi_contest {
     lrcsi_events events;
     lrcsi_contest_edge *event; /* one for each */
     lrcsi_grid grid;           /* of events */
-    lrcsi_box *box;            /* facet -> its box, if it casts */
+    lrcsi_view_box *box;       /* facet -> its box, if it casts */
     lrcsi_cells *cells;        /* facet -> the cells of the grid that it touches, likewise */
     uint32_t asked;            /* scratch: searches so far */
     int along;                 /* scratch: the last search met an event along a side of the facet */

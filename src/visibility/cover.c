@@ -51,7 +51,7 @@ int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover
 void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
 {
     const lrcsi_grid *facets = &cover->facets;
-    lrcsi_box box = facets->box[target->facet];
+    lrcsi_view_box box = facets->box[target->facet];
     lrcsi_cells cells = lrcsi_grid_cells(facets, &box);
     cover->count = 0;
     cover->asks++;
@@ -68,7 +68,7 @@ void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
                 continue;
             }
             cover->asked[other] = cover->asks;
-            const lrcsi_box *its = &facets->box[other];
+            const lrcsi_view_box *its = &facets->box[other];
             if (!lrcsi_box_beside(its, &box) && !lrcsi_box_behind(its, &box)) {
                 cover->candidate[cover->count++] =
                     (lrcsi_cover_facet){.box = *its, .facet = other, .order = ORDER_NEW};
@@ -130,10 +130,10 @@ typedef struct cover_line {
     const lrcsi_cuts *cuts;
     uint32_t count; /* of their list, that may divide what the line stands for */
     int way;
-    double at[2];    /* in the target's frame */
-    lrcsi_box box;   /* in the view; its depth does not count */
-    double point[3]; /* in space */
-    double off;      /* by which that may be elsewhere in the frame */
+    double at[2];       /* in the target's frame */
+    lrcsi_view_box box; /* in the view; its depth does not count */
+    double point[3];    /* in space */
+    double off;         /* by which that may be elsewhere in the frame */
 } cover_line;
 
 /* A candidate this many times as far as the target is long and its nearest corner is away counts as
@@ -279,11 +279,12 @@ static void line_lift(cover_line *line)
 
 /* The line as its place: the target's first corner and the way from there, which in a needle is off
    by its own corners, 10 u of their reach, by rounding, 3 u, and by the frame's slip. */
-static lrcsi_box line_box(const lrcsi_target *t, const double at[2])
+static lrcsi_view_box line_box(const lrcsi_target *t, const double at[2])
 {
-    const uint32_t *corner = t->view->prepared->scene->facet[t->facet].corner;
-    const double *first = t->view->point[corner[0]].x;
-    double x[3] = {0, 0, first[2]};
+    double first[3];
+    double x[3];
+    lrcsi_view_place(t->view, t->origin, first);
+    x[2] = first[2];
     double reach = t->needle ? t->needle->reach : t->reach;
     lrcsi_target_unrefine(t, at, x);
     x[0] += first[0];

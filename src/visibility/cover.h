@@ -16,7 +16,7 @@ enum lrcsi_cover_answer {
 
 /* A facet that may hide some of the target. */
 typedef struct lrcsi_cover_facet {
-    lrcsi_box box;
+    lrcsi_view_box box;
     uint32_t facet;
     uint32_t order;          /* against the target's plane */
     int placed;              /* what follows is known: */

@@ -13,8 +13,8 @@
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
-    const lrcsi_box *box; /* facet -> its box, if it casts; NULL: the items are no facets */
-    double low[2];        /* of the window, in the units of boxes */
+    const lrcsi_view_box *box; /* facet -> its box, if it casts; NULL: the items are no facets */
+    double low[2];             /* of the window, in the units of boxes */
     double side;
     uint32_t size;   /* cells along each side */
     double scale;    /* cells per unit */
@@ -37,7 +37,7 @@ static inline uint16_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axi
 }
 
 /* The cells that a box touches. */
-static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_box *box)
+static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_view_box *box)
 {
     return (lrcsi_cells){.x0 = lrcsi_grid_cell(grid, box->low[0], 0),
                          .x1 = (uint16_t)(lrcsi_grid_cell(grid, box->high[0], 0) + 1),

@@ -46,8 +46,8 @@ typedef struct query_line {
     const lrcsi_grid *grid;
     uint32_t facet;
     double point[3];
-    lrcsi_box at; /* the line in the view; in depth, all of the facet */
-    int sense;    /* of the infinitesimal by which it counts as moved */
+    lrcsi_view_box at; /* the line in the view; in depth, all of the facet */
+    int sense;         /* of the infinitesimal by which it counts as moved */
     lrcsi_cells cells;
     uint32_t y, item, end; /* the row of cells at hand, and its items yet to be looked at */
 } query_line;
@@ -56,7 +56,7 @@ typedef struct query_line {
 static void line_place(query_line *line)
 {
     const lrcsi_view *view = line->grid->view;
-    const lrcsi_box *own = &line->grid->box[line->facet];
+    const lrcsi_view_box *own = &line->grid->box[line->facet];
     double x[3];
     lrcsi_view_place(view, line->point, x);
     line->at = lrcsi_box_about(view, x, lrcsi_view_off(x));

@@ -10,13 +10,15 @@
 typedef struct lrcsi_target {
     const lrcsi_view *view;
     uint32_t facet;
-    double corner[3][2];        /* counter-clockwise in the view */
-    double reach;               /* largest distance, in space, of a corner from the first */
-    double size;                /* largest coordinate of a corner, in space */
-    double diameter;            /* its longest side in the view, upper bound */
-    double perimeter;           /* in the view, upper bound */
-    double slip;                /* by which its corners may be off, but for 10 u reach */
-    double unit;                /* the area of the view plane that is 1 in the frame */
+    const double *origin; /* its first corner */
+    double corner[3][2];  /* counter-clockwise in the view */
+    double reach;         /* largest distance, in space, of a corner from the first; of one far
+                             behind it less: no corner is off by more than 10 u of it */
+    double size;          /* largest coordinate of a corner, in space */
+    double diameter;      /* its longest side in the view, upper bound */
+    double perimeter;     /* in the view, upper bound */
+    double slip;          /* by which its corners may be off, but for 10 u reach */
+    double unit;          /* the area of the view plane that is 1 in the frame */
     const lrcsi_needle *needle; /* whose frame it is; NULL: view axes */
 } lrcsi_target;
 
@@ -32,14 +34,21 @@ void lrcsi_target_refine(const lrcsi_target *target, lrcsi_needle *needle, lrcsi
 /* A point of the refined frame in that of the view axes, within 3 u of the reach. */
 void lrcsi_target_unrefine(const lrcsi_target *refined, const double at[2], double out[2]);
 
-/* Corner k of a facet, counted so that they run counter-clockwise in the view. */
+/* Corner k of a facet, counted so that they run counter-clockwise in the view, and from one that is
+   not far away, if the facet has such. */
 const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k);
 
-/* A scene point in the target's frame; returns its distance, in space, from the first corner. */
+/* A scene point in the target's frame; returns its distance, in space, from the first corner, or
+   less: that of which it is off by 10 u. */
 double lrcsi_target_place(const lrcsi_target *target, const double x[3], double out[2]);
 
-/* Corners of any facet in the target's frame, counter-clockwise; returns the largest distance, in
-   space, of one from the target's first. */
+/* Cuts off what a segment of the frame has far away, where the distances of its ends in space are
+   `away` and each is off by 10 u of that. Returns the distance of which both are then off by
+   10 u. */
+double lrcsi_target_segment(const lrcsi_target *target, double end[2][2], const double away[2]);
+
+/* Corners of any facet in the target's frame, counter-clockwise; returns the largest such
+   distance. */
 double lrcsi_target_frame(const lrcsi_view *view, uint32_t target, uint32_t facet,
                           double corner[3][2]);
 
