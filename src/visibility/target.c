@@ -13,7 +13,7 @@
 #define U 0x1p-53
 
 /* What is so many times as far off as what is near is far away. */
-#define FAR_OFF 64.0
+#define FAR_OFF 8.0
 
 /* A scene point far behind or before the origin. The rows of R are off by 4 u, and so is what they
    make of a depth. Taken instead are their parts across the direction d, r - (r . d) d / d^2: in
@@ -23,7 +23,7 @@
 static double frame_point_deep(const lrcsi_view *view, const double *origin, const double *x,
                                double out[2])
 {
-    static const double nothing[3];
+    static const double exact[3]; /* R is: it has no low part */
     const double *d = view->direction;
     lrcsi_dd p[3];
     double depth = 0;
@@ -34,7 +34,7 @@ static double frame_point_deep(const lrcsi_view *view, const double *origin, con
         length += fabs(p[k].hi);
     }
     for (int k = 0; k < 2; k++) {
-        lrcsi_dd slope = {-lrcsi_product_dot(view->R[k], nothing, d), 0};
+        lrcsi_dd slope = {-lrcsi_product_dot(view->R[k], exact, d), 0};
         lrcsi_dd sum = lrcsi_dd_scale(slope, depth);
         for (int j = 0; j < 3; j++) {
             sum = lrcsi_dd_add(sum, lrcsi_dd_scale(p[j], view->R[k][j]));
@@ -74,7 +74,8 @@ static int corner_first(const lrcsi_view *view, uint32_t facet)
         off[k] = lrcsi_view_off(view->point[corner[k]].x);
     }
     int nearer = off[1] <= off[2] ? 1 : 2;
-    return off[0] > FAR_OFF * off[nearer] ? nearer : 0;
+    int beyond = off[0] * view->unit > 10 * U * FAR_OFF; /* the scene's bulk */
+    return beyond && off[0] > FAR_OFF * off[nearer] ? nearer : 0;
 }
 
 /* The facet's own number of its corner k, counted counter-clockwise in the view. */
