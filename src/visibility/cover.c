@@ -138,7 +138,7 @@ typedef struct cover_line {
 
 /* A candidate this many times as far as the target is long and its nearest corner is away counts as
    far. */
-#define FAR_OFF 64.0
+#define FAR_CANDIDATE 64.0
 
 /* Sides in the frame, with how near to one a place must be that its side of it is not sure.
 
@@ -163,7 +163,7 @@ static void candidate_place(const lrcsi_target *t, lrcsi_cover_facet *c)
         most = lrcsi_most(most, reach[k]);
         least = lrcsi_least(least, reach[k]);
     }
-    int far = most > FAR_OFF * (least + t->reach);
+    int far = most > FAR_CANDIDATE * (least + t->reach);
     for (int k = 0; k < 3; k++) {
         int next = k == 2 ? 0 : k + 1;
         int near = reach[k] <= reach[next] ? k : next;
