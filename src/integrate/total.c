@@ -8,6 +8,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "base/sum.h"
@@ -83,7 +84,7 @@ static void reflect_facet(total_job *job, uint32_t facet, double tan2)
 static double glint_peak(double s)
 {
     double q = 2 * s * s;
-    return q <= 1 ? 1 : q * q * exp(2 / q - 2);
+    return q <= 1 ? 1 : q * q * lrcsi_exp(2 / q - 2);
 }
 
 /* How far the glint may be off where tan^2 is too vague for its flank: truth and value both lie
