@@ -31,8 +31,8 @@
 #include "base/elementary.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
+
+#include "base/bits.h"
 
 #define LOG2_E   0x1.71547652b82fep+0
 #define LN2_HIGH 0x1.62e42ff000000p-1
@@ -40,20 +40,6 @@
 
 /* Adding it rounds to an integer, which then stands in the lowest bits. */
 #define ROUND_TO_INTEGER 0x1.8p52
-
-static inline uint64_t bits_of(double x)
-{
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-static inline double double_of(uint64_t bits)
-{
-    double x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
 
 /* e^x for |x| <= 708. */
 static inline double exp_reduced(double x)
@@ -74,7 +60,7 @@ static inline double exp_reduced(double x)
     p = p * r + 1.0 / 6.0;
     p = p * r + 0.5;
     p = 1.0 + (r + r * r * p);
-    return p * double_of((bits_of(shifted) + 1023) << 52);
+    return p * lrcsi_bits_double((lrcsi_bits_of(shifted) + 1023) << 52);
 }
 
 /* Nearer to the ends of the doubles than that the power of two might not be one: halves, squared. A
@@ -101,10 +87,10 @@ double lrcsi_exp_dd(lrcsi_dd x)
 /* x = 2^k f, normal. */
 static inline double log_reduced(double x, double *k)
 {
-    uint64_t above = bits_of(x) - UINT64_C(0x3fe6a09e667f3bcd); /* sqrt(1/2) */
-    uint64_t biased = (above >> 52 & 0xfff) ^ 0x800;            /* k + 2048 */
-    *k = double_of(UINT64_C(0x4330000000000000) | biased) - (0x1p52 + 2048.0);
-    return double_of(bits_of(x) - (above & UINT64_C(0xfff0000000000000)));
+    uint64_t above = lrcsi_bits_of(x) - UINT64_C(0x3fe6a09e667f3bcd); /* sqrt(1/2) */
+    uint64_t biased = (above >> 52 & 0xfff) ^ 0x800;                  /* k + 2048 */
+    *k = lrcsi_bits_double(UINT64_C(0x4330000000000000) | biased) - (0x1p52 + 2048.0);
+    return lrcsi_bits_double(lrcsi_bits_of(x) - (above & UINT64_C(0xfff0000000000000)));
 }
 
 /* Q(z). */

@@ -11,6 +11,7 @@
 #include "mesh/topology.h"
 #include "mesh/touch.h"
 #include "scene/across.h"
+#include "scene/batch.h"
 #include "scene/near.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
@@ -33,6 +34,7 @@ struct lrcs_prepared {
                              its stead from everywhere (scene/copy.h): it hides nothing */
     unsigned char *stood; /* vertex: 1 where a live facet stands on it */
     lrcsi_normal *normal;
+    lrcsi_batches batches;   /* facets that are not skipped, by material */
     lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
     lrcsi_across across;     /* live facets across the sides of live facets */
     lrcsi_touches touches;   /* between facets that are not idle */
