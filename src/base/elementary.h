@@ -28,7 +28,7 @@ lrcsi_dd lrcsi_log(double x);
 lrcsi_dd lrcsi_log1p(double u);
 
 /* How many numbers the forms for lanes take. */
-#define LRCSI_LANES 64
+#define LRCSI_LANES 32
 
 /* out = e^x for |x| <= 700. */
 void lrcsi_exp_lanes(const double x[LRCSI_LANES], double out[restrict LRCSI_LANES]);

@@ -111,9 +111,10 @@ static int run_image(sigma_run *run)
     return status;
 }
 
-static void run_total(sigma_run *run)
+static void run_total(sigma_run *run, lrcs_facet_record *records)
 {
-    run->total = lrcsi_total_make(&run->view, &run->plan, run->visible, run->curved, run->doubt);
+    run->total =
+        lrcsi_total_make(&run->view, &run->plan, run->visible, run->curved, run->doubt, records);
 }
 
 static lrcsi_curving run_curving(const sigma_run *run)
@@ -135,7 +136,7 @@ static int run_facet(sigma_run *run)
         }
         lrcsi_curve_shares(&run->view, &how, run->visible, run->curved);
     }
-    run_total(run);
+    run_total(run, NULL);
     return LRCS_OK;
 }
 
@@ -197,7 +198,7 @@ static void run_sum(sigma_run *run, int sampled)
     if (run->doubt) {
         lrcsi_margin_settle(run->doubt, run->visible);
     }
-    run_total(run);
+    run_total(run, NULL);
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
@@ -394,7 +395,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {
-            lrcsi_total_records(&run.view, &run.plan, run.visible, run.curved, records);
+            run_total(&run, records);
         }
         result_fill(&run, options, result);
     }

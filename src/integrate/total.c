@@ -48,6 +48,7 @@ typedef struct total_job {
     const lrcsi_visible *visible; /* NULL: all that nothing is known to hide */
     const lrcsi_curved *curved;   /* NULL: all facets are flat */
     const lrcsi_margin *margin;   /* NULL: none was made */
+    lrcs_facet_record *records;   /* NULL: none asked for */
     lrcsi_total total;
     total_sums sums;
 } total_job;
@@ -233,6 +234,16 @@ static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const l
                                               : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
+/* What a facet adds goes into its record. */
+static void record_sigma(const total_job *job, uint32_t facet, double glint, double diffuse)
+{
+    if (job->records) {
+        const lrcs_prepared *p = job->view->prepared;
+        job->records[facet].sigma_m2 = lrcsi_prepared_area(p, glint + diffuse);
+        job->records[facet].sigma_glint_m2 = lrcsi_prepared_area(p, glint);
+    }
+}
+
 /* --- one by one ------------------------------------------------------------------------------- */
 
 /* A facet that reflects and of which something may be visible. */
@@ -248,12 +259,14 @@ static void sum_precisely(total_job *job, uint32_t facet)
     count_shown(&job->total, tilt.projected, &visible);
     if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
         add_curved(sums, &job->curved[facet]);
+        record_sigma(job, facet, job->curved[facet].glint, job->curved[facet].diffuse);
         return;
     }
     total_terms terms = facet_terms(job, facet, &tilt, &visible);
     lrcsi_sum_add(&sums->glint, terms.glint);
     lrcsi_sum_add(&sums->diffuse, terms.diffuse);
     sums->rounding += terms.rounding;
+    record_sigma(job, facet, terms.glint, terms.diffuse);
     if (visible.low < visible.high) {
         add_doubt(sums, terms.per_area, &visible);
     }
@@ -355,6 +368,9 @@ static void block_run(total_job *job, total_batch *batch)
     lrcsi_sum_lanes_add(&batch->glint, glint);
     lrcsi_sum_lanes_add(&batch->diffuse, diffuse);
     lrcsi_sum_lanes_add(&batch->projected, batch->area);
+    for (uint32_t i = 0; job->records && i < batch->count; i++) {
+        record_sigma(job, batch->facet[i], glint[i], diffuse[i]);
+    }
     if (job->visible || (job->plan->graze > 0 && job->plan->graze < 1)) {
         block_doubts(job, batch);
     }
@@ -385,9 +401,9 @@ static inline void batch_add(total_job *job, total_batch *batch, uint32_t place,
     for (int k = 0; k < 3; k++) {
         batch->shades.normal[k][i] = side * b->normal[k][place];
     }
+    batch->facet[i] = facet;
     batch->area[i] = b->area[place];
     if (job->visible) {
-        batch->facet[i] = facet;
         batch->area[i] = job->visible[facet].area;
         batch->most[i] = job->visible[facet].high;
     }
@@ -534,13 +550,36 @@ static void sum_tessellation(total_job *job)
     }
 }
 
+/* Records, all but for sigma. */
+static void records_start(const total_job *job)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        job->records[f] = (lrcs_facet_record){0, 0, 0, 0, 0};
+        if (!p->skip[f]) {
+            lrcsi_tilt tilt = lrcsi_view_tilt(job->view, f);
+            lrcsi_visible visible = facet_visible(job, f, &tilt);
+            job->records[f].area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[f].length);
+            job->records[f].cos_theta = tilt.cos_theta;
+            job->records[f].visible_area_m2 = lrcsi_prepared_area(p, visible.area);
+        }
+    }
+}
+
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_visible *visible, const lrcsi_curved *curved,
-                             const lrcsi_margin *margin)
+                             const lrcsi_margin *margin, lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
-    total_job job = {
-        .view = view, .plan = plan, .visible = visible, .curved = curved, .margin = margin};
+    total_job job = {.view = view,
+                     .plan = plan,
+                     .visible = visible,
+                     .curved = curved,
+                     .margin = margin,
+                     .records = records};
+    if (records) {
+        records_start(&job);
+    }
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
         sum_material(&job, i);
     }
@@ -551,42 +590,4 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     }
     total_finish(&job);
     return job.total;
-}
-
-/* --- records ---------------------------------------------------------------------------------- */
-
-static lrcs_facet_record record_of(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)
-{
-    const lrcsi_view *view = job->view;
-    const lrcs_prepared *p = view->prepared;
-    lrcsi_visible visible = facet_visible(job, facet, tilt);
-    total_terms terms = {0, 0, 0, 0};
-    if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) && visible.high > 0) {
-        if (job->curved && lrcsi_curve_wanted(view, facet)) {
-            terms.glint = job->curved[facet].glint;
-            terms.diffuse = job->curved[facet].diffuse;
-        } else {
-            terms = facet_terms(job, facet, tilt, &visible);
-        }
-    }
-    return (lrcs_facet_record){.area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[facet].length),
-                               .cos_theta = tilt->cos_theta,
-                               .visible_area_m2 = lrcsi_prepared_area(p, visible.area),
-                               .sigma_m2 = lrcsi_prepared_area(p, terms.glint + terms.diffuse),
-                               .sigma_glint_m2 = lrcsi_prepared_area(p, terms.glint)};
-}
-
-void lrcsi_total_records(const lrcsi_view *view, const lrcsi_plan *plan,
-                         const lrcsi_visible *visible, const lrcsi_curved *curved,
-                         lrcs_facet_record *records)
-{
-    const lrcs_prepared *p = view->prepared;
-    const total_job job = {.view = view, .plan = plan, .visible = visible, .curved = curved};
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        records[f] = (lrcs_facet_record){0, 0, 0, 0, 0};
-        if (!p->skip[f]) {
-            lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
-            records[f] = record_of(&job, f, &tilt);
-        }
-    }
 }

@@ -21,15 +21,10 @@ typedef struct lrcsi_total {
    tells them); where the plan does not know every front facet to be wholly visible, on the true
    shapes as on their meshes, the margin of doubt about the true shapes (NULL: none was made).
    Facets with curved normals come with their own sums in curved[facet_count]; NULL: all are flat.
-   Returned: the total, summed material by material, each in facet order. */
+   Returned: the total, summed material by material, each in facet order; records[facet_count]
+   unless NULL. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_visible *visible, const lrcsi_curved *curved,
-                             const lrcsi_margin *margin);
-
-/* The same facet by facet, in file order, each by the precise path. Returned: records[facet_count].
- */
-void lrcsi_total_records(const lrcsi_view *view, const lrcsi_plan *plan,
-                         const lrcsi_visible *visible, const lrcsi_curved *curved,
-                         lrcs_facet_record *records);
+                             const lrcsi_margin *margin, lrcs_facet_record *records);
 
 #endif

@@ -5,29 +5,38 @@
    so that everything is a function of q, and near normal incidence v loses nothing: there n and d
    are subtracted exactly.
 
-   Error of q, u = 2^-53, |v| = r: n is off by at most 1.01 u in all, d by nothing, the two
-   subtractions by 2 u of v: 1.01 u + 2 u r. Squares and sums: 3 u of q. Together
+   Error of q, with u = 2^-53 and r = |v|: n is off by at most 1.01 u in all, d by nothing, the two
+   subtractions by 2 u of v; squares and their sums add 3 u of q. Together
        |dq| <= 2.02 u r + 7 u q + 8 u^2,
-   also with r and q as computed. It moves, with dc = -dq/2, the logarithms
-       of c^-5 exp(-tan^2/s^2), or c^-4 for an area S c, by at most (2.5/c + 1/(s^2 c^3)) |dq|,
-       of c^(m+1), or c^(m+2), by at most (m + 2)/(2 c) |dq|.
-   All else is rounding of these functions of q as computed, relative, in units of u:
-     c       1; 1/c: 2; 1/c^2: 5; 1/c^4: 11
-     x       q (1 - q/4): 2; times 1/c^2: 6; over s^2 (2) and its product: 3: 11, which moves the
-             glint by 11 x
-     glint   1/c^5: 11 + 2 + 1 = 14; exp: 2; 4 pi A: 2; three products, the area's among them: 3;
-             S, S c: 3 + 1, where c's own error then counts once less: 24 in all
-     root    of c, by three steps to 1/sqrt(c): 3.1 (below)
-     diffuse c^(m+1) for m = 0, 1/2, 1, 2: 3 for c, 3.1 for a root, products 2; 4 pi B: 2; two
-             products, S, S c: 2 + 3 + 2: 17 in all
-             else exp(y), y = (m + 1) log(c): log(c), with what 1 - q/2 loses in being rounded
-             added to first order: 6 + 1 of itself; m + 1 and the product: 2: 9 |y|; exp: 2; 4 pi B:
-   2; two products, S, S c and its c: 2 + 3 + 2: 11 These and u^2 terms are below the claimed 25 +
-   11 x, 18, and 12 + 9 |y|. Logarithms moved by delta move values by at most delta (1 + delta), and
-   delta is below 2^-11 wherever x, |y| <= 690: 1/(s^2 c^2) is at most 2 x/q, so that its part is
-   below (2 r + 7 q) 1380/(q c) u; where r is so small that this is no bound, below 2^42 (2 r + 7 q)
-   u; their least is below 2^-20 for s >= 2^-20. LRCSI_SHADE_UNIT has room for that. Exponents
-   beyond 600 count as 0: the part is then below 4 pi A c^-5 e^-599, or B e^-599. */
+   also with r and q as computed. As dc = -dq/2, it moves the logarithm
+       of c^-5 exp(-tan^2/s^2) by at most (2.5/c + 1/(s^2 c^3)) |dq|,
+       of c^(m+1)              by at most (m + 2)/(2 c) |dq|,
+   and no farther those of c^-4 exp(-tan^2/s^2) and c^(m+2), which count for an area S c.
+
+   All else is rounding in functions of q as computed, relative, in units of u:
+
+   c      1; its inverse 2, of which the square has 5, the fourth power 11, the fifth 14
+
+   x      tan^2/s^2: q (1 - q/4) 2, the inverse square 5, 1/s^2 2, and two products 2: 11
+
+   glint  the inverse fifth power 14, exp 2, 4 pi A 2, three products 3, S and S c 4: 25,
+          less 1 for c in both; and 11 x for its exponent
+
+   power  c^(m+1) for m = 0, 1/2, 1, 2: 3 for c, a root 3.1, products 2; 4 pi B 2, two products 2,
+          S and S c, with its c, 5: 17.1
+
+   any    c^(m+1) otherwise, exp(y) with y = (m + 1) log(c): the logarithm 6 of itself and its sum
+          with what 1 - q/2 loses in being rounded 1, m + 1 and the product 2: 9 |y|; exp 2,
+          4 pi B 2, two products 2, S and S c, with its c, 5: 11
+
+   The constants below leave room for terms in u^2. A logarithm that is off by delta makes the value
+   off by at most delta (1 + delta), and LRCSI_SHADE_UNIT has room for delta < 2^-11: its largest
+   part is (2.02 r + 7 q) u/(s^2 c^3). Where r >= 2^-12, 1/(s^2 c^2) <= 2 x/q and x <= 690 make it
+   at most (2.02/r + 7) (1380/c) u < 2^-23; elsewhere c is all but 1, and s >= 2^-20 makes it at
+   most (2.02 r + 7 q) 2^41 u < 2^-22.
+
+   Exponents beyond 690 count as 0: the part is then below 4 pi A c^-5 e^-689, or 4 pi B e^-689.
+   What underflows in between loses 2^-1075 at most. */
 #include "optics/shade.h"
 
 #include <string.h>
@@ -72,7 +81,7 @@ static inline double root_of(double c)
     return c * y;
 }
 
-static int within(double x, double low, double high)
+static int in_range(double x, double low, double high)
 {
     return x >= low && x <= high;
 }
@@ -87,9 +96,10 @@ lrcsi_lobes lrcsi_lobes_make(const lrcs_brdf *brdf, int glint, int diffuse)
                          .glint = glint,
                          .diffuse = diffuse};
     lobes.nothing = (lobes.A + lobes.B) * SHADE_NOTHING;
-    if ((glint && !(within(brdf->s, 0x1p-20, 0x1p20) &&
-                    (brdf->A == 0 || within(brdf->A, 0x1p-100, 0x1p100)))) ||
-        (diffuse && !(brdf->m <= 0x1p20 && (brdf->B == 0 || within(brdf->B, 0x1p-100, 0x1p100))))) {
+    if ((glint && !(in_range(brdf->s, 0x1p-20, 0x1p20) &&
+                    (brdf->A == 0 || in_range(brdf->A, 0x1p-100, 0x1p100)))) ||
+        (diffuse &&
+         !(brdf->m <= 0x1p20 && (brdf->B == 0 || in_range(brdf->B, 0x1p-100, 0x1p100))))) {
         lobes.low = 2;
     }
     if (glint) {
@@ -108,8 +118,9 @@ typedef struct shade_chord {
     double q[LRCSI_LANES], inverse[LRCSI_LANES], off[LRCSI_LANES];
 } shade_chord;
 
-static void shade_chords(const double *restrict d, const double *restrict d_low,
-                         lrcsi_shades *restrict shades, shade_chord *restrict chord)
+static void chords_make(const lrcsi_lobes *restrict lobes, const double *restrict d,
+                        const double *restrict d_low, lrcsi_shades *restrict shades,
+                        shade_chord *restrict chord)
 {
     for (int i = 0; i < LRCSI_LANES; i++) {
         double x = (shades->normal[0][i] - d[0]) - d_low[0];
@@ -119,14 +130,15 @@ static void shade_chords(const double *restrict d, const double *restrict d_low,
         double c = 1 - 0.5 * q;
         double inverse = 1 / c;
         shades->cosine[i] = c;
+        shades->error[i] = lobes->nothing;
         chord->q[i] = q;
         chord->inverse[i] = inverse;
         chord->off[i] = (2.02 * root_above(q) + (7 * q + 0x1p-50)) * inverse;
     }
 }
 
-static void shade_glint(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
-                        lrcsi_shades *restrict shades)
+static void lobe_glint(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
+                       lrcsi_shades *restrict shades)
 {
     double x[LRCSI_LANES];
     double e[LRCSI_LANES];
@@ -144,15 +156,14 @@ static void shade_glint(const lrcsi_lobes *restrict lobes, const shade_chord *re
         double square = inverse * inverse;
         double glint = lrcsi_bits_masked(lobes->A * (square * square * inverse * e[i]), keep[i]);
         shades->glint[i] = glint;
-        shades->error[i] =
-            lobes->nothing + glint * ((SHADE_GLINT_UNITS - 11 * x[i]) +
-                                      chord->off[i] * (2.5 + lobes->inverse_s2 * square));
+        shades->error[i] += glint * ((SHADE_GLINT_UNITS - 11 * x[i]) +
+                                     chord->off[i] * (2.5 + lobes->inverse_s2 * square));
     }
 }
 
 /* c times 1, c, c^2 or sqrt(c): one of the first three factors is 1, the others 0. */
-static void shade_power(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
-                        lrcsi_shades *restrict shades)
+static void lobe_power(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
+                       lrcsi_shades *restrict shades)
 {
     double one = lobes->m == 0;
     double first = lobes->m == 1;
@@ -166,8 +177,8 @@ static void shade_power(const lrcsi_lobes *restrict lobes, const shade_chord *re
     }
 }
 
-static void shade_root(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
-                       lrcsi_shades *restrict shades)
+static void lobe_root(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
+                      lrcsi_shades *restrict shades)
 {
     for (int i = 0; i < LRCSI_LANES; i++) {
         double c = shades->cosine[i];
@@ -177,8 +188,8 @@ static void shade_root(const lrcsi_lobes *restrict lobes, const shade_chord *res
     }
 }
 
-static void shade_any(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
-                      lrcsi_shades *restrict shades)
+static void lobe_any(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
+                     lrcsi_shades *restrict shades)
 {
     double y[LRCSI_LANES];
     double e[LRCSI_LANES];
@@ -204,18 +215,17 @@ void lrcsi_shade(const lrcsi_lobes *lobes, const double d[3], const double d_low
                  lrcsi_shades *shades)
 {
     shade_chord chord;
-    shade_chords(d, d_low, shades, &chord);
+    chords_make(lobes, d, d_low, shades, &chord);
     memset(shades->glint, 0, sizeof shades->glint);
     memset(shades->diffuse, 0, sizeof shades->diffuse);
-    memset(shades->error, 0, sizeof shades->error);
     if (lobes->glint) {
-        shade_glint(lobes, &chord, shades);
+        lobe_glint(lobes, &chord, shades);
     }
     if (lobes->diffuse && lobes->m == 0.5) {
-        shade_root(lobes, &chord, shades);
+        lobe_root(lobes, &chord, shades);
     } else if (lobes->diffuse && (lobes->m == 0 || lobes->m == 1 || lobes->m == 2)) {
-        shade_power(lobes, &chord, shades);
+        lobe_power(lobes, &chord, shades);
     } else if (lobes->diffuse) {
-        shade_any(lobes, &chord, shades);
+        lobe_any(lobes, &chord, shades);
     }
 }

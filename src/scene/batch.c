@@ -11,7 +11,7 @@
 
 /* |N|^2 to 8 u^2: three squares to 2 u^2 of what they lose, twice their low parts' products, sums.
  */
-static lrcsi_dd square_of(const double *high, const double *low)
+static lrcsi_dd normal_square(const double *high, const double *low)
 {
     lrcsi_dd sum = {0, 0};
     for (int k = 0; k < 3; k++) {
@@ -35,7 +35,7 @@ static void batch_place(lrcsi_batches *b, uint32_t place, const lrcsi_normal *n)
         high[k] = n->high[k] * scale;
         low[k] = n->low[k] * scale;
     }
-    lrcsi_dd square = square_of(high, low);
+    lrcsi_dd square = normal_square(high, low);
     double y = 1 / sqrt(square.hi);
     lrcsi_dd y2 = lrcsi_dd_two_product(y, y);
     double half = 0.5 * lrcsi_dd_value(lrcsi_dd_sub((lrcsi_dd){1, 0}, lrcsi_dd_mul(y2, square)));

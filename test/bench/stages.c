@@ -62,7 +62,7 @@ static void exact_run(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
     bench_watch w = watch_start(stages, work, BENCH_EXACT);
     watch_stop(&w, lrcsi_occlude_all(contest, work, visible, &starved));
     w = watch_start(stages, work, BENCH_SUM);
-    lrcsi_total total = lrcsi_total_make(contest->view, &plan, visible, NULL, NULL);
+    lrcsi_total total = lrcsi_total_make(contest->view, &plan, visible, NULL, NULL, NULL);
     watch_stop(&w, total.diffuse >= 0 ? LRCS_OK : LRCS_E_NUMBER);
 }
 
