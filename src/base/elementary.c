@@ -135,6 +135,18 @@ lrcsi_dd lrcsi_log1p(double u)
     return lrcsi_dd_quick_sum(log.hi, log.lo + w.lo / w.hi);
 }
 
+/* The product exactly, but for y times the low part, u^2 of it. The scale is exact, and keeps the
+   product in range. */
+double lrcsi_power(lrcsi_dd log, double y)
+{
+    if (!(fabs(y * log.hi) < 800.0)) {
+        return y * log.hi > 0.0 ? HUGE_VAL : 0.0;
+    }
+    double scale = fabs(y) > 0x1p500 ? 0x1p-300 : 1.0;
+    lrcsi_dd power = lrcsi_dd_two_product(y * scale, log.hi / scale);
+    return lrcsi_exp_dd((lrcsi_dd){power.hi, power.lo + y * log.lo});
+}
+
 void lrcsi_exp_lanes(const double x[LRCSI_LANES], double out[restrict LRCSI_LANES])
 {
     for (int i = 0; i < LRCSI_LANES; i++) {

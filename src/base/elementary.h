@@ -27,6 +27,10 @@ lrcsi_dd lrcsi_log(double x);
 /* log(1 + u) for u >= 0, finite. */
 lrcsi_dd lrcsi_log1p(double u);
 
+/* e^(y log) for y >= 0 or below: 0 and infinity where it leaves the doubles. Relative error, in
+   units of u: LRCSI_EXP_DD_ERROR, and that of the logarithm times |y log|. */
+double lrcsi_power(lrcsi_dd log, double y);
+
 /* How many numbers the forms for lanes take. */
 #define LRCSI_LANES 32
 

@@ -34,8 +34,6 @@
    beyond that, their sum is below -790 for every u that is a double: exp gives 0. */
 #define REFLECT_X_FAR  1400.0
 #define REFLECT_X_NONE 3000.0
-/* Beyond this y, e^-y is 0. */
-#define REFLECT_Y_NONE 800.0
 
 /* One part and its relative error, `flank` being |d log(part) / d log(u)| at most. */
 typedef struct reflect_part {
@@ -95,13 +93,8 @@ static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
         return part;
     }
     lrcsi_dd log = lrcsi_log1p(u);
-    double y = lrcsi_least(0.25 * brdf->m * log.hi, REFLECT_Y_NONE);
-    double r = 0.0;
-    if (y < REFLECT_Y_NONE) { /* the scale is exact, and keeps the product in range */
-        double scale = brdf->m > 0x1p500 ? 0x1p-300 : 1.0;
-        lrcsi_dd power = lrcsi_dd_two_product(-0.25 * brdf->m * scale, log.hi / scale);
-        r = lrcsi_exp_dd((lrcsi_dd){power.hi, power.lo - 0.25 * brdf->m * log.lo});
-    }
+    double y = 0.25 * brdf->m * log.hi;
+    double r = lrcsi_power(log, -0.25 * brdf->m);
     part.value = brdf->B * r * r / (1.0 + u);
     part.relative = REFLECT_UNIT * (REFLECT_DIFFUSE_UNITS + 2.0 * LRCSI_LOG_ERROR * y +
                                     lrcsi_least(2.0 * y, 0.5 * brdf->m * REFLECT_UNIT));

@@ -31,11 +31,11 @@
 
    The constants below leave room for terms in u^2. A logarithm that is off by delta makes the value
    off by at most delta (1 + delta), and LRCSI_SHADE_UNIT has room for delta < 2^-11: its largest
-   part is (2.02 r + 7 q) u/(s^2 c^3). Where r >= 2^-12, 1/(s^2 c^2) <= 2 x/q and x <= 690 make it
-   at most (2.02/r + 7) (1380/c) u < 2^-23; elsewhere c is all but 1, and s >= 2^-20 makes it at
+   part is (2.02 r + 7 q) u/(s^2 c^3). Where r >= 2^-12, 1/(s^2 c^2) <= 2 x/q and x <= 700 make it
+   at most (2.02/r + 7) (1400/c) u < 2^-23; elsewhere c is all but 1, and s >= 2^-20 makes it at
    most (2.02 r + 7 q) 2^41 u < 2^-22.
 
-   Exponents beyond 690 count as 0: the part is then below 4 pi A c^-5 e^-689, or 4 pi B e^-689.
+   Exponents beyond 700 count as 0: the part is then below 4 pi A c^-5 e^-699, or 4 pi B e^-699.
    What underflows in between loses 2^-1075 at most. */
 #include "optics/shade.h"
 
@@ -48,8 +48,8 @@
 #define SHADE_GLINT_UNITS 25.0
 #define SHADE_POWER_UNITS 18.0 /* m = 0, 1/2, 1, 2 */
 #define SHADE_ANY_UNITS   12.0 /* other m */
-#define SHADE_EXPONENT    690.0
-#define SHADE_NOTHING     0x1p-909 /* 2^53 times 2^31 e^-689 */
+#define SHADE_EXPONENT    700.0
+#define SHADE_NOTHING     0x1p-924 /* 2^53 times 2^31 e^-699 */
 
 /* Nearer to grazing than this the errors grow. */
 #define SHADE_GRAZING 0x1p-6
