@@ -230,7 +230,7 @@ static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const l
     if (job->visible) {
         return job->visible[facet];
     }
-    return lrcsi_grid_faces(job->view, facet) ? lrcsi_visible_unshadowed(tilt, job->plan->graze)
+    return lrcsi_grid_casts(job->view, facet) ? lrcsi_visible_unshadowed(tilt, job->plan->graze)
                                               : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
@@ -282,7 +282,7 @@ static void sum_back(total_job *job, double area)
 
 static int facet_shows(const total_job *job, uint32_t facet)
 {
-    return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_faces(job->view, facet);
+    return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_casts(job->view, facet);
 }
 
 /* Any facet, by its exact facing. */
