@@ -387,7 +387,10 @@ static inline void batch_add(total_job *job, total_batch *batch, uint32_t place,
     const lrcsi_batches *b = &job->view->prepared->batches;
     uint32_t facet = b->facet[place];
     double side = dot < 0 ? -1 : 1;
-    if (job->visible && !(job->visible[facet].high > 0)) {
+    int shows = job->visible   ? job->visible[facet].high > 0
+                : b->redundant ? lrcsi_grid_casts(job->view, facet)
+                               : 1;
+    if (!shows) {
         job->total.hidden++;
         return;
     }
@@ -419,9 +422,13 @@ static void batch_backs(total_job *job, total_batch *batch, uint32_t place, cons
 {
     const lrcsi_batches *b = &job->view->prepared->batches;
     double area[LRCSI_LANES] = {0};
-    if (job->visible) {
+    if (job->visible || b->redundant) {
         for (uint32_t k = 0; k < count; k++) {
-            area[k] = job->visible[b->facet[place + back[k]]].area;
+            uint32_t facet = b->facet[place + back[k]];
+            area[k] = job->visible ? job->visible[facet].area
+                      : lrcsi_grid_casts(job->view, facet)
+                          ? -dot[back[k]] * b->area[place + back[k]]
+                          : 0;
             job->total.back_sides += area[k] > 0;
         }
     } else {

@@ -16,9 +16,10 @@ typedef struct lrcsi_batches {
     uint32_t *facet;   /* at each place */
     double *normal[3]; /* unit; component k is off by at most 1.01 u of itself */
     double *area;      /* S, scaled; relative error at most 3 u */
+    int redundant;     /* some are, on one side at least */
 } lrcsi_batches;
 
-/* Given: the scene's normals, and which facets are skipped. Status: LRCS_OK; LRCS_E_MEMORY.
+/* Given: the scene's normals, and which facets are skipped or redundant. Status: LRCS_OK; LRCS_E_MEMORY.
    Work: lrcsi_batches_need, all of which stays. */
 size_t lrcsi_batches_need(const lrcs_scene *scene);
 int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work);
