@@ -380,39 +380,67 @@ static void block_run(total_job *job, total_batch *batch)
     batch->count = 0;
 }
 
-/* A facet that reflects joins the block if anything of it shows, which is run whenever it is full;
-   one that blocks do not serve is summed at once. */
-static inline void batch_add(total_job *job, total_batch *batch, uint32_t place, double dot)
+/* Of facets that reflect, those that show stay listed; ones with curved normals are summed at once.
+   Returns how many stay. */
+static uint32_t batch_filter(total_job *job, uint32_t place, uint32_t *list, uint32_t count)
+{
+    const uint32_t *facet = job->view->prepared->batches.facet + place;
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t f = facet[list[k]];
+        if (!facet_shows(job, f)) {
+            job->total.hidden++;
+        } else if (job->curved && lrcsi_curve_wanted(job->view, f)) {
+            sum_precisely(job, f);
+        } else {
+            list[kept++] = list[k];
+        }
+    }
+    return kept;
+}
+
+/* Facets listed join the block, which is run whenever it is full. Given: 1, or -1 where they face
+   away. */
+static void batch_gather(total_job *job, total_batch *batch, uint32_t place, const uint32_t *list,
+                         uint32_t count, double side)
 {
     const lrcsi_batches *b = &job->view->prepared->batches;
-    uint32_t facet = b->facet[place];
-    double side = dot < 0 ? -1 : 1;
-    int shows = job->visible   ? job->visible[facet].high > 0
-                : b->redundant ? lrcsi_grid_casts(job->view, facet)
-                               : 1;
-    if (!shows) {
-        job->total.hidden++;
-        return;
+    while (count > 0) {
+        uint32_t room = LRCSI_LANES - batch->count;
+        uint32_t take = count < room ? count : room;
+        for (int k = 0; k < 3; k++) {
+            const double *from = b->normal[k] + place;
+            double *to = batch->shades.normal[k] + batch->count;
+            for (uint32_t i = 0; i < take; i++) {
+                to[i] = side * from[list[i]];
+            }
+        }
+        for (uint32_t i = 0; i < take; i++) {
+            batch->facet[batch->count + i] = b->facet[place + list[i]];
+            batch->area[batch->count + i] = b->area[place + list[i]];
+        }
+        for (uint32_t i = batch->count; job->visible && i < batch->count + take; i++) {
+            batch->area[i] = job->visible[batch->facet[i]].area;
+            batch->most[i] = job->visible[batch->facet[i]].high;
+        }
+        batch->seen = 1;
+        batch->count += take;
+        list += take;
+        count -= take;
+        if (batch->count == LRCSI_LANES) {
+            block_run(job, batch);
+        }
     }
-    batch->seen = 1;
-    if (!(side * dot < batch->lobes.high) ||
-        (job->curved && lrcsi_curve_wanted(job->view, facet))) {
-        sum_precisely(job, facet);
-        return;
+}
+
+/* Those listed and seen from that side go into blocks. */
+static void batch_add(total_job *job, total_batch *batch, uint32_t place, uint32_t *list,
+                      uint32_t count, double side)
+{
+    if (job->visible || job->curved || job->view->prepared->batches.redundant) {
+        count = batch_filter(job, place, list, count);
     }
-    uint32_t i = batch->count++;
-    for (int k = 0; k < 3; k++) {
-        batch->shades.normal[k][i] = side * b->normal[k][place];
-    }
-    batch->facet[i] = facet;
-    batch->area[i] = b->area[place];
-    if (job->visible) {
-        batch->area[i] = job->visible[facet].area;
-        batch->most[i] = job->visible[facet].high;
-    }
-    if (batch->count == LRCSI_LANES) {
-        block_run(job, batch);
-    }
+    batch_gather(job, batch, place, list, count, side);
 }
 
 /* Adds the areas of back sides that show: by method facet of all among LRCSI_LANES places, else of
@@ -456,25 +484,23 @@ static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint3
     for (uint32_t i = count; i < LRCSI_LANES; i++) {
         dot[i] = 0;
     }
+    double far = batch->back_reflects ? batch->lobes.high : 2;
     for (uint32_t i = 0; i < count; i++) {
         front[fronts] = back[backs] = i;
-        fronts += dot[i] > low;
-        backs += dot[i] < -low;
+        fronts += (dot[i] > low) & (dot[i] < batch->lobes.high);
+        backs += (dot[i] < -low) & (dot[i] > -far);
     }
-    for (uint32_t k = 0; k < fronts; k++) {
-        batch_add(job, batch, place + front[k], dot[front[k]]);
-    }
+    batch_add(job, batch, place, front, fronts, 1);
     if (batch->back_reflects && batch->back_shows) {
-        for (uint32_t k = 0; k < backs; k++) {
-            batch_add(job, batch, place + back[k], dot[back[k]]);
-        }
+        batch_add(job, batch, place, back, backs, -1);
     } else if (batch->back_shows) {
         batch_backs(job, batch, place, dot, back, backs);
     } else if (batch->back_reflects) {
         job->total.hidden += backs;
     }
     for (uint32_t i = 0; fronts + backs < count && i < count; i++) {
-        if (!(fabs(dot[i]) > low)) {
+        double end = dot[i] > 0 ? batch->lobes.high : far;
+        if (!(fabs(dot[i]) > low && fabs(dot[i]) < end)) {
             sum_facet(job, job->view->prepared->batches.facet[place + i]);
         }
     }
