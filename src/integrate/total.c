@@ -12,6 +12,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/bits.h"
 #include "base/elementary.h"
@@ -408,16 +409,13 @@ static void batch_gather(total_job *job, total_batch *batch, uint32_t place, con
     while (count > 0) {
         uint32_t room = LRCSI_LANES - batch->count;
         uint32_t take = count < room ? count : room;
-        for (int k = 0; k < 3; k++) {
-            const double *from = b->normal[k] + place;
-            double *to = batch->shades.normal[k] + batch->count;
-            for (uint32_t i = 0; i < take; i++) {
-                to[i] = side * from[list[i]];
-            }
-        }
-        for (uint32_t i = 0; i < take; i++) {
-            batch->facet[batch->count + i] = b->facet[place + list[i]];
-            batch->area[batch->count + i] = b->area[place + list[i]];
+        for (uint32_t i = batch->count; i < batch->count + take; i++) {
+            uint32_t at = place + *list++;
+            batch->shades.normal[0][i] = side * b->normal[0][at];
+            batch->shades.normal[1][i] = side * b->normal[1][at];
+            batch->shades.normal[2][i] = side * b->normal[2][at];
+            batch->area[i] = b->area[at];
+            batch->facet[i] = b->facet[at];
         }
         for (uint32_t i = batch->count; job->visible && i < batch->count + take; i++) {
             batch->area[i] = job->visible[batch->facet[i]].area;
@@ -425,7 +423,6 @@ static void batch_gather(total_job *job, total_batch *batch, uint32_t place, con
         }
         batch->seen = 1;
         batch->count += take;
-        list += take;
         count -= take;
         if (batch->count == LRCSI_LANES) {
             block_run(job, batch);
@@ -449,8 +446,9 @@ static void batch_backs(total_job *job, total_batch *batch, uint32_t place, cons
                         const uint32_t *back, uint32_t count)
 {
     const lrcsi_batches *b = &job->view->prepared->batches;
-    double area[LRCSI_LANES] = {0};
+    double area[LRCSI_LANES];
     if (job->visible || b->redundant) {
+        memset(area, 0, sizeof area);
         for (uint32_t k = 0; k < count; k++) {
             uint32_t facet = b->facet[place + back[k]];
             area[k] = job->visible ? job->visible[facet].area
