@@ -10,7 +10,7 @@
 #include "view/view.h"
 #include <float.h>
 
-/* In units of 1 / view->unit, so that the bulk of the scene fills [-1, 1] whatever stands far
+/* In units of 1 / view->scale, so that the bulk of the scene fills [-1, 1] whatever stands far
    away: x right, y up, z to the laser. */
 typedef struct lrcsi_view_box {
     float low[3], high[3];
@@ -25,11 +25,11 @@ static inline float lrcsi_box_float(double x)
 static inline lrcsi_view_box lrcsi_box_round(const lrcsi_view *view, const double low[3],
                                              const double high[3])
 {
-    double unit = view->unit;
-    return (lrcsi_view_box){{lrcsi_box_float(low[0] * unit), lrcsi_box_float(low[1] * unit),
-                             lrcsi_box_float(low[2] * unit)},
-                            {lrcsi_box_float(high[0] * unit), lrcsi_box_float(high[1] * unit),
-                             lrcsi_box_float(high[2] * unit)}};
+    double scale = view->scale;
+    return (lrcsi_view_box){{lrcsi_box_float(low[0] * scale), lrcsi_box_float(low[1] * scale),
+                             lrcsi_box_float(low[2] * scale)},
+                            {lrcsi_box_float(high[0] * scale), lrcsi_box_float(high[1] * scale),
+                             lrcsi_box_float(high[2] * scale)}};
 }
 
 /* The box of some vertices. */

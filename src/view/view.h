@@ -26,11 +26,13 @@ typedef struct lrcsi_view {
     const lrcs_prepared *prepared;
     double direction[3]; /* to the laser, exact, not normalised */
     double R[3][3];
-    double length;       /* |direction| */
+    double length;  /* |direction| */
+    double unit[3]; /* direction / length, rounded; and with unit_low to 2^-100 */
+    double unit_low[3];
     signed char *facing; /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
     lrcs_point *point;   /* vertex, view coordinates about prepared->origin: x right, y up, z to the
                             laser; how far each may be off, lrcsi_view_off tells */
-    double unit;         /* a power of two: the bulk of the scene, times that, is below 1 */
+    double scale;        /* a power of two: the bulk of the scene, times that, is below 1 */
     double low[2], side; /* the square window around the projection of the live facets */
     uint32_t front, back; /* live facets facing either way */
     int backs_cast;       /* facets facing away hide others and may be seen: not where the scene is
@@ -39,7 +41,7 @@ typedef struct lrcsi_view {
     lrcsi_meter *meter;   /* steps that may be made to tell what is seen; NULL: no limit */
 } lrcsi_view;
 
-/* A view without coordinates (point, unit and the window), which method facet does without: they
+/* A view without coordinates (point, scale and the window), which method facet does without: they
    follow by lrcsi_view_project. Status: LRCS_OK; LRCS_E_MEMORY; those of lrcsi_frame_make;
    LRCS_E_UNSUPPORTED (this thread rounds otherwise: base/ieee.h). It stays in the work area. */
 size_t lrcsi_view_face_need(const lrcs_prepared *prepared);
@@ -98,6 +100,12 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 #define LRCSI_TILTS 32u
 void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
                       lrcsi_tilt *tilt);
+
+/* n . d of the facets at `place` and after it in the scene's batches, n and d being unit vectors:
+   absolute error at most LRCSI_DOT_ERROR. Returned: dot[], that of places beyond the last being 0.
+ */
+#define LRCSI_DOT_ERROR 0x1.8p-51
+void lrcsi_view_dots(const lrcsi_view *view, uint32_t place, double dot[LRCSI_LANES]);
 
 /* View coordinates of a scene point. */
 void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3]);

@@ -46,8 +46,8 @@ lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells)
         double half = fabs(row[0]) * bulk[0] + fabs(row[1]) * bulk[1] + fabs(row[2]) * bulk[2];
         double low = lrcsi_most(view->low[k], -half);
         double high = lrcsi_least(view->low[k] + view->side, half);
-        grid.low[k] = low * view->unit;
-        grid.side = lrcsi_most(grid.side, (high - low) * view->unit);
+        grid.low[k] = low * view->scale;
+        grid.side = lrcsi_most(grid.side, (high - low) * view->scale);
     }
     grid.scale = grid.side > 0 ? grid.size / grid.side : 0;
     grid.last = grid.size - 1.0;
@@ -147,10 +147,10 @@ static grid_segment segment_make(const lrcsi_grid *grid, uint32_t edge)
     double window = fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side;
     double off = 4 * lrcsi_view_off(a);
     double far = 4 * lrcsi_view_off(b);
-    return (grid_segment){{a[0] * view->unit, a[1] * view->unit},
-                          {(b[0] - a[0]) * view->unit, (b[1] - a[1]) * view->unit},
-                          off * view->unit + 0x1p-23 * window,
-                          (far - off) * view->unit};
+    return (grid_segment){{a[0] * view->scale, a[1] * view->scale},
+                          {(b[0] - a[0]) * view->scale, (b[1] - a[1]) * view->scale},
+                          off * view->scale + 0x1p-23 * window,
+                          (far - off) * view->scale};
 }
 
 /* Narrows the range of t to where value + t slope is not negative. */

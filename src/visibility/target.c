@@ -59,7 +59,7 @@ static double frame_point(const lrcsi_view *view, const double *origin, const do
         out[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
     }
     double away = sqrt(square);
-    return away * view->unit > FAR_OFF && away > FAR_OFF * (fabs(out[0]) + fabs(out[1]))
+    return away * view->scale > FAR_OFF && away > FAR_OFF * (fabs(out[0]) + fabs(out[1]))
                ? frame_point_deep(view, origin, x, out)
                : away;
 }
@@ -74,7 +74,7 @@ static int corner_first(const lrcsi_view *view, uint32_t facet)
         off[k] = lrcsi_view_off(view->point[corner[k]].x);
     }
     int nearer = off[1] <= off[2] ? 1 : 2;
-    int beyond = off[0] * view->unit > 10 * U * FAR_OFF; /* the scene's bulk */
+    int beyond = off[0] * view->scale > 10 * U * FAR_OFF; /* the scene's bulk */
     return beyond && off[0] > FAR_OFF * off[nearer] ? nearer : 0;
 }
 

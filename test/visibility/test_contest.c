@@ -267,8 +267,8 @@ static void whole_sheets_screen_and_others_do_not(void **state)
 
 static int listed(const lrcsi_grid *grid, const double xy[2], uint32_t item)
 {
-    uint32_t x = lrcsi_grid_cell(grid, xy[0] * view.unit, 0);
-    uint32_t y = lrcsi_grid_cell(grid, xy[1] * view.unit, 1);
+    uint32_t x = lrcsi_grid_cell(grid, xy[0] * view.scale, 0);
+    uint32_t y = lrcsi_grid_cell(grid, xy[1] * view.scale, 1);
     size_t cell = (size_t)y * grid->size + x;
     for (uint32_t i = grid->first[cell]; i < grid->first[cell + 1]; i++) {
         if (grid->item[i] == item) {

@@ -68,7 +68,7 @@ static int lists(const lrcsi_grid *grid, const double at[2], uint32_t item)
 {
     uint32_t in[2];
     for (int k = 0; k < 2; k++) {
-        double cell = ((float)(at[k] * grid->view->unit) - grid->low[k]) * grid->scale;
+        double cell = ((float)(at[k] * grid->view->scale) - grid->low[k]) * grid->scale;
         in[k] = (uint32_t)fmin(fmax(cell, 0), grid->size - 1);
     }
     uint32_t cell = in[1] * grid->size + in[0];
