@@ -34,6 +34,7 @@ size_t lrcsi_cover_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_grid_facets_need(prepared),
                                  lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_COVER_KEPT, sizeof(lrcsi_cover_sides)));
     return lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cover_facet)));
 }
 
@@ -43,7 +44,8 @@ int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover
     *cover = (lrcsi_cover){.contest = contest};
     cover->asked = lrcsi_work_take_zero(work, count, sizeof *cover->asked);
     cover->candidate = lrcsi_work_take(work, count, sizeof *cover->candidate);
-    return cover->asked && cover->candidate ? LRCS_OK : LRCS_E_MEMORY;
+    cover->sides = lrcsi_work_take_zero(work, LRCSI_COVER_KEPT, sizeof *cover->sides);
+    return cover->asked && cover->candidate && cover->sides ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 /* --- candidates ------------------------------------------------------------------------------- */
@@ -127,6 +129,7 @@ enum line_way {
 };
 
 typedef struct cover_line {
+    const lrcsi_cover *cover;
     const lrcsi_cuts *cuts;
     uint32_t count; /* of their list, that may divide what the line stands for */
     int way;
@@ -152,14 +155,14 @@ typedef struct cover_line {
    seen from n. T is off by 12 u (r_p + r_q), rounding included, G by 12 u r_n + 2 u d, so T x G by
    12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the 1-norm, and by its own rounding, 2 u |T|
    |G|, below 3 u (r_p + r_q) |G|. */
-static void candidate_place(const lrcsi_target *t, lrcsi_cover_facet *c)
+static void sides_place(const lrcsi_target *t, uint32_t facet, lrcsi_cover_sides *c)
 {
     double corner[3][2];
     double reach[3];
     double most = t->reach;
     double least = HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        reach[k] = lrcsi_target_place(t, lrcsi_target_corner(t->view, c->facet, k), corner[k]);
+        reach[k] = lrcsi_target_place(t, lrcsi_target_corner(t->view, facet, k), corner[k]);
         most = lrcsi_most(most, reach[k]);
         least = lrcsi_least(least, reach[k]);
     }
@@ -178,19 +181,27 @@ static void candidate_place(const lrcsi_target *t, lrcsi_cover_facet *c)
             far ? 16 * U * ((reach[k] + reach[next]) * gap + (reach[near] + t->diameter) * length)
                 : 24 * U * (most + t->diameter) * length;
     }
-    c->placed = 1;
+}
+
+static const lrcsi_cover_sides *sides_of(const cover_line *line, uint32_t facet)
+{
+    lrcsi_cover_sides *sides = &line->cover->sides[facet % LRCSI_COVER_KEPT];
+    if (sides->facet != facet || sides->ask != line->cover->asks) {
+        sides_place(line->cuts->target, facet, sides);
+        sides->facet = facet;
+        sides->ask = line->cover->asks;
+    }
+    return sides;
 }
 
 /* 1 the line surely meets the candidate, -1 surely not, 0 it passes too near a side. */
-static int line_meets_about(const cover_line *line, lrcsi_cover_facet *c)
+static int line_meets_about(const cover_line *line, const lrcsi_cover_facet *c)
 {
+    const lrcsi_cover_sides *sides = sides_of(line, c->facet);
     int inside = 1;
-    if (!c->placed) {
-        candidate_place(line->cuts->target, c);
-    }
     for (int k = 0; k < 3; k++) {
-        double left = lrcsi_clip_side(&c->side[k], line->at);
-        double clear = line->way == LINE_GUESSED ? 0 : c->clear[k];
+        double left = lrcsi_clip_side(&sides->side[k], line->at);
+        double clear = line->way == LINE_GUESSED ? 0 : sides->clear[k];
         if (left < -clear) {
             return -1;
         }
@@ -346,7 +357,8 @@ static int line_tells(const cover_line *line, lrcsi_cover *cover, uint32_t *shee
 int lrcsi_cover_sample(lrcsi_cover *cover, const lrcsi_cuts *cuts, uint32_t count,
                        lrcsi_cover_place *place, uint32_t *sheet)
 {
-    cover_line line = {.cuts = cuts,
+    cover_line line = {.cover = cover,
+                       .cuts = cuts,
                        .count = count,
                        .at = {place->at[0], place->at[1]},
                        .box = line_box(cuts->target, place->at),

@@ -18,11 +18,18 @@ enum lrcsi_cover_answer {
 typedef struct lrcsi_cover_facet {
     lrcsi_view_box box;
     uint32_t facet;
-    uint32_t order;          /* against the target's plane */
-    int placed;              /* what follows is known: */
-    lrcsi_clip_line side[3]; /* its sides in the target's frame, */
-    double clear[3];         /* and what lrcsi_clip_side may be off of each */
+    uint32_t order; /* against the target's plane */
 } lrcsi_cover_facet;
+
+/* The sides of a candidate in the target's frame, kept for lines to come. */
+typedef struct lrcsi_cover_sides {
+    uint32_t facet, ask; /* whose they are, in which search */
+    lrcsi_clip_line side[3];
+    double clear[3]; /* how far lrcsi_clip_side may be off of each */
+} lrcsi_cover_sides;
+
+/* So many are kept at a time, each in the place that its facet's number tells. */
+#define LRCSI_COVER_KEPT 1024u
 
 typedef struct lrcsi_cover {
     lrcsi_contest *contest;
@@ -31,6 +38,7 @@ typedef struct lrcsi_cover {
     uint32_t asks;   /* searches so far */
     lrcsi_cover_facet *candidate;
     uint32_t count;
+    lrcsi_cover_sides *sides;
 } lrcsi_cover;
 
 /* Bytes at most, with those of the grid. */

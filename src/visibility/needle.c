@@ -82,12 +82,12 @@ int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corne
     if (turn * least > reach * reach) {
         return 0;
     }
-    n->origin = lrcsi_target_corner(view, facet, 0);
+    n->origin = lrcsi_target_own(view, facet, 0);
     n->direction = view->direction;
     n->length = view->length;
     n->reach = 0;
     for (int i = 0; i < 2; i++) {
-        const double *x = lrcsi_target_corner(view, facet, i + 1);
+        const double *x = lrcsi_target_own(view, facet, i + 1);
         n->reach = lrcsi_most(n->reach, gap_between(x, n->origin, n->side[i]));
         n->corner[i][0] = corner[i + 1][0];
         n->corner[i][1] = corner[i + 1][1];

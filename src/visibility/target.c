@@ -64,41 +64,36 @@ static double frame_point(const lrcsi_view *view, const double *origin, const do
                : away;
 }
 
-/* The corner from which a facet is counted: its first, unless that is far away and another is not.
-   Seen from a far corner, all that is near the others would be off by as much. */
+/* The corner from which a facet is counted: its first, unless that is far away from the scene's
+   bulk and another is not. Seen from a far corner, all that is near the others would be off by as
+   much. */
 static int corner_first(const lrcsi_view *view, uint32_t facet)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    double off[3];
-    for (int k = 0; k < 3; k++) {
-        off[k] = lrcsi_view_off(view->point[corner[k]].x);
+    double off = lrcsi_view_off(view->point[corner[0]].x);
+    if (off * view->scale <= FAR_OFF * 10 * U) {
+        return 0;
     }
-    int nearer = off[1] <= off[2] ? 1 : 2;
-    int beyond = off[0] * view->scale > 10 * U * FAR_OFF; /* the scene's bulk */
-    return beyond && off[0] > FAR_OFF * off[nearer] ? nearer : 0;
+    double second = lrcsi_view_off(view->point[corner[1]].x);
+    double third = lrcsi_view_off(view->point[corner[2]].x);
+    return off <= FAR_OFF * lrcsi_least(second, third) ? 0 : second <= third ? 1 : 2;
 }
 
-/* The facet's own number of its corner k, counted counter-clockwise in the view. */
-static int corner_number(const lrcsi_view *view, uint32_t facet, int k)
+/* The facet's own number of its corner k, counted counter-clockwise in the view from its first. */
+static int corner_number(const lrcsi_view *view, uint32_t facet, int first, int k)
 {
-    return (corner_first(view, facet) + (view->facing[facet] > 0 ? k : 3 - k)) % 3;
+    return (first + (view->facing[facet] > 0 ? k : 3 - k)) % 3;
 }
 
 const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k)
 {
-    return lrcsi_prepared_corner(view->prepared, facet, corner_number(view, facet, k));
+    return lrcsi_prepared_corner(view->prepared, facet, corner_number(view, facet, 0, k));
 }
 
-double lrcsi_target_frame(const lrcsi_view *view, uint32_t target, uint32_t facet,
-                          double corner[3][2])
+const double *lrcsi_target_own(const lrcsi_view *view, uint32_t facet, int k)
 {
-    const double *origin = lrcsi_target_corner(view, target, 0);
-    double reach = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_corner(view, facet, k);
-        reach = lrcsi_most(reach, frame_point(view, origin, x, corner[k]));
-    }
-    return reach;
+    int first = corner_first(view, facet);
+    return lrcsi_prepared_corner(view->prepared, facet, corner_number(view, facet, first, k));
 }
 
 double lrcsi_target_place(const lrcsi_target *t, const double x[3], double out[2])
@@ -136,8 +131,11 @@ double lrcsi_target_segment(const lrcsi_target *t, double end[2][2], const doubl
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
 {
     *t = (lrcsi_target){.view = view, .facet = facet, .unit = 1};
-    t->origin = lrcsi_target_corner(view, facet, 0);
-    t->reach = lrcsi_target_frame(view, facet, facet, t->corner);
+    t->origin = lrcsi_target_own(view, facet, 0);
+    for (int k = 0; k < 3; k++) {
+        double away = lrcsi_target_place(t, lrcsi_target_own(view, facet, k), t->corner[k]);
+        t->reach = lrcsi_most(t->reach, away);
+    }
     for (int k = 0; k < 3; k++) {
         const double *p = t->corner[k];
         const double *q = t->corner[(k + 1) % 3];
@@ -232,7 +230,8 @@ void lrcsi_target_weights(const lrcsi_target *t, const double at[2], double weig
         shares[1] = clamped(along - shares[2] * foot, 0, 1 - shares[2]);
         shares[0] = 1 - shares[2] - shares[1];
     }
+    int first = corner_first(t->view, t->facet);
     for (int i = 0; i < 3; i++) {
-        weight[corner_number(t->view, t->facet, (k + i) % 3)] = shares[i];
+        weight[corner_number(t->view, t->facet, first, (k + i) % 3)] = shares[i];
     }
 }

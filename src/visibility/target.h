@@ -34,9 +34,11 @@ void lrcsi_target_refine(const lrcsi_target *target, lrcsi_needle *needle, lrcsi
 /* A point of the refined frame in that of the view axes, within 3 u of the reach. */
 void lrcsi_target_unrefine(const lrcsi_target *refined, const double at[2], double out[2]);
 
-/* Corner k of a facet, counted so that they run counter-clockwise in the view, and from one that is
-   not far away, if the facet has such. */
+/* Corner k of a facet, counted so that they run counter-clockwise in the view. */
 const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k);
+
+/* The same of a target, as its frame counts them: from one that is not far away, if it has such. */
+const double *lrcsi_target_own(const lrcsi_view *view, uint32_t facet, int k);
 
 /* A scene point in the target's frame; returns its distance, in space, from the first corner, or
    less: that of which it is off by 10 u. */
@@ -46,11 +48,6 @@ double lrcsi_target_place(const lrcsi_target *target, const double x[3], double 
    `away` and each is off by 10 u of that. Returns the distance of which both are then off by
    10 u. */
 double lrcsi_target_segment(const lrcsi_target *target, double end[2][2], const double away[2]);
-
-/* Corners of any facet in the target's frame, counter-clockwise; returns the largest such
-   distance. */
-double lrcsi_target_frame(const lrcsi_view *view, uint32_t target, uint32_t facet,
-                          double corner[3][2]);
 
 /* The point of the facet that is seen at `at`, a point of the frame, as shares of the facet's
    corners in the facet's own order: each at least 0, their sum 1 but for rounding. At a corner of
