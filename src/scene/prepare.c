@@ -220,7 +220,8 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work, int *lone)
         return LRCS_E_MEMORY;
     }
     int closed = lrcsi_solid_pieces(p, piece);
-    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, p->idle,
+    int status = lrcsi_touches_make(p->vertex, p->scene->vertex_count, p->scene->facet,
+                                    p->scene->facet_count, &p->topology, p->idle,
                                     closed ? piece : NULL, work, &p->touches);
     if (status == LRCS_OK && closed && !p->touches.self) {
         status = lrcsi_solid_outward(p, piece, work, &p->solid);
@@ -262,7 +263,8 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, 1));
     need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
-    need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
+    need = lrcsi_work_add(
+        need, lrcsi_touches_need(scene->vertex_count, scene->facet_count, 4 * facets + 64));
     size_t proof = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
     proof = lrcsi_work_add(proof, lrcsi_tree_need(scene->facet_count));
