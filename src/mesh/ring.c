@@ -49,14 +49,14 @@ enum { HUB_FACETS = 32 };
 #define RING_SCALE 0x1p20
 
 /* What is known of a point's ring. */
-typedef struct ring {
+typedef struct vertex_ring {
     float m[3];             /* sum of the facets' normals, then m */
     uint32_t count;         /* facets */
     uint32_t start, end;    /* of the spokes that are not both, the last one seen */
     unsigned char open;     /* spokes that are starts only; 2 for more */
     unsigned char up, down; /* sectors above the directions w and -w; 2 for more */
     unsigned char refused;  /* a condition is not met, or not surely */
-} ring;
+} vertex_ring;
 
 static void count_one_more(unsigned char *count)
 {
@@ -84,7 +84,7 @@ static int sure_sign(const double normal[3], const double d[3])
 
 /* Each facet's normal, its largest component brought to 1, is added to m at its corners. */
 static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                        const uint32_t *weld, const unsigned char *skip, ring *rings)
+                        const uint32_t *weld, const unsigned char *skip, vertex_ring *rings)
 {
     for (uint32_t f = 0; f < facet_count; f++) {
         if (skip && skip[f]) {
@@ -102,7 +102,7 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
         most = fabs(z) > most ? fabs(z) : most;
         double scale = most > 0.0 ? 1.0 / most : 0.0;
         for (int corner = 0; corner < 3; corner++) {
-            ring *r = &rings[weld[c[corner]]];
+            vertex_ring *r = &rings[weld[c[corner]]];
             r->count++;
             r->m[0] = (float)((double)r->m[0] + x * scale);
             r->m[1] = (float)((double)r->m[1] + y * scale);
@@ -112,11 +112,11 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
 }
 
 /* Rounds m to whole numbers: what is added and taken away has an ulp of 1. */
-static void round_means(ring *rings, uint32_t vertex_count)
+static void round_means(vertex_ring *rings, uint32_t vertex_count)
 {
     const double whole = 0x1.8p52;
     for (uint32_t v = 0; v < vertex_count; v++) {
-        ring *r = &rings[v];
+        vertex_ring *r = &rings[v];
         double x = fabs((double)r->m[0]);
         double y = fabs((double)r->m[1]);
         double z = fabs((double)r->m[2]);
@@ -130,7 +130,8 @@ static void round_means(ring *rings, uint32_t vertex_count)
 }
 
 /* Conditions 2 and 3. */
-static void match_spokes(const lrcsi_topology *topology, const unsigned char *skip, ring *rings)
+static void match_spokes(const lrcsi_topology *topology, const unsigned char *skip,
+                         vertex_ring *rings)
 {
     for (uint32_t e = 0; e < topology->edge_count; e++) {
         const lrcsi_edge *edge = &topology->edge[e];
@@ -152,9 +153,16 @@ static void match_spokes(const lrcsi_topology *topology, const unsigned char *sk
     }
 }
 
+static void mean_of(const vertex_ring *r, double m[3])
+{
+    for (int k = 0; k < 3; k++) {
+        m[k] = (double)r->m[k];
+    }
+}
+
 /* Condition 1, and the sectors above the two directions. */
 static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                          const uint32_t *weld, const unsigned char *skip, ring *rings)
+                          const uint32_t *weld, const unsigned char *skip, vertex_ring *rings)
 {
     for (uint32_t f = 0; f < facet_count; f++) {
         if (skip && skip[f]) {
@@ -173,8 +181,9 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
         const double weight[3] = {fabs(plus[0]) + fabs(minus[0]), fabs(plus[1]) + fabs(minus[1]),
                                   fabs(plus[2]) + fabs(minus[2])};
         for (int corner = 0; corner < 3; corner++) {
-            ring *r = &rings[weld[c[corner]]];
-            const double m[3] = {r->m[0], r->m[1], r->m[2]};
+            vertex_ring *r = &rings[weld[c[corner]]];
+            double m[3];
+            mean_of(r, m);
             const double g[3] = {7.0 * m[1] - 3.0 * m[2], 5.0 * m[2] - 7.0 * m[0],
                                  3.0 * m[0] - 5.0 * m[1]};
             double turn = (normal[0] * m[0] + normal[1] * m[1]) + normal[2] * m[2];
@@ -194,7 +203,7 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
 }
 
 /* All conditions together, of the ring of v. */
-static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const ring *r)
+static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const vertex_ring *r)
 {
     if (r->refused || r->open > 1) {
         return 0;
@@ -205,13 +214,14 @@ static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const ring *r)
     if (r->up == 0 || r->down == 0) {
         return 1;
     }
-    const double m[3] = {r->m[0], r->m[1], r->m[2]};
+    double m[3];
+    mean_of(r, m);
     return r->up == 1 && r->down == 1 &&
            lrcsi_exact_turn(vertex[v].x, vertex[r->end].x, vertex[r->start].x, m) > 0;
 }
 
 /* Of a facet's proved points with many facets, the one with the most, or LRCS_NONE. */
-static uint32_t hub_of(const lrcs_facet *facet, const uint32_t *weld, const ring *rings,
+static uint32_t hub_of(const lrcs_facet *facet, const uint32_t *weld, const vertex_ring *rings,
                        const unsigned char *proved)
 {
     uint32_t hub = LRCS_NONE;
@@ -227,7 +237,7 @@ static uint32_t hub_of(const lrcs_facet *facet, const uint32_t *weld, const ring
 
 size_t lrcsi_rings_need(uint32_t vertex_count)
 {
-    return lrcsi_work_bytes(vertex_count, sizeof(ring));
+    return lrcsi_work_bytes(vertex_count, sizeof(vertex_ring));
 }
 
 int lrcsi_rings_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
@@ -237,7 +247,7 @@ int lrcsi_rings_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrc
 {
     size_t mark = work->used;
     const uint32_t *weld = topology->weld;
-    ring *rings = lrcsi_work_take_zero(work, vertex_count, sizeof *rings);
+    vertex_ring *rings = lrcsi_work_take_zero(work, vertex_count, sizeof *rings);
     work->used = mark;
     if (!rings) {
         return LRCS_E_MEMORY;

@@ -473,7 +473,7 @@ static void sort_found(touch_found *found, size_t n)
 
 /* ---- all pairs ---- */
 
-enum { LANES = LRCSI_TREE_LANES };
+enum { LEAF_LANES = LRCSI_TREE_LANES };
 
 /* A leaf that meets more others than this by boxes is compared by slabs too; but slabs are filled
    only once there have been as many more meetings, which is what filling them costs. */
@@ -482,7 +482,7 @@ enum { MANY_LEAVES = 16, SLABS_COST = 8 };
 /* The corners of a leaf's facets whose rings are proved, in structure of arrays; others are
    LRCS_NONE. */
 typedef struct touch_leaf {
-    uint32_t corner[3][LANES];
+    uint32_t corner[3][LEAF_LANES];
 } touch_leaf;
 
 /* The facets among which contacts are sought, and those found. */
@@ -553,7 +553,7 @@ static int meet_pair(touch_search *search, uint32_t facet, const touch_facet *f,
    lane of another. */
 static unsigned lanes_in_ring(const touch_leaf *leaf, const touch_leaf *other, uint32_t lane)
 {
-    static const uint32_t lane_bit[LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
+    static const uint32_t lane_bit[LEAF_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
     uint32_t a = other->corner[0][lane];
     uint32_t b = other->corner[1][lane];
     uint32_t c = other->corner[2][lane];
@@ -561,7 +561,7 @@ static unsigned lanes_in_ring(const touch_leaf *leaf, const touch_leaf *other, u
     b = b != LRCS_NONE ? b : a;
     c = c != LRCS_NONE ? c : a;
     uint32_t lanes = 0;
-    for (int k = 0; k < LANES; k++) {
+    for (int k = 0; k < LEAF_LANES; k++) {
         uint32_t x = leaf->corner[0][k];
         uint32_t y = leaf->corner[1][k];
         uint32_t z = leaf->corner[2][k];
@@ -576,12 +576,12 @@ static unsigned lanes_in_ring(const touch_leaf *leaf, const touch_leaf *other, u
 static int meet_lanes(touch_search *search, uint32_t place, uint32_t leaf, unsigned lanes)
 {
     const lrcsi_tree *tree = &search->tree;
-    lrcsi_box box = lrcsi_tree_box(&tree->block[0][place / LANES], place % LANES);
+    lrcsi_box box = lrcsi_tree_box(&tree->block[0][place / LEAF_LANES], place % LEAF_LANES);
     touch_facet f = {.axis = -1};
     int status = LRCS_OK;
     for (; lanes != 0 && status == LRCS_OK; lanes &= lanes - 1) {
         uint32_t lane = lrcsi_tree_lane(lanes);
-        uint32_t at = leaf * LANES + lane;
+        uint32_t at = leaf * LEAF_LANES + lane;
         if (!lrcsi_tree_meets_lane(&tree->block[0][leaf], lane, &box)) {
             continue;
         }
@@ -606,12 +606,12 @@ static int meet_leaves(touch_search *search, uint32_t first, uint32_t second)
     unsigned columns = 0xff;
     int status = LRCS_OK;
     if (first != second) {
-        lrcsi_box box = lrcsi_tree_box(&tree->block[1][second / LANES], second % LANES);
+        lrcsi_box box = lrcsi_tree_box(&tree->block[1][second / LEAF_LANES], second % LEAF_LANES);
         rows = lrcsi_tree_meets(&tree->block[0][first], &box);
-        box = lrcsi_tree_box(&tree->block[1][first / LANES], first % LANES);
+        box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
         columns = rows ? lrcsi_tree_meets(&tree->block[0][second], &box) : 0;
-    } else if (tree->count - first * LANES < LANES) {
-        rows = columns = (1u << (tree->count - first * LANES)) - 1;
+    } else if (tree->count - first * LEAF_LANES < LEAF_LANES) {
+        rows = columns = (1u << (tree->count - first * LEAF_LANES)) - 1;
     }
     for (; rows != 0 && columns != 0 && status == LRCS_OK; rows &= rows - 1) {
         uint32_t lane = lrcsi_tree_lane(rows);
@@ -619,7 +619,7 @@ static int meet_leaves(touch_search *search, uint32_t first, uint32_t second)
         unsigned lanes =
             columns & ~lanes_in_ring(&search->leaf[second], &search->leaf[first], lane);
         if (lanes != 0) {
-            status = meet_lanes(search, first * LANES + lane, second, lanes);
+            status = meet_lanes(search, first * LEAF_LANES + lane, second, lanes);
         }
     }
     return status;
@@ -699,10 +699,10 @@ static int prepare_search(touch_search *search, uint32_t vertex_count, uint32_t 
     }
     for (uint32_t place = 0; place < tree->count; place++) {
         const uint32_t *c = search->facet[tree->order[place]].corner;
-        touch_leaf *leaf = &search->leaf[place / LANES];
+        touch_leaf *leaf = &search->leaf[place / LEAF_LANES];
         for (int k = 0; k < 3; k++) {
             uint32_t v = search->weld[c[k]];
-            leaf->corner[k][place % LANES] = proved[v] ? v : LRCS_NONE;
+            leaf->corner[k][place % LEAF_LANES] = proved[v] ? v : LRCS_NONE;
         }
     }
     return LRCS_OK;
@@ -716,7 +716,8 @@ size_t lrcsi_touches_need(uint32_t vertex_count, uint32_t facet_count, size_t co
     need = lrcsi_work_add(need, lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
     size_t rings = lrcsi_rings_need(vertex_count);
     size_t search = lrcsi_tree_need(facet_count);
-    search = lrcsi_work_add(search, lrcsi_work_bytes(facet_count / LANES + 1, sizeof(touch_leaf)));
+    search =
+        lrcsi_work_add(search, lrcsi_work_bytes(facet_count / LEAF_LANES + 1, sizeof(touch_leaf)));
     search = lrcsi_work_add(
         search, lrcsi_work_bytes(lrcsi_work_add(count, FOUND_BLOCK), sizeof(touch_found)));
     return lrcsi_work_add(need, rings > search ? rings : search);

@@ -16,7 +16,7 @@
 #include "base/sort.h"
 #include "base/work.h"
 
-enum { LANES = LRCSI_TREE_LANES };
+enum { TREE_LANES = LRCSI_TREE_LANES };
 
 /* Bits of a cell's number along each axis. */
 enum { MORTON_LEAST = 8, MORTON_MOST = 21 };
@@ -157,7 +157,7 @@ static void sort_places(const tree_sort *s, uint32_t count)
 
 static uint32_t blocks_for(uint32_t count)
 {
-    return count / LANES + (count % LANES != 0);
+    return count / TREE_LANES + (count % TREE_LANES != 0);
 }
 
 /* Takes room for a tree over tree->count facets. */
@@ -191,9 +191,9 @@ static void put_box(lrcsi_tree_block *block, uint32_t lane, const lrcsi_box *box
 static void fill_leaf(const tree_sort *s, const uint32_t *label, const lrcsi_tree *tree, uint32_t b)
 {
     lrcsi_tree_block *block = &tree->block[0][b];
-    uint32_t first = b * LANES;
+    uint32_t first = b * TREE_LANES;
     uint32_t common = label ? label[s->order[first]] : LRCS_NONE;
-    for (uint32_t lane = 0; lane < LANES; lane++) {
+    for (uint32_t lane = 0; lane < TREE_LANES; lane++) {
         lrcsi_box box = empty_box();
         if (lane < tree->count - first) {
             uint32_t f = s->order[first + lane];
@@ -212,7 +212,7 @@ static lrcsi_box block_box(const lrcsi_tree_block *block)
     for (int k = 0; k < 3; k++) {
         double low = block->low[k][0];
         double high = block->high[k][0];
-        for (int lane = 1; lane < LANES; lane++) {
+        for (int lane = 1; lane < TREE_LANES; lane++) {
             low = block->low[k][lane] < low ? block->low[k][lane] : low;
             high = block->high[k][lane] > high ? block->high[k][lane] : high;
         }
@@ -225,9 +225,9 @@ static lrcsi_box block_box(const lrcsi_tree_block *block)
 /* Fills block b of a level above from the blocks below it. */
 static void fill_block(const lrcsi_tree *tree, int level, uint32_t b)
 {
-    uint32_t first = b * LANES;
+    uint32_t first = b * TREE_LANES;
     uint32_t common = tree->label[level - 1][first];
-    for (uint32_t lane = 0; lane < LANES; lane++) {
+    for (uint32_t lane = 0; lane < TREE_LANES; lane++) {
         lrcsi_box box = empty_box();
         if (lane < tree->blocks[level - 1] - first) {
             box = block_box(&tree->block[level - 1][first + lane]);
@@ -347,15 +347,15 @@ static void fill_slab(const lrcs_point *vertex, const lrcs_facet *facet, const u
 
 void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree)
 {
-    uint32_t size = LANES; /* places below a lane */
+    uint32_t size = TREE_LANES; /* places below a lane */
     for (int level = 1; level < tree->levels; level++) {
         for (uint32_t child = 0; child < tree->blocks[level - 1]; child++) {
             uint32_t first = child * size;
             uint32_t end = tree->count - first < size ? tree->count : first + size;
-            fill_slab(vertex, facet, tree->order, first, end, &tree->slabs[level][child / LANES],
-                      child % LANES);
+            fill_slab(vertex, facet, tree->order, first, end,
+                      &tree->slabs[level][child / TREE_LANES], child % TREE_LANES);
         }
-        size *= LANES;
+        size *= TREE_LANES;
     }
     tree->has_slabs = 1;
 }
@@ -377,10 +377,10 @@ static int slab_is_apart(const lrcsi_tree *tree, uint32_t leaf, int level, uint3
                          uint32_t lane)
 {
     const lrcsi_tree_slabs *slabs = &tree->slabs[level][b];
-    const lrcsi_tree_slabs *own = &tree->slabs[1][leaf / LANES];
-    uint32_t at = leaf % LANES;
+    const lrcsi_tree_slabs *own = &tree->slabs[1][leaf / TREE_LANES];
+    uint32_t at = leaf % TREE_LANES;
     lrcsi_box box = lrcsi_tree_box(&tree->block[level][b], lane);
-    lrcsi_box own_box = lrcsi_tree_box(&tree->block[1][leaf / LANES], at);
+    lrcsi_box own_box = lrcsi_tree_box(&tree->block[1][leaf / TREE_LANES], at);
     double along[3];
     double own_along[3];
     double turned[3];
@@ -442,7 +442,7 @@ static uint64_t bits_of(double x)
    trap. */
 unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box)
 {
-    static const uint64_t lane_bit[LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
+    static const uint64_t lane_bit[TREE_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
     const double lx = box->low[0];
     const double ly = box->low[1];
     const double lz = box->low[2];
@@ -450,7 +450,7 @@ unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box)
     const double hy = box->high[1];
     const double hz = box->high[2];
     uint64_t meets = 0;
-    for (int k = 0; k < LANES; k++) {
+    for (int k = 0; k < TREE_LANES; k++) {
         uint64_t apart = bits_of(hx - block->low[0][k]) | bits_of(hy - block->low[1][k]) |
                          bits_of(hz - block->low[2][k]) | bits_of(block->high[0][k] - lx) |
                          bits_of(block->high[1][k] - ly) | bits_of(block->high[2][k] - lz);
@@ -482,8 +482,8 @@ lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf)
     walk.box = block_box(&tree->block[0][leaf]);
     walk.without = tree->label[0][leaf];
     for (int level = 1; level < tree->levels; level++) {
-        unsigned after = ~0u << 1 << at % LANES;
-        at /= LANES;
+        unsigned after = ~0u << 1 << at % TREE_LANES;
+        at /= TREE_LANES;
         walk.at[level] = at;
         walk.mask[level] = lrcsi_tree_meets(&tree->block[level][at], &walk.box) & after;
     }
@@ -507,7 +507,7 @@ uint32_t lrcsi_tree_next(lrcsi_tree_walk *w)
             w->level++;
             continue;
         }
-        uint32_t child = w->at[level] * LANES + lrcsi_tree_lane(w->mask[level]);
+        uint32_t child = w->at[level] * TREE_LANES + lrcsi_tree_lane(w->mask[level]);
         w->mask[level] &= w->mask[level] - 1;
         if (level > 0 && w->without != LRCS_NONE && tree->label[level - 1][child] == w->without) {
             continue;
