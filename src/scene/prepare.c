@@ -325,6 +325,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_coincident_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_batches_need(scene));
     need = lrcsi_work_add(
         need, lrcsi_touches_need(scene->vertex_count, scene->facet_count, 4 * facets + 64));
     size_t proof = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
@@ -358,6 +359,9 @@ int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepar
     if (status == LRCS_OK) {
         status = lrcsi_across_make(&p->topology, scene->facet_count, p->redundant, p->twin, work,
                                    &p->across);
+    }
+    if (status == LRCS_OK) {
+        status = lrcsi_batches_make(p, work);
     }
     if (status == LRCS_OK) {
         status = prepare_proofs(p, work);
