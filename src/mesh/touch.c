@@ -1,57 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* Contacts in space between facets, by signs of determinants of the given vertices alone: no
-   intersection point is ever computed. A pair of facets comes to the exact predicates only where
+/* Contacts between all facets. Pairs are compared (mesh/touch_pair.h) where
 
-   - their boxes meet (mesh/tree.h: the tree is joined with itself, leaf by leaf);
-   - they have no corner in common whose ring is proved (mesh/ring.h);
-   - no plane is proved to separate them, but for the corners that they have in common: the plane of
-     either of them, or one through a side of either along the axis on which the first of them is
-     seen most broadly. Rounded, with a bound on the error.
+   - their boxes meet: the tree of boxes is joined with itself, leaf by leaf (mesh/tree.h);
+   - they have no corner in common whose ring is proved (mesh/ring.h).
 
-   What is left out so meets in corners of both or along a side of both, if at all.
-
-   The exact predicates, for F with corners a_0 a_1 a_2 and T with corners p_0 p_1 p_2:
-   1. Signs of the corners of each against the plane of the other. Where those that are not corners
-      of both are all positive or all negative, again the two meet in what both have.
-   2. All zero: one plane. Seen along an axis on which they are not edge-on, neither meets the
-   inside of the other exactly where the line of a side has the one facet on its one side, the other
-   on its other side or on it (separating axes of convex polygons). If it is a side of F, T meets F
-      on that side at most; if only one of T, F has but one corner on it.
-   3. Else T cuts the plane of F in a segment or a point, whose ends are where lines u w through
-      corners of T cross that plane: u on the plane or across from w, w off the plane. The end X
-      lies on the inner side of a side a b of F exactly where the sign of
-          det(w - u, a - u, b - u) = (w - u) . ((a - X) x (b - X))
-      is that of w against the plane. The segment misses the inside of F exactly if it is all
-      outside of (or on) one side's line, or if F is on one side of the segment's own line
-      (separating axes again); and that line is the cut of the two planes, so there the signs
-      of a_k against the plane of T tell. The other way round the determinants are the same.
-   4. A side of F crosses the plane of T in one point. It is in T where these determinants, of that
-      side and the three of T, are nowhere of opposite signs. */
+   Others meet in corners of both or along a side of both, if at all. */
 #include "mesh/touch.h"
 
-#include <math.h>
-
-#include "base/exact.h"
 #include "base/work.h"
 #include "mesh/ring.h"
+#include "mesh/touch_pair.h"
 #include "mesh/tree.h"
-
-static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
-/* A facet's corners: two facets have a corner in common where the pointers are the same. Then what
-   add_plane adds. */
-typedef struct touch_facet {
-    const double *x[3];
-    double normal[3], weight[3]; /* of its plane, computed, and what bounds its error */
-    int axis;                    /* along which it is seen most broadly; -1: not yet added */
-    int turn;                    /* how it turns there, exactly; 0 where it is degenerate */
-} touch_facet;
-
-/* 10 u. Of a plane's height: with n the computed normal at corner a and w_k = |p_i q_j| + |p_j
-   q_i|, each component of n errs by at most 5 u w_k (base/exact.c), a difference x - a by u of
-   itself, and the sum of three products by 3 u of its terms; |n_k| <= (1 + 4 u) w_k. Of a turn: 4 u
-   of its two products. */
-#define TOUCH_FILTER (10.0 * 0x1p-53)
 
 /* A contact as it is found: `other` meets the inside of `facet`. */
 typedef struct touch_found {
@@ -61,384 +20,6 @@ typedef struct touch_found {
 /* They are taken from the work area in blocks that follow one another without gaps. */
 enum { FOUND_BLOCK = 4 };
 _Static_assert(FOUND_BLOCK * sizeof(touch_found) % LRCS_WORK_ALIGN == 0, "no gaps");
-
-/* The axis is another one only where the facet may be edge-on along the first. */
-static void add_plane(touch_facet *f)
-{
-    const double *a = f->x[0];
-    const double *b = f->x[1];
-    const double *c = f->x[2];
-    const double p[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const double q[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    const double plus[3] = {p[1] * q[2], p[2] * q[0], p[0] * q[1]};
-    const double minus[3] = {p[2] * q[1], p[0] * q[2], p[1] * q[0]};
-    int best = 0;
-    for (int k = 0; k < 3; k++) {
-        f->normal[k] = plus[k] - minus[k];
-        f->weight[k] = fabs(plus[k]) + fabs(minus[k]);
-        best = fabs(f->normal[k]) > fabs(f->normal[best]) ? k : best;
-    }
-    f->axis = best;
-    f->turn = 0;
-    if (fabs(f->normal[best]) > TOUCH_FILTER * f->weight[best]) {
-        f->turn = f->normal[best] > 0.0 ? 1 : -1;
-    }
-    for (int k = 0; k < 3 && f->turn == 0; k++) {
-        f->axis = (best + k) % 3;
-        f->turn = lrcsi_exact_turn(a, b, c, unit_axis[f->axis]);
-    }
-}
-
-static int is_corner_of(const touch_facet *f, const double *p)
-{
-    return p == f->x[0] || p == f->x[1] || p == f->x[2];
-}
-
-/* ---- proved apart, rounded ---- */
-
-/* The side of F's plane on which p is proved to lie, or 0. */
-static int sure_side(const touch_facet *f, const double *p)
-{
-    const double d[3] = {p[0] - f->x[0][0], p[1] - f->x[0][1], p[2] - f->x[0][2]};
-    double height = (f->normal[0] * d[0] + f->normal[1] * d[1]) + f->normal[2] * d[2];
-    double error = TOUCH_FILTER * ((f->weight[0] * fabs(d[0]) + f->weight[1] * fabs(d[1])) +
-                                   f->weight[2] * fabs(d[2]));
-    return height > error ? 1 : height < -error ? -1 : 0;
-}
-
-/* Are the corners of T that are not corners of F all strictly on one side of F's plane, and are
-   there any? Then T meets the plane in corners of F or between them at most. 1: proved; 0: there
-   are some on either side; -1: not known. */
-static int plane_separates(const touch_facet *f, const touch_facet *t)
-{
-    int above = 0;
-    int below = 0;
-    int unsure = 0;
-    for (int k = 0; k < 3; k++) {
-        if (!is_corner_of(f, t->x[k])) {
-            int side = sure_side(f, t->x[k]);
-            above |= side > 0;
-            below |= side < 0;
-            unsure |= side == 0;
-        }
-    }
-    return above && below ? 0 : unsure || above == below ? -1 : 1;
-}
-
-/* The sign of the turn a b c seen along an axis, where it is proved, or 0. */
-static inline int sure_turn(const double *a, const double *b, const double *c, int axis)
-{
-    int i = axis == 2 ? 0 : axis + 1;
-    int j = axis == 0 ? 2 : axis - 1;
-    double plus = (b[i] - a[i]) * (c[j] - a[j]);
-    double minus = (b[j] - a[j]) * (c[i] - a[i]);
-    double error = TOUCH_FILTER * (fabs(plus) + fabs(minus));
-    return plus - minus > error ? 1 : plus - minus < -error ? -1 : 0;
-}
-
-/* Seen along an axis along which F turns by `turn`: has the line of a side of F all corners of T
-   strictly outside, but those that are ends of the side? Then they meet in these or between them at
-   most. */
-static int line_separates(const touch_facet *f, int turn, const touch_facet *t, int axis)
-{
-    for (int k = 0; k < 3; k++) {
-        const double *a = f->x[k];
-        const double *b = f->x[k < 2 ? k + 1 : 0];
-        int i = 0;
-        while (i < 3 && (t->x[i] == a || t->x[i] == b || sure_turn(a, b, t->x[i], axis) == -turn)) {
-            i++;
-        }
-        if (i == 3) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* Are two facets, seen along F's axis, separated by the line of a side? */
-static int lines_separate(const touch_facet *f, const touch_facet *t)
-{
-    if (line_separates(f, f->turn, t, f->axis)) {
-        return 1;
-    }
-    int turn = sure_turn(t->x[0], t->x[1], t->x[2], f->axis);
-    return turn != 0 && line_separates(t, turn, f, f->axis);
-}
-
-/* Are two facets proved to meet in nothing but corners and sides of both? The plane of F is known;
-   that of T is added where it is asked for. Where they may be in one plane, lines are more likely
-   to tell than the plane of T. */
-static int surely_apart(const touch_facet *f, touch_facet *t)
-{
-    int plane = plane_separates(f, t);
-    if (plane == 1 || (plane == -1 && lines_separate(f, t))) {
-        return 1;
-    }
-    add_plane(t);
-    return plane_separates(t, f) == 1 || (plane == 0 && lines_separate(f, t));
-}
-
-/* ---- exact ---- */
-
-/* How each of a pair meets the inside of the other, and whether it does or meets the other's rim
-   other than in corners of the other or along a side that both have: first what T does to F, then
-   what F does to T. */
-typedef struct touch_result {
-    int kind[2];
-    int rim[2];
-} touch_result;
-
-/* Do points, all on the line a b, or what is between them, meet the open segment a b? Seen along
-   the axis. */
-static int line_covers_segment(const double *a, const double *b, const double *const *on, int count,
-                               const double *axis)
-{
-    int k = 0;
-    while (axis[k] != 0 || a[k] == b[k]) {
-        k++;
-    }
-    int below = 0;
-    int above = 0;
-    for (int i = 0; i < count; i++) {
-        below += on[i][k] <= (a[k] < b[k] ? a[k] : b[k]);
-        above += on[i][k] >= (a[k] < b[k] ? b[k] : a[k]);
-    }
-    return count > 0 && below != count && above != count;
-}
-
-/* Does T meet the open segment a b, which is in its plane? */
-static int segment_meets_flat(const touch_facet *t, const double *a, const double *b)
-{
-    const double *axis = unit_axis[t->axis];
-    const double *on[3];
-    int count = 0;
-    int left = 0;
-    int right = 0;
-    for (int k = 0; k < 3; k++) {
-        int turn = lrcsi_exact_turn(a, b, t->x[k], axis);
-        left |= turn > 0;
-        right |= turn < 0;
-        if (turn == 0) {
-            on[count++] = t->x[k];
-        }
-    }
-    if (!(left && right)) {
-        return line_covers_segment(a, b, on, count, axis);
-    }
-    /* The line meets the inside of T: so does the segment, unless a side has all of it outside. */
-    for (int k = 0; k < 3; k++) {
-        const double *p = t->x[k];
-        const double *q = t->x[(k + 1) % 3];
-        if (t->turn * lrcsi_exact_turn(p, q, a, axis) <= 0 &&
-            t->turn * lrcsi_exact_turn(p, q, b, axis) <= 0) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-/* Does T meet side k of F, its ends excluded, other than by having it too? Given signs of F's
-   corners against the plane of T, and the determinants of sides of T with sides of F. */
-static int side_is_met(const touch_facet *f, const touch_facet *t, int k, const int of_f[3],
-                       const int cross[3])
-{
-    const double *a = f->x[k];
-    const double *b = f->x[(k + 1) % 3];
-    int at_a = of_f[k];
-    int at_b = of_f[(k + 1) % 3];
-    if (is_corner_of(t, a) && is_corner_of(t, b)) {
-        return 0;
-    }
-    if (at_a == 0 && at_b == 0) {
-        return segment_meets_flat(t, a, b);
-    }
-    int left = cross[0] > 0 || cross[1] > 0 || cross[2] > 0;
-    int right = cross[0] < 0 || cross[1] < 0 || cross[2] < 0;
-    return at_a == -at_b && !(left && right);
-}
-
-/* Step 1: signs of t's corners against the plane of f. */
-static void plane_sides(const touch_facet *f, const touch_facet *t, int side[3])
-{
-    for (int k = 0; k < 3; k++) {
-        side[k] =
-            is_corner_of(f, t->x[k]) ? 0 : lrcsi_exact_side(f->x[0], f->x[1], f->x[2], t->x[k]);
-    }
-}
-
-/* Are those that are not corners of f all on one side, off the plane? */
-static int sides_separate(const touch_facet *f, const touch_facet *t, const int side[3])
-{
-    int above = 0;
-    int below = 0;
-    int on = 0;
-    for (int k = 0; k < 3; k++) {
-        above |= side[k] > 0;
-        below |= side[k] < 0;
-        on |= side[k] == 0 && !is_corner_of(f, t->x[k]);
-    }
-    return !on && above != below;
-}
-
-/* Step 2: the first side of f (which turns by `turn`) whose line has all of g outside or on it,
-   seen along the axis; -1 for none. */
-static int separating_side(const touch_facet *f, int turn, const touch_facet *g, const double *axis)
-{
-    for (int k = 0; k < 3; k++) {
-        const double *a = f->x[k];
-        const double *b = f->x[(k + 1) % 3];
-        int i = 0;
-        while (i < 3 && turn * lrcsi_exact_turn(a, b, g->x[i], axis) <= 0) {
-            i++;
-        }
-        if (i == 3) {
-            return k;
-        }
-    }
-    return -1;
-}
-
-/* Step 2. */
-static void meet_flat(const touch_facet *f, const touch_facet *t, touch_result *result)
-{
-    static const int none[3] = {0, 0, 0};
-    const double *axis = unit_axis[f->axis];
-    int turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], axis);
-    int of_f = separating_side(f, f->turn, t, axis);
-    int of_t = separating_side(t, turn, f, axis);
-    if (of_f < 0 && of_t < 0) {
-        *result = (touch_result){{LRCSI_TOUCH_COPLANAR, LRCSI_TOUCH_COPLANAR}, {1, 1}};
-        return;
-    }
-    result->rim[0] = of_f >= 0 && side_is_met(f, t, of_f, none, none);
-    result->rim[1] = of_t >= 0 && side_is_met(t, f, of_t, none, none);
-}
-
-/* Step 3: does t meet the inside of f? side: t's corners against the plane of f; of_f the other way
-   round; cross[i][k]: the determinant of side i of t and side k of f. */
-static int cut_meets_inside(const int side[3], const int of_f[3], int cross[3][3])
-{
-    int inner[3] = {0, 0, 0};
-    int ends = 0;
-    for (int k = 0; k < 3; k++) {
-        int next = (k + 1) % 3;
-        int last = (k + 2) % 3;
-        for (int j = 0; j < 3 && side[k] == 0; j++) { /* an end in a corner */
-            inner[j] |=
-                (side[next] != 0 ? side[next] * cross[k][j] : -side[last] * cross[last][j]) > 0;
-        }
-        for (int j = 0; j < 3 && side[k] * side[next] < 0; j++) { /* an end on a side */
-            inner[j] |= side[next] * cross[k][j] > 0;
-        }
-        ends += side[k] == 0 || side[k] * side[next] < 0;
-    }
-    int above = of_f[0] > 0 || of_f[1] > 0 || of_f[2] > 0;
-    int below = of_f[0] < 0 || of_f[1] < 0 || of_f[2] < 0;
-    return inner[0] && inner[1] && inner[2] && (ends == 1 || (above && below));
-}
-
-/* Steps 3 and 4. of_t: t's corners against the plane of f; of_f: the other way round. */
-static void meet_across(const touch_facet *f, const touch_facet *t, const int of_t[3],
-                        const int of_f[3], touch_result *result)
-{
-    int of_sides[3][3]; /* of t, of f */
-    int turned[3][3];   /* of f, of t */
-    for (int i = 0; i < 3; i++) {
-        const double *u = t->x[i];
-        const double *w = t->x[(i + 1) % 3];
-        for (int k = 0; k < 3; k++) {
-            const double *a = f->x[k];
-            const double *b = f->x[(k + 1) % 3];
-            int common = u == a || u == b || w == a || w == b;
-            of_sides[i][k] = turned[k][i] = common ? 0 : lrcsi_exact_side(u, w, a, b);
-        }
-    }
-    if (cut_meets_inside(of_t, of_f, of_sides)) {
-        result->kind[0] = LRCSI_TOUCH_CROSS;
-    }
-    if (cut_meets_inside(of_f, of_t, turned)) {
-        result->kind[1] = LRCSI_TOUCH_CROSS;
-    }
-    result->rim[0] = result->kind[0] != LRCSI_TOUCH_NONE;
-    result->rim[1] = result->kind[1] != LRCSI_TOUCH_NONE;
-    for (int k = 0; k < 3; k++) {
-        result->rim[0] = result->rim[0] || side_is_met(f, t, k, of_f, turned[k]);
-        result->rim[1] = result->rim[1] || side_is_met(t, f, k, of_t, of_sides[k]);
-    }
-}
-
-/* Steps 1 to 4, for facets that have their planes. */
-static touch_result meet_exactly(const touch_facet *f, const touch_facet *t)
-{
-    touch_result result = {{LRCSI_TOUCH_NONE, LRCSI_TOUCH_NONE}, {0, 0}};
-    int of_t[3];
-    int of_f[3];
-    plane_sides(f, t, of_t);
-    if (sides_separate(f, t, of_t)) {
-        return result;
-    }
-    if (of_t[0] == 0 && of_t[1] == 0 && of_t[2] == 0) {
-        meet_flat(f, t, &result);
-        return result;
-    }
-    plane_sides(t, f, of_f);
-    if (!sides_separate(t, f, of_f)) {
-        meet_across(f, t, of_t, of_f, &result);
-    }
-    return result;
-}
-
-static touch_facet facet_at(const lrcs_point *vertex, const uint32_t corner[3])
-{
-    return (touch_facet){.x = {vertex[corner[0]].x, vertex[corner[1]].x, vertex[corner[2]].x},
-                         .axis = -1};
-}
-
-int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
-{
-    touch_facet f = facet_at(vertex, facet.corner);
-    touch_facet t = facet_at(vertex, other.corner);
-    for (int i = 0; i < 9; i++) { /* corners in one place are one corner */
-        const double *a = f.x[i / 3];
-        const double *b = t.x[i % 3];
-        if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) {
-            t.x[i % 3] = a;
-        }
-    }
-    add_plane(&f);
-    return surely_apart(&f, &t) ? LRCSI_TOUCH_NONE : meet_exactly(&f, &t).kind[0];
-}
-
-/* Is p on the segment a b, which is longer than 0, and not at its ends? */
-static int is_inside_segment(const double *a, const double *b, const double *p)
-{
-    int at_end = 0;
-    for (int k = 0; k < 3; k++) {
-        double low = a[k] < b[k] ? a[k] : b[k];
-        double high = a[k] < b[k] ? b[k] : a[k];
-        if (p[k] < low || p[k] > high) {
-            return 0;
-        }
-        at_end |= low != high && (p[k] == low || p[k] == high);
-    }
-    return !at_end && lrcsi_exact_collinear(a, b, p);
-}
-
-/* Does a corner of t lie inside a side of f? */
-static int touches_side(const touch_facet *f, const touch_facet *t)
-{
-    for (int i = 0; i < 3; i++) {
-        if (is_corner_of(f, t->x[i])) {
-            continue;
-        }
-        for (int k = 0; k < 3; k++) {
-            if (is_inside_segment(f->x[k], f->x[(k + 1) % 3], t->x[i])) {
-                return 1;
-            }
-        }
-    }
-    return 0;
-}
 
 /* Sinks entry `i` of a heap of n, largest on top. */
 static void sink_found(touch_found *found, size_t i, size_t n)
@@ -517,36 +98,35 @@ static int append_found(touch_search *search, touch_found found)
 }
 
 /* The facet at a place, its corners welded: those in one place are one. */
-static touch_facet facet_of_place(const touch_search *search, uint32_t place)
+static lrcsi_touch_facet facet_of_place(const touch_search *search, uint32_t place)
 {
     const uint32_t *c = search->facet[search->tree.order[place]].corner;
-    const uint32_t welded[3] = {search->weld[c[0]], search->weld[c[1]], search->weld[c[2]]};
-    return facet_at(search->vertex, welded);
+    const uint32_t *weld = search->weld;
+    const lrcs_point *vertex = search->vertex;
+    return (lrcsi_touch_facet){
+        .x = {vertex[weld[c[0]]].x, vertex[weld[c[1]]].x, vertex[weld[c[2]]].x}};
 }
 
-/* Files what `other` does to `facet`. */
-static int file_contact(touch_search *search, uint32_t facet, uint32_t other, int kind, int rim)
+/* Files how a pair meets. */
+static int file_pair(touch_search *search, uint32_t facet, const lrcsi_touch_facet *f,
+                     uint32_t other, const lrcsi_touch_facet *t, const lrcsi_touch_result *result)
 {
-    search->touches->rim[facet] |= rim != 0;
-    return kind == LRCSI_TOUCH_NONE
-               ? LRCS_OK
-               : append_found(search, (touch_found){facet, other, (uint32_t)kind});
-}
-
-/* A pair that may have more in common than corners and sides of both. */
-static int meet_pair(touch_search *search, uint32_t facet, const touch_facet *f, uint32_t other,
-                     const touch_facet *t)
-{
-    touch_result result = meet_exactly(f, t);
+    lrcsi_touches *touches = search->touches;
     const uint32_t *piece = search->piece;
-    if (piece && !search->touches->self && piece[facet] == piece[other]) {
-        search->touches->self = result.kind[0] != LRCSI_TOUCH_NONE ||
-                                result.kind[1] != LRCSI_TOUCH_NONE || touches_side(f, t) ||
-                                touches_side(t, f);
+    int status = LRCS_OK;
+    touches->rim[facet] |= result->rim[0] != 0;
+    touches->rim[other] |= result->rim[1] != 0;
+    if (result->kind[0] != LRCSI_TOUCH_NONE) {
+        status = append_found(search, (touch_found){facet, other, (uint32_t)result->kind[0]});
     }
-    int status = file_contact(search, facet, other, result.kind[0], result.rim[0]);
-    return status == LRCS_OK ? file_contact(search, other, facet, result.kind[1], result.rim[1])
-                             : status;
+    if (result->kind[1] != LRCSI_TOUCH_NONE && status == LRCS_OK) {
+        status = append_found(search, (touch_found){other, facet, (uint32_t)result->kind[1]});
+    }
+    if (piece && !touches->self && piece[facet] == piece[other]) {
+        touches->self = result->kind[0] != LRCSI_TOUCH_NONE ||
+                        result->kind[1] != LRCSI_TOUCH_NONE || lrcsi_touch_on_side(f, t);
+    }
+    return status;
 }
 
 /* The lanes of a leaf whose facets have a corner with a proved ring in common with the facet in a
@@ -577,21 +157,19 @@ static int meet_lanes(touch_search *search, uint32_t place, uint32_t leaf, unsig
 {
     const lrcsi_tree *tree = &search->tree;
     lrcsi_box box = lrcsi_tree_box(&tree->block[0][place / LEAF_LANES], place % LEAF_LANES);
-    touch_facet f = {.axis = -1};
+    lanes &= lrcsi_tree_meets(&tree->block[0][leaf], &box);
+    if (lanes == 0) {
+        return LRCS_OK;
+    }
+    lrcsi_touch_facet f = facet_of_place(search, place);
     int status = LRCS_OK;
+    lrcsi_touch_plane(&f);
     for (; lanes != 0 && status == LRCS_OK; lanes &= lanes - 1) {
-        uint32_t lane = lrcsi_tree_lane(lanes);
-        uint32_t at = leaf * LEAF_LANES + lane;
-        if (!lrcsi_tree_meets_lane(&tree->block[0][leaf], lane, &box)) {
-            continue;
-        }
-        if (f.axis < 0) {
-            f = facet_of_place(search, place);
-            add_plane(&f);
-        }
-        touch_facet t = facet_of_place(search, at);
-        if (!surely_apart(&f, &t)) {
-            status = meet_pair(search, tree->order[place], &f, tree->order[at], &t);
+        uint32_t at = leaf * LEAF_LANES + lrcsi_tree_lane(lanes);
+        lrcsi_touch_facet t = facet_of_place(search, at);
+        lrcsi_touch_result result;
+        if (lrcsi_touch_meet(&f, &t, &result)) {
+            status = file_pair(search, tree->order[place], &f, tree->order[at], &t, &result);
         }
     }
     return status;

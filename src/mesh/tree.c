@@ -114,12 +114,12 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *hub, uint32_t fi
     while (bits < MORTON_MOST && (UINT64_C(1) << 2 * bits) / 16 < end - first) {
         bits++;
     }
-    const double cells = (double)((UINT64_C(1) << bits) - 1);
+    const double scale = (double)((UINT64_C(1) << bits) - 1) / side;
     for (uint32_t i = first; i < end; i++) {
         uint64_t key = 0;
         facet_centre(s, hub, i, centre);
         for (int k = 0; k < 3; k++) {
-            double cell = (centre[k] - all.low[k]) / side * cells; /* 0 .. cells */
+            double cell = (centre[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
             key |= spread_bits((uint64_t)cell) << k;
         }
         s->key[i] = key;

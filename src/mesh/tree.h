@@ -59,15 +59,6 @@ lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane);
 /* The lanes of a block whose boxes meet `box` (closed, finite, no end of it -0), as bits. */
 unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box);
 
-/* The same of one lane. */
-static inline int lrcsi_tree_meets_lane(const lrcsi_tree_block *block, uint32_t lane,
-                                        const lrcsi_box *box)
-{
-    return block->low[0][lane] <= box->high[0] && block->high[0][lane] >= box->low[0] &&
-           block->low[1][lane] <= box->high[1] && block->high[1][lane] >= box->low[1] &&
-           block->low[2][lane] <= box->high[2] && block->high[2][lane] >= box->low[2];
-}
-
 /* The number of the lowest bit of a mask that is not 0. */
 static inline uint32_t lrcsi_tree_lane(unsigned mask)
 {
