@@ -130,7 +130,7 @@ static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
 {
     contact_heights h;
     for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_corner(t->view, other, k);
+        const double *x = lrcsi_target_own(t->view, other, k);
         h.above[k] = height_find(t, x, &h.fine[k], &h.off[k]);
         h.height[k] = lrcsi_dd_value(h.fine[k]);
     }
@@ -158,7 +158,8 @@ static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, 
     return 2 * (c->away[k] + c->away[next]) * (off / span);
 }
 
-/* May the segment be off by more than the facet is wide, about? */
+/* May the segment be off by more than the facet is wide, about? Its corners are counted from a near
+   one, so that its area is no difference of far ones. */
 static int slip_wide(const lrcsi_contact *c)
 {
     const double(*corner)[2] = (const double(*)[2])c->corner;
@@ -251,7 +252,7 @@ static void corners_finely(const lrcsi_target *t, uint32_t other, contact_finely
                            lrcsi_contact *c)
 {
     for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_corner(t->view, other, k);
+        const double *x = lrcsi_target_own(t->view, other, k);
         c->off = lrcsi_most(c->off, lrcsi_needle_place(t->needle, x, f->corner[k]));
         for (int i = 0; i < 2; i++) {
             c->corner[k][i] = lrcsi_dd_value(f->corner[k][i]);
@@ -359,7 +360,7 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
         corners_finely(t, other, &f, c);
     }
     for (int k = 0; k < 3 && !t->needle; k++) {
-        c->away[k] = lrcsi_target_place(t, lrcsi_target_corner(t->view, other, k), c->corner[k]);
+        c->away[k] = lrcsi_target_place(t, lrcsi_target_own(t->view, other, k), c->corner[k]);
     }
     int above = 0;
     int below = 0;

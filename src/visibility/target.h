@@ -37,7 +37,8 @@ void lrcsi_target_unrefine(const lrcsi_target *refined, const double at[2], doub
 /* Corner k of a facet, counted so that they run counter-clockwise in the view. */
 const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k);
 
-/* The same of a target, as its frame counts them: from one that is not far away, if it has such. */
+/* The same, counted from one that is not far away, if the facet has such: so a target's frame
+   counts its own. */
 const double *lrcsi_target_own(const lrcsi_view *view, uint32_t facet, int k);
 
 /* A scene point in the target's frame; returns its distance, in space, from the first corner, or
