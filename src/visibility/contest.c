@@ -122,8 +122,8 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
         }
         for (; i < end && count < most; i++) { /* a row's cells lie one behind the other */
             lrcsi_contest_edge *event = &contest->event[grid->item[i]];
-            if (lrcsi_box_behind(&event->box, &box) || lrcsi_box_beside(&event->box, &box) ||
-                event->asked == contest->asked) {
+            if (lrcsi_view_box_behind(&event->box, &box) ||
+                lrcsi_view_box_beside(&event->box, &box) || event->asked == contest->asked) {
                 continue;
             }
             event->asked = contest->asked;
@@ -193,7 +193,7 @@ static int contest_events(lrcsi_contest *c, lrcs_work *work)
         lrcsi_contest_edge *event = &c->event[i];
         const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
         const uint32_t ends[2] = {edge->low, edge->high};
-        *event = (lrcsi_contest_edge){lrcsi_box_of(view, ends, 2), c->events.edge[i], 0};
+        *event = (lrcsi_contest_edge){lrcsi_view_box_of(view, ends, 2), c->events.edge[i], 0};
     }
     return lrcsi_grid_edges(c->events.edge, count, events_most(view->prepared), work, &c->grid,
                             c->cells);
@@ -208,7 +208,7 @@ static void contest_cast(lrcsi_contest *c)
     for (uint32_t f = 0; f < count; f++) {
         c->kin[f] = 0;
         if (lrcsi_grid_casts(view, f)) {
-            c->box[f] = lrcsi_box_of(view, view->prepared->scene->facet[f].corner, 3);
+            c->box[f] = lrcsi_view_box_of(view, view->prepared->scene->facet[f].corner, 3);
             c->cells[f] = lrcsi_grid_cells(&c->grid, &c->box[f]);
             c->kin[f] = view->facing[f];
         }

@@ -71,7 +71,7 @@ void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
             }
             cover->asked[other] = cover->asks;
             const lrcsi_view_box *its = &facets->box[other];
-            if (!lrcsi_box_beside(its, &box) && !lrcsi_box_behind(its, &box)) {
+            if (!lrcsi_view_box_beside(its, &box) && !lrcsi_view_box_behind(its, &box)) {
                 cover->candidate[cover->count++] =
                     (lrcsi_cover_facet){.box = *its, .facet = other, .order = ORDER_NEW};
             }
@@ -231,7 +231,7 @@ static int line_meets_finely(const cover_line *line, const lrcsi_cover_facet *c)
 /* Does the line pass the candidate by, or is that one behind? Most are told so. */
 static int line_misses(const cover_line *line, const lrcsi_cover_facet *c)
 {
-    return lrcsi_box_beside(&line->box, &c->box) || c->order == ORDER_BEHIND;
+    return lrcsi_view_box_beside(&line->box, &c->box) || c->order == ORDER_BEHIND;
 }
 
 /* 1 the line meets the candidate, -1 not, 0 it must be asked another way. */
@@ -284,7 +284,7 @@ static void line_lift(cover_line *line)
         }
     }
     lrcsi_view_place(t->view, line->point, x);
-    line->box = lrcsi_box_about(t->view, x, lrcsi_view_off(x));
+    line->box = lrcsi_view_box_about(t->view, x, lrcsi_view_off(x));
     line->off = t->needle ? HUGE_VAL : lrcsi_target_lift_off(t);
 }
 
@@ -300,7 +300,7 @@ static lrcsi_view_box line_box(const lrcsi_target *t, const double at[2])
     lrcsi_target_unrefine(t, at, x);
     x[0] += first[0];
     x[1] += first[1];
-    return lrcsi_box_about(t->view, x, lrcsi_view_off(first) + (16 * U + 2 * t->slip) * reach);
+    return lrcsi_view_box_about(t->view, x, lrcsi_view_off(first) + (16 * U + 2 * t->slip) * reach);
 }
 
 /* Of the sheets that hide a point, the one that ends at the fewest cuts. */

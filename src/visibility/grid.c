@@ -198,7 +198,7 @@ static uint32_t grid_put_edge(lrcsi_grid *grid, uint32_t edge, uint32_t item)
 {
     const lrcsi_edge *e = &grid->view->prepared->topology.edge[edge];
     const uint32_t ends[2] = {e->low, e->high};
-    lrcsi_view_box box = lrcsi_box_of(grid->view, ends, 2);
+    lrcsi_view_box box = lrcsi_view_box_of(grid->view, ends, 2);
     lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
     if (cells.y1 - cells.y0 == 1) {
         return grid_put(grid, cells.y0, cells.x0, cells.x1, item);

@@ -225,7 +225,7 @@ static double event_shares(margin_job *job, uint32_t facet, const double low[3],
                            const double high[3])
 {
     const lrcsi_edge *edge = job->view->prepared->topology.edge;
-    lrcsi_view_box box = lrcsi_box_round(job->view, low, high);
+    lrcsi_view_box box = lrcsi_view_box_round(job->view, low, high);
     lrcsi_cells cells = lrcsi_grid_cells(&job->grid, &box);
     double share = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {

@@ -59,7 +59,7 @@ static void line_place(query_line *line)
     const lrcsi_view_box *own = &line->grid->box[line->facet];
     double x[3];
     lrcsi_view_place(view, line->point, x);
-    line->at = lrcsi_box_about(view, x, lrcsi_view_off(x));
+    line->at = lrcsi_view_box_about(view, x, lrcsi_view_off(x));
     line->at.low[2] = own->low[2];
     line->at.high[2] = own->high[2];
     line->cells = lrcsi_grid_cells(line->grid, &line->at);
@@ -96,8 +96,8 @@ static uint32_t line_next(query_line *line)
             }
         }
         uint32_t other = grid->item[line->item++];
-        if (other != line->facet && !lrcsi_box_beside(&grid->box[other], &line->at) &&
-            !lrcsi_box_behind(&grid->box[other], &line->at) &&
+        if (other != line->facet && !lrcsi_view_box_beside(&grid->box[other], &line->at) &&
+            !lrcsi_view_box_behind(&grid->box[other], &line->at) &&
             lrcsi_sample_covers_towards(grid->view, other, line->point, line->sense)) {
             return other;
         }
@@ -108,7 +108,7 @@ static uint32_t line_next(query_line *line)
 static int line_nearer(const query_line *line, uint32_t other)
 {
     const lrcsi_view *view = line->grid->view;
-    return lrcsi_box_behind(&line->at, &line->grid->box[other])
+    return lrcsi_view_box_behind(&line->at, &line->grid->box[other])
                ? 1
                : lrcsi_sample_nearer(view, other, line->facet, line->point, line->sense);
 }

@@ -112,7 +112,7 @@ static uint32_t check_grids(void)
     assert_true(listed(&contest.grid) <= 8 * p->topology.edge_count);
     double at[2];
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        lrcsi_view_box box = lrcsi_box_of(&view, p->scene->facet[f].corner, 3);
+        lrcsi_view_box box = lrcsi_view_box_of(&view, p->scene->facet[f].corner, 3);
         lrcsi_cells cells = lrcsi_grid_cells(&facets, &box);
         assert_memory_equal(&cells, &contest.cells[f], sizeof cells);
         for (int i = 0; i < 20; i++) {
@@ -201,7 +201,7 @@ static void boxes_of_cells_grow_with_the_cells(void **state)
                 low[k] = view.low[k] + random_to(view.side);
                 high[k] = low[k] + random_to(view.low[k] + view.side - low[k]);
             }
-            lrcsi_view_box box = lrcsi_box_round(&view, low, high);
+            lrcsi_view_box box = lrcsi_view_box_round(&view, low, high);
             lrcsi_cells cells = lrcsi_grid_cells(&grid, &box);
             assert_int_equal(grid.size, size);
             lrcsi_grid_fit(&grid, &cells);
