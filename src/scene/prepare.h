@@ -11,6 +11,7 @@
 #include "mesh/topology.h"
 #include "mesh/touch.h"
 #include "scene/across.h"
+#include "scene/batch.h"
 #include "scene/near.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
@@ -42,11 +43,14 @@ struct lrcs_prepared {
                        where no facet has any */
     unsigned char *stood; /* vertex: 1 where a live facet stands on it */
     lrcsi_normal *normal;
+    lrcsi_batches batches;   /* facets that are not skipped, by material */
     lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
     lrcsi_across across;     /* across the sides of facets that are not redundant */
     lrcsi_touches touches;   /* between facets that are not redundant, but not between twins */
     double centre[3];        /* of the box around the live facets */
     double radius;           /* no live vertex is farther from the centre in any coordinate */
+    double origin[3];        /* of views: the centre of the box around most vertices, */
+    double bulk[3];          /* and half its sides (scene/bulk.h) */
     uint32_t live;           /* facets not skipped */
     int convex;         /* live facets lie on one convex surface, outward and one-sided: exactly, or
                            by construction; then only facets that graze the light can be hidden */

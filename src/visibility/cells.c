@@ -87,6 +87,9 @@
 #define LIST_A_FACET  8u
 #define LIST_LEAST    65536u
 #define SEGMENT_LEAST 1024u
+/* How often facets and events may be listed in blocks, a facet and beside that. */
+#define ENTRIES_A_FACET 16u
+#define ENTRIES_LEAST   65536u
 /* An area may be off by so much of itself, and of the square of the scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
@@ -175,18 +178,24 @@ typedef struct cells_point {
     int made;
 } cells_point;
 
+/* Items of each block: item[first[b] .. first[b + 1]) of block b. */
+typedef struct cells_blocks {
+    uint32_t *first, *item;
+} cells_blocks;
+
 typedef struct cells_work {
     const lrcsi_contest *contest;
     const lrcsi_view *view;
-    uint32_t side;          /* blocks along each */
-    uint32_t *first, *item; /* facets of each */
+    uint32_t side;          /* blocks along each, with the ring */
+    double low[2], high[2]; /* of those within */
+    double size;            /* of one */
+    cells_blocks facets, events;
     unsigned char *open;
     unsigned char *found; /* facet: FOUND_... */
     unsigned char *kind;  /* facet: KIND_... */
     cells_facet *facet;
     cells_found *area;
-    uint32_t *event_listed; /* event: the look that last met it */
-    uint32_t *listed;       /* facet: the look that found it in the list */
+    uint32_t *listed; /* facet: the look that found it in the list */
     uint32_t *met; /* facet: 2 look + 1 where it surely covers the sample, 2 look where perhaps */
     uint32_t *joined; /* facet: the look whose component it is in */
     uint32_t *component, *hit;
@@ -229,7 +238,7 @@ static void axes_make(cells_work *c)
 }
 
 /* A vertex in the view: each coordinate rounded once, of a sum that is off by 100 u^2 of the
-   distance from the centre; z as the view has it, off by 20 u of that. */
+   distance from the origin; z as the view has it, off by 20 u of that. */
 static const double *point_of(cells_work *c, uint32_t vertex)
 {
     cells_point *p = &c->point[vertex];
@@ -237,7 +246,7 @@ static const double *point_of(cells_work *c, uint32_t vertex)
         const lrcs_prepared *prepared = c->view->prepared;
         lrcsi_dd gap[3];
         for (int k = 0; k < 3; k++) {
-            gap[k] = lrcsi_dd_two_sum(prepared->vertex[vertex].x[k], -prepared->centre[k]);
+            gap[k] = lrcsi_dd_two_sum(prepared->vertex[vertex].x[k], -prepared->origin[k]);
         }
         for (int i = 0; i < 2; i++) {
             const double *row = c->view->R[i];
@@ -1430,7 +1439,12 @@ static int open_contacts(cells_work *c, uint32_t facet)
             return 0;
         }
         double origin[3];
-        point_local(c, view->prepared->scene->facet[facet].corner[0], origin, &e->off, &e->z_err);
+        const lrcs_point *vertex = view->prepared->vertex;
+        uint32_t corner = view->prepared->scene->facet[facet].corner[0];
+        for (int k = 1; k < 3 && vertex[corner].x != target.origin; k++) {
+            corner = view->prepared->scene->facet[facet].corner[k];
+        }
+        point_local(c, corner, origin, &e->off, &e->z_err);
         for (int n = 0; n < 2; n++) {
             e->end[n][0] = origin[0] + contact.end[n][0];
             e->end[n][1] = origin[1] + contact.end[n][1];
@@ -1445,82 +1459,161 @@ static int open_contacts(cells_work *c, uint32_t facet)
     return 1;
 }
 
-/* Cells of the contest's grid that are done together, along each side. */
-#define BLOCK 2u
-
-/* The blocks that touch facets which are asked about, and the facets that touch those:
-   item[first[b]
-   .. first[b + 1]) of block b. */
-static lrcsi_cells block_cells(lrcsi_cells cells)
+static uint64_t block_entries(const lrcs_prepared *p)
 {
-    return (lrcsi_cells){.x0 = (uint16_t)(cells.x0 / BLOCK),
-                         .x1 = (uint16_t)((cells.x1 + BLOCK - 1) / BLOCK),
-                         .y0 = (uint16_t)(cells.y0 / BLOCK),
-                         .y1 = (uint16_t)((cells.y1 + BLOCK - 1) / BLOCK)};
+    return ENTRIES_LEAST + (uint64_t)ENTRIES_A_FACET * p->scene->facet_count;
 }
 
-/* 0 where they find no memory. */
-static int blocks_make(cells_work *c, lrcs_work *work)
+/* Blocks are squares of the window of the scene's bulk, twice as large as the cells of the
+   contest's grid, in a ring of blocks that hold what stands outside. */
+#define BLOCK 2u
+
+static void blocks_place(cells_work *c)
 {
-    const lrcsi_contest *contest = c->contest;
-    uint32_t facets = c->view->prepared->scene->facet_count;
-    c->side = (contest->grid.size + BLOCK - 1) / BLOCK;
+    const lrcsi_grid *grid = &c->contest->grid;
+    uint32_t size = (grid->size + BLOCK - 1) / BLOCK;
+    c->side = size + 2;
+    c->size = grid->scale > 0 ? BLOCK / (grid->scale * c->view->scale) : 1;
+    for (int k = 0; k < 2; k++) {
+        c->low[k] = grid->low[k] / c->view->scale;
+        c->high[k] = c->low[k] + size * c->size;
+    }
+}
+
+/* The first coordinate of block i of a row, i from 1 to the last but one, or the last. */
+static double block_edge(const cells_work *c, uint32_t i, int k)
+{
+    return c->low[k] + (i - 1) * c->size;
+}
+
+/* The block of a coordinate, or one beside it, where it is nearly on the edge. */
+static uint32_t block_of(const cells_work *c, double x, int k)
+{
+    double i = (x - c->low[k]) / c->size + 1;
+    return (uint32_t)lrcsi_least(c->side - 1.0, lrcsi_most(0, i));
+}
+
+/* The blocks that a range of coordinates touches: *from <= i < *to. */
+static void block_range(const cells_work *c, double low, double high, int k, uint32_t *from,
+                        uint32_t *to)
+{
+    double near = 64 * U * (fabs(c->low[k]) + c->side * c->size);
+    *from = block_of(c, low - near, k);
+    *to = block_of(c, high + near, k) + 1;
+}
+
+/* Counts items in blocks, or files them, rows y0 <= y < y1. */
+static void block_put(cells_blocks *b, size_t row, uint32_t x0, uint32_t x1, uint32_t item)
+{
+    for (size_t i = row + x0; i < row + x1; i++) {
+        if (b->item) {
+            b->item[b->first[i]++] = item;
+        } else {
+            b->first[i + 1]++;
+        }
+    }
+}
+
+static void blocks_put_facet(cells_work *c, cells_blocks *b, uint32_t facet)
+{
+    const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
+    double low[3];
+    double high[3];
+    uint32_t x[2];
+    uint32_t y[2];
+    lrcsi_view_bounds(c->view, corner, 3, low, high);
+    block_range(c, low[0], high[0], 0, &x[0], &x[1]);
+    block_range(c, low[1], high[1], 1, &y[0], &y[1]);
+    for (uint32_t row = y[0]; row < y[1]; row++) {
+        block_put(b, (size_t)row * c->side, x[0], x[1], facet);
+    }
+}
+
+/* An edge, row by row: where it is in one, but for twice its error. */
+static void blocks_put_edge(cells_work *c, cells_blocks *b, uint32_t event)
+{
+    const lrcsi_edge *e = &c->view->prepared->topology.edge[c->contest->events.edge[event]];
+    const double *p = c->view->point[e->low].x;
+    const double *q = c->view->point[e->high].x;
+    double off = 4 * lrcsi_most(lrcsi_view_off(p), lrcsi_view_off(q));
+    uint32_t y[2];
+    block_range(c, lrcsi_least(p[1], q[1]) - off, lrcsi_most(p[1], q[1]) + off, 1, &y[0], &y[1]);
+    for (uint32_t row = y[0]; row < y[1]; row++) {
+        double from = lrcsi_least(p[0], q[0]);
+        double to = lrcsi_most(p[0], q[0]);
+        double rise = q[1] - p[1];
+        if (y[1] - y[0] > 1 && fabs(rise) > 64 * off) {
+            double slope = (q[0] - p[0]) / rise;
+            double near = off + 64 * U * (fabs(c->low[1]) + c->side * c->size);
+            double low = row > 0 ? block_edge(c, row, 1) - near : -HUGE_VAL;
+            double high = row + 1 < c->side ? block_edge(c, row + 1, 1) + near : HUGE_VAL;
+            low = lrcsi_most(low, lrcsi_least(p[1], q[1]));
+            high = lrcsi_least(high, lrcsi_most(p[1], q[1]));
+            double a = p[0] + slope * (low - p[1]);
+            double z = p[0] + slope * (high - p[1]);
+            from = lrcsi_most(from, lrcsi_least(a, z) - fabs(slope) * off);
+            to = lrcsi_least(to, lrcsi_most(a, z) + fabs(slope) * off);
+        }
+        uint32_t x[2];
+        block_range(c, from - off, to + off, 0, &x[0], &x[1]);
+        block_put(b, (size_t)row * c->side, x[0], x[1], event);
+    }
+}
+
+/* Files casting facets, or events. 0 where they find no memory, or are listed too often. */
+static int blocks_make(cells_work *c, cells_blocks *b, int events, lrcs_work *work)
+{
     size_t count = (size_t)c->side * c->side;
-    c->first = lrcsi_work_take_zero(work, count + 1, sizeof *c->first);
-    unsigned char *wanted = lrcsi_work_take_zero(work, count, 1);
-    if (!c->first || !wanted) {
+    uint32_t items = events ? c->contest->events.count : c->view->prepared->scene->facet_count;
+    b->first = lrcsi_work_take_zero(work, count + 1, sizeof *b->first);
+    b->item = NULL;
+    if (!b->first) {
         return 0;
     }
-    for (int pass = 0; pass < 3; pass++) {
-        for (uint32_t f = 0; f < facets; f++) {
-            if (!lrcsi_grid_casts(c->view, f) || (pass == 0 && !c->open[f])) {
-                continue;
-            }
-            lrcsi_cells cells = block_cells(contest->cells[f]);
-            for (uint32_t y = cells.y0; y < cells.y1; y++) {
-                for (uint32_t x = cells.x0; x < cells.x1; x++) {
-                    size_t b = (size_t)y * c->side + x;
-                    if (pass == 0) {
-                        wanted[b] = 1;
-                    } else if (wanted[b] && pass == 1) {
-                        c->first[b + 1]++;
-                    } else if (wanted[b]) {
-                        c->item[c->first[b]++] = f;
-                    }
-                }
+    for (int pass = 0; pass < 2; pass++) {
+        for (uint32_t i = 0; i < items; i++) {
+            if (events) {
+                blocks_put_edge(c, b, i);
+            } else if (lrcsi_grid_casts(c->view, i)) {
+                blocks_put_facet(c, b, i);
             }
         }
-        if (pass == 1) {
-            for (size_t b = 0; b < count; b++) {
-                c->first[b + 1] += c->first[b];
+        if (pass == 0) {
+            uint64_t total = 0;
+            for (size_t k = 0; k < count; k++) {
+                total += b->first[k + 1];
+                b->first[k + 1] = (uint32_t)total;
+                if (total > block_entries(c->view->prepared)) {
+                    return 0;
+                }
             }
-            c->item = lrcsi_work_take(work, c->first[count], sizeof *c->item);
-            if (!c->item) {
+            b->item = lrcsi_work_take(work, (size_t)total, sizeof *b->item);
+            if (!b->item) {
                 return 0;
             }
         }
     }
-    for (size_t b = count; b > 0; b--) {
-        c->first[b] = c->first[b - 1];
+    for (size_t k = count; k > 0; k--) {
+        b->first[k] = b->first[k - 1];
     }
-    c->first[0] = 0;
+    b->first[0] = 0;
     return 1;
 }
 
-/* The outer ones reach out of the window, as far as facets may be off. */
+/* The ring reaches out of the window of all that stands in the view. */
 static void open_shape(cells_work *c, uint32_t x, uint32_t y, lrcsi_clip_polygon *shape)
 {
-    const lrcsi_grid *grid = &c->contest->grid;
     const uint32_t at[2] = {x, y};
-    double wide = 8 * c->view->off;
-    double size = grid->scale > 0 ? BLOCK / grid->scale : 0;
     double low[2];
     double high[2];
     c->reach = 0;
     for (int k = 0; k < 2; k++) {
-        low[k] = c->view->low[k] + (at[k] == 0 ? -wide : at[k] * size);
+        double start = c->view->low[k];
+        double end = c->view->low[k] + c->view->side;
+        double wide = 0x1p-30 * (fabs(start) + fabs(end) + c->side * c->size);
+        low[k] = at[k] > 0 ? block_edge(c, at[k], k) : lrcsi_least(start, c->low[k]) - wide;
         high[k] =
-            c->view->low[k] + (at[k] + 1 == c->side ? c->view->side + wide : (at[k] + 1) * size);
+            at[k] + 1 < c->side ? block_edge(c, at[k] + 1, k) : lrcsi_most(end, c->high[k]) + wide;
         c->middle[k] = 0.5 * (low[k] + high[k]);
         low[k] -= c->middle[k];
         high[k] -= c->middle[k];
@@ -1534,12 +1627,13 @@ static void open_shape(cells_work *c, uint32_t x, uint32_t y, lrcsi_clip_polygon
 /* Lists the facets near a cell. 0 where they find no room. */
 static int open_facets(cells_work *c, size_t block, cells_cell *cell)
 {
+    const cells_blocks *b = &c->facets;
     double g = 16 * U * c->reach;
-    if (c->first[block + 1] - c->first[block] > c->room) {
+    if (b->first[block + 1] - b->first[block] > c->room) {
         return 0;
     }
-    for (uint32_t i = c->first[block]; i < c->first[block + 1]; i++) {
-        uint32_t f = c->item[i];
+    for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
+        uint32_t f = b->item[i];
         if (facet_near(facet_make(c, f), &cell->shape, cell->shape.corner[0], cell->shape.corner[2],
                        g)) {
             c->list[cell->facets++] = f;
@@ -1551,26 +1645,17 @@ static int open_facets(cells_work *c, size_t block, cells_cell *cell)
 }
 
 /* Its segments likewise. */
-static int open_segments(cells_work *c, uint32_t x, uint32_t y, cells_cell *cell)
+static int open_segments(cells_work *c, size_t block, cells_cell *cell)
 {
-    const lrcsi_grid *events = &c->contest->grid;
-    uint32_t x0 = x * BLOCK;
-    uint32_t x1 = x0 + BLOCK < events->size ? x0 + BLOCK : events->size;
+    const cells_blocks *b = &c->events;
     for (uint32_t i = 0; i < cell->facets; i++) {
         if (!open_contacts(c, c->list[i]) || !open_joins(c, c->list[i])) {
             return 0;
         }
     }
-    for (uint32_t row = y * BLOCK; row < (y + 1) * BLOCK && row < events->size; row++) {
-        const uint32_t *first = events->first + (size_t)row * events->size;
-        for (uint32_t i = first[x0]; i < first[x1]; i++) {
-            uint32_t event = events->item[i];
-            if (c->event_listed[event] != c->look) {
-                c->event_listed[event] = c->look;
-                if (!open_edge(c, c->contest->event[event].edge)) {
-                    return 0;
-                }
-            }
+    for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
+        if (!open_edge(c, c->contest->events.edge[b->item[i]])) {
+            return 0;
         }
     }
     if (cell->facets + (size_t)c->segments > c->room) {
@@ -1585,16 +1670,26 @@ static int open_segments(cells_work *c, uint32_t x, uint32_t y, cells_cell *cell
 /* Facets of a block that is not done stay open. */
 static void block_leave(cells_work *c, size_t block)
 {
-    for (uint32_t i = c->first[block]; i < c->first[block + 1]; i++) {
-        c->found[c->item[i]] |= FOUND_OPEN;
+    for (uint32_t i = c->facets.first[block]; i < c->facets.first[block + 1]; i++) {
+        c->found[c->facets.item[i]] |= FOUND_OPEN;
     }
+}
+
+static int block_wanted(const cells_work *c, size_t block)
+{
+    for (uint32_t i = c->facets.first[block]; i < c->facets.first[block + 1]; i++) {
+        if (c->open[c->facets.item[i]]) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 static void block_do(cells_work *c, uint32_t x, uint32_t y)
 {
     lrcsi_meter *meter = c->view->meter;
     size_t block = (size_t)y * c->side + x;
-    if (c->first[block] == c->first[block + 1]) {
+    if (!block_wanted(c, block)) {
         return;
     }
     cells_cell cell = {.first = 0};
@@ -1602,7 +1697,7 @@ static void block_do(cells_work *c, uint32_t x, uint32_t y)
     c->look++;
     c->segments = 0;
     c->off = 0;
-    if (!open_facets(c, block, &cell) || !open_segments(c, x, y, &cell)) {
+    if (!open_facets(c, block, &cell) || !open_segments(c, block, &cell)) {
         block_leave(c, block);
         return;
     }
@@ -1683,22 +1778,28 @@ static size_t list_room(const lrcs_prepared *p)
 size_t lrcsi_cells_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t blocks = facets + 4096; /* a block has four cells of the grid, but at the rims */
+    size_t blocks = 2 * facets + 64; /* half as many along a side as the grid has, and 2 */
     size_t need = 2 * lrcsi_work_bytes(facets, 1);
-    need = lrcsi_work_add(need, lrcsi_work_bytes(blocks, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(blocks + 1, sizeof(uint32_t)));
-    need =
-        lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_GRID_FACET_CELLS * facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(blocks, sizeof(uint32_t)));
+    need = lrcsi_work_add(need,
+                          2 * lrcsi_work_bytes((size_t)block_entries(prepared), sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(cells_facet)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(cells_found)));
     need =
         lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(cells_point)));
     need = lrcsi_work_add(need, 5 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(prepared->topology.edge_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(list_room(prepared), sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets + SEGMENT_LEAST, sizeof(cells_segment)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_BORDERS, sizeof(cells_border)));
     return lrcsi_work_add(need, lrcsi_work_bytes(CELLS_WAITING, sizeof(cells_cell)));
+}
+
+/* Both, and the axes. */
+static int cells_blocks_make(cells_work *c, lrcs_work *work)
+{
+    blocks_place(c);
+    axes_make(c);
+    return blocks_make(c, &c->facets, 0, work) && blocks_make(c, &c->events, 1, work);
 }
 
 void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned char *open,
@@ -1719,7 +1820,6 @@ void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned c
     c.listed = lrcsi_work_take_zero(work, count, sizeof *c.listed);
     c.met = lrcsi_work_take_zero(work, count, sizeof *c.met);
     c.joined = lrcsi_work_take_zero(work, count, sizeof *c.joined);
-    c.event_listed = lrcsi_work_take_zero(work, contest->events.count, sizeof *c.event_listed);
     c.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *c.point);
     c.component = lrcsi_work_take(work, count, sizeof *c.component);
     c.hit = lrcsi_work_take(work, count, sizeof *c.hit);
@@ -1727,10 +1827,9 @@ void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned c
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.border = lrcsi_work_take(work, MOST_BORDERS, sizeof *c.border);
     c.stack = lrcsi_work_take(work, CELLS_WAITING, sizeof *c.stack);
-    if (!p->convex && c.point && c.event_listed && c.found && c.kind && c.facet && c.area &&
-        c.listed && c.met && c.joined && c.component && c.hit && c.list && c.segment && c.border &&
-        c.stack && blocks_make(&c, work)) {
-        axes_make(&c);
+    if (!p->convex && c.point && c.found && c.kind && c.facet && c.area && c.listed && c.met &&
+        c.joined && c.component && c.hit && c.list && c.segment && c.border && c.stack &&
+        cells_blocks_make(&c, work)) {
         for (uint32_t f = 0; f < count; f++) {
             c.kind[f] = lrcsi_grid_casts(view, f) && facet_apart(view, f) ? KIND_APART : 0;
         }
