@@ -449,7 +449,7 @@ static int side_number(const lrcsi_view *view, uint32_t facet, int k)
 /* --- cells ------------------------------------------------------------------------------------ */
 
 /* Lines along the sides, each moved out so far that all corners are on its inner side. */
-static void sides_of(const cells_work *c, const cells_cell *cell, cells_sides *s)
+static void cells_sides_of(const cells_work *c, const cells_cell *cell, cells_sides *s)
 {
     const lrcsi_clip_polygon *p = &cell->shape;
     s->count = p->count;
@@ -1267,7 +1267,7 @@ static void cells_do(cells_work *c, cells_cell *cell)
     if (!cells_wanted(c, cell)) {
         return;
     }
-    sides_of(c, cell, &s);
+    cells_sides_of(c, cell, &s);
     cells_strike(c, cell, &s);
     c->components = 0;
 
@@ -1752,8 +1752,6 @@ static double facet_accuracy(const cells_work *c, uint32_t facet)
                                                 : 0);
 }
 
-/* Where facets stand for curved surfaces, one that is hidden but for strips is left to be found
-   hidden whole: else it costs more than its strips (integrate/tessellation.c). */
 static void areas_tell(const cells_work *c, lrcsi_visible *visible)
 {
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
@@ -1762,8 +1760,7 @@ static void areas_tell(const cells_work *c, lrcsi_visible *visible)
         }
         double off;
         lrcsi_visible area = facet_told(c, f, &off);
-        int hidden = area.area == 0 && c->view->prepared->curved;
-        if (off <= (hidden ? 0 : facet_accuracy(c, f))) {
+        if (off <= facet_accuracy(c, f)) {
             visible[f] = area;
             c->open[f] = 0;
         }

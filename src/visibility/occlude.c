@@ -448,13 +448,15 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
     if (status == LRCS_OK) {
         lrcsi_visible_answered(view, o.uniform, visible);
     }
-    /* 1. Undecided facets all together, by cells of the view plane. */
+    /* 1. Many undecided facets all together, by cells of the view plane; not where facets stand for
+       curved surfaces: one that is hidden but for strips then costs more than its strips
+       (integrate/tessellation.c), so that each must be asked. */
     unsigned char *open = lrcsi_work_take(work, view->prepared->scene->facet_count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
     }
-    if (status == LRCS_OK && contest->contested_count >= CELLS_LEAST) {
+    if (status == LRCS_OK && contest->contested_count >= CELLS_LEAST && !view->prepared->curved) {
         lrcsi_cells_areas(contest, work, open, visible);
     }
     /* 2. One by one what that left open. */
