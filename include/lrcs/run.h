@@ -90,7 +90,7 @@ typedef struct lrcs_run_options {
    the bound; so do parts that are seen over which curved normals would have been integrated closer.
    LRCS_FLAG_STEPS_SPENT is set. What grows faster than the scene is counted, alike on every machine
    (over curved normals but for libm's last bits): passes over facets, edges and contacts are not,
-   nor are a raster's pixels and searches, by method zbuffer or for want of memory
+   nor are a raster's pixels and searches, by method zbuffer, for an estimate or for want of memory
    (examples/flight/README.md). lrcs_result.steps tells how many a run took.
    4. For previews: with LRCS_ACCEPT_ESTIMATE auto draws a raster as coarse as the tolerance allows,
    a finer one where its likely error, estimate_m2, exceeds what the proved parts of the bound
