@@ -1734,7 +1734,7 @@ static lrcsi_visible facet_told(const cells_work *c, uint32_t facet, double *off
 /* What a facet's area may be off by, so that it is told: as much as clipping the facet alone would
    cost (visibility/occlude.c), 52 u of its diameter times its perimeter, and for each cut a strip
    128 u of the diameter wide, or wider; or so little that it does not matter. Clipping finds
-   needles better than that. */
+   needles and what is larger than the bulk of the scene better than that. */
 static double facet_accuracy(const cells_work *c, uint32_t facet)
 {
     const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
@@ -1746,10 +1746,11 @@ static double facet_accuracy(const cells_work *c, uint32_t facet)
         diameter = lrcsi_most(diameter, lrcsi_most(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
     }
     double alone = U * diameter * (104 * diameter + 128 * c->area[facet].cut);
-    double extent = 2 * c->view->prepared->radius;
-    return ACCURACY_OF_FACET * projected + (projected > NEEDLE * diameter * diameter
-                                                ? alone + ACCURACY_OF_SCENE * extent * extent
-                                                : 0);
+    const double *bulk = c->view->prepared->bulk;
+    double extent = 2 * lrcsi_most(bulk[0], lrcsi_most(bulk[1], bulk[2]));
+    int ordinary = projected > NEEDLE * diameter * diameter && diameter < 2 * extent;
+    return ACCURACY_OF_FACET * projected +
+           (ordinary ? alone + ACCURACY_OF_SCENE * extent * extent : 0);
 }
 
 static void areas_tell(const cells_work *c, lrcsi_visible *visible)
