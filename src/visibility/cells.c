@@ -1792,12 +1792,14 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_work_bytes(CELLS_WAITING, sizeof(cells_cell)));
 }
 
-/* Both, and the axes. */
+/* Both, and the axes. 0 also where much of the view lies outside of the bulk: cells there are so
+   large that nothing is told. */
 static int cells_blocks_make(cells_work *c, lrcs_work *work)
 {
     blocks_place(c);
     axes_make(c);
-    return blocks_make(c, &c->facets, 0, work) && blocks_make(c, &c->events, 1, work);
+    return c->view->side <= 2 * c->side * c->size && blocks_make(c, &c->facets, 0, work) &&
+           blocks_make(c, &c->events, 1, work);
 }
 
 void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned char *open,
