@@ -11,6 +11,7 @@
 #include "integrate/plan.h"
 #include "integrate/total.h"
 #include "visibility/occlude.h"
+#include "visibility/zbuffer.h"
 
 /* Rasters: the first tried, the finest and the coarsest. Beyond 4096 the bound gains less than it
    costs; below 16 there is nothing to gain. */
@@ -32,7 +33,9 @@ typedef struct sigma_run {
     lrcsi_total total;
     lrcs_work *work;
     lrcs_image *image;
-    uint32_t size; /* of the raster used, 0: none */
+    uint32_t size;    /* of the raster used, 0: none */
+    uint32_t partial; /* facets of which it left the areas open */
+    int contested;    /* contest, and margin where it is wanted, have been made */
     uint32_t flags;
 } sigma_run;
 
@@ -53,14 +56,18 @@ static int run_check(const lrcs_run_options *options, const lrcs_image *image)
 }
 
 /* What finding visible areas takes: under auto, whichever method does. On samples, curved facets
-   that are seen in part are clipped. */
+   that are seen in part are clipped, and events are searched for where curved shapes stand among
+   others. */
 static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
-    size_t raster =
-        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
-    size_t exact = lrcsi_occlude_need(prepared);
-    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
+    size_t contest =
+        lrcsi_work_add(lrcsi_contest_need(prepared), lrcsi_margin_need(prepared));
+    size_t exact = lrcsi_work_add(contest, lrcsi_occlude_need(prepared));
+    size_t raster = lrcsi_zbuffer_need(prepared, size);
+    raster = lrcsi_work_add(raster, prepared->smooth           ? exact
+                                    : prepared->nears.reach ? contest
+                                                            : 0);
     return options->method == LRCS_METHOD_EXACT                       ? exact
            : options->method == LRCS_METHOD_ZBUFFER || raster > exact ? raster
                                                                       : exact;
@@ -79,8 +86,6 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
                               prepared->smooth ? lrcsi_work_add(areas, curved) : 0);
     }
     size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_work_add(areas, curved));
-    need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
-    need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
     return lrcsi_work_add(need, method_need(prepared, options));
 }
 
@@ -169,6 +174,27 @@ static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
     }
 }
 
+/* Which facets are contested, and what the truth of curved shapes may show otherwise: once, for
+   methods that ask. Where back sides are left out of a scene that shows some, its true curves are
+   not known. */
+static int run_contest(sigma_run *run)
+{
+    const lrcs_prepared *p = run->view.prepared;
+    size_t mark = run->work->used;
+    int status = run->contested ? LRCS_OK : lrcsi_contest_make(&run->view, run->work, &run->contest);
+    if (!run->contested && status == LRCS_OK && p->nears.reach &&
+        (run->view.backs_cast || p->solid)) {
+        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
+        run->doubt = &run->margin;
+    }
+    run->contested |= status == LRCS_OK;
+    if (status != LRCS_OK) {
+        run->work->used = mark;
+        run->doubt = NULL;
+    }
+    return status;
+}
+
 /* Curved facets of which samples know the areas: clipped where they are seen in part, as far as
    there is memory for that. */
 static void sum_curved(sigma_run *run)
@@ -202,25 +228,20 @@ static void run_sum(sigma_run *run, int sampled)
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
-static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
+static int run_raster(sigma_run *run, uint32_t size)
 {
-    lrcsi_raster raster;
-    size_t mark = run->work->used;
+    lrcsi_zbuffer zbuffer;
     int status = LRCS_E_MEMORY;
-    run->view.meter = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        status = lrcsi_visible_sampled(known, size, run->work, &raster, run->visible);
+        status = lrcsi_zbuffer_make(&run->view, size, run->work, run->visible, &zbuffer);
         run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
+        run->size = size;
     }
-    run->view.meter = &run->meter;
     if (status == LRCS_OK) {
-        run->size = raster.size;
-        for (uint32_t f = 0; f < run->view.prepared->scene->facet_count; f++) {
-            run->flags |= raster.undecided[f] ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
-        }
+        run->partial = zbuffer.partial;
+        run->flags |= zbuffer.undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
         run_sum(run, 1);
     }
-    run->work->used = mark;
     return status;
 }
 
@@ -229,7 +250,11 @@ static int run_exact(sigma_run *run, int method)
 {
     uint32_t starved = 0;
     lrcsi_curving how = run_curving(run);
-    int status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
+    int status = run_contest(run);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
                                                   run->curved, &starved)
                              : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
     if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
@@ -257,22 +282,13 @@ static uint32_t next_size(const sigma_run *run, double tolerance)
 
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
-    lrcsi_known known;
-    size_t mark = run->work->used;
-    run->view.meter = NULL;
-    int status = lrcsi_visible_known(&run->contest, run->work, &known);
-    run->view.meter = &run->meter;
-    if (status == LRCS_OK) {
-        status =
-            run_raster(run, &known, options->resolution != 0 ? options->resolution : FIRST_SIZE);
-    }
+    int status = run_raster(run, options->resolution != 0 ? options->resolution : FIRST_SIZE);
     while (status == LRCS_OK && options->resolution == 0 && run->size < LAST_SIZE &&
-           !run->meter.spent && !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) &&
-           run->contest.contested_count != 0 && !run_meets(&run->total, options->tolerance)) {
+           !run->meter.spent && !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) && run->partial != 0 &&
+           !run_meets(&run->total, options->tolerance)) {
         uint32_t size = next_size(run, options->tolerance);
-        status = run_raster(run, &known, size > run->size ? size : LAST_SIZE);
+        status = run_raster(run, size > run->size ? size : LAST_SIZE);
     }
-    run->work->used = mark;
     return status;
 }
 
@@ -288,14 +304,9 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_view_project(run->work, &run->view);
-    if (status == LRCS_OK) {
-        status = lrcsi_contest_make(&run->view, run->work, &run->contest);
-    }
-    /* where back sides are left out of a scene that shows some, its true curves are not known */
-    if (status == LRCS_OK && run->view.prepared->nears.reach &&
-        (run->view.backs_cast || run->view.prepared->solid)) {
-        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
-        run->doubt = &run->margin;
+    size_t mark = run->work->used;
+    if (status == LRCS_OK && (run->view.prepared->nears.reach || run->view.prepared->smooth)) {
+        status = run_contest(run);
     }
     if (status != LRCS_OK) {
         return status;
@@ -313,6 +324,10 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
         run->plan.method = LRCS_METHOD_ZBUFFER;
         run->plan.reason = "too little memory for clipping";
         run->flags = LRCS_FLAG_MEMORY_FALLBACK;
+        if (!run->doubt && !run->curved) { /* nobody else asks */
+            run->work->used = mark;
+            run->contested = 0;
+        }
         status = run_zbuffer(run, options);
     }
     return status;

@@ -291,20 +291,21 @@ static int is_inside_segment(const double *a, const double *b, const double *p)
     return !at_end && lrcsi_exact_collinear(a, b, p);
 }
 
-/* Does a corner of t lie inside a side of f? */
-static int touches_side(const touch_facet *f, const touch_facet *t)
+/* The sides of f inside of which a corner of t lies: bit k for the side from corner k to k + 1. */
+static unsigned sides_split(const touch_facet *f, const touch_facet *t)
 {
+    unsigned sides = 0;
     for (int i = 0; i < 3; i++) {
         if (is_corner_of(f, t->x[i])) {
             continue;
         }
         for (int k = 0; k < 3; k++) {
             if (is_inside_segment(f->x[k], f->x[(k + 1) % 3], t->x[i])) {
-                return 1;
+                sides |= 1u << k;
             }
         }
     }
-    return 0;
+    return sides;
 }
 
 /* Sinks entry `i` of a heap of n, largest on top. */
@@ -373,9 +374,10 @@ static int meet_one(touch_search *search, uint32_t facet, const touch_facet *f, 
     lrcsi_touches *touches = search->touches;
     int rim;
     int kind = touch_kind(f, t, &rim);
-    touches->rim[facet] |= rim != 0;
+    unsigned sides = rim ? sides_split(f, t) : 0;
+    touches->rim[facet] |= (unsigned char)(rim ? LRCSI_TOUCH_RIM | sides : 0);
     if (search->piece && !touches->self && search->piece[facet] == search->piece[other]) {
-        touches->self = kind != LRCSI_TOUCH_NONE || touches_side(f, t);
+        touches->self = kind != LRCSI_TOUCH_NONE || sides != 0;
     }
     return kind == LRCSI_TOUCH_NONE
                ? LRCS_OK

@@ -21,12 +21,15 @@ typedef struct lrcsi_touch {
     uint32_t kind;
 } lrcsi_touch;
 
+#define LRCSI_TOUCH_RIM 8u
+
 typedef struct lrcsi_touches {
     uint32_t *first;    /* facet_count + 1: entries of facet i are touch[first[i] .. first[i+1]) */
     lrcsi_touch *touch; /* by facet, then by other */
     uint32_t count;
-    unsigned char *rim; /* facet: 1 where another may meet its rim other than in one of its corners
-                           or along a side that both have */
+    unsigned char *rim; /* facet: 0 where no other meets its rim but in its corners or along a side
+                           that both have; else LRCSI_TOUCH_RIM, and bit k where a corner of another
+                           lies inside its side from corner k to k + 1 */
     int self; /* a facet meets the inside or a side of another of its own piece; 0 if not asked */
 } lrcsi_touches;
 

@@ -27,6 +27,12 @@ static inline int lrcsi_span_has(lrcsi_pixels span, uint32_t x)
     return x >= span.x0 && x < span.x1;
 }
 
+/* The samples of a row, one range within the other. */
+typedef struct lrcsi_samples {
+    lrcsi_pixels may;  /* all that the facet may cover */
+    lrcsi_pixels sure; /* those that it surely covers */
+} lrcsi_samples;
+
 /* A row of pixels. The last three lie one within the other. */
 typedef struct lrcsi_row {
     lrcsi_pixels touched; /* all that the facet may touch */
@@ -45,6 +51,9 @@ void lrcsi_span_segment(const double *a, const double *b, double bottom, double 
 void lrcsi_span_prepare(lrcsi_edges *edges);
 
 lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y);
+
+/* What is covered of a row, alone: half of the work. */
+lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y);
 
 /* What is touched of a row, alone: a third of the work. */
 lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *edges, uint32_t y);
