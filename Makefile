@@ -11,7 +11,7 @@
 #   make operations misra   steps a pose takes, beside the most; MISRA C:2012 and its deviations
 #   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
 #   make gpu                the paper's method in OpenGL, judged by the conformance kit
-#   make bench scaling      what every stage costs on this machine, and how that grows
+#   make bench scaling      what poses cost on this machine, beside other engines, and how that grows
 
 # --- settings ------------------------------------------------------------------------------------
 CC       = gcc
@@ -174,7 +174,7 @@ test-core: $(TOOL) $(CORE_TESTS) $(FUZZ_TESTS)
 bounds: $(LIB)
 	@mkdir -p $(BUILD)/test/hostile
 	$(CC) $(STD) $(OPT) -Wall -Wextra -Iinclude -o $(BUILD)/test/hostile/bounds test/hostile/bounds.c $(LIB) $(LDLIBS)
-	for kind in hostile plain lattice; do \
+	for kind in hostile plain lattice doubled; do \
 	    python3 test/hostile/bounds.py $(BOUNDS_SCENES) $(BOUNDS_SEED) $$kind >$(BUILD)/test/hostile/$$kind && \
 	    $(BUILD)/test/hostile/bounds $(BUILD)/test/hostile/$$kind || exit 1; \
 	done
@@ -198,12 +198,15 @@ shadows: cmocka $(BUILD)/test/integrate/test_margin
 SHADOWS_SCENES = 280
 SHADOWS_SEED   = 1
 
-# What every stage and every pose costs on this machine: a generated satellite, a convex body and
-# real models, as tables, $(BENCH_DIR)/bench.csv and bench.svg (BENCH_FLAGS=--quick: a minute).
+# What loading, preparing and whole poses cost on this machine: real models, generated scenes and
+# hard cases, beside OpenGL and Embree where BENCH_PEERS names the folder they are built in. Tables,
+# $(BENCH_DIR)/bench.csv and bench.svg (BENCH_FLAGS=--quick: a minute; "--only aura": one scene).
 bench: $(BENCH_DIR)/bench
 	$(BENCH_DIR)/bench $(BENCH_FLAGS) --csv $(BENCH_DIR)/bench.csv --plot $(BENCH_DIR)/bench.svg \
-	    --scratch $(BENCH_DIR)/scratch.stl $(BENCH_MODELS)
+	    --scratch $(BENCH_DIR) $(BENCH_PEERS:%=--peers %) $(BENCH_CASES:%=--cases %) $(BENCH_MODELS)
 BENCH_FLAGS  =
+BENCH_PEERS  =
+BENCH_CASES  = $(wildcard ../shared/cases)
 BENCH_MODELS = $(wildcard ../shared/models/*.3ds ../shared/models/*.obj ../shared/models/*.stl)
 
 # How time and memory grow with facets, pixels and depth: exponents, and the worst cases.

@@ -135,7 +135,7 @@ static int run_facet(sigma_run *run)
         lrcsi_curving how = run_curving(run);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
             lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
-            run->visible[f] = lrcsi_grid_faces(view, f)
+            run->visible[f] = lrcsi_grid_casts(view, f)
                                   ? lrcsi_visible_unshadowed(&tilt, run->plan.graze)
                                   : (lrcsi_visible){0, 0, 0, 0, 0};
         }

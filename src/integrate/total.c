@@ -284,14 +284,14 @@ static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const l
     if (job->visible) {
         return job->visible[facet];
     }
-    return lrcsi_grid_faces(job->view, facet) ? lrcsi_visible_unshadowed(tilt, job->plan->graze)
+    return lrcsi_grid_casts(job->view, facet) ? lrcsi_visible_unshadowed(tilt, job->plan->graze)
                                               : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
 /* Could any of it be visible? The back sides of a closed body cannot, and cost no arithmetic. */
 static int may_show(const total_job *job, uint32_t facet)
 {
-    return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_faces(job->view, facet);
+    return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_casts(job->view, facet);
 }
 
 static double facet_tessellation(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Sorting edges into plain ones, on which one facet stands or two that continue each other, and odd
-   ones. Which of them are contours is decided anew for every direction. */
+/* Sorting edges into regular ones, with one facet, two that continue each other, or two pairs of
+   twins, and irregular ones. Which of them are contours is decided anew for every direction. */
 #include "scene/across.h"
 
 #include "base/work.h"
+#include "scene/prepare.h"
 
 /* An odd edge takes up two sides or more. */
 size_t lrcsi_across_need(uint32_t facet_count)
@@ -13,19 +14,28 @@ size_t lrcsi_across_need(uint32_t facet_count)
                           lrcsi_work_bytes(sides / 2, sizeof(uint32_t)));
 }
 
-/* The live facets on an edge: how many, the first of them, one other, and how many run it
+/* What an edge is sorted by. */
+typedef struct across_job {
+    const lrcsi_topology *topology;
+    const unsigned char *redundant;
+    const uint32_t *twin; /* or NULL */
+} across_job;
+
+/* The facets on an edge that count: how many, the first four of them, and how many run it
    forward. */
 typedef struct across_edge {
-    uint32_t count, first, other, forward;
+    uint32_t count, forward;
+    lrcsi_edge_use use[4];
 } across_edge;
 
-static across_edge across_edge_of(const lrcsi_topology *t, uint32_t edge, const unsigned char *skip)
+static across_edge across_edge_of(const across_job *job, uint32_t edge)
 {
-    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
-    across_edge all = {0, LRCS_NONE, LRCS_NONE, 0};
-    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
-        if (!skip[use[i].facet]) {
-            *(all.count == 0 ? &all.first : &all.other) = use[i].facet;
+    const lrcsi_edge *e = &job->topology->edge[edge];
+    const lrcsi_edge_use *use = job->topology->use + e->first_use;
+    across_edge all = {0, 0, {{LRCS_NONE, 0}}};
+    for (uint32_t i = 0; i < e->uses; i++) {
+        if (job->redundant[use[i].facet] != LRCSI_REDUNDANT) {
+            all.use[all.count < 4 ? all.count : 3] = use[i];
             all.forward += use[i].forward;
             all.count++;
         }
@@ -33,36 +43,65 @@ static across_edge across_edge_of(const lrcsi_topology *t, uint32_t edge, const 
     return all;
 }
 
-static void across_set(const lrcsi_topology *t, lrcsi_across *a, uint32_t facet, uint32_t edge,
+static void across_set(const across_job *job, lrcsi_across *a, uint32_t facet, uint32_t edge,
                        uint32_t other)
 {
     for (int k = 0; k < 3; k++) {
-        if (t->facet_edge[facet].corner[k] == edge) {
+        if (job->topology->facet_edge[facet].corner[k] == edge) {
             a->facet[facet].corner[k] = other;
         }
     }
 }
 
-static void across_edges(const lrcsi_topology *t, uint32_t facet_count, const unsigned char *skip,
-                         lrcsi_across *a)
+/* Two pairs of twins: each facet has across it the one of the other pair that runs the edge the
+   other way. Twins run it in opposite ways. */
+static int across_set_pairs(const across_job *job, lrcsi_across *a, uint32_t edge,
+                            const across_edge *all)
 {
-    for (uint32_t e = 0; e < t->edge_count; e++) {
-        across_edge all = across_edge_of(t, e, skip);
+    const lrcsi_edge_use *use = all->use;
+    if (!job->twin) {
+        return 0;
+    }
+    for (int i = 0; i < 4; i++) {
+        int held = 0;
+        for (int j = 0; j < 4; j++) {
+            held |= job->twin[use[i].facet] == use[j].facet;
+        }
+        if (!held) {
+            return 0;
+        }
+    }
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++) {
+            if (use[i].forward != use[j].forward && job->twin[use[i].facet] != use[j].facet) {
+                across_set(job, a, use[i].facet, edge, use[j].facet);
+            }
+        }
+    }
+    return 1;
+}
+
+static void across_edges(const across_job *job, uint32_t facet_count, lrcsi_across *a)
+{
+    for (uint32_t e = 0; e < job->topology->edge_count; e++) {
+        across_edge all = across_edge_of(job, e);
         if (all.count == 1) {
-            across_set(t, a, all.first, e, facet_count);
+            across_set(job, a, all.use[0].facet, e, facet_count);
         } else if (all.count == 2 && all.forward == 1) {
-            across_set(t, a, all.first, e, all.other);
-            across_set(t, a, all.other, e, all.first);
-        } else if (all.count != 0) {
+            across_set(job, a, all.use[0].facet, e, all.use[1].facet);
+            across_set(job, a, all.use[1].facet, e, all.use[0].facet);
+        } else if (all.count != 0 && !(all.count == 4 && across_set_pairs(job, a, e, &all))) {
             a->odd[a->odd_count++] = e;
         }
     }
 }
 
 int lrcsi_across_make(const lrcsi_topology *topology, uint32_t facet_count,
-                      const unsigned char *skip, lrcs_work *work, lrcsi_across *across)
+                      const unsigned char *redundant, const uint32_t *twin, lrcs_work *work,
+                      lrcsi_across *across)
 {
     size_t mark = work->used;
+    across_job job = {topology, redundant, twin};
     lrcsi_across a = {.odd_count = 0};
     a.facet = lrcsi_work_take(work, facet_count, sizeof *a.facet);
     size_t end = work->used;
@@ -74,7 +113,7 @@ int lrcsi_across_make(const lrcsi_topology *topology, uint32_t facet_count,
     for (uint32_t f = 0; f < facet_count; f++) {
         a.facet[f] = (lrcs_facet){{f, f, f}};
     }
-    across_edges(topology, facet_count, skip, &a);
+    across_edges(&job, facet_count, &a);
     work->used = end; /* what odd edges there are lie where they were filed */
     a.odd = lrcsi_work_take(work, a.odd_count, sizeof *a.odd);
     *across = a;

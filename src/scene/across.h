@@ -1,25 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* Who stands across each side of a facet, whatever the direction: what every pose walks over, in
-   as few bytes as it can be said in. */
+/* Which facet lies across each side of a facet, whatever the direction: what every pose walks over,
+   in as few bytes as possible. Facets that are always redundant (scene/coincident.h) do not count.
+   Of two twins one faces the laser and counts then: where two pairs of twins meet, the facet across
+   is the one that runs the side the other way, for it faces the laser where the surface goes on. */
 #ifndef LRCSI_ACROSS_H
 #define LRCSI_ACROSS_H
 
 #include "mesh/topology.h"
 
 typedef struct lrcsi_across {
-    lrcs_facet *facet; /* facet -> across its side from corner k to k + 1: the one other live facet
-                          there, which runs the side the other way; the number of facets where
-                          there is no other; itself where the edge is odd, or where it is skipped */
-    uint32_t *odd;     /* the other edges with live facets: three or more of them, or two that run
-                          the same way; ascending */
+    lrcs_facet *facet; /* facet -> across its side from corner k to k + 1: the one other facet
+                          there, or the one of two other twins, that runs the side the other way;
+                          the number of facets where there is no other; itself where the edge is
+                          irregular, or where it is redundant */
+    uint32_t *odd;     /* irregular edges: any others that have facets; ascending */
     uint32_t odd_count;
 } lrcsi_across;
 
 size_t lrcsi_across_need(uint32_t facet_count);
 
-/* Given which facets to skip. Status: LRCS_OK; LRCS_E_MEMORY. The result stays in the work area.
-   Linear time. */
+/* Given which facets are redundant (a lrcsi_redundant), and their twins or NULL. Status: LRCS_OK;
+   LRCS_E_MEMORY. The result stays in the work area. Linear time. */
 int lrcsi_across_make(const lrcsi_topology *topology, uint32_t facet_count,
-                      const unsigned char *skip, lrcs_work *work, lrcsi_across *across);
+                      const unsigned char *redundant, const uint32_t *twin, lrcs_work *work,
+                      lrcsi_across *across);
 
 #endif

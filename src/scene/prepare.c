@@ -12,7 +12,7 @@
 #include "base/length.h"
 #include "base/work.h"
 #include "mesh/tree.h"
-#include "scene/copy.h"
+#include "scene/coincident.h"
 #include "scene/solid.h"
 
 #define U 0x1p-53
@@ -125,7 +125,7 @@ static void prepare_normals(lrcs_prepared *p)
         normal_make(lrcsi_prepared_corner(p, f, 0), lrcsi_prepared_corner(p, f, 1),
                     lrcsi_prepared_corner(p, f, 2), &p->normal[f]);
         p->skip[f] = p->topology.degenerate[f] || lrcsi_prepared_material(p, f)->omitted;
-        p->idle[f] = p->skip[f];
+        p->redundant[f] = p->skip[f] ? LRCSI_REDUNDANT : LRCSI_NOT_REDUNDANT;
         p->live += !p->skip[f];
     }
 }
@@ -175,10 +175,10 @@ static int prepare_arrays(const lrcs_scene *scene, lrcs_work *work, lrcs_prepare
 {
     p->vertex = lrcsi_work_take(work, scene->vertex_count, sizeof *p->vertex);
     p->skip = lrcsi_work_take_zero(work, scene->facet_count, sizeof *p->skip);
-    p->idle = lrcsi_work_take(work, scene->facet_count, sizeof *p->idle);
+    p->redundant = lrcsi_work_take(work, scene->facet_count, sizeof *p->redundant);
     p->normal = lrcsi_work_take(work, scene->facet_count, sizeof *p->normal);
     p->stood = lrcsi_work_take_zero(work, scene->vertex_count, sizeof *p->stood);
-    if (!p->vertex || !p->skip || !p->idle || !p->normal || !p->stood) {
+    if (!p->vertex || !p->skip || !p->redundant || !p->normal || !p->stood) {
         return LRCS_E_MEMORY;
     }
     prepare_vertices(p);
@@ -211,17 +211,31 @@ static uint32_t count_pieces(const lrcs_prepared *p, const uint32_t *piece)
     return count;
 }
 
+/* Which facets have no contacts of their own: redundant ones, and of twins the second. */
+static void contacts_none(const lrcs_prepared *p, unsigned char *none)
+{
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        none[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->twin && p->twin[f] < f);
+    }
+}
+
 /* Contacts, and with them whether the scene is solid. Returned also: whether it is all one piece of
-   surface, as a convex body is. The pieces stay, beneath the contacts. */
+   surface, as a convex body is. Pieces, and which facets were asked, stay beneath the contacts.
+   Where every edge has two facets, twins are a piece by themselves, of no volume: not solid. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work, int *lone)
 {
     uint32_t *piece = lrcsi_work_take(work, p->scene->facet_count, sizeof *piece);
-    if (!piece) {
+    unsigned char *none = lrcsi_work_take(work, p->scene->facet_count, sizeof *none);
+    if (!piece || !none) {
         return LRCS_E_MEMORY;
     }
+    contacts_none(p, none);
     int closed = lrcsi_solid_pieces(p, piece);
-    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, p->idle,
+    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, none,
                                     closed ? piece : NULL, work, &p->touches);
+    if (status == LRCS_OK) {
+        status = lrcsi_coincident_touches(p, work);
+    }
     if (status == LRCS_OK && closed && !p->touches.self) {
         status = lrcsi_solid_outward(p, piece, work, &p->solid);
     }
@@ -238,10 +252,7 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     p->solid = 0;
     p->convex = p->live == 0;
     int lone = 0;
-    int status = lrcsi_copies_mark(p, work);
-    if (status == LRCS_OK) {
-        status = prepare_contacts(p, work, &lone);
-    }
+    int status = prepare_contacts(p, work, &lone);
     if (status == LRCS_OK && p->solid && lone) {
         status = lrcsi_convex_exact(p, work, &p->convex);
     }
@@ -261,6 +272,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, 1));
     need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_coincident_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
     size_t proof = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
@@ -288,7 +300,11 @@ int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepar
         prepare_normals(p);
         prepare_box(p);
         prepare_effects(p);
-        status = lrcsi_across_make(&p->topology, scene->facet_count, p->skip, work, &p->across);
+        status = lrcsi_coincident_mark(p, work);
+    }
+    if (status == LRCS_OK) {
+        status = lrcsi_across_make(&p->topology, scene->facet_count, p->redundant, p->twin, work,
+                                   &p->across);
     }
     if (status == LRCS_OK) {
         status = prepare_proofs(p, work);

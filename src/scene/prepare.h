@@ -24,18 +24,27 @@ typedef struct lrcsi_normal {
     double error;  /* at most 2^-90 of the length */
 } lrcsi_normal;
 
+/* When another facet in the very same place is seen instead of a facet, which then hides nothing
+   that the other does not hide (scene/coincident.h). */
+enum lrcsi_redundant {
+    LRCSI_NOT_REDUNDANT = 0,
+    LRCSI_REDUNDANT_FROM_BEHIND = 1, /* where it faces away: its twin faces the laser then */
+    LRCSI_REDUNDANT = 2              /* always; so are facets that are skipped */
+};
+
 struct lrcs_prepared {
     const lrcs_scene *scene;
-    int exponent;         /* scene coordinate = vertex * 2^exponent */
-    lrcs_point *vertex;   /* scaled */
-    unsigned char *skip;  /* facet: 1 where degenerate or omitted; it takes part in nothing */
-    unsigned char *idle;  /* facet: 1 where skipped, or where another in its very place is seen in
-                             its stead from everywhere (scene/copy.h): it hides nothing */
+    int exponent;             /* scene coordinate = vertex * 2^exponent */
+    lrcs_point *vertex;       /* scaled */
+    unsigned char *skip;      /* facet: 1 where degenerate or omitted; it takes part in nothing */
+    unsigned char *redundant; /* facet: a lrcsi_redundant */
+    uint32_t *twin; /* facet: the one in the same place wound the other way, or LRCS_NONE; NULL
+                       where no facet has any */
     unsigned char *stood; /* vertex: 1 where a live facet stands on it */
     lrcsi_normal *normal;
     lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
-    lrcsi_across across;     /* live facets across the sides of live facets */
-    lrcsi_touches touches;   /* between facets that are not idle */
+    lrcsi_across across;     /* across the sides of facets that are not redundant */
+    lrcsi_touches touches;   /* between facets that are not redundant, but not between twins */
     double centre[3];        /* of the box around the live facets */
     double radius;           /* no live vertex is farther from the centre in any coordinate */
     uint32_t live;           /* facets not skipped */

@@ -95,7 +95,10 @@ static void cuts_edge(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t e
     }
     lrcsi_cut *cut = cut_new(cuts, end[0], end[1], width);
     for (uint32_t i = 0; i < e->uses; i++) {
-        cut_sheet(cut, contest->sheet[p->topology.use[e->first_use + i].facet]);
+        uint32_t facet = p->topology.use[e->first_use + i].facet;
+        if (lrcsi_grid_casts(contest->view, facet)) {
+            cut_sheet(cut, contest->sheet[facet]);
+        }
     }
 }
 

@@ -111,16 +111,13 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_cells *cells, const unsigned char *wanted,
                       lrcs_work *work, lrcsi_grid *grid);
 
-/* Has the facet a side in this view that counts? */
-static inline int lrcsi_grid_faces(const lrcsi_view *view, uint32_t facet)
-{
-    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_cast);
-}
-
-/* Can it hide anything, and be seen? */
+/* Can a facet hide anything, and be seen? Not where it is redundant in this view. */
 static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
 {
-    return lrcsi_grid_faces(view, facet) && !view->prepared->idle[facet];
+    int facing = view->facing[facet];
+    int redundant = view->prepared->redundant[facet];
+    return (facing > 0 && redundant < LRCSI_REDUNDANT) ||
+           (facing < 0 && redundant < LRCSI_REDUNDANT_FROM_BEHIND && view->backs_cast);
 }
 
 #endif

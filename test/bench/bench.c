@@ -1,246 +1,197 @@
 /* SPDX-License-Identifier: MIT */
-/* What every stage and every whole pose costs on this machine: a generated satellite and a convex
-   body at the sizes of the published comparison, and the models named on the command line. Medians
-   over directions all around; beside each the time that memory alone would take, measured in the
-   same run, and the targets of the project. It decides what is measured; usage: bench [--quick |
-   --tiny] [--csv FILE] [--plot FILE.svg] [--scratch FILE.stl] [MODEL ..] */
+/* What loading, preparing and whole poses cost on this machine: models named on the command line,
+   generated satellites, a space station stored with single and with doubled faces, a mesh with one
+   very distant vertex, the scenes of ../shared/cases, beside other engines where they are built.
+   Medians over directions all around, every cell of the table in a process of its own under a time
+   limit. It decides what is measured. */
 #include <lrcs/host.h>
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "bench/peers.h"
 #include "bench/rows.h"
 #include "bench/scenes.h"
-#include "bench/stages.h"
+
+static const char usage[] =
+    "usage: bench [--quick | --tiny] [--only TEXT] [--limit S] [--csv FILE] [--plot FILE.svg]\n"
+    "             [--peers FOLDER] [--cases FOLDER] [--scratch FOLDER] [MODEL ..]\n"
+    "  --quick    about a minute: fewer directions, no scene above 100,000 facets\n"
+    "  --tiny     small scenes and one direction, for the tool's own test\n"
+    "  --only     scenes whose name contains TEXT\n"
+    "  --limit    seconds that a cell may take (20; quick: 3)\n"
+    "  --peers    where gl_lrcs and embree_lrcs are built\n"
+    "  --cases    where hatch.py, stack.py, book.py and star.py are\n"
+    "  --scratch  where models may be written (/tmp)\n";
 
 /* How much is measured. */
-enum bench_extent { EXTENT_TINY, EXTENT_QUICK, EXTENT_FULL };
+enum bench_extent { EXTENT_TINY, EXTENT_QUICK, EXTENT_FULL, EXTENTS };
 
 typedef struct bench_job {
     int extent;
-    const char *csv, *plot;
-    const char *scratch; /* a model file that may be written, for load */
+    const char *only, *csv, *plot, *peers, *cases, *scratch;
+    double limit; /* s a cell */
     bench_table table;
 } bench_job;
-
-/* The published comparison's sizes; one smaller for the tool's own test. */
-enum { SIZES = 5 };
-static const uint32_t satellite_sizes[SIZES] = {2, 5, 19, 64, 192};
-static const uint32_t cushion_sizes[SIZES] = {4, 12, 49, 165, 499};
-
-/* Targets in ms for whole poses of the satellite at those sizes: 0, none was set. */
-static const double zbuffer_targets[SIZES] = {0, 0.4, 1.5, 6, 45};
-static const double exact_targets[SIZES] = {0, 1, 8, 100, 0};
 
 /* A scene under measurement. */
 typedef struct bench_case {
     bench_job *job;
     const char *name;
-    const lrcs_scene *scene;
-    const lrcs_prepared *prepared;
-    lrcs_work work;     /* of poses */
-    lrcs_result result; /* of the last one */
-    double read;        /* the mesh once, ms */
-    int size;           /* of SIZES, where generated; -1 */
+    const double *view; /* the one direction it is seen from; NULL: all around */
+    lrcs_host_scene scene;
+    lrcs_run_options options; /* of the column under measurement */
 } bench_case;
 
-/* ---- how often ---- */
+/* What of a pose is measured. */
+typedef struct bench_column {
+    const char *name;
+    int method;
+    uint32_t resolution;
+    double tolerance;
+} bench_column;
 
-/* Larger scenes are measured less often. */
-static int directions_of(const bench_case *c)
+static const bench_column columns[] = {
+    {"facet", LRCS_METHOD_FACET, 0, 1e-4},
+    {"zbuffer 512", LRCS_METHOD_ZBUFFER, 512, 1e-4},
+    {"zbuffer 1024", LRCS_METHOD_ZBUFFER, 1024, 1e-4},
+    {"exact", LRCS_METHOD_EXACT, 0, 1e-4},
+    {"auto 1e-1", LRCS_METHOD_AUTO, 0, 1e-1},
+    {"auto 1e-2", LRCS_METHOD_AUTO, 0, 1e-2},
+    {"auto 1e-3", LRCS_METHOD_AUTO, 0, 1e-3},
+    {"auto 1e-4", LRCS_METHOD_AUTO, 0, 1e-4},
+};
+enum { COLUMNS = sizeof columns / sizeof columns[0] };
+
+/* ---- cells ---- */
+
+/* After this long, in ms, a cell that has a steady sample is done. */
+static const double enough_ms[EXTENTS] = {0, 250, 2500};
+
+static void scene_read(const char *path, lrcs_host_scene *scene)
 {
-    int few = c->job->extent == EXTENT_TINY ? 1 : 3;
-    return c->job->extent < EXTENT_FULL || c->scene->facet_count > 1000000 ? few : BENCH_DIRECTIONS;
+    lrcs_host_options options = lrcs_host_options_default();
+    lrcs_host_error error;
+    *scene = (lrcs_host_scene){.blocks = NULL};
+    if (lrcs_host_scene_read(path, &options, scene, &error) != LRCS_OK) {
+        fprintf(stderr, "bench: %s\n", error.text);
+        exit(1);
+    }
 }
 
-static int rounds_of(const bench_case *c)
+static void sample_stop(bench_sample *sample)
 {
-    return c->job->extent == EXTENT_FULL && c->scene->facet_count <= 50000 ? 3 : 1;
+    sample->cpu = bench_now_ms() - sample->cpu;
+    sample->wall = bench_wall_ms() - sample->wall;
 }
 
-static int rasters_of(const bench_case *c)
+/* Loading reads the file anew each time. */
+typedef struct load_step {
+    const bench_case *c;
+    const char *path;
+} load_step;
+
+static int load_measure(void *context, bench_cell_put *put, void *to)
 {
-    return c->job->extent == EXTENT_FULL ? BENCH_RASTERS : 2;
+    const load_step *step = context;
+    double spent = 0;
+    for (int i = 0; i < 3 && (i < 1 || spent < enough_ms[step->c->job->extent]); i++) {
+        lrcs_host_scene scene;
+        bench_sample sample = {.cpu = bench_now_ms(), .wall = bench_wall_ms()};
+        scene_read(step->path, &scene);
+        sample_stop(&sample);
+        put(to, &sample);
+        spent += sample.wall;
+        lrcs_host_scene_free(&scene);
+    }
+    return LRCS_OK;
+}
+
+/* Preparing uses memory that nothing has used before, as a program does that prepares once. */
+static int prepare_measure(void *context, bench_cell_put *put, void *to)
+{
+    bench_case *c = context;
+    double spent = 0;
+    int status = LRCS_OK;
+    for (int i = 0; i < 3 && (i < 1 || spent < enough_ms[c->job->extent]) && status == LRCS_OK;
+         i++) {
+        bench_sample sample = {.cpu = bench_now_ms(), .wall = bench_wall_ms()};
+        status = lrcs_host_scene_prepare(&c->scene, NULL);
+        sample_stop(&sample);
+        put(to, &sample);
+        spent += sample.wall;
+    }
+    return status;
+}
+
+static lrcs_pose case_pose(const bench_case *c, int direction)
+{
+    lrcs_pose pose = bench_pose(direction);
+    if (c->view) {
+        lrcs_pose_from_direction(c->view, &pose);
+    }
+    return pose;
+}
+
+/* A pose in an area that grows until it serves. */
+static int pose_run(const bench_case *c, int direction, lrcs_work *work, lrcs_result *result)
+{
+    const lrcs_prepared *prepared = c->scene.prepared;
+    lrcs_pose pose = case_pose(c, direction);
+    for (;;) {
+        int status = lrcs_sigma_run(prepared, &pose, &c->options, work, result, NULL, NULL);
+        int starved = status == LRCS_OK && (result->flags & LRCS_FLAG_MEMORY_FALLBACK);
+        if (status != LRCS_E_MEMORY && !starved) {
+            return status;
+        }
+        size_t size = 2 * work->size;
+        free(work->bytes);
+        *work = lrcs_work_make(bench_memory(size), size);
+    }
+}
+
+/* The first pose uses its work area for the first time; later ones use it again. */
+static int poses_measure(void *context, bench_cell_put *put, void *to)
+{
+    bench_case *c = context;
+    size_t size = lrcs_sigma_need(c->scene.prepared, &c->options);
+    lrcs_work work = lrcs_work_make(bench_memory(size), size);
+    double spent = 0;
+    int status = LRCS_OK;
+    for (int i = -1; i < BENCH_TIMES && status == LRCS_OK; i++) {
+        lrcs_result result;
+        if (i > 0 && (spent >= enough_ms[c->job->extent] || (c->view && i >= 3) ||
+                      (i >= BENCH_DIRECTIONS && c->job->extent != EXTENT_FULL))) {
+            break;
+        }
+        bench_sample sample = {.cpu = bench_now_ms(), .wall = bench_wall_ms()};
+        status = pose_run(c, i < 0 ? 0 : i % BENCH_DIRECTIONS, &work, &result);
+        sample_stop(&sample);
+        if (status == LRCS_OK) {
+            sample.bytes = (double)work.peak;
+            sample.bound = result.sigma_m2 > 0 ? result.bound_m2 / result.sigma_m2 : 0;
+            sample.estimate = result.sigma_m2 > 0 ? result.estimate_m2 / result.sigma_m2 : 0;
+            put(to, &sample);
+            spent += sample.wall;
+        }
+    }
+    return status;
 }
 
 /* ---- one scene ---- */
 
-static bench_row *case_row(const bench_case *c, const char *stage, bench_times *times)
+static const bench_row *case_row(const bench_case *c, const char *what, const bench_cell *cell,
+                                 int warm)
 {
-    return bench_row_add(&c->job->table, c->name, c->scene, stage, times);
-}
-
-static double frame_ms(const bench_case *c, uint32_t size)
-{
-    char stage[BENCH_NAME];
-    snprintf(stage, sizeof stage, "write frame %lu", (unsigned long)size);
-    for (uint32_t i = c->job->table.count; i-- > 0;) {
-        if (strcmp(c->job->table.row[i].stage, stage) == 0) {
-            return c->job->table.row[i].ms;
-        }
-    }
-    return 0;
-}
-
-/* The limits first: reading as warm as a pose finds the mesh, that is from memory where it is too
-   large for the caches. */
-static void measure_limits(bench_case *c)
-{
-    bench_times read = {.count = 0};
-    for (int i = 0; i < BENCH_DIRECTIONS; i++) {
-        bench_add(&read, bench_read_mesh(c->scene));
-    }
-    c->read = case_row(c, "read mesh", &read)->ms;
-    for (int raster = 0; raster < rasters_of(c); raster++) {
-        char stage[BENCH_NAME];
-        uint32_t size = bench_raster_size(raster);
-        bench_times write = {.count = 0};
-        void *frame = bench_memory(bench_frame_bytes(size));
-        bench_write_frame(size, frame); /* the system hands out its pages */
-        for (int i = 0; i < BENCH_DIRECTIONS; i++) {
-            bench_add(&write, bench_write_frame(size, frame));
-        }
-        free(frame);
-        snprintf(stage, sizeof stage, "write frame %lu", (unsigned long)size);
-        bench_row *row = case_row(c, stage, &write);
-        row->pixels = (uint64_t)size * size;
-        row->bytes = bench_frame_bytes(size);
-    }
-}
-
-/* The prepared scene stays in the area given back. */
-static void *measure_prepare(bench_case *c)
-{
-    bench_times times = {.count = 0};
-    size_t need = lrcs_prepare_need(c->scene);
-    void *bytes = bench_memory(need);
-    lrcs_work work;
-    for (int i = 0; i < rounds_of(c); i++) {
-        work = lrcs_work_make(bytes, need);
-        double start = bench_now_ms();
-        bench_check(lrcs_prepare_run(c->scene, &work, &c->prepared), "prepare");
-        bench_add(&times, bench_now_ms() - start);
-    }
-    bench_row *row = case_row(c, "prepare", &times);
-    row->bytes = work.peak;
-    row->limit = c->read;
-    return bytes;
-}
-
-static void stage_row_add(bench_case *c, bench_stages *stages, int stage, const char *name,
-                          uint32_t size)
-{
-    char text[BENCH_NAME];
-    snprintf(text, sizeof text, size ? "%s %lu" : "%s", name, (unsigned long)size);
-    bench_row *row = case_row(c, text, &stages->times[stage]);
-    row->bytes = stages->bytes[stage];
-    row->pixels = (uint64_t)size * size;
-    row->limit = c->read + (size ? frame_ms(c, size) : 0);
-}
-
-static void measure_stages(bench_case *c)
-{
-    bench_stages warm = {.poses = 0};
-    bench_stages stages = {.poses = 0};
-    lrcs_pose pose = bench_pose(0);
-    bench_stages_run(c->prepared, &pose, rasters_of(c), &c->work, &warm);
-    for (int i = 0; i < directions_of(c) * rounds_of(c); i++) {
-        pose = bench_pose(i % directions_of(c));
-        bench_stages_run(c->prepared, &pose, rasters_of(c), &c->work, &stages);
-    }
-    stage_row_add(c, &stages, BENCH_CULL, "cull", 0);
-    stage_row_add(c, &stages, BENCH_CONTEST, "contest", 0);
-    for (int raster = 0; raster < rasters_of(c); raster++) {
-        stage_row_add(c, &stages, BENCH_RASTER + raster, "raster", bench_raster_size(raster));
-        stage_row_add(c, &stages, BENCH_AREAS + raster, "areas of", bench_raster_size(raster));
-    }
-    stage_row_add(c, &stages, BENCH_EXACT, "exact", 0);
-    stage_row_add(c, &stages, BENCH_SUM, "sum", 0);
-    printf("%s: %.0f facets contested in the mean\n", c->name,
-           (double)stages.contested / stages.poses);
-}
-
-static bench_row *measure_pose(bench_case *c, const char *name, int method, uint32_t size)
-{
-    bench_times times = {.count = 0};
-    lrcs_run_options options = lrcs_run_options_default();
-    options.method = method;
-    options.resolution = size;
-    c->work.peak = 0;
-    for (int i = -1; i < directions_of(c) * rounds_of(c); i++) {
-        lrcs_pose pose = bench_pose(i < 0 ? 0 : i % directions_of(c));
-        double start = bench_now_ms();
-        bench_check(lrcs_sigma_run(c->prepared, &pose, &options, &c->work, &c->result, NULL, NULL),
-                    name);
-        if (i >= 0) {
-            bench_add(&times, bench_now_ms() - start);
-        }
-    }
-    bench_row *row = case_row(c, name, &times);
-    row->bytes = c->work.peak;
-    row->pixels = (uint64_t)size * size;
-    row->limit = c->read + (size ? frame_ms(c, size) : 0);
+    const bench_row *row =
+        bench_row_add(&c->job->table, c->name, &c->scene.scene, what, cell, warm);
+    fprintf(stderr, "  %-14s %10.4g ms%s\n", what, row->ms,
+            row->end == BENCH_DONE       ? ""
+            : row->end == BENCH_TOO_LONG ? ", ended at the limit"
+                                         : ", failed");
     return row;
 }
-
-/* The facet pose; its target is for convex bodies, which must be known for what they are. */
-static void measure_facet(bench_case *c, int convex)
-{
-    bench_row *row = measure_pose(c, "pose facet", LRCS_METHOD_FACET, 0);
-    if (convex) {
-        row->target = 2 * c->read;
-        bench_check(c->result.effect[LRCS_EFFECT_SELF_SHADOWING].on ? LRCS_E_ARGUMENT : LRCS_OK,
-                    "a convex body");
-    }
-    if (c->size >= 0 || convex) {
-        bench_check(c->result.effect[LRCS_EFFECT_BACK_FACE_CASTERS].on ? LRCS_E_ARGUMENT : LRCS_OK,
-                    "a closed body");
-    }
-}
-
-static void measure_methods(bench_case *c)
-{
-    bench_row *row = measure_pose(c, "pose zbuffer 1024", LRCS_METHOD_ZBUFFER, 1024);
-    row->target = c->size >= 0 ? zbuffer_targets[c->size] : 0;
-    row = measure_pose(c, "pose exact", LRCS_METHOD_EXACT, 0);
-    row->target = c->size >= 0 ? exact_targets[c->size] : 0;
-}
-
-/* Room for the stages of a pose, which stand beside one another. */
-static size_t pose_need(const bench_case *c)
-{
-    lrcs_run_options options = lrcs_run_options_default();
-    options.method = LRCS_METHOD_EXACT;
-    size_t need = lrcs_sigma_need(c->prepared, &options);
-    options.method = LRCS_METHOD_ZBUFFER;
-    options.resolution = bench_raster_size(rasters_of(c) - 1);
-    return need + lrcs_sigma_need(c->prepared, &options);
-}
-
-static void case_measure(bench_case *c, int convex, bench_times *load)
-{
-    uint32_t first = c->job->table.count;
-    measure_limits(c);
-    if (load->count > 0) {
-        case_row(c, "load", load)->limit = c->read;
-    }
-    void *prepared = measure_prepare(c);
-    size_t size = pose_need(c);
-    void *bytes = bench_memory(size);
-    c->work = lrcs_work_make(bytes, size);
-    if (!convex && (c->size >= 0 || c->job->extent == EXTENT_FULL)) {
-        measure_stages(c);
-    }
-    if (!convex) {
-        measure_methods(c);
-    }
-    measure_facet(c, convex);
-    bench_table_scene(&c->job->table, first);
-    free(bytes);
-    free(prepared);
-}
-
-/* ---- which scenes ---- */
 
 /* Binary STL, 32 bits little-endian a number whatever the machine. */
 static void put_word(FILE *out, uint32_t word)
@@ -250,9 +201,14 @@ static void put_word(FILE *out, uint32_t word)
     }
 }
 
-static void stl_write(const lrcs_scene *scene, FILE *out)
+static void stl_write(const lrcs_scene *scene, const char *path)
 {
-    static const char head[80] = "a generated satellite";
+    static const char head[80] = "a scene of lrcs";
+    FILE *out = fopen(path, "wb");
+    if (!out) {
+        fprintf(stderr, "bench: %s cannot be written\n", path);
+        exit(1);
+    }
     fwrite(head, 1, sizeof head, out);
     put_word(out, scene->facet_count);
     for (uint32_t f = 0; f < scene->facet_count; f++) {
@@ -266,70 +222,156 @@ static void stl_write(const lrcs_scene *scene, FILE *out)
         fputc(0, out);
         fputc(0, out);
     }
+    fclose(out);
 }
 
-/* Reads a model file `count` times. The scene read last stays. */
-static void model_load(const char *path, int count, lrcs_host_scene *scene, bench_times *load)
+static const char *scratch_path(const bench_job *job, const char *end, char path[1024])
 {
-    lrcs_host_options options = lrcs_host_options_default();
-    lrcs_host_error error;
-    for (int i = 0; i < count; i++) {
-        lrcs_host_scene_free(scene);
-        *scene = (lrcs_host_scene){.blocks = NULL};
-        double start = bench_now_ms();
-        if (lrcs_host_scene_read(path, &options, scene, &error) != LRCS_OK) {
-            fprintf(stderr, "bench: %s\n", error.text);
-            exit(1);
+    snprintf(path, 1024, "%s/lrcs_bench_%ld.%s", job->scratch, (long)getpid(), end);
+    return path;
+}
+
+static void measure_peers(const bench_case *c)
+{
+    static const char *const name[] = {"llvmpipe 1024", "Embree 1024"};
+    char path[1024];
+    scratch_path(c->job, "peer.stl", path);
+    stl_write(&c->scene.scene, path);
+    for (int peer = BENCH_LLVMPIPE; peer <= BENCH_EMBREE; peer++) {
+        bench_cell cell;
+        double build;
+        bench_peer_run(c->job->peers, peer, path, 1024, c->job->limit, &cell, &build);
+        case_row(c, name[peer], &cell, 0);
+        if (peer == BENCH_EMBREE) {
+            cell = (bench_cell){.sample = {{.wall = build}}, .count = build > 0, .end = cell.end};
+            case_row(c, "Embree tree", &cell, 0);
         }
-        bench_add(load, bench_now_ms() - start);
     }
+    remove(path);
 }
 
-/* What loading the scene from an STL file takes. */
-static void scratch_load(const bench_case *c, bench_times *load)
+/* A scene that stands in a file, in the order of the table's columns. */
+static void measure_file(bench_job *job, const char *name, const char *path, const double *view)
 {
-    lrcs_host_scene scene = {.blocks = NULL};
-    FILE *out = c->job->scratch ? fopen(c->job->scratch, "wb") : NULL;
-    if (!out) {
+    bench_case c = {.job = job, .name = name, .view = view};
+    load_step load = {&c, path};
+    bench_cell cell;
+    scene_read(path, &c.scene);
+    if (job->extent == EXTENT_QUICK && c.scene.scene.facet_count > 100000) {
+        lrcs_host_scene_free(&c.scene);
         return;
     }
-    stl_write(c->scene, out);
-    if (fclose(out) == 0) {
-        model_load(c->job->scratch, rounds_of(c), &scene, load);
+    fprintf(stderr, "%s: %lu facets\n", name, (unsigned long)c.scene.scene.facet_count);
+    bench_cell_run(load_measure, &load, job->limit, &cell);
+    case_row(&c, "load", &cell, 0);
+    bench_cell_run(prepare_measure, &c, job->limit, &cell);
+    int prepared = case_row(&c, "prepare", &cell, 0)->end == BENCH_DONE &&
+                   lrcs_host_scene_prepare(&c.scene, NULL) == LRCS_OK;
+    for (int k = 0; k < COLUMNS && prepared; k++) {
+        c.options = lrcs_run_options_default();
+        c.options.method = columns[k].method;
+        c.options.resolution = columns[k].resolution;
+        c.options.tolerance = columns[k].tolerance;
+        bench_cell_run(poses_measure, &c, job->limit, &cell);
+        case_row(&c, columns[k].name, &cell, 1);
     }
-    lrcs_host_scene_free(&scene);
-    remove(c->job->scratch);
+    if (job->peers && !view) { /* they look from all around */
+        measure_peers(&c);
+    }
+    lrcs_host_scene_free(&c.scene);
 }
 
-static void measure_made(bench_job *job, int size, int convex)
+/* ---- which scenes ---- */
+
+static int wanted(const bench_job *job, const char *name)
 {
-    char name[BENCH_NAME];
+    return !job->only || strstr(name, job->only);
+}
+
+/* A scene made here, by way of a file, as any model comes. */
+static void measure_made(bench_job *job, const char *name, bench_scene *made)
+{
+    char path[1024];
+    scratch_path(job, "stl", path);
+    stl_write(&made->scene, path);
+    bench_scene_free(made);
+    measure_file(job, name, path, NULL);
+    remove(path);
+}
+
+static void measure_satellites(bench_job *job)
+{
+    static const char *const name[] = {"satellite 2.6 k", "satellite 39 k", "satellite 440 k"};
+    static const uint32_t size[] = {5, 19, 64};
     bench_scene made;
-    bench_times load = {.count = 0};
-    if (convex) {
-        bench_cushion(&made, cushion_sizes[size]);
-    } else {
-        bench_satellite(&made, satellite_sizes[size]);
+    int first = job->extent == EXTENT_TINY ? 0 : 1;
+    int end = job->extent == EXTENT_TINY ? 1 : job->extent == EXTENT_QUICK ? 2 : 3;
+    for (int k = first; k < end; k++) {
+        if (wanted(job, name[k])) {
+            bench_satellite(&made, size[k]);
+            measure_made(job, name[k], &made);
+        }
     }
-    snprintf(name, sizeof name, "%s %lu", convex ? "convex" : "satellite",
-             (unsigned long)made.scene.facet_count);
-    bench_case c = {.job = job, .name = name, .scene = &made.scene, .size = convex ? -1 : size};
-    if (!convex) {
-        scratch_load(&c, &load);
-    }
-    case_measure(&c, convex, &load);
-    bench_scene_free(&made);
 }
 
-static void measure_model(bench_job *job, const char *path)
+/* What the satellites do not show: a body proved convex, modules that run into one another, the
+   same with every face stored twice, a scale that one vertex spoils. */
+static void measure_special(bench_job *job)
 {
-    const char *name = strrchr(path, '/');
-    lrcs_host_scene scene = {.blocks = NULL};
-    bench_times load = {.count = 0};
-    model_load(path, job->extent == EXTENT_FULL ? 3 : 1, &scene, &load);
-    bench_case c = {.job = job, .name = name ? name + 1 : path, .scene = &scene.scene, .size = -1};
-    case_measure(&c, 0, &load);
-    lrcs_host_scene_free(&scene);
+    int tiny = job->extent == EXTENT_TINY;
+    bench_scene made;
+    if (wanted(job, "convex body")) {
+        bench_cushion(&made, tiny ? 4 : 49);
+        measure_made(job, "convex body", &made);
+    }
+    for (int doubled = 0; doubled < 2; doubled++) {
+        const char *name = doubled ? "station with doubled faces" : "station";
+        if (wanted(job, name)) {
+            bench_station(&made, tiny ? 1 : 8, doubled);
+            measure_made(job, name, &made);
+        }
+    }
+    if (wanted(job, "one vertex 1e22 m away")) {
+        bench_far(&made, tiny ? 2 : 10);
+        measure_made(job, "one vertex 1e22 m away", &made);
+    }
+}
+
+/* The scenes of ../shared/cases, each from the direction that its generator names. */
+static void measure_cases(bench_job *job)
+{
+    static const struct {
+        const char *program;
+        int count[EXTENTS];
+        double view[3];
+    } generator[] = {{"hatch", {10, 100, 300}, {0, 0, 1}},
+                     {"stack", {10, 300, 1000}, {0.3, 0.2, 0.9}},
+                     {"book", {10, 300, 1000}, {0.3, 0.2, 0.9}},
+                     {"star", {10, 300, 1000}, {0.3, 0.2, 0.9}}};
+    for (int k = 0; k < 4 && job->cases; k++) {
+        char path[1024];
+        char command[4096];
+        char name[BENCH_NAME];
+        snprintf(name, sizeof name, "%s %d", generator[k].program, generator[k].count[job->extent]);
+        snprintf(command, sizeof command, "python3 '%s/%s.py' %d >'%s' 2>/dev/null", job->cases,
+                 generator[k].program, generator[k].count[job->extent],
+                 scratch_path(job, "obj", path));
+        if (wanted(job, name) && system(command) == 0) {
+            measure_file(job, name, path, generator[k].view);
+        }
+        remove(path);
+    }
+}
+
+static void measure_models(bench_job *job, char **model, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const char *slash = strrchr(model[i], '/');
+        const char *name = slash ? slash + 1 : model[i];
+        if (wanted(job, name)) {
+            measure_file(job, name, model[i], NULL);
+        }
+    }
 }
 
 /* ---- the whole ---- */
@@ -337,22 +379,28 @@ static void measure_model(bench_job *job, const char *path)
 /* Options stand before models. Returned: the first model's place. */
 static int arguments_read(bench_job *job, int count, char **argument)
 {
+    const char *limit = NULL;
+    const struct {
+        const char *name, **value;
+    } option[] = {{"--only", &job->only},   {"--csv", &job->csv},     {"--plot", &job->plot},
+                  {"--peers", &job->peers}, {"--cases", &job->cases}, {"--scratch", &job->scratch},
+                  {"--limit", &limit}};
     int i = 1;
     for (; i < count && strncmp(argument[i], "--", 2) == 0; i++) {
-        const char **value = strcmp(argument[i], "--csv") == 0       ? &job->csv
-                             : strcmp(argument[i], "--plot") == 0    ? &job->plot
-                             : strcmp(argument[i], "--scratch") == 0 ? &job->scratch
-                                                                     : NULL;
+        const char **value = NULL;
+        for (size_t k = 0; k < sizeof option / sizeof option[0]; k++) {
+            value = strcmp(argument[i], option[k].name) == 0 ? option[k].value : value;
+        }
         if (strcmp(argument[i], "--quick") == 0 || strcmp(argument[i], "--tiny") == 0) {
             job->extent = argument[i][2] == 'q' ? EXTENT_QUICK : EXTENT_TINY;
         } else if (value && i + 1 < count) {
             *value = argument[++i];
         } else {
-            fprintf(stderr, "usage: bench [--quick | --tiny] [--csv FILE] [--plot FILE.svg] "
-                            "[--scratch FILE.stl] [MODEL ..]\n");
+            fputs(usage, stderr);
             exit(2);
         }
     }
+    job->limit = limit ? strtod(limit, NULL) : job->extent == EXTENT_FULL ? 20 : 3;
     return i;
 }
 
@@ -366,7 +414,7 @@ static void output_write(const bench_table *table, const char *path, int chart)
     int status = lrcs_host_output_open(path, &output, &error);
     if (status == LRCS_OK) {
         if (chart) {
-            bench_table_chart(table, "satellite ", "convex ", output.stream);
+            bench_table_chart(table, output.stream);
         } else {
             bench_table_csv(table, output.stream);
         }
@@ -381,22 +429,14 @@ static void output_write(const bench_table *table, const char *path, int chart)
 
 int main(int count, char **argument)
 {
-    static bench_job job = {.extent = EXTENT_FULL};
+    static bench_job job = {.extent = EXTENT_FULL, .scratch = "/tmp"};
     int model = arguments_read(&job, count, argument);
-    int first = job.extent == EXTENT_TINY ? 0 : 1;
-    int end = job.extent == EXTENT_TINY ? 2 : job.extent == EXTENT_QUICK ? 3 : SIZES;
     bench_machine(stdout, "");
-    for (int size = first; size < end; size++) {
-        measure_made(&job, size, 0);
-        measure_made(&job, size, 1);
-    }
-    if (model == count) {
-        printf("\nmodels: none given, skipped\n");
-    }
-    for (; model < count; model++) {
-        measure_model(&job, argument[model]);
-    }
-    bench_table_poses(&job.table);
+    measure_models(&job, argument + model, count - model);
+    measure_satellites(&job);
+    measure_special(&job);
+    measure_cases(&job);
+    bench_table_print(&job.table, job.limit);
     output_write(&job.table, job.csv, 0);
     output_write(&job.table, job.plot, 1);
     return 0;

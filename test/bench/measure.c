@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* How the benchmarks measure: times of the processor, which on one thread are those of the wall
-   where nobody else wants it, their quantiles, and what reading a mesh or writing a frame costs
-   when nothing else is done. It does not decide what is measured. */
+   where nobody else wants it, and their quantiles. It does not decide what is measured. */
 #include "bench/measure.h"
 
 #include <math.h>
@@ -16,11 +15,21 @@
 
 /* ---- time ---- */
 
-double bench_now_ms(void)
+static double clock_ms(clockid_t clock)
 {
     struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    clock_gettime(clock, &t);
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+double bench_now_ms(void)
+{
+    return clock_ms(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+double bench_wall_ms(void)
+{
+    return clock_ms(CLOCK_MONOTONIC);
 }
 
 void bench_add(bench_times *times, double ms)
@@ -72,59 +81,10 @@ void *bench_memory(size_t size)
 lrcs_pose bench_pose(int direction)
 {
     lrcs_pose pose;
-    lrcs_pose_from_azel(137.508 * direction + 10, 70.0 * sin(2.4 * direction + 0.5), &pose);
+    double height = 2 * (direction % BENCH_DIRECTIONS + 0.5) / BENCH_DIRECTIONS - 1;
+    lrcs_pose_from_azel(fmod(137.50776405 * direction + 11.3, 360), asin(height) * 180 / acos(-1),
+                        &pose);
     return pose;
-}
-
-/* ---- memory alone ---- */
-
-static volatile uint64_t bench_sink;
-
-static uint64_t word_at(const unsigned char *bytes, size_t i)
-{
-    uint64_t word;
-    memcpy(&word, bytes + i, sizeof word);
-    return word;
-}
-
-/* Adds up words as they lie; in four sums, so that memory is waited for and not the adder. What is
-   left of the last 64 bytes does not count. */
-static uint64_t read_words(const void *bytes, size_t size)
-{
-    const unsigned char *at = bytes;
-    uint64_t a = 0;
-    uint64_t b = 0;
-    uint64_t c = 0;
-    uint64_t d = 0;
-    for (size_t i = 0; i + 64 <= size; i += 64) {
-        a += word_at(at, i) + word_at(at, i + 32);
-        b += word_at(at, i + 8) + word_at(at, i + 40);
-        c += word_at(at, i + 16) + word_at(at, i + 48);
-        d += word_at(at, i + 24) + word_at(at, i + 56);
-    }
-    return a + b + c + d;
-}
-
-double bench_read_mesh(const lrcs_scene *scene)
-{
-    double start = bench_now_ms();
-    bench_sink = read_words(scene->vertex, scene->vertex_count * sizeof *scene->vertex) +
-                 read_words(scene->facet, scene->facet_count * sizeof *scene->facet);
-    return bench_now_ms() - start;
-}
-
-size_t bench_frame_bytes(uint32_t size)
-{
-    return (size_t)size * size * (sizeof(double) + sizeof(uint32_t));
-}
-
-static void *(*volatile bench_fill)(void *, int, size_t) = memset; /* not to be left out */
-
-double bench_write_frame(uint32_t size, void *frame)
-{
-    double start = bench_now_ms();
-    bench_fill(frame, (int)(size & 0xff), bench_frame_bytes(size));
-    return bench_now_ms() - start;
 }
 
 /* ---- the machine ---- */

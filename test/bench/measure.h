@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the benchmarks share: the clock, medians, directions, the limits that memory alone sets, and
-   which machine this is. */
+/* What the benchmarks share: the clock, medians, directions, and which machine this is. */
 #ifndef BENCH_MEASURE_H
 #define BENCH_MEASURE_H
 
@@ -20,8 +19,9 @@ typedef struct bench_times {
 /* A share of sorted times lies below: 0.5 for the median. 0 where nothing was measured. */
 double bench_quantile(bench_times *times, double share);
 
-/* The processor's time so far. */
+/* The processor's time of this process so far, and the time of the clock on the wall. */
 double bench_now_ms(void);
+double bench_wall_ms(void);
 void bench_add(bench_times *times, double ms);
 
 /* Ends the program unless the status is LRCS_OK. */
@@ -30,14 +30,8 @@ void bench_check(int status, const char *what);
 /* Memory, or the end of the program. */
 void *bench_memory(size_t size);
 
-/* Directions all around, none of them special. */
+/* BENCH_DIRECTIONS directions all around, none of them special: those of ../shared/peers. */
 lrcs_pose bench_pose(int direction);
-
-/* The limits: each byte of the mesh (corners' coordinates and indices) read once, in order; a frame
-   of size x size pixels (a double and a facet's number each) written once. */
-double bench_read_mesh(const lrcs_scene *scene);
-double bench_write_frame(uint32_t size, void *frame);
-size_t bench_frame_bytes(uint32_t size);
 
 /* Processor, compiler, flags, date and load, a line each. */
 void bench_machine(FILE *out, const char *prefix);

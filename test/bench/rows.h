@@ -3,19 +3,20 @@
 #ifndef BENCH_ROWS_H
 #define BENCH_ROWS_H
 
-#include "bench/measure.h"
+#include "bench/cell.h"
 
 enum { BENCH_ROWS = 1024, BENCH_NAME = 48 };
 
-/* A stage or a whole pose of one scene. Times in ms; 0 for what there is none of. */
+/* One thing measured of one scene. Times in ms; 0 for what there is none of. */
 typedef struct bench_row {
-    char scene[BENCH_NAME], stage[BENCH_NAME];
+    char scene[BENCH_NAME], what[BENCH_NAME];
     uint32_t facets, vertices;
-    uint64_t pixels;      /* of the raster */
-    double ms, low, high; /* median and quartiles */
-    size_t bytes;         /* of work area */
-    double limit;         /* what memory alone would take: the mesh read, the frame written */
-    double target;        /* what DESIGN.md asks for */
+    int end;                /* bench_cell_end */
+    int samples;            /* that the median is of */
+    double ms, low, high;   /* of the processor: median and quartiles; of a peer: on the wall */
+    double wall, first;     /* median on the wall; the first pose, of the processor */
+    double bytes;           /* of work area, at most */
+    double bound, estimate; /* over sigma, medians */
 } bench_row;
 
 typedef struct bench_table {
@@ -23,19 +24,17 @@ typedef struct bench_table {
     uint32_t count;
 } bench_table;
 
-/* Adds a row of the scene of the last one. Returned: the row, for what else it has. */
-bench_row *bench_row_add(bench_table *table, const char *scene, const lrcs_scene *of,
-                         const char *stage, bench_times *times);
+/* Adds a row. The first `warm` samples are none of steady use: the first of them is row->first.
+   Where there are no more than those, they are the median's, too. */
+const bench_row *bench_row_add(bench_table *table, const char *scene, const lrcs_scene *of,
+                               const char *what, const bench_cell *cell, int warm);
 
-/* Markdown: all stages of the scene whose rows start at `first`; and one line a scene of whole
-   poses, with targets. */
-void bench_table_scene(const bench_table *table, uint32_t first);
-void bench_table_poses(const bench_table *table);
+/* Markdown: a line a scene, and where there are peers a line a scene of ratios to them. */
+void bench_table_print(const bench_table *table, double limit_s);
 
 void bench_table_csv(const bench_table *table, FILE *out);
 
-/* Time against facets: poses and stages of the scenes whose name is `made` and a number, the facet
-   pose of those named `convex`. SVG. */
-void bench_table_chart(const bench_table *table, const char *made, const char *convex, FILE *out);
+/* Time against facets, every scene a point. SVG. */
+void bench_table_chart(const bench_table *table, FILE *out);
 
 #endif

@@ -152,6 +152,41 @@ void bench_satellite(bench_scene *s, uint32_t n)
     sphere_add(s, n, below, 0.5);
 }
 
+void bench_far(bench_scene *s, uint32_t n)
+{
+    bench_satellite(s, n);
+    s->scene.facet[0].corner[0] = vertex_add(s, 1e22, 0, 0);
+}
+
+void bench_station(bench_scene *s, uint32_t n, int doubled)
+{
+    static const double module[4][2][3] = {{{0, 0, 0}, {2.1, 0.7, 0.7}},
+                                           {{-3.2, 0.05, 0}, {1.5, 0.6, 0.6}},
+                                           {{0.4, 2.3, -0.1}, {0.65, 2.0, 0.65}},
+                                           {{0.3, -2.2, 0.1}, {0.6, 1.9, 0.6}}};
+    static const double truss[2][3] = {{0.1, 0.2, 0.9}, {0.25, 9.0, 0.25}};
+    static const double node[2][3] = {{2.4, 0, 0}, {-4.9, 0.05, 0}};
+    scene_start(s, (doubled ? 456 : 228) * (size_t)n * n);
+    for (int k = 0; k < 4; k++) {
+        box_add(s, n, module[k][0], module[k][1], 0);
+    }
+    box_add(s, n, truss[0], truss[1], 0);
+    for (int k = 0; k < 8; k++) {
+        const double panel[2][3] = {{0.1 + (k % 2 ? 3.2 : -3.2), 3.7 + 1.6 * (k / 4), 0.9},
+                                    {3.1, 0.55, 0.012}};
+        double y = k / 2 % 2 ? panel[0][1] : -panel[0][1];
+        box_add(s, n, (const double[]){panel[0][0], y, panel[0][2]}, panel[1], 1);
+    }
+    for (int k = 0; k < 2; k++) {
+        sphere_add(s, n, node[k], 0.8);
+    }
+    uint32_t facets = doubled ? s->scene.facet_count : 0;
+    for (uint32_t f = 0; f < facets; f++) {
+        const uint32_t *corner = s->scene.facet[f].corner;
+        facet_add(s, corner[0], corner[2], corner[1], s->scene.facet_material[f]);
+    }
+}
+
 /* ---- the cushion ---- */
 
 /* The vertex above (i, j) on the lower sheet, or on the upper one, which share their corners. */

@@ -17,6 +17,14 @@ typedef struct bench_scene {
    39 k, 440 k and 4 M). */
 void bench_satellite(bench_scene *s, uint32_t n);
 
+/* A space station: modules that run into one another, on a truss that pierces them, with panels
+   that stick in the truss. 228 n^2 - 24 n facets; twice as many where `doubled`, every facet then
+   stored once more with the opposite winding, after all others. */
+void bench_station(bench_scene *s, uint32_t n, int doubled);
+
+/* The satellite, one corner of one facet moved 1e22 m away. */
+void bench_far(bench_scene *s, uint32_t n);
+
 /* A body that is convex exactly, whatever is rounded: z = i^2 + j^2 over a grid of whole numbers,
    its mirror image, and the flat walls between them. 16 n^2 + 16 n - 8 facets; n up to 1000. */
 void bench_cushion(bench_scene *s, uint32_t n);

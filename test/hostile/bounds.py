@@ -9,6 +9,7 @@ facet, cut by the plane where both have one height, is taken away. Eq. 2 is summ
 usage: bounds.py SCENES SEED hostile > FILE   degenerate, aligned, nearly so
        bounds.py SCENES SEED plain > FILE     soups, piercing plates, spacecraft, slivers at large
        bounds.py SCENES SEED lattice > FILE   facets on few points of a lattice, some of them far out
+       bounds.py SCENES SEED doubled > FILE   any of these, with facets stored twice, mostly opposite
        bounds.py table [FAMILY:]SEED:NUMBER... > hostile.inc     scenes as rows of C
 """
 import math
@@ -463,7 +464,25 @@ def make(r):
     return kind.__name__, s, direction(r, s) if s.f else None
 
 
-FAMILIES = {"hostile": make, "plain": make_plain, "lattice": make_lattice}
+def make_doubled(r):
+    """Panels of two faces: facets stored again from any corner, on the same or on equal points, most
+    of them wound the other way; all facets, or some; in any order."""
+    name, s, d = r.choice((make, make, make_plain, make_lattice))(r)
+    part, same = r.choice((1, 1, 0.5)), r.choice((0, 0, 0.2))
+    for t in list(s.f):
+        if r.random() < part:
+            if r.random() < 0.3:
+                s.v += [s.v[i] for i in t]
+                t = tuple(range(len(s.v) - 3, len(s.v)))
+            k = r.randrange(3)
+            t = t[k:] + t[:k]
+            s.f += [t[::-1]] + [r.choice((t, t[::-1]))] * (r.random() < same)
+    if r.random() < 0.5:
+        r.shuffle(s.f)
+    return name, s, d
+
+
+FAMILIES = {"hostile": make, "plain": make_plain, "lattice": make_lattice, "doubled": make_doubled}
 
 
 # --- Eq. 2 -------------------------------------------------------------------------------------------

@@ -52,18 +52,21 @@ static int same_vertex(uint32_t a, uint32_t b)
     return memcmp(&scene.vertex[a], &scene.vertex[b], sizeof(lrcs_point)) == 0;
 }
 
-/* Facets other than f with the side a b, either way round; how many run it from a to b. */
-static uint32_t others_on(uint32_t f, uint32_t a, uint32_t b, uint32_t *other, uint32_t *along)
+/* Facets other than f with the side a b, either way round, that are not redundant; how many run it
+   from a to b; the only one, or the last that runs it from b to a and is not the twin of f. */
+static uint32_t others_on(const lrcs_prepared *prepared, uint32_t f, uint32_t a, uint32_t b,
+                          uint32_t *other, uint32_t *along)
 {
     uint32_t count = 0;
     *along = 0;
     for (uint32_t g = 0; g < scene.scene.facet_count; g++) {
-        for (int k = 0; k < 3 && g != f; k++) {
+        for (int k = 0; k < 3 && g != f && prepared->redundant[g] != LRCSI_REDUNDANT; k++) {
             uint32_t p = scene.facet[g].corner[k];
             uint32_t q = scene.facet[g].corner[(k + 1) % 3];
             int same = same_vertex(a, p) && same_vertex(b, q);
+            int twin = prepared->twin && prepared->twin[f] == g;
             if (same || (same_vertex(a, q) && same_vertex(b, p))) {
-                *other = g;
+                *other = *other == LRCS_NONE || !(same || twin) ? g : *other;
                 *along += (uint32_t)same;
                 count++;
             }
@@ -98,7 +101,8 @@ static void random_soups_agree_with_a_search(void **state)
     (void)state;
     int plain = 0;
     int odd = 0;
-    for (uint32_t seed = 1; seed <= 200; seed++) {
+    int two_pairs = 0;
+    for (uint32_t seed = 1; seed <= 400; seed++) {
         random_facets(seed);
         scene.scene.facet_count = 3 + seed % 18;
         const lrcs_prepared *p = scene_prepare(&scene, &work);
@@ -106,11 +110,17 @@ static void random_soups_agree_with_a_search(void **state)
         for (uint32_t i = 0; i < 3 * count; i++) {
             uint32_t f = i / 3;
             uint32_t k = i % 3;
+            if (p->redundant[f] == LRCSI_REDUNDANT) {
+                assert_int_equal(p->across.facet[f].corner[k], f);
+                continue;
+            }
             uint32_t other = LRCS_NONE;
             uint32_t along;
-            uint32_t others = others_on(f, scene.facet[f].corner[k],
+            uint32_t others = others_on(p, f, scene.facet[f].corner[k],
                                         scene.facet[f].corner[(k + 1) % 3], &other, &along);
-            uint32_t want = others == 0 ? count : others == 1 && along == 0 ? other : f;
+            int pairs = others == 3 && p->twin && p->twin[f] != LRCS_NONE &&
+                        p->twin[other] != LRCS_NONE && other != p->twin[f];
+            uint32_t want = others == 0 ? count : (others == 1 && along == 0) || pairs ? other : f;
             assert_int_equal(p->across.facet[f].corner[k], want);
             int listed = 0;
             for (uint32_t n = 0; n < p->across.odd_count; n++) {
@@ -118,10 +128,11 @@ static void random_soups_agree_with_a_search(void **state)
             }
             assert_int_equal(listed, want == f);
             plain += others == 1 && along == 0;
+            two_pairs += pairs;
             odd += want == f;
         }
     }
-    assert_true(plain > 100 && odd > 100);
+    assert_true(plain > 100 && odd > 100 && two_pairs > 20);
 }
 
 int main(void)

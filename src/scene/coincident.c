@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: MIT */
+/* Of facets on the same three points, those wound the same way face the same way from everywhere,
+   those wound the other way face away then. In a tie the first front in order wins; where there is
+   none, the first back that reflects, else the first back (visibility/sample.h).
+
+   In a place with both windings one winding shows its front from everywhere (but edge-on, where
+   nothing is seen). So the first facet of each winding is all that is ever seen: they are twins,
+   the two sides of one panel. A twin that faces away is hidden by the other all over, and hides
+   nothing that the other does not hide.
+
+   In a place with one winding a facet is never seen if one before it reflects from its back, or if
+   there is one before it and itself does not; then the one before hides all that it hides.
+
+   Where facets stand for a curved shape, what is seen of the true one may be another matter: none
+   of them is redundant here. */
+#include "scene/coincident.h"
+
+#include "base/work.h"
+
+/* The facets of one place that may be seen, by winding. */
+typedef struct facet_place {
+    uint32_t edge;      /* the lowest of its edges; the third corner is the key */
+    uint32_t first[2];  /* or LRCS_NONE */
+    uint32_t second[2]; /* the first that reflects from its back, where the first of all does not */
+} facet_place;
+
+static int may_coincide(const lrcs_prepared *p, uint32_t facet)
+{
+    return !p->skip[facet] && !(p->scene->part[p->scene->facet_part[facet]].reach > 0);
+}
+
+static int reflects_back(const lrcs_prepared *p, uint32_t facet)
+{
+    return lrcsi_prepared_material(p, facet)->two_sided != 0;
+}
+
+/* The corner across from an edge of a facet, welded; LRCS_NONE where it has a lower edge. */
+static uint32_t corner_across_lowest(const lrcs_prepared *p, uint32_t facet, uint32_t edge)
+{
+    const uint32_t *side = p->topology.facet_edge[facet].corner;
+    const uint32_t *corner = p->scene->facet[facet].corner;
+    if (side[0] < edge || side[1] < edge || side[2] < edge) {
+        return LRCS_NONE;
+    }
+    return p->topology.weld[corner[side[0] == edge ? 2 : side[1] == edge ? 0 : 1]];
+}
+
+/* One facet more in its place; those before it come first in order. */
+static void place_add(lrcs_prepared *p, facet_place *place, uint32_t facet, uint32_t winding)
+{
+    uint32_t *first = &place->first[winding];
+    uint32_t *second = &place->second[winding];
+    uint32_t opposite = place->first[!winding];
+    if (*first == LRCS_NONE) {
+        *first = facet;
+    } else if (opposite == LRCS_NONE && *second == LRCS_NONE && reflects_back(p, facet) &&
+               !reflects_back(p, *first)) {
+        *second = facet;
+    } else {
+        p->redundant[facet] = LRCSI_REDUNDANT;
+        return;
+    }
+    if (opposite == LRCS_NONE) {
+        return;
+    }
+    const uint32_t twin[2] = {facet, opposite};
+    for (int k = 0; k < 2; k++) {
+        p->redundant[twin[k]] = LRCSI_REDUNDANT_FROM_BEHIND;
+        if (p->twin) {
+            p->twin[twin[k]] = twin[!k];
+        }
+    }
+    if (place->second[!winding] != LRCS_NONE) {
+        p->redundant[place->second[!winding]] = LRCSI_REDUNDANT;
+    }
+}
+
+/* Facets of one place stand on the same three edges. They are sorted out on the lowest, by the
+   corner across from it: place[corner] is the one last met there. Returns whether there are any
+   twins. */
+static int mark_places(lrcs_prepared *p, facet_place *place)
+{
+    const lrcsi_topology *t = &p->topology;
+    int twins = 0;
+    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
+        place[v].edge = LRCS_NONE;
+    }
+    for (uint32_t e = 0; e < t->edge_count; e++) {
+        const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
+        for (uint32_t i = 0; i < t->edge[e].uses && t->edge[e].uses > 1; i++) {
+            uint32_t corner = corner_across_lowest(p, use[i].facet, e);
+            if (corner == LRCS_NONE || !may_coincide(p, use[i].facet)) {
+                continue;
+            }
+            facet_place *at = &place[corner];
+            if (at->edge != e) {
+                *at = (facet_place){e, {LRCS_NONE, LRCS_NONE}, {LRCS_NONE, LRCS_NONE}};
+            }
+            place_add(p, at, use[i].facet, use[i].forward);
+            twins |= at->first[0] != LRCS_NONE && at->first[1] != LRCS_NONE;
+        }
+    }
+    return twins;
+}
+
+size_t lrcsi_coincident_need(uint32_t vertex_count, uint32_t facet_count)
+{
+    return lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(uint32_t)),
+                          lrcsi_work_bytes(vertex_count, sizeof(facet_place)));
+}
+
+/* Places are gone through again where there are twins to write down, which is rare. */
+int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
+{
+    uint32_t facets = p->scene->facet_count;
+    size_t mark = work->used;
+    facet_place *place = lrcsi_work_take(work, p->scene->vertex_count, sizeof *place);
+    if (!place) {
+        return LRCS_E_MEMORY;
+    }
+    p->twin = NULL;
+    int twins = mark_places(p, place);
+    work->used = mark;
+    if (!twins) {
+        return LRCS_OK;
+    }
+    uint32_t *twin = lrcsi_work_take(work, facets, sizeof *twin);
+    size_t end = work->used;
+    place = lrcsi_work_take(work, p->scene->vertex_count, sizeof *place);
+    work->used = end;
+    if (!twin || !place) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t f = 0; f < facets; f++) {
+        twin[f] = LRCS_NONE;
+    }
+    p->twin = twin;
+    mark_places(p, place);
+    return LRCS_OK;
+}
+
+/* --- contacts --------------------------------------------------------------------------------- */
+
+/* The facet whose contacts were sought in its stead. */
+static uint32_t first_twin(const lrcs_prepared *p, uint32_t facet)
+{
+    return p->twin[facet] < facet ? p->twin[facet] : facet;
+}
+
+/* How many entries the lists will have. */
+static uint64_t count_entries(const lrcs_prepared *p)
+{
+    const lrcsi_touches *t = &p->touches;
+    uint64_t count = 0;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        uint32_t times = p->twin[f] != LRCS_NONE ? 2 : 1;
+        for (uint32_t i = t->first[f]; i < t->first[f + 1]; i++) {
+            count += (uint64_t)times * (p->twin[t->touch[i].other] != LRCS_NONE ? 2 : 1);
+        }
+    }
+    return count;
+}
+
+/* In place, from the end: no entry moves down, and the list of a first twin is still where it was
+   when the second, which comes after it, is given it. */
+static void spread_entries(lrcs_prepared *p, uint32_t count)
+{
+    lrcsi_touches *t = &p->touches;
+    for (uint32_t f = p->scene->facet_count; f-- > 0;) {
+        uint32_t of = first_twin(p, f);
+        uint32_t to = count;
+        for (uint32_t i = t->first[of + 1]; i-- > t->first[of];) {
+            lrcsi_touch touch = t->touch[i];
+            uint32_t twin = p->twin[touch.other];
+            if (twin != LRCS_NONE) {
+                t->touch[--to] = (lrcsi_touch){twin, touch.kind};
+            }
+            t->touch[--to] = touch;
+        }
+        t->rim[f] = t->rim[of];
+        t->first[f + 1] = count;
+        count = to;
+    }
+}
+
+int lrcsi_coincident_touches(lrcs_prepared *p, lrcs_work *work)
+{
+    lrcsi_touches *t = &p->touches;
+    if (!p->twin) {
+        return LRCS_OK;
+    }
+    uint64_t count = count_entries(p);
+    if (count >= LRCS_NONE) {
+        return LRCS_E_LIMIT;
+    }
+    work->used = (size_t)((unsigned char *)t->touch - work->bytes);
+    if (!lrcsi_work_take(work, (size_t)count, sizeof *t->touch)) { /* the same place, longer */
+        return LRCS_E_MEMORY;
+    }
+    spread_entries(p, (uint32_t)count);
+    t->count = (uint32_t)count;
+    return LRCS_OK;
+}

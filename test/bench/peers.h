@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT */
+/* Other engines on the same mesh from the same directions: ../shared/peers, where they are built.
+ */
+#ifndef BENCH_PEERS_H
+#define BENCH_PEERS_H
+
+#include "bench/cell.h"
+
+/* The programs. */
+enum bench_peer { BENCH_LLVMPIPE, BENCH_EMBREE };
+
+/* Runs one of a folder's programs on a binary STL file at size x size pixels.
+   Returned: its poses' times on the wall; build: its tree's time, 0 for none. A program that is not
+   there, or fails, leaves no samples. */
+void bench_peer_run(const char *folder, int peer, const char *stl, uint32_t size, double limit_s,
+                    bench_cell *cell, double *build);
+
+#endif
