@@ -11,12 +11,17 @@
 #include "integrate/plan.h"
 #include "integrate/total.h"
 #include "visibility/occlude.h"
+#include "visibility/query.h"
 #include "visibility/zbuffer.h"
 
 /* Rasters: the first tried, the finest and the coarsest. Beyond 4096 the bound gains less than it
    costs; below 16 there is nothing to gain. */
 #define FIRST_SIZE 512u
 #define LAST_SIZE  4096u
+
+/* Under method zbuffer, facets of scenes of so few are asked exactly what shows of them before any
+   raster is drawn. */
+#define ASKED_FACETS 2048u
 
 /* What a run passes from stage to stage. */
 typedef struct sigma_run {
@@ -61,13 +66,15 @@ static int run_check(const lrcs_run_options *options, const lrcs_image *image)
 static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
-    size_t contest =
-        lrcsi_work_add(lrcsi_contest_need(prepared), lrcsi_margin_need(prepared));
+    size_t contest = lrcsi_work_add(lrcsi_contest_need(prepared), lrcsi_margin_need(prepared));
+    size_t query = lrcsi_grid_facets_need(prepared);
     size_t exact = lrcsi_work_add(contest, lrcsi_occlude_need(prepared));
-    size_t raster = lrcsi_zbuffer_need(prepared, size);
-    raster = lrcsi_work_add(raster, prepared->smooth           ? exact
-                                    : prepared->nears.reach ? contest
-                                                            : 0);
+    size_t facets = prepared->scene->facet_count;
+    size_t raster = lrcsi_work_add(lrcsi_work_bytes(facets, 1), lrcsi_zbuffer_need(prepared, size));
+    raster = lrcsi_work_add(raster, prepared->smooth ? exact
+                                    : prepared->nears.reach || facets <= ASKED_FACETS
+                                        ? lrcsi_work_add(contest, query)
+                                        : 0);
     return options->method == LRCS_METHOD_EXACT                       ? exact
            : options->method == LRCS_METHOD_ZBUFFER || raster > exact ? raster
                                                                       : exact;
@@ -181,7 +188,8 @@ static int run_contest(sigma_run *run)
 {
     const lrcs_prepared *p = run->view.prepared;
     size_t mark = run->work->used;
-    int status = run->contested ? LRCS_OK : lrcsi_contest_make(&run->view, run->work, &run->contest);
+    int status =
+        run->contested ? LRCS_OK : lrcsi_contest_make(&run->view, run->work, &run->contest);
     if (!run->contested && status == LRCS_OK && p->nears.reach &&
         (run->view.backs_cast || p->solid)) {
         status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
@@ -228,12 +236,12 @@ static void run_sum(sigma_run *run, int sampled)
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
-static int run_raster(sigma_run *run, uint32_t size)
+static int run_raster(sigma_run *run, const unsigned char *answer, uint32_t size)
 {
     lrcsi_zbuffer zbuffer;
     int status = LRCS_E_MEMORY;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        status = lrcsi_zbuffer_make(&run->view, size, run->work, run->visible, &zbuffer);
+        status = lrcsi_zbuffer_make(&run->view, size, answer, run->work, run->visible, &zbuffer);
         run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         run->size = size;
     }
@@ -255,8 +263,8 @@ static int run_exact(sigma_run *run, int method)
         return status;
     }
     status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
-                                                  run->curved, &starved)
-                             : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
+                                              run->curved, &starved)
+                         : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
     if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
         return LRCS_E_MEMORY;
     }
@@ -280,15 +288,39 @@ static uint32_t next_size(const sigma_run *run, double tolerance)
     return 64 * ((uint32_t)size / 64 + 1);
 }
 
+/* Few facets are asked exactly, which costs less than a raster; so are those of scenes where the
+   search for events was made for other reasons. */
+static int run_answers(sigma_run *run, unsigned char **answer)
+{
+    uint32_t count = run->view.prepared->scene->facet_count;
+    int status = count <= ASKED_FACETS ? run_contest(run) : LRCS_OK;
+    *answer = NULL;
+    if (status != LRCS_OK || !run->contested) {
+        return status;
+    }
+    *answer = lrcsi_work_take(run->work, count, 1);
+    run->view.meter = NULL;
+    status = *answer ? lrcsi_query_all(&run->contest, run->work, *answer) : LRCS_E_MEMORY;
+    run->view.meter = &run->meter;
+    return status;
+}
+
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
-    int status = run_raster(run, options->resolution != 0 ? options->resolution : FIRST_SIZE);
+    unsigned char *answer;
+    size_t mark = run->work->used;
+    int status = run_answers(run, &answer);
+    if (status == LRCS_OK) {
+        status =
+            run_raster(run, answer, options->resolution != 0 ? options->resolution : FIRST_SIZE);
+    }
     while (status == LRCS_OK && options->resolution == 0 && run->size < LAST_SIZE &&
            !run->meter.spent && !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) && run->partial != 0 &&
            !run_meets(&run->total, options->tolerance)) {
         uint32_t size = next_size(run, options->tolerance);
-        status = run_raster(run, size > run->size ? size : LAST_SIZE);
+        status = run_raster(run, answer, size > run->size ? size : LAST_SIZE);
     }
+    run->work->used = run->contested ? run->work->used : mark;
     return status;
 }
 

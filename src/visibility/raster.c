@@ -115,8 +115,8 @@ lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
     plane.at = a[2] - along * (a[0] - view->low[0]) - up * (a[1] - view->low[1]);
     plane.along = along * raster->pixel;
     plane.up = up * raster->pixel;
-    plane.err = cosine > 64 * U * normal->length ? 8 * view->off * normal->length / cosine
-                                                 : HUGE_VAL;
+    plane.err =
+        cosine > 64 * U * normal->length ? 8 * view->off * normal->length / cosine : HUGE_VAL;
     return plane;
 }
 
@@ -128,10 +128,10 @@ typedef struct raster_job {
     uint32_t facet;
     lrcsi_plane plane;
     int ordinary;
-    float close; /* ordinary: depths that differ by no more are not told apart */
-    float far;   /* else: no height of the facet is less */
-    uint32_t met;           /* the owner last met at a depth too close for floats, or LRCS_NONE, */
-    lrcsi_plane met_plane;  /* its plane, */
+    float close;           /* ordinary: depths that differ by no more are not told apart */
+    float far;             /* else: no height of the facet is less */
+    uint32_t met;          /* the owner last met at a depth too close for floats, or LRCS_NONE, */
+    lrcsi_plane met_plane; /* its plane, */
     int met_order, met_asked; /* and, once asked, its lrcsi_sample_order */
 } raster_job;
 

@@ -3,12 +3,14 @@
    this suffices stands in the header; who owns a sample is decided by visibility/raster.c. */
 #include "visibility/zbuffer.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/clip.h"
+#include "visibility/query.h"
 
 /* Pixels of a word of a bit map. */
 enum { BITS = 64 };
@@ -16,8 +18,8 @@ enum { BITS = 64 };
 /* Pixels along a tile. */
 enum { TILE = 8 };
 
-/* Pixels touched are told with this margin, beyond the error of coordinates: far above rounding, and
-   far below anything that would cost. */
+/* Pixels touched are told with this margin, beyond the error of coordinates: far above rounding,
+   and far below anything that would cost. */
 #define MARGIN 0x1p-20
 
 /* The pixels x0 <= x < x1, y0 <= y < y1 that a facet may touch. */
@@ -30,20 +32,22 @@ enum { PLAIN = 0, HIDDEN, VISIBLE, PARTLY };
 
 typedef struct zbuffer_job {
     const lrcsi_view *view;
+    const unsigned char *answer; /* facet: what exact queries tell, or NULL */
     lrcsi_raster raster;
-    uint32_t words;     /* of a row of a bit map */
-    signed char *cast;  /* facet: its facing where it casts, else 0; one more 0 at the end */
-    zbuffer_box *box;   /* facet that casts */
-    float *event;       /* pixel met by events: the nearest depth of one; later t, parting depth */
-    float *cover;       /* the same pixel: all of it is covered by one facet at least as near;
-                           in the raster's depths, once those have served */
-    uint64_t *met;      /* bit map: pixels that events may touch */
-    uint64_t *crossed;  /* bit map: pixels not cleared by t; in the end those that are mixed */
-    unsigned char *state; /* facet */
-    lrcsi_row *row;     /* row of the raster: of the facet at hand */
+    uint32_t words;    /* of a row of a bit map */
+    signed char *cast; /* facet: its facing where it casts, else 0; one more 0 at the end */
+    zbuffer_box *box;  /* facet that casts */
+    float *event;      /* pixel met by events: the nearest depth of one; later t, parting depth */
+    unsigned char *events; /* pixel met by events: how many, 255 for more */
+    float *cover;          /* the same pixel: all of it is covered by one facet at least as near;
+                              in the raster's depths, once those have served */
+    uint64_t *met;         /* bit map: pixels that events may touch */
+    uint64_t *crossed;     /* bit map: pixels not cleared by t; in the end those that are mixed */
+    unsigned char *state;  /* facet */
+    lrcsi_row *row;        /* row of the raster: of the facet at hand */
     float *tile_low, *tile_high; /* tile: the least and the most t of its pixels, but of crossed */
     uint32_t tiles;              /* along each side */
-    double margin;      /* in pixels: of all that is marked */
+    double margin;               /* in pixels: of all that is marked */
 } zbuffer_job;
 
 /* --- floats that err one way, bit maps -------------------------------------------------------- */
@@ -117,8 +121,10 @@ static inline void event_mark(zbuffer_job *job, uint32_t x, uint32_t y, float z)
     if (!bit_get(job, job->met, x, y)) {
         bit_set(job, job->met, x, y);
         job->event[at] = z;
-    } else if (job->event[at] < z) {
-        job->event[at] = z;
+        job->events[at] = 1;
+    } else {
+        job->event[at] = job->event[at] < z ? z : job->event[at];
+        job->events[at] = (unsigned char)(job->events[at] + (job->events[at] != UCHAR_MAX));
     }
 }
 
@@ -128,53 +134,90 @@ static inline uint32_t pixel_at(const zbuffer_job *job, double x)
     return (uint32_t)lrcsi_least(lrcsi_most(x, 0), job->raster.size - 1.0);
 }
 
-/* Marks the pixels that the segment a b touches: steps along its longer axis, and in each the pixels
-   across and the nearest depth of what lies in it, all widened by the margin. A point of the true
-   segment, and its depth, are off by no more than the ends are from the point computed at the same
-   fraction of it. */
-static void event_segment(zbuffer_job *job, const double a[3], const double b[3])
+/* A segment over the pixels: stepped along its longer axis. */
+typedef struct event_line {
+    int axis;
+    double from[3], run; /* its lower end along the axis, and how far it runs */
+    double slope, climb; /* what it changes across, and in depth, for each pixel along */
+    double across[2];    /* its least and most coordinate across */
+    double near;         /* its nearest depth */
+} event_line;
+
+static event_line event_line_of(const zbuffer_job *job, uint32_t edge)
+{
+    const lrcsi_edge *e = &job->view->prepared->topology.edge[edge];
+    double end[2][3];
+    lrcsi_raster_point(&job->raster, e->low, end[0]);
+    lrcsi_raster_point(&job->raster, e->high, end[1]);
+    end[0][2] = job->view->point[e->low].x[2];
+    end[1][2] = job->view->point[e->high].x[2];
+    event_line l;
+    int axis = l.axis = fabs(end[1][1] - end[0][1]) > fabs(end[1][0] - end[0][0]);
+    int first = end[1][axis] < end[0][axis];
+    const double *to = end[!first];
+    memcpy(l.from, end[first], sizeof l.from);
+    l.run = to[axis] - l.from[axis];
+    l.slope = l.run > job->margin ? (to[!axis] - l.from[!axis]) / l.run : 0;
+    l.climb = l.run > job->margin ? (to[2] - l.from[2]) / l.run : 0;
+    l.across[0] = lrcsi_least(l.from[!axis], to[!axis]);
+    l.across[1] = lrcsi_most(l.from[!axis], to[!axis]);
+    l.near = lrcsi_most(l.from[2], to[2]);
+    return l;
+}
+
+/* What it touches in a step: pixels first <= x <= last across, at this depth or farther. All is
+   widened by the margin. A point of the true segment, and its depth, are off by no more than the
+   ends are from the point computed at the same fraction of it. */
+typedef struct event_step {
+    uint32_t first, last;
+    double depth;
+} event_step;
+
+static inline event_step event_step_of(const zbuffer_job *job, const event_line *l, uint32_t step)
 {
     double m = job->margin;
-    int axis = fabs(b[1] - a[1]) > fabs(b[0] - a[0]);
-    const double *from = a[axis] < b[axis] ? a : b;
-    const double *to = from == a ? b : a;
-    double run = to[axis] - from[axis];
-    double slope = run > m ? (to[!axis] - from[!axis]) / run : 0;
-    double climb = run > m ? (to[2] - from[2]) / run : 0;
-    double across[2] = {lrcsi_least(a[!axis], b[!axis]), lrcsi_most(a[!axis], b[!axis])};
-    double near = lrcsi_most(a[2], b[2]);
-    uint32_t last = pixel_at(job, to[axis] + m);
-    for (uint32_t step = pixel_at(job, from[axis] - m); step <= last; step++) {
-        double low = across[0];
-        double high = across[1];
-        double z = near;
-        if (run > m) {
-            double u = lrcsi_most(0, step - m - from[axis]);
-            double v = lrcsi_least(run, step + 1 + m - from[axis]);
-            double p = from[!axis] + slope * u;
-            double q = from[!axis] + slope * v;
-            low = lrcsi_most(low, lrcsi_least(p, q));
-            high = lrcsi_least(high, lrcsi_most(p, q));
-            z = lrcsi_least(near, from[2] + lrcsi_most(climb * u, climb * v));
-        }
-        float depth = float_above(z + 2 * job->view->off);
-        uint32_t end = pixel_at(job, high + m);
-        for (uint32_t cell = pixel_at(job, low - m); cell <= end; cell++) {
-            event_mark(job, axis == 0 ? step : cell, axis == 0 ? cell : step, depth);
+    double low = l->across[0];
+    double high = l->across[1];
+    event_step s = {.depth = l->near};
+    if (l->run > m) {
+        double u = lrcsi_most(0, step - m - l->from[l->axis]);
+        double v = lrcsi_least(l->run, step + 1 + m - l->from[l->axis]);
+        double p = l->from[!l->axis] + l->slope * u;
+        double q = l->from[!l->axis] + l->slope * v;
+        low = lrcsi_most(low, lrcsi_least(p, q));
+        high = lrcsi_least(high, lrcsi_most(p, q));
+        s.depth = lrcsi_least(l->near, l->from[2] + lrcsi_most(l->climb * u, l->climb * v));
+    }
+    s.first = pixel_at(job, low - m);
+    s.last = pixel_at(job, high + m);
+    return s;
+}
+
+/* Marks the pixels that an edge touches. */
+static void event_edge(zbuffer_job *job, uint32_t edge)
+{
+    event_line l = event_line_of(job, edge);
+    uint32_t last = pixel_at(job, l.from[l.axis] + l.run + job->margin);
+    for (uint32_t i = pixel_at(job, l.from[l.axis] - job->margin); i <= last; i++) {
+        event_step s = event_step_of(job, &l, i);
+        float depth = float_above(s.depth + 2 * job->view->off);
+        for (uint32_t k = s.first; k <= s.last; k++) {
+            event_mark(job, l.axis == 0 ? i : k, l.axis == 0 ? k : i, depth);
         }
     }
 }
 
-static void event_edge(zbuffer_job *job, uint32_t edge)
+/* Does event_edge mark this pixel? */
+static int event_marks(const zbuffer_job *job, const event_line *l, uint32_t x, uint32_t y)
 {
-    const lrcsi_edge *e = &job->view->prepared->topology.edge[edge];
-    double a[3];
-    double b[3];
-    lrcsi_raster_point(&job->raster, e->low, a);
-    lrcsi_raster_point(&job->raster, e->high, b);
-    a[2] = job->view->point[e->low].x[2];
-    b[2] = job->view->point[e->high].x[2];
-    event_segment(job, a, b);
+    uint32_t i = l->axis == 0 ? x : y;
+    uint32_t k = l->axis == 0 ? y : x;
+    if (i < pixel_at(job, l->from[l->axis] - job->margin) ||
+        i > pixel_at(job, l->from[l->axis] + l->run + job->margin)) {
+        return 0;
+    }
+    event_step s = event_step_of(job, l, i);
+    return s.first <= k && k <= s.last;
 }
 
 /* Event edges, and sides that a corner of another facet splits. */
@@ -359,14 +402,21 @@ static void pixels_part(zbuffer_job *job)
     }
 }
 
-/* May the facet pass through t in a pixel, or cover one? Not where no t of the tiles that it touches
-   lies between its least and its most depth, and it is less than two pixels wide or high. */
+/* A facet worth asking which pixels it covers: one that owns a sample. Others would serve as well,
+   but hardly ever better. */
+static int facet_covers(const zbuffer_job *job, uint32_t facet)
+{
+    const zbuffer_box *box = &job->box[facet];
+    uint32_t sample = job->raster.sample[facet];
+    return box->x1 - box->x0 > 2 && box->y1 - box->y0 > 2 && sample != LRCS_NONE &&
+           job->raster.owner[sample] == facet;
+}
+
+/* May the facet pass through t in a pixel? Not where no t of the tiles that it touches lies between
+   its least and its most depth. */
 static int facet_passes(const zbuffer_job *job, uint32_t facet)
 {
     const zbuffer_box *box = &job->box[facet];
-    if (box->x1 - box->x0 > 2 && box->y1 - box->y0 > 2) {
-        return 1;
-    }
     double far;
     double near;
     lrcsi_grid_depth(job->view, facet, &far, &near);
@@ -443,19 +493,67 @@ static void pixels_cover(zbuffer_job *job)
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* Does the facet touch a mixed pixel? */
+/* The sides of a facet that are events, each marked once: those with nothing across that faces as
+   it does. Irregular edges are left out, and so are sides that others split, which are marked
+   again. */
+typedef struct facet_sides {
+    event_line line[3];
+    int count;
+} facet_sides;
+
+static facet_sides facet_sides_of(const zbuffer_job *job, uint32_t facet)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    facet_sides sides = {.count = 0};
+    for (int k = 0; k < 3; k++) {
+        uint32_t other = p->across.facet[facet].corner[k];
+        if (other != facet &&
+            (other == p->scene->facet_count || !lrcsi_grid_casts(job->view, other) ||
+             job->view->facing[other] != job->view->facing[facet])) {
+            sides.line[sides.count++] = event_line_of(job, p->topology.facet_edge[facet].corner[k]);
+        }
+    }
+    return sides;
+}
+
+/* Is a mixed pixel not mixed for the facet, all of its events being sides of it (claim 5)? */
+static int facet_clear(const zbuffer_job *job, const facet_sides *sides, uint32_t x, uint32_t y)
+{
+    int own = 0;
+    if (sides->count == 0 || !bit_get(job, job->met, x, y)) {
+        return 0;
+    }
+    for (int i = 0; i < sides->count; i++) {
+        own += event_marks(job, &sides->line[i], x, y);
+    }
+    return own == job->events[(size_t)y * job->raster.size + x];
+}
+
+/* Does the facet touch a pixel that is mixed for it? */
 static int facet_mixed(const zbuffer_job *job, uint32_t facet)
 {
     if (!bit_box(job, job->crossed, &job->box[facet])) {
         return 0;
     }
     lrcsi_edges e = lrcsi_raster_edges(&job->raster, facet);
+    facet_sides sides;
+    int asked = 0;
     for (uint32_t y = e.bottom; y < e.top; y++) {
-        if (bit_any(job, job->crossed, y, e.left, e.right)) {
-            lrcsi_pixels touched = lrcsi_span_touched(&e, y);
-            if (touched.x0 < touched.x1 &&
-                bit_any(job, job->crossed, y, touched.x0, touched.x1)) {
-                return 1;
+        if (!bit_any(job, job->crossed, y, e.left, e.right)) {
+            continue;
+        }
+        lrcsi_pixels touched = lrcsi_span_touched(&e, y);
+        for (uint32_t word = touched.x0 / BITS; word * BITS < touched.x1; word++) {
+            uint64_t bits = job->crossed[(size_t)y * job->words + word] &
+                            bit_range(word, touched.x0, touched.x1);
+            for (; bits != 0; bits &= bits - 1) {
+                if (!asked) {
+                    sides = facet_sides_of(job, facet);
+                    asked = 1;
+                }
+                if (!facet_clear(job, &sides, word * BITS + bit_lowest(bits), y)) {
+                    return 1;
+                }
             }
         }
     }
@@ -491,9 +589,9 @@ static int corner_beyond_both(const lrcsi_edges *e, const double value[3], int a
 
 /* How much the facet covers at most, in pixels, of one that it may not cover whole: where one side
    passes, its share; where two pass that do not meet there, what is left between them. A value that
-   is too small by off moves a line by off / |gradient|, and the area by that times its length in the
-   pixel, below 1.5; roundings are below 8 u, and off is at least 64 u N h. Else corners are off by
-   the raster's error, and the area by at most the length of the cut, below 6, times that. */
+   is too small by off moves a line by off / |gradient|, and the area by that times its length in
+   the pixel, below 1.5; roundings are below 8 u, and off is at least 64 u N h. Else corners are off
+   by the raster's error, and the area by at most the length of the cut, below 6, times that. */
 static double pixel_share(const zbuffer_job *job, const lrcsi_edges *e, double corner[3][2],
                           uint32_t x, uint32_t y)
 {
@@ -534,6 +632,8 @@ typedef struct facet_job {
     lrcsi_edges edges;
     pixel_plane plane;
     double corner[3][2]; /* in pixels */
+    facet_sides sides;
+    uint32_t rows; /* of the job, below this: those last asked for and the one before */
 } facet_job;
 
 static facet_job facet_start(zbuffer_job *job, uint32_t facet)
@@ -542,21 +642,35 @@ static facet_job facet_start(zbuffer_job *job, uint32_t facet)
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
     f.edges = lrcsi_raster_edges(&job->raster, facet);
     f.plane = pixel_plane_of(job, facet);
+    f.sides = facet_sides_of(job, facet);
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(&job->raster, corner[k], f.corner[k]);
     }
-    for (uint32_t y = f.edges.bottom; y < f.edges.top; y++) {
-        job->row[y] = lrcsi_span_row(&f.edges, y);
-    }
+    f.rows = f.edges.bottom;
     return f;
+}
+
+/* Row y of the facet; rows are asked for in order, but for the one before. */
+static const lrcsi_row *facet_row(facet_job *f, uint32_t y)
+{
+    lrcsi_row *row = &f->job->row[y];
+    if (y >= f->rows) {
+        *row = lrcsi_span_row(&f->edges, y);
+        if (f->rows < y && y > f->edges.bottom) { /* the one before may be asked for, too */
+            row[-1] = lrcsi_span_row(&f->edges, y - 1);
+        }
+        f->rows = y + 1;
+    }
+    return row;
 }
 
 /* In pixels, at most: by what shows of the facet there, PLAIN where nothing tells. */
 typedef struct facet_sums {
     double area[VISIBLE + 1];
-    double square;           /* of the areas in doubt */
-    uint32_t covered, owned; /* samples */
-    int shows[VISIBLE + 1];  /* is there any? */
+    double square;          /* of the areas in doubt */
+    double told, seen;      /* of the areas in doubt: where samples on the facet or beside tell what
+                               is likely, and as how much they show it */
+    int shows[VISIBLE + 1]; /* is there any? */
 } facet_sums;
 
 static double facet_share(const facet_job *f, uint32_t x, uint32_t y)
@@ -566,37 +680,66 @@ static double facet_share(const facet_job *f, uint32_t x, uint32_t y)
                : pixel_share(f->job, &f->edges, (double(*)[2])f->corner, x, y);
 }
 
-/* A mixed pixel: in doubt, but where another facet covers it nearer. */
-static void sum_mixed(const facet_job *f, uint32_t x, uint32_t y, facet_sums *sums)
+/* Does the sample of a pixel show the facet, if it covers it? Adds to the counts of both. */
+static void count_sample(facet_job *f, uint32_t x, uint32_t y, int *covered, int *owned)
 {
-    const zbuffer_job *job = f->job;
-    size_t at = (size_t)y * job->raster.size + x;
-    double share = facet_share(f, x, y);
-    double near = pixel_near(&f->plane, pixel_height(&f->plane, x, y));
-    int shows = bit_get(job, job->met, x, y) && near < (double)job->cover[at] ? HIDDEN : PLAIN;
-    if (lrcsi_span_has(job->row[y].sure, x)) {
-        sums->covered++;
-        sums->owned += job->raster.owner[at] == f->facet;
+    const lrcsi_raster *r = &f->job->raster;
+    if (y >= f->edges.bottom && y < f->edges.top && lrcsi_span_has(facet_row(f, y)->sure, x)) {
+        *covered += 1;
+        *owned += r->owner[(size_t)y * r->size + x] == f->facet;
     }
-    sums->area[shows] += share;
-    sums->shows[shows] = 1;
-    sums->square += shows == PLAIN ? share * share : 0;
 }
 
-/* What a sample in pixels x0 <= x < x1 of row y tells, if none of them is mixed. */
-static int run_sample(const facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
+/* A mixed pixel: in doubt, but where another facet covers it nearer. How much of it is likely to be
+   visible its sample tells, or those beside it. */
+static void sum_mixed(facet_job *f, uint32_t x, uint32_t y, facet_sums *sums)
 {
     const zbuffer_job *job = f->job;
-    if (y < f->edges.bottom || y >= f->edges.top) {
-        return PLAIN;
+    double share = facet_share(f, x, y);
+    double near = pixel_near(&f->plane, pixel_height(&f->plane, x, y));
+    if (bit_get(job, job->met, x, y) &&
+        near < (double)job->cover[(size_t)y * job->raster.size + x]) {
+        sums->area[HIDDEN] += share;
+        sums->shows[HIDDEN] = 1;
+        return;
     }
-    lrcsi_pixels sure = job->row[y].sure;
+    int covered = 0;
+    int owned = 0;
+    count_sample(f, x, y, &covered, &owned);
+    if (covered == 0) {
+        count_sample(f, x - 1, y, &covered, &owned);
+        count_sample(f, x + 1, y, &covered, &owned);
+        count_sample(f, x, y - 1, &covered, &owned);
+        count_sample(f, x, y + 1, &covered, &owned);
+    }
+    if (covered > 0) {
+        sums->told += share;
+        sums->seen += share * owned / covered;
+    }
+    sums->area[PLAIN] += share;
+    sums->shows[PLAIN] = 1;
+    sums->square += share * share;
+}
+
+/* What a sample in pixels x0 <= x < x1 of row y tells, none of which is mixed. */
+static int run_sample(facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
+{
+    const zbuffer_job *job = f->job;
+    lrcsi_pixels sure = facet_row(f, y)->sure;
     uint32_t from = x0 > sure.x0 ? x0 : sure.x0;
     uint32_t to = x1 < sure.x1 ? x1 : sure.x1;
-    if (from >= to || bit_any(job, job->crossed, y, x0, x1)) {
+    if (from >= to) {
         return PLAIN;
     }
     return job->raster.owner[(size_t)y * job->raster.size + from] == f->facet ? VISIBLE : HIDDEN;
+}
+
+/* The same, of a row beside the one where the pixels are not mixed. */
+static int run_beside(facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
+{
+    return y < f->edges.bottom || y >= f->edges.top || bit_any(f->job, f->job->crossed, y, x0, x1)
+               ? PLAIN
+               : run_sample(f, y, x0, x1);
 }
 
 /* Is the facet farther than t, or than a facet that covers the pixel, in all of a run? */
@@ -606,7 +749,8 @@ static int run_behind(const facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
     for (uint32_t x = x0; x < x1; x++) {
         size_t at = (size_t)y * job->raster.size + x;
         double near = pixel_near(&f->plane, pixel_height(&f->plane, x, y));
-        if (!bit_get(job, job->met, x, y) || !(near < (double)job->event[at])) {
+        if (!bit_get(job, job->met, x, y) || bit_get(job, job->crossed, x, y) ||
+            !(near < (double)job->event[at])) {
             return 0;
         }
     }
@@ -617,19 +761,11 @@ static int run_behind(const facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
    convex, so that one sample tells of all, or one in the same pixels of the next row or the one
    before, if none of those is mixed: its part of both is. `areas`: the first
    pass tells which show what; areas that are known are added up in the second. */
-static void sum_run(const facet_job *f, uint32_t y, uint32_t x0, uint32_t x1, int areas,
-                    facet_sums *sums)
+static void sum_run(facet_job *f, uint32_t y, uint32_t x0, uint32_t x1, int areas, facet_sums *sums)
 {
-    lrcsi_pixels sure = f->job->row[y].sure;
     int shows = run_sample(f, y, x0, x1);
-    if (shows != PLAIN && !areas) {
-        uint32_t from = x0 > sure.x0 ? x0 : sure.x0;
-        uint32_t to = x1 < sure.x1 ? x1 : sure.x1;
-        sums->covered += to - from;
-        sums->owned += shows == VISIBLE ? to - from : 0;
-    }
-    shows = shows != PLAIN ? shows : run_sample(f, y - 1, x0, x1);
-    shows = shows != PLAIN ? shows : run_sample(f, y + 1, x0, x1);
+    shows = shows != PLAIN ? shows : run_beside(f, y - 1, x0, x1);
+    shows = shows != PLAIN ? shows : run_beside(f, y + 1, x0, x1);
     shows = shows != PLAIN ? shows : run_behind(f, y, x0, x1) ? HIDDEN : PLAIN;
     sums->shows[shows] = 1;
     if (areas != (shows != PLAIN)) {
@@ -650,16 +786,19 @@ static void sum_run(const facet_job *f, uint32_t y, uint32_t x0, uint32_t x1, in
 }
 
 /* The runs of a row between mixed pixels, and those. */
-static void sum_row(const facet_job *f, uint32_t y, int areas, facet_sums *sums)
+static void sum_row(facet_job *f, uint32_t y, int areas, facet_sums *sums)
 {
     const zbuffer_job *job = f->job;
-    lrcsi_pixels touched = job->row[y].touched;
+    lrcsi_pixels touched = facet_row(f, y)->touched;
     const uint64_t *crossed = job->crossed + (size_t)y * job->words;
     uint32_t from = touched.x0;
     for (uint32_t word = touched.x0 / BITS; word * BITS < touched.x1; word++) {
         uint64_t bits = crossed[word] & bit_range(word, touched.x0, touched.x1);
         for (; bits != 0; bits &= bits - 1) {
             uint32_t x = word * BITS + bit_lowest(bits);
+            if (facet_clear(job, &f->sides, x, y)) {
+                continue; /* like those that are not mixed */
+            }
             if (from < x) {
                 sum_run(f, y, from, x, areas, sums);
             }
@@ -674,25 +813,99 @@ static void sum_row(const facet_job *f, uint32_t y, int areas, facet_sums *sums)
     }
 }
 
-/* What shows and what is hidden is added up only where there is both, in a second pass. Whole pixels
-   are counted exactly. Of the rest at most 12 N are added up (along each row or column a side
-   touches 4 at most), so that an addition rounds by at most 12 u N: less than each share gives. */
-static facet_sums facet_sum(const facet_job *f)
+/* The area, in pixels, that the facet has in rows y0 <= y < y1, at most: what is left of its sides
+   between those two lines, joined along them. */
+static double rows_area(const facet_job *f, uint32_t y0, uint32_t y1)
+{
+    double inside[8][2];
+    int count = 0;
+    for (int k = 0; k < 3; k++) { /* cut off what is below y0, and above y1 */
+        const double *a = f->corner[k];
+        const double *b = f->corner[(k + 1) % 3];
+        const double limit[2] = {a[1] < b[1] ? y0 : y1, a[1] < b[1] ? y1 : y0};
+        double t[2] = {0, 1};
+        for (int i = 0; i < 2; i++) {
+            if (a[1] != b[1]) {
+                double cut = (limit[i] - a[1]) / (b[1] - a[1]);
+                t[i] = i == 0 ? lrcsi_most(0, cut) : lrcsi_least(1, cut);
+            } else if (a[1] < y0 || a[1] > y1) {
+                t[0] = 2;
+            }
+        }
+        for (int i = 0; i < 2 && t[0] <= t[1]; i++) {
+            inside[count][0] = a[0] + t[i] * (b[0] - a[0]);
+            inside[count++][1] = a[1] + t[i] * (b[1] - a[1]);
+        }
+    }
+    double twice = 0;
+    for (int i = 2; i < count; i++) {
+        twice += (inside[i - 1][0] - inside[0][0]) * (inside[i][1] - inside[0][1]) -
+                 (inside[i][0] - inside[0][0]) * (inside[i - 1][1] - inside[0][1]);
+    }
+    /* corners are off by `off`, the area by that times its perimeter, below 8 N, rounding included
+     */
+    return 0.5 * fabs(twice) + 8 * f->job->raster.off * f->job->raster.size;
+}
+
+/* Rows y0 <= y < y1 without mixed pixels: what the facet has there is convex, and one sample tells
+   of all. */
+static void sum_block(facet_job *f, uint32_t y0, uint32_t y1, int areas, facet_sums *sums)
+{
+    const lrcsi_raster *r = &f->job->raster;
+    uint32_t middle = y0 + (y1 - y0) / 2;
+    int shows = PLAIN;
+    for (uint32_t i = 0; i < y1 - y0 && shows == PLAIN; i++) {
+        uint32_t y = y0 + (middle - y0 + i) % (y1 - y0);
+        lrcsi_pixels sure = lrcsi_span_samples(&f->edges, y).sure;
+        if (sure.x0 < sure.x1) {
+            shows = r->owner[(size_t)y * r->size + sure.x0] == f->facet ? VISIBLE : HIDDEN;
+        }
+    }
+    sums->shows[shows] = 1;
+    if (areas == (shows != PLAIN)) {
+        double area = rows_area(f, y0, y1);
+        sums->area[shows] += area;
+        sums->square += shows == PLAIN ? area * area : 0;
+    }
+}
+
+/* All rows. Blocks without mixed pixels end where a row has some in the box of the facet. */
+static void sum_rows(facet_job *f, int areas, facet_sums *sums)
+{
+    const zbuffer_job *job = f->job;
+    uint32_t from = f->edges.bottom;
+    f->rows = from;
+    for (uint32_t y = from; y < f->edges.top; y++) {
+        if (!bit_any(job, job->crossed, y, f->edges.left, f->edges.right)) {
+            continue;
+        }
+        if (from < y) {
+            sum_block(f, from, y, areas, sums);
+        }
+        sum_row(f, y, areas, sums);
+        from = y + 1;
+    }
+    if (from < f->edges.top) {
+        sum_block(f, from, f->edges.top, areas, sums);
+    }
+}
+
+/* What shows and what is hidden is added up only where there is both, in a second pass. Whole
+   pixels are counted exactly. Of the rest at most 12 N are added up (along each row or column a
+   side touches 4 at most), so that an addition rounds by at most 12 u N: less than each share
+   gives. */
+static facet_sums facet_sum(facet_job *f)
 {
     facet_sums sums = {{0, 0, 0}, 0, 0, 0, {0, 0, 0}};
-    for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
-        sum_row(f, y, 0, &sums);
-    }
+    sum_rows(f, 0, &sums);
     if (sums.shows[HIDDEN] && sums.shows[VISIBLE]) {
-        for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
-            sum_row(f, y, 1, &sums);
-        }
+        sum_rows(f, 1, &sums);
     }
     return sums;
 }
 
-/* The share of a facet that covers no sample: all or nothing, as the owner of the sample next to its
-   centroid is farther or nearer there, but for a pixel. */
+/* The share of a facet that covers no sample: all or nothing, as the owner of the sample next to
+   its centroid is farther or nearer there, but for a pixel. */
 static double facet_guess(const facet_job *f)
 {
     const zbuffer_job *job = f->job;
@@ -704,7 +917,8 @@ static double facet_guess(const facet_job *f)
         middle[1] += f->corner[k][1] / 3;
         middle[2] += job->view->point[corner[k]].x[2] / 3;
     }
-    uint32_t owner = r->owner[(size_t)pixel_at(job, middle[1]) * r->size + pixel_at(job, middle[0])];
+    uint32_t owner =
+        r->owner[(size_t)pixel_at(job, middle[1]) * r->size + pixel_at(job, middle[0])];
     if (owner == LRCS_NONE) {
         return 1;
     }
@@ -723,26 +937,28 @@ static lrcsi_visible facet_area(zbuffer_job *job, uint32_t facet)
     lrcsi_visible v = {0, 0, area, 0, 0};
     if (!job->raster.undecided[facet]) {
         double doubt = sums.area[PLAIN] * pixel;
-        v.low = sums.shows[VISIBLE]
-                    ? lrcsi_most(0, area - doubt -
-                                        (sums.shows[HIDDEN] ? sums.area[HIDDEN] * pixel : 0))
-                    : 0;
-        v.high = sums.shows[HIDDEN]
-                     ? lrcsi_least(area, doubt +
-                                             (sums.shows[VISIBLE] ? sums.area[VISIBLE] * pixel : 0))
-                     : area;
+        v.low =
+            sums.shows[VISIBLE]
+                ? lrcsi_most(0, area - doubt - (sums.shows[HIDDEN] ? sums.area[HIDDEN] * pixel : 0))
+                : 0;
+        v.high =
+            sums.shows[HIDDEN]
+                ? lrcsi_least(area, doubt + (sums.shows[VISIBLE] ? sums.area[VISIBLE] * pixel : 0))
+                : area;
         v.low = lrcsi_least(v.low, v.high);
     }
-    double share = sums.covered > 0 ? (double)sums.owned / sums.covered : facet_guess(&f);
-    v.area = lrcsi_least(v.high, lrcsi_most(v.low, area * share));
+    double share = sums.told > 0                               ? sums.seen / sums.told
+                   : sums.shows[VISIBLE] != sums.shows[HIDDEN] ? sums.shows[VISIBLE]
+                                                               : facet_guess(&f);
+    v.area = v.low + share * (v.high - v.low);
     v.likely = lrcsi_least(v.high - v.low, sqrt(0.25 * sums.square) * pixel);
     return v;
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Facets that touch no mixed pixel, and what samples tell of them. Returns how many they do not tell
-   of. */
+/* Facets that touch no mixed pixel, and what samples tell of them. Returns how many they do not
+   tell of. */
 static uint32_t facets_plain(zbuffer_job *job)
 {
     const lrcsi_raster *r = &job->raster;
@@ -752,7 +968,9 @@ static uint32_t facets_plain(zbuffer_job *job)
         if (job->cast[f] == 0) {
             continue;
         }
-        if (r->undecided[f] || facet_mixed(job, f)) {
+        if (job->answer && job->answer[f] != LRCSI_QUERY_UNDECIDED) {
+            job->state[f] = job->answer[f] == LRCSI_QUERY_VISIBLE ? VISIBLE : HIDDEN;
+        } else if (r->undecided[f] || facet_mixed(job, f)) {
             job->state[f] = PARTLY;
         } else if (r->sample[f] == LRCS_NONE) {
             job->state[f] = PLAIN;
@@ -820,6 +1038,7 @@ size_t lrcsi_zbuffer_need(const lrcs_prepared *prepared, uint32_t size)
     size_t pixels = lrcsi_work_square(size);
     size_t need = lrcsi_raster_need(prepared, size);
     need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(float)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, 1));
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(map_words(size), sizeof(uint64_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(lrcsi_row)));
     size_t tiles = lrcsi_work_square((size - 1) / TILE + 1);
@@ -827,8 +1046,8 @@ size_t lrcsi_zbuffer_need(const lrcs_prepared *prepared, uint32_t size)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(zbuffer_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets + 1, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
-    size_t join = lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(uint32_t)),
-                                 lrcsi_work_bytes(facets, 1));
+    size_t join =
+        lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(uint32_t)), lrcsi_work_bytes(facets, 1));
     size_t events = lrcsi_events_need(prepared);
     return lrcsi_work_add(need, join > events ? join : events);
 }
@@ -838,6 +1057,7 @@ static int zbuffer_arrays(zbuffer_job *job, uint32_t size, lrcs_work *work)
     size_t facets = job->view->prepared->scene->facet_count;
     job->words = (size + BITS - 1) / BITS;
     job->event = lrcsi_work_take(work, lrcsi_work_square(size), sizeof *job->event);
+    job->events = lrcsi_work_take(work, lrcsi_work_square(size), 1);
     job->met = lrcsi_work_take_zero(work, map_words(size), sizeof *job->met);
     job->crossed = lrcsi_work_take_zero(work, map_words(size), sizeof *job->crossed);
     job->row = lrcsi_work_take(work, size, sizeof *job->row);
@@ -852,7 +1072,8 @@ static int zbuffer_arrays(zbuffer_job *job, uint32_t size, lrcs_work *work)
         job->tile_low[i] = HUGE_VALF;
         job->tile_high[i] = -HUGE_VALF;
     }
-    return job->event && job->tile_low && job->tile_high && job->met && job->crossed && job->row && job->box && job->cast && job->state
+    return job->event && job->events && job->tile_low && job->tile_high && job->met &&
+                   job->crossed && job->row && job->box && job->cast && job->state
                ? LRCS_OK
                : LRCS_E_MEMORY;
 }
@@ -896,7 +1117,7 @@ static int zbuffer_run(zbuffer_job *job, uint32_t size, lrcs_work *work, lrcsi_v
     events_contacts(job);
     pixels_part(job);
     for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
-        if (job->cast[f] != 0 && facet_passes(job, f)) {
+        if (job->cast[f] != 0 && (facet_covers(job, f) || facet_passes(job, f))) {
             pixels_pass(job, f);
         }
     }
@@ -913,10 +1134,10 @@ static int zbuffer_run(zbuffer_job *job, uint32_t size, lrcs_work *work, lrcsi_v
     return status;
 }
 
-int lrcsi_zbuffer_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
-                       lrcsi_visible *visible, lrcsi_zbuffer *zbuffer)
+int lrcsi_zbuffer_make(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_zbuffer *zbuffer)
 {
-    zbuffer_job job = {.view = view};
+    zbuffer_job job = {.view = view, .answer = answer};
     lrcsi_zbuffer made = {0, 0};
     size_t mark = work->used;
     int status = zbuffer_run(&job, size, work, visible, &made);
