@@ -33,10 +33,9 @@ typedef struct lrcsi_samples {
     lrcsi_pixels sure; /* those that it surely covers */
 } lrcsi_samples;
 
-/* A row of pixels. The last three lie one within the other. */
+/* A row of pixels, one range within the other. */
 typedef struct lrcsi_row {
     lrcsi_pixels touched; /* all that the facet may touch */
-    lrcsi_pixels may;     /* all whose centre it may cover */
     lrcsi_pixels sure;    /* those whose centre it surely covers, */
     lrcsi_pixels whole; /* and those of which it surely covers all: none is missing but by less than
                          the error of an edge function */

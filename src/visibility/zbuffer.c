@@ -3,7 +3,6 @@
    this suffices stands in the header; who owns a sample is decided by visibility/raster.c. */
 #include "visibility/zbuffer.h"
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -22,6 +21,12 @@ enum { TILE = 8 };
    and far below anything that would cost. */
 #define MARGIN 0x1p-20
 
+/* The likely error of an area is two standard deviations. Of a mixed pixel, a share that is as good
+   as any is taken for 0 or 1, whichever is nearer: that errs by 1 / 12 in the mean square. Pixels
+   err by chance, but for those along an edge that runs along a row or column, all of which err
+   alike: so the longest run of them counts as one, if that is more. */
+#define LIKELY (3 / 12.0)
+
 /* The pixels x0 <= x < x1, y0 <= y < y1 that a facet may touch. */
 typedef struct zbuffer_box {
     uint16_t x0, x1, y0, y1;
@@ -30,20 +35,33 @@ typedef struct zbuffer_box {
 /* What is known of a facet. */
 enum { PLAIN = 0, HIDDEN, VISIBLE, PARTLY };
 
+/* Mixed pixels of a facet one behind the other that are likely to show the same: where they end,
+   and their area. */
+typedef struct doubt_chain {
+    uint32_t facet, at;
+    int32_t shows;
+    float area;
+} doubt_chain;
+
+/* In a row, in each column, and in each diagonal either way. */
+enum { CHAINS = 4 };
+
 typedef struct zbuffer_job {
     const lrcsi_view *view;
     const unsigned char *answer; /* facet: what exact queries tell, or NULL */
     lrcsi_raster raster;
-    uint32_t words;    /* of a row of a bit map */
-    signed char *cast; /* facet: its facing where it casts, else 0; one more 0 at the end */
-    zbuffer_box *box;  /* facet that casts */
-    float *event;      /* pixel met by events: the nearest depth of one; later t, parting depth */
+    uint32_t words;     /* of a row of a bit map */
+    signed char *cast;  /* facet: its facing where it casts, else 0; one more 0 at the end */
+    zbuffer_box *box;   /* facet that casts */
+    lrcsi_events edges; /* event edges */
+    float *event;       /* pixel met by events: the nearest depth of one; later t, parting depth */
     unsigned char *events; /* pixel met by events: how many, 255 for more */
     float *cover;          /* the same pixel: all of it is covered by one facet at least as near;
                               in the raster's depths, once those have served */
     uint64_t *met;         /* bit map: pixels that events may touch */
     uint64_t *crossed;     /* bit map: pixels not cleared by t; in the end those that are mixed */
     unsigned char *state;  /* facet */
+    doubt_chain *chain;    /* of the facet at hand: its row, column by column, diagonals */
     lrcsi_row *row;        /* row of the raster: of the facet at hand */
     float *tile_low, *tile_high; /* tile: the least and the most t of its pixels, but of crossed */
     uint32_t tiles;              /* along each side */
@@ -124,7 +142,7 @@ static inline void event_mark(zbuffer_job *job, uint32_t x, uint32_t y, float z)
         job->events[at] = 1;
     } else {
         job->event[at] = job->event[at] < z ? z : job->event[at];
-        job->events[at] = (unsigned char)(job->events[at] + (job->events[at] != UCHAR_MAX));
+        job->events[at] = (unsigned char)(job->events[at] + (job->events[at] != 0xff));
     }
 }
 
@@ -224,16 +242,13 @@ static int event_marks(const zbuffer_job *job, const event_line *l, uint32_t x, 
 static int events_edges(zbuffer_job *job, lrcs_work *work)
 {
     const lrcs_prepared *p = job->view->prepared;
-    size_t mark = work->used;
-    lrcsi_events events;
-    int status = lrcsi_events_make(job->view, job->cast, work, &events);
+    int status = lrcsi_events_make(job->view, job->cast, work, &job->edges);
     if (status != LRCS_OK) {
         return status;
     }
-    for (uint32_t i = 0; i < events.count; i++) {
-        event_edge(job, events.edge[i]);
+    for (uint32_t i = 0; i < job->edges.count; i++) {
+        event_edge(job, job->edges.edge[i]);
     }
-    work->used = mark;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         for (int k = 0; k < 3 && job->cast[f] != 0; k++) {
             if (p->touches.rim[f] >> k & 1) {
@@ -402,14 +417,11 @@ static void pixels_part(zbuffer_job *job)
     }
 }
 
-/* A facet worth asking which pixels it covers: one that owns a sample. Others would serve as well,
-   but hardly ever better. */
+/* May the facet cover a pixel? Then it touches those on either side, too. */
 static int facet_covers(const zbuffer_job *job, uint32_t facet)
 {
     const zbuffer_box *box = &job->box[facet];
-    uint32_t sample = job->raster.sample[facet];
-    return box->x1 - box->x0 > 2 && box->y1 - box->y0 > 2 && sample != LRCS_NONE &&
-           job->raster.owner[sample] == facet;
+    return box->x1 - box->x0 > 2 && box->y1 - box->y0 > 2;
 }
 
 /* May the facet pass through t in a pixel? Not where no t of the tiles that it touches lies between
@@ -434,14 +446,21 @@ static int facet_passes(const zbuffer_job *job, uint32_t facet)
 }
 
 /* Of the pixels met by events: which does the facet pass through t in, and which does it cover? */
-static void pixels_pass(zbuffer_job *job, uint32_t facet)
+static void pixels_pass(zbuffer_job *job, uint32_t facet, int covers)
 {
     const zbuffer_box *box = &job->box[facet];
+    uint64_t clear = covers ? ~(uint64_t)0 : 0; /* pixels already crossed matter to covers only */
     pixel_plane p;
     lrcsi_edges e;
     int started = 0;
     for (uint32_t y = box->y0; y < box->y1; y++) {
-        if (!bit_any(job, job->met, y, box->x0, box->x1)) {
+        const uint64_t *met = job->met + (size_t)y * job->words;
+        const uint64_t *crossed = job->crossed + (size_t)y * job->words;
+        uint64_t any = 0;
+        for (uint32_t word = box->x0 / BITS; word * BITS < box->x1; word++) {
+            any |= met[word] & (~crossed[word] | clear) & bit_range(word, box->x0, box->x1);
+        }
+        if (any == 0) {
             continue;
         }
         if (!started) {
@@ -453,11 +472,11 @@ static void pixels_pass(zbuffer_job *job, uint32_t facet)
             continue;
         }
         lrcsi_row row = lrcsi_span_row(&e, y);
-        const uint64_t *met = job->met + (size_t)y * job->words;
         float *event = job->event + (size_t)y * job->raster.size;
         float *cover = job->cover + (size_t)y * job->raster.size;
         for (uint32_t word = row.touched.x0 / BITS; word * BITS < row.touched.x1; word++) {
-            uint64_t bits = met[word] & bit_range(word, row.touched.x0, row.touched.x1);
+            uint64_t bits = met[word] & (~crossed[word] | clear) &
+                            bit_range(word, row.touched.x0, row.touched.x1);
             for (; bits != 0; bits &= bits - 1) {
                 uint32_t x = word * BITS + bit_lowest(bits);
                 double height = pixel_height(&p, x, y);
@@ -493,9 +512,7 @@ static void pixels_cover(zbuffer_job *job)
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* The sides of a facet that are events, each marked once: those with nothing across that faces as
-   it does. Irregular edges are left out, and so are sides that others split, which are marked
-   again. */
+/* The sides of a facet that are event edges. */
 typedef struct facet_sides {
     event_line line[3];
     int count;
@@ -503,14 +520,11 @@ typedef struct facet_sides {
 
 static facet_sides facet_sides_of(const zbuffer_job *job, uint32_t facet)
 {
-    const lrcs_prepared *p = job->view->prepared;
+    const uint32_t *edge = job->view->prepared->topology.facet_edge[facet].corner;
     facet_sides sides = {.count = 0};
     for (int k = 0; k < 3; k++) {
-        uint32_t other = p->across.facet[facet].corner[k];
-        if (other != facet &&
-            (other == p->scene->facet_count || !lrcsi_grid_casts(job->view, other) ||
-             job->view->facing[other] != job->view->facing[facet])) {
-            sides.line[sides.count++] = event_line_of(job, p->topology.facet_edge[facet].corner[k]);
+        if (lrcsi_events_has(&job->edges, edge[k])) {
+            sides.line[sides.count++] = event_line_of(job, edge[k]);
         }
     }
     return sides;
@@ -626,7 +640,7 @@ static double pixel_share(const zbuffer_job *job, const lrcsi_edges *e, double c
 }
 
 /* A facet that touches mixed pixels, or of which no sample tells. */
-typedef struct facet_job {
+typedef struct doubt_job {
     zbuffer_job *job;
     uint32_t facet;
     lrcsi_edges edges;
@@ -634,11 +648,11 @@ typedef struct facet_job {
     double corner[3][2]; /* in pixels */
     facet_sides sides;
     uint32_t rows; /* of the job, below this: those last asked for and the one before */
-} facet_job;
+} doubt_job;
 
-static facet_job facet_start(zbuffer_job *job, uint32_t facet)
+static doubt_job doubt_start(zbuffer_job *job, uint32_t facet)
 {
-    facet_job f = {.job = job, .facet = facet};
+    doubt_job f = {.job = job, .facet = facet};
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
     f.edges = lrcsi_raster_edges(&job->raster, facet);
     f.plane = pixel_plane_of(job, facet);
@@ -651,7 +665,7 @@ static facet_job facet_start(zbuffer_job *job, uint32_t facet)
 }
 
 /* Row y of the facet; rows are asked for in order, but for the one before. */
-static const lrcsi_row *facet_row(facet_job *f, uint32_t y)
+static const lrcsi_row *doubt_row(doubt_job *f, uint32_t y)
 {
     lrcsi_row *row = &f->job->row[y];
     if (y >= f->rows) {
@@ -665,15 +679,41 @@ static const lrcsi_row *facet_row(facet_job *f, uint32_t y)
 }
 
 /* In pixels, at most: by what shows of the facet there, PLAIN where nothing tells. */
-typedef struct facet_sums {
+typedef struct doubt_sums {
     double area[VISIBLE + 1];
-    double square;          /* of the areas in doubt */
+    double square;          /* of areas in doubt of which no sample tells */
+    double starts[CHAINS];  /* squares of others, where a chain begins */
+    double longest;         /* the largest in a chain */
     double told, seen;      /* of the areas in doubt: where samples on the facet or beside tell what
                                is likely, and as how much they show it */
     int shows[VISIBLE + 1]; /* is there any? */
-} facet_sums;
+    int last;               /* what the last pixels showed of which samples tell */
+} doubt_sums;
 
-static double facet_share(const facet_job *f, uint32_t x, uint32_t y)
+/* Lengthens a chain, or begins it anew. Returns its area. */
+static double chain_grow(doubt_chain *chain, uint32_t facet, uint32_t at, int shows, double area)
+{
+    int goes_on = chain->facet == facet && chain->at + 1 == at && chain->shows == shows;
+    double all = area + (goes_on ? (double)chain->area : 0);
+    *chain = (doubt_chain){facet, at, shows, (float)all};
+    return all;
+}
+
+/* Adds a mixed pixel to the chains that it is in. */
+static void chains_grow(const doubt_job *f, uint32_t x, uint32_t y, double share, doubt_sums *sums)
+{
+    uint32_t size = f->job->raster.size;
+    doubt_chain *chain = f->job->chain;
+    doubt_chain *in[CHAINS] = {chain, chain + 1 + x, chain + 1 + size + (x + size - y),
+                               chain + 1 + 3 * (size_t)size + (x + y)};
+    for (int k = 0; k < CHAINS; k++) {
+        double area = chain_grow(in[k], f->facet, k == 0 ? y * size + x : y, sums->last, share);
+        sums->longest = lrcsi_most(sums->longest, area);
+        sums->starts[k] += area > share ? 0 : share * share;
+    }
+}
+
+static double doubt_share(const doubt_job *f, uint32_t x, uint32_t y)
 {
     return lrcsi_span_has(f->job->row[y].whole, x)
                ? 1
@@ -681,21 +721,28 @@ static double facet_share(const facet_job *f, uint32_t x, uint32_t y)
 }
 
 /* Does the sample of a pixel show the facet, if it covers it? Adds to the counts of both. */
-static void count_sample(facet_job *f, uint32_t x, uint32_t y, int *covered, int *owned)
+static void count_sample(doubt_job *f, uint32_t x, uint32_t y, int *covered, int *owned)
 {
     const lrcsi_raster *r = &f->job->raster;
-    if (y >= f->edges.bottom && y < f->edges.top && lrcsi_span_has(facet_row(f, y)->sure, x)) {
+    if (y >= f->edges.bottom && y < f->edges.top && lrcsi_span_has(doubt_row(f, y)->sure, x)) {
         *covered += 1;
         *owned += r->owner[(size_t)y * r->size + x] == f->facet;
     }
 }
 
+/* An area in doubt that is likely to show what was seen last. */
+static void sum_last(doubt_sums *sums, double area)
+{
+    sums->told += sums->last != PLAIN ? area : 0;
+    sums->seen += sums->last == VISIBLE ? area : 0;
+}
+
 /* A mixed pixel: in doubt, but where another facet covers it nearer. How much of it is likely to be
    visible its sample tells, or those beside it. */
-static void sum_mixed(facet_job *f, uint32_t x, uint32_t y, facet_sums *sums)
+static void sum_mixed(doubt_job *f, uint32_t x, uint32_t y, doubt_sums *sums)
 {
     const zbuffer_job *job = f->job;
-    double share = facet_share(f, x, y);
+    double share = doubt_share(f, x, y);
     double near = pixel_near(&f->plane, pixel_height(&f->plane, x, y));
     if (bit_get(job, job->met, x, y) &&
         near < (double)job->cover[(size_t)y * job->raster.size + x]) {
@@ -706,26 +753,31 @@ static void sum_mixed(facet_job *f, uint32_t x, uint32_t y, facet_sums *sums)
     int covered = 0;
     int owned = 0;
     count_sample(f, x, y, &covered, &owned);
-    if (covered == 0) {
+    if (covered > 0) {
+        sums->last = owned ? VISIBLE : HIDDEN;
+        sum_last(sums, share);
+    } else {
         count_sample(f, x - 1, y, &covered, &owned);
         count_sample(f, x + 1, y, &covered, &owned);
         count_sample(f, x, y - 1, &covered, &owned);
         count_sample(f, x, y + 1, &covered, &owned);
-    }
-    if (covered > 0) {
-        sums->told += share;
-        sums->seen += share * owned / covered;
+        if (covered > 0) {
+            sums->told += share;
+            sums->seen += share * owned / covered;
+        } else {
+            sum_last(sums, share);
+        }
     }
     sums->area[PLAIN] += share;
     sums->shows[PLAIN] = 1;
-    sums->square += share * share;
+    chains_grow(f, x, y, share, sums);
 }
 
 /* What a sample in pixels x0 <= x < x1 of row y tells, none of which is mixed. */
-static int run_sample(facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
+static int run_sample(doubt_job *f, uint32_t y, uint32_t x0, uint32_t x1)
 {
     const zbuffer_job *job = f->job;
-    lrcsi_pixels sure = facet_row(f, y)->sure;
+    lrcsi_pixels sure = doubt_row(f, y)->sure;
     uint32_t from = x0 > sure.x0 ? x0 : sure.x0;
     uint32_t to = x1 < sure.x1 ? x1 : sure.x1;
     if (from >= to) {
@@ -735,7 +787,7 @@ static int run_sample(facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
 }
 
 /* The same, of a row beside the one where the pixels are not mixed. */
-static int run_beside(facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
+static int run_beside(doubt_job *f, uint32_t y, uint32_t x0, uint32_t x1)
 {
     return y < f->edges.bottom || y >= f->edges.top || bit_any(f->job, f->job->crossed, y, x0, x1)
                ? PLAIN
@@ -743,7 +795,7 @@ static int run_beside(facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
 }
 
 /* Is the facet farther than t, or than a facet that covers the pixel, in all of a run? */
-static int run_behind(const facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
+static int run_behind(const doubt_job *f, uint32_t y, uint32_t x0, uint32_t x1)
 {
     const zbuffer_job *job = f->job;
     for (uint32_t x = x0; x < x1; x++) {
@@ -761,12 +813,13 @@ static int run_behind(const facet_job *f, uint32_t y, uint32_t x0, uint32_t x1)
    convex, so that one sample tells of all, or one in the same pixels of the next row or the one
    before, if none of those is mixed: its part of both is. `areas`: the first
    pass tells which show what; areas that are known are added up in the second. */
-static void sum_run(facet_job *f, uint32_t y, uint32_t x0, uint32_t x1, int areas, facet_sums *sums)
+static void sum_run(doubt_job *f, uint32_t y, uint32_t x0, uint32_t x1, int areas, doubt_sums *sums)
 {
     int shows = run_sample(f, y, x0, x1);
     shows = shows != PLAIN ? shows : run_beside(f, y - 1, x0, x1);
     shows = shows != PLAIN ? shows : run_beside(f, y + 1, x0, x1);
     shows = shows != PLAIN ? shows : run_behind(f, y, x0, x1) ? HIDDEN : PLAIN;
+    sums->last = shows != PLAIN ? shows : sums->last;
     sums->shows[shows] = 1;
     if (areas != (shows != PLAIN)) {
         return;
@@ -775,21 +828,23 @@ static void sum_run(facet_job *f, uint32_t y, uint32_t x0, uint32_t x1, int area
     for (uint32_t x = x0; x < x1; x++) {
         if (x >= whole.x0 && whole.x1 > x && whole.x1 <= x1) { /* all at once */
             sums->area[shows] += whole.x1 - x;
-            sums->square += shows == PLAIN ? whole.x1 - x : 0;
             x = whole.x1 - 1;
             continue;
         }
-        double share = facet_share(f, x, y);
+        double share = doubt_share(f, x, y);
         sums->area[shows] += share;
-        sums->square += shows == PLAIN ? share * share : 0;
+        if (shows == PLAIN) {
+            sums->square += share * share;
+            sum_last(sums, share);
+        }
     }
 }
 
 /* The runs of a row between mixed pixels, and those. */
-static void sum_row(facet_job *f, uint32_t y, int areas, facet_sums *sums)
+static void sum_row(doubt_job *f, uint32_t y, int areas, doubt_sums *sums)
 {
     const zbuffer_job *job = f->job;
-    lrcsi_pixels touched = facet_row(f, y)->touched;
+    lrcsi_pixels touched = doubt_row(f, y)->touched;
     const uint64_t *crossed = job->crossed + (size_t)y * job->words;
     uint32_t from = touched.x0;
     for (uint32_t word = touched.x0 / BITS; word * BITS < touched.x1; word++) {
@@ -815,7 +870,7 @@ static void sum_row(facet_job *f, uint32_t y, int areas, facet_sums *sums)
 
 /* The area, in pixels, that the facet has in rows y0 <= y < y1, at most: what is left of its sides
    between those two lines, joined along them. */
-static double rows_area(const facet_job *f, uint32_t y0, uint32_t y1)
+static double rows_area(const doubt_job *f, uint32_t y0, uint32_t y1)
 {
     double inside[8][2];
     int count = 0;
@@ -849,7 +904,7 @@ static double rows_area(const facet_job *f, uint32_t y0, uint32_t y1)
 
 /* Rows y0 <= y < y1 without mixed pixels: what the facet has there is convex, and one sample tells
    of all. */
-static void sum_block(facet_job *f, uint32_t y0, uint32_t y1, int areas, facet_sums *sums)
+static void sum_block(doubt_job *f, uint32_t y0, uint32_t y1, int areas, doubt_sums *sums)
 {
     const lrcsi_raster *r = &f->job->raster;
     uint32_t middle = y0 + (y1 - y0) / 2;
@@ -862,15 +917,19 @@ static void sum_block(facet_job *f, uint32_t y0, uint32_t y1, int areas, facet_s
         }
     }
     sums->shows[shows] = 1;
+    sums->last = shows != PLAIN ? shows : sums->last;
     if (areas == (shows != PLAIN)) {
         double area = rows_area(f, y0, y1);
         sums->area[shows] += area;
-        sums->square += shows == PLAIN ? area * area : 0;
+        if (shows == PLAIN) {
+            sums->square += area * area;
+            sum_last(sums, area);
+        }
     }
 }
 
 /* All rows. Blocks without mixed pixels end where a row has some in the box of the facet. */
-static void sum_rows(facet_job *f, int areas, facet_sums *sums)
+static void sum_rows(doubt_job *f, int areas, doubt_sums *sums)
 {
     const zbuffer_job *job = f->job;
     uint32_t from = f->edges.bottom;
@@ -894,9 +953,10 @@ static void sum_rows(facet_job *f, int areas, facet_sums *sums)
    pixels are counted exactly. Of the rest at most 12 N are added up (along each row or column a
    side touches 4 at most), so that an addition rounds by at most 12 u N: less than each share
    gives. */
-static facet_sums facet_sum(facet_job *f)
+static doubt_sums doubt_sum(doubt_job *f)
 {
-    facet_sums sums = {{0, 0, 0}, 0, 0, 0, {0, 0, 0}};
+    doubt_sums sums = {.last = PLAIN};
+    f->job->chain[0].at = LRCS_NONE - 1;
     sum_rows(f, 0, &sums);
     if (sums.shows[HIDDEN] && sums.shows[VISIBLE]) {
         sum_rows(f, 1, &sums);
@@ -906,7 +966,7 @@ static facet_sums facet_sum(facet_job *f)
 
 /* The share of a facet that covers no sample: all or nothing, as the owner of the sample next to
    its centroid is farther or nearer there, but for a pixel. */
-static double facet_guess(const facet_job *f)
+static double doubt_guess(const doubt_job *f)
 {
     const zbuffer_job *job = f->job;
     const lrcsi_raster *r = &job->raster;
@@ -928,12 +988,12 @@ static double facet_guess(const facet_job *f)
 }
 
 /* Pixel areas are side^2 / N^2 to a few roundings; 1e-12 of them is given away. */
-static lrcsi_visible facet_area(zbuffer_job *job, uint32_t facet)
+static lrcsi_visible doubt_area(zbuffer_job *job, uint32_t facet)
 {
     double area = lrcsi_view_projected(job->view, facet);
     double pixel = job->raster.pixel * job->raster.pixel * (1 + 1e-12);
-    facet_job f = facet_start(job, facet);
-    facet_sums sums = facet_sum(&f);
+    doubt_job f = doubt_start(job, facet);
+    doubt_sums sums = doubt_sum(&f);
     lrcsi_visible v = {0, 0, area, 0, 0};
     if (!job->raster.undecided[facet]) {
         double doubt = sums.area[PLAIN] * pixel;
@@ -949,9 +1009,15 @@ static lrcsi_visible facet_area(zbuffer_job *job, uint32_t facet)
     }
     double share = sums.told > 0                               ? sums.seen / sums.told
                    : sums.shows[VISIBLE] != sums.shows[HIDDEN] ? sums.shows[VISIBLE]
-                                                               : facet_guess(&f);
+                                                               : doubt_guess(&f);
     v.area = v.low + share * (v.high - v.low);
-    v.likely = lrcsi_least(v.high - v.low, sqrt(0.25 * sums.square) * pixel);
+    double square = HUGE_VAL;
+    for (int k = 0; k < CHAINS; k++) {
+        square = lrcsi_least(square, sums.starts[k]);
+    }
+    square += sums.square;
+    v.likely =
+        lrcsi_least(v.high - v.low, sqrt(LIKELY * (square + sums.longest * sums.longest)) * pixel);
     return v;
 }
 
@@ -1017,7 +1083,7 @@ static void facets_areas(zbuffer_job *job, lrcsi_visible *visible, lrcsi_zbuffer
         double area = job->state[f] == VISIBLE ? lrcsi_view_projected(job->view, f) : 0;
         visible[f] = (lrcsi_visible){area, area, area, 0, 0};
         if (job->state[f] == PARTLY) {
-            visible[f] = facet_area(job, f);
+            visible[f] = doubt_area(job, f);
             zbuffer->partial += visible[f].low < visible[f].high;
         }
         zbuffer->undecided |= job->raster.undecided[f];
@@ -1041,6 +1107,7 @@ size_t lrcsi_zbuffer_need(const lrcs_prepared *prepared, uint32_t size)
     need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, 1));
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(map_words(size), sizeof(uint64_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(lrcsi_row)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(5 * (size_t)size + 1, sizeof(doubt_chain)));
     size_t tiles = lrcsi_work_square((size - 1) / TILE + 1);
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(tiles, sizeof(float)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(zbuffer_box)));
@@ -1049,7 +1116,7 @@ size_t lrcsi_zbuffer_need(const lrcs_prepared *prepared, uint32_t size)
     size_t join =
         lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(uint32_t)), lrcsi_work_bytes(facets, 1));
     size_t events = lrcsi_events_need(prepared);
-    return lrcsi_work_add(need, join > events ? join : events);
+    return lrcsi_work_add(need, lrcsi_work_add(join, events));
 }
 
 static int zbuffer_arrays(zbuffer_job *job, uint32_t size, lrcs_work *work)
@@ -1061,6 +1128,7 @@ static int zbuffer_arrays(zbuffer_job *job, uint32_t size, lrcs_work *work)
     job->met = lrcsi_work_take_zero(work, map_words(size), sizeof *job->met);
     job->crossed = lrcsi_work_take_zero(work, map_words(size), sizeof *job->crossed);
     job->row = lrcsi_work_take(work, size, sizeof *job->row);
+    job->chain = lrcsi_work_take_zero(work, 5 * (size_t)size + 1, sizeof *job->chain);
     job->tiles = (size - 1) / TILE + 1;
     size_t tiles = lrcsi_work_square(job->tiles);
     job->tile_low = lrcsi_work_take(work, tiles, sizeof *job->tile_low);
@@ -1072,7 +1140,7 @@ static int zbuffer_arrays(zbuffer_job *job, uint32_t size, lrcs_work *work)
         job->tile_low[i] = HUGE_VALF;
         job->tile_high[i] = -HUGE_VALF;
     }
-    return job->event && job->events && job->tile_low && job->tile_high && job->met &&
+    return job->chain && job->event && job->events && job->tile_low && job->tile_high && job->met &&
                    job->crossed && job->row && job->box && job->cast && job->state
                ? LRCS_OK
                : LRCS_E_MEMORY;
@@ -1117,8 +1185,9 @@ static int zbuffer_run(zbuffer_job *job, uint32_t size, lrcs_work *work, lrcsi_v
     events_contacts(job);
     pixels_part(job);
     for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
-        if (job->cast[f] != 0 && (facet_covers(job, f) || facet_passes(job, f))) {
-            pixels_pass(job, f);
+        int covers = job->cast[f] != 0 && facet_covers(job, f);
+        if (covers || (job->cast[f] != 0 && facet_passes(job, f))) {
+            pixels_pass(job, f, covers);
         }
     }
     pixels_cover(job);
