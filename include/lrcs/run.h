@@ -17,6 +17,17 @@ enum lrcs_method {
 const char *lrcs_method_text(int method);
 int lrcs_method_find(const char *name);
 
+/* What must meet the tolerance for an answer to count as accurate enough. */
+enum lrcs_accept {
+    LRCS_ACCEPT_BOUND = 0, /* the proved bound */
+    LRCS_ACCEPT_ESTIMATE,  /* or a raster's likely error, a guess: LRCS_FLAG_ACCEPTED_BY_ESTIMATE */
+    LRCS_ACCEPT_ANY        /* or nothing: the first answer serves: LRCS_FLAG_ACCEPTED_UNJUDGED */
+};
+
+/* The name ("bound", ...), or NULL. And back: LRCS_E_NAME for none. */
+const char *lrcs_accept_text(int accept);
+int lrcs_accept_find(const char *name);
+
 /* Everything about a scene that does not depend on direction: normals, edges, which facets
    touch which, what the planner can prove. Opaque; lives in the caller's work area. */
 typedef struct lrcs_prepared lrcs_prepared;
@@ -58,9 +69,10 @@ typedef struct lrcs_run_options {
     uint32_t without;    /* effects to leave out, bits 1u << LRCS_EFFECT_...: note 1 */
     uint32_t with;       /* effects to simulate, none of them in `without`: note 2 */
     uint64_t steps;      /* most steps of finding what is seen, 0: no limit: note 3 */
+    int accept;          /* lrcs_accept: note 4 */
 } lrcs_run_options;
 
-/* 1e-4, auto, 0, 0, 0, 0.
+/* 1e-4, auto, 0, 0, 0, 0, bound.
 
    Notes: 1. `without` shows what an effect does and costs; leaving out one that is off changes
    nothing. Without self-shadowing a run is one by method facet, whatever the method: the bound
@@ -79,7 +91,14 @@ typedef struct lrcs_run_options {
    LRCS_FLAG_STEPS_SPENT is set. What grows faster than the scene is counted, alike on every machine
    (over curved normals but for libm's last bits): passes over facets, edges and contacts are not,
    nor are a raster's pixels and searches, by method zbuffer or for want of memory
-   (examples/flight/README.md). lrcs_result.steps tells how many a run took. */
+   (examples/flight/README.md). lrcs_result.steps tells how many a run took.
+   4. For previews: with LRCS_ACCEPT_ESTIMATE auto draws a raster as coarse as the tolerance allows,
+   a finer one where its likely error, estimate_m2, exceeds what the proved parts of the bound
+   (tessellation, rounding) leave of the tolerance, and clips where no raster's does. An estimate
+   counts only where all depths were decided, no limit of steps was reached and sigma is not 0. The
+   bound stays the proved one, and an answer that it admits is none by estimate. With
+   LRCS_ACCEPT_ANY auto draws the first of those rasters and takes what comes: no tolerance is
+   missed. Other methods run as ever, and their answers are judged in the same way. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {
@@ -89,14 +108,18 @@ typedef struct lrcs_effect {
 
 const char *lrcs_effect_text(int effect); /* "self_shadowing", ... or NULL */
 
-/* Flags: the answer is degraded, the bound widened accordingly. */
+/* Flags: the answer is degraded, the bound widened accordingly; or it was accepted unproved. */
 enum lrcs_flag {
     LRCS_FLAG_TOLERANCE_NOT_MET = 1 << 0,
     /* for want of memory: a raster in place of clipping, or a coarser one than asked, or facets
        that were not clipped */
     LRCS_FLAG_MEMORY_FALLBACK = 1 << 1,
     LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2, /* two facets too close at a sample to tell apart */
-    LRCS_FLAG_STEPS_SPENT = 1 << 3      /* lrcs_run_options.steps did not suffice */
+    LRCS_FLAG_STEPS_SPENT = 1 << 3,     /* lrcs_run_options.steps did not suffice */
+    /* the bound exceeds the tolerance: estimate_m2, a guess, does not, and was asked to count */
+    LRCS_FLAG_ACCEPTED_BY_ESTIMATE = 1 << 4,
+    /* bound and estimate exceed it, or there is none: any answer was asked to count */
+    LRCS_FLAG_ACCEPTED_UNJUDGED = 1 << 5
 };
 const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 

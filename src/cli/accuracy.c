@@ -21,6 +21,14 @@ int cli_accuracy_read(const cli_args *args, lrcs_run_options *options)
                              method);
         }
     }
+    const char *accept = cli_value(args, "accept");
+    if (code == 0 && accept) {
+        options->accept = lrcs_accept_find(accept);
+        if (options->accept < 0) {
+            return cli_usage(args->command, "--accept: expected bound, estimate or any, found '%s'",
+                             accept);
+        }
+    }
     return code ? code : cli_whole(args, "resolution", 1.0, RASTER_MOST, &options->resolution);
 }
 
@@ -39,6 +47,25 @@ int cli_normals_read(const cli_args *args, lrcs_host_options *load)
 int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options)
 {
     return options->method == LRCS_METHOD_AUTO || cli_value(args, "tolerance") != NULL;
+}
+
+const char *cli_accepted_by(uint32_t flags)
+{
+    return flags & LRCS_FLAG_TOLERANCE_NOT_MET
+               ? NULL
+               : lrcs_accept_text(flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE ? LRCS_ACCEPT_ESTIMATE
+                                  : flags & LRCS_FLAG_ACCEPTED_UNJUDGED  ? LRCS_ACCEPT_ANY
+                                                                         : LRCS_ACCEPT_BOUND);
+}
+
+void cli_accepted_print(FILE *out, uint32_t flags)
+{
+    if (flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) {
+        fputs("notice: the tolerance is met by the estimate alone, not by the bound\n", out);
+    }
+    if (flags & LRCS_FLAG_ACCEPTED_UNJUDGED) {
+        fputs("notice: the tolerance is not judged: any answer was accepted\n", out);
+    }
 }
 
 int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags)

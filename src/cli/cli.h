@@ -36,13 +36,16 @@ enum cli_exit {
     "  --tolerance REL       relative error asked for (1e-4); exit 3 where the bound, or the "     \
     "estimate\n"                                                                                   \
     "                        that curved normals add, exceeds it\n"                                \
+    "  --accept WHAT         what must meet it: bound (default); estimate: a raster's likely "     \
+    "error, a\n"                                                                                   \
+    "                        guess, serves too; any: the first answer, no tolerance is missed\n"   \
     "  --method M            auto (default), facet, zbuffer or exact\n"                            \
     "  --resolution N        raster N x N (default: from the tolerance)\n"                         \
     "  --normals N           flat (default); smooth: curved, from smoothing groups and vertex "    \
     "normals;\n"                                                                                   \
     "                        auto: only where flat facets are too coarse for their glint\n"
 #define CLI_ACCURACY_OPTIONS                                                                       \
-    {"tolerance", 1, 0}, {"method", 1, 0}, {"resolution", 1, 0},                                   \
+    {"tolerance", 1, 0}, {"accept", 1, 0}, {"method", 1, 0}, {"resolution", 1, 0},                 \
     {                                                                                              \
         "normals", 1, 0                                                                            \
     }
@@ -125,12 +128,18 @@ int cli_finish(int code);
 /* The pose that the options ask for; 0 or CLI_USAGE. */
 int cli_pose_read(const cli_args *args, lrcs_pose *pose);
 
-/* --tolerance, --method and --resolution; --normals. 0 or CLI_USAGE. */
+/* --tolerance, --accept, --method and --resolution; --normals. 0 or CLI_USAGE. */
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options);
 int cli_normals_read(const cli_args *args, lrcs_host_options *load);
 
 /* Does a tolerance that is not met count? Not where a method was forced and none was asked for. */
 int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options);
+
+/* What let an answer count: "bound", "estimate", "any"; NULL where it missed its tolerance. */
+const char *cli_accepted_by(uint32_t flags);
+
+/* Says so where an answer counts without a proof; else nothing. */
+void cli_accepted_print(FILE *out, uint32_t flags);
 
 /* The exit code of a run with these flags: CLI_DONE or CLI_DEGRADED. */
 int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags);

@@ -14,6 +14,7 @@
 enum converge_dial {
     CONVERGE_ZBUFFER, /* its resolution */
     CONVERGE_MESH,    /* how finely shapes are tessellated */
+    CONVERGE_PREVIEW, /* the tolerance, met by an estimate: --accept estimate */
     CONVERGE_FACET,   /* no self-shadowing */
     CONVERGE_EXACT,
     CONVERGE_DIALS
@@ -32,16 +33,18 @@ typedef struct converge_setting {
     char name[48];
     int method;
     uint32_t resolution; /* 0: no raster */
+    int digits;          /* of the tolerance 10^-digits that an estimate is to meet; 0: none is */
     uint32_t mesh;       /* index */
     uint32_t runs;
     double seconds[CONVERGE_REPEATS]; /* of each run */
     double spent_s, pose_s;           /* their sum and their median */
     double sigma_m2;
-    double error_m2;     /* |sigma - truth| */
-    double estimate_m2;  /* negative: none */
-    double bound_m2;     /* of |sigma - truth| but for the truth's own; negative: not known */
-    int whole;           /* the bound is against the true shapes, not against the facets */
-    int short_of_memory; /* a coarser raster than asked */
+    double error_m2;         /* |sigma - truth| */
+    double estimate_m2;      /* negative: none */
+    double bound_m2;         /* of |sigma - truth| but for the truth's own; negative: not known */
+    int whole;               /* the bound is against the true shapes, not against the facets */
+    int short_of_memory;     /* a coarser raster than asked */
+    const char *accepted_by; /* of a preview: "estimate", "bound", or NULL where it is missed */
 } converge_setting;
 
 typedef struct converge_truth {
@@ -86,7 +89,7 @@ const lrcs_host_scene *cli_converge_scene(const converge_job *job, const converg
 
 /* The sentence that sums up. */
 typedef struct converge_sentence {
-    char text[640];
+    char text[960];
 } converge_sentence;
 converge_sentence cli_converge_sentence(const converge_job *job);
 

@@ -27,6 +27,7 @@ typedef struct chart_curves {
 static const struct {
     int colour, marker;
 } chart_dials[CONVERGE_DIALS] = {[CONVERGE_MESH] = {LRCS_HOST_GREEN, LRCS_HOST_TRIANGLE},
+                                 [CONVERGE_PREVIEW] = {LRCS_HOST_ORANGE, LRCS_HOST_SQUARE},
                                  [CONVERGE_FACET] = {LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
                                  [CONVERGE_EXACT] = {LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
                                  [CONVERGE_ZBUFFER] = {LRCS_HOST_BLUE, LRCS_HOST_DISC}};
@@ -59,6 +60,10 @@ static void curve_name(const converge_job *job, int dial, int quantity, chart_cu
     int method = 0;
     for (uint32_t i = 0; i < job->settings; i++) {
         method = job->setting[i].dial == dial ? job->setting[i].method : method;
+    }
+    if (dial == CONVERGE_PREVIEW) {
+        snprintf(curve->name, sizeof curve->name, "accepted by estimate: %s", what[quantity]);
+        return;
     }
     const char *position = dial == CONVERGE_MESH      ? ", mesh 1e-k"
                            : dial == CONVERGE_ZBUFFER ? " N"
@@ -93,18 +98,19 @@ static void curve_add(const converge_job *job, chart_curves *all, int dial, int 
     }
 }
 
-/* The curves of a dial; the upper one has the settings' names. */
+/* The curves of a dial; the upper one has the settings' names. A preview's bound is that of its
+   raster, which is no reason to choose it. */
 static void dial_add(const converge_job *job, chart_curves *all, int dial)
 {
-    int bounds = curve_known(job, dial, CHART_BOUND);
+    int bounds = dial != CONVERGE_PREVIEW && curve_known(job, dial, CHART_BOUND);
     if (bounds) {
         curve_add(job, all, dial, CHART_BOUND, 1);
     }
     if (curve_known(job, dial, CHART_ESTIMATE)) {
-        curve_add(job, all, dial, CHART_ESTIMATE, 0);
+        curve_add(job, all, dial, CHART_ESTIMATE, dial == CONVERGE_PREVIEW);
     }
     if (curve_known(job, dial, CHART_ERROR)) {
-        curve_add(job, all, dial, CHART_ERROR, !bounds);
+        curve_add(job, all, dial, CHART_ERROR, !bounds && dial != CONVERGE_PREVIEW);
     }
 }
 
@@ -119,6 +125,8 @@ static void short_names(const converge_job *job, chart_curves *all)
             snprintf(name, 16, "%lu", (unsigned long)one->resolution);
         } else if (one->dial == CONVERGE_MESH) {
             snprintf(name, 16, "1e-%d", job->mesh[one->mesh].digits);
+        } else if (one->dial == CONVERGE_PREVIEW) {
+            snprintf(name, 16, "1e-%d", one->digits);
         }
     }
 }

@@ -13,6 +13,7 @@
 #define RASTER_MOST  4096u
 #define BUSY_SHARE   0.8
 #define FACETS_MOST  250000u /* no finer mesh of shapes is kept */
+#define PREVIEWS     3       /* tolerances 1e-1 .. 1e-3 met by an estimate */
 
 const converge_mesh *cli_converge_finest(const converge_job *job)
 {
@@ -86,6 +87,12 @@ static int setting_run(converge_job *job, converge_setting *setting)
     double *seconds = &setting->seconds[setting->runs];
     options.method = setting->method;
     options.resolution = setting->resolution;
+    if (setting->digits > 0) {
+        options.method = LRCS_METHOD_AUTO;
+        options.resolution = 0;
+        options.tolerance = pow(10.0, -setting->digits);
+        options.accept = LRCS_ACCEPT_ESTIMATE;
+    }
     progress_say(setting->name);
     clock_t begun = clock();
     int status = lrcs_host_scene_run(&job->mesh[setting->mesh].scene, &job->pose, &options, &result,
@@ -101,6 +108,11 @@ static int setting_run(converge_job *job, converge_setting *setting)
     setting->estimate_m2 = result.estimate_m2;
     setting->whole = result.budget.tessellation_m2 >= 0.0;
     setting->short_of_memory = (result.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
+    if (setting->digits > 0) {
+        setting->method = result.method;
+        setting->resolution = result.resolution;
+        setting->accepted_by = cli_accepted_by(result.flags);
+    }
     setting->spent_s += *seconds;
     job->spent += *seconds;
     return 0;
@@ -123,6 +135,30 @@ static int setting_add(converge_job *job, int dial, int method, uint32_t resolut
                  job->mesh[mesh].digits);
     }
     return setting_run(job, setting);
+}
+
+/* What lrcs run --accept estimate does, on the mesh that it makes; nothing where nothing is hidden,
+   for that is proved. */
+static int previews_add(converge_job *job)
+{
+    uint32_t mesh = 0;
+    int code = 0;
+    for (int digits = 1; digits <= PREVIEWS && code == 0; digits++) {
+        converge_setting *setting = &job->setting[job->settings++];
+        snprintf(setting->name, sizeof setting->name, "by estimate 1e-%d", digits);
+        setting->dial = CONVERGE_PREVIEW;
+        while (mesh + 1 < job->meshes && job->mesh[mesh].digits < digits) {
+            mesh++;
+        }
+        setting->digits = digits;
+        setting->mesh = mesh;
+        code = setting_run(job, setting);
+        if (setting->method == LRCS_METHOD_FACET) {
+            job->setting[--job->settings] = (converge_setting){.dial = 0};
+            break;
+        }
+    }
+    return code;
 }
 
 /* What is enough for a mesh in this pose: facet where the planner proves it, else exact. */
@@ -172,6 +208,7 @@ static int settings_add(converge_job *job)
         code = setting_add(job, CONVERGE_FACET, LRCS_METHOD_FACET, 0, finest);
     }
     code = code ? code : rasters_add(job, finest);
+    code = code ? code : previews_add(job);
     return code ? code : setting_add(job, CONVERGE_EXACT, LRCS_METHOD_EXACT, 0, finest);
 }
 

@@ -99,6 +99,20 @@ converge_sentence cli_converge_sentence(const converge_job *job)
     } else {
         sentence_add(&sentence, "no bound is known.");
     }
+    const char *before = " By estimate, unproved, a tolerance of ";
+    for (uint32_t i = 0; i < job->settings; i++) {
+        const converge_setting *one = &job->setting[i];
+        if (one->dial == CONVERGE_PREVIEW) {
+            int estimated = one->accepted_by && strcmp(one->accepted_by, "estimate") == 0;
+            sentence_add(&sentence, "%s1e-%d takes %.3g ms%s", before, one->digits,
+                         1e3 * one->pose_s,
+                         estimated          ? ""
+                         : one->accepted_by ? " (and is proved)"
+                                            : " (and is missed)");
+            before = ", ";
+        }
+    }
+    sentence_add(&sentence, before[0] == ',' ? "." : "");
     return sentence;
 }
 
@@ -145,7 +159,7 @@ void cli_converge_csv(const converge_job *job, FILE *out)
 {
     fputs("setting,method,resolution,mesh_tolerance,facets,repetitions,prepare_ms,pose_ms,"
           "sigma_m2,error_m2,bound_m2,estimate_m2,relative_error,relative_bound,"
-          "relative_estimate\n",
+          "relative_estimate,accepted_by\n",
           out);
     for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
@@ -171,7 +185,7 @@ void cli_converge_csv(const converge_job *job, FILE *out)
             lrcs_host_number_text(value[k], text);
             fprintf(out, ",%s", value[k] >= 0.0 ? text : "");
         }
-        putc('\n', out);
+        fprintf(out, ",%s\n", one->accepted_by ? one->accepted_by : "");
     }
 }
 
@@ -198,6 +212,10 @@ static void setting_json(const converge_job *job, const converge_setting *one, l
                           cli_converge_known(cli_converge_relative(job, one->bound_m2)));
     lrcs_host_json_number(json, "relative_estimate",
                           cli_converge_known(cli_converge_relative(job, one->estimate_m2)));
+    if (one->digits > 0) {
+        lrcs_host_json_number(json, "tolerance", pow(10.0, -one->digits));
+        lrcs_host_json_text(json, "accepted_by", one->accepted_by);
+    }
     lrcs_host_json_end(json);
 }
 

@@ -231,6 +231,7 @@ static int image_command(const cli_args *args)
     code = code ? code : image_write(&job);
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);
+        cli_accepted_print(stderr, job.result.flags);
         code = cli_accuracy_code(args, &job.options, job.result.flags);
     }
     free(job.records);

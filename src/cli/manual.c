@@ -69,6 +69,7 @@ void cli_manual_page(const cli_command *const *command, size_t count, const char
 static const char *option_words(const char *name)
 {
     return strcmp(name, "method") == 0    ? "auto facet zbuffer exact"
+           : strcmp(name, "accept") == 0  ? "bound estimate any"
            : strcmp(name, "normals") == 0 ? "flat auto smooth"
            : strcmp(name, "unit") == 0    ? "mm cm m in ft"
            : strcmp(name, "noise") == 0   ? "auto absolute relative"

@@ -120,7 +120,7 @@ static void shards_write(FILE *out, int npy, const merge_shard *shard, int count
         while (cli_text_next(&text, &row, &line, &size)) {
             cli_tally_add(&tally, &row);
             if (npy) {
-                cli_npy_row(out, &row);
+                cli_npy_row(out, head, &row);
             } else {
                 fwrite(line, 1, size, out);
             }

@@ -66,7 +66,13 @@ static void lead_sigma(FILE *out, const report_job *job)
     }
     fputs("; the tolerance of ", out);
     cli_page_number(out, NULL, job->options.tolerance, 3);
-    fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>." : " is met.", out);
+    fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>."
+          : r->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE
+              ? " is met by the likely error, <b>an estimate</b>, alone."
+          : r->flags & LRCS_FLAG_ACCEPTED_UNJUDGED
+              ? " is <b>not judged</b>: any answer was accepted."
+              : " is met.",
+          out);
 }
 
 static void lead_direction(FILE *out, const report_job *job)

@@ -51,6 +51,7 @@ static const char run_help[] =
     "  lrcs run demo --azel 30,-20 --shares\n"
     "  lrcs run demo --azel 30,-20 --time-budget 200\n"
     "  lrcs run demo --azel 30,-20 --steps 20000\n"
+    "  lrcs run demo --azel 30,-20 --tolerance 1e-2 --accept estimate\n"
     "  lrcs run demo --azel 30,-20 --resolution 512 --precision float32 --depth-bits 24\n"
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";

@@ -228,7 +228,7 @@ int cli_run_meets(const lrcs_result *result, double tolerance)
 
 int cli_run_budget_read(run_job *job)
 {
-    static const char *const clash[] = {"method", "resolution", "explain", "steps"};
+    static const char *const clash[] = {"method", "resolution", "explain", "steps", "accept"};
     const int clashes = sizeof clash / sizeof clash[0];
     const cli_args *args = job->args;
     run_budget *budget = &job->budget;

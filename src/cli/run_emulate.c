@@ -12,8 +12,8 @@
 /* Neither a method that draws nothing nor outputs that show another answer go with it. */
 static int emulation_alone(const run_job *job)
 {
-    static const char *const clash[] = {"image",       "polygons", "explain",
-                                        "time-budget", "shares",   "steps"};
+    static const char *const clash[] = {"image",  "polygons", "explain", "time-budget",
+                                        "shares", "steps",    "accept"};
     const int clashes = sizeof clash / sizeof clash[0];
     const cli_args *args = job->args;
     const char *given = cli_value(args, "precision") ? "precision" : "depth-bits";

@@ -61,10 +61,16 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_begin(json, "tolerance", LRCS_HOST_ROW_OBJECT);
     if (job->asked > 0.0) {
         lrcs_host_json_number(json, "asked", job->asked);
-        lrcs_host_json_bool(json, "met", job->met);
+        if (result->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) {
+            lrcs_host_json_text(json, "met", NULL);
+        } else {
+            lrcs_host_json_bool(json, "met", job->met);
+        }
+        lrcs_host_json_text(json, "accepted_by", cli_accepted_by(result->flags));
     } else {
         lrcs_host_json_text(json, "asked", NULL);
         lrcs_host_json_text(json, "met", NULL);
+        lrcs_host_json_text(json, "accepted_by", NULL);
     }
     lrcs_host_json_end(json);
     if (job->budget.asked_ms > 0.0) {
@@ -178,7 +184,11 @@ static void table_sigma(const run_job *job)
         printf("   %s of sigma", share);
     }
     if (job->asked > 0.0) {
-        printf("; tolerance %g %s", job->asked, job->met ? "met" : "NOT met");
+        printf("; tolerance %g %s", job->asked,
+               r->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE ? "met by the ESTIMATE alone"
+               : r->flags & LRCS_FLAG_ACCEPTED_UNJUDGED  ? "not judged: any answer was accepted"
+               : job->met                                ? "met"
+                                                         : "NOT met");
     }
     putchar('\n');
     table_budget(&r->budget);

@@ -9,8 +9,8 @@
 static const char sweep_help[] =
     "usage: lrcs sweep SCENE WHAT [options]\n"
     "\n"
-    "Computes sigma (m2) and its bound for every combination of what varies. Rows come in order,\n"
-    "the axis given last fastest, and are the same bytes for any number of threads.\n"
+    "Computes sigma (m2) and its bound for every combination of what varies, the axis given last\n"
+    "fastest. Rows are the same bytes for any number of threads.\n"
     "\n"
     "what varies: RANGE is A:B:STEP, both ends included, or one number; steps do not drift\n"
     "  --az RANGE, --el RANGE  azimuth and elevation of the laser, deg, body frame\n"
@@ -18,8 +18,8 @@ static const char sweep_help[] =
     "  --rotate AXIS:RANGE   the body turns about its axis x, y, z or u,v,w, deg; from the pose "
     "of\n"
     "                        --direction, --azel, --euler or --quaternion, else laser on +z\n"
-    "  --sphere N            N near-uniform directions, and the mean of sigma over them with its\n"
-    "                        standard error (as if they were random: an estimate)\n"
+    "  --sphere N            N near-uniform directions, and the mean of sigma over them with an\n"
+    "                        estimate of its standard error\n"
     "  --poses FILE.csv      rows of time,w,x,y,z (quaternion, body to observation) or of\n"
     "                        time,x,y,z (direction to the laser, body frame)\n"
     "  --joint PART:RANGE    the joint's angle, deg; several parts as NAME,NAME or '*' turn "
@@ -33,9 +33,7 @@ static const char sweep_help[] =
     "sigma\n"
     "                        and bound); without it CSV on standard output\n"
     "  --json                JSON lines on standard output\n"
-    "  --resume              go on with what an earlier sweep left in FILE.partial (Ctrl-C, a "
-    "kill,\n"
-    "                        a full disk); nothing to do where FILE is whole\n"
+    "  --resume              go on with what an earlier sweep left in FILE.partial\n"
     "  --shard K/N           only the K-th of N parts of the rows; lrcs merge joins the files\n"
     "  --jobs N              threads (one for each processor)\n"
     "  --plot FILE           also drawn, as FILE.svg or FILE.png; repeatable. What varies, one or "
@@ -43,22 +41,22 @@ static const char sweep_help[] =
     "                        things: curves, up to 7 of them, or a map with contours\n"
     "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
     "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
-    "  --brightest N         with -o FILE: the N brightest peaks, and who makes each, on standard\n"
-    "                        output. A peak outshines all rows one step away on any axis (full "
-    "turns\n"
-    "                        are closed; --sphere: points around; --poses: before and after)\n"
+    "  --brightest N         with -o FILE: the N brightest peaks, who makes each, on standard "
+    "output;\n"
+    "                        a peak outshines the rows one step away (--sphere: those around)\n"
     "\n"
     "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
     "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, flags. Exit 3 where a row "
     "misses\n"
-    "the tolerance; stderr says how many.\n"
+    "the tolerance; stderr says how many. With --accept estimate or any, .npy has a third number: "
+    "1\n"
+    "by estimate, 2 by any, 0 by bound, -1 missed.\n"
     "\n"
     "examples\n"
     "  lrcs sweep demo --az 0:360:1 --el 0 -o cut.csv --plot cut.svg --plot cut.png\n"
     "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
     "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy --brightest 10\n"
-    "  lrcs sweep demo --sphere 1000\n"
-    "  lrcs sweep demo --azel 90,0 --rotate x:0:360:1 --json\n"
+    "  lrcs sweep demo --sphere 1000 --tolerance 1e-2 --accept estimate\n"
     "  lrcs sweep demo --joint '*:0:90:5' --azel 50,40\n"
     "  lrcs sweep demo --vary foil.s:0.02:0.5:0.02 --az 0:90:1 -o foil.npy\n"
     "  lrcs sweep demo --poses track.csv -o track.jsonl --resume\n"
@@ -264,6 +262,15 @@ static void job_say(const sweep_job *job)
         fprintf(stderr, "lrcs: %llu of %llu rows miss the tolerance %g\n",
                 (unsigned long long)tally->missed, (unsigned long long)tally->rows,
                 job->options.tolerance);
+    }
+    if (tally->estimated > 0) {
+        fprintf(stderr, "lrcs: %llu of %llu rows are accepted by estimate, not proved to %g\n",
+                (unsigned long long)tally->estimated, (unsigned long long)tally->rows,
+                job->options.tolerance);
+    }
+    if (tally->unjudged > 0) {
+        fprintf(stderr, "lrcs: %llu of %llu rows are accepted whatever their error\n",
+                (unsigned long long)tally->unjudged, (unsigned long long)tally->rows);
     }
     if (tally->starved > 0) {
         fprintf(stderr, "lrcs: %llu of %llu rows were short of memory\n",

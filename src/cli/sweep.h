@@ -137,6 +137,7 @@ int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_o
 /* What all rows say together. */
 typedef struct sweep_tally {
     uint64_t rows, missed, starved; /* missed: the tolerance; starved: short of memory */
+    uint64_t estimated, unjudged;   /* accepted by estimate; accepted whatever they are */
     double mean, square, bound;     /* of sigma; sum of squared deviations; sum of bounds */
 } sweep_tally;
 
@@ -161,6 +162,7 @@ typedef struct sweep_text {
     uint64_t shape[SWEEP_AXES + 1];
     uint32_t dimensions;
     int has_mean; /* one --sphere */
+    int flagged;  /* rows may be accepted unproved: a map of them shows their flags */
 } sweep_text;
 
 /* 0, or -1 where the bytes are no rows of a sweep. */
@@ -170,9 +172,11 @@ int cli_text_open(const char *bytes, size_t size, sweep_text *text);
    1; 0 at the end, or before what is no row. */
 int cli_text_next(sweep_text *text, sweep_row *row, const char **line, size_t *line_size);
 
-/* A NumPy array of shape (.., 2), sigma and bound: its head, and each row in order. */
+/* A NumPy array of shape (.., 2), sigma and bound, or (.., 3), where text->flagged: 0 in the third
+   place where the bound meets the tolerance, 1 where the estimate was accepted, 2 where any answer
+   was, -1 where the tolerance is missed. Its head, and each row in order. */
 void cli_npy_head(FILE *out, const sweep_text *text);
-void cli_npy_row(FILE *out, const sweep_row *row);
+void cli_npy_row(FILE *out, const sweep_text *text, const sweep_row *row);
 
 /* ---- files ---- */
 

@@ -252,7 +252,7 @@ static int map_make(const sweep_file *file)
     if (status == LRCS_OK) {
         cli_npy_head(out.stream, &text);
         while (cli_text_next(&text, &row, &line, &size)) {
-            cli_npy_row(out.stream, &row);
+            cli_npy_row(out.stream, &text, &row);
         }
         status = lrcs_host_output_close(&out, 1, &error);
     }

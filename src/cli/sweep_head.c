@@ -46,6 +46,9 @@ static int head_options(const cli_args *args, const sweep_plan *plan,
     }
     lrcs_host_number_text(options->tolerance, text);
     head_add(head, "tolerance", text);
+    if (options->accept != LRCS_ACCEPT_BOUND) {
+        head_add(head, "accept", lrcs_accept_text(options->accept));
+    }
     head_add(head, "method", lrcs_method_text(options->method));
     snprintf(text, sizeof text, "%lu", (unsigned long)options->resolution);
     head_add(head, "resolution", options->resolution ? text : "auto");

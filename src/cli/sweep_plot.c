@@ -206,8 +206,10 @@ int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_hos
 /* ---- notes ---- */
 
 /* Below the title: what stayed as it was, and how well sigma is known. */
-static void plot_note(const sweep_plot *plot, const sweep_plan *plan, char note[512])
+static void plot_note(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan,
+                      char note[512])
 {
+    const char *accept = cli_value(args, "accept");
     char bound[CLI_BOUND_SIZE];
     double worst = 0.0;
     int dark = 0;
@@ -225,8 +227,10 @@ static void plot_note(const sweep_plot *plot, const sweep_plan *plan, char note[
         dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
     }
     cli_bound_text(worst, 2, bound);
-    snprintf(note + used, 512 - (size_t)used, "each sigma is proved to within %s m2 or better%s",
-             bound,
+    snprintf(note + used, 512 - (size_t)used,
+             "each sigma is proved to within %s m2 or better%s%s%s", bound,
+             accept && strcmp(accept, "bound") != 0 ? "; accepted by " : "",
+             accept && strcmp(accept, "bound") != 0 ? accept : "",
              !dark       ? ""
              : plot->map ? "; grey: sigma is 0"
                          : "; gaps: sigma is 0");
@@ -367,7 +371,7 @@ static int sheet_make(const cli_args *args, const sweep_plot *plot, const sweep_
     const char *name = strrchr(args->operand, '/');
     snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section of %.200s",
              name ? name + 1 : args->operand);
-    plot_note(plot, plan, sheet->note);
+    plot_note(args, plot, plan, sheet->note);
     axis_title(plot->x.name, sheet->x_name);
     axis_title(plot->y.name, sheet->y_name);
     return 0;

@@ -14,6 +14,8 @@ void cli_tally_add(sweep_tally *tally, const sweep_row *row)
     tally->square += off * (row->sigma_m2 - tally->mean);
     tally->bound += row->bound_m2;
     tally->missed += (row->flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0;
+    tally->estimated += (row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) != 0;
+    tally->unjudged += (row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) != 0;
     tally->starved += (row->flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
 }
 

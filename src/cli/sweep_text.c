@@ -56,6 +56,7 @@ static int head_read(const char *head, sweep_text *text)
     const char *sphere = head_value(head, "; sphere=", "\"sphere\": \"");
     text->rows = rows ? strtoull(rows, NULL, 10) : 0;
     text->has_mean = sphere && strtoull(sphere, NULL, 10) == text->rows;
+    text->flagged = head_value(head, "; accept=", "\"accept\": \"") != NULL;
     return rows && shape && text->rows > 0 ? head_shape(shape, text) : -1;
 }
 
@@ -102,7 +103,7 @@ static int text_flags(const char *at, uint32_t *flags)
     for (at += strcspn(at, letters); *at; at += strcspn(at, letters)) {
         size_t size = strspn(at, letters);
         uint32_t found = 0;
-        for (uint32_t bit = 1; bit <= LRCS_FLAG_DEPTH_UNDECIDED; bit *= 2) {
+        for (uint32_t bit = 1; bit <= LRCS_FLAG_ACCEPTED_UNJUDGED; bit *= 2) {
             const char *name = lrcs_flag_text((int)bit);
             found |= strlen(name) == size && memcmp(name, at, size) == 0 ? bit : 0;
         }
@@ -196,14 +197,20 @@ void cli_npy_head(FILE *out, const sweep_text *text)
         used += snprintf(head + used, sizeof head - (size_t)used, "%llu, ",
                          (unsigned long long)text->shape[i]);
     }
-    used += snprintf(head + used, sizeof head - (size_t)used, "2), }");
+    used += snprintf(head + used, sizeof head - (size_t)used, "%d), }", text->flagged ? 3 : 2);
     int whole = (10 + used + 1 + 63) / 64 * 64;
     fprintf(out, "%cNUMPY%c%c%c%c%s%*s\n", 0x93, 1, 0, (whole - 10) & 0xff, (whole - 10) >> 8, head,
             whole - 11 - used, "");
 }
 
-void cli_npy_row(FILE *out, const sweep_row *row)
+void cli_npy_row(FILE *out, const sweep_text *text, const sweep_row *row)
 {
     npy_double(out, row->sigma_m2);
     npy_double(out, row->bound_m2);
+    if (text->flagged) {
+        npy_double(out, row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE ? 1.0
+                        : row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED  ? 2.0
+                        : row->flags & LRCS_FLAG_TOLERANCE_NOT_MET  ? -1.0
+                                                                    : 0.0);
+    }
 }

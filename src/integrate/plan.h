@@ -13,8 +13,12 @@ enum lrcsi_term {
     LRCSI_TERM_FORCED /* evaluated even where its amplitude is 0 */
 };
 
+/* The finest raster that auto draws for its estimate: beyond it clipping costs less. */
+#define LRCSI_PREVIEW_LAST 2048u
+
 typedef struct lrcsi_plan {
     int method;         /* FACET, ZBUFFER or EXACT: the first to try */
+    uint32_t size;      /* of the first raster, if one is drawn */
     const char *reason; /* why that one */
     int unshadowed; /* proved: in this view front facets with cos(theta) > graze are not hidden */
     double graze;   /* of the scene where unshadowed, else 1 */
@@ -25,6 +29,9 @@ typedef struct lrcsi_plan {
 
 /* Decides what back sides do in a view: cast, reflect, or neither. */
 void lrcsi_plan_backs(const lrcs_run_options *options, lrcsi_view *view);
+
+/* Does auto look for a raster whose estimate may count? */
+int lrcsi_plan_previews(const lrcs_run_options *options);
 
 /* Given: such a view and what was asked for. */
 lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *options);

@@ -14,10 +14,8 @@
 #include "visibility/query.h"
 #include "visibility/zbuffer.h"
 
-/* Rasters: the first tried, the finest and the coarsest. Beyond 4096 the bound gains less than it
-   costs; below 16 there is nothing to gain. */
-#define FIRST_SIZE 512u
-#define LAST_SIZE  4096u
+/* The finest raster: beyond it the bound gains less than it costs. */
+#define LAST_SIZE 4096u
 
 /* Under method zbuffer, facets of scenes of so few are asked exactly what shows of them before any
    raster is drawn. */
@@ -46,13 +44,14 @@ typedef struct sigma_run {
 
 lrcs_run_options lrcs_run_options_default(void)
 {
-    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0};
+    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0, LRCS_ACCEPT_BOUND};
 }
 
 static int run_check(const lrcs_run_options *options, const lrcs_image *image)
 {
     if (options->method < LRCS_METHOD_AUTO || options->method > LRCS_METHOD_EXACT ||
         !(options->tolerance > 0) || options->resolution > LRCSI_IMAGE_MOST ||
+        options->accept < LRCS_ACCEPT_BOUND || options->accept > LRCS_ACCEPT_ANY ||
         ((options->without | options->with) & ~LRCS_EFFECTS_SWITCHED) != 0 ||
         (options->without & options->with) != 0 || (image && image->size > LRCSI_IMAGE_MOST)) {
         return LRCS_E_ARGUMENT;
@@ -105,6 +104,29 @@ static int run_meets(const lrcsi_total *total, double tolerance)
 {
     double most = tolerance * (total->glint + total->diffuse);
     return run_bound(total) <= most && total->curvature <= most;
+}
+
+/* Does the likely error meet the tolerance where the proved one does not? Only the raster's part of
+   the bound has an estimate. One that knows nothing is none: where sigma is 0, samples have met
+   nothing that reflects; where a depth is undecided, an owner is a guess; where steps are spent,
+   facets count by half. */
+static int run_likely(const sigma_run *run, double tolerance)
+{
+    const lrcsi_total *t = &run->total;
+    double most = tolerance * (t->glint + t->diffuse);
+    return run->size != 0 && !(run->flags & LRCS_FLAG_DEPTH_UNDECIDED) && !run->meter.spent &&
+           most > 0 && t->likely + fmax(0, t->tessellation) + t->rounding <= most &&
+           t->curvature <= most;
+}
+
+/* What the answer is to be flagged with: 0 where its bound meets the tolerance. */
+static uint32_t run_verdict(const sigma_run *run, const lrcs_run_options *options)
+{
+    return run_meets(&run->total, options->tolerance) ? 0u
+           : options->accept != LRCS_ACCEPT_BOUND && run_likely(run, options->tolerance)
+               ? LRCS_FLAG_ACCEPTED_BY_ESTIMATE
+           : options->accept == LRCS_ACCEPT_ANY ? LRCS_FLAG_ACCEPTED_UNJUDGED
+                                                : LRCS_FLAG_TOLERANCE_NOT_MET;
 }
 
 static int run_image(sigma_run *run)
@@ -240,6 +262,8 @@ static int run_raster(sigma_run *run, const unsigned char *answer, uint32_t size
 {
     lrcsi_zbuffer zbuffer;
     int status = LRCS_E_MEMORY;
+    run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
+    run->view.meter = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
         status = lrcsi_zbuffer_make(&run->view, size, answer, run->work, run->visible, &zbuffer);
         run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
@@ -276,49 +300,46 @@ static int run_exact(sigma_run *run, int method)
     return status;
 }
 
-/* The size at which the visibility bound, falling as 1/N, would leave the tolerance room. */
-static uint32_t next_size(const sigma_run *run, double tolerance)
+/* The size at which the visibility bound, falling as 1/N, or the likely error, where that is to
+   count, would leave the tolerance room. */
+static uint32_t next_size(const sigma_run *run, const lrcs_run_options *options)
 {
     double sigma = run->total.glint + run->total.diffuse;
-    double room = tolerance * sigma - (run_bound(&run->total) - run->total.visibility);
-    double size = 1.2 * run->size * run->total.visibility / room;
+    double proved = run_bound(&run->total) - run->total.visibility;
+    double room = options->tolerance * sigma - proved;
+    double times = options->accept == LRCS_ACCEPT_BOUND ? run->total.visibility / room
+                                                        : sqrt(run->total.likely / room);
+    double size = run->size * fmax(1.5, 1.2 * times);
     if (!(room > 0) || !(size < LAST_SIZE)) {
         return LAST_SIZE;
     }
     return 64 * ((uint32_t)size / 64 + 1);
 }
 
-/* Few facets are asked exactly, which costs less than a raster; so are those of scenes where the
-   search for events was made for other reasons. */
-static int run_answers(sigma_run *run, unsigned char **answer)
-{
-    uint32_t count = run->view.prepared->scene->facet_count;
-    int status = count <= ASKED_FACETS ? run_contest(run) : LRCS_OK;
-    *answer = NULL;
-    if (status != LRCS_OK || !run->contested) {
-        return status;
-    }
-    *answer = lrcsi_work_take(run->work, count, 1);
-    run->view.meter = NULL;
-    status = *answer ? lrcsi_query_all(&run->contest, run->work, *answer) : LRCS_E_MEMORY;
-    run->view.meter = &run->meter;
-    return status;
-}
-
+/* Rasters, from the first to one that is accepted or the finest. Under auto for the sake of an
+   estimate none that clipping does better than; nor where depths stay undecided. */
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
     unsigned char *answer;
     size_t mark = run->work->used;
-    int status = run_answers(run, &answer);
-    if (status == LRCS_OK) {
-        status =
-            run_raster(run, answer, options->resolution != 0 ? options->resolution : FIRST_SIZE);
-    }
-    while (status == LRCS_OK && options->resolution == 0 && run->size < LAST_SIZE &&
-           !run->meter.spent && !(run->flags & LRCS_FLAG_MEMORY_FALLBACK) && run->partial != 0 &&
-           !run_meets(&run->total, options->tolerance)) {
-        uint32_t size = next_size(run, options->tolerance);
-        status = run_raster(run, answer, size > run->size ? size : LAST_SIZE);
+    int preview = lrcsi_plan_previews(options);
+    uint32_t size = run->plan.size;
+    run->view.meter = NULL;
+    int status = lrcsi_visible_known(&run->contest, run->work, &known);
+    run->view.meter = &run->meter;
+    while (status == LRCS_OK) {
+        status = run_raster(run, &known, size);
+        if (status != LRCS_OK || options->resolution != 0 || run->size >= LAST_SIZE ||
+            run->meter.spent || (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
+            run->contest.contested_count == 0 ||
+            !(run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
+            break;
+        }
+        size = next_size(run, options);
+        if (preview && (size > LRCSI_PREVIEW_LAST || (run->flags & LRCS_FLAG_DEPTH_UNDECIDED))) {
+            break;
+        }
+        size = size > run->size ? size : LAST_SIZE;
     }
     run->work->used = run->contested ? run->work->used : mark;
     return status;
@@ -330,9 +351,9 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
                                                  : run_zbuffer(run, options);
 }
 
-/* Under auto a raster of a size asked for goes first; where its bound misses the tolerance,
-   clipping follows. Clipping that finds no memory yields to a raster, which needs less, whether it
-   was asked for or not. */
+/* Under auto a raster goes first where its size was asked for or an estimate may count; where it is
+   not accepted, clipping follows. Clipping that finds no memory yields to a raster, which needs
+   less, whether it was asked for or not. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_view_project(run->work, &run->view);
@@ -346,9 +367,10 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
     status = run_method(run, options);
     if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
         run->plan.method == LRCS_METHOD_ZBUFFER && !run->meter.spent &&
-        !run_meets(&run->total, options->tolerance)) {
+        (run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
         run->plan.method = LRCS_METHOD_EXACT;
-        run->plan.reason = "the raster asked for misses the tolerance";
+        run->plan.reason = options->resolution != 0 ? "the raster asked for misses the tolerance"
+                                                    : "no raster's estimate meets the tolerance";
         run->flags = 0;
         status = run_exact(run, options->method);
     }
@@ -388,7 +410,7 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
                      .flags = run->flags,
                      .steps = run->meter.taken};
     lrcsi_plan_effects(&run->view, &run->plan, t->seen, r.effect);
-    r.flags |= run_meets(t, options->tolerance) ? 0u : LRCS_FLAG_TOLERANCE_NOT_MET;
+    r.flags |= run_verdict(run, options);
     r.flags |= run->meter.spent ? LRCS_FLAG_STEPS_SPENT : 0u;
     r.notices |= t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
     r.notices |= t->tessellation < 0 ? LRCS_NOTICE_TESSELLATION_UNKNOWN : 0u;

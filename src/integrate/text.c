@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Names and sentences for methods, effects, flags and notices. */
+/* Names and sentences for methods, what is accepted, effects, flags and notices. */
 #include <lrcs/run.h>
 
 #include <string.h>
@@ -15,6 +15,22 @@ int lrcs_method_find(const char *name)
     for (int method = 0; method <= LRCS_METHOD_EXACT; method++) {
         if (strcmp(name, lrcs_method_text(method)) == 0) {
             return method;
+        }
+    }
+    return LRCS_E_NAME;
+}
+
+const char *lrcs_accept_text(int accept)
+{
+    static const char *const text[] = {"bound", "estimate", "any"};
+    return accept >= 0 && accept <= LRCS_ACCEPT_ANY ? text[accept] : NULL;
+}
+
+int lrcs_accept_find(const char *name)
+{
+    for (int accept = 0; accept <= LRCS_ACCEPT_ANY; accept++) {
+        if (strcmp(name, lrcs_accept_text(accept)) == 0) {
+            return accept;
         }
     }
     return LRCS_E_NAME;
@@ -39,6 +55,10 @@ const char *lrcs_flag_text(int bit)
         return "depth_undecided";
     case LRCS_FLAG_STEPS_SPENT:
         return "steps_spent";
+    case LRCS_FLAG_ACCEPTED_BY_ESTIMATE:
+        return "accepted_by_estimate";
+    case LRCS_FLAG_ACCEPTED_UNJUDGED:
+        return "accepted_unjudged";
     default:
         return "unknown_flag";
     }

@@ -2,9 +2,10 @@
 /* Welds points, marks degenerate facets and groups sides into edges. It decides only what is the
    same: whether the result is closed, oriented or convex is decided by its readers.
 
-   Points are welded by sorting the bit patterns of their coordinates (radix, stable), so the
-   lowest index of a group comes first and no choice of coordinates makes it slow. Sides are
-   grouped by two counting sorts, by high and then by low end. Everything is linear in time. */
+   Points are welded in a hash table; where coordinates are such that this takes too many probes,
+   by sorting their bit patterns (radix, stable). Sides go to their lower ends by one counting sort,
+   and are sorted by their upper ends there. Time is linear, but for a logarithm of the number of
+   edges at a vertex that has many. */
 #include "mesh/topology.h"
 
 #include <string.h>
@@ -12,9 +13,15 @@
 #include "base/exact.h"
 #include "base/sort.h"
 #include "base/work.h"
+#include "mesh/store.h"
 
 /* A side is 3 * facet + k, from corner k to the next. */
 enum { SIDES = 3 };
+
+/* Probes a point, on average, before hashing is given up: ordinary meshes take 1.5. */
+#define WELD_PROBES 8u
+
+/* --- points ----------------------------------------------------------------------------------- */
 
 static uint64_t coordinate_key(double x)
 {
@@ -31,14 +38,40 @@ static int same_position(const lrcs_point *a, const lrcs_point *b)
 
 static size_t weld_scratch(uint32_t vertex_count)
 {
-    return lrcsi_work_add(2 * lrcsi_work_bytes(vertex_count, sizeof(uint64_t)),
-                          2 * lrcsi_work_bytes(vertex_count, sizeof(uint32_t)));
+    size_t sorted = lrcsi_work_add(2 * lrcsi_work_bytes(vertex_count, sizeof(uint64_t)),
+                                   2 * lrcsi_work_bytes(vertex_count, sizeof(uint32_t)));
+    size_t hashed = lrcsi_work_bytes(lrcsi_store_slots(vertex_count), sizeof(uint32_t));
+    return sorted > hashed ? sorted : hashed;
+}
+
+/* Names each point by the first at its position: the slots hold those. 0 where the probes that are
+   allowed are spent. */
+static int weld_hashed(const lrcs_point *vertex, uint32_t count, uint32_t *slot, size_t slots,
+                       uint32_t *weld)
+{
+    uint64_t probes = (uint64_t)WELD_PROBES * count + 64;
+    memset(slot, 0xff, slots * sizeof *slot); /* LRCS_NONE */
+    for (uint32_t i = 0; i < count; i++) {
+        uint64_t key = 0;
+        for (int k = 0; k < 3; k++) {
+            key = lrcsi_store_mix(key + coordinate_key(vertex[i].x[k]));
+        }
+        size_t at = (size_t)key & (slots - 1);
+        while (slot[at] != LRCS_NONE && !same_position(&vertex[slot[at]], &vertex[i])) {
+            at = (at + 1) & (slots - 1);
+            if (probes-- == 0) {
+                return 0;
+            }
+        }
+        slot[at] = slot[at] == LRCS_NONE ? i : slot[at];
+        weld[i] = slot[at];
+    }
+    return 1;
 }
 
 /* Sorts vertex indices by position, equal positions by index, and names the first of each. */
-static int weld_points(const lrcs_point *vertex, uint32_t count, lrcs_work *work, uint32_t *weld)
+static int weld_sorted(const lrcs_point *vertex, uint32_t count, lrcs_work *work, uint32_t *weld)
 {
-    size_t mark = work->used;
     uint64_t *key = lrcsi_work_take(work, count, sizeof *key);
     uint64_t *key_spare = lrcsi_work_take(work, count, sizeof *key);
     uint32_t *order = lrcsi_work_take(work, count, sizeof *order);
@@ -59,8 +92,19 @@ static int weld_points(const lrcs_point *vertex, uint32_t count, lrcs_work *work
         int again = i > 0 && same_position(&vertex[order[i - 1]], &vertex[order[i]]);
         weld[order[i]] = again ? weld[order[i - 1]] : order[i];
     }
-    work->used = mark;
     return LRCS_OK;
+}
+
+static int weld_points(const lrcs_point *vertex, uint32_t count, lrcs_work *work, uint32_t *weld)
+{
+    size_t mark = work->used;
+    size_t slots = lrcsi_store_slots(count);
+    uint32_t *slot = lrcsi_work_take(work, slots, sizeof *slot);
+    int hashed = slot && weld_hashed(vertex, count, slot, slots, weld);
+    work->used = mark;
+    int status = hashed ? LRCS_OK : slot ? weld_sorted(vertex, count, work, weld) : LRCS_E_MEMORY;
+    work->used = mark;
+    return status;
 }
 
 /* Marks the degenerate facets; returns the number of others. */
@@ -77,102 +121,111 @@ static uint32_t mark_degenerate(const lrcs_point *vertex, const lrcs_facet *face
     return proper;
 }
 
-typedef struct side_ends {
-    uint32_t low, high;
-    uint32_t forward;
-} side_ends;
+/* --- sides ------------------------------------------------------------------------------------ */
 
-static side_ends side_ends_of(const uint32_t *weld, const lrcs_facet *facet, uint32_t f, uint32_t k)
+/* While sides are sorted, use[].facet is the side and use[].forward its upper end. */
+static int use_before(lrcsi_edge_use a, lrcsi_edge_use b)
 {
-    uint32_t from = weld[facet[f].corner[k]];
-    uint32_t to = weld[facet[f].corner[(k + 1) % SIDES]];
-    return from < to ? (side_ends){from, to, 1} : (side_ends){to, from, 0};
+    return a.forward < b.forward || (a.forward == b.forward && a.facet < b.facet);
 }
 
-/* One stable counting sort of sides, by their high (or low) end; `place` has vertex_count + 1. */
-static void sort_sides(const uint32_t *weld, uint32_t vertex_count, const lrcs_facet *facet,
-                       int by_high, const uint32_t *side, uint32_t count, uint32_t *place,
-                       uint32_t *sorted)
+/* Sinks entry `i` of a heap of n, the last in order on top. */
+static void sink_use(lrcsi_edge_use *use, size_t i, size_t n)
 {
+    lrcsi_edge_use sinking = use[i];
+    for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
+        child += child + 1 < n && use_before(use[child], use[child + 1]);
+        if (!use_before(sinking, use[child])) {
+            break;
+        }
+        use[i] = use[child];
+        i = child;
+    }
+    use[i] = sinking;
+}
+
+/* By insertion where they are few, as at most vertices. */
+static void sort_uses(lrcsi_edge_use *use, size_t n)
+{
+    if (n > 32) {
+        for (size_t i = n / 2; i > 0; i--) {
+            sink_use(use, i - 1, n);
+        }
+        for (size_t last = n; last-- > 1;) {
+            lrcsi_edge_use top = use[0];
+            use[0] = use[last];
+            use[last] = top;
+            sink_use(use, 0, last);
+        }
+        return;
+    }
+    for (size_t i = 1; i < n; i++) {
+        lrcsi_edge_use next = use[i];
+        size_t at = i;
+        for (; at > 0 && use_before(next, use[at - 1]); at--) {
+            use[at] = use[at - 1];
+        }
+        use[at] = next;
+    }
+}
+
+/* Fills use[] in the order of edges, each with its side and its upper end. Returned: the number of
+   edges. `place` has vertex_count + 1. */
+static uint32_t group_sides(const lrcsi_topology *t, uint32_t vertex_count, const lrcs_facet *facet,
+                            uint32_t facet_count, uint32_t *place)
+{
+    /* 1. How many sides have their lower end at each vertex; then where those begin. */
     memset(place, 0, ((size_t)vertex_count + 1) * sizeof *place);
-    for (uint32_t i = 0; i < count; i++) {
-        side_ends e = side_ends_of(weld, facet, side[i] / SIDES, side[i] % SIDES);
-        place[(by_high ? e.high : e.low) + 1]++;
+    for (uint32_t f = 0; f < facet_count; f++) {
+        const uint32_t *corner = facet[f].corner;
+        const uint32_t at[3] = {t->weld[corner[0]], t->weld[corner[1]], t->weld[corner[2]]};
+        for (int k = 0; k < SIDES && !t->degenerate[f]; k++) {
+            uint32_t other = at[k == 2 ? 0 : k + 1];
+            place[(at[k] < other ? at[k] : other) + 1]++;
+        }
     }
     for (uint32_t v = 0; v < vertex_count; v++) {
         place[v + 1] += place[v];
     }
-    for (uint32_t i = 0; i < count; i++) {
-        side_ends e = side_ends_of(weld, facet, side[i] / SIDES, side[i] % SIDES);
-        sorted[place[by_high ? e.high : e.low]++] = side[i];
-    }
-}
-
-static size_t group_scratch(uint32_t vertex_count, size_t sides)
-{
-    return lrcsi_work_add(2 * lrcsi_work_bytes(sides, sizeof(uint32_t)),
-                          lrcsi_work_bytes((size_t)vertex_count + 1, sizeof(uint32_t)));
-}
-
-/* Fills use[] in the order of edges. Until fill_edges reads it, `forward` holds the corner k. */
-static int group_sides(const lrcsi_topology *t, uint32_t vertex_count, const lrcs_facet *facet,
-                       uint32_t facet_count, uint32_t sides, lrcs_work *work)
-{
-    size_t mark = work->used;
-    uint32_t *side = lrcsi_work_take(work, sides, sizeof *side);
-    uint32_t *sorted = lrcsi_work_take(work, sides, sizeof *sorted);
-    uint32_t *place = lrcsi_work_take(work, (size_t)vertex_count + 1, sizeof *place);
-    if (!side || !sorted || !place) {
-        return LRCS_E_MEMORY;
-    }
-    uint32_t n = 0;
+    /* 2. Sides go there, in order; place[v] is then where those of v end. */
     for (uint32_t f = 0; f < facet_count; f++) {
+        const uint32_t *corner = facet[f].corner;
+        const uint32_t at[3] = {t->weld[corner[0]], t->weld[corner[1]], t->weld[corner[2]]};
         for (uint32_t k = 0; k < SIDES && !t->degenerate[f]; k++) {
-            side[n++] = SIDES * f + k;
+            uint32_t other = at[k == 2 ? 0 : k + 1];
+            uint32_t low = at[k] < other ? at[k] : other;
+            t->use[place[low]++] = (lrcsi_edge_use){SIDES * f + k, at[k] ^ other ^ low};
         }
     }
-    sort_sides(t->weld, vertex_count, facet, 1, side, sides, place, sorted);
-    sort_sides(t->weld, vertex_count, facet, 0, sorted, sides, place, side);
-    for (uint32_t i = 0; i < sides; i++) {
-        t->use[i] = (lrcsi_edge_use){side[i] / SIDES, side[i] % SIDES};
+    /* 3. Those of each vertex are sorted by their upper ends. */
+    uint32_t edges = 0;
+    uint32_t begin = 0;
+    for (uint32_t v = 0; v < vertex_count; v++) {
+        sort_uses(t->use + begin, place[v] - begin);
+        for (uint32_t i = begin; i < place[v]; i++) {
+            edges += i == begin || t->use[i].forward != t->use[i - 1].forward;
+        }
+        begin = place[v];
     }
-    work->used = mark;
-    return LRCS_OK;
+    return edges;
 }
 
-static int use_starts_edge(const lrcsi_topology *t, const lrcs_facet *facet, uint32_t i)
-{
-    if (i == 0) {
-        return 1;
-    }
-    side_ends a = side_ends_of(t->weld, facet, t->use[i - 1].facet, t->use[i - 1].forward);
-    side_ends b = side_ends_of(t->weld, facet, t->use[i].facet, t->use[i].forward);
-    return a.low != b.low || a.high != b.high;
-}
-
-static uint32_t count_edges(const lrcsi_topology *t, const lrcs_facet *facet, uint32_t sides)
-{
-    uint32_t n = 0;
-    for (uint32_t i = 0; i < sides; i++) {
-        n += (uint32_t)use_starts_edge(t, facet, i);
-    }
-    return n;
-}
-
-/* Fills edge[] and facet_edge[], and turns corners into directions. */
+/* Fills edge[] and facet_edge[], and turns sides into facets and directions. */
 static void fill_edges(const lrcsi_topology *t, const lrcs_facet *facet, uint32_t sides)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < sides; i++) {
-        lrcsi_edge_use *use = &t->use[i];
-        uint32_t k = use->forward;
-        side_ends e = side_ends_of(t->weld, facet, use->facet, k);
-        if (n == 0 || t->edge[n - 1].low != e.low || t->edge[n - 1].high != e.high) {
-            t->edge[n++] = (lrcsi_edge){e.low, e.high, i, 0};
+        uint32_t f = t->use[i].facet / SIDES;
+        uint32_t k = t->use[i].facet % SIDES;
+        uint32_t high = t->use[i].forward;
+        uint32_t from = t->weld[facet[f].corner[k]];
+        uint32_t low = from != high ? from : t->weld[facet[f].corner[(k + 1) % SIDES]];
+        if (n == 0 || t->edge[n - 1].low != low || t->edge[n - 1].high != high) {
+            t->edge[n++] = (lrcsi_edge){low, high, i, 0};
         }
         t->edge[n - 1].uses++;
-        t->facet_edge[use->facet].corner[k] = n - 1;
-        use->forward = e.forward;
+        t->facet_edge[f].corner[k] = n - 1;
+        t->use[i] = (lrcsi_edge_use){f, from == low};
     }
 }
 
@@ -184,7 +237,7 @@ size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count)
     stays = lrcsi_work_add(stays, lrcsi_work_bytes(facet_count, sizeof(lrcs_facet)));
     stays = lrcsi_work_add(stays, lrcsi_work_bytes(sides, sizeof(lrcsi_edge_use)));
     size_t weld = weld_scratch(vertex_count);
-    size_t group = group_scratch(vertex_count, sides);
+    size_t group = lrcsi_work_bytes((size_t)vertex_count + 1, sizeof(uint32_t));
     size_t edges = lrcsi_work_bytes(sides, sizeof(lrcsi_edge));
     size_t most = weld > group ? weld : group;
     return lrcsi_work_add(stays, most > edges ? most : edges);
@@ -209,14 +262,13 @@ static int topology_build(const lrcs_point *vertex, uint32_t vertex_count, const
         t->facet_edge[f] = (lrcs_facet){{LRCS_NONE, LRCS_NONE, LRCS_NONE}};
     }
     t->use = lrcsi_work_take(work, sides, sizeof *t->use);
-    if (!t->use) {
+    size_t end = work->used;
+    uint32_t *place = lrcsi_work_take(work, (size_t)vertex_count + 1, sizeof *place);
+    if (!t->use || !place) {
         return LRCS_E_MEMORY;
     }
-    status = group_sides(t, vertex_count, facet, facet_count, sides, work);
-    if (status != LRCS_OK) {
-        return status;
-    }
-    t->edge_count = count_edges(t, facet, sides);
+    t->edge_count = group_sides(t, vertex_count, facet, facet_count, place);
+    work->used = end;
     t->edge = lrcsi_work_take(work, t->edge_count, sizeof *t->edge);
     if (!t->edge) {
         return LRCS_E_MEMORY;

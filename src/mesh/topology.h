@@ -32,7 +32,8 @@ typedef struct lrcsi_topology {
 /* Upper bound of what lrcsi_topology_make takes; what it returns stays in the work area. */
 size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count);
 
-/* Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (3 facet_count above 2^32 - 2). Linear time. */
+/* Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (3 facet_count above 2^32 - 2). Linear time, but for
+   a logarithm where one vertex has many edges. */
 int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                         uint32_t facet_count, lrcs_work *work, lrcsi_topology *topology);
 

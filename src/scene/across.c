@@ -46,11 +46,8 @@ static across_edge across_edge_of(const across_job *job, uint32_t edge)
 static void across_set(const across_job *job, lrcsi_across *a, uint32_t facet, uint32_t edge,
                        uint32_t other)
 {
-    for (int k = 0; k < 3; k++) {
-        if (job->topology->facet_edge[facet].corner[k] == edge) {
-            a->facet[facet].corner[k] = other;
-        }
-    }
+    const uint32_t *side = job->topology->facet_edge[facet].corner;
+    a->facet[facet].corner[side[0] == edge ? 0 : side[1] == edge ? 1 : 2] = other;
 }
 
 /* Two pairs of twins: each facet has across it the one of the other pair that runs the edge the
@@ -81,9 +78,18 @@ static int across_set_pairs(const across_job *job, lrcsi_across *a, uint32_t edg
     return 1;
 }
 
+/* Most edges have two facets. */
 static void across_edges(const across_job *job, uint32_t facet_count, lrcsi_across *a)
 {
     for (uint32_t e = 0; e < job->topology->edge_count; e++) {
+        const lrcsi_edge_use *use = job->topology->use + job->topology->edge[e].first_use;
+        if (job->topology->edge[e].uses == 2 && use[0].forward != use[1].forward &&
+            job->redundant[use[0].facet] != LRCSI_REDUNDANT &&
+            job->redundant[use[1].facet] != LRCSI_REDUNDANT) {
+            across_set(job, a, use[0].facet, e, use[1].facet);
+            across_set(job, a, use[1].facet, e, use[0].facet);
+            continue;
+        }
         across_edge all = across_edge_of(job, e);
         if (all.count == 1) {
             across_set(job, a, all.use[0].facet, e, facet_count);

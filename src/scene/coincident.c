@@ -34,15 +34,38 @@ static int reflects_back(const lrcs_prepared *p, uint32_t facet)
     return lrcsi_prepared_material(p, facet)->two_sided != 0;
 }
 
-/* The corner across from an edge of a facet, welded; LRCS_NONE where it has a lower edge. */
-static uint32_t corner_across_lowest(const lrcs_prepared *p, uint32_t facet, uint32_t edge)
+static uint32_t lowest_edge(const lrcs_prepared *p, uint32_t facet)
+{
+    const uint32_t *side = p->topology.facet_edge[facet].corner;
+    uint32_t low = side[0] < side[1] ? side[0] : side[1];
+    return low < side[2] ? low : side[2];
+}
+
+/* The corner across from a facet's edge, welded. */
+static uint32_t corner_across(const lrcs_prepared *p, uint32_t facet, uint32_t edge)
 {
     const uint32_t *side = p->topology.facet_edge[facet].corner;
     const uint32_t *corner = p->scene->facet[facet].corner;
-    if (side[0] < edge || side[1] < edge || side[2] < edge) {
-        return LRCS_NONE;
-    }
     return p->topology.weld[corner[side[0] == edge ? 2 : side[1] == edge ? 0 : 1]];
+}
+
+/* Is there a facet whose lowest edge it may share with one in the same place? */
+static int any_may_coincide(const lrcs_prepared *p)
+{
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        uint32_t lowest = lowest_edge(p, f);
+        if (lowest == LRCS_NONE || p->topology.edge[lowest].uses == 1) {
+            continue;
+        }
+        const lrcsi_edge_use *use = p->topology.use + p->topology.edge[lowest].first_use;
+        uint32_t other = use[0].facet == f ? use[1].facet : use[0].facet;
+        if (p->topology.edge[lowest].uses > 2 ||
+            (lowest_edge(p, other) == lowest &&
+             corner_across(p, f, lowest) == corner_across(p, other, lowest))) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 /* One facet more in its place; those before it come first in order. */
@@ -88,11 +111,10 @@ static int mark_places(lrcs_prepared *p, facet_place *place)
     for (uint32_t e = 0; e < t->edge_count; e++) {
         const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
         for (uint32_t i = 0; i < t->edge[e].uses && t->edge[e].uses > 1; i++) {
-            uint32_t corner = corner_across_lowest(p, use[i].facet, e);
-            if (corner == LRCS_NONE || !may_coincide(p, use[i].facet)) {
+            if (lowest_edge(p, use[i].facet) != e || !may_coincide(p, use[i].facet)) {
                 continue;
             }
-            facet_place *at = &place[corner];
+            facet_place *at = &place[corner_across(p, use[i].facet, e)];
             if (at->edge != e) {
                 *at = (facet_place){e, {LRCS_NONE, LRCS_NONE}, {LRCS_NONE, LRCS_NONE}};
             }
@@ -109,16 +131,20 @@ size_t lrcsi_coincident_need(uint32_t vertex_count, uint32_t facet_count)
                           lrcsi_work_bytes(vertex_count, sizeof(facet_place)));
 }
 
-/* Places are gone through again where there are twins to write down, which is rare. */
+/* Most scenes have no coincident facets, which is soon seen. Places are gone through again where
+   there are twins to write down. */
 int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
     size_t mark = work->used;
+    p->twin = NULL;
+    if (!any_may_coincide(p)) {
+        return LRCS_OK;
+    }
     facet_place *place = lrcsi_work_take(work, p->scene->vertex_count, sizeof *place);
     if (!place) {
         return LRCS_E_MEMORY;
     }
-    p->twin = NULL;
     int twins = mark_places(p, place);
     work->used = mark;
     if (!twins) {

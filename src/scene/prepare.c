@@ -10,6 +10,7 @@
 #include "base/exact.h"
 #include "base/ieee.h"
 #include "base/length.h"
+#include "base/range.h"
 #include "base/work.h"
 #include "mesh/tree.h"
 #include "scene/coincident.h"
@@ -63,7 +64,7 @@ static int prepare_exponent(const lrcs_scene *scene)
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         for (int k = 0; k < 3; k++) {
             const double *x = scene->vertex[scene->facet[f].corner[k]].x;
-            most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
+            most = lrcsi_most(most, lrcsi_most(fabs(x[0]), lrcsi_most(fabs(x[1]), fabs(x[2]))));
         }
     }
     int exponent = 0;
@@ -71,49 +72,81 @@ static int prepare_exponent(const lrcs_scene *scene)
     return exponent;
 }
 
+/* Scaled in two steps, that neither power overflows: exact, unless it becomes 0. */
 static void prepare_vertices(lrcs_prepared *p)
 {
+    double first = ldexp(1, -p->exponent / 2);
+    double second = ldexp(1, -p->exponent - -p->exponent / 2);
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
-            double x = ldexp(p->scene->vertex[v].x[k], -p->exponent);
+            double x = p->scene->vertex[v].x[k] * first * second;
             p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_LEAST ? 0 : x;
         }
     }
 }
 
-/* p x q - component of a cross product of exact differences, in double-double. Each product has
-   relative error 7 u^2, the difference 3 u^2: together at most 10 u^2 (|p1 q2| + |p2 q1|). */
-static lrcsi_dd normal_component(lrcsi_dd p1, lrcsi_dd q2, lrcsi_dd p2, lrcsi_dd q1)
-{
-    return lrcsi_dd_sub(lrcsi_dd_mul(p1, q2), lrcsi_dd_mul(p2, q1));
-}
+/* Normals computed side by side. */
+enum { CROSS_LANES = 8 };
 
 /* Where |N| falls below this share of |p| |q|, the products cancel and N is taken exactly. */
 #define NORMAL_SLIVER 0x1p-10
 
-/* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| comes out
-   of doubles within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
-static void normal_make(const double *a, const double *b, const double *c, lrcsi_normal *n)
+/* Sides p = b - a and q = c - a of facets, and N = p x q: component by component, so that compilers
+   compute two facets or more at once. */
+typedef struct cross_lanes {
+    double a[3][CROSS_LANES], b[3][CROSS_LANES], c[3][CROSS_LANES];
+    double p[3][CROSS_LANES], p_low[3][CROSS_LANES];
+    double q[3][CROSS_LANES], q_low[3][CROSS_LANES];
+    double high[3][CROSS_LANES], low[3][CROSS_LANES];
+} cross_lanes;
+
+/* The differences are exact. p_i q_j - p_j q_i: each product has relative error 7 u^2, the
+   difference 3 u^2: together at most 10 u^2 (|p_i q_j| + |p_j q_i|). */
+static void lanes_cross(cross_lanes *n)
 {
-    lrcsi_dd p[3];
-    lrcsi_dd q[3];
     for (int k = 0; k < 3; k++) {
-        p[k] = lrcsi_dd_two_sum(b[k], -a[k]);
-        q[k] = lrcsi_dd_two_sum(c[k], -a[k]);
+        for (int at = 0; at < CROSS_LANES; at++) {
+            lrcsi_dd p = lrcsi_dd_two_sum(n->b[k][at], -n->a[k][at]);
+            lrcsi_dd q = lrcsi_dd_two_sum(n->c[k][at], -n->a[k][at]);
+            n->p[k][at] = p.hi;
+            n->p_low[k][at] = p.lo;
+            n->q[k][at] = q.hi;
+            n->q_low[k][at] = q.lo;
+        }
     }
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
-        lrcsi_dd component = normal_component(p[i], q[j], p[j], q[i]);
-        n->high[k] = component.hi;
-        n->low[k] = component.lo;
+        for (int at = 0; at < CROSS_LANES; at++) {
+            lrcsi_dd pi = {n->p[i][at], n->p_low[i][at]};
+            lrcsi_dd pj = {n->p[j][at], n->p_low[j][at]};
+            lrcsi_dd qi = {n->q[i][at], n->q_low[i][at]};
+            lrcsi_dd qj = {n->q[j][at], n->q_low[j][at]};
+            lrcsi_dd component = lrcsi_dd_sub(lrcsi_dd_mul(pi, qj), lrcsi_dd_mul(pj, qi));
+            n->high[k][at] = component.hi;
+            n->low[k][at] = component.lo;
+        }
     }
-    double size = lrcsi_length((const double[3]){p[0].hi, p[1].hi, p[2].hi}) *
-                  lrcsi_length((const double[3]){q[0].hi, q[1].hi, q[2].hi});
+}
+
+/* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| comes out
+   of doubles within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
+static void normal_take(lrcs_prepared *prepared, uint32_t facet, const cross_lanes *lanes, int at)
+{
+    lrcsi_normal *n = &prepared->normal[facet];
+    const double p[3] = {lanes->p[0][at], lanes->p[1][at], lanes->p[2][at]};
+    const double q[3] = {lanes->q[0][at], lanes->q[1][at], lanes->q[2][at]};
+    for (int k = 0; k < 3; k++) {
+        n->high[k] = lanes->high[k][at];
+        n->low[k] = lanes->low[k][at];
+    }
+    double size = lrcsi_length(p) * lrcsi_length(q);
     n->length = lrcsi_length(n->high);
     n->error = 21 * U * U * size;
     if (n->length < NORMAL_SLIVER * size) {
-        lrcsi_exact_normal(a, b, c, n->high, n->low);
+        lrcsi_exact_normal(lrcsi_prepared_corner(prepared, facet, 0),
+                           lrcsi_prepared_corner(prepared, facet, 1),
+                           lrcsi_prepared_corner(prepared, facet, 2), n->high, n->low);
         n->length = lrcsi_length(n->high);
         n->error = 100 * U * U * n->length;
     }
@@ -121,28 +154,46 @@ static void normal_make(const double *a, const double *b, const double *c, lrcsi
 
 static void prepare_normals(lrcs_prepared *p)
 {
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        normal_make(lrcsi_prepared_corner(p, f, 0), lrcsi_prepared_corner(p, f, 1),
-                    lrcsi_prepared_corner(p, f, 2), &p->normal[f]);
-        p->skip[f] = p->topology.degenerate[f] || lrcsi_prepared_material(p, f)->omitted;
-        p->redundant[f] = p->skip[f] ? LRCSI_REDUNDANT : LRCSI_NOT_REDUNDANT;
-        p->live += !p->skip[f];
+    uint32_t count = p->scene->facet_count;
+    cross_lanes lanes;
+    for (uint32_t first = 0; first < count; first += CROSS_LANES) {
+        for (uint32_t at = 0; at < CROSS_LANES; at++) { /* the last facet fills the last lanes */
+            uint32_t f = first + at < count ? first + at : count - 1;
+            for (int k = 0; k < 3; k++) {
+                lanes.a[k][at] = lrcsi_prepared_corner(p, f, 0)[k];
+                lanes.b[k][at] = lrcsi_prepared_corner(p, f, 1)[k];
+                lanes.c[k][at] = lrcsi_prepared_corner(p, f, 2)[k];
+            }
+        }
+        lanes_cross(&lanes);
+        for (uint32_t at = 0; at < CROSS_LANES && first + at < count; at++) {
+            normal_take(p, first + at, &lanes, (int)at);
+        }
     }
 }
 
-/* The box around the live facets, and where they stand. */
+/* Which facets take part, and where those stand. */
+static void prepare_live(lrcs_prepared *p)
+{
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        p->skip[f] = p->topology.degenerate[f] || lrcsi_prepared_material(p, f)->omitted;
+        p->redundant[f] = p->skip[f] ? LRCSI_REDUNDANT : LRCSI_NOT_REDUNDANT;
+        p->live += !p->skip[f];
+        for (int k = 0; k < 3 && !p->skip[f]; k++) {
+            p->stood[p->scene->facet[f].corner[k]] = 1;
+        }
+    }
+}
+
+/* The box around the live facets. */
 static void prepare_box(lrcs_prepared *p)
 {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
-            const double *x = lrcsi_prepared_corner(p, f, corner);
-            p->stood[p->scene->facet[f].corner[corner]] = 1;
-            for (int k = 0; k < 3; k++) {
-                low[k] = fmin(low[k], x[k]);
-                high[k] = fmax(high[k], x[k]);
-            }
+    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
+        for (int k = 0; k < 3 && p->stood[v]; k++) {
+            low[k] = lrcsi_least(low[k], p->vertex[v].x[k]);
+            high[k] = lrcsi_most(high[k], p->vertex[v].x[k]);
         }
     }
     for (int k = 0; k < 3 && p->live > 0; k++) {
@@ -220,8 +271,7 @@ static void contacts_none(const lrcs_prepared *p, unsigned char *none)
 }
 
 /* Contacts, and with them whether the scene is solid. Returned also: whether it is all one piece of
-   surface, as a convex body is. Pieces, and which facets were asked, stay beneath the contacts.
-   Where every edge has two facets, twins are a piece by themselves, of no volume: not solid. */
+   surface, as a convex body is. Pieces, and which facets were asked, stay beneath the contacts. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work, int *lone)
 {
     uint32_t *piece = lrcsi_work_take(work, p->scene->facet_count, sizeof *piece);
@@ -231,7 +281,8 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work, int *lone)
     }
     contacts_none(p, none);
     int closed = lrcsi_solid_pieces(p, piece);
-    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, none,
+    int status = lrcsi_touches_make(p->vertex, p->scene->vertex_count, p->scene->facet,
+                                    p->scene->facet_count, &p->topology, none,
                                     closed ? piece : NULL, work, &p->touches);
     if (status == LRCS_OK) {
         status = lrcsi_coincident_touches(p, work);
@@ -274,8 +325,10 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_coincident_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
-    need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
-    size_t proof = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
+    need = lrcsi_work_add(need, lrcsi_batches_need(scene));
+    need = lrcsi_work_add(
+        need, lrcsi_touches_need(scene->vertex_count, scene->facet_count, 4 * facets + 64));
+    size_t proof = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
     proof = lrcsi_work_add(proof, lrcsi_tree_need(scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_nears_need(scene));
@@ -298,6 +351,7 @@ int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepar
     status = prepare_arrays(scene, work, p);
     if (status == LRCS_OK) {
         prepare_normals(p);
+        prepare_live(p);
         prepare_box(p);
         prepare_effects(p);
         status = lrcsi_coincident_mark(p, work);
@@ -305,6 +359,9 @@ int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepar
     if (status == LRCS_OK) {
         status = lrcsi_across_make(&p->topology, scene->facet_count, p->redundant, p->twin, work,
                                    &p->across);
+    }
+    if (status == LRCS_OK) {
+        status = lrcsi_batches_make(p, work);
     }
     if (status == LRCS_OK) {
         status = prepare_proofs(p, work);

@@ -11,6 +11,7 @@
 #include "mesh/topology.h"
 #include "mesh/touch.h"
 #include "scene/across.h"
+#include "scene/batch.h"
 #include "scene/near.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
@@ -42,6 +43,7 @@ struct lrcs_prepared {
                        where no facet has any */
     unsigned char *stood; /* vertex: 1 where a live facet stands on it */
     lrcsi_normal *normal;
+    lrcsi_batches batches;   /* facets that are not skipped, by material */
     lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
     lrcsi_across across;     /* across the sides of facets that are not redundant */
     lrcsi_touches touches;   /* between facets that are not redundant, but not between twins */

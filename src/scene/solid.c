@@ -7,49 +7,29 @@
 
 #include "base/join.h"
 #include "base/work.h"
+#include "mesh/convex.h"
 
 #define U 0x1p-53
 
 /* --- pieces: facets joined by edges ----------------------------------------------------------- */
 
-/* Joins the two live facets of an edge; 0 where there are others, or not in opposite directions. */
-static int piece_join(const lrcs_prepared *p, const lrcsi_edge *edge, uint32_t *parent)
-{
-    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
-    uint32_t live = 0;
-    uint32_t pair[2] = {0, 0};
-    uint32_t forward = 0;
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        if (p->skip[use[i].facet]) {
-            continue;
-        }
-        if (live < 2) {
-            pair[live] = use[i].facet;
-        }
-        live++;
-        forward += use[i].forward;
-    }
-    if (live == 2 && forward == 1) {
-        lrcsi_join(parent, pair[0], pair[1]);
-        return 1;
-    }
-    return live == 0;
-}
-
+/* Across each side of a live facet there is one other, unless the edge is irregular or a rim. */
 int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
 {
     uint32_t count = p->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
         piece[f] = f;
-    }
-    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
-        if (!piece_join(p, &p->topology.edge[e], piece)) {
-            return 0;
+        for (int k = 0; k < 3 && !p->skip[f]; k++) {
+            uint32_t other = p->across.facet[f].corner[k];
+            if (p->twin || other == f || other == count) {
+                return 0;
+            }
+            if (other < f) {
+                lrcsi_join(piece, other, f);
+            }
         }
     }
-    for (uint32_t f = 0; f < count; f++) {
-        piece[f] = lrcsi_join_root(piece, f);
-    }
+    lrcsi_join_settle(piece, count);
     return 1;
 }
 
@@ -203,24 +183,43 @@ int lrcsi_convex_made(const lrcs_prepared *p, int *solid, double *graze)
     return (part->solid || !p->two_sided) && part_is_convex(p, part, graze);
 }
 
+/* Of the live facets alone, where others stand on the topology's edges. */
+static int convex_without_omitted(const lrcs_prepared *p, lrcs_work *work, int *proved)
+{
+    lrcs_facet *facet = lrcsi_work_take(work, p->live, sizeof *facet);
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < p->scene->facet_count && facet; f++) {
+        if (!p->skip[f]) {
+            facet[count++] = p->scene->facet[f];
+        }
+    }
+    uint32_t vertices = p->scene->vertex_count;
+    lrcsi_topology t;
+    int status =
+        facet ? lrcsi_topology_make(p->vertex, vertices, facet, count, work, &t) : LRCS_E_MEMORY;
+    return status == LRCS_OK
+               ? lrcsi_convex_prove(p->vertex, vertices, facet, count, &t, work, proved)
+               : status;
+}
+
+size_t lrcsi_convex_exact_need(uint32_t vertex_count, uint32_t facet_count)
+{
+    size_t need = lrcsi_work_bytes(facet_count, sizeof(lrcs_facet));
+    need = lrcsi_work_add(need, lrcsi_topology_need(vertex_count, facet_count));
+    return lrcsi_work_add(need, lrcsi_convex_need(vertex_count, facet_count));
+}
+
 int lrcsi_convex_exact(const lrcs_prepared *p, lrcs_work *work, int *proved)
 {
     size_t mark = work->used;
-    lrcs_facet *facet = lrcsi_work_take(work, p->live, sizeof *facet);
-    int status = LRCS_E_MEMORY;
-    if (facet) {
-        uint32_t count = 0;
-        for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-            if (!p->skip[f]) {
-                facet[count++] = p->scene->facet[f];
-            }
-        }
-        lrcs_mesh_report report;
-        status = lrcs_mesh_check(p->vertex, p->scene->vertex_count, facet, count, work, &report);
-        if (status == LRCS_OK) {
-            *proved = report.convex;
-        }
+    uint32_t omitted = 0;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        omitted += p->skip[f] && !p->topology.degenerate[f];
     }
+    int status = omitted != 0
+                     ? convex_without_omitted(p, work, proved)
+                     : lrcsi_convex_prove(p->vertex, p->scene->vertex_count, p->scene->facet,
+                                          p->scene->facet_count, &p->topology, work, proved);
     work->used = mark;
     return status;
 }

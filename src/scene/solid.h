@@ -5,9 +5,10 @@
 
 #include "scene/prepare.h"
 
-/* Pieces of surface, connected over edges: piece[facet] names its piece by one of its facets.
-   Returned: 1 where on every edge of the live facets just two of them stand, in opposite
-   directions; else 0, and piece is of no use. */
+/* Pieces of surface, connected over edges: piece[facet] names its piece by its first facet.
+   Returned: 1 where every edge of the live facets has exactly two of them, in opposite directions,
+   and none is coincident with another (twins enclose no volume, so no such scene is solid); else 0,
+   and piece is of no use. */
 int lrcsi_solid_pieces(const lrcs_prepared *prepared, uint32_t *piece);
 
 /* Proves that the winding number of the live facets is nowhere negative: their pieces are closed
@@ -28,8 +29,9 @@ int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *piece, lr
    visible all the same. */
 int lrcsi_convex_made(const lrcs_prepared *prepared, int *solid, double *graze);
 
-/* Proves that the live facets of a solid scene are one convex body, exactly (lrcs_mesh_check).
-   Status: LRCS_OK; LRCS_E_MEMORY. */
+/* Proves that the live facets of a solid scene are one convex body, exactly (mesh/convex.h).
+   Status: LRCS_OK; LRCS_E_MEMORY. Work: nothing stays; lrcsi_convex_exact_need. */
+size_t lrcsi_convex_exact_need(uint32_t vertex_count, uint32_t facet_count);
 int lrcsi_convex_exact(const lrcs_prepared *prepared, lrcs_work *work, int *proved);
 
 #endif

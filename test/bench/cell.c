@@ -25,7 +25,7 @@ static int samples_read(int from, double limit_s, bench_cell *cell)
         bench_sample sample;
         double left = end - bench_wall_ms();
         struct pollfd ready = {.fd = from, .events = POLLIN};
-        if (poll(&ready, 1, left > 0 ? 1 + (int)left : 0) <= 0) {
+        if (!(left > 0) || poll(&ready, 1, 1 + (int)left) <= 0) {
             return 0;
         }
         if (read(from, &sample, sizeof sample) != (ssize_t)sizeof sample) {

@@ -37,7 +37,7 @@ done
 
 run run box.toml --direction 1,1,1 --time-budget 60000 --json
 same it_ends_where_nothing_is_left_to_gain "$rc" 0
-same no_tolerance_was_asked_for "$(value tolerance)" '{"asked": null, "met": null}'
+same no_tolerance_was_asked_for "$(value tolerance)" '{"asked": null, "met": null, "accepted_by": null}'
 run run pair.toml --direction 1,1,1 --json
 bound=$(value bound_m2)
 run run pair.toml --direction 1,1,1 --time-budget 60000 --json
@@ -45,7 +45,7 @@ same the_best_of_plane_facets_is_exact "$(value bound_m2)" "$bound"
 
 # ---- a tolerance beside it ----
 run run round.toml --direction 1,1,1 --time-budget 60000 --tolerance 0.01 --json
-same a_tolerance_that_is_met_ends_it "$rc $(value tolerance)" '0 {"asked": 0.01, "met": true}'
+same a_tolerance_that_is_met_ends_it "$rc $(value tolerance)" '0 {"asked": 0.01, "met": true, "accepted_by": "bound"}'
 again and_that_is_what_it_names round.toml
 run run pair.toml --direction 1,1,1 --time-budget 60000 --tolerance 1e-300 --json
 same a_tolerance_out_of_reach_exits_3 "$rc $(printf '%s' "$out" | grep -c tolerance_not_met)" "3 1"

@@ -21,8 +21,8 @@ within() {
 # ---- a scene of flat faces, in the open: the truth is the closed form ----
 run converge "$examples/plate.toml" --azel 0,70 --seconds 1 --csv t.csv --plot p.svg --plot p.PNG
 same plate_exits_0 "$rc" 0
-same csv_columns "$(head -1 t.csv)" "setting,method,resolution,mesh_tolerance,facets,repetitions,prepare_ms,pose_ms,sigma_m2,error_m2,bound_m2,estimate_m2,relative_error,relative_bound,relative_estimate"
-same rows_have_all_columns "$(awk -F, 'NF != 15' t.csv | wc -l | tr -d ' ')" 0
+same csv_columns "$(head -1 t.csv)" "setting,method,resolution,mesh_tolerance,facets,repetitions,prepare_ms,pose_ms,sigma_m2,error_m2,bound_m2,estimate_m2,relative_error,relative_bound,relative_estimate,accepted_by"
+same rows_have_all_columns "$(awk -F, 'NF != 16' t.csv | wc -l | tr -d ' ')" 0
 same facet_rasters_and_exact_are_tried "$(column setting | sed -n '1,3p;$p' | tr '\n' ' ')" "facet zbuffer 16 zbuffer 32 exact "
 same flat_faces_have_no_mesh_tolerance "$(column mesh_tolerance | sort -u)" ""
 near spot_value_of_the_plate "$(column sigma_m2 exact)" 3.27656091132
@@ -48,6 +48,20 @@ same json_has_four_tolerances "$(printf '%s\n' "$out" | grep -cE '^    \{"tolera
 same json_says_what_time_left_out "$(printf '%s\n' "$out" | grep -c '"left out: zbuffer 16 and finer, for time"')" 1
 run shape cylinder --radius 0.5 --length 2 --aspect 60 --material 1,0.25,0.2,0.5 --json
 same example_files_are_what_they_say "$(value sigma_m2 | cut -c1-12)" 3.5904267333
+
+same what_is_proved_needs_no_estimate "$(column setting estimate)" ""
+
+# ---- what an estimate costs, beside what a proof costs ----
+pair_scene >two.toml
+run converge two.toml --direction 1,2,5 --seconds 0.2 --csv t.csv --plot two.svg
+same previews_are_three_rows "$(column setting estimate | tr '\n' ',')" "by estimate 1e-1,by estimate 1e-2,by estimate 1e-3,"
+same what_is_accepted_is_told "$(column accepted_by estimate | grep -cvE '^(estimate|bound)$') $(column accepted_by '^(facet|exact|zbuffer)' | sort -u)" "0 "
+same and_is_within_its_tolerance_by_what_accepts_it "$(awk -F, '/^by estimate/ { split($1, w, " "); tol = w[3] + 0
+    if ($16 == "estimate" ? !($15 <= tol && $14 > tol) : !($14 <= tol)) bad++ } END { print bad + 0 }' t.csv)" 0
+same the_sentence_ends_with_what_they_cost "$(printf '%s\n' "$out" | tail -1 | grep -cE 'By estimate, unproved, a tolerance of 1e-1 takes [^ ]+ ms.*, 1e-2 takes [^ ]+ ms.*, 1e-3 takes [^ ]+ ms.*\.$')" 1
+same the_plot_has_a_curve_of_them "$(grep -c 'accepted by estimate: error' two.svg)" 1
+run converge two.toml --direction 1,2,5 --seconds 0.2 --json
+same json_has_their_tolerances "$(printf '%s\n' "$out" | grep -cE '"setting": "by estimate .*"tolerance": [0-9.]+, "accepted_by": "(estimate|bound)"')" 3
 
 # ---- a shape that is turned: exact is the truth, and agrees with the closed form ----
 cat >turned.toml <<'END'

@@ -52,6 +52,8 @@ static void bad_options_are_refused(void **state)
         {.tolerance = 1e-4, .method = 99},
         {.tolerance = 1e-4, .method = -1},
         {.tolerance = 1e-4, .method = 4},
+        {.tolerance = 1e-4, .accept = LRCS_ACCEPT_ANY + 1},
+        {.tolerance = 1e-4, .accept = -1},
         {.tolerance = 1e-4, .method = LRCS_METHOD_ZBUFFER, .resolution = 16385},
         {.tolerance = 1e-4, .resolution = UINT32_MAX},
         {.tolerance = 1e-4, .without = 1u << LRCS_EFFECTS},

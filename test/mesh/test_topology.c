@@ -2,12 +2,14 @@
 /* Welding and edges: on a cube, on a soup, and against a quadratic search on random meshes. */
 #include "mesh/topology.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/exact.h"
 #include "base/work.h"
 #include "check.h"
+#include "mesh/store.h"
 
 enum { ROOM = 1 << 20 };
 
@@ -150,6 +152,84 @@ static void random_meshes_keep_every_promise(void **state)
     }
 }
 
+/* A vertex of many edges, with facets in a random order and turned any way: more than are sorted
+   one by one. */
+static void a_vertex_of_many_edges_keeps_every_promise(void **state)
+{
+    (void)state;
+    enum { RIM = 150, FANS = 3 };
+    static lrcs_point vertex[RIM + 1];
+    static lrcs_facet facet[FANS * RIM];
+    uint32_t seed = 3;
+    for (int i = 0; i < RIM; i++) {
+        vertex[i + 1] = (lrcs_point){{i, i * i, 1}};
+    }
+    for (uint32_t f = 0; f < FANS * RIM; f++) { /* a third of the sides three times over */
+        seed = seed * 1664525u + 1013904223u;
+        uint32_t b = 1 + (seed >> 8) % RIM;
+        uint32_t c = 1 + (b - 1 + 1 + (seed >> 20) % 2) % RIM;
+        const uint32_t corner[3] = {0, f % 2 ? b : c, f % 2 ? c : b};
+        for (uint32_t k = 0; k < 3; k++) {
+            facet[f].corner[k] = corner[(k + f) % 3];
+        }
+    }
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_topology t;
+    assert_int_equal(lrcsi_topology_make(vertex, RIM + 1, facet, FANS * RIM, &work, &t), LRCS_OK);
+    check_promises(vertex, facet, FANS * RIM, &t);
+    assert_true(t.edge[100].low == 0);
+}
+
+/* The number whose lrcsi_store_mix is `mixed`: each of its steps undone. */
+static uint64_t unmix(uint64_t mixed)
+{
+    mixed ^= mixed >> 31 ^ mixed >> 62;
+    mixed *= 0x319642b2d24d8ec3u; /* times the second factor: 1 */
+    mixed ^= mixed >> 27 ^ mixed >> 54;
+    mixed *= 0x96de1b173f119089u;
+    return mixed ^ mixed >> 30 ^ mixed >> 60;
+}
+
+static double double_of(uint64_t bits)
+{
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static uint64_t bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* Points made to meet in one slot of the table, each twice: sorted then, with the same result. */
+static void points_that_hash_alike_are_welded_all_the_same(void **state)
+{
+    (void)state;
+    enum { ALIKE = 300 };
+    static lrcs_point vertex[2 * ALIKE];
+    uint32_t count = 0;
+    for (uint64_t i = 1; count < ALIKE; i++) {
+        double x = (double)i;
+        double z = double_of(unmix(77) - lrcsi_store_mix(lrcsi_store_mix(bits_of(x)) + bits_of(x)));
+        if (fabs(z) < 1e100) {
+            assert_true(lrcsi_store_mix(lrcsi_store_mix(lrcsi_store_mix(bits_of(x)) + bits_of(x)) +
+                                        bits_of(z)) == 77);
+            vertex[2 * ALIKE - 1 - count] = (lrcs_point){{x, x, z}};
+            vertex[count++] = (lrcs_point){{x, x, z}};
+        }
+    }
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_topology t;
+    assert_int_equal(lrcsi_topology_make(vertex, 2 * ALIKE, NULL, 0, &work, &t), LRCS_OK);
+    for (uint32_t i = 0; i < ALIKE; i++) {
+        assert_int_equal(t.weld[i], i);
+        assert_int_equal(t.weld[2 * ALIKE - 1 - i], i);
+    }
+}
+
 static void the_need_is_enough_and_one_byte_at_a_time_fails_clean(void **state)
 {
     (void)state;
@@ -188,6 +268,8 @@ int main(void)
         cmocka_unit_test(points_one_ulp_apart_stay_apart),
         cmocka_unit_test(degenerate_facets_have_no_edges),
         cmocka_unit_test(random_meshes_keep_every_promise),
+        cmocka_unit_test(a_vertex_of_many_edges_keeps_every_promise),
+        cmocka_unit_test(points_that_hash_alike_are_welded_all_the_same),
         cmocka_unit_test(the_need_is_enough_and_one_byte_at_a_time_fails_clean),
         cmocka_unit_test(too_many_facets_are_refused),
     };
