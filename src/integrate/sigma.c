@@ -11,15 +11,10 @@
 #include "integrate/plan.h"
 #include "integrate/total.h"
 #include "visibility/occlude.h"
-#include "visibility/query.h"
-#include "visibility/zbuffer.h"
+#include "visibility/preview.h"
 
 /* The finest raster: beyond it the bound gains less than it costs. */
 #define LAST_SIZE 4096u
-
-/* Under method zbuffer, facets of scenes of so few are asked exactly what shows of them before any
-   raster is drawn. */
-#define ASKED_FACETS 2048u
 
 /* What a run passes from stage to stage. */
 typedef struct sigma_run {
@@ -36,9 +31,8 @@ typedef struct sigma_run {
     lrcsi_total total;
     lrcs_work *work;
     lrcs_image *image;
-    uint32_t size;    /* of the raster used, 0: none */
-    uint32_t partial; /* facets of which it left the areas open */
-    int contested;    /* contest, and margin where it is wanted, have been made */
+    uint32_t size; /* of the raster used, 0: none */
+    int contested; /* contest has been made, and margin where it is wanted */
     uint32_t flags;
 } sigma_run;
 
@@ -60,20 +54,14 @@ static int run_check(const lrcs_run_options *options, const lrcs_image *image)
 }
 
 /* What finding visible areas takes: under auto, whichever method does. On samples, curved facets
-   that are seen in part are clipped, and events are searched for where curved shapes stand among
-   others. */
+   that are seen in part are clipped. */
 static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
-    size_t contest = lrcsi_work_add(lrcsi_contest_need(prepared), lrcsi_margin_need(prepared));
-    size_t query = lrcsi_grid_facets_need(prepared);
-    size_t exact = lrcsi_work_add(contest, lrcsi_occlude_need(prepared));
-    size_t facets = prepared->scene->facet_count;
-    size_t raster = lrcsi_work_add(lrcsi_work_bytes(facets, 1), lrcsi_zbuffer_need(prepared, size));
-    raster = lrcsi_work_add(raster, prepared->smooth ? exact
-                                    : prepared->nears.reach || facets <= ASKED_FACETS
-                                        ? lrcsi_work_add(contest, query)
-                                        : 0);
+    size_t raster =
+        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+    size_t exact = lrcsi_occlude_need(prepared);
+    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
     return options->method == LRCS_METHOD_EXACT                       ? exact
            : options->method == LRCS_METHOD_ZBUFFER || raster > exact ? raster
                                                                       : exact;
@@ -92,6 +80,8 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
                               prepared->smooth ? lrcsi_work_add(areas, curved) : 0);
     }
     size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_work_add(areas, curved));
+    need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
     return lrcsi_work_add(need, method_need(prepared, options));
 }
 
@@ -203,28 +193,6 @@ static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
     }
 }
 
-/* Which facets are contested, and what the truth of curved shapes may show otherwise: once, for
-   methods that ask. Where back sides are left out of a scene that shows some, its true curves are
-   not known. */
-static int run_contest(sigma_run *run)
-{
-    const lrcs_prepared *p = run->view.prepared;
-    size_t mark = run->work->used;
-    int status =
-        run->contested ? LRCS_OK : lrcsi_contest_make(&run->view, run->work, &run->contest);
-    if (!run->contested && status == LRCS_OK && p->nears.reach &&
-        (run->view.backs_cast || p->solid)) {
-        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
-        run->doubt = &run->margin;
-    }
-    run->contested |= status == LRCS_OK;
-    if (status != LRCS_OK) {
-        run->work->used = mark;
-        run->doubt = NULL;
-    }
-    return status;
-}
-
 /* Curved facets of which samples know the areas: clipped where they are seen in part, as far as
    there is memory for that. */
 static void sum_curved(sigma_run *run)
@@ -258,20 +226,68 @@ static void run_sum(sigma_run *run, int sampled)
 }
 
 /* One raster of the given size, or of the largest smaller one that the work area holds. */
-static int run_raster(sigma_run *run, const unsigned char *answer, uint32_t size)
+static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
 {
-    lrcsi_zbuffer zbuffer;
+    lrcsi_raster raster;
+    size_t mark = run->work->used;
     int status = LRCS_E_MEMORY;
     run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
     run->view.meter = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        status = lrcsi_zbuffer_make(&run->view, size, answer, run->work, run->visible, &zbuffer);
+        status = lrcsi_visible_sampled(known, size, run->work, &raster, run->visible);
+        run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
+    }
+    run->view.meter = &run->meter;
+    if (status == LRCS_OK) {
+        run->size = raster.size;
+        for (uint32_t f = 0; f < run->view.prepared->scene->facet_count; f++) {
+            run->flags |= raster.undecided[f] ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
+        }
+        run_sum(run, 1);
+    }
+    run->work->used = mark;
+    return status;
+}
+
+/* Which facets are contested, and what curved shapes may show otherwise: once. Where back sides are
+   left out of a scene that shows some, its true curves are not known. */
+static int run_contest(sigma_run *run)
+{
+    const lrcs_prepared *p = run->view.prepared;
+    if (run->contested) {
+        return LRCS_OK;
+    }
+    int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    if (status == LRCS_OK && p->nears.reach && (run->view.backs_cast || p->solid)) {
+        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
+        run->doubt = &run->margin;
+    }
+    run->contested = status == LRCS_OK;
+    return status;
+}
+
+/* Are areas taken from samples alone, without a proof? Curved normals need to know where on a facet
+   it is seen, and curved shapes among others which facets are contested. */
+static int run_samples_only(const sigma_run *run, const lrcs_run_options *options)
+{
+    const lrcs_prepared *p = run->view.prepared;
+    return run->plan.method == LRCS_METHOD_ZBUFFER && options->accept != LRCS_ACCEPT_BOUND &&
+           !p->smooth && !p->nears.reach && run->flags == 0;
+}
+
+/* One such raster; of a size that the work area holds, if it can. */
+static int run_preview_at(sigma_run *run, uint32_t size)
+{
+    int undecided = 0;
+    int status = LRCS_E_MEMORY;
+    run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
+    for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
+        status = lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
         run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         run->size = size;
     }
     if (status == LRCS_OK) {
-        run->partial = zbuffer.partial;
-        run->flags |= zbuffer.undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
+        run->flags |= undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
         run_sum(run, 1);
     }
     return status;
@@ -283,12 +299,11 @@ static int run_exact(sigma_run *run, int method)
     uint32_t starved = 0;
     lrcsi_curving how = run_curving(run);
     int status = run_contest(run);
-    if (status != LRCS_OK) {
-        return status;
+    if (status == LRCS_OK) {
+        status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
+                                                  run->curved, &starved)
+                             : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
     }
-    status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
-                                              run->curved, &starved)
-                         : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
     if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
         return LRCS_E_MEMORY;
     }
@@ -320,18 +335,22 @@ static uint32_t next_size(const sigma_run *run, const lrcs_run_options *options)
    estimate none that clipping does better than; nor where depths stay undecided. */
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
-    unsigned char *answer;
+    lrcsi_known known;
     size_t mark = run->work->used;
     int preview = lrcsi_plan_previews(options);
+    int samples_only = run_samples_only(run, options);
     uint32_t size = run->plan.size;
-    run->view.meter = NULL;
-    int status = lrcsi_visible_known(&run->contest, run->work, &known);
-    run->view.meter = &run->meter;
+    int status = samples_only ? LRCS_OK : run_contest(run);
+    if (status == LRCS_OK && !samples_only) {
+        run->view.meter = NULL;
+        status = lrcsi_visible_known(&run->contest, run->work, &known);
+        run->view.meter = &run->meter;
+    }
     while (status == LRCS_OK) {
-        status = run_raster(run, &known, size);
+        status = samples_only ? run_preview_at(run, size) : run_raster(run, &known, size);
         if (status != LRCS_OK || options->resolution != 0 || run->size >= LAST_SIZE ||
             run->meter.spent || (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
-            run->contest.contested_count == 0 ||
+            (!samples_only && run->contest.contested_count == 0) ||
             !(run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
             break;
         }
@@ -341,7 +360,7 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
         }
         size = size > run->size ? size : LAST_SIZE;
     }
-    run->work->used = run->contested ? run->work->used : mark;
+    run->work->used = mark;
     return status;
 }
 
@@ -357,8 +376,7 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_view_project(run->work, &run->view);
-    size_t mark = run->work->used;
-    if (status == LRCS_OK && (run->view.prepared->nears.reach || run->view.prepared->smooth)) {
+    if (status == LRCS_OK && !run_samples_only(run, options)) {
         status = run_contest(run);
     }
     if (status != LRCS_OK) {
@@ -378,10 +396,6 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
         run->plan.method = LRCS_METHOD_ZBUFFER;
         run->plan.reason = "too little memory for clipping";
         run->flags = LRCS_FLAG_MEMORY_FALLBACK;
-        if (!run->doubt && !run->curved) { /* nobody else asks */
-            run->work->used = mark;
-            run->contested = 0;
-        }
         status = run_zbuffer(run, options);
     }
     return status;

@@ -21,8 +21,6 @@ typedef struct lrcsi_touch {
     uint32_t kind;
 } lrcsi_touch;
 
-#define LRCSI_TOUCH_RIM 8u
-
 typedef struct lrcsi_touches {
     uint32_t *first;    /* facet_count + 1: entries of facet i are touch[first[i] .. first[i+1]) */
     lrcsi_touch *touch; /* by facet, then by other */

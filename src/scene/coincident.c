@@ -188,20 +188,6 @@ static uint64_t count_entries(const lrcs_prepared *p)
     return count;
 }
 
-/* The rim of a facet, from that of its twin, whose sides run the other way. */
-static unsigned char rim_of(const lrcs_prepared *p, uint32_t facet, uint32_t twin)
-{
-    const uint32_t *edge = p->topology.facet_edge[facet].corner;
-    const uint32_t *other = p->topology.facet_edge[twin].corner;
-    unsigned rim = p->touches.rim[twin] & LRCSI_TOUCH_RIM;
-    for (int n = 0; n < 9; n++) {
-        if (edge[n / 3] == other[n % 3]) {
-            rim |= (p->touches.rim[twin] >> n % 3 & 1u) << n / 3;
-        }
-    }
-    return (unsigned char)rim;
-}
-
 /* In place, from the end: no entry moves down, and the list of a first twin is still where it was
    when the second, which comes after it, is given it. */
 static void spread_entries(lrcs_prepared *p, uint32_t count)
@@ -218,7 +204,7 @@ static void spread_entries(lrcs_prepared *p, uint32_t count)
             }
             t->touch[--to] = touch;
         }
-        t->rim[f] = rim_of(p, f, of);
+        t->rim[f] = t->rim[of];
         t->first[f + 1] = count;
         count = to;
     }

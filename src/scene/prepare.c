@@ -248,7 +248,7 @@ static int prepare_made(lrcs_prepared *p, lrcs_work *work)
     if (!p->touches.first || !p->touches.rim) {
         return LRCS_E_MEMORY;
     }
-    memset(p->touches.rim, LRCSI_TOUCH_RIM, facets);
+    memset(p->touches.rim, 1, facets);
     return LRCS_OK;
 }
 

@@ -106,7 +106,6 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
     }
     mark_plain(p, cast, marks);
     mark_odd(view, marks);
-    events->mark = marks;
     events->count = mark_list(marks, mark_words(p), edge);
     work->used = end;
     events->edge = lrcsi_work_take(work, events->count, sizeof *edge);

@@ -10,14 +10,7 @@
 typedef struct lrcsi_events {
     uint32_t *edge; /* topology edges, ascending */
     uint32_t count;
-    uint32_t *mark; /* a bit for each topology edge: 1 where it is one */
 } lrcsi_events;
-
-/* Is a topology edge an event edge? */
-static inline int lrcsi_events_has(const lrcsi_events *events, uint32_t edge)
-{
-    return (int)(events->mark[edge / 32] >> edge % 32 & 1);
-}
 
 size_t lrcsi_events_need(const lrcs_prepared *prepared);
 

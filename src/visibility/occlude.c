@@ -431,16 +431,6 @@ int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding 
     return status;
 }
 
-/* All or nothing of each facet, by its lrcsi_query_answer; nothing where that is undecided. */
-static void uniform_areas(const lrcsi_view *view, const unsigned char *answer,
-                          lrcsi_visible *visible)
-{
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        double area = answer[f] == LRCSI_QUERY_VISIBLE ? lrcsi_view_projected(view, f) : 0;
-        visible[f] = (lrcsi_visible){area, area, area, 0, 0};
-    }
-}
-
 int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible,
                       uint32_t *starved)
 {
@@ -450,7 +440,7 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
     int status = lrcsi_occlude_make(contest, work, &o);
     *starved = 0;
     if (status == LRCS_OK) {
-        uniform_areas(view, o.uniform, visible);
+        lrcsi_visible_answered(view, o.uniform, visible);
     }
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         int parted = contest->contested[f];

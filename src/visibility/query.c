@@ -283,18 +283,3 @@ int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint3
     }
     return 0;
 }
-
-int lrcsi_query_all(lrcsi_contest *contest, lrcs_work *work, unsigned char *answer)
-{
-    size_t mark = work->used;
-    lrcsi_grid facets;
-    int status = lrcsi_query_uniform(contest, work, &facets, answer);
-    for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count && status == LRCS_OK;
-         f++) {
-        if (contest->contested[f] && !lrcsi_query_screened(contest, &facets, f)) {
-            answer[f] = LRCSI_QUERY_UNDECIDED;
-        }
-    }
-    work->used = mark;
-    return status;
-}

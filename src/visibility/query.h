@@ -23,11 +23,6 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
 int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_grid *facets,
                         unsigned char *answer);
 
-/* The answer of every facet, without any sample of a raster: uniform facets as above, contested
-   ones hidden where one sheet proves it, else undecided. Nothing stays in the work area. Status as
-   above. */
-int lrcsi_query_all(lrcsi_contest *contest, lrcs_work *work, unsigned char *answer);
-
 /* 1 where a contested facet is proved to be hidden, all of it behind one sheet; else 0, as where
    the view's meter is spent. It may ask contest for the facet's crossings, which are then at hand
    (visibility/contest.h). */

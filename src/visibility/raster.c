@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Drawing facets into the item buffer. It decides which pixels to ask and answers what floats and
-   doubles can prove; the rest it asks of visibility/sample.h. What the samples mean for areas is
-   not its business. */
+/* Drawing facets into the item buffer. It decides which pixels to ask and answers what doubles can
+   prove; the rest it asks of visibility/sample.h. What the samples mean for areas is not its
+   business. */
 #include "visibility/raster.h"
 
 #include <math.h>
@@ -14,11 +14,6 @@
 
 #define U 0x1p-53
 
-/* Samples drawn side by side: what a run stores beyond its end is what was there before. */
-enum { LANES = 8 };
-
-/* --- geometry in pixels ----------------------------------------------------------------------- */
-
 void lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2])
 {
     const double *p = raster->view->point[vertex].x;
@@ -27,7 +22,7 @@ void lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2
 }
 
 /* First pixel whose centre is not left of `x` less its error, kept within 0 .. size. */
-static inline uint32_t pixel_from(const lrcsi_raster *raster, double x)
+static uint32_t pixel_from(const lrcsi_raster *raster, double x)
 {
     double least = lrcsi_least(lrcsi_most(x - 0.5 - raster->off, 0), raster->size);
     uint32_t pixel = (uint32_t)least;
@@ -35,21 +30,13 @@ static inline uint32_t pixel_from(const lrcsi_raster *raster, double x)
 }
 
 /* One past the last pixel whose centre is not right of `x` plus its error. */
-static inline uint32_t pixel_to(const lrcsi_raster *raster, double x)
+static uint32_t pixel_to(const lrcsi_raster *raster, double x)
 {
     return (uint32_t)lrcsi_least(lrcsi_most(x + 0.5 + raster->off, 0), raster->size);
 }
 
-static inline void edges_corners(const lrcsi_raster *raster, uint32_t facet, double p[3][2])
-{
-    const uint32_t *corner = raster->view->prepared->scene->facet[facet].corner;
-    for (int k = 0; k < 3; k++) {
-        lrcsi_raster_point(raster, corner[k], p[k]);
-    }
-}
-
-/* The box of the corners, and the pixels whose centres the facet may cover. */
-static inline void edges_box(const lrcsi_raster *r, double p[3][2], lrcsi_edges *e)
+/* The box of the corners, and the pixels that the facet may cover and touch. */
+static void edges_box(const lrcsi_raster *r, double p[3][2], lrcsi_edges *e)
 {
     double x0 = lrcsi_least(p[0][0], lrcsi_least(p[1][0], p[2][0]));
     double x1 = lrcsi_most(p[0][0], lrcsi_most(p[1][0], p[2][0]));
@@ -60,64 +47,69 @@ static inline void edges_box(const lrcsi_raster *r, double p[3][2], lrcsi_edges 
     e->x1 = pixel_to(r, x1);
     e->y0 = pixel_from(r, y0);
     e->y1 = pixel_to(r, y1);
+    e->left = e->x0 > 0 ? e->x0 - 1 : 0;
+    e->right = e->x1 < r->size ? e->x1 + 1 : r->size;
+    e->bottom = e->y0 > 0 ? e->y0 - 1 : 0;
+    e->top = e->y1 < r->size ? e->y1 + 1 : r->size;
 }
 
 /* Corners are off by `off`, and so is the sample; with |q - p| and |sample - p| at most the box's
    half perimeter h and the margin of a pixel, the cross product is off by at most 4 off (h + 2).
    Roundings add 2 u N h for `at`, u N h for the differences and 5 u N h for the value, together at
    most off h. */
-static inline void edges_fill(const lrcsi_raster *raster, int facing, double p[3][2],
-                              lrcsi_edges *e)
-{
-    for (int k = 0; k < 3; k++) {
-        const double *a = p[k];
-        const double *b = p[(k + 1) % 3];
-        e->along[k] = -facing * (b[1] - a[1]);
-        e->up[k] = facing * (b[0] - a[0]);
-        e->at[k] = -(e->along[k] * a[0] + e->up[k] * a[1]);
-    }
-    e->left = e->x0 > 0 ? e->x0 - 1 : 0;
-    e->right = e->x1 < raster->size ? e->x1 + 1 : raster->size;
-    e->bottom = e->y0 > 0 ? e->y0 - 1 : 0;
-    e->top = e->y1 < raster->size ? e->y1 + 1 : raster->size;
-    lrcsi_span_prepare(e);
-}
-
 lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
 {
     lrcsi_edges e;
+    const uint32_t *corner = raster->view->prepared->scene->facet[facet].corner;
     double p[3][2];
-    edges_corners(raster, facet, p);
+    for (int k = 0; k < 3; k++) {
+        lrcsi_raster_point(raster, corner[k], p[k]);
+    }
     edges_box(raster, p, &e);
-    edges_fill(raster, raster->view->facing[facet], p, &e);
+    for (int k = 0; k < 3; k++) {
+        const double *a = p[k];
+        const double *b = p[(k + 1) % 3];
+        e.along[k] = -raster->view->facing[facet] * (b[1] - a[1]);
+        e.up[k] = raster->view->facing[facet] * (b[0] - a[0]);
+        e.at[k] = -(e.along[k] * a[0] + e.up[k] * a[1]);
+    }
+    lrcsi_span_prepare(&e);
     return e;
 }
 
-/* N . R rows in doubles: each off by 8 u |N|.
-   A height: numerator terms below 2 |N| radius, each off by 16 u of that, and corners by view->off,
-   all over |N| |cos|; the denominator's own error moves a height that lies within the scene by as
-   much again. view->off holds 32 u (radius + reach). Edge-on, nothing is decided by the plane. */
+/* N . R rows in doubles: each off by 8 u |N|. */
+static void plane_normal(const lrcsi_view *view, uint32_t facet, double out[3])
+{
+    const double *n = view->prepared->normal[facet].high;
+    for (int k = 0; k < 3; k++) {
+        out[k] = view->R[k][0] * n[0] + view->R[k][1] * n[1] + view->R[k][2] * n[2];
+    }
+}
+
 lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
 {
     const lrcsi_view *view = raster->view;
-    const lrcsi_normal *normal = &view->prepared->normal[facet];
     double n[3];
-    for (int k = 0; k < 3; k++) {
-        n[k] = view->R[k][0] * normal->high[0] + view->R[k][1] * normal->high[1] +
-               view->R[k][2] * normal->high[2];
-    }
+    plane_normal(view, facet, n);
     const double *a = view->point[view->prepared->scene->facet[facet].corner[0]].x;
-    double inverse = n[2] != 0 ? 1 / n[2] : 0;
-    double along = -n[0] * inverse;
-    double up = -n[1] * inverse;
-    double cosine = fabs(n[2]);
+    double along = n[2] != 0 ? -n[0] / n[2] : 0; /* edge-on: nothing is decided by it, see below */
+    double up = n[2] != 0 ? -n[1] / n[2] : 0;
     lrcsi_plane plane;
     plane.at = a[2] - along * (a[0] - view->low[0]) - up * (a[1] - view->low[1]);
     plane.along = along * raster->pixel;
     plane.up = up * raster->pixel;
-    plane.err =
-        cosine > 64 * U * normal->length ? 8 * view->off * normal->length / cosine : HUGE_VAL;
     return plane;
+}
+
+/* A height in doubles: numerator terms below 2 |N| radius, each off by 16 u of that, and corners
+   by view->off, all over |N| |cos|; the denominator's own error moves a height that lies within
+   the scene by as much again. view->off holds 32 u (radius + reach). */
+double lrcsi_raster_slack(const lrcsi_view *view, uint32_t facet)
+{
+    double n[3];
+    plane_normal(view, facet, n);
+    double cosine = fabs(n[2]) / view->prepared->normal[facet].length;
+    return cosine > 64 * U ? 8 * view->off / cosine : HUGE_VAL;
 }
 
 /* --- facets ----------------------------------------------------------------------------------- */
@@ -126,13 +118,9 @@ lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
 typedef struct raster_job {
     lrcsi_raster *raster;
     uint32_t facet;
+    lrcsi_edges edges;
     lrcsi_plane plane;
-    int ordinary;
-    float close;           /* ordinary: depths that differ by no more are not told apart */
-    float far;             /* else: no height of the facet is less */
-    uint32_t met;          /* the owner last met at a depth too close for floats, or LRCS_NONE, */
-    lrcsi_plane met_plane; /* its plane, */
-    int met_order, met_asked; /* and, once asked, its lrcsi_sample_order */
+    double slack;
 } raster_job;
 
 static void sample_point(const lrcsi_raster *r, uint32_t x, uint32_t y, double point[3])
@@ -141,31 +129,21 @@ static void sample_point(const lrcsi_raster *r, uint32_t x, uint32_t y, double p
                     r->view->low[1] + (y + 0.5) * r->pixel, point);
 }
 
-static double plane_height(const lrcsi_plane *plane, uint32_t x, uint32_t y)
+/* Does the facet cover the sample, where its edge functions cannot tell? */
+static int job_covers(const raster_job *job, uint32_t x, uint32_t y)
 {
-    return plane->at + plane->along * (x + 0.5) + plane->up * (y + 0.5);
+    double point[3];
+    sample_point(job->raster, x, y, point);
+    return lrcsi_sample_covers(job->raster->view, job->facet, point);
 }
 
-/* Is the facet nearer than the owner of a sample that both cover? From heights in doubles, computed
-   anew, else exactly. */
-static int job_nearer(raster_job *job, uint32_t owner, uint32_t x, uint32_t y)
+/* Is the facet nearer than the owner of a sample that both cover? */
+static int job_nearer(const raster_job *job, uint32_t owner, double ahead, uint32_t x, uint32_t y)
 {
     lrcsi_raster *r = job->raster;
-    if (owner != job->met) {
-        job->met = owner;
-        job->met_plane = lrcsi_raster_plane(r, owner);
-        job->met_asked = 0;
-    }
-    double ahead = plane_height(&job->plane, x, y) - plane_height(&job->met_plane, x, y);
-    if (fabs(ahead) > job->plane.err + job->met_plane.err) {
+    double slack = job->slack + r->slack[owner];
+    if (ahead > slack || ahead < -slack) {
         return ahead > 0;
-    }
-    if (!job->met_asked) {
-        job->met_asked = 1;
-        job->met_order = lrcsi_sample_order(r->view, job->facet, owner);
-    }
-    if (job->met_order != 0) {
-        return job->met_order > 0;
     }
     double point[3];
     sample_point(r, x, y, point);
@@ -175,201 +153,278 @@ static int job_nearer(raster_job *job, uint32_t owner, uint32_t x, uint32_t y)
     return nearer > 0;
 }
 
-/* Gives the facet a sample that it covers, if it is nearer than the owner. */
-static void draw_sample(raster_job *job, uint32_t x, uint32_t y)
+/* Samples x0 <= x < x1 of a row, which the facet covers: it takes them, or leaves them to their
+   owners. */
+static void draw_run(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
 {
     lrcsi_raster *r = job->raster;
-    size_t at = (size_t)y * r->size + x;
-    if (r->owner[at] == LRCS_NONE || job_nearer(job, r->owner[at], x, y)) {
-        r->owner[at] = job->facet;
-        r->depth[at] = job->ordinary ? (float)plane_height(&job->plane, x, y) : job->far;
-    }
-}
-
-/* Gives the facet those of the first `left` of LANES samples at which it is surely nearer. Returns
-   bits of which some are set where there are others at which it is not surely farther. Masks in the
-   place of branches: so compilers do the lanes at once. */
-static inline uint32_t draw_lanes(uint32_t *restrict owner, float *restrict depth, float first,
-                                  float along, float close, uint32_t facet, int32_t left)
-{
-    uint32_t doubt[LANES];
-    for (int32_t k = 0; k < LANES; k++) {
-        float height = first + along * (float)k;
-        float ahead = height - depth[k];
-        uint32_t within = 0u - (uint32_t)(k < left);
-        uint32_t nearer = (0u - (uint32_t)(ahead > close)) & within;
-        uint32_t close_by = (0u - (uint32_t)(ahead >= -close)) & within;
-        uint32_t new_bits;
-        uint32_t bits;
-        memcpy(&new_bits, &height, sizeof bits);
-        memcpy(&bits, &depth[k], sizeof bits);
-        bits = (new_bits & nearer) | (bits & ~nearer);
-        memcpy(&depth[k], &bits, sizeof bits);
-        owner[k] = (facet & nearer) | (owner[k] & ~nearer);
-        doubt[k] = close_by & ~nearer;
-    }
-    uint32_t any = 0;
-    for (int32_t k = 0; k < LANES; k++) {
-        any |= doubt[k];
-    }
-    return any;
-}
-
-/* Samples x0 <= x < x1 of a row, which an ordinary facet covers. The float heights: with z the
-   largest magnitude of a corner's depth, those of samples covered and what they change along the
-   run are at most z and 2 z; rounding the first, the slope, two products and two sums costs less
-   than 2^-21 z. */
-static void draw_ordinary(raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
-{
-    lrcsi_raster *r = job->raster;
+    double row = job->plane.at + job->plane.up * (y + 0.5);
     size_t at = (size_t)y * r->size + x0;
-    float first = (float)plane_height(&job->plane, x0, y);
-    float along = (float)job->plane.along;
-    uint32_t doubt = 0;
-    for (uint32_t i = 0; i < x1 - x0; i += LANES) {
-        doubt |= draw_lanes(r->owner + at + i, r->depth + at + i, first + along * (float)(int32_t)i,
-                            along, job->close, job->facet, (int32_t)(x1 - x0 - i));
-    }
-    if (doubt == 0) {
-        return;
-    }
-    for (uint32_t i = 0; i < x1 - x0; i++) { /* those in doubt, one by one */
-        float ahead = first + along * (float)(int32_t)i - r->depth[at + i];
-        if (r->owner[at + i] != job->facet && ahead >= -job->close) {
-            draw_sample(job, x0 + i, y);
+    uint32_t taken = 0;
+    double centre = x0 + 0.5;
+    for (uint32_t x = x0; x < x1; x++, at++, centre += 1) {
+        double height = row + job->plane.along * centre;
+        uint32_t owner = r->owner[at];
+        if (owner != LRCS_NONE) {
+            if (r->slack[owner] < 0 || !job_nearer(job, owner, height - r->depth[at], x, y)) {
+                continue;
+            }
+            r->owned[owner]--;
         }
+        taken++;
+        r->owner[at] = job->facet;
+        r->depth[at] = height;
     }
+    r->covered[job->facet] += x1 - x0;
+    r->owned[job->facet] += taken;
 }
 
-static void draw_run(raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
-{
-    if (x0 == x1) {
-        return;
-    }
-    job->raster->sample[job->facet] = y * job->raster->size + x0;
-    if (job->ordinary) {
-        draw_ordinary(job, y, x0, x1);
-        return;
-    }
-    for (uint32_t x = x0; x < x1; x++) {
-        draw_sample(job, x, y);
-    }
-}
-
-/* Samples of which the edge functions cannot tell whether the facet covers them. */
-static void draw_doubtful(raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
+static void draw_doubtful(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
 {
     for (uint32_t x = x0; x < x1; x++) {
-        double point[3];
-        sample_point(job->raster, x, y, point);
-        if (lrcsi_sample_covers(job->raster->view, job->facet, point)) {
+        if (job_covers(job, x, y)) {
             draw_run(job, y, x, x + 1);
         }
     }
 }
 
-/* Tells how the facet is drawn. Floats are subnormal below 2^-126: the last term. */
-static raster_job job_make(lrcsi_raster *r, uint32_t facet)
+void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet)
 {
-    raster_job job = {.raster = r, .facet = facet, .met = LRCS_NONE};
-    job.plane = lrcsi_raster_plane(r, facet);
-    double far;
-    double near;
-    lrcsi_grid_depth(r->view, facet, &far, &near);
-    double most = lrcsi_most(fabs(far), fabs(near)) + job.plane.err;
-    double err = job.plane.err + 0x1p-21 * most + 0x1p-140;
-    job.ordinary = err <= r->near_err;
-    if (job.ordinary) {
-        job.close = (float)(1.01 * (err + r->near_err));
-    } else {
-        far -= 2 * r->view->off;
-        job.far = (float)(far - 0x1p-23 * fabs(far) - 0x1p-140);
-    }
-    return job;
-}
-
-/* Draws a facet if it is ordinary, or if it is not, as asked for. Returns 0 where it is not. Most
-   small facets cover no sample: those count as ordinary. */
-static int raster_draw(lrcsi_raster *r, uint32_t facet, int ordinary)
-{
-    lrcsi_edges e;
-    double p[3][2];
-    edges_corners(r, facet, p);
-    edges_box(r, p, &e);
-    if (e.x0 >= e.x1 || e.y0 >= e.y1) {
-        return 1;
-    }
-    raster_job job = job_make(r, facet);
-    if (job.ordinary != ordinary) {
-        return job.ordinary;
-    }
-    edges_fill(r, r->view->facing[facet], p, &e);
-    for (uint32_t y = e.y0; y < e.y1; y++) {
-        lrcsi_samples row = lrcsi_span_samples(&e, y);
+    raster_job job = {.raster = raster, .facet = facet};
+    raster->slack[facet] = job.slack = lrcsi_raster_slack(raster->view, facet);
+    job.edges = lrcsi_raster_edges(raster, facet);
+    job.plane = lrcsi_raster_plane(raster, facet);
+    for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
+        lrcsi_row row = lrcsi_span_row(&job.edges, y);
         draw_doubtful(&job, y, row.may.x0, row.sure.x0);
         draw_run(&job, y, row.sure.x0, row.sure.x1);
         draw_doubtful(&job, y, row.sure.x1, row.may.x1);
     }
-    return ordinary;
+}
+
+/* --- tiles ------------------------------------------------------------------------------------ */
+
+static size_t tile_at(const lrcsi_raster *r, uint32_t x, uint32_t y)
+{
+    return (size_t)(y / LRCSI_RASTER_TILE) * r->tiles + x / LRCSI_RASTER_TILE;
+}
+
+/* The first pixel of a row of the tiles given, from x on and before x1, whose tile is wanted (or is
+   not, for `wanted` 0); x1 where there is none. */
+static inline uint32_t tile_next(const unsigned char *tiles, uint32_t x, uint32_t x1, int wanted)
+{
+    if (x < x1 && tiles[x / LRCSI_RASTER_TILE] != wanted) {
+        uint32_t tile = x / LRCSI_RASTER_TILE + 1;
+        uint32_t end = (x1 - 1) / LRCSI_RASTER_TILE + 1;
+        while (tile < end && tiles[tile] != wanted) {
+            tile++;
+        }
+        x = tile * LRCSI_RASTER_TILE;
+    }
+    return x < x1 ? x : x1;
+}
+
+static const unsigned char *tile_row(const lrcsi_raster *r, uint32_t y)
+{
+    return r->wanted + tile_at(r, 0, y);
+}
+
+/* Pixels x0 <= x < x1 of a row of tiles, the lowest row of which is y. All bits of LRCS_NONE are
+   set. */
+static void clear_run(lrcsi_raster *r, uint32_t y, uint32_t x0, uint32_t x1)
+{
+    for (uint32_t row = y; row < y + LRCSI_RASTER_TILE && row < r->size; row++) {
+        size_t at = (size_t)row * r->size + x0;
+        memset(r->owner + at, 0xff, (x1 - x0) * sizeof *r->owner);
+        memset(r->pure + at, 0, x1 - x0);
+    }
+}
+
+void lrcsi_raster_clear(lrcsi_raster *raster)
+{
+    uint32_t size = raster->size;
+    for (uint32_t y = 0; y < size; y += LRCSI_RASTER_TILE) {
+        const unsigned char *tiles = tile_row(raster, y);
+        uint32_t x = tile_next(tiles, 0, size, 1);
+        while (x < size) {
+            uint32_t end = tile_next(tiles, x, size, 0);
+            clear_run(raster, y, x, end);
+            x = tile_next(tiles, end, size, 1);
+        }
+    }
+}
+
+static void want_row(lrcsi_raster *r, uint32_t y, uint32_t x0, uint32_t x1)
+{
+    for (uint32_t x = x0; x < x1; x += LRCSI_RASTER_TILE) {
+        r->wanted[tile_at(r, x, y)] = 1;
+    }
+    r->wanted[tile_at(r, x1 - 1, y)] = 1;
+}
+
+void lrcsi_raster_want(lrcsi_raster *raster, uint32_t facet)
+{
+    lrcsi_edges e = lrcsi_raster_edges(raster, facet);
+    uint32_t last = raster->size - 1;
+    for (uint32_t y = e.bottom; y < e.top; y++) {
+        lrcsi_pixels row = lrcsi_span_touched(&e, y);
+        if (row.x0 < row.x1) {
+            uint32_t x0 = row.x0 > 2 ? row.x0 - 2 : 0;
+            uint32_t x1 = row.x1 + 2 < raster->size ? row.x1 + 2 : raster->size;
+            want_row(raster, y > 2 ? y - 2 : 0, x0, x1);
+            want_row(raster, y + 2 < last ? y + 2 : last, x0, x1);
+        }
+    }
+}
+
+static uint32_t tile_of(const lrcsi_raster *r, double pixel)
+{
+    double tile = pixel * (1.0 / LRCSI_RASTER_TILE);
+    return (uint32_t)lrcsi_least(r->tiles - 1, lrcsi_most(tile, 0));
+}
+
+/* Is a tile wanted that the facet may touch? */
+static int facet_wanted(const lrcsi_raster *r, uint32_t facet)
+{
+    double low[2];
+    double high[2];
+    lrcsi_grid_box(r->view, r->view->prepared->scene->facet[facet].corner, 3, low, high);
+    uint32_t tile[2][2];
+    for (int k = 0; k < 2; k++) {
+        tile[k][0] = tile_of(r, (low[k] - r->view->low[k]) * r->scale - r->off);
+        tile[k][1] = tile_of(r, (high[k] - r->view->low[k]) * r->scale + r->off);
+    }
+    for (uint32_t y = tile[1][0]; y <= tile[1][1]; y++) {
+        const unsigned char *row = r->wanted + (size_t)y * r->tiles;
+        for (uint32_t x = tile[0][0]; x <= tile[0][1]; x++) { /* few: so no memchr */
+            if (row[x]) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+static void claim_run(const raster_job *job, const lrcsi_row *row, uint32_t y, uint32_t x0,
+                      uint32_t x1)
+{
+    lrcsi_raster *r = job->raster;
+    size_t start = (size_t)y * r->size;
+    for (uint32_t x = x0; x < x1; x++) {
+        if (lrcsi_span_has(row->sure, x) || job_covers(job, x, y)) {
+            r->owner[start + x] = job->facet;
+            r->pure[start + x] = (unsigned char)lrcsi_span_has(row->whole, x);
+        }
+    }
+}
+
+static void claim_row(const raster_job *job, uint32_t y)
+{
+    const unsigned char *tiles = tile_row(job->raster, y);
+    if (tile_next(tiles, job->edges.x0, job->edges.x1, 1) == job->edges.x1) {
+        return;
+    }
+    lrcsi_row row = lrcsi_span_row(&job->edges, y);
+    uint32_t x = tile_next(tiles, row.may.x0, row.may.x1, 1);
+    while (x < row.may.x1) {
+        uint32_t end = tile_next(tiles, x, row.may.x1, 0);
+        claim_run(job, &row, y, x, end);
+        x = tile_next(tiles, end, row.may.x1, 1);
+    }
+}
+
+void lrcsi_raster_claim(lrcsi_raster *raster, uint32_t facet)
+{
+    if (!facet_wanted(raster, facet)) {
+        return;
+    }
+    raster_job job = {.raster = raster, .facet = facet};
+    job.edges = lrcsi_raster_edges(raster, facet);
+    raster->slack[facet] = -1;
+    for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
+        claim_row(&job, y);
+    }
 }
 
 /* --- all of it -------------------------------------------------------------------------------- */
 
-/* Samples, and room for lanes behind the last one. */
-static size_t raster_samples(uint32_t size)
+/* Tiles along a side. */
+static uint32_t raster_tiles(uint32_t size)
 {
-    return lrcsi_work_add(lrcsi_work_square(size), LANES);
+    return (size - 1) / LRCSI_RASTER_TILE + 1;
+}
+
+static size_t tile_count(uint32_t size)
+{
+    return lrcsi_work_square(raster_tiles(size));
 }
 
 size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
 {
+    size_t pixels = lrcsi_work_square(size);
     size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_work_bytes(raster_samples(size), sizeof(uint32_t));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(raster_samples(size), sizeof(float)));
+    size_t need = lrcsi_work_bytes(pixels, sizeof(uint32_t));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(tile_count(size), 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(double)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
 }
 
-static int raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *r)
+static int raster_arrays(lrcsi_raster *r, lrcs_work *work)
 {
-    size_t samples = raster_samples(size);
-    size_t facets = view->prepared->scene->facet_count;
-    *r = (lrcsi_raster){.view = view, .size = size, .pixel = view->side / size};
-    r->scale = view->side > 0 ? size / view->side : 0;
-    r->off = view->off * r->scale + 8 * U * size;
-    r->near_err = 0x1p-20 * view->side;
-    r->owner = lrcsi_work_take(work, samples, sizeof *r->owner);
-    r->depth = lrcsi_work_take(work, samples, sizeof *r->depth);
-    r->sample = lrcsi_work_take(work, facets, sizeof *r->sample);
-    r->undecided = lrcsi_work_take_zero(work, facets, 1);
-    if (!r->owner || !r->depth || !r->sample || !r->undecided) {
+    size_t pixels = lrcsi_work_square(r->size);
+    size_t facets = r->view->prepared->scene->facet_count;
+    r->owner = lrcsi_work_take(work, pixels, sizeof *r->owner);
+    r->depth = lrcsi_work_take(work, pixels, sizeof *r->depth);
+    r->pure = lrcsi_work_take(work, pixels, 1);
+    r->slack = lrcsi_work_take(work, facets, sizeof *r->slack);
+    if (!r->owner || !r->depth || !r->pure || !r->slack) {
         return LRCS_E_MEMORY;
     }
-    memset(r->owner, 0xff, samples * sizeof *r->owner); /* LRCS_NONE */
-    memset(r->sample, 0xff, facets * sizeof *r->sample);
-    for (size_t i = 0; i < samples; i++) {
-        r->depth[i] = -HUGE_VALF;
+    r->wanted = lrcsi_work_take_zero(work, tile_count(r->size), 1);
+    r->covered = lrcsi_work_take_zero(work, facets, sizeof *r->covered);
+    r->owned = lrcsi_work_take_zero(work, facets, sizeof *r->owned);
+    r->undecided = lrcsi_work_take_zero(work, facets, sizeof *r->undecided);
+    return r->wanted && r->covered && r->owned && r->undecided ? LRCS_OK : LRCS_E_MEMORY;
+}
+
+void lrcsi_raster_over(const lrcsi_view *view, uint32_t size, lrcsi_raster *raster)
+{
+    *raster = (lrcsi_raster){.view = view, .size = size, .pixel = view->side / size};
+    raster->scale = view->side > 0 ? size / view->side : 0;
+    raster->off = view->off * raster->scale + 8 * U * size;
+}
+
+int lrcsi_raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster)
+{
+    size_t mark = work->used;
+    lrcsi_raster r;
+    lrcsi_raster_over(view, size, &r);
+    r.tiles = raster_tiles(size);
+    int status = raster_arrays(&r, work);
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
     }
+    *raster = r;
     return LRCS_OK;
 }
 
 int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster)
 {
-    size_t mark = work->used;
-    uint32_t count = view->prepared->scene->facet_count;
-    lrcsi_raster r;
-    int status = raster_start(view, size, work, &r);
+    int status = lrcsi_raster_start(view, size, work, raster);
     if (status != LRCS_OK) {
-        work->used = mark;
         return status;
     }
-    uint32_t left = 0; /* facets that are not ordinary */
-    for (uint32_t f = 0; f < count; f++) {
-        left += lrcsi_grid_casts(view, f) && !raster_draw(&r, f, 1);
+    memset(raster->wanted, 1, tile_count(size));
+    lrcsi_raster_clear(raster);
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        if (lrcsi_grid_casts(view, f)) {
+            lrcsi_raster_draw(raster, f);
+        }
     }
-    for (uint32_t f = 0; f < count && left > 0; f++) {
-        left -= lrcsi_grid_casts(view, f) && !raster_draw(&r, f, 0);
-    }
-    *raster = r;
     return LRCS_OK;
 }

@@ -16,6 +16,12 @@
 
 #include "base/range.h"
 
+/* Where spans begin and end, fractions yet to be dropped; in the order of lrcsi_row. */
+enum { TOUCHED, MAY, SURE, WHOLE, KINDS };
+typedef struct span_ends {
+    double from[KINDS], to[KINDS];
+} span_ends;
+
 /* Of a number from 0 to below 2^32. */
 static inline uint32_t round_up(double x)
 {
@@ -57,56 +63,67 @@ void lrcsi_span_prepare(lrcsi_edges *edges)
     }
 }
 
+/* A side along the row: it tells of all its pixels at once. */
+static inline void ends_judge(span_ends *ends, const lrcsi_edges *e, int k, double row)
+{
+    double far = e->off + side_bend(e, k);
+    ends->to[TOUCHED] = row < -far ? 0 : ends->to[TOUCHED];
+    ends->to[MAY] = row < -e->off ? 0 : ends->to[MAY];
+    ends->to[SURE] = row > e->off ? ends->to[SURE] : 0;
+    ends->to[WHOLE] = row > far ? ends->to[WHOLE] : 0;
+}
+
+/* Narrows the ends to one side of an edge. */
+static inline void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, double cy)
+{
+    double row = e->at[k] + e->up[k] * cy;
+    double zero = -row * e->over[k];
+    if (e->over[k] > 0) {
+        ends->from[TOUCHED] = lrcsi_most(ends->from[TOUCHED], zero - e->far[k]);
+        ends->from[MAY] = lrcsi_most(ends->from[MAY], zero - e->near[k]);
+        ends->from[SURE] = lrcsi_most(ends->from[SURE], zero + e->near[k]);
+        ends->from[WHOLE] = lrcsi_most(ends->from[WHOLE], zero + e->far[k]);
+    } else if (e->over[k] < 0) {
+        ends->to[TOUCHED] = lrcsi_least(ends->to[TOUCHED], zero + e->far[k]);
+        ends->to[MAY] = lrcsi_least(ends->to[MAY], zero + e->near[k]);
+        ends->to[SURE] = lrcsi_least(ends->to[SURE], zero - e->near[k]);
+        ends->to[WHOLE] = lrcsi_least(ends->to[WHOLE], zero - e->far[k]);
+    } else {
+        ends_judge(ends, e, k, row);
+    }
+}
+
 static inline lrcsi_pixels span_of(uint32_t x0, uint32_t x1)
 {
     return (lrcsi_pixels){x0 < x1 ? x0 : x1, x1};
 }
 
-/* Pixels from the first that is not left of `from` to the last that is not right of `to`. */
-static inline lrcsi_pixels outer_span(double from, double to, double x0, double x1)
+static inline lrcsi_pixels outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
 {
-    return span_of(round_up(lrcsi_least(from, x1)), (uint32_t)lrcsi_most(to, x0));
+    return span_of(round_up(lrcsi_least(ends->from[kind], x1)),
+                   (uint32_t)lrcsi_most(ends->to[kind], x0));
 }
 
-/* Pixels right of `from` and left of `to`, within others. */
-static inline lrcsi_pixels inner_span(double from, double to, lrcsi_pixels outer)
+static inline lrcsi_pixels inner_span(const span_ends *ends, int kind, lrcsi_pixels outer)
 {
-    return span_of((uint32_t)lrcsi_most(lrcsi_least(from, outer.x1), outer.x0),
-                   round_up(lrcsi_least(lrcsi_most(to, outer.x0), outer.x1)));
+    return span_of((uint32_t)lrcsi_most(lrcsi_least(ends->from[kind], outer.x1), outer.x0),
+                   round_up(lrcsi_least(lrcsi_most(ends->to[kind], outer.x0), outer.x1)));
 }
 
-/* One side of an edge at a time. A side along the row tells of all its pixels at once. */
-lrcsi_row lrcsi_span_row(const lrcsi_edges *e, uint32_t y)
+lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
 {
-    double touched[2] = {e->left, e->right};
-    double sure[2] = {e->x0, e->x1};
-    double whole[2] = {e->x0, e->x1};
-    for (int k = 0; k < 3; k++) {
-        double row = e->at[k] + e->up[k] * (y + 0.5);
-        double zero = -row * e->over[k];
-        if (e->over[k] > 0) {
-            touched[0] = lrcsi_most(touched[0], zero - e->far[k]);
-            sure[0] = lrcsi_most(sure[0], zero + e->near[k]);
-            whole[0] = lrcsi_most(whole[0], zero + e->far[k]);
-        } else if (e->over[k] < 0) {
-            touched[1] = lrcsi_least(touched[1], zero + e->far[k]);
-            sure[1] = lrcsi_least(sure[1], zero - e->near[k]);
-            whole[1] = lrcsi_least(whole[1], zero - e->far[k]);
-        } else {
-            double far = e->off + side_bend(e, k);
-            touched[1] = row < -far ? 0 : touched[1];
-            sure[1] = row > e->off ? sure[1] : 0;
-            whole[1] = row > far ? whole[1] : 0;
-        }
-    }
-    lrcsi_row r;
-    r.touched = outer_span(touched[0], touched[1], e->left, e->right);
-    lrcsi_pixels all = {e->x0 > r.touched.x0 ? e->x0 : r.touched.x0,
-                        e->x1 < r.touched.x1 ? e->x1 : r.touched.x1};
-    all.x0 = all.x0 < all.x1 ? all.x0 : all.x1;
-    r.sure = inner_span(sure[0], sure[1], all);
-    r.whole = inner_span(whole[0], whole[1], r.sure);
-    return r;
+    double x0 = edges->x0;
+    double x1 = edges->x1;
+    span_ends ends = {{edges->left, x0, x0, x0}, {edges->right, x1, x1, x1}};
+    ends_narrow(&ends, edges, 0, y + 0.5); /* no loop: so compilers keep the ends in registers */
+    ends_narrow(&ends, edges, 1, y + 0.5);
+    ends_narrow(&ends, edges, 2, y + 0.5);
+    lrcsi_row row;
+    row.touched = outer_span(&ends, TOUCHED, edges->left, edges->right);
+    row.may = outer_span(&ends, MAY, edges->x0, edges->x1);
+    row.sure = inner_span(&ends, SURE, row.may);
+    row.whole = inner_span(&ends, WHOLE, row.sure);
+    return row;
 }
 
 lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y)
@@ -139,19 +156,19 @@ lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y)
     return samples;
 }
 
-lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *e, uint32_t y)
+lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *edges, uint32_t y)
 {
-    double touched[2] = {e->left, e->right};
+    span_ends ends = {.from = {edges->left}, .to = {edges->right}};
     for (int k = 0; k < 3; k++) {
-        double row = e->at[k] + e->up[k] * (y + 0.5);
-        double zero = -row * e->over[k];
-        if (e->over[k] > 0) {
-            touched[0] = lrcsi_most(touched[0], zero - e->far[k]);
-        } else if (e->over[k] < 0) {
-            touched[1] = lrcsi_least(touched[1], zero + e->far[k]);
+        double row = edges->at[k] + edges->up[k] * (y + 0.5);
+        double zero = -row * edges->over[k];
+        if (edges->over[k] > 0) {
+            ends.from[TOUCHED] = lrcsi_most(ends.from[TOUCHED], zero - edges->far[k]);
+        } else if (edges->over[k] < 0) {
+            ends.to[TOUCHED] = lrcsi_least(ends.to[TOUCHED], zero + edges->far[k]);
         } else {
-            touched[1] = row < -(e->off + side_bend(e, k)) ? 0 : touched[1];
+            ends_judge(&ends, edges, k, row);
         }
     }
-    return outer_span(touched[0], touched[1], e->left, e->right);
+    return outer_span(&ends, TOUCHED, edges->left, edges->right);
 }

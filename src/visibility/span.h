@@ -27,15 +27,10 @@ static inline int lrcsi_span_has(lrcsi_pixels span, uint32_t x)
     return x >= span.x0 && x < span.x1;
 }
 
-/* The samples of a row, one range within the other. */
-typedef struct lrcsi_samples {
-    lrcsi_pixels may;  /* all that the facet may cover */
-    lrcsi_pixels sure; /* those that it surely covers */
-} lrcsi_samples;
-
-/* A row of pixels, one range within the other. */
+/* A row of pixels. The last three lie one within the other. */
 typedef struct lrcsi_row {
     lrcsi_pixels touched; /* all that the facet may touch */
+    lrcsi_pixels may;     /* all whose centre it may cover */
     lrcsi_pixels sure;    /* those whose centre it surely covers, */
     lrcsi_pixels whole; /* and those of which it surely covers all: none is missing but by less than
                          the error of an edge function */
@@ -52,6 +47,9 @@ void lrcsi_span_prepare(lrcsi_edges *edges);
 lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y);
 
 /* What is covered of a row, alone: half of the work. */
+typedef struct lrcsi_samples {
+    lrcsi_pixels may, sure; /* as in lrcsi_row */
+} lrcsi_samples;
 lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y);
 
 /* What is touched of a row, alone: a third of the work. */

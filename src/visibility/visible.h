@@ -25,4 +25,37 @@ static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_tilt *tilt, dou
     return (lrcsi_visible){tilt->projected, low, tilt->projected, 0, 0};
 }
 
+/* All or nothing of each facet, by its lrcsi_query_answer; nothing where that is undecided. */
+void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
+                            lrcsi_visible *visible);
+
+/* What exact queries tell of facets before any sample is taken. */
+typedef struct lrcsi_known {
+    lrcsi_contest *contest;
+    lrcsi_grid facets;
+    unsigned char *answer; /* facet: a lrcsi_query_answer; hidden where it casts nothing; undecided
+                              where samples are to tell */
+    uint32_t listed;       /* the event edges that cross facet f < listed are
+                              crossing[first[f] .. first[f + 1]), of contested ones that samples are
+                              to tell of */
+    uint32_t *first, *crossing;
+} lrcsi_known;
+
+/* Bytes for that, at most. */
+size_t lrcsi_visible_known_need(const lrcs_prepared *prepared);
+
+/* Asks of uniform facets whether they are visible, of contested ones whether they are hidden.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. What is known stays in the work area. */
+int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *known);
+
+/* Bytes for lrcsi_visible_sampled, at most. */
+size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size);
+
+/* The hybrid of exact decisions and samples: uniform facets have their exact projected area or show
+   nothing; contested ones show the share of their samples that they own, bounded by the pixels that
+   no change of visibility touches. Only the tiles about contested facets are drawn.
+   Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
+int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
+                          lrcsi_raster *raster, lrcsi_visible *visible);
+
 #endif

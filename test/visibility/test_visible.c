@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+/* What the sampled areas draw, against the whole picture: the tiles that matter hold just what the
+   picture holds there, and the memory of the others is never touched. */
+#include "visibility/visible.h"
+
+#include "scenes.h"
+#include "visibility/query.h"
+
+enum { N = 72, FINE = 8 };
+static const unsigned char untouched = 0xa5;
+
+static test_scene scene;
+static lrcs_work work;
+
+/* Bodies before, behind and through one another; an open plate that shows its back. */
+static void crowd(void)
+{
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 12);
+    scene_box(&scene, (const double[3]){-2, -0.5, -0.5}, (const double[3]){2, 0.25, 0.75});
+    scene_sphere(&scene, (const double[3]){0.5, 2.25, 3}, 0.75, 16);
+    scene_plate(&scene, (const double[3]){-3, 1, -1}, (const double[3]){3, 0.125, 0.5},
+                (const double[3]){0.25, 0.5, 3});
+}
+
+static lrcsi_view seen_from(int i)
+{
+    static const double direction[4][3] = {{0, 0, 1}, {1, 0, 1}, {0.3, -0.4, 0.5}, {-1, -2, 0.1}};
+    lrcs_pose pose;
+    lrcsi_view view;
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(direction[i], &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    view.backs_cast = 1;
+    return view;
+}
+
+/* The sampled run of a view, in memory that was all `untouched`. */
+static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_contest *contest, lrcsi_known *known,
+                            lrcsi_visible *visible)
+{
+    lrcsi_raster raster;
+    assert_int_equal(lrcsi_contest_make(view, &work, contest), LRCS_OK);
+    assert_int_equal(lrcsi_visible_known(contest, &work, known), LRCS_OK);
+    size_t need = lrcsi_visible_need(view->prepared, N);
+    assert_true(work.size - work.used >= need);
+    memset(work.bytes + work.used, untouched, need);
+    size_t before = work.peak = work.used;
+    assert_int_equal(lrcsi_visible_sampled(known, N, &work, &raster, visible), LRCS_OK);
+    assert_true(work.peak - before <= need);
+    return raster;
+}
+
+static void wanted_tiles_hold_what_the_whole_picture_holds(void **state)
+{
+    (void)state;
+    static lrcsi_visible visible[SCENE_FACETS];
+    unsigned wanted = 0;
+    unsigned left = 0;
+    for (int i = 0; i < 4; i++) {
+        crowd();
+        lrcsi_view view = seen_from(i);
+        lrcsi_contest contest;
+        lrcsi_known known;
+        lrcsi_raster whole;
+        lrcsi_raster raster = sampled(&view, &contest, &known, visible);
+        assert_int_equal(lrcsi_raster_make(&view, N, &work, &whole), LRCS_OK);
+        for (uint32_t k = 0; k < N * N; k++) {
+            uint32_t tile = k / N / LRCSI_RASTER_TILE * raster.tiles + k % N / LRCSI_RASTER_TILE;
+            uint32_t owner = lrcsi_raster_owner(&raster, k % N, k / N);
+            if (raster.wanted[tile]) {
+                wanted++;
+                assert_int_equal(owner, whole.owner[k]);
+            } else {
+                left++;
+                assert_int_equal(owner, LRCS_NONE);
+                assert_int_equal(raster.owner[k], 0xa5a5a5a5);
+                assert_int_equal(raster.pure[k], untouched);
+            }
+        }
+        for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+            if (known.answer[f] == LRCSI_QUERY_UNDECIDED) {
+                assert_int_equal(raster.covered[f], whole.covered[f]);
+                assert_int_equal(raster.owned[f], whole.owned[f]);
+            } else { /* none of its samples, or all: the picture agrees */
+                assert_int_equal(whole.owned[f],
+                                 known.answer[f] == LRCSI_QUERY_VISIBLE ? whole.covered[f] : 0);
+            }
+        }
+    }
+    assert_true(wanted > 1000 && left > 1000);
+}
+
+/* Large triangles of all slopes, each through all others. */
+static void tangle(uint64_t seed)
+{
+    scene_start(&scene);
+    for (int i = 0; i < 12; i++) {
+        double corner[3][3];
+        for (int k = 0; k < 3; k++) {
+            double angle = 2 * (double)SCENE_PI * (k + scene_random(&seed, 64) / 192.0) / 3;
+            corner[k][0] = 2 * cos(angle);
+            corner[k][1] = 2 * sin(angle);
+            corner[k][2] = scene_random(&seed, 256) / 64.0 - 2;
+        }
+        scene_triangle(&scene, corner[0], corner[1], corner[2]);
+    }
+}
+
+/* A pure pixel shows its owner in every part: so says a picture eight times as fine. Adds up the
+   samples of uniform and contested owners. */
+static void check_pure(int direction, unsigned pure[2])
+{
+    static lrcsi_visible visible[SCENE_FACETS];
+    lrcsi_view view = seen_from(direction);
+    lrcsi_contest contest;
+    lrcsi_known known;
+    lrcsi_raster fine;
+    lrcsi_raster raster = sampled(&view, &contest, &known, visible);
+    assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
+    for (uint32_t k = 0; k < N * N * FINE * FINE; k++) {
+        uint32_t x = k % (N * FINE) / FINE;
+        uint32_t y = k / (N * FINE) / FINE;
+        uint32_t owner = lrcsi_raster_owner(&raster, x, y);
+        if (owner != LRCS_NONE && raster.pure[y * N + x]) {
+            assert_int_equal(fine.owner[k], owner);
+            pure[contest.contested[owner]]++;
+        }
+    }
+}
+
+static void pure_pixels_show_their_owner_in_every_part(void **state)
+{
+    (void)state;
+    unsigned pure[2] = {0, 0};
+    for (int i = 0; i < 4; i++) {
+        crowd();
+        check_pure(i, pure);
+    }
+    assert_true(pure[0] > 1000 && pure[1] > 1000);
+}
+
+static void pixels_where_facets_pierce_each_other_are_not_pure(void **state)
+{
+    (void)state;
+    unsigned pure[2] = {0, 0};
+    for (int i = 0; i < 12; i++) {
+        tangle((uint64_t)i + 1);
+        check_pure(i % 4, pure);
+    }
+    assert_true(pure[0] == 0 && pure[1] > 50000);
+}
+
+/* Symptom: where no facet was known to be seen whole, the areas of none were computed, from
+ * nowhere. */
+static void facets_that_pierce_each_other_are_seen_as_clipping_sees_them(void **state)
+{
+    (void)state;
+    const double d[3] = {0.25, 0.5, 1};
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){-2, -1, 0}, (const double[3]){2, -1, 0},
+                   (const double[3]){0, 2, 0.5});
+    scene_triangle(&scene, (const double[3]){-1, -0.75, -1}, (const double[3]){1, -0.75, 1},
+                   (const double[3]){0, 1.5, 0.25});
+    lrcs_result exact = scene_run(&scene, d, LRCS_METHOD_EXACT, 0);
+    lrcs_result raster = scene_run(&scene, d, LRCS_METHOD_ZBUFFER, 256);
+    assert_int_equal(raster.facets_partial, 2);
+    check_abs(raster.sigma_m2, exact.sigma_m2, raster.bound_m2 + exact.bound_m2);
+    check_most(raster.bound_m2, 0.1 * exact.sigma_m2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(wanted_tiles_hold_what_the_whole_picture_holds),
+        cmocka_unit_test(pure_pixels_show_their_owner_in_every_part),
+        cmocka_unit_test(pixels_where_facets_pierce_each_other_are_not_pure),
+        cmocka_unit_test(facets_that_pierce_each_other_are_seen_as_clipping_sees_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
