@@ -89,7 +89,7 @@ static int preview_nearer(preview_job *job, preview_facet *f, uint32_t owner, ui
     if (owner != f->met) {
         f->met = owner;
         f->met_plane = lrcsi_raster_plane(&job->raster, owner);
-        f->met_err = lrcsi_raster_slack(job->view, owner);
+        f->met_err = lrcsi_raster_slack(&job->raster, owner);
         f->met_order = 2; /* not asked yet */
     }
     double ahead = plane_height(&f->plane, x, y) - plane_height(&f->met_plane, x, y);
@@ -185,12 +185,9 @@ static void preview_doubtful(preview_job *job, preview_facet *f, uint32_t y, uin
     }
 }
 
-/* Does the box of a facet hold a sample? Most small ones do not, and cost nothing else. */
-static int box_sampled(const lrcsi_raster *r, uint32_t facet)
+/* Does a box of the view hold a sample? */
+static int box_sampled(const lrcsi_raster *r, const double low[3], const double high[3])
 {
-    double low[2];
-    double high[2];
-    lrcsi_grid_box(r->view, r->view->prepared->scene->facet[facet].corner, 3, low, high);
     for (int k = 0; k < 2; k++) {
         double from = (low[k] - r->view->low[k]) * r->scale - r->off - 0.5;
         double to = (high[k] - r->view->low[k]) * r->scale + r->off - 0.5;
@@ -205,16 +202,16 @@ static int box_sampled(const lrcsi_raster *r, uint32_t facet)
    that cover no sample count as ordinary. Floats are subnormal below 2^-126: the last term. */
 static int preview_draw(preview_job *job, uint32_t facet, int ordinary)
 {
-    if (!box_sampled(&job->raster, facet)) {
-        return 1;
+    double low[3];
+    double high[3];
+    lrcsi_view_bounds(job->view, job->view->prepared->scene->facet[facet].corner, 3, low, high);
+    if (!box_sampled(&job->raster, low, high)) {
+        return 1; /* as most small ones */
     }
     preview_facet f = {.facet = facet, .met = LRCS_NONE};
-    double far;
-    double near;
-    lrcsi_grid_depth(job->view, facet, &far, &near);
     f.plane = lrcsi_raster_plane(&job->raster, facet);
-    f.err = lrcsi_raster_slack(job->view, facet);
-    double most = lrcsi_most(fabs(far), fabs(near)) + f.err;
+    f.err = lrcsi_raster_slack(&job->raster, facet);
+    double most = lrcsi_most(fabs(low[2]), fabs(high[2])) + f.err;
     double err = f.err + 0x1p-21 * most + 0x1p-140;
     f.ordinary = err <= job->ordinary_err;
     if (f.ordinary != ordinary) {
