@@ -21,7 +21,7 @@
 enum { LANES = 8 };
 
 /* Of a part of the window's side: what an ordinary facet's heights may be off. */
-#define ORDINARY 0x1p-20
+#define ORDINARY_HEIGHT 0x1p-20
 
 /* What owners change across: a border between two facets in a column or row of pixels, and how long
    the same one has been going on. */
@@ -39,10 +39,10 @@ typedef struct preview_counts {
 } preview_counts;
 
 /* Fewer samples than this are few. */
-#define FEW 16u
+#define FEW_SAMPLES 16u
 
 /* How far from facets with samples others take their shares. */
-enum { ROUNDS = 8 };
+enum { SHARE_ROUNDS = 8 };
 
 typedef struct preview_job {
     const lrcsi_view *view;
@@ -385,13 +385,13 @@ static void preview_shares(preview_job *job)
         c->round = c->covered != 0 ? 0 : LRCS_NONE;
         c->share = c->covered != 0 ? (float)c->owned / (float)c->covered : 0;
     }
-    for (uint32_t round = 1; round <= ROUNDS + 1; round++) {
+    for (uint32_t round = 1; round <= SHARE_ROUNDS + 1; round++) {
         for (uint32_t f = 0; f < facets; f++) {
             preview_counts *c = &job->counts[f];
             float share;
             if (c->round == LRCS_NONE && lrcsi_grid_casts(job->view, f) &&
-                (preview_beside(job, f, round, &share) || round > ROUNDS)) {
-                c->share = round > ROUNDS ? preview_nearest(job, f) : share;
+                (preview_beside(job, f, round, &share) || round > SHARE_ROUNDS)) {
+                c->share = round > SHARE_ROUNDS ? preview_nearest(job, f) : share;
                 c->round = round;
             }
         }
@@ -403,7 +403,7 @@ static void preview_shares(preview_job *job)
    / 12 in the mean square. Pixels err by chance, of which this is sqrt(3) standard deviations, but
    for those along a border that runs along a row or column, all of which err alike: so the longest
    one counts again, as one. */
-#define LIKELY 0.25
+#define LIKELY_SQUARE 0.25
 
 static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, double lean)
 {
@@ -412,12 +412,12 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, double
     double pixel = job->raster.pixel * job->raster.pixel;
     lrcsi_visible v = {0, 0, area, 0, 0};
     v.area = area * (double)c->share;
-    v.lean = c->covered < FEW ? lean * v.area : 0;
+    v.lean = c->covered < FEW_SAMPLES ? lean * v.area : 0;
     if (c->covered == 0) {
-        v.likely = sqrt(LIKELY) * area;
+        v.likely = sqrt(LIKELY_SQUARE) * area;
     } else if (c->owned != 0 && c->owned != c->covered) {
         double square = c->borders + (double)c->longest * c->longest;
-        v.likely = lrcsi_least(area, sqrt(LIKELY * square) * pixel);
+        v.likely = lrcsi_least(area, sqrt(LIKELY_SQUARE * square) * pixel);
     }
     return v;
 }
@@ -433,13 +433,13 @@ static double preview_lean(const preview_job *job)
     double borders = 0;
     for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
         const preview_counts *c = &job->counts[f];
-        if (c->covered < FEW && c->share > 0) {
+        if (c->covered < FEW_SAMPLES && c->share > 0) {
             counted += pixel * c->owned;
             shared += lrcsi_view_projected(job->view, f) * (double)c->share;
             borders += c->borders;
         }
     }
-    double chance = sqrt(LIKELY * borders) * pixel;
+    double chance = sqrt(LIKELY_SQUARE * borders) * pixel;
     double over = shared - counted;
     return fabs(over) > 2 * chance ? over / shared : 0;
 }
@@ -465,7 +465,7 @@ static int preview_start(preview_job *job, uint32_t size, lrcs_work *work)
 {
     size_t samples = preview_samples(size);
     lrcsi_raster_over(job->view, size, &job->raster);
-    job->ordinary_err = ORDINARY * job->view->side;
+    job->ordinary_err = ORDINARY_HEIGHT * job->view->side;
     job->owner = lrcsi_work_take(work, samples, sizeof *job->owner);
     job->depth = lrcsi_work_take(work, samples, sizeof *job->depth);
     job->counts =
