@@ -310,7 +310,7 @@ typedef struct total_batch {
     int seen;                      /* one that reflects shows */
     lrcsi_shades shades;
     double area[LRCSI_LANES]; /* visible; by method facet S, then S cos(theta) */
-    double most[LRCSI_LANES]; /* that may be visible */
+    double most[LRCSI_LANES]; /* that may be visible; unused by method facet */
     uint32_t facet[LRCSI_LANES], count;
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
@@ -342,6 +342,7 @@ static void block_run(total_job *job, total_batch *batch)
 {
     const lrcsi_view *view = job->view;
     lrcsi_shades *shades = &batch->shades;
+    const double *most = job->visible ? batch->most : batch->area;
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
     for (uint32_t i = batch->count; i < LRCSI_LANES; i++) {
@@ -354,7 +355,6 @@ static void block_run(total_job *job, total_batch *batch)
     if (!job->visible) {
         for (int i = 0; i < LRCSI_LANES; i++) {
             batch->area[i] *= shades->cosine[i];
-            batch->most[i] = batch->area[i];
         }
     }
     for (int i = 0; i < LRCSI_LANES; i++) {
@@ -363,7 +363,7 @@ static void block_run(total_job *job, total_batch *batch)
     }
     for (int i = 0; i < LRCSI_LANES; i += LRCSI_SUM_LANES) {
         for (int k = 0; k < LRCSI_SUM_LANES; k++) {
-            batch->error[k] += shades->error[i + k] * batch->most[i + k];
+            batch->error[k] += shades->error[i + k] * most[i + k];
         }
     }
     lrcsi_sum_lanes_add(&batch->glint, glint);
