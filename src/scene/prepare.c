@@ -281,7 +281,8 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work, int *lone)
     }
     contacts_none(p, none);
     int closed = lrcsi_solid_pieces(p, piece);
-    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, none,
+    int status = lrcsi_touches_make(p->vertex, p->scene->vertex_count, p->scene->facet,
+                                    p->scene->facet_count, &p->topology, none,
                                     closed ? piece : NULL, work, &p->touches);
     if (status == LRCS_OK) {
         status = lrcsi_coincident_touches(p, work);
@@ -325,7 +326,8 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_coincident_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_batches_need(scene));
-    need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
+    need = lrcsi_work_add(
+        need, lrcsi_touches_need(scene->vertex_count, scene->facet_count, 4 * facets + 64));
     size_t proof = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
     proof = lrcsi_work_add(proof, lrcsi_tree_need(scene->facet_count));
