@@ -481,8 +481,9 @@ static void batch_backs(total_job *job, total_batch *batch, uint32_t place, cons
     lrcsi_sum_lanes_add(&batch->back_side, area);
 }
 
-/* Up to LRCSI_LANES facets from a place on. Lists are made without branches: which way a facet
-   faces is anybody's guess. */
+/* Up to LRCSI_LANES facets from a place on: those that blocks serve, back sides that do not
+   reflect, and the rest one by one. Lists are made without branches, for facings follow no pattern.
+ */
 static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint32_t count)
 {
     double dot[LRCSI_LANES];
