@@ -244,8 +244,8 @@ static void view_facings(lrcsi_view *view)
 
 static void view_unit(lrcsi_view *view)
 {
-    static const double nothing[3] = {0, 0, 0};
-    lrcsi_inverse inverse = lrcsi_length_inverse(view->direction, nothing, view->length);
+    static const double no_low[3] = {0, 0, 0};
+    lrcsi_inverse inverse = lrcsi_length_inverse(view->direction, no_low, view->length);
     for (int k = 0; k < 3; k++) {
         lrcsi_dd d = lrcsi_inverse_times(&inverse, view->direction[k], 0);
         view->unit[k] = d.hi;
