@@ -74,63 +74,55 @@ static int is_corner_of(const lrcsi_touch_facet *f, const double *p)
 
 /* ---- proved apart, rounded ---- */
 
-/* The sides of F's plane on which T's corners are proved to lie; 0 for corners of F, UNSURE for
-   what is not proved. */
-static void rounded_sides(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t, int side[3])
+/* The side of F's plane on which p is proved to lie; 0 for a corner of F, UNSURE where it is not
+   proved. */
+static int rounded_side(const lrcsi_touch_facet *f, const double *p)
 {
     const double *a = f->x[0];
-    for (int k = 0; k < 3; k++) {
-        const double *p = t->x[k];
-        if (is_corner_of(f, p)) {
-            side[k] = 0;
-            continue;
-        }
-        double x = p[0] - a[0];
-        double y = p[1] - a[1];
-        double z = p[2] - a[2];
-        double height = (f->normal[0] * x + f->normal[1] * y) + f->normal[2] * z;
-        double error = TOUCH_FILTER *
-                       ((f->weight[0] * fabs(x) + f->weight[1] * fabs(y)) + f->weight[2] * fabs(z));
-        side[k] = height > error ? 1 : height < -error ? -1 : UNSURE;
+    if (is_corner_of(f, p)) {
+        return 0;
     }
+    double x = p[0] - a[0];
+    double y = p[1] - a[1];
+    double z = p[2] - a[2];
+    double height = (f->normal[0] * x + f->normal[1] * y) + f->normal[2] * z;
+    double error =
+        TOUCH_FILTER * ((f->weight[0] * fabs(x) + f->weight[1] * fabs(y)) + f->weight[2] * fabs(z));
+    return height > error ? 1 : height < -error ? -1 : UNSURE;
 }
 
-/* Given these: are the corners of T that are not corners of F all strictly on one side, and are
-   there any? Then T meets the plane in corners of F or between them at most. 1: proved; 0: there
-   are some on either side; -1: not known. */
+/* Given the sides of T's corners: are those that are not corners of F all strictly on one side, and
+   are there any? Then T meets the plane in corners of F or between them at most. */
 static int plane_separates(const int side[3])
 {
     int above = side[0] == 1 || side[1] == 1 || side[2] == 1;
     int below = side[0] == -1 || side[1] == -1 || side[2] == -1;
     int unsure = side[0] == UNSURE || side[1] == UNSURE || side[2] == UNSURE;
-    return above && below ? 0 : unsure || above == below ? -1 : 1;
-}
-
-/* The sign of the turn a b c seen along an axis, where it is proved, or 0. */
-static inline int sure_turn(const double *a, const double *b, const double *c, int axis)
-{
-    int i = axis == 2 ? 0 : axis + 1;
-    int j = axis == 0 ? 2 : axis - 1;
-    double plus = (b[i] - a[i]) * (c[j] - a[j]);
-    double minus = (b[j] - a[j]) * (c[i] - a[i]);
-    double error = TOUCH_FILTER * (fabs(plus) + fabs(minus));
-    return plus - minus > error ? 1 : plus - minus < -error ? -1 : 0;
+    return above != below && !unsure;
 }
 
 /* Seen along an axis along which F turns by `turn`: has the line of a side of F all corners of T
-   strictly outside, but those that are ends of the side? Then they meet in these or between them at
-   most. */
+   proved to be outside, but those that are ends of the side? Then they meet in these or between
+   them at most. */
 static int line_separates(const lrcsi_touch_facet *f, int turn, const lrcsi_touch_facet *t,
                           int axis)
 {
+    const int i = axis == 2 ? 0 : axis + 1;
+    const int j = axis == 0 ? 2 : axis - 1;
     for (int k = 0; k < 3; k++) {
         const double *a = f->x[k];
         const double *b = f->x[k < 2 ? k + 1 : 0];
-        int i = 0;
-        while (i < 3 && (t->x[i] == a || t->x[i] == b || sure_turn(a, b, t->x[i], axis) == -turn)) {
-            i++;
+        const double along[2] = {turn * (b[i] - a[i]), turn * (b[j] - a[j])};
+        int corner = 0;
+        for (; corner < 3; corner++) {
+            const double *p = t->x[corner];
+            double plus = along[0] * (p[j] - a[j]);
+            double minus = along[1] * (p[i] - a[i]);
+            if (p != a && p != b && !(plus - minus < -TOUCH_FILTER * (fabs(plus) + fabs(minus)))) {
+                break;
+            }
         }
-        if (i == 3) {
+        if (corner == 3) {
             return 1;
         }
     }
@@ -143,7 +135,13 @@ static int lines_separate(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t
     if (line_separates(f, f->turn, t, f->axis)) {
         return 1;
     }
-    int turn = sure_turn(t->x[0], t->x[1], t->x[2], f->axis);
+    const int i = f->axis == 2 ? 0 : f->axis + 1;
+    const int j = f->axis == 0 ? 2 : f->axis - 1;
+    const double *a = t->x[0];
+    double plus = (t->x[1][i] - a[i]) * (t->x[2][j] - a[j]);
+    double minus = (t->x[1][j] - a[j]) * (t->x[2][i] - a[i]);
+    double error = TOUCH_FILTER * (fabs(plus) + fabs(minus));
+    int turn = (plus - minus > error) - (plus - minus < -error);
     return turn != 0 && line_separates(t, turn, f, f->axis);
 }
 
@@ -361,26 +359,32 @@ int lrcsi_touch_meet(const lrcsi_touch_facet *f, lrcsi_touch_facet *t, lrcsi_tou
     int of_t[3];
     int of_f[3];
     *result = (lrcsi_touch_result){{LRCSI_TOUCH_NONE, LRCSI_TOUCH_NONE}, {0, 0}};
-    rounded_sides(f, t, of_t);
-    int plane = plane_separates(of_t);
-    if (plane == 1 || (plane == -1 && lines_separate(f, t))) {
-        return 0; /* where they may be in one plane, lines are likelier to tell than the plane of T
-                   */
+    of_t[0] = rounded_side(f, t->x[0]);
+    int flat = of_t[0] == UNSURE; /* in one plane, as it seems: then lines are likelier to tell */
+    if (flat && lines_separate(f, t)) {
+        return 0;
+    }
+    of_t[1] = rounded_side(f, t->x[1]);
+    of_t[2] = rounded_side(f, t->x[2]);
+    if (plane_separates(of_t)) {
+        return 0;
     }
     lrcsi_touch_plane(t);
-    rounded_sides(t, f, of_f);
-    if (plane_separates(of_f) == 1 || (plane == 0 && lines_separate(f, t))) {
+    for (int k = 0; k < 3; k++) {
+        of_f[k] = rounded_side(t, f->x[k]);
+    }
+    if (plane_separates(of_f) || (!flat && lines_separate(f, t))) {
         return 0;
     }
     int on_f = exact_sides(f, t, of_t);
-    if (!on_f && plane_separates(of_t) == 1) {
+    if (!on_f && plane_separates(of_t)) {
         return 0;
     }
     if (of_t[0] == 0 && of_t[1] == 0 && of_t[2] == 0) {
         meet_flat(f, t, result);
     } else {
         int on_t = exact_sides(t, f, of_f);
-        if (!on_t && plane_separates(of_f) == 1) {
+        if (!on_t && plane_separates(of_f)) {
             return 0;
         }
         touch_cross c = {
