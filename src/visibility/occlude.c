@@ -409,6 +409,14 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
+/* May undecided facets be done together? There must be many; and none may stand for a curved
+   surface: one that is hidden but for strips then costs more than its strips
+   (integrate/tessellation.c), so that each must be asked. */
+static int cells_serve(const lrcs_prepared *prepared)
+{
+    return prepared->scene->facet_count >= CELLS_LEAST && !prepared->curved && !prepared->convex;
+}
+
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
@@ -416,7 +424,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
     need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_WAITING, sizeof(lrcsi_occlude_cell)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     size_t cuts = lrcsi_cuts_need(prepared);
-    size_t cells = lrcsi_cells_need(prepared);
+    size_t cells = cells_serve(prepared) ? lrcsi_cells_need(prepared) : 0;
     return lrcsi_work_add(need, cuts > cells ? cuts : cells);
 }
 
@@ -448,15 +456,14 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
     if (status == LRCS_OK) {
         lrcsi_visible_answered(view, o.uniform, visible);
     }
-    /* 1. Many undecided facets all together, by cells of the view plane; not where facets stand for
-       curved surfaces: one that is hidden but for strips then costs more than its strips
-       (integrate/tessellation.c), so that each must be asked. */
+    /* 1. Many undecided facets all together, by cells of the view plane. */
     unsigned char *open = lrcsi_work_take(work, view->prepared->scene->facet_count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
     }
-    if (status == LRCS_OK && contest->contested_count >= CELLS_LEAST && !view->prepared->curved) {
+    if (status == LRCS_OK && contest->contested_count >= CELLS_LEAST &&
+        cells_serve(view->prepared)) {
         lrcsi_cells_areas(contest, work, open, visible);
     }
     /* 2. One by one what that left open. */
