@@ -18,8 +18,9 @@
 
 /* For the sake of an estimate: the finest raster, and the pixels that cost as much as clipping a
    contested facet (make bench: 10 us and 15 ns on most models). */
-#define PREVIEW_LAST 2048u
-#define CLIP_PIXELS  650.0
+#define PREVIEW_LAST   2048u
+#define PREVIEW_FACETS 1024u /* fewer are never judged by samples alone */
+#define CLIP_PIXELS    650.0
 
 /* What a run passes from stage to stage. */
 typedef struct sigma_run {
@@ -272,12 +273,15 @@ static int run_contest(sigma_run *run)
 }
 
 /* Are areas taken from samples alone, without a proof? Curved normals need to know where on a facet
-   it is seen, and curved shapes among others which facets are contested. */
+   it is seen, and curved shapes among others which facets are contested. Of few facets, what could
+   hide them is searched for at less than the cost of a raster, and tells more of errors than so few
+   do by chance. */
 static int run_samples_only(const sigma_run *run, const lrcs_run_options *options)
 {
     const lrcs_prepared *p = run->view.prepared;
     return run->plan.method == LRCS_METHOD_ZBUFFER && options->accept != LRCS_ACCEPT_BOUND &&
-           !p->smooth && !p->nears.reach && run->flags == 0;
+           !p->smooth && !p->nears.reach && run->flags == 0 &&
+           run->view.front + run->view.back >= PREVIEW_FACETS;
 }
 
 /* One such raster; of a size that the work area holds, if it can. */
