@@ -140,7 +140,7 @@ fuzz-long-%:
 fuzz-%:
 	$(MAKE) CC=clang BUILD=$(FUZZ_DIR) OPT="-O2 -g1" CFLAGS="-fsanitize=fuzzer-no-link $(FUZZ_CFLAGS)" \
 	    $(FUZZ_DIR)/liblrcs.a
-	clang $(STD) -O2 -g1 -D_XOPEN_SOURCE=700 -DFUZZ_CHOOSE -fsanitize=fuzzer $(FUZZ_CFLAGS) -Iinclude \
+	clang $(STD) -O2 -g1 -D_XOPEN_SOURCE=700 -DFUZZ_CHOOSE -fsanitize=fuzzer $(FUZZ_CFLAGS) -Iinclude -Isrc \
 	    -o $(FUZZ_DIR)/$* test/fuzz/fuzz_$*.c $(FUZZ_DIR)/liblrcs.a $(LDLIBS)
 	@mkdir -p $(FUZZ_DIR)/corpus/$*
 	$(FUZZ_DIR)/$* $(FUZZ_LIMIT) -max_len=$(FUZZ_LENGTH) -entropic=0 -rss_limit_mb=3000 \

@@ -1,18 +1,27 @@
 /* SPDX-License-Identifier: MIT */
-/* The sum of Eq. 2 over visible areas, in facet order, compensated. A facet of area S at incidence
-   theta, of which a share is visible, adds 4 pi (f_r cos^2)(theta) S share. What each facet adds to
-   the bounds stands beside each step; the bounds themselves are widened by 1e-9 and 2 u a facet
-   for their own rounding. */
+/* The sum of Eq. 2 over visible areas, material by material, compensated. A facet at incidence
+   theta of which a projected area a is visible adds 4 pi f_r cos(theta) a.
+
+   Nearly all facets go in blocks through plain doubles (optics/shade.h); those near grazing, in the
+   bright lobe of a narrow glint, or with curved normals go one by one through double-double
+   incidence (view/view.h) and optics/reflect.h. What each adds to the bounds stands beside each
+   step; the bounds themselves are widened by 1e-9 and 2 u a facet for their own rounding.
+   Called: lrcsi_view_dots, lrcsi_shade, lrcsi_sum_lanes_add; lrcsi_view_tilt, lrcsi_reflect;
+   lrcsi_tessellation_error. */
 #include "integrate/total.h"
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
+#include "base/bits.h"
+#include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "base/sum.h"
 #include "integrate/tessellation.h"
 #include "optics/reflect.h"
+#include "optics/shade.h"
 
 #define U       0x1p-53
 #define FOUR_PI 12.566370614359172954
@@ -20,6 +29,10 @@
 /* What a facet's terms may lose to underflow, scaled: some 30 operations, of 2^-1075 each, and
    nothing that comes after makes any of them larger than its term. */
 #define FACET_UNDERFLOW 0x1p-1070
+
+/* The relative error of a visible area that is all of a facet not near grazing: that of
+   lrcsi_tilt.projected (8 u), and a product. */
+#define AREA_ERROR (10 * U)
 
 /* Running sums, in scaled units. */
 typedef struct total_sums {
@@ -29,15 +42,6 @@ typedef struct total_sums {
     uint32_t seen;
 } total_sums;
 
-/* The last reflection. Facets of one plane mostly come one after the other, and many of them share
-   their incidence to the last bit: so do one in two to one in ten of the models tried. */
-typedef struct total_last {
-    const lrcs_material *material; /* NULL: none yet */
-    double tan2;
-    lrcs_brdf brdf;
-    lrcsi_reflection at;
-} total_last;
-
 /* What the sum is over, and what has come together. */
 typedef struct total_job {
     const lrcsi_view *view;
@@ -45,9 +49,9 @@ typedef struct total_job {
     const lrcsi_visible *visible; /* NULL: all that nothing is known to hide */
     const lrcsi_curved *curved;   /* NULL: all facets are flat */
     const lrcsi_margin *margin;   /* NULL: none was made */
+    lrcs_facet_record *records;   /* NULL: none asked for */
     lrcsi_total total;
     total_sums sums;
-    total_last last;
 } total_job;
 
 /* Its reflection. A term of amplitude 0 that is to be evaluated all the same is so at amplitude 1,
@@ -67,23 +71,11 @@ static lrcsi_reflection reflection_planned(const lrcs_brdf *brdf, const lrcsi_pl
     return at;
 }
 
-static void reflect_facet(total_job *job, uint32_t facet, double tan2)
-{
-    const lrcs_material *material = lrcsi_prepared_material(job->view->prepared, facet);
-    total_last *last = &job->last;
-    if (material != last->material || tan2 != last->tan2) {
-        last->material = material;
-        last->tan2 = tan2;
-        last->brdf = lrcsi_plan_brdf(job->plan, material);
-        last->at = reflection_planned(&last->brdf, job->plan, tan2);
-    }
-}
-
 /* The largest value of (1 + u)^2 exp(-u / s^2) over u >= 0. */
 static double glint_peak(double s)
 {
     double q = 2 * s * s;
-    return q <= 1 ? 1 : q * q * exp(2 / q - 2);
+    return q <= 1 ? 1 : q * q * lrcsi_exp(2 / q - 2);
 }
 
 /* How far the glint may be off where tan^2 is too vague for its flank: truth and value both lie
@@ -99,11 +91,10 @@ static double glint_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt)
     return most.glint + most.error;
 }
 
-/* e^x - 1, for 0 <= x < 1. Of a small x, as it nearly always is, two terms are as good as libm's.
- */
+/* At least e^x - 1, for 0 <= x < 1. */
 static double growth(double x)
 {
-    return x < 0x1p-30 ? x + 0.5 * x * x : expm1(x);
+    return x + x * x;
 }
 
 /* How far f_r cos^2 may be off for want of knowing tan^2. With u = tan^2 known to a relative r,
@@ -126,20 +117,40 @@ static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
 
 static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
 {
-    sums->rounding += brdf->A > 0 || brdf->B > 0 ? FACET_UNDERFLOW : 0;
     sums->seen |= brdf->A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
     sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
 }
 
 /* What one facet adds, scaled. */
-typedef struct total_return {
-    double glint, diffuse;
-} total_return;
+typedef struct total_terms {
+    double glint, diffuse, rounding;
+    double per_area; /* glint + diffuse for each unit of visible area */
+} total_terms;
 
 /* Of nearly all facets the whole is visible: no quotient, then. */
 static double share_of(double part, double whole)
 {
     return part == whole ? 1 : part / whole;
+}
+
+/* One facet that reflects towards the laser, precisely. Rounding: S, 4 pi, two products and the
+   share, 8 u; the relative error of areas; what f_r cos^2 is off by, over all that may be visible.
+ */
+static total_terms facet_terms(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
+                               const lrcsi_visible *visible)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, facet));
+    lrcsi_reflection at = reflection_planned(&brdf, job->plan, tilt->tan2);
+    double whole = FOUR_PI * 0.5 * p->normal[facet].length;
+    double share = share_of(visible->area, tilt->projected);
+    double most = share_of(visible->high, tilt->projected);
+    total_terms terms = {.glint = whole * at.glint * share, .diffuse = whole * at.diffuse * share};
+    terms.rounding = (terms.glint + terms.diffuse) * (tilt->error + 8 * U) +
+                     whole * most * (at.error + reflection_vague(&brdf, tilt, &at)) +
+                     (brdf.A > 0 || brdf.B > 0 ? FACET_UNDERFLOW : 0);
+    terms.per_area = whole * (at.glint + at.diffuse) / tilt->projected;
+    return terms;
 }
 
 static void add_doubt(total_sums *sums, double per_area, const lrcsi_visible *visible)
@@ -150,46 +161,15 @@ static void add_doubt(total_sums *sums, double per_area, const lrcsi_visible *vi
     sums->lean += per_area * visible->lean;
 }
 
-/* One facet that reflects towards the laser. */
-static total_return add_reflecting(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
-                                   const lrcsi_visible *visible)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    total_sums *sums = &job->sums;
-    reflect_facet(job, facet, tilt->tan2);
-    lrcsi_reflection at = job->last.at;
-    double whole = FOUR_PI * 0.5 * p->normal[facet].length;
-    double share = share_of(visible->area, tilt->projected);
-    double most = share_of(visible->high, tilt->projected);
-    double glint = whole * at.glint * share;
-    double diffuse = whole * at.diffuse * share;
-    lrcsi_sum_add(&sums->glint, glint);
-    lrcsi_sum_add(&sums->diffuse, diffuse);
-    if (visible->low < visible->high) {
-        add_doubt(sums, whole * (at.glint + at.diffuse) / tilt->projected, visible);
-    }
-    /* S, 4 pi, two products and the share: 8 u, with the relative error of areas */
-    sums->rounding += (glint + diffuse) * (tilt->error + 8 * U) +
-                      whole * most * (at.error + reflection_vague(&job->last.brdf, tilt, &at));
-    add_seen(sums, &job->last.brdf);
-    return (total_return){glint, diffuse};
-}
-
 /* One with curved normals, which comes summed. */
-static total_return add_curved(total_job *job, uint32_t facet)
+static void add_curved(total_sums *sums, const lrcsi_curved *curved)
 {
-    const lrcsi_curved *curved = &job->curved[facet];
-    total_sums *sums = &job->sums;
-    lrcs_brdf brdf =
-        lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(job->view->prepared, facet));
-    add_seen(sums, &brdf);
     lrcsi_sum_add(&sums->glint, curved->glint);
     lrcsi_sum_add(&sums->diffuse, curved->diffuse);
     sums->visibility += curved->visibility;
-    sums->rounding += curved->rounding;
+    sums->rounding += curved->rounding + FACET_UNDERFLOW;
     sums->likely = lrcsi_length_flat(sums->likely, curved->likely);
     sums->curvature += curved->estimate;
-    return (total_return){curved->glint, curved->diffuse};
 }
 
 /* Can what the facets err from the true shapes be bounded? Where nothing is searched, all that
@@ -201,49 +181,16 @@ static int tessellation_known(const total_job *job)
            (unshadowed || job->margin || job->plan->method == LRCS_METHOD_FACET);
 }
 
-/* Is only a part of the facet visible? An area computed by clipping that cannot be told from none,
-   or from all, counts as that. Likewise nothing_visible. */
-static int partly_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
+/* Counts a facet of which nothing, or only a part, is visible. An area computed by clipping that
+   cannot be told from none, or from all, counts as that. */
+static void count_shown(lrcsi_total *total, double projected, const lrcsi_visible *visible)
 {
-    if (!(visible->area > 0 && visible->area < tilt->projected)) {
-        return 0;
-    }
-    int clipped = visible->likely == 0 && visible->high - visible->low < tilt->projected;
-    return !(clipped && (visible->low <= 0 || visible->high >= tilt->projected));
-}
-
-static int nothing_visible(const lrcsi_tilt *tilt, const lrcsi_visible *visible)
-{
-    return visible->area == 0 ||
-           (visible->area < tilt->projected && visible->low <= 0 && !partly_visible(tilt, visible));
-}
-
-static void count_facet(total_job *job, int reflects, const lrcsi_tilt *tilt,
-                        const lrcsi_visible *visible)
-{
-    lrcsi_sum_add(&job->sums.projected, visible->area);
-    if (reflects) {
-        job->total.hidden += nothing_visible(tilt, visible) ? 1 : 0;
-        job->total.partial += partly_visible(tilt, visible) ? 1 : 0;
-    } else if (visible->area > 0) {
-        lrcsi_sum_add(&job->sums.back_side, visible->area);
-        job->total.back_sides++;
-    }
-}
-
-static lrcs_facet_record record_of(const lrcsi_view *view, uint32_t facet, const lrcsi_tilt *tilt,
-                                   double visible, const total_return *sigma)
-{
-    const lrcs_prepared *p = view->prepared;
-    lrcs_facet_record record = {0, 0, 0, 0, 0};
-    if (!p->skip[facet]) {
-        record.area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[facet].length);
-        record.cos_theta = tilt->cos_theta;
-        record.visible_area_m2 = lrcsi_prepared_area(p, visible);
-        record.sigma_m2 = lrcsi_prepared_area(p, sigma->glint + sigma->diffuse);
-        record.sigma_glint_m2 = lrcsi_prepared_area(p, sigma->glint);
-    }
-    return record;
+    int below = visible->area < projected;
+    int clipped = visible->likely == 0 && visible->high - visible->low < projected;
+    int partly = visible->area > 0 && below &&
+                 !(clipped && (visible->low <= 0 || visible->high >= projected));
+    total->partial += partly ? 1 : 0;
+    total->hidden += visible->area == 0 || (below && visible->low <= 0 && !partly) ? 1 : 0;
 }
 
 /* A bound in square metres. Where that is no normal double its rounding is made up for, and that of
@@ -288,54 +235,365 @@ static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const l
                                               : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
-/* Could any of it be visible? The back sides of a closed body cannot, and cost no arithmetic. */
-static int may_show(const total_job *job, uint32_t facet)
+/* What a facet adds goes into its record. */
+static void record_sigma(const total_job *job, uint32_t facet, double glint, double diffuse)
+{
+    if (job->records) {
+        const lrcs_prepared *p = job->view->prepared;
+        job->records[facet].sigma_m2 = lrcsi_prepared_area(p, glint + diffuse);
+        job->records[facet].sigma_glint_m2 = lrcsi_prepared_area(p, glint);
+    }
+}
+
+/* --- one by one ------------------------------------------------------------------------------- */
+
+/* A facet that reflects and of which something may be visible. */
+static void sum_precisely(total_job *job, uint32_t facet)
+{
+    total_sums *sums = &job->sums;
+    lrcsi_tilt tilt = lrcsi_view_tilt(job->view, facet);
+    lrcsi_visible visible = facet_visible(job, facet, &tilt);
+    lrcs_brdf brdf =
+        lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(job->view->prepared, facet));
+    add_seen(sums, &brdf);
+    lrcsi_sum_add(&sums->projected, visible.area);
+    count_shown(&job->total, tilt.projected, &visible);
+    if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
+        add_curved(sums, &job->curved[facet]);
+        record_sigma(job, facet, job->curved[facet].glint, job->curved[facet].diffuse);
+        return;
+    }
+    total_terms terms = facet_terms(job, facet, &tilt, &visible);
+    lrcsi_sum_add(&sums->glint, terms.glint);
+    lrcsi_sum_add(&sums->diffuse, terms.diffuse);
+    sums->rounding += terms.rounding;
+    record_sigma(job, facet, terms.glint, terms.diffuse);
+    if (visible.low < visible.high) {
+        add_doubt(sums, terms.per_area, &visible);
+    }
+}
+
+/* A back side that shows and does not reflect. */
+static void sum_back(total_job *job, double area)
+{
+    lrcsi_sum_add(&job->sums.projected, area);
+    lrcsi_sum_add(&job->sums.back_side, area);
+    job->total.back_sides += area > 0 ? 1 : 0;
+}
+
+static int facet_shows(const total_job *job, uint32_t facet)
 {
     return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_casts(job->view, facet);
 }
 
+/* Any facet, by its exact facing. */
+static void sum_facet(total_job *job, uint32_t facet)
+{
+    int reflects = lrcsi_view_reflects(job->view, facet);
+    int shows = job->view->facing[facet] != 0 && facet_shows(job, facet);
+    if (reflects && shows) {
+        sum_precisely(job, facet);
+    } else if (shows) {
+        sum_back(job,
+                 job->visible ? job->visible[facet].area : lrcsi_view_projected(job->view, facet));
+    } else if (reflects) {
+        job->total.hidden++;
+    }
+}
+
+/* --- in blocks -------------------------------------------------------------------------------- */
+
+/* The facets of one material on their way through blocks. */
+typedef struct total_batch {
+    lrcsi_lobes lobes;
+    int back_reflects, back_shows; /* back sides do, or may */
+    int seen;                      /* one that reflects shows */
+    lrcsi_shades shades;
+    double area[LRCSI_LANES]; /* visible; by method facet S, then S cos(theta) */
+    double most[LRCSI_LANES]; /* that may be visible */
+    uint32_t facet[LRCSI_LANES], count;
+    lrcsi_sum_lanes glint, diffuse, projected, back_side;
+    double error[LRCSI_SUM_LANES];
+} total_batch;
+
+/* Facets that are seen in part, or may be; by method facet, all whose cosine may be below the
+   plan's threshold. */
+static void block_doubts(total_job *job, const total_batch *batch)
+{
+    const lrcsi_shades *shades = &batch->shades;
+    for (uint32_t i = 0; i < batch->count; i++) {
+        double per_area = shades->glint[i] + shades->diffuse[i];
+        if (!job->visible) {
+            int sure = shades->cosine[i] > job->plan->graze + 0x1p-40;
+            job->sums.visibility += sure ? 0 : per_area * batch->area[i];
+            continue;
+        }
+        uint32_t facet = batch->facet[i];
+        const lrcsi_visible *visible = &job->visible[facet];
+        if (visible->low < visible->high) {
+            add_doubt(&job->sums, per_area, visible);
+            count_shown(&job->total, lrcsi_view_projected(job->view, facet), visible);
+        }
+    }
+}
+
+/* Adds up what has been gathered. Empty places get the direction for a normal, and no area. */
+static void block_run(total_job *job, total_batch *batch)
+{
+    const lrcsi_view *view = job->view;
+    lrcsi_shades *shades = &batch->shades;
+    double glint[LRCSI_LANES];
+    double diffuse[LRCSI_LANES];
+    for (uint32_t i = batch->count; i < LRCSI_LANES; i++) {
+        for (int k = 0; k < 3; k++) {
+            shades->normal[k][i] = view->unit[k];
+        }
+        batch->area[i] = batch->most[i] = 0;
+    }
+    lrcsi_shade(&batch->lobes, view->unit, view->unit_low, shades);
+    if (!job->visible) {
+        for (int i = 0; i < LRCSI_LANES; i++) {
+            batch->area[i] *= shades->cosine[i];
+            batch->most[i] = batch->area[i];
+        }
+    }
+    for (int i = 0; i < LRCSI_LANES; i++) {
+        glint[i] = shades->glint[i] * batch->area[i];
+        diffuse[i] = shades->diffuse[i] * batch->area[i];
+    }
+    for (int i = 0; i < LRCSI_LANES; i += LRCSI_SUM_LANES) {
+        for (int k = 0; k < LRCSI_SUM_LANES; k++) {
+            batch->error[k] += shades->error[i + k] * batch->most[i + k];
+        }
+    }
+    lrcsi_sum_lanes_add(&batch->glint, glint);
+    lrcsi_sum_lanes_add(&batch->diffuse, diffuse);
+    lrcsi_sum_lanes_add(&batch->projected, batch->area);
+    for (uint32_t i = 0; job->records && i < batch->count; i++) {
+        record_sigma(job, batch->facet[i], glint[i], diffuse[i]);
+    }
+    if (job->visible || (job->plan->graze > 0 && job->plan->graze < 1)) {
+        block_doubts(job, batch);
+    }
+    if (batch->lobes.A > 0 || batch->lobes.B > 0) {
+        job->sums.rounding += batch->count * FACET_UNDERFLOW;
+    }
+    batch->count = 0;
+}
+
+/* Of facets that reflect, those that show stay listed; ones with curved normals are summed at once.
+   Returns how many stay. */
+static uint32_t batch_filter(total_job *job, uint32_t place, uint32_t *list, uint32_t count)
+{
+    const uint32_t *facet = job->view->prepared->batches.facet + place;
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t f = facet[list[k]];
+        if (!facet_shows(job, f)) {
+            job->total.hidden++;
+        } else if (job->curved && lrcsi_curve_wanted(job->view, f)) {
+            sum_precisely(job, f);
+        } else {
+            list[kept++] = list[k];
+        }
+    }
+    return kept;
+}
+
+/* Facets listed join the block, which is run whenever it is full. Given: 1, or -1 where they face
+   away. */
+static void batch_gather(total_job *job, total_batch *batch, uint32_t place, const uint32_t *list,
+                         uint32_t count, double side)
+{
+    const lrcsi_batches *b = &job->view->prepared->batches;
+    while (count > 0) {
+        uint32_t room = LRCSI_LANES - batch->count;
+        uint32_t take = count < room ? count : room;
+        for (uint32_t i = batch->count; i < batch->count + take; i++) {
+            uint32_t at = place + *list++;
+            batch->shades.normal[0][i] = side * b->normal[0][at];
+            batch->shades.normal[1][i] = side * b->normal[1][at];
+            batch->shades.normal[2][i] = side * b->normal[2][at];
+            batch->area[i] = b->area[at];
+            batch->facet[i] = b->facet[at];
+        }
+        for (uint32_t i = batch->count; job->visible && i < batch->count + take; i++) {
+            batch->area[i] = job->visible[batch->facet[i]].area;
+            batch->most[i] = job->visible[batch->facet[i]].high;
+        }
+        batch->seen = 1;
+        batch->count += take;
+        count -= take;
+        if (batch->count == LRCSI_LANES) {
+            block_run(job, batch);
+        }
+    }
+}
+
+/* Those listed and seen from that side go into blocks. */
+static void batch_add(total_job *job, total_batch *batch, uint32_t place, uint32_t *list,
+                      uint32_t count, double side)
+{
+    if (job->visible || job->curved || job->view->prepared->batches.redundant) {
+        count = batch_filter(job, place, list, count);
+    }
+    batch_gather(job, batch, place, list, count, side);
+}
+
+/* Adds the areas of back sides that show: by method facet of all among LRCSI_LANES places, else of
+   those listed. */
+static void batch_backs(total_job *job, total_batch *batch, uint32_t place, const double *dot,
+                        const uint32_t *back, uint32_t count)
+{
+    const lrcsi_batches *b = &job->view->prepared->batches;
+    double area[LRCSI_LANES];
+    if (job->visible || b->redundant) {
+        memset(area, 0, sizeof area);
+        for (uint32_t k = 0; k < count; k++) {
+            uint32_t facet = b->facet[place + back[k]];
+            area[k] = job->visible ? job->visible[facet].area
+                      : lrcsi_grid_casts(job->view, facet)
+                          ? -dot[back[k]] * b->area[place + back[k]]
+                          : 0;
+            job->total.back_sides += area[k] > 0;
+        }
+    } else {
+        const double *whole = b->area + place;
+        for (int i = 0; i < LRCSI_LANES; i++) {
+            uint64_t behind = lrcsi_bits_negative(dot[i] + batch->lobes.low);
+            area[i] = lrcsi_bits_masked(-dot[i] * whole[i], behind);
+        }
+        job->total.back_sides += count;
+    }
+    lrcsi_sum_lanes_add(&batch->back_side, area);
+}
+
+/* Up to LRCSI_LANES facets from a place on. Lists are made without branches: which way a facet
+   faces is anybody's guess. */
+static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint32_t count)
+{
+    double dot[LRCSI_LANES];
+    uint32_t front[LRCSI_LANES];
+    uint32_t back[LRCSI_LANES];
+    uint32_t fronts = 0;
+    uint32_t backs = 0;
+    double low = batch->lobes.low;
+    lrcsi_view_dots(job->view, place, dot);
+    for (uint32_t i = count; i < LRCSI_LANES; i++) {
+        dot[i] = 0;
+    }
+    double far = batch->back_reflects ? batch->lobes.high : 2;
+    for (uint32_t i = 0; i < count; i++) {
+        front[fronts] = back[backs] = i;
+        fronts += (dot[i] > low) & (dot[i] < batch->lobes.high);
+        backs += (dot[i] < -low) & (dot[i] > -far);
+    }
+    batch_add(job, batch, place, front, fronts, 1);
+    if (batch->back_reflects && batch->back_shows) {
+        batch_add(job, batch, place, back, backs, -1);
+    } else if (batch->back_shows) {
+        batch_backs(job, batch, place, dot, back, backs);
+    } else if (batch->back_reflects) {
+        job->total.hidden += backs;
+    }
+    for (uint32_t i = 0; fronts + backs < count && i < count; i++) {
+        double end = dot[i] > 0 ? batch->lobes.high : far;
+        if (!(fabs(dot[i]) > low && fabs(dot[i]) < end)) {
+            sum_facet(job, job->view->prepared->batches.facet[place + i]);
+        }
+    }
+}
+
+/* The batch's sums join the others. By method facet, where the plan knows nothing of what hides
+   what, all of it may be hidden. */
+static void batch_finish(total_job *job, total_batch *batch)
+{
+    if (batch->count > 0) {
+        block_run(job, batch);
+    }
+    total_sums *sums = &job->sums;
+    lrcsi_sum both = {0, 0};
+    lrcsi_sum_lanes_join(&both, &batch->glint);
+    lrcsi_sum_lanes_join(&both, &batch->diffuse);
+    lrcsi_sum_lanes_join(&sums->glint, &batch->glint);
+    lrcsi_sum_lanes_join(&sums->diffuse, &batch->diffuse);
+    lrcsi_sum_lanes_join(&sums->projected, &batch->projected);
+    lrcsi_sum_lanes_join(&sums->projected, &batch->back_side);
+    lrcsi_sum_lanes_join(&sums->back_side, &batch->back_side);
+    for (int k = 0; k < LRCSI_SUM_LANES; k++) {
+        sums->rounding += batch->error[k] * LRCSI_SHADE_UNIT;
+    }
+    sums->rounding += job->visible ? lrcsi_sum_value(&both) * AREA_ERROR : 0;
+    sums->visibility += !job->visible && job->plan->graze >= 1 ? lrcsi_sum_value(&both) : 0;
+}
+
+/* --- all of it -------------------------------------------------------------------------------- */
+
+static int term_wanted(int term, double amplitude)
+{
+    return amplitude > 0 || term == LRCSI_TERM_FORCED;
+}
+
+static void sum_material(total_job *job, uint32_t material)
+{
+    const lrcsi_view *view = job->view;
+    const lrcs_material *m = &view->prepared->scene->material[material];
+    lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, m);
+    total_batch batch = {
+        .lobes = lrcsi_lobes_make(&brdf, brdf.s > 0 && term_wanted(job->plan->glint, brdf.A),
+                                  term_wanted(job->plan->diffuse, brdf.B)),
+        .back_reflects = view->backs_reflect && m->two_sided,
+        .back_shows = view->backs_cast || job->visible};
+    const uint32_t *first = view->prepared->batches.first + material;
+    for (uint32_t place = first[0]; place < first[1]; place += LRCSI_LANES) {
+        uint32_t left = first[1] - place;
+        sum_places(job, &batch, place, left < LRCSI_LANES ? left : LRCSI_LANES);
+    }
+    batch_finish(job, &batch);
+    if (batch.seen) {
+        add_seen(&job->sums, &brdf);
+    }
+}
+
+/* What the facets of tessellated shapes err from their true surfaces. */
 static double facet_tessellation(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)
 {
-    const lrcs_prepared *p = job->view->prepared;
     if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
         return job->margin ? job->margin->share[facet] * job->curved[facet].most : 0;
     }
-    lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, facet));
+    lrcs_brdf brdf =
+        lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(job->view->prepared, facet));
     return FOUR_PI *
            lrcsi_tessellation_error(job->view, facet, &brdf, tilt, job->visible, job->margin);
 }
 
-static void sum_facet(total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
-                      lrcs_facet_record *record)
+static void sum_tessellation(total_job *job)
 {
-    const lrcsi_view *view = job->view;
-    lrcsi_visible visible = facet_visible(job, facet, tilt);
-    total_return sigma = {0, 0};
-    if (view->facing[facet] != 0) {
-        int reflects = lrcsi_view_reflects(view, facet);
-        if (reflects && visible.high > 0) {
-            sigma = job->curved && lrcsi_curve_wanted(view, facet)
-                        ? add_curved(job, facet)
-                        : add_reflecting(job, facet, tilt, &visible);
+    const lrcsi_batches *b = &job->view->prepared->batches;
+    for (uint32_t place = 0; place < b->count; place += LRCSI_TILTS) {
+        lrcsi_tilt tilt[LRCSI_TILTS];
+        uint32_t left = b->count - place;
+        uint32_t count = left < LRCSI_TILTS ? left : LRCSI_TILTS;
+        lrcsi_view_tilts(job->view, b->facet + place, count, tilt);
+        for (uint32_t i = 0; i < count; i++) {
+            job->sums.tessellation += facet_tessellation(job, b->facet[place + i], &tilt[i]);
         }
-        count_facet(job, reflects, tilt, &visible);
-    }
-    if (view->prepared->curved && !view->prepared->skip[facet]) {
-        job->sums.tessellation += facet_tessellation(job, facet, tilt);
-    }
-    if (record) {
-        *record = record_of(view, facet, tilt, visible.area, &sigma);
     }
 }
 
-/* The next facets in order, their incidence computed side by side. */
-static void sum_facets(total_job *job, const uint32_t *facet, uint32_t count,
-                       lrcs_facet_record *records)
+/* Records, all but for sigma. */
+static void records_start(const total_job *job)
 {
-    lrcsi_tilt tilt[LRCSI_TILTS];
-    lrcsi_view_tilts(job->view, facet, count, tilt);
-    for (uint32_t i = 0; i < count; i++) {
-        sum_facet(job, facet[i], &tilt[i], records ? &records[facet[i]] : NULL);
+    const lrcs_prepared *p = job->view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        job->records[f] = (lrcs_facet_record){0, 0, 0, 0, 0};
+        if (!p->skip[f]) {
+            lrcsi_tilt tilt = lrcsi_view_tilt(job->view, f);
+            lrcsi_visible visible = facet_visible(job, f, &tilt);
+            job->records[f].area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[f].length);
+            job->records[f].cos_theta = tilt.cos_theta;
+            job->records[f].visible_area_m2 = lrcsi_prepared_area(p, visible.area);
+        }
     }
 }
 
@@ -344,26 +602,22 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_margin *margin, lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
-    total_job job = {
-        .view = view, .plan = plan, .visible = visible, .curved = curved, .margin = margin};
-    if (p->curved && !tessellation_known(&job)) {
+    total_job job = {.view = view,
+                     .plan = plan,
+                     .visible = visible,
+                     .curved = curved,
+                     .margin = margin,
+                     .records = records};
+    if (records) {
+        records_start(&job);
+    }
+    for (uint32_t i = 0; i < p->scene->material_count; i++) {
+        sum_material(&job, i);
+    }
+    if (p->curved && tessellation_known(&job)) {
+        sum_tessellation(&job);
+    } else if (p->curved) {
         job.sums.tessellation = -HUGE_VAL;
-    }
-    uint32_t facet[LRCSI_TILTS];
-    uint32_t count = 0;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        if (p->curved || records || may_show(&job, f)) {
-            facet[count++] = f;
-        } else {
-            job.total.hidden += lrcsi_view_reflects(view, f) ? 1 : 0;
-        }
-        if (count == LRCSI_TILTS) {
-            sum_facets(&job, facet, count, records);
-            count = 0;
-        }
-    }
-    if (count > 0) {
-        sum_facets(&job, facet, count, records);
     }
     total_finish(&job);
     return job.total;

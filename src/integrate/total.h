@@ -18,11 +18,11 @@ typedef struct lrcsi_total {
 } lrcsi_total;
 
 /* Given: the view, its plan, and the visible area of each facet (NULL: by method facet, whose plan
-   tells them); where the plan does not know every
-   front facet to be wholly visible, on the true shapes as on their meshes, the margin of doubt
-   about the true shapes (NULL: none was made). Facets with curved normals come with their own
-   sums in curved[facet_count]; NULL: all are flat. Returned: total, summed in facet order;
-   records[facet_count] unless NULL. */
+   tells them); where the plan does not know every front facet to be wholly visible, on the true
+   shapes as on their meshes, the margin of doubt about the true shapes (NULL: none was made).
+   Facets with curved normals come with their own sums in curved[facet_count]; NULL: all are flat.
+   Returned: the total, summed material by material, each in facet order; records[facet_count]
+   unless NULL. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_visible *visible, const lrcsi_curved *curved,
                              const lrcsi_margin *margin, lrcs_facet_record *records);

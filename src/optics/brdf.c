@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/elementary.h"
 #include "optics/reflect.h"
 
 #define BRDF_PI 3.14159265358979323846
@@ -80,7 +81,7 @@ double lrcs_brdf_eval(const lrcs_brdf *brdf, double cos_theta)
     if (!(cos_theta > 0.0)) {
         return 0.0;
     }
-    double sum = brdf->B > 0.0 ? brdf->B * pow(cos_theta, brdf->m) : 0.0;
+    double sum = brdf->B > 0.0 ? brdf->B * lrcsi_power(lrcsi_log(cos_theta), brdf->m) : 0.0;
     if (brdf->A > 0.0) {
         /* 1 - cos is exact from cos = 1/2 up; sin^2 first, so that 1/cos^2 cannot overflow alone */
         double tan2 = (1.0 - cos_theta) * (1.0 + cos_theta) / cos_theta / cos_theta;

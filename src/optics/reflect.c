@@ -5,17 +5,15 @@
    Glint: A q^2 with q = (1 + u) exp(-x/2), x = u / s^2: no cancellation between a growing and a
    decaying exponent (for s > 0.7 they cancel), no intermediate overflow, and x carries a correction
    term, so that a far flank (x up to 745) is as good as the peak.
-   Diffuse: B r^2 / (1 + u) with r = (1 + u)^(-m/4), where 1 + u = w + w' exactly and w' enters to
-   first order.
+   Diffuse: B r^2 / (1 + u) with r = (1 + u)^(-m/4), its exponent to twice the digits of a double.
+   For m = 0, 1/2, 1 and 2, as most materials have it, roots do without a power: correctly rounded,
+   and a fourth of the time.
 
-   For m = 0, 1/2, 1 and 2, as most materials have it, roots do without pow: correctly rounded, and
-   a fourth of the time.
-
-   Rounding, in units of 2^-53, libm within 2 ulp (4 units):
-   glint    1 + u: 1, exp: 4, its correction 1 - x'/2 and two products: 4; squared: 18; times A: 2
-            far out: log1p, below x/1.9: 4, x/2: 2, their difference: 1; squared: 8 x
-   diffuse  pow: 4, correction: 4, their product: 1; squared: 18; 1 - w'/w, products, quotient: 5;
-            and d = (m/4) w'/w, doubled: at most 4 d for its rounding, 2 d for its second order
+   Rounding, in units of 2^-53, with the errors of base/elementary.h:
+   glint    1 + u: 1, exp: 2, its correction 1 - x'/2 and two products: 4; squared: 14; times A: 2
+            far out: log1p, below x/1.9: 1, x/2: 2, their difference: 1; exp: 2; squared: 8 x
+   diffuse  the exponent y = (m/4) log(1 + u), by LRCSI_LOG_ERROR y and at most y or (m/4) 2^-53;
+            exp: 3; squared: twice all that; 1 + u, quotient and two products: 4
             by roots: w' left out, m/2 + 1: 2; a root of a root: 1.5; two quotients: 2
    These are first order; the constants below leave room for the rest. */
 #include "optics/reflect.h"
@@ -24,10 +22,11 @@
 #include <math.h>
 
 #include "base/dd.h"
+#include "base/elementary.h"
 #include "base/range.h"
 
-#define REFLECT_GLINT_UNITS   24.0
-#define REFLECT_DIFFUSE_UNITS 28.0
+#define REFLECT_GLINT_UNITS   18.0
+#define REFLECT_DIFFUSE_UNITS 11.0
 #define REFLECT_ROOT_UNITS    7.0
 #define REFLECT_UNIT          0x1p-53
 
@@ -67,10 +66,10 @@ static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
     reflect_part part = {0.0, REFLECT_GLINT_UNITS * REFLECT_UNIT, 2.0 * lrcsi_least(u, 1.0) + x.hi};
     double q = 0.0;
     if (x.hi < REFLECT_X_FAR) {
-        q = (1.0 + u) * (exp(-0.5 * x.hi) * (1.0 - 0.5 * x.lo));
+        q = (1.0 + u) * (lrcsi_exp(-0.5 * x.hi) * (1.0 - 0.5 * x.lo));
         part.relative += x.lo == 0.0 ? 4.0 * REFLECT_UNIT * x.hi : 0.0;
     } else {
-        q = x.hi < REFLECT_X_NONE ? exp(log1p(u) - 0.5 * x.hi) : 0.0;
+        q = x.hi < REFLECT_X_NONE ? lrcsi_exp(lrcsi_log1p(u).hi - 0.5 * x.hi) : 0.0;
         part.relative += 16.0 * REFLECT_UNIT * x.hi;
     }
     part.value = brdf->A * q * q;
@@ -93,14 +92,12 @@ static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
         part.relative = REFLECT_UNIT * REFLECT_ROOT_UNITS;
         return part;
     }
-    double quarter_m = 0.25 * brdf->m;
-    lrcsi_dd w = lrcsi_dd_two_sum(1.0, u);
-    double ratio = w.lo / w.hi;
-    double d = quarter_m * ratio;
-    /* where -d exceeds 400, pow has underflowed: w.hi >= 1 + 2^-52, |w.lo| <= 2^-53 w.hi */
-    double r = pow(w.hi, -quarter_m) * (fabs(d) < 0x1p-30 ? 1.0 - d : exp(lrcsi_least(-d, 400.0)));
-    part.value = brdf->B * r * r / w.hi * (1.0 - ratio);
-    part.relative = REFLECT_UNIT * (REFLECT_DIFFUSE_UNITS + 10.0 * lrcsi_least(fabs(d), 1e4));
+    lrcsi_dd log = lrcsi_log1p(u);
+    double y = 0.25 * brdf->m * log.hi;
+    double r = lrcsi_power(log, -0.25 * brdf->m);
+    part.value = brdf->B * r * r / (1.0 + u);
+    part.relative = REFLECT_UNIT * (REFLECT_DIFFUSE_UNITS + 2.0 * LRCSI_LOG_ERROR * y +
+                                    lrcsi_least(2.0 * y, 0.5 * brdf->m * REFLECT_UNIT));
     return part;
 }
 
@@ -109,8 +106,10 @@ static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
 static double glint_most(const lrcs_brdf *brdf, double low, double high)
 {
     double s2 = brdf->s * brdf->s;
-    double peak = s2 > 0.5 ? 2.0 * s2 * exp(-1.0 + 0.5 / s2) : 1.0;
-    double q = fmin(peak, exp(log1p(high) - 0.5 * (low / brdf->s / brdf->s)));
+    double q = s2 > 0.5 ? 2.0 * s2 * lrcsi_exp(-1.0 + 0.5 / s2) : 1.0;
+    if (isfinite(high)) {
+        q = fmin(q, lrcsi_exp(lrcsi_log1p(high).hi - 0.5 * (low / brdf->s / brdf->s)));
+    }
     return brdf->A * q * q;
 }
 

@@ -16,9 +16,9 @@ typedef struct lrcsi_reflection {
 /* Given: tan2 = tan^2(theta) >= 0 (infinity allowed: edge-on, both parts 0) with relative error
    at most tan2_error. Parts are finite and not NaN for every brdf in its domain; where the glint
    exceeds the largest double it is that double, and error is infinite.
-   Notes: 1. Assumes exp, pow and log1p within 2 ulp.
-   2. Costs one exp and one pow (none for m = 0, 1/2, 1 and 2); a part whose amplitude is 0 costs
-   nothing. */
+   Notes: 1. Calls nothing of libm but the square root: the same bits on every machine.
+   2. Costs one exponential, and a power except for m = 0, 1/2, 1 and 2; a part whose amplitude is 0
+   costs nothing. */
 lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error);
 
 /* Bound on the flat-facet error of a curved patch, per unit of facet area:

@@ -35,6 +35,8 @@
 
 #include <math.h>
 
+#include "base/elementary.h"
+
 #define HALF_PI_BELOW 1.57079632679489655800 /* the double below pi/2 */
 #define STRAY_UNIT    0x1p-53
 #define STRAY_MARGIN  (1.0 + 1e-10)
@@ -63,7 +65,7 @@ typedef struct stray_size {
 /* An upper bound on e^x, but for the margin. */
 static double exp_above(double x)
 {
-    return x < EXPONENT_LOW ? STRAY_TINY : exp(x);
+    return x < EXPONENT_LOW ? STRAY_TINY : lrcsi_exp(x);
 }
 
 /* 0 times infinity is 0 here. */
@@ -81,8 +83,8 @@ static tan2_point tan2_at(double u)
 static void point_know(tan2_point *at)
 {
     if (!at->known) {
-        at->log_w = log1p(at->u);
-        at->log_u = at->u > 0.0 ? log(at->u) : 0.0;
+        at->log_w = lrcsi_log1p(at->u).hi;
+        at->log_u = at->u > 0.0 ? lrcsi_log(at->u).hi : 0.0;
         at->known = 1;
     }
 }
@@ -133,7 +135,7 @@ static double glint_sup(double a, double b, double c, const glint_slope *slope, 
 
 static stray_size glint_size(double s, int front, tan2_point *here, tan2_range *range)
 {
-    const glint_slope slope = {s, log(s)};
+    const glint_slope slope = {s, lrcsi_log(s).hi};
     stray_size size = {0.0, 0.0, 0.0, 0.0, 0.0};
     if (front && isfinite(here->u)) {
         double up = 4.0 * glint_term(0.5, 2.0, 0.0, &slope, here);

@@ -334,6 +334,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_coincident_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_batches_need(scene));
     need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
     size_t proof = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
@@ -365,7 +366,7 @@ int lrcsi_prepare_stage(lrcs_prepared *p, int stage, lrcs_work *work)
         prepare_live(p);
         prepare_box(p);
         prepare_effects(p);
-        return LRCS_OK;
+        return lrcsi_batches_make(p, work);
     case LRCSI_PREPARE_NEIGHBOURS:
         return prepare_neighbours(p, work);
     case LRCSI_PREPARE_CONTACTS:

@@ -11,6 +11,7 @@
 #include "mesh/topology.h"
 #include "mesh/touch.h"
 #include "scene/across.h"
+#include "scene/batch.h"
 #include "scene/near.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
@@ -42,6 +43,7 @@ struct lrcs_prepared {
                        where no facet has any */
     unsigned char *stood; /* vertex: 1 where a live facet stands on it */
     lrcsi_normal *normal;
+    lrcsi_batches batches;   /* facets that are not skipped, by material */
     lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
     lrcsi_across across;     /* across the sides of facets that are not redundant */
     lrcsi_touches touches;   /* between facets that are not redundant, but not between twins */
@@ -66,7 +68,7 @@ struct lrcs_prepared {
    them (the core has no clock). */
 enum lrcsi_prepare_stage {
     LRCSI_PREPARE_EDGES,      /* scaled points, welded; edges */
-    LRCSI_PREPARE_NORMALS,    /* and what is found facet by facet: the box, effects */
+    LRCSI_PREPARE_NORMALS,    /* and what else is found facet by facet: box, effects, batches */
     LRCSI_PREPARE_NEIGHBOURS, /* coincident facets; which facet lies across each side */
     LRCSI_PREPARE_CONTACTS,
     LRCSI_PREPARE_PROOFS, /* solid, convex, what is near curved shapes */

@@ -4,6 +4,7 @@
 #include "view/view.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/exact.h"
 #include "base/ieee.h"
@@ -192,19 +193,72 @@ void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]
     }
 }
 
+/* With 1.01 u for each component of n, u for d's, u for each product and sum: at most 5.1 u
+   sum |n_k d_k|, which is at most 1. LRCSI_DOT_ERROR is 12 u. */
+void lrcsi_view_dots(const lrcsi_view *view, uint32_t place, double dot[restrict LRCSI_LANES])
+{
+    const lrcsi_batches *b = &view->prepared->batches;
+    const double *x = b->normal[0] + place;
+    const double *y = b->normal[1] + place;
+    const double *z = b->normal[2] + place;
+    const double *d = view->unit;
+    for (int i = 0; i < LRCSI_LANES; i++) {
+        dot[i] = (x[i] * d[0] + y[i] * d[1]) + z[i] * d[2];
+    }
+}
+
+/* By the sign of the dot product of unit vectors, or where that does not decide exactly. */
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
-    uint32_t front = 0; /* in registers: a char, which facings are, may stand anywhere */
-    uint32_t back = 0;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        signed char facing = p->skip[f] ? 0 : facing_of(view, f);
-        view->facing[f] = facing;
-        front += facing > 0;
-        back += facing < 0;
+    const lrcsi_batches *b = &p->batches;
+    memset(view->facing, 0, p->scene->facet_count);
+    for (uint32_t place = 0; place < b->count; place += LRCSI_LANES) {
+        const uint32_t *facet = b->facet + place;
+        uint32_t count = b->count - place < LRCSI_LANES ? b->count - place : LRCSI_LANES;
+        uint32_t unsure[LRCSI_LANES];
+        uint32_t unsures = 0;
+        uint32_t back = 0;
+        double dot[LRCSI_LANES];
+        lrcsi_view_dots(view, place, dot);
+        for (uint32_t i = 0; i < count; i++) {
+            int behind = dot[i] < 0;
+            view->facing[facet[i]] = (signed char)(1 - 2 * behind);
+            back += (uint32_t)behind;
+            unsure[unsures] = i;
+            unsures += fabs(dot[i]) <= LRCSI_DOT_ERROR;
+        }
+        view->back += back;
+        view->front += count - back;
+        for (uint32_t k = 0; k < unsures; k++) {
+            uint32_t f = facet[unsure[k]];
+            signed char facing = facing_of(view, f);
+            view->front -= view->facing[f] > 0;
+            view->back -= view->facing[f] < 0;
+            view->front += facing > 0;
+            view->back += facing < 0;
+            view->facing[f] = facing;
+        }
     }
-    view->front = front;
-    view->back = back;
+}
+
+/* The direction's components over its length, to twice the digits: as scene/batch.c does it. */
+static void view_unit(lrcsi_view *view)
+{
+    const double *d = view->direction;
+    lrcsi_dd square = {0, 0};
+    for (int k = 0; k < 3; k++) {
+        square = lrcsi_dd_add(square, lrcsi_dd_two_product(d[k], d[k]));
+    }
+    double y = 1 / sqrt(square.hi);
+    lrcsi_dd y2 = lrcsi_dd_two_product(y, y);
+    double half = 0.5 * lrcsi_dd_value(lrcsi_dd_sub((lrcsi_dd){1, 0}, lrcsi_dd_mul(y2, square)));
+    for (int k = 0; k < 3; k++) {
+        lrcsi_dd p = lrcsi_dd_two_product(d[k], y);
+        p = lrcsi_dd_quick_sum(p.hi, p.lo + p.hi * half);
+        view->unit[k] = p.hi;
+        view->unit_low[k] = p.lo;
+    }
 }
 
 /* The square over the projected box's longer side, centred. */
@@ -248,6 +302,7 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
     }
     v.length = sqrt(v.direction[0] * v.direction[0] + v.direction[1] * v.direction[1] +
                     v.direction[2] * v.direction[2]);
+    view_unit(&v);
     view_facings(&v);
     *view = v;
     return LRCS_OK;

@@ -23,7 +23,9 @@ typedef struct lrcsi_view {
     const lrcs_prepared *prepared;
     double direction[3]; /* to the laser, exact, not normalised */
     double R[3][3];
-    double length;       /* |direction| */
+    double length;  /* |direction| */
+    double unit[3]; /* direction / length, rounded; and with unit_low to 2^-100 */
+    double unit_low[3];
     signed char *facing; /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
     lrcs_point *point;   /* vertex, view coordinates about the scene's centre: x right, y up,
                             z to the laser; each off by at most `off` */
@@ -67,6 +69,12 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 #define LRCSI_TILTS 32u
 void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
                       lrcsi_tilt *tilt);
+
+/* n . d of the facets at `place` and after it in the scene's batches, n and d being unit vectors:
+   absolute error at most LRCSI_DOT_ERROR. Returned: dot[], that of places beyond the last being 0.
+ */
+#define LRCSI_DOT_ERROR 0x1.8p-51
+void lrcsi_view_dots(const lrcsi_view *view, uint32_t place, double dot[LRCSI_LANES]);
 
 /* The point (x, y) of the view plane, on the plane through the scene's centre, in scaled scene
    coordinates, rounded: the sample line through it along the direction is exact by definition. */

@@ -77,6 +77,7 @@ static inline void take_choices(unsigned effects, unsigned share, fuzz_run *run,
     unsigned other = ((unsigned)run->options.method + 1 + share % 3) & 3;
     run->methods = share == 255 ? 15 : 1u << run->options.method | 1u << other;
     run->share = share;
+    run->options.accept = (int)(share >> 2 & 3) % 3;
     run->starved = effects >> 4 & 1;
     *turned = (effects >> 6 & 1) && fuzz_chosen(!run->starved);
     run->polygons = (effects >> 7 & 1) && !run->starved && !*turned;

@@ -63,6 +63,7 @@ static fuzz_run run_of(unsigned hash)
     run.options.method = (int)(hash & 3);
     run.options.tolerance = 1e-2;
     run.options.resolution = 16;
+    run.options.accept = (int)(hash >> 9 & 3) % 3;
     run.methods = 1u << run.options.method | 1u << (hash >> 2 & 3);
     run.starved = (hash >> 4 & 3) == 0;
     run.polygons = (hash >> 4 & 3) == 1;

@@ -102,6 +102,22 @@ static inline void require_result(const lrcs_scene *scene, const lrcs_result *r)
     require_records(scene, r);
 }
 
+/* One verdict, and that which the numbers give. */
+static inline void require_verdict(const lrcs_run_options *options, const lrcs_result *r)
+{
+    double most = options->tolerance * r->sigma_m2;
+    uint32_t estimated = r->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE;
+    uint32_t unjudged = r->flags & LRCS_FLAG_ACCEPTED_UNJUDGED;
+    uint32_t missed = r->flags & LRCS_FLAG_TOLERANCE_NOT_MET;
+    int proved = r->bound_m2 <= most && r->curvature_estimate_m2 <= most;
+    require(proved + (estimated != 0) + (unjudged != 0) + (missed != 0) == 1);
+    require(!estimated || (options->accept != LRCS_ACCEPT_BOUND && r->resolution != 0 &&
+                           r->sigma_m2 > 0 && r->estimate_m2 >= 0 && r->estimate_m2 <= most &&
+                           !(r->flags & (LRCS_FLAG_DEPTH_UNDECIDED | LRCS_FLAG_STEPS_SPENT))));
+    require(!unjudged || options->accept == LRCS_ACCEPT_ANY);
+    require(!missed || options->accept != LRCS_ACCEPT_ANY);
+}
+
 /* Where the truth is, after every answer so far. */
 typedef struct fuzz_truth {
     long double low, high;
@@ -138,6 +154,7 @@ static inline int fuzz_sigma(const lrcs_prepared *prepared, const lrcs_scene *sc
     if (status == LRCS_OK) {
         require_result(scene, result);
         require(options->steps == 0 || result->steps <= options->steps);
+        require_verdict(options, result);
         for (uint32_t i = 0; image.size != 0 && i < image.size * image.size; i++) {
             require(picture[i] < scene->facet_count || picture[i] == LRCS_NONE);
         }

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* What must be the same on every machine, as hashes over results: all that calls nothing of libm
    but what is exact or correctly rounded (readers, decimals, predicates, topology, poses, placing,
-   every area and every decision of visibility). And sigma, which calls exp, log1p and pow, as
-   bits with its bound.
+   every area and every decision of visibility, and sigma with its bound over flat facets). And what
+   libm has a part in, as bits with its bound: sigma of shapes, whose vertices libm places, curved
+   normals, closed forms.
    usage: digest STRIDE [REFERENCE]    (in the root; of all that is tried only each STRIDE-th; a
    reference is what this printed elsewhere)
-   With a reference exit 1 where a hash differs, where two bounds do not overlap, or where sigma is
-   off by more than SIGMA_ULPS. */
+   With a reference exit 1 where a hash differs, where two bounds do not overlap, or where such a
+   sigma is off by more than SIGMA_ULPS. */
 #include <lrcs/lrcs.h>
 
 #include <inttypes.h>
@@ -19,8 +20,9 @@
 #include "check.h"
 #include "visible.h"
 
-/* glibc's exp, log1p and pow are within 1 ulp each; the glint's exponent multiplies that by up to
-   some hundred where the glint is faint. Measured: 0 (examples/flight/README.md). */
+/* glibc's sine and cosine are within 1 ulp each; the glint's exponent multiplies what that moves a
+   normal by up to some hundred where the glint is faint. Measured: 0 (examples/flight/README.md).
+ */
 #define SIGMA_ULPS  64
 #define SIGMA_COUNT 2048
 #define PIXELS      48u
@@ -271,6 +273,8 @@ static void take_records(uint32_t facets)
         take_double(record[i].area_m2);
         take_double(record[i].cos_theta);
         take_double(record[i].visible_area_m2);
+        take_double(record[i].sigma_m2);
+        take_double(record[i].sigma_glint_m2);
     }
 }
 
@@ -296,7 +300,20 @@ static void run_half(const lrcs_prepared *prepared, const lrcs_pose *pose, uint6
     take_records(facets);
 }
 
-/* One run: what is visible goes into the hash, sigma is kept. */
+static void take_sigma(const lrcs_result *result)
+{
+    take_double(result->sigma_m2);
+    take_double(result->sigma_glint_m2);
+    take_double(result->sigma_diffuse_m2);
+    take_double(result->bound_m2);
+    take_double(result->budget.visibility_m2);
+    take_double(result->budget.rounding_m2);
+    take_double(result->estimate_m2);
+    take(result->flags);
+}
+
+/* One run: what is visible goes into the hash, and sigma with its bound; the latter are kept too,
+   for scenes whose hash does not count. */
 static void run_one(const char *name, uint32_t number, const lrcs_prepared *prepared,
                     const lrcs_pose *pose, int method, lrcs_work *work, uint32_t facets)
 {
@@ -315,6 +332,7 @@ static void run_one(const char *name, uint32_t number, const lrcs_prepared *prep
     take(result.facets_partial);
     take(result.notices);
     take_records(facets);
+    take_sigma(&result);
     if (method == LRCS_METHOD_ZBUFFER) {
         take_pixels();
     }
@@ -350,6 +368,46 @@ static void digest_emulation(const lrcs_prepared *prepared, const lrcs_pose *pos
     take_double(emulation.projected_area_m2);
     take_records(facets);
     take_pixels();
+}
+
+/* Many facets at random, on lattice points, for full blocks of every kind of material: narrow and
+   wide glints, each form of the diffuse part, one-sided and two-sided. */
+static void digest_materials(void)
+{
+    static test_scene scene;
+    static const lrcs_brdf brdf[] = {{1, 0.25, 0.2, 0.5}, {3, 0, 0.02, 0}, {0, 0.3, 0, 2},
+                                     {1, 0.1, 0.07, 7.3}, {2, 1e-3, 3, 1}, {5, 0.5, 1e-4, 2000},
+                                     {1, 0.2, 0.3, 0.3}};
+    uint64_t seed = 4096;
+    section_start("materials");
+    scene_start(&scene);
+    for (size_t i = 0; i < sizeof brdf / sizeof *brdf; i++) {
+        scene_material(&scene, brdf[i].A, brdf[i].B, brdf[i].s, brdf[i].m)->two_sided = i % 3 == 1;
+    }
+    for (uint32_t i = 0; i < 2000; i++) {
+        double p[3][3];
+        for (int k = 0; k < 9; k++) {
+            p[k / 3][k % 3] = (double)scene_random(&seed, 1u << 20) - 0x1p19;
+        }
+        scene.wears = scene_random(&seed, scene.scene.material_count);
+        scene_triangle(&scene, p[0], p[1], p[2]);
+    }
+    lrcs_work work = lrcs_work_make(memory, sizeof memory);
+    const lrcs_prepared *prepared;
+    assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
+    for (uint32_t i = 0; i < 60; i += stride) {
+        lrcs_run_options options = lrcs_run_options_default();
+        const double direction[3] = {scene_random(&seed, 2000) - 999.5, scene_random(&seed, 999),
+                                     scene_random(&seed, 2000) - 999.5};
+        lrcs_pose pose;
+        lrcs_result result;
+        options.method = LRCS_METHOD_FACET;
+        assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &result, record, NULL),
+                         LRCS_OK);
+        take_sigma(&result);
+        take_records(scene.scene.facet_count);
+    }
 }
 
 /* The 210 small scenes of degenerate contacts, at small integers. */
@@ -542,6 +600,7 @@ static void everything_is_the_same_everywhere(void **state)
     digest_decimals();
     digest_predicates();
     digest_poses();
+    digest_materials();
     digest_contacts();
     digest_boxes();
     keep_shapes();

@@ -236,6 +236,30 @@ static void points_lie_within_their_error(void **state)
     check_most(view.off, 1e-13 * p->radius * 1000 / 3);
 }
 
+/* Both against long double: the unit vector's two parts, and n . d of every facet. */
+static void dot_products_stay_within_their_error(void **state)
+{
+    (void)state;
+    need_wide_long_double();
+    for (size_t i = 0; i < TILT_ROWS; i++) {
+        const tilt_row *row = &tilt_rows[i];
+        scene_start(&scene);
+        scene_triangle(&scene, row->corner[0], row->corner[1], row->corner[2]);
+        lrcsi_view view = view_along(row->direction);
+        const double *d = view.direction;
+        long double length =
+            sqrtl((long double)d[0] * d[0] + (long double)d[1] * d[1] + (long double)d[2] * d[2]);
+        for (int k = 0; k < 3; k++) {
+            check_abs((double)(d[k] / length - view.unit[k] - view.unit_low[k]), 0, 0x1p-62);
+            check_most(fabs(view.unit_low[k]), 0x1p-53 * fabs(view.unit[k]));
+        }
+        double dot[LRCSI_LANES];
+        lrcsi_view_dots(&view, 0, dot);
+        check_abs(dot[0], row->cosine, LRCSI_DOT_ERROR);
+        check_same(dot[1], 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -246,6 +270,7 @@ int main(void)
         cmocka_unit_test(many_tilts_are_those_of_one_facet_each),
         cmocka_unit_test(nearest_to_edge_on_tan2_is_a_lower_bound),
         cmocka_unit_test(normal_incidence_is_exact),
+        cmocka_unit_test(dot_products_stay_within_their_error),
         cmocka_unit_test(window_is_the_square_around_the_projection),
         cmocka_unit_test(points_lie_within_their_error),
     };
