@@ -25,8 +25,8 @@ typedef struct lrcsi_touches {
     uint32_t *first;    /* facet_count + 1: entries of facet i are touch[first[i] .. first[i+1]) */
     lrcsi_touch *touch; /* by facet, then by other */
     uint32_t count;
-    unsigned char *rim; /* facet: 1 where another may meet its rim other than in one of its corners
-                           or along a side that both have */
+    unsigned char *rim; /* facet: 1 where another touches its inside, or meets its rim other than in
+                           one of its corners or along a side that both have */
     int self; /* a facet meets the inside or a side of another of its own piece; 0 if not asked */
 } lrcsi_touches;
 
@@ -48,8 +48,9 @@ int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet othe
    Work: near linear on ordinary meshes, quadratic where everything overlaps everything. The
    result stays in the work area, scratch does not; lrcsi_touches_need bytes serve up to `count`
    entries. */
-size_t lrcsi_touches_need(uint32_t facet_count, size_t count);
-int lrcsi_touches_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
+size_t lrcsi_touches_need(uint32_t vertex_count, uint32_t facet_count, size_t count);
+int lrcsi_touches_make(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
+                       uint32_t facet_count, const lrcsi_topology *topology,
                        const unsigned char *skip, const uint32_t *piece, lrcs_work *work,
                        lrcsi_touches *touches);
 

@@ -1,40 +1,31 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes over facets in the order of a Morton curve (Morton 1966), a complete binary tree on top.
-   Where the curve runs decides speed alone. Sizes may be as uneven as they like: a large facet
-   enlarges only the nodes above it.
+/* Boxes over facets in the order of a Morton curve (Morton 1966), eight by eight, in as many levels
+   as it takes. Where the curve runs decides speed alone.
 
-   Plane test. With n the computed normal of the facet at origin a and w_k = |p_i q_j| + |p_j q_i|,
-   each component of n errs by at most 5 u w_k (u = 2^-53; see base/exact.c), a difference x - a by
-   u of itself, and the sum of three products by 3 u of its terms, so that for x in a box
-       n . (x - a) > e,   e = 10 u sum w_k max |x_k - a_k|,
-   at the corner where the computed value is least proves that the whole box lies above the
-   plane; |n_k| <= (1 + 4u) w_k covers the last two.
-
-   Fan test. A facet F = v b c, and facets T that have the corner v too. For any vector m with
-   m . (b - v) > 0 and m . (c - v) > 0, and m . (x - v) < 0 for the other corners x of T, F lies
-   above the plane through v and T below it, so that v is all they have in common. Thus m need not
-   be accurate; the signs must be right. Differences, products and sums round 4 times: 10 u of the
-   sum of magnitudes is above the error. Components of m are zero or 2^-100 .. 1, so that nothing
-   underflows. A box is below where its highest corner is. So the facets about the tip of a cone or
-   the middle of a disc, whose boxes all meet, do not all become candidates of each other.
-
-   Slab test. The direction d of a node is the rounded sum of its facets' normals, taken as it is;
-   d . x errs by 3 u sum |d_k x_k|, and widening the result by e rounds once more: e = 6 u of that
-   sum serves. */
+   The curve's cells are as fine as the number of facets asks for. Facets whose centres share a cell
+   all the same, because a few others are far away, are sorted again along a curve through their own
+   box, and so on: a scale of its own for every cluster. Each time the box shrinks by its cells
+   along a side, at least 2^MORTON_LEAST; differences of coordinates lie between 2^1 and 2^-352
+   (base/exact.c), so that SCALES suffice. What has one centre stays together. */
 #include "mesh/tree.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/ieee.h"
 #include "base/sort.h"
 #include "base/work.h"
 
-enum { LEAF_FACETS = 8, MORTON_BITS = 21 };
+enum { TREE_LANES = LRCSI_TREE_LANES };
 
-#define PLANE_FILTER (10.0 * 0x1p-53)
-#define SLAB_FILTER  (6.0 * 0x1p-53)
-/* Covers the rounding of a distance's products with a direction's components, summed as |n|_1. */
-#define WITHIN_MARGIN (1.0 + 1e-9)
+/* Bits of a cell's number along each axis. */
+enum { MORTON_LEAST = 8, MORTON_MOST = 21 };
+
+/* More facets than this in one cell are sorted again; curves one within another, at most. */
+enum { CELL_FACETS = 64, SCALES = 64 };
+
+/* See above: 64 u. */
+#define SLAB_FILTER (64.0 * 0x1p-53)
 
 static lrcsi_box empty_box(void)
 {
@@ -49,15 +40,22 @@ static void grow_box(lrcsi_box *box, const double low[3], const double high[3])
     }
 }
 
-static lrcsi_box facet_box(const lrcs_point *vertex, const lrcs_facet *facet)
+lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet)
 {
-    lrcsi_box box = empty_box();
-    for (int c = 0; c < 3; c++) {
-        const double *x = vertex[facet->corner[c]].x;
-        grow_box(&box, x, x);
+    const double *a = vertex[facet->corner[0]].x;
+    const double *b = vertex[facet->corner[1]].x;
+    const double *c = vertex[facet->corner[2]].x;
+    lrcsi_box box;
+    for (int k = 0; k < 3; k++) {
+        double low = a[k] < b[k] ? a[k] : b[k];
+        double high = a[k] < b[k] ? b[k] : a[k];
+        box.low[k] = c[k] < low ? c[k] : low;
+        box.high[k] = c[k] > high ? c[k] : high;
     }
     return box;
 }
+
+/* ---- the order ---- */
 
 /* Two zero bits before each of the lowest 21. */
 static uint64_t spread_bits(uint64_t x)
@@ -70,500 +68,459 @@ static uint64_t spread_bits(uint64_t x)
     return x;
 }
 
-/* The place of a box's centre on the curve through `all`, whose longest side is `side`. */
-static uint64_t morton_key(const lrcsi_box *box, const lrcsi_box *all, double side)
+/* Facets being ordered, and what for. */
+typedef struct tree_sort {
+    const lrcs_point *vertex;
+    const lrcs_facet *facet;
+    const uint32_t *hub; /* or NULL */
+    uint32_t *order, *order_spare;
+    uint64_t *key, *key_spare;
+} tree_sort;
+
+/* Twice the centre of a facet's box, or twice its hub. */
+static void facet_centre(const tree_sort *s, const uint32_t *hub, uint32_t place, double centre[3])
 {
-    const double cells = (double)((1u << MORTON_BITS) - 1);
-    uint64_t key = 0;
-    for (int k = 0; k < 3; k++) {
-        double centre = 0.5 * (box->low[k] - all->low[k]) + 0.5 * (box->high[k] - all->low[k]);
-        double cell = side > 0.0 ? centre / side * cells : 0.0;
-        cell = cell > 0.0 ? cell : 0.0;
-        key |= spread_bits((uint64_t)(cell < cells ? cell : cells)) << k;
+    uint32_t f = s->order[place];
+    if (hub && hub[f] != LRCS_NONE) {
+        for (int k = 0; k < 3; k++) {
+            centre[k] = 2.0 * s->vertex[hub[f]].x[k];
+        }
+        return;
     }
-    return key;
+    lrcsi_box box = lrcsi_box_of(s->vertex, &s->facet[f]);
+    for (int k = 0; k < 3; k++) {
+        centre[k] = box.low[k] + box.high[k];
+    }
 }
 
-static double longest_side(const lrcsi_box *box)
+/* Orders places first .. end along a curve through the box of their centres; returns 0, and does
+   nothing, where that is a point. Cells number some 16 times the facets on a surface. */
+static int sort_along_curve(const tree_sort *s, const uint32_t *hub, uint32_t first, uint32_t end)
 {
+    lrcsi_box all = empty_box();
+    double centre[3];
+    for (uint32_t i = first; i < end; i++) {
+        facet_centre(s, hub, i, centre);
+        grow_box(&all, centre, centre);
+    }
     double side = 0.0;
     for (int k = 0; k < 3; k++) {
-        side = fmax(side, box->high[k] - box->low[k]);
+        side = fmax(side, all.high[k] - all.low[k]);
     }
-    return side;
-}
-
-static uint32_t leaves_for(uint32_t count)
-{
-    uint32_t leaves = 1;
-    while (leaves < count / LEAF_FACETS + 1) {
-        leaves *= 2;
+    if (!(side > 0.0)) {
+        return 0;
     }
-    return leaves;
-}
-
-/* Behind the last place of a leaf that is not empty. */
-static uint32_t leaf_end(const lrcsi_tree *tree, uint32_t leaf)
-{
-    uint32_t first = leaf * LEAF_FACETS;
-    return tree->count - first < LEAF_FACETS ? tree->count : first + LEAF_FACETS;
-}
-
-/* The normal of a facet, and for each component the sum of its two terms' magnitudes. */
-static void facet_normal(const double *const corner[3], double normal[3], double weight[3])
-{
-    const double *a = corner[0];
-    const double *b = corner[1];
-    const double *c = corner[2];
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3;
-        int j = (k + 2) % 3;
-        double plus = (b[i] - a[i]) * (c[j] - a[j]);
-        double minus = (b[j] - a[j]) * (c[i] - a[i]);
-        normal[k] = plus - minus;
-        weight[k] = fabs(plus) + fabs(minus);
+    int bits = MORTON_LEAST;
+    while (bits < MORTON_MOST && (UINT64_C(1) << 2 * bits) / 16 < end - first) {
+        bits++;
     }
-}
-
-/* Widens low .. high by the corners' places along a direction. */
-static void widen_slab(const double *const corner[3], const double direction[3], double *low,
-                       double *high)
-{
-    for (int c = 0; c < 3; c++) {
-        double place = 0.0;
-        double error = 0.0;
+    const double scale = (double)((UINT64_C(1) << bits) - 1) / side;
+    for (uint32_t i = first; i < end; i++) {
+        uint64_t key = 0;
+        facet_centre(s, hub, i, centre);
         for (int k = 0; k < 3; k++) {
-            double term = direction[k] * corner[c][k];
-            place += term;
-            error += fabs(term);
+            double cell = (centre[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
+            key |= spread_bits((uint64_t)cell) << k;
         }
-        error *= SLAB_FILTER;
-        *low = place - error < *low ? place - error : *low;
-        *high = place + error > *high ? place + error : *high;
+        s->key[i] = key;
+    }
+    lrcsi_sort_pairs(s->key + first, s->order + first, s->key_spare, s->order_spare, end - first);
+    return 1;
+}
+
+/* Orders all places: along one curve, then along one more wherever many share a cell or a hub. */
+static void sort_places(const tree_sort *s, uint32_t count)
+{
+    uint32_t end[SCALES] = {count};
+    int scales = 1;
+    uint32_t first = 0;
+    memset(s->key, 0, count * sizeof *s->key);
+    while (first < count) {
+        while (first == end[scales - 1]) {
+            scales--;
+        }
+        uint32_t next = first + 1;
+        while (next < end[scales - 1] && s->key[next] == s->key[first]) {
+            next++;
+        }
+        if (next - first > CELL_FACETS && scales < SCALES &&
+            (sort_along_curve(s, s->hub, first, next) ||
+             (s->hub && sort_along_curve(s, NULL, first, next)))) {
+            end[scales++] = next;
+        } else {
+            first = next;
+        }
     }
 }
 
-static void facet_corners(const lrcs_point *vertex, const lrcs_facet *facet,
-                          const double *corner[3])
+/* ---- the tree ---- */
+
+static uint32_t blocks_for(uint32_t count)
 {
-    for (int c = 0; c < 3; c++) {
-        corner[c] = vertex[facet->corner[c]].x;
+    return count / TREE_LANES + (count % TREE_LANES != 0);
+}
+
+/* Takes room for a tree over tree->count facets. */
+static int take_levels(lrcs_work *work, lrcsi_tree *tree)
+{
+    uint32_t below = tree->count;
+    while (below > 1 || (below == 1 && tree->levels == 0)) {
+        int l = tree->levels++;
+        below = blocks_for(below);
+        tree->blocks[l] = below;
+        tree->block[l] = lrcsi_work_take(work, below, sizeof *tree->block[l]);
+        tree->label[l] = lrcsi_work_take(work, below, sizeof *tree->label[l]);
+        tree->slabs[l] = lrcsi_work_take(work, l > 0 ? below : 0, sizeof *tree->slabs[l]);
+        if (!tree->block[l] || !tree->label[l] || !tree->slabs[l]) {
+            return LRCS_E_MEMORY;
+        }
+    }
+    return LRCS_OK;
+}
+
+/* -0 becomes 0. */
+static void put_box(lrcsi_tree_block *block, uint32_t lane, const lrcsi_box *box)
+{
+    for (int k = 0; k < 3; k++) {
+        block->low[k][lane] = box->low[k] + 0.0;
+        block->high[k][lane] = box->high[k] + 0.0;
     }
 }
 
-/* ---- what the facets below a node have in common ---- */
-
-static int node_is_empty(const lrcsi_tree_node *node)
+/* Fills block b of level 0: the boxes of its facets, and their common label. */
+static void fill_leaf(const tree_sort *s, const uint32_t *label, const lrcsi_tree *tree, uint32_t b)
 {
-    return node->box.low[0] > node->box.high[0];
+    lrcsi_tree_block *block = &tree->block[0][b];
+    uint32_t first = b * TREE_LANES;
+    uint32_t common = label ? label[s->order[first]] : LRCS_NONE;
+    for (uint32_t lane = 0; lane < TREE_LANES; lane++) {
+        lrcsi_box box = empty_box();
+        if (lane < tree->count - first) {
+            uint32_t f = s->order[first + lane];
+            box = lrcsi_box_of(s->vertex, &s->facet[f]);
+            common = label && label[f] == common ? common : LRCS_NONE;
+        }
+        put_box(block, lane, &box);
+    }
+    tree->label[0][b] = common;
 }
 
-/* All of a node's box. */
-static lrcsi_box node_box(const lrcsi_tree *tree, const lrcsi_tree_node *node)
+/* The box around all of a block's boxes. */
+static lrcsi_box block_box(const lrcsi_tree_block *block)
 {
-    lrcsi_box box = node->box;
-    if (node->hub != LRCS_NONE) {
-        const double *x = tree->vertex[node->hub].x;
-        grow_box(&box, x, x);
+    lrcsi_box box;
+    for (int k = 0; k < 3; k++) {
+        double low = block->low[k][0];
+        double high = block->high[k][0];
+        for (int lane = 1; lane < TREE_LANES; lane++) {
+            low = block->low[k][lane] < low ? block->low[k][lane] : low;
+            high = block->high[k][lane] > high ? block->high[k][lane] : high;
+        }
+        box.low[k] = low;
+        box.high[k] = high;
     }
     return box;
 }
 
-/* Has a facet the corner v, and another one? */
-static int facet_is_about(const lrcs_facet *facet, uint32_t v)
+/* Fills block b of a level above from the blocks below it. */
+static void fill_block(const lrcsi_tree *tree, int level, uint32_t b)
 {
-    const uint32_t *c = facet->corner;
-    return (c[0] == v || c[1] == v || c[2] == v) && (c[0] != v || c[1] != v || c[2] != v);
-}
-
-/* A corner of all the facets order[first .. end), or LRCS_NONE. */
-static uint32_t common_corner(const lrcsi_tree *tree, uint32_t first, uint32_t end)
-{
-    for (int k = 0; k < 3; k++) {
-        uint32_t v = tree->facet[tree->order[first]].corner[k];
-        uint32_t i = first;
-        while (i < end && facet_is_about(&tree->facet[tree->order[i]], v)) {
-            i++;
+    uint32_t first = b * TREE_LANES;
+    uint32_t common = tree->label[level - 1][first];
+    for (uint32_t lane = 0; lane < TREE_LANES; lane++) {
+        lrcsi_box box = empty_box();
+        if (lane < tree->blocks[level - 1] - first) {
+            box = block_box(&tree->block[level - 1][first + lane]);
+            common = tree->label[level - 1][first + lane] == common ? common : LRCS_NONE;
         }
-        if (i == end) {
-            return v;
-        }
+        put_box(&tree->block[level][b], lane, &box);
     }
-    return LRCS_NONE;
-}
-
-static void fill_leaf(const lrcsi_tree *tree, uint32_t leaf, const uint32_t *group)
-{
-    lrcsi_tree_node *node = &tree->node[tree->leaves + leaf];
-    uint32_t first = leaf * LEAF_FACETS;
-    uint32_t end = leaf_end(tree, leaf);
-    node->hub = common_corner(tree, first, end);
-    node->group = group ? group[tree->order[first]] : LRCS_NONE;
-    for (uint32_t i = first; i < end; i++) {
-        const lrcs_facet *facet = &tree->facet[tree->order[i]];
-        const double *corner[3];
-        double normal[3];
-        double weight[3];
-        facet_corners(tree->vertex, facet, corner);
-        facet_normal(corner, normal, weight);
-        for (int k = 0; k < 3; k++) {
-            node->direction[k] += normal[k];
-            if (facet->corner[k] != node->hub) {
-                grow_box(&node->box, corner[k], corner[k]);
-            }
-        }
-        if (group && group[tree->order[i]] != node->group) {
-            node->group = LRCS_NONE;
-        }
-    }
-}
-
-/* A node from its children, of which the right one may be empty. */
-static void fill_parent(const lrcsi_tree *tree, uint32_t parent)
-{
-    lrcsi_tree_node *node = &tree->node[parent];
-    const lrcsi_tree_node *left = &tree->node[2 * (size_t)parent];
-    const lrcsi_tree_node *right = left + 1;
-    int alone = node_is_empty(right);
-    node->hub = alone || left->hub == right->hub ? left->hub : LRCS_NONE;
-    node->group = alone || left->group == right->group ? left->group : LRCS_NONE;
-    for (const lrcsi_tree_node *child = left; child <= right; child++) {
-        lrcsi_box box = node->hub == LRCS_NONE ? node_box(tree, child) : child->box;
-        grow_box(&node->box, box.low, box.high);
-        for (int k = 0; k < 3; k++) {
-            node->direction[k] += child->direction[k];
-        }
-    }
-}
-
-static void fill_nodes(const lrcsi_tree *tree, const uint32_t *group)
-{
-    for (uint32_t i = 0; i < 2 * tree->leaves; i++) {
-        tree->node[i] =
-            (lrcsi_tree_node){empty_box(), {0, 0, 0}, HUGE_VAL, -HUGE_VAL, LRCS_NONE, LRCS_NONE};
-    }
-    for (uint32_t leaf = 0; leaf * LEAF_FACETS < tree->count; leaf++) {
-        fill_leaf(tree, leaf, group);
-    }
-    for (uint32_t i = tree->leaves - 1; i > 0; i--) {
-        fill_parent(tree, i);
-    }
-}
-
-/* Slabs of all nodes, once their directions are known. */
-static void fill_slabs(const lrcsi_tree *tree)
-{
-    for (uint32_t i = 0; i < tree->count; i++) {
-        const double *corner[3];
-        facet_corners(tree->vertex, &tree->facet[tree->order[i]], corner);
-        for (uint32_t n = tree->leaves + i / LEAF_FACETS; n > 0; n /= 2) {
-            lrcsi_tree_node *node = &tree->node[n];
-            widen_slab(corner, node->direction, &node->low, &node->high);
-        }
-    }
-}
-
-/* Orders the facets already listed in order[]. */
-static int sort_along_curve(const lrcs_point *vertex, const lrcs_facet *facet, lrcs_work *work,
-                            const lrcsi_tree *tree)
-{
-    size_t mark = work->used;
-    uint64_t *key = lrcsi_work_take(work, tree->count, sizeof *key);
-    uint64_t *key_spare = lrcsi_work_take(work, tree->count, sizeof *key);
-    uint32_t *order_spare = lrcsi_work_take(work, tree->count, sizeof *order_spare);
-    work->used = mark;
-    if (!key || !key_spare || !order_spare) {
-        return LRCS_E_MEMORY;
-    }
-    lrcsi_box all = empty_box();
-    for (uint32_t i = 0; i < tree->count; i++) {
-        lrcsi_box box = facet_box(vertex, &facet[tree->order[i]]);
-        grow_box(&all, box.low, box.high);
-    }
-    double side = longest_side(&all);
-    for (uint32_t i = 0; i < tree->count; i++) {
-        lrcsi_box box = facet_box(vertex, &facet[tree->order[i]]);
-        key[i] = morton_key(&box, &all, side);
-    }
-    lrcsi_sort_pairs(key, tree->order, key_spare, order_spare, tree->count);
-    return LRCS_OK;
+    tree->label[level][b] = common;
 }
 
 size_t lrcsi_tree_need(uint32_t facet_count)
 {
     size_t scratch = lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
                                     lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
-    size_t boxes = lrcsi_work_add(
-        lrcsi_work_bytes(facet_count, sizeof(lrcsi_box)),
-        lrcsi_work_bytes((size_t)2 * leaves_for(facet_count), sizeof(lrcsi_tree_node)));
+    size_t boxes = 0;
+    uint32_t below = facet_count;
+    for (int l = 0; l < LRCSI_TREE_LEVELS; l++) {
+        below = blocks_for(below);
+        boxes = lrcsi_work_add(boxes, lrcsi_work_bytes(below, sizeof(lrcsi_tree_block)));
+        boxes = lrcsi_work_add(boxes, lrcsi_work_bytes(below, sizeof(uint32_t)));
+        boxes =
+            lrcsi_work_add(boxes, lrcsi_work_bytes(l > 0 ? below : 0, sizeof(lrcsi_tree_slabs)));
+    }
     return lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(uint32_t)),
                           scratch > boxes ? scratch : boxes);
 }
 
 int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                    const unsigned char *skip, const uint32_t *group, lrcs_work *work,
+                    const unsigned char *skip, const uint32_t *label, int hubs, lrcs_work *work,
                     lrcsi_tree *tree)
 {
     size_t mark = work->used;
-    lrcsi_tree made = {.vertex = vertex, .facet = facet};
-    made.order = lrcsi_work_take(work, facet_count, sizeof *made.order);
-    for (uint32_t f = 0; f < facet_count && made.order; f++) {
-        if (!skip || !skip[f]) {
-            made.order[made.count++] = f;
+    lrcsi_tree made = {.order = lrcsi_work_take(work, facet_count, sizeof *made.order)};
+    size_t stays = work->used;
+    tree_sort s = {
+        .vertex = vertex, .facet = facet, .hub = hubs ? label : NULL, .order = made.order};
+    s.key = lrcsi_work_take(work, facet_count, sizeof *s.key);
+    s.key_spare = lrcsi_work_take(work, facet_count, sizeof *s.key_spare);
+    s.order_spare = lrcsi_work_take(work, facet_count, sizeof *s.order_spare);
+    work->used = stays;
+    int status = LRCS_E_MEMORY;
+    if (s.order && s.key && s.key_spare && s.order_spare) {
+        for (uint32_t f = 0; f < facet_count; f++) {
+            if (!skip || !skip[f]) {
+                made.order[made.count++] = f;
+            }
+        }
+        sort_places(&s, made.count);
+        status = take_levels(work, &made);
+    }
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    for (int level = 0; level < made.levels; level++) {
+        for (uint32_t b = 0; b < made.blocks[level]; b++) {
+            if (level == 0) {
+                fill_leaf(&s, label, &made, b);
+            } else {
+                fill_block(&made, level, b);
+            }
         }
     }
-    if (!made.order || sort_along_curve(vertex, facet, work, &made) != LRCS_OK) {
-        work->used = mark;
-        return LRCS_E_MEMORY;
-    }
-    made.leaves = leaves_for(made.count);
-    made.box = lrcsi_work_take(work, made.count, sizeof *made.box);
-    made.node = lrcsi_work_take(work, (size_t)2 * made.leaves, sizeof *made.node);
-    if (!made.box || !made.node) {
-        work->used = mark;
-        return LRCS_E_MEMORY;
-    }
-    for (uint32_t i = 0; i < made.count; i++) {
-        made.box[i] = facet_box(vertex, &facet[made.order[i]]);
-    }
-    fill_nodes(&made, group);
-    fill_slabs(&made);
     *tree = made;
     return LRCS_OK;
 }
 
-/* ---- facets that have a corner in common ---- */
+/* ---- slabs ---- */
 
-/* m . (x - corner) is surely negative; with m turned round, surely positive. */
-static int is_below(const double m[3], const double corner[3], const double x[3], double turn)
+/* Adds to a lane's direction the unit normal of a facet, turned to the direction's own side. */
+static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double direction[3])
 {
-    double height = 0.0;
-    double error = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double term = m[k] * (x[k] - corner[k]);
-        height += term;
-        error += fabs(term);
-    }
-    return turn * height < -PLANE_FILTER * error;
-}
-
-/* Tilted by this about the corner, a plane along a side has all of the side above it. */
-#define FAN_TILT 0x1p-20
-
-/* The plane at corner v of facet v b c along the side to b, across the facet's plane. Returns 0
-   where it is not proved to lie below the facet. */
-static int fan_plane(const double *v, const double *b, const double *c, const double normal[3],
-                     double m[3])
-{
-    double along[3];
-    double inward = 0.0;
-    for (int k = 0; k < 3; k++) {
-        along[k] = b[k] - v[k];
-    }
+    const double *a = vertex[facet->corner[0]].x;
+    const double *b = vertex[facet->corner[1]].x;
+    const double *c = vertex[facet->corner[2]].x;
+    double n[3];
+    double along = 0.0;
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
-        m[k] = normal[i] * along[j] - normal[j] * along[i];
-        inward += m[k] * (c[k] - v[k]);
+        n[k] = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
+        along += n[k] * direction[k];
     }
-    double length = sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
-    double size = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-    for (int k = 0; k < 3; k++) {
-        m[k] = (inward < 0.0 ? -m[k] : m[k]) / size + FAN_TILT * along[k] / length;
-        m[k] = fabs(m[k]) < 0x1p-100 ? 0.0 : m[k];
+    double most = fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2])));
+    for (int k = 0; k < 3 && most > 0.0; k++) {
+        direction[k] += (along < 0.0 ? -n[k] : n[k]) / most;
     }
-    return is_below(m, v, b, -1.0) && is_below(m, v, c, -1.0);
 }
 
-/* The planes at the walk's corner k. */
-static const lrcsi_tree_fan *fan_at(lrcsi_tree_walk *w, int k)
+/* The slab of the facets at places first .. end, which becomes a lane's. */
+static void fill_slab(const lrcs_point *vertex, const lrcs_facet *facet, const uint32_t *order,
+                      uint32_t first, uint32_t end, lrcsi_tree_slabs *slabs, uint32_t lane)
 {
-    lrcsi_tree_fan *fan = &w->fan[k];
-    const double *v = w->corner[k];
-    const double *next = w->corner[(k + 1) % 3];
-    const double *last = w->corner[(k + 2) % 3];
-    if (!fan->made) {
-        fan->made = 1;
-        fan->known[0] = fan_plane(v, next, last, w->normal, fan->m[0]);
-        fan->known[1] = fan_plane(v, last, next, w->normal, fan->m[1]);
-    }
-    return fan;
-}
-
-/* Have all facets of a node but its hub in common with the walk's? */
-static int hub_is_all(lrcsi_tree_walk *w, const lrcsi_tree_node *node)
-{
-    int k = 0;
-    while (k < 3 && w->own[k] != node->hub) {
-        k++;
-    }
-    const lrcsi_tree_fan *fan = k < 3 ? fan_at(w, k) : NULL;
-    for (int side = 0; side < 2 && fan; side++) {
-        double highest[3];
-        for (int i = 0; i < 3; i++) {
-            highest[i] = fan->m[side][i] > 0.0 ? node->box.high[i] : node->box.low[i];
-        }
-        if (fan->known[side] && is_below(fan->m[side], w->corner[k], highest, 1.0)) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-int lrcsi_tree_corner(lrcsi_tree_walk *w, uint32_t candidate)
-{
-    const uint32_t *c = w->tree->facet[candidate].corner;
-    int shared = 0;
-    int own = 0;
-    int its = 0;
-    for (int i = 0; i < 9; i++) {
-        if (w->own[i / 3] == c[i % 3]) {
-            own = i / 3;
-            its = i % 3;
-            shared++;
-        }
-    }
-    const lrcsi_tree_fan *fan = shared == 1 ? fan_at(w, own) : NULL;
-    for (int side = 0; side < 2 && fan; side++) {
-        const double *v = w->corner[own];
-        if (fan->known[side] &&
-            is_below(fan->m[side], v, w->tree->vertex[c[(its + 1) % 3]].x, 1.0) &&
-            is_below(fan->m[side], v, w->tree->vertex[c[(its + 2) % 3]].x, 1.0)) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* The node after this one and all below it, from left to right, or 0. */
-static uint32_t node_after(uint32_t node)
-{
-    while (node & 1) {
-        node >>= 1;
-    }
-    return node ? node + 1 : 0;
-}
-
-static lrcsi_tree_walk walk_start(const lrcsi_tree *tree, lrcs_facet facet)
-{
-    lrcsi_tree_walk walk = {.tree = tree, .without = LRCS_NONE, .node = 1};
-    walk.box = facet_box(tree->vertex, &facet);
-    facet_corners(tree->vertex, &facet, walk.corner);
-    facet_normal(walk.corner, walk.normal, walk.weight);
-    for (int k = 0; k < 3; k++) {
-        walk.own[k] = facet.corner[k];
-    }
-    return walk;
-}
-
-lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t place)
-{
-    lrcsi_tree_walk walk = walk_start(tree, tree->facet[tree->order[place]]);
-    uint32_t leaf = place / LEAF_FACETS;
-    walk.at = place + 1;
-    walk.end = leaf_end(tree, leaf);
-    walk.node = node_after(tree->leaves + leaf);
-    return walk;
-}
-
-lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, lrcs_facet facet, double distance,
-                                  uint32_t without)
-{
-    lrcsi_tree_walk walk = walk_start(tree, facet);
-    const double *n = walk.normal;
-    walk.without = without;
-    walk.slack = distance * WITHIN_MARGIN;
-    walk.slack_plane = walk.slack * (fabs(n[0]) + fabs(n[1]) + fabs(n[2]));
-    for (int k = 0; k < 3; k++) {
-        walk.own[k] = LRCS_NONE;
-        walk.box.low[k] -= walk.slack;
-        walk.box.high[k] += walk.slack;
-    }
-    return walk;
-}
-
-/* 1 where the plane test proves the box to lie strictly above or below. */
-static int box_is_off_plane(const lrcsi_tree_walk *w, const lrcsi_box *box)
-{
-    double least = 0.0;
-    double most = 0.0;
-    double error = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double low = box->low[k] - w->corner[0][k];
-        double high = box->high[k] - w->corner[0][k];
-        double at_low = w->normal[k] * low;
-        double at_high = w->normal[k] * high;
-        least += at_low < at_high ? at_low : at_high;
-        most += at_low < at_high ? at_high : at_low;
-        error += w->weight[k] * (fabs(low) > fabs(high) ? fabs(low) : fabs(high));
-    }
-    error = PLANE_FILTER * error + w->slack_plane;
-    return least > error || most < -error;
-}
-
-static int box_is_candidate(const lrcsi_tree_walk *w, const lrcsi_box *box)
-{
-    for (int k = 0; k < 3; k++) {
-        if (box->low[k] > w->box.high[k] || box->high[k] < w->box.low[k]) {
-            return 0;
-        }
-    }
-    return !box_is_off_plane(w, box);
-}
-
-static int node_is_candidate(lrcsi_tree_walk *w, const lrcsi_tree_node *node)
-{
-    if (node->group == w->without && node->group != LRCS_NONE) {
-        return 0;
-    }
-    if (node->hub == LRCS_NONE) {
-        if (!box_is_candidate(w, &node->box)) {
-            return 0;
-        }
-    } else {
-        lrcsi_box box = node_box(w->tree, node);
-        if (!box_is_candidate(w, &box) || hub_is_all(w, node)) {
-            return 0;
-        }
-    }
+    double d[3] = {0, 0, 0};
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
-    widen_slab(w->corner, node->direction, &low, &high);
-    const double *d = node->direction;
-    double slack = w->slack * (fabs(d[0]) + fabs(d[1]) + fabs(d[2]));
-    return low - slack <= node->high && high + slack >= node->low;
-}
-
-/* Moves to the facets of the next leaf that holds candidates; 0 at the end. */
-static int next_leaf(lrcsi_tree_walk *w)
-{
-    const lrcsi_tree *tree = w->tree;
-    while (w->node) {
-        uint32_t node = w->node;
-        int candidate = node_is_candidate(w, &tree->node[node]);
-        if (candidate && node < tree->leaves) {
-            w->node = 2 * node;
-            continue;
-        }
-        w->node = node_after(node);
-        if (candidate) {
-            w->at = (node - tree->leaves) * LEAF_FACETS;
-            w->end = leaf_end(tree, node - tree->leaves);
-            return 1;
+    for (uint32_t i = first; i < end; i++) {
+        add_normal(vertex, &facet[order[i]], d);
+    }
+    double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    int sign = d[0] + d[1] + d[2] < 0.0 ? -1 : 1; /* layers of either winding have one direction */
+    for (int k = 0; k < 3; k++) {
+        d[k] = size > 0.0 ? sign * fmax(-1.0, fmin(1.0, d[k] / size)) : 0.0;
+        slabs->direction[k][lane] = d[k];
+    }
+    for (uint32_t i = first; i < end; i++) {
+        for (int c = 0; c < 3; c++) {
+            const double *x = vertex[facet[order[i]].corner[c]].x;
+            double place = d[0] * x[0] + d[1] * x[1] + d[2] * x[2];
+            low = place < low ? place : low;
+            high = place > high ? place : high;
         }
     }
-    return 0;
+    slabs->low[lane] = low;
+    slabs->high[lane] = high;
 }
 
-uint32_t lrcsi_tree_next(lrcsi_tree_walk *walk)
+void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree)
 {
-    do {
-        while (walk->at < walk->end) {
-            uint32_t i = walk->at++;
-            if (box_is_candidate(walk, &walk->tree->box[i])) {
-                return walk->tree->order[i];
-            }
+    uint32_t size = TREE_LANES; /* places below a lane */
+    for (int level = 1; level < tree->levels; level++) {
+        for (uint32_t child = 0; child < tree->blocks[level - 1]; child++) {
+            uint32_t first = child * size;
+            uint32_t end = tree->count - first < size ? tree->count : first + size;
+            fill_slab(vertex, facet, tree->order, first, end,
+                      &tree->slabs[level][child / TREE_LANES], child % TREE_LANES);
         }
-    } while (next_leaf(walk));
+        size *= TREE_LANES;
+    }
+    tree->has_slabs = 1;
+}
+
+/* What is within a slab and a box, along a direction that differs by e from the slab's. */
+static void slab_range(const lrcsi_box *box, const double e[3], double *low, double *high)
+{
+    for (int k = 0; k < 3; k++) {
+        double at_low = e[k] * box->low[k];
+        double at_high = e[k] * box->high[k];
+        *low += at_low < at_high ? at_low : at_high;
+        *high += at_low < at_high ? at_high : at_low;
+    }
+}
+
+/* Is lane `lane` of a block proved to lie apart from a leaf: by both slabs, along the leaf's
+   direction, or by the slab of either and the box of the other? */
+static int slab_is_apart(const lrcsi_tree *tree, uint32_t leaf, int level, uint32_t b,
+                         uint32_t lane)
+{
+    const lrcsi_tree_slabs *slabs = &tree->slabs[level][b];
+    const lrcsi_tree_slabs *own = &tree->slabs[1][leaf / TREE_LANES];
+    uint32_t at = leaf % TREE_LANES;
+    lrcsi_box box = lrcsi_tree_box(&tree->block[level][b], lane);
+    lrcsi_box own_box = lrcsi_tree_box(&tree->block[1][leaf / TREE_LANES], at);
+    double along[3];
+    double own_along[3];
+    double turned[3];
+    double size = 0.0;
+    for (int k = 0; k < 3; k++) {
+        along[k] = slabs->direction[k][lane];
+        own_along[k] = own->direction[k][at];
+        turned[k] = own_along[k] - along[k];
+        size += fmax(fabs(box.low[k]), fabs(box.high[k])) +
+                fmax(fabs(own_box.low[k]), fabs(own_box.high[k]));
+    }
+    double low[3] = {slabs->low[lane], 0.0, 0.0};
+    double high[3] = {slabs->high[lane], 0.0, 0.0};
+    slab_range(&box, turned, &low[0], &high[0]);
+    slab_range(&box, own_along, &low[1], &high[1]);
+    slab_range(&own_box, along, &low[2], &high[2]);
+    double error = SLAB_FILTER * size;
+    return fmax(low[0], low[1]) - error > own->high[at] ||
+           fmin(high[0], high[1]) + error < own->low[at] || low[2] - error > slabs->high[lane] ||
+           high[2] + error < slabs->low[lane];
+}
+
+/* The lanes of a mask that slabs do not prove to lie apart from the walk's leaf. */
+static unsigned narrowed(const lrcsi_tree_walk *w, int level, unsigned mask)
+{
+    unsigned left = mask;
+    for (; mask != 0; mask &= mask - 1) {
+        uint32_t lane = lrcsi_tree_lane(mask);
+        if (slab_is_apart(w->tree, w->leaf, level, w->at[level], lane)) {
+            left &= ~(1u << lane);
+        }
+    }
+    return left;
+}
+
+/* ---- walks ---- */
+
+lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane)
+{
+    lrcsi_box box;
+    for (int k = 0; k < 3; k++) {
+        box.low[k] = block->low[k][lane];
+        box.high[k] = block->high[k][lane];
+    }
+    return box;
+}
+
+static uint64_t bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* Boxes are apart where along some axis the one ends before the other starts: where a difference of
+   their ends is negative. A rounded difference has the sign of the exact one (subnormal numbers are
+   kept, base/ieee.h), and equal ends differ by +0, none being -0. The sign bits of the six are
+   joined, lane by lane: compilers make vectors of that, as they do not of comparisons that might
+   trap. */
+unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box)
+{
+    static const uint64_t lane_bit[TREE_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const double lx = box->low[0];
+    const double ly = box->low[1];
+    const double lz = box->low[2];
+    const double hx = box->high[0];
+    const double hy = box->high[1];
+    const double hz = box->high[2];
+    uint64_t meets = 0;
+    for (int k = 0; k < TREE_LANES; k++) {
+        uint64_t apart = bits_of(hx - block->low[0][k]) | bits_of(hy - block->low[1][k]) |
+                         bits_of(hz - block->low[2][k]) | bits_of(block->high[0][k] - lx) |
+                         bits_of(block->high[1][k] - ly) | bits_of(block->high[2][k] - lz);
+        meets |= ((apart >> 63) - 1) & lane_bit[k];
+    }
+    return (unsigned)meets;
+}
+
+lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, uint32_t without)
+{
+    lrcsi_tree_walk walk = {
+        .tree = tree, .without = without, .level = tree->levels, .leaf = LRCS_NONE};
+    for (int k = 0; k < 3; k++) { /* -0 becomes 0 */
+        walk.box.low[k] = box->low[k] + 0.0;
+        walk.box.high[k] = box->high[k] + 0.0;
+    }
+    if (tree->levels > 0) {
+        walk.level = tree->levels - 1;
+        walk.mask[walk.level] = lrcsi_tree_meets(&tree->block[walk.level][0], &walk.box);
+    }
+    return walk;
+}
+
+/* Above the leaf, the lanes after the one that leads to it. */
+lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf)
+{
+    lrcsi_tree_walk walk = {.tree = tree, .last = 1, .level = 1, .leaf = LRCS_NONE};
+    uint32_t at = leaf;
+    walk.box = block_box(&tree->block[0][leaf]);
+    walk.without = tree->label[0][leaf];
+    for (int level = 1; level < tree->levels; level++) {
+        unsigned after = ~0u << 1 << at % TREE_LANES;
+        at /= TREE_LANES;
+        walk.at[level] = at;
+        walk.mask[level] = lrcsi_tree_meets(&tree->block[level][at], &walk.box) & after;
+    }
+    return walk;
+}
+
+void lrcsi_tree_narrow(lrcsi_tree_walk *w, uint32_t leaf)
+{
+    w->leaf = leaf;
+    for (int level = w->level; level < w->tree->levels; level++) {
+        w->mask[level] = narrowed(w, level, w->mask[level]);
+    }
+}
+
+uint32_t lrcsi_tree_next(lrcsi_tree_walk *w)
+{
+    const lrcsi_tree *tree = w->tree;
+    while (w->level < tree->levels) {
+        int level = w->level;
+        if (w->mask[level] == 0) {
+            w->level++;
+            continue;
+        }
+        uint32_t child = w->at[level] * TREE_LANES + lrcsi_tree_lane(w->mask[level]);
+        w->mask[level] &= w->mask[level] - 1;
+        if (level > 0 && w->without != LRCS_NONE && tree->label[level - 1][child] == w->without) {
+            continue;
+        }
+        if (level == w->last) {
+            return child;
+        }
+        w->level = level - 1;
+        w->at[level - 1] = child;
+        w->mask[level - 1] = lrcsi_tree_meets(&tree->block[level - 1][child], &w->box);
+        if (w->leaf != LRCS_NONE) {
+            w->mask[level - 1] = narrowed(w, level - 1, w->mask[level - 1]);
+        }
+    }
     return LRCS_NONE;
 }

@@ -1,83 +1,99 @@
 /* SPDX-License-Identifier: MIT */
-/* A tree of boxes over facets, for finding the few that can meet a given one. It proposes
-   candidates and decides nothing: it never leaves out a facet that meets the one asked about in
-   more than a corner that both have. */
+/* A bounding-volume tree over facets: boxes in blocks of eight, block upon block. It finds the
+   facets whose boxes meet, and decides nothing else. */
 #ifndef LRCSI_TREE_H
 #define LRCSI_TREE_H
 
 #include <lrcs/mesh.h>
 
+/* Boxes a block, and the most levels that 2^32 facets can take. */
+enum { LRCSI_TREE_LANES = 8, LRCSI_TREE_LEVELS = 11 };
+
 typedef struct lrcsi_box {
     double low[3], high[3];
 } lrcsi_box;
 
-/* What bounds all facets below a node: a box, and a slab across their mean normal (long facets
-   at an angle to the axes fill a box badly). Every corner x has low <= direction . x <= high. */
-typedef struct lrcsi_tree_node {
-    lrcsi_box box; /* of all corners but the hub */
-    double direction[3], low, high;
-    uint32_t hub;   /* a vertex that all of them have, or LRCS_NONE */
-    uint32_t group; /* that all of them are of, or LRCS_NONE */
-} lrcsi_tree_node;
+/* Eight boxes in structure of arrays; lanes without one have low > high. */
+typedef struct lrcsi_tree_block {
+    double low[3][LRCSI_TREE_LANES], high[3][LRCSI_TREE_LANES];
+} lrcsi_tree_block;
 
-/* A complete binary tree: the children of node i are 2 i and 2 i + 1, the root is node 1. */
+/* What bounds the eight boxes' contents besides: slabs, low <= direction . x <= high for every
+   corner x, the direction a unit vector across the mean normal's plane. Parallel layers, at an
+   angle to the axes, fill boxes badly. */
+typedef struct lrcsi_tree_slabs {
+    double direction[3][LRCSI_TREE_LANES], low[LRCSI_TREE_LANES], high[LRCSI_TREE_LANES];
+} lrcsi_tree_slabs;
+
+/* A facet's place is its position in order[]; neighbours in space mostly have places close to each
+   other. Level 0 has the facets' boxes, by place, and level l the boxes of level l - 1's blocks, up
+   to the last level, which has one block. */
 typedef struct lrcsi_tree {
-    const lrcs_point *vertex;
-    const lrcs_facet *facet;
-    uint32_t count;        /* facets in it */
-    uint32_t leaves;       /* a power of two; leaf l is node leaves + l */
-    uint32_t *order;       /* the facets, along a Morton curve */
-    lrcsi_box *box;        /* their boxes, in that order */
-    lrcsi_tree_node *node; /* 2 leaves, the first unused; empty ones have low > high */
+    uint32_t count;  /* facets in it */
+    uint32_t *order; /* place -> facet */
+    int levels;      /* 0 where there are no facets */
+    uint32_t blocks[LRCSI_TREE_LEVELS];
+    lrcsi_tree_block *block[LRCSI_TREE_LEVELS];
+    uint32_t *label[LRCSI_TREE_LEVELS]; /* of each block: that of all facets below, or LRCS_NONE */
+    lrcsi_tree_slabs *slabs[LRCSI_TREE_LEVELS]; /* from level 1 on: of the blocks below */
+    int has_slabs;                              /* 0: not yet filled */
 } lrcsi_tree;
 
-/* Two planes through a corner of a facet that have the rest of it above, one along either side:
-   above is where m . (x - corner) is positive. */
-typedef struct lrcsi_tree_fan {
-    double m[2][3];
-    int known[2]; /* 0: none was found */
-    int made;     /* 0: not yet looked for */
-} lrcsi_tree_fan;
-
-/* One walk over the facets whose boxes meet that of a facet and are not proved to lie strictly to
-   one side of its plane, or it to one side of their slab, or to have but a corner in common with
-   it. */
+/* The boxes of one level that meet a given one; `mask` has a bit for each lane still to be looked
+   at, level by level. */
 typedef struct lrcsi_tree_walk {
     const lrcsi_tree *tree;
     lrcsi_box box;
-    const double *corner[3];
-    uint32_t own[3];             /* the corners; LRCS_NONE in a walk within a distance */
-    lrcsi_tree_fan fan[3];       /* at each corner */
-    double normal[3], weight[3]; /* of its plane; weight bounds the normal's error */
-    double slack, slack_plane;   /* how near a candidate must come; the same times |normal| */
-    uint32_t without;            /* a group of which no candidate is wanted, or LRCS_NONE */
-    uint32_t node;               /* 0: at the end */
-    uint32_t at, end;            /* within a leaf: places in order[] */
+    uint32_t without; /* a label of which whole blocks are left out, or LRCS_NONE */
+    int last, level;  /* the level whose boxes are sought; where the walk is now */
+    uint32_t leaf;    /* where slabs are compared too: the leaf that walks; else LRCS_NONE */
+    uint32_t at[LRCSI_TREE_LEVELS];
+    unsigned mask[LRCSI_TREE_LEVELS];
 } lrcsi_tree_walk;
+
+lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet);
+
+/* A lane's box. */
+lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane);
+
+/* The lanes of a block whose boxes meet `box` (closed, finite, no end of it -0), as bits. */
+unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box);
+
+/* The number of the lowest bit of a mask that is not 0. */
+static inline uint32_t lrcsi_tree_lane(unsigned mask)
+{
+    unsigned bit = mask & (0u - mask);
+    return (uint32_t)((bit & 0xaau) != 0) | (uint32_t)((bit & 0xccu) != 0) << 1 |
+           (uint32_t)((bit & 0xf0u) != 0) << 2;
+}
 
 /* Upper bound of what lrcsi_tree_make takes; what it returns stays in the work area. */
 size_t lrcsi_tree_need(uint32_t facet_count);
 
-/* Facets marked in `skip` (which may be NULL) are left out; group[facet] (or NULL: none) is what
-   walks may do without. Vertices and facets must outlive the tree.
-   Status: LRCS_OK; LRCS_E_MEMORY. O(n log n). */
+/* Facets marked in `skip` (which may be NULL) are left out. label[facet] (or NULL: LRCS_NONE for
+   all) is what walks may leave out; where `hubs`, it is a vertex at which the facet is to have its
+   place in the order, so that those of one label are together.
+   Status: LRCS_OK; LRCS_E_MEMORY. Work: linear in time but where facets are of ever finer scales,
+   40 times that at most. */
 int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                    const unsigned char *skip, const uint32_t *group, lrcs_work *work,
+                    const unsigned char *skip, const uint32_t *label, int hubs, lrcs_work *work,
                     lrcsi_tree *tree);
 
-/* Starts a walk around facet order[place], among those after it: each pair comes up once. */
-lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t place);
+/* A walk over the places of all facets whose boxes meet `box`; of facets of the label `without`
+   (LRCS_NONE: none) some may be left out. */
+lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, uint32_t without);
 
-/* A walk among all facets, for those that come within a distance of one, in the tree or not; those
-   at its corners too; those of a group (LRCS_NONE: of none) left out where whole nodes are of
-   it. */
-lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, lrcs_facet facet, double distance,
-                                  uint32_t without);
+/* A walk over the blocks of level 0 that come after `leaf`, meet its box, and do not have the label
+   that it has: with the pairs within leaves, every pair of facets whose boxes meet comes up once,
+   but some of one label. */
+lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
 
-/* The next candidate, each once, or LRCS_NONE at the end. */
+/* Fills the slabs of a tree, from the vertices and facets that it was made of; then leaves out from
+   a walk of a leaf what lies apart by slabs. For leaves whose boxes meet many others. */
+void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree);
+void lrcsi_tree_narrow(lrcsi_tree_walk *walk, uint32_t leaf);
+
+/* The next place or block, or LRCS_NONE at the end. */
 uint32_t lrcsi_tree_next(lrcsi_tree_walk *walk);
-
-/* 1 where a candidate is proved to have but a corner in common with the walk's facet. */
-int lrcsi_tree_corner(lrcsi_tree_walk *walk, uint32_t candidate);
 
 #endif

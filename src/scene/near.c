@@ -115,10 +115,16 @@ static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree,
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
     double within = 2 * (p->nears.reach[part] + p->nears.most) + LRCSI_NEAR_OFF;
-    lrcsi_tree_walk walk = lrcsi_tree_within(tree, scene->facet[facet], within, part);
+    lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
+    for (int k = 0; k < 3; k++) {
+        box.low[k] -= within;
+        box.high[k] += within;
+    }
+    lrcsi_tree_walk walk = lrcsi_tree_within(tree, &box, part);
     int status = LRCS_OK;
-    uint32_t other;
-    while (status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
+    uint32_t place;
+    while (status == LRCS_OK && (place = lrcsi_tree_next(&walk)) != LRCS_NONE) {
+        uint32_t other = tree->order[place];
         if (scene->facet_part[other] == part) {
             continue;
         }
@@ -138,7 +144,7 @@ static int nears_find(lrcs_prepared *p, lrcs_work *work)
     lrcsi_tree tree;
     size_t mark = work->used;
     int status = lrcsi_tree_make(p->vertex, scene->facet, scene->facet_count, p->skip,
-                                 scene->facet_part, work, &tree);
+                                 scene->facet_part, 0, work, &tree);
     for (uint32_t f = 0; f < scene->facet_count && status == LRCS_OK; f++) {
         if (!p->skip[f] && p->nears.reach[scene->facet_part[f]] > 0) {
             status = near_around(p, f, &tree, work);

@@ -270,9 +270,11 @@ static void contacts_none(const lrcs_prepared *p, unsigned char *none)
     }
 }
 
-/* What of the facets in one place counts, and what lies across the sides of those that do. */
+/* Which facets take part; what of those in one place counts; what lies across the sides of those
+   that do. */
 static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
 {
+    prepare_live(p);
     int status = lrcsi_coincident_mark(p, work);
     return status == LRCS_OK ? lrcsi_across_make(&p->topology, p->scene->facet_count, p->redundant,
                                                  p->twin, work, &p->across)
@@ -301,8 +303,9 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
     } else {
         work->used = mark;
     }
-    int status = lrcsi_touches_make(p->vertex, p->scene->facet, p->scene->facet_count, none,
-                                    p->piece, work, &p->touches);
+    int status =
+        lrcsi_touches_make(p->vertex, p->scene->vertex_count, p->scene->facet,
+                           p->scene->facet_count, &p->topology, none, p->piece, work, &p->touches);
     return status == LRCS_OK ? lrcsi_coincident_touches(p, work) : status;
 }
 
@@ -335,7 +338,8 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_coincident_need(scene->vertex_count, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_batches_need(scene));
-    need = lrcsi_work_add(need, lrcsi_touches_need(scene->facet_count, 4 * facets + 64));
+    need = lrcsi_work_add(
+        need, lrcsi_touches_need(scene->vertex_count, scene->facet_count, 4 * facets + 64));
     size_t proof = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
     proof = lrcsi_work_add(proof, lrcsi_tree_need(scene->facet_count));
@@ -361,14 +365,13 @@ int lrcsi_prepare_stage(lrcs_prepared *p, int stage, lrcs_work *work)
     switch (stage) {
     case LRCSI_PREPARE_EDGES:
         return prepare_arrays(p->scene, work, p);
+    case LRCSI_PREPARE_NEIGHBOURS:
+        return prepare_neighbours(p, work);
     case LRCSI_PREPARE_NORMALS:
         prepare_normals(p);
-        prepare_live(p);
         prepare_box(p);
         prepare_effects(p);
         return lrcsi_batches_make(p, work);
-    case LRCSI_PREPARE_NEIGHBOURS:
-        return prepare_neighbours(p, work);
     case LRCSI_PREPARE_CONTACTS:
         return prepare_contacts(p, work);
     default:

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Contacts between facets: against clipping in rational arithmetic (vectors/touch_pairs.py), the
-   tree against all pairs, and cases named. */
+/* Contacts between facets: pairs against clipping in rational arithmetic (vectors/touch_pairs.py),
+   lists, rims and self-contact against brute force over all pairs, and cases named. */
 #include "mesh/touch.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/exact.h"
 #include "base/work.h"
 #include "check.h"
-#include "mesh/tree.h"
+#include "mesh/contacts.h"
 
 typedef struct pair_case {
     signed char b_in_a, a_in_b;
@@ -48,43 +47,65 @@ static void check_kinds(const lrcs_point *v, const pair_case *c)
     }
 }
 
-/* A rim that is met is never missed, whether corners in one place are one vertex or two. *sure
-   counts those not met and told so. */
-static void check_rims(const lrcs_point *v, const pair_case *c, int welded, int *sure)
+/* Contacts with the topology that they need, in `work`. */
+static int make_touches(uint32_t vertices, uint32_t facets, const unsigned char *skip,
+                        const uint32_t *piece, lrcs_work *work, lrcsi_touches *t)
 {
-    lrcs_facet both[2] = {first_three, last_three};
+    lrcsi_topology topology;
+    assert_int_equal(lrcsi_topology_make(vertex, vertices, facet, facets, work, &topology),
+                     LRCS_OK);
+    size_t before = work->used;
+    int status =
+        lrcsi_touches_make(vertex, vertices, facet, facets, &topology, skip, piece, work, t);
+    if (status == LRCS_OK) {
+        assert_true(work->peak - before <= lrcsi_touches_need(vertices, facets, t->count));
+    }
+    return status;
+}
+
+/* Rims, whether corners in one place are one vertex or two. */
+static void check_rims(const lrcs_point *v, const pair_case *c, int welded)
+{
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_touches t;
+    memcpy(vertex, v, 6 * sizeof *v);
+    facet[0] = first_three;
+    facet[1] = last_three;
     for (uint32_t i = 0; i < 9 && welded; i++) {
         if (memcmp(&v[i / 3], &v[3 + i % 3], sizeof *v) == 0) {
-            both[1].corner[i % 3] = i / 3;
+            facet[1].corner[i % 3] = i / 3;
         }
     }
-    assert_int_equal(lrcsi_touches_make(v, both, 2, NULL, NULL, &work, &t), LRCS_OK);
-    assert_true(t.rim[0] >= c->b_on_a);
-    assert_true(t.rim[1] >= c->a_on_b);
-    *sure += !t.rim[0] + !t.rim[1];
+    assert_int_equal(make_touches(6, 2, NULL, NULL, &work, &t), LRCS_OK);
+    assert_int_equal(t.rim[0], c->b_on_a || c->b_in_a != LRCSI_TOUCH_NONE);
+    assert_int_equal(t.rim[1], c->a_on_b || c->a_in_b != LRCSI_TOUCH_NONE);
+}
+
+/* The reference that lists are compared with. */
+static void check_reference(const lrcs_point *v, const pair_case *c)
+{
+    contacts_facet a = contacts_facet_make(v, &first_three);
+    contacts_facet b = contacts_facet_make(v, &last_three);
+    assert_int_equal(contacts_kind(&a, &b), c->b_in_a);
+    assert_int_equal(contacts_kind(&b, &a), c->a_in_b);
+    assert_int_equal(contacts_rim(&a, &b), c->b_on_a);
+    assert_int_equal(contacts_rim(&b, &a), c->a_on_b);
 }
 
 static void pairs_agree_with_rational_clipping(void **state)
 {
     (void)state;
-    int sure = 0;
-    int sure_welded = 0;
-    int clean = 0;
     for (int n = 0; n < PAIRS; n++) {
         lrcs_point v[6];
         for (int i = 0; i < 18; i++) {
             v[i / 3].x[i % 3] = pair_cases[n].x[i];
         }
         check_kinds(v, &pair_cases[n]);
-        check_rims(v, &pair_cases[n], 0, &sure);
-        check_rims(v, &pair_cases[n], 1, &sure_welded);
-        clean += !pair_cases[n].b_on_a + !pair_cases[n].a_on_b;
+        check_reference(v, &pair_cases[n]);
+        check_rims(v, &pair_cases[n], 0);
+        check_rims(v, &pair_cases[n], 1);
     }
     assert_true(PAIRS >= 4000);
-    assert_true(clean >= 1000 && 2 * sure > clean); /* most of the clean ones are told */
-    assert_true(sure_welded >= sure);
 }
 
 /* The same under an integer map that tilts and shears, far from the origin, times a power of
@@ -106,29 +127,54 @@ static void affine_images_keep_their_contacts(void **state)
     }
 }
 
-/* The list of contacts by trying all pairs. */
-static void check_against_all_pairs(uint32_t facets, const unsigned char *skip)
+/* What brute force finds that pairs do to facet f: its rim, and self-contact. The contacts are
+   compared as they come up. */
+static void check_facet(uint32_t f, uint32_t facets, const unsigned char *skip,
+                        const uint32_t *piece, const lrcsi_touches *t, int *self)
 {
-    lrcs_work work = lrcs_work_make(room, ROOM);
-    lrcsi_touches t;
-    assert_int_equal(lrcsi_touches_make(vertex, facet, facets, skip, NULL, &work, &t), LRCS_OK);
-    assert_true(work.peak <= lrcsi_touches_need(facets, t.count));
-    uint32_t at = 0;
-    for (uint32_t f = 0; f < facets; f++) {
-        assert_int_equal(t.first[f], at);
-        for (uint32_t g = 0; g < facets; g++) {
-            int kind = f == g || skip[f] || skip[g] ? LRCSI_TOUCH_NONE
-                                                    : lrcsi_touch_pair(vertex, facet[f], facet[g]);
-            if (kind != LRCSI_TOUCH_NONE) {
-                assert_true(at < t.count);
-                assert_int_equal(t.touch[at].other, g);
-                assert_int_equal(t.touch[at].kind, kind);
-                at++;
-            }
+    contacts_facet own = contacts_facet_make(vertex, &facet[f]);
+    uint32_t at = t->first[f];
+    int rim = 0;
+    for (uint32_t g = 0; g < facets && !skip[f]; g++) {
+        if (g == f || skip[g]) {
+            continue;
+        }
+        contacts_facet other = contacts_facet_make(vertex, &facet[g]);
+        int kind = contacts_kind(&own, &other);
+        assert_int_equal(lrcsi_touch_pair(vertex, facet[f], facet[g]), kind);
+        rim |= kind != LRCSI_TOUCH_NONE || contacts_rim(&own, &other);
+        *self |=
+            piece[f] == piece[g] && (kind != LRCSI_TOUCH_NONE || contacts_on_side(&own, &other));
+        if (kind != LRCSI_TOUCH_NONE) {
+            assert_true(at < t->first[f + 1]);
+            assert_int_equal(t->touch[at].other, g);
+            assert_int_equal(t->touch[at].kind, kind);
+            at++;
         }
     }
-    assert_int_equal(t.first[facets], at);
-    assert_int_equal(t.count, at);
+    assert_int_equal(t->first[f + 1], at);
+    assert_int_equal(t->rim[f], rim);
+}
+
+/* Contacts, rims and self-contact against brute force; returns the number of contacts. */
+static uint32_t check_against_all_pairs(uint32_t vertices, uint32_t facets,
+                                        const unsigned char *skip)
+{
+    static uint32_t piece[MOST];
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_touches t;
+    int self = 0;
+    for (uint32_t f = 0; f < facets; f++) {
+        piece[f] = f % 9; /* so that few pairs tell */
+    }
+    assert_int_equal(make_touches(vertices, facets, skip, piece, &work, &t), LRCS_OK);
+    assert_int_equal(t.first[0], 0);
+    for (uint32_t f = 0; f < facets; f++) {
+        check_facet(f, facets, skip, piece, &t, &self);
+    }
+    assert_int_equal(t.count, t.first[facets]);
+    assert_int_equal(t.self, self);
+    return t.count;
 }
 
 static uint32_t seed = 1;
@@ -162,11 +208,11 @@ static void the_tree_misses_no_contact(void **state)
     (void)state;
     static unsigned char skip[MOST];
     make_soup(600, 0.0, skip);
-    check_against_all_pairs(600, skip);
+    check_against_all_pairs(1800, 600, skip);
     make_soup(600, 30.0, skip);
-    check_against_all_pairs(600, skip);
+    check_against_all_pairs(1800, 600, skip);
     make_soup(600, 5.0, skip);
-    check_against_all_pairs(600, skip);
+    check_against_all_pairs(1800, 600, skip);
     make_soup(600, 0.0, skip);
     for (uint32_t i = 0; i < 1800; i++) { /* slivers along one slanted line */
         double along = 30.0 * vertex[i].x[0] - 50.0 * vertex[i].x[1] + 40.0 * vertex[i].x[2];
@@ -174,10 +220,10 @@ static void the_tree_misses_no_contact(void **state)
             vertex[i].x[k] += (1.0 + k) * along;
         }
     }
-    check_against_all_pairs(600, skip);
+    check_against_all_pairs(1800, 600, skip);
     for (uint32_t n = 1; n < 20; n++) {
         make_soup(n, 3.0, skip);
-        check_against_all_pairs(n, skip);
+        check_against_all_pairs(3 * n, n, skip);
     }
 }
 
@@ -203,92 +249,8 @@ static void facets_about_common_corners_are_told_apart_exactly(void **state)
             skip[f] = (unsigned char)lrcsi_exact_collinear(vertex[c[0]].x, vertex[c[1]].x,
                                                            vertex[c[2]].x);
         }
-        check_against_all_pairs(200, skip);
+        check_against_all_pairs(vertices, 200, skip);
     }
-}
-
-/* A cone, tilted, over its base: slivers about its tip and about the middle of its base. */
-static void facets_of_a_fan_are_not_all_candidates_of_each_other(void **state)
-{
-    (void)state;
-    enum { N = 1400 };
-    for (uint32_t i = 0; i < N + 2; i++) {
-        double turn = 2.0 * 3.14159265358979 * i / N;
-        double x = i < N ? cos(turn) : 0.0;
-        double y = i < N ? sin(turn) : 0.0;
-        double z = i == N ? 1.5 : 0.0;
-        vertex[i] = (lrcs_point){{0.8 * x - 0.6 * z, y, 0.6 * x + 0.8 * z}};
-    }
-    for (uint32_t i = 0; i < N; i++) {
-        facet[i] = (lrcs_facet){{N, i, (i + 1) % N}};
-        facet[N + i] = (lrcs_facet){{N + 1, (i + 1) % N, i}};
-    }
-    lrcs_work work = lrcs_work_make(room, ROOM);
-    lrcsi_tree tree;
-    uint32_t candidates = 0;
-    assert_int_equal(lrcsi_tree_make(vertex, facet, 2 * N, NULL, NULL, &work, &tree), LRCS_OK);
-    for (uint32_t place = 0; place < 2 * N; place++) {
-        lrcsi_tree_walk walk = lrcsi_tree_after(&tree, place);
-        while (lrcsi_tree_next(&walk) != LRCS_NONE) {
-            candidates++;
-        }
-    }
-    assert_true(candidates >= 3 * N && candidates < N * (N / 8));
-}
-
-/* Candidates of a group may be left out, all others within a distance may not. */
-static void a_walk_without_a_group_misses_no_other(void **state)
-{
-    (void)state;
-    static unsigned char skip[MOST];
-    static unsigned char met[2][MOST];
-    static uint32_t group[MOST];
-    make_soup(500, 0.0, skip);
-    for (uint32_t f = 0; f < 500; f++) {
-        group[f] = vertex[3 * f].x[0] < 0.5 ? 3 : f % 2;
-    }
-    lrcs_work work = lrcs_work_make(room, ROOM);
-    lrcsi_tree tree;
-    assert_int_equal(lrcsi_tree_make(vertex, facet, 500, NULL, group, &work, &tree), LRCS_OK);
-    uint32_t left_out = 0;
-    for (uint32_t f = 0; f < 500; f += 7) {
-        memset(met, 0, sizeof met);
-        for (int pass = 0; pass < 2; pass++) {
-            lrcsi_tree_walk walk =
-                lrcsi_tree_within(&tree, facet[f], 0.05, pass == 0 ? LRCS_NONE : 3);
-            for (uint32_t g = lrcsi_tree_next(&walk); g != LRCS_NONE; g = lrcsi_tree_next(&walk)) {
-                met[pass][g] = 1;
-            }
-        }
-        for (uint32_t g = 0; g < 500; g++) {
-            assert_true(met[1][g] == met[0][g] || group[g] == 3);
-            left_out += met[1][g] != met[0][g];
-        }
-    }
-    assert_true(left_out > 0);
-}
-
-static void pairs_of_candidates_come_once_each(void **state)
-{
-    (void)state;
-    enum { N = 500 };
-    static unsigned char skip[MOST];
-    static unsigned char met[N][N];
-    make_soup(N, 0.0, skip);
-    lrcs_work work = lrcs_work_make(room, ROOM);
-    lrcsi_tree tree;
-    uint32_t pairs = 0;
-    assert_int_equal(lrcsi_tree_make(vertex, facet, N, NULL, NULL, &work, &tree), LRCS_OK);
-    for (uint32_t place = 0; place < N; place++) {
-        uint32_t f = tree.order[place];
-        lrcsi_tree_walk walk = lrcsi_tree_after(&tree, place);
-        for (uint32_t g = lrcsi_tree_next(&walk); g != LRCS_NONE; g = lrcsi_tree_next(&walk)) {
-            assert_true(g < N && g != f && !met[f][g] && !met[g][f]);
-            met[f][g] = 1;
-            pairs++;
-        }
-    }
-    assert_true(pairs > 10 && pairs < N * (N - 1) / 2);
 }
 
 /* A closed surface without self-contact, its top gridded: neighbours share edges and corners. */
@@ -316,7 +278,7 @@ static void neighbours_on_a_closed_surface_do_not_touch(void **state)
     memset(skip, 0, sizeof skip);
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_touches t;
-    assert_int_equal(lrcsi_touches_make(vertex, facet, facets, skip, NULL, &work, &t), LRCS_OK);
+    assert_int_equal(make_touches((N + 1) * (N + 1), facets, skip, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count, 0);
     for (uint32_t f = 0; f < facets; f++) {
         assert_int_equal(t.rim[f], 0);
@@ -360,15 +322,18 @@ static void an_empty_list_and_a_skipped_one_have_no_contacts(void **state)
 {
     (void)state;
     unsigned char skip[2] = {1, 0};
-    lrcs_point v[3] = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}};
-    lrcs_facet f[2] = {{{0, 1, 2}}, {{0, 1, 2}}};
-    lrcs_work work = lrcs_work_make(room, ROOM);
+    const lrcs_point v[3] = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}};
+    memcpy(vertex, v, sizeof v);
+    facet[0] = facet[1] = first_three;
     lrcsi_touches t;
-    assert_int_equal(lrcsi_touches_make(v, f, 0, NULL, NULL, &work, &t), LRCS_OK);
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    assert_int_equal(make_touches(3, 0, NULL, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count + t.first[0], 0);
-    assert_int_equal(lrcsi_touches_make(v, f, 2, skip, NULL, &work, &t), LRCS_OK);
+    work = lrcs_work_make(room, ROOM);
+    assert_int_equal(make_touches(3, 2, skip, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count, 0);
-    assert_int_equal(lrcsi_touches_make(v, f, 2, NULL, NULL, &work, &t), LRCS_OK);
+    work = lrcs_work_make(room, ROOM);
+    assert_int_equal(make_touches(3, 2, NULL, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count, 2);
     assert_int_equal(t.first[1], 1);
     assert_int_equal(t.touch[1].other, 0);
@@ -385,18 +350,21 @@ static void starved_searches_fail_clean(void **state)
         }
     }
     lrcs_work whole = lrcs_work_make(room, ROOM);
+    lrcsi_topology topology;
     lrcsi_touches t;
-    assert_int_equal(lrcsi_touches_make(vertex, facet, 20, skip, NULL, &whole, &t), LRCS_OK);
+    assert_int_equal(lrcsi_topology_make(vertex, 60, facet, 20, &whole, &topology), LRCS_OK);
+    assert_int_equal(lrcsi_touches_make(vertex, 60, facet, 20, &topology, skip, NULL, &whole, &t),
+                     LRCS_OK);
     uint32_t count = t.count;
     assert_true(count > 10);
-    size_t need = lrcsi_touches_need(20, count);
+    size_t need = lrcsi_touches_need(60, 20, count);
     int status = LRCS_E_MEMORY;
     for (size_t size = 0; size <= need; size++) {
         unsigned char *bytes = malloc(size + 1);
         assert_non_null(bytes);
         lrcs_work work = lrcs_work_make(bytes, size);
         t.count = 99;
-        status = lrcsi_touches_make(vertex, facet, 20, skip, NULL, &work, &t);
+        status = lrcsi_touches_make(vertex, 60, facet, 20, &topology, skip, NULL, &work, &t);
         if (status != LRCS_OK) {
             assert_int_equal(work.used, 0);
         }
@@ -406,33 +374,6 @@ static void starved_searches_fail_clean(void **state)
     assert_int_equal(status, LRCS_OK);
 }
 
-/* Boxes of no size at all, and facets that name a corner twice or three times. */
-static void facets_in_one_place_are_found_there(void **state)
-{
-    (void)state;
-    enum { N = 40 };
-    for (int doubled = 0; doubled < 2; doubled++) {
-        for (uint32_t f = 0; f < N; f++) {
-            facet[f] = (lrcs_facet){{3 * f, 3 * f + 1, 3 * f + 2}};
-            if (doubled) {
-                facet[f] = (lrcs_facet){{0, 0, f % 3}};
-            }
-            for (uint32_t k = 3 * f; k < 3 * f + 3; k++) {
-                vertex[k] = (lrcs_point){{0.1, 0.2, 0.3}};
-            }
-        }
-        lrcs_work work = lrcs_work_make(room, ROOM);
-        lrcsi_tree tree;
-        assert_int_equal(lrcsi_tree_make(vertex, facet, N, NULL, NULL, &work, &tree), LRCS_OK);
-        lrcsi_tree_walk walk = lrcsi_tree_within(&tree, facet[7], 1e-9, LRCS_NONE);
-        uint32_t found = 0;
-        while (lrcsi_tree_next(&walk) != LRCS_NONE) {
-            found++;
-        }
-        assert_int_equal(found, N);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -440,16 +381,12 @@ int main(void)
         cmocka_unit_test(affine_images_keep_their_contacts),
         cmocka_unit_test(the_tree_misses_no_contact),
         cmocka_unit_test(facets_about_common_corners_are_told_apart_exactly),
-        cmocka_unit_test(facets_of_a_fan_are_not_all_candidates_of_each_other),
-        cmocka_unit_test(a_walk_without_a_group_misses_no_other),
-        cmocka_unit_test(pairs_of_candidates_come_once_each),
         cmocka_unit_test(neighbours_on_a_closed_surface_do_not_touch),
         cmocka_unit_test(a_strut_touches_the_plate_and_not_the_other_way),
         cmocka_unit_test(a_plate_one_ulp_above_another_does_not_touch),
         cmocka_unit_test(folded_neighbours_in_one_plane_touch),
         cmocka_unit_test(an_empty_list_and_a_skipped_one_have_no_contacts),
         cmocka_unit_test(starved_searches_fail_clean),
-        cmocka_unit_test(facets_in_one_place_are_found_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: MIT */
+/* The ring of a point v: the facets v b c that have it, each run so that v comes first. Its spokes
+   are the rays from v through b (where the facet starts) and c (where it ends). Let m be any
+   vector.
+
+   Theorem. Suppose that
+   1. (b - v) x (c - v) . m > 0 for every facet: seen against m it fills a sector of less than 180
+      degrees, which runs counter-clockwise from its start to its end;
+   2. no spoke is the start of two facets, nor the end of two;
+   3. at most one spoke is a start only; then one spoke is an end only, for there are as many starts
+      as ends;
+   4. some direction is in no sector, or, where each spoke is a start and an end, in just one.
+   Then any two facets of the ring meet in nothing but v and the side that they have in common.
+   Proof. Going round counter-clockwise, the number of sectors above a direction rises by one at a
+   start and falls by one at an end (2). Where each spoke is both, it is the same everywhere: one
+   (4). Else it has two values, k and k + 1; in the first case k = 0 (4). So sectors overlap
+   nowhere, and no ray bounds sectors by two spokes: before the one of which it is the end, and
+   after the one of which it is the start, there would be two sectors above the same directions, but
+   where a sole start and the sole end are one ray, and then no direction would be in no sector. Now
+   seen against m, points of two facets coincide in v or on a ray that bounds both sectors; this is
+   one spoke, on which both facets have the same side, and m is parallel to neither facet. QED
+
+   4 is decided with a line through v: g = m x w for some w. A sector crosses the ray along w, seen
+   against m, where it starts with g . (b - v) < 0 and ends with g . (c - v) > 0, and the opposite
+   ray where the signs are the other way round. Where all signs are sure, no spoke lies on the line,
+   and the crossings counted are the sectors above those two directions: `up` and `down`. With a
+   start that is no end, up = 0 or down = 0 shows a direction that is in no sector. Where both are
+   1, k is 0 or 1, both directions are between the sole start and the sole end or both beyond, and
+   so start and end lie on one side of the line: k = 0 where the turn from the end to the start is
+   counter-clockwise (less than 180 degrees, in no sector), k = 1 where it is clockwise.
+
+   m, roughly the mean normal, is rounded to whole numbers below 2^21 and w is (5, 3, 7), so that g
+   is exact. The determinant of 1 is decided by the filter of base/exact.c. A difference rounds
+   once, a product with a component of g once, their sum twice: 10 u covers the four. */
+#include "mesh/ring.h"
+
+#include <math.h>
+
+#include "base/exact.h"
+#include "base/work.h"
+
+/* 10 u */
+#define RING_FILTER (10.0 * 0x1p-53)
+
+/* Rings of fewer facets are no hubs. */
+enum { HUB_FACETS = 32 };
+
+/* m's largest component. */
+#define RING_SCALE 0x1p20
+
+/* What is known of a point's ring. */
+typedef struct vertex_ring {
+    float m[3];             /* sum of the facets' normals, then m */
+    uint32_t count;         /* facets */
+    uint32_t start, end;    /* of the spokes that are not both, the last one seen */
+    unsigned char open;     /* spokes that are starts only; 2 for more */
+    unsigned char up, down; /* sectors above the directions w and -w; 2 for more */
+    unsigned char refused;  /* a condition is not met, or not surely */
+} vertex_ring;
+
+static void count_one_more(unsigned char *count)
+{
+    *count = (unsigned char)(*count < 2 ? *count + 1 : 2);
+}
+
+static void difference(const double *a, const double *b, double d[3])
+{
+    d[0] = b[0] - a[0];
+    d[1] = b[1] - a[1];
+    d[2] = b[2] - a[2];
+}
+
+/* A vector is surely on the positive side of a plane's normal, or on the negative side: 1, -1; else
+   0. */
+static int sure_sign(const double normal[3], const double d[3])
+{
+    double x = normal[0] * d[0];
+    double y = normal[1] * d[1];
+    double z = normal[2] * d[2];
+    double sum = (x + y) + z;
+    double error = RING_FILTER * ((fabs(x) + fabs(y)) + fabs(z));
+    return (sum > error) - (sum < -error);
+}
+
+/* Each facet's normal, its largest component brought to 1, is added to m at its corners. */
+static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
+                        const uint32_t *weld, const unsigned char *skip, vertex_ring *rings)
+{
+    for (uint32_t f = 0; f < facet_count; f++) {
+        if (skip && skip[f]) {
+            continue;
+        }
+        const uint32_t *c = facet[f].corner;
+        double p[3];
+        double q[3];
+        difference(vertex[c[0]].x, vertex[c[1]].x, p);
+        difference(vertex[c[0]].x, vertex[c[2]].x, q);
+        double x = p[1] * q[2] - p[2] * q[1];
+        double y = p[2] * q[0] - p[0] * q[2];
+        double z = p[0] * q[1] - p[1] * q[0];
+        double most = fabs(x) > fabs(y) ? fabs(x) : fabs(y);
+        most = fabs(z) > most ? fabs(z) : most;
+        double scale = most > 0.0 ? 1.0 / most : 0.0;
+        for (int corner = 0; corner < 3; corner++) {
+            vertex_ring *r = &rings[weld[c[corner]]];
+            r->count++;
+            r->m[0] = (float)((double)r->m[0] + x * scale);
+            r->m[1] = (float)((double)r->m[1] + y * scale);
+            r->m[2] = (float)((double)r->m[2] + z * scale);
+        }
+    }
+}
+
+/* Rounds m to whole numbers: what is added and taken away has an ulp of 1. */
+static void round_means(vertex_ring *rings, uint32_t vertex_count)
+{
+    const double whole = 0x1.8p52;
+    for (uint32_t v = 0; v < vertex_count; v++) {
+        vertex_ring *r = &rings[v];
+        double x = fabs((double)r->m[0]);
+        double y = fabs((double)r->m[1]);
+        double z = fabs((double)r->m[2]);
+        double most = x > y ? x : y;
+        most = z > most ? z : most;
+        r->refused = !(most > 0.0);
+        for (int k = 0; k < 3 && most > 0.0; k++) {
+            r->m[k] = (float)(((double)r->m[k] / most * RING_SCALE + whole) - whole);
+        }
+    }
+}
+
+/* Conditions 2 and 3. */
+static void match_spokes(const lrcsi_topology *topology, const unsigned char *skip,
+                         vertex_ring *rings)
+{
+    for (uint32_t e = 0; e < topology->edge_count; e++) {
+        const lrcsi_edge *edge = &topology->edge[e];
+        const lrcsi_edge_use *use = topology->use + edge->first_use;
+        uint32_t uses[2] = {0, 0}; /* from high to low, from low to high */
+        for (uint32_t i = 0; i < edge->uses; i++) {
+            uses[use[i].forward] += !skip || !skip[use[i].facet];
+        }
+        if (uses[0] > 1 || uses[1] > 1) {
+            rings[edge->low].refused = 1;
+            rings[edge->high].refused = 1;
+        } else if (uses[0] != uses[1]) {
+            uint32_t from = uses[1] ? edge->low : edge->high;
+            uint32_t to = uses[1] ? edge->high : edge->low;
+            rings[from].start = to;
+            rings[to].end = from;
+            count_one_more(&rings[from].open);
+        }
+    }
+}
+
+static void mean_of(const vertex_ring *r, double m[3])
+{
+    for (int k = 0; k < 3; k++) {
+        m[k] = (double)r->m[k];
+    }
+}
+
+/* Condition 1, and the sectors above the two directions. */
+static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
+                          const uint32_t *weld, const unsigned char *skip, vertex_ring *rings)
+{
+    for (uint32_t f = 0; f < facet_count; f++) {
+        if (skip && skip[f]) {
+            continue;
+        }
+        const uint32_t *c = facet[f].corner;
+        double side[3][3]; /* from each corner to the next */
+        difference(vertex[c[0]].x, vertex[c[1]].x, side[0]);
+        difference(vertex[c[1]].x, vertex[c[2]].x, side[1]);
+        difference(vertex[c[2]].x, vertex[c[0]].x, side[2]);
+        const double *p = side[0];
+        const double *q = side[2]; /* turned round: the normal is q x p */
+        const double plus[3] = {q[1] * p[2], q[2] * p[0], q[0] * p[1]};
+        const double minus[3] = {q[2] * p[1], q[0] * p[2], q[1] * p[0]};
+        const double normal[3] = {plus[0] - minus[0], plus[1] - minus[1], plus[2] - minus[2]};
+        const double weight[3] = {fabs(plus[0]) + fabs(minus[0]), fabs(plus[1]) + fabs(minus[1]),
+                                  fabs(plus[2]) + fabs(minus[2])};
+        for (int corner = 0; corner < 3; corner++) {
+            vertex_ring *r = &rings[weld[c[corner]]];
+            double m[3];
+            mean_of(r, m);
+            const double g[3] = {7.0 * m[1] - 3.0 * m[2], 5.0 * m[2] - 7.0 * m[0],
+                                 3.0 * m[0] - 5.0 * m[1]};
+            double turn = (normal[0] * m[0] + normal[1] * m[1]) + normal[2] * m[2];
+            double error =
+                (weight[0] * fabs(m[0]) + weight[1] * fabs(m[1])) + weight[2] * fabs(m[2]);
+            int start = sure_sign(g, side[corner]);
+            int end = -sure_sign(g, side[corner > 0 ? corner - 1 : 2]);
+            if (!(turn > RING_FILTER * error) || start == 0 || end == 0) {
+                r->refused = 1;
+            } else if (start < end) {
+                count_one_more(&r->up);
+            } else if (start > end) {
+                count_one_more(&r->down);
+            }
+        }
+    }
+}
+
+/* All conditions together, of the ring of v. */
+static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const vertex_ring *r)
+{
+    if (r->refused || r->open > 1) {
+        return 0;
+    }
+    if (r->open == 0) {
+        return r->up == 1;
+    }
+    if (r->up == 0 || r->down == 0) {
+        return 1;
+    }
+    double m[3];
+    mean_of(r, m);
+    return r->up == 1 && r->down == 1 &&
+           lrcsi_exact_turn(vertex[v].x, vertex[r->end].x, vertex[r->start].x, m) > 0;
+}
+
+/* Of a facet's proved points with many facets, the one with the most, or LRCS_NONE. */
+static uint32_t hub_of(const lrcs_facet *facet, const uint32_t *weld, const vertex_ring *rings,
+                       const unsigned char *proved)
+{
+    uint32_t hub = LRCS_NONE;
+    for (int k = 0; k < 3; k++) {
+        uint32_t v = weld[facet->corner[k]];
+        if (proved[v] && rings[v].count >= HUB_FACETS &&
+            (hub == LRCS_NONE || rings[v].count > rings[hub].count)) {
+            hub = v;
+        }
+    }
+    return hub;
+}
+
+size_t lrcsi_rings_need(uint32_t vertex_count)
+{
+    return lrcsi_work_bytes(vertex_count, sizeof(vertex_ring));
+}
+
+int lrcsi_rings_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
+                      uint32_t facet_count, const lrcsi_topology *topology,
+                      const unsigned char *skip, lrcs_work *work, unsigned char *proved,
+                      uint32_t *hub)
+{
+    size_t mark = work->used;
+    const uint32_t *weld = topology->weld;
+    vertex_ring *rings = lrcsi_work_take_zero(work, vertex_count, sizeof *rings);
+    work->used = mark;
+    if (!rings) {
+        return LRCS_E_MEMORY;
+    }
+    sum_normals(vertex, facet, facet_count, weld, skip, rings);
+    round_means(rings, vertex_count);
+    match_spokes(topology, skip, rings);
+    cross_sectors(vertex, facet, facet_count, weld, skip, rings);
+    for (uint32_t v = 0; v < vertex_count; v++) {
+        proved[v] = (unsigned char)ring_is_proved(vertex, v, &rings[v]);
+    }
+    for (uint32_t f = 0; f < facet_count && hub; f++) {
+        hub[f] = hub_of(&facet[f], weld, rings, proved);
+    }
+    return LRCS_OK;
+}

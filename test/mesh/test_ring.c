@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT */
+/* Proofs about rings of facets: never given where brute force finds that two of them meet in more
+   than they share, and given where surfaces are plain. */
+#include "mesh/ring.h"
+
+#include <string.h>
+
+#include "base/exact.h"
+#include "base/work.h"
+#include "check.h"
+#include "mesh/contacts.h"
+#include "mesh/tree.h"
+
+enum { ROOM = 8 << 20, MOST = 3000 };
+
+static unsigned char room[ROOM];
+static lrcs_point vertex[MOST];
+static lrcs_facet facet[MOST];
+static unsigned char skip[MOST];
+static unsigned char proved[MOST];
+static uint32_t hub[MOST];
+
+static uint32_t seed = 1;
+
+static double next_number(void)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return (double)(seed >> 8) * 0x1p-24;
+}
+
+static void prove_rings(uint32_t vertices, uint32_t facets)
+{
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_topology topology;
+    assert_int_equal(lrcsi_topology_make(vertex, vertices, facet, facets, &work, &topology),
+                     LRCS_OK);
+    size_t before = work.used;
+    work.peak = before;
+    assert_int_equal(
+        lrcsi_rings_prove(vertex, vertices, facet, facets, &topology, skip, &work, proved, hub),
+        LRCS_OK);
+    assert_int_equal(work.used, before);
+    assert_true(work.peak - before <= lrcsi_rings_need(vertices));
+}
+
+static int has_corner(const lrcs_facet *f, uint32_t v)
+{
+    return f->corner[0] == v || f->corner[1] == v || f->corner[2] == v;
+}
+
+/* Do facets about v meet in more than they share? By brute force. */
+static int ring_meets_itself(uint32_t v, uint32_t facets)
+{
+    for (uint32_t f = 0; f < facets; f++) {
+        for (uint32_t g = 0; g < facets && !skip[f] && has_corner(&facet[f], v); g++) {
+            if (f == g || skip[g] || !has_corner(&facet[g], v)) {
+                continue;
+            }
+            contacts_facet a = contacts_facet_make(vertex, &facet[f]);
+            contacts_facet b = contacts_facet_make(vertex, &facet[g]);
+            if (contacts_kind(&a, &b) != LRCSI_TOUCH_NONE || contacts_rim(&a, &b)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* Facets about vertex 0, going round by so much altogether, open or closed; now and then one is
+   turned over, left out, or stands twice. */
+static uint32_t make_ring(uint32_t spokes, double round, int closed, int fault)
+{
+    uint32_t facets = closed ? spokes : spokes - 1;
+    double steep = 3.0 * next_number() * next_number();
+    for (uint32_t i = 0; i < spokes; i++) {
+        double at = round * (i + 0.4 * (next_number() - 0.5)) / facets;
+        double size = 0.1 + next_number();
+        double x = size * cos(at);
+        double y = size * sin(at);
+        double z = size * steep * (0.2 + 0.3 * next_number());
+        vertex[i + 1] = (lrcs_point){{0.8 * x - 0.6 * z, y, 0.6 * x + 0.8 * z}};
+    }
+    vertex[0] = (lrcs_point){{0, 0, 0}};
+    for (uint32_t f = 0; f < facets; f++) {
+        uint32_t next = f + 2 > spokes ? 1 : f + 2;
+        facet[f] = (lrcs_facet){{0, f + 1, next}};
+        skip[f] =
+            (unsigned char)lrcsi_exact_collinear(vertex[0].x, vertex[f + 1].x, vertex[next].x);
+    }
+    uint32_t bad = (uint32_t)(next_number() * facets);
+    if (fault == 1) {
+        facet[bad] = (lrcs_facet){{0, facet[bad].corner[2], facet[bad].corner[1]}};
+    } else if (fault == 2) {
+        skip[bad] = 1;
+    } else if (fault == 3) {
+        skip[facets] = skip[bad];
+        facet[facets++] = (lrcs_facet){{0, facet[bad].corner[2], facet[bad].corner[1]}};
+    }
+    return facets;
+}
+
+static void no_ring_that_meets_itself_is_proved(void **state)
+{
+    (void)state;
+    static const double whole = 6.283185307179586;
+    uint32_t told[2][2] = {{0, 0}, {0, 0}};
+    for (uint32_t round = 0; round < 6000; round++) {
+        int closed = round % 2 == 0;
+        uint32_t spokes = 4 + (uint32_t)(12 * next_number());
+        double turns = closed ? 1.0 + (round % 7 == 0) : 1.6 * next_number();
+        uint32_t facets =
+            make_ring(spokes, whole * turns, closed, round % 5 == 0 ? round / 5 % 4 : 0);
+        prove_rings(spokes + 1, facets);
+        int meets = ring_meets_itself(0, facets);
+        assert_false(meets && proved[0]);
+        told[meets][proved[0]]++;
+    }
+    assert_true(told[1][0] > 1000); /* those that do are many, and most of the others are proved */
+    assert_true(told[0][1] > 3 * told[0][0] && told[0][0] > 0);
+}
+
+static void no_point_among_random_facets_is_proved_wrongly(void **state)
+{
+    (void)state;
+    uint32_t count = 0;
+    for (uint32_t round = 0; round < 60; round++) {
+        enum { V = 14, F = 30 };
+        for (uint32_t v = 0; v < V; v++) {
+            for (int k = 0; k < 3; k++) {
+                double x = next_number() - 0.5;
+                vertex[v].x[k] = round % 3 == 2 && k == 2 ? 0.25 : round % 2 ? floor(5 * x) : x;
+            }
+        }
+        for (uint32_t f = 0; f < F; f++) {
+            for (int k = 0; k < 3; k++) {
+                facet[f].corner[k] = (uint32_t)(V * next_number());
+            }
+            const uint32_t *c = facet[f].corner;
+            skip[f] = (unsigned char)lrcsi_exact_collinear(vertex[c[0]].x, vertex[c[1]].x,
+                                                           vertex[c[2]].x);
+        }
+        prove_rings(V, F);
+        for (uint32_t v = 0; v < V; v++) {
+            assert_false(proved[v] && ring_meets_itself(v, F));
+            count += proved[v];
+        }
+    }
+    assert_true(count > 0);
+}
+
+/* A cone, tilted, over its base, with thousands of slivers about its tip and the middle of its
+   base: all rings are proved, each facet knows its hub, and the tree leaves their pairs out. */
+static void fans_are_proved_and_their_pairs_left_out(void **state)
+{
+    (void)state;
+    enum { N = 1400 };
+    for (uint32_t i = 0; i < N + 2; i++) {
+        double turn = 2.0 * 3.14159265358979 * i / N;
+        double x = i < N ? cos(turn) : 0.0;
+        double y = i < N ? sin(turn) : 0.0;
+        double z = i == N ? 1.5 : 0.0;
+        vertex[i] = (lrcs_point){{0.8 * x - 0.6 * z, y, 0.6 * x + 0.8 * z}};
+    }
+    for (uint32_t i = 0; i < N; i++) {
+        facet[i] = (lrcs_facet){{N, i, (i + 1) % N}};
+        facet[N + i] = (lrcs_facet){{N + 1, (i + 1) % N, i}};
+    }
+    memset(skip, 0, sizeof skip);
+    prove_rings(N + 2, 2 * N);
+    for (uint32_t v = 0; v < N + 2; v++) {
+        assert_true(proved[v]);
+    }
+    for (uint32_t f = 0; f < 2 * N; f++) {
+        assert_int_equal(hub[f], f < N ? N : N + 1);
+    }
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_tree tree;
+    assert_int_equal(lrcsi_tree_make(vertex, facet, 2 * N, NULL, hub, 1, &work, &tree), LRCS_OK);
+    uint32_t mixed = 0;
+    for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
+        mixed += tree.label[0][leaf] == LRCS_NONE;
+        lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
+        for (uint32_t other; (other = lrcsi_tree_next(&walk)) != LRCS_NONE;) {
+            assert_true(tree.label[0][leaf] == LRCS_NONE ||
+                        tree.label[0][leaf] != tree.label[0][other]);
+        }
+    }
+    assert_true(mixed <= 1); /* where one hub's facets end and the other's start */
+}
+
+/* What is proved of a ring does not hang on where the direction points that is counted. */
+static void surfaces_are_proved_whichever_way_they_face(void **state)
+{
+    (void)state;
+    enum { AROUND = 20 };
+    for (uint32_t round = 0; round < 500; round++) {
+        uint32_t facets = make_ring(4 + round % AROUND, 6.283185307179586, 1, 0);
+        double q[4];
+        double square = 0.0;
+        for (int i = 0; i < 4; i++) {
+            q[i] = next_number() - 0.5;
+            square += q[i] * q[i];
+        }
+        for (uint32_t v = 0; v <= facets; v++) { /* turned by the quaternion */
+            const double *x = vertex[v].x;
+            double dot = q[1] * x[0] + q[2] * x[1] + q[3] * x[2];
+            double own = q[0] * q[0] - (square - q[0] * q[0]);
+            lrcs_point y;
+            for (int k = 0; k < 3; k++) {
+                double cross =
+                    q[1 + (k + 1) % 3] * x[(k + 2) % 3] - q[1 + (k + 2) % 3] * x[(k + 1) % 3];
+                y.x[k] = (own * x[k] + 2 * dot * q[1 + k] + 2 * q[0] * cross) / square;
+            }
+            vertex[v] = y;
+        }
+        prove_rings(facets + 1, facets);
+        if (!proved[0]) { /* steep rings of few facets may lean over */
+            assert_true(facets < 8);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_ring_that_meets_itself_is_proved),
+        cmocka_unit_test(no_point_among_random_facets_is_proved_wrongly),
+        cmocka_unit_test(fans_are_proved_and_their_pairs_left_out),
+        cmocka_unit_test(surfaces_are_proved_whichever_way_they_face),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,274 @@
+/* SPDX-License-Identifier: MIT */
+/* The tree of boxes against all pairs of boxes, and what its order must survive. */
+#include "mesh/tree.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/work.h"
+#include "check.h"
+
+enum { ROOM = 8 << 20, MOST = 3000 };
+
+static unsigned char room[ROOM];
+static lrcs_point vertex[3 * MOST];
+static lrcs_facet facet[MOST];
+static uint32_t label[MOST];
+static unsigned char skip[MOST];
+static unsigned char met[MOST][MOST];
+
+static uint32_t seed = 1;
+
+static double next_number(void)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return (double)(seed >> 8) * 0x1p-24;
+}
+
+/* Facets within a box of a place and a size. */
+static void make_soup(uint32_t first, uint32_t end, double place, double size)
+{
+    for (uint32_t f = first; f < end; f++) {
+        double centre[3] = {next_number(), next_number(), next_number()};
+        double own = f % 20 == 0 ? 0.5 : 0.05;
+        for (uint32_t c = 0; c < 3; c++) {
+            for (int k = 0; k < 3; k++) {
+                double x = centre[k] + own * (next_number() - 0.5);
+                vertex[3 * f + c].x[k] = place + size * x;
+            }
+            facet[f].corner[c] = 3 * f + c;
+        }
+    }
+}
+
+static int boxes_meet(const lrcsi_box *a, const lrcsi_box *b)
+{
+    for (int k = 0; k < 3; k++) {
+        if (a->high[k] < b->low[k] || b->high[k] < a->low[k]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* One pair of a row of a leaf's facets and a leaf, by the tree. */
+static uint32_t meet_row(const lrcsi_tree *tree, uint32_t place, uint32_t leaf, unsigned allowed)
+{
+    lrcsi_box box =
+        lrcsi_tree_box(&tree->block[0][place / LRCSI_TREE_LANES], place % LRCSI_TREE_LANES);
+    unsigned lanes = lrcsi_tree_meets(&tree->block[0][leaf], &box) & allowed;
+    uint32_t pairs = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        uint32_t at = leaf * LRCSI_TREE_LANES + lrcsi_tree_lane(lanes);
+        uint32_t f = tree->order[place];
+        uint32_t g = tree->order[at];
+        assert_true(at < tree->count && f != g && !met[f][g] && !met[g][f]);
+        met[f][g] = met[g][f] = 1;
+        pairs++;
+    }
+    return pairs;
+}
+
+/* The self-join of a tree: marks pairs whose boxes meet. Returned: leaves that were compared. */
+static uint32_t join(const lrcsi_tree *tree)
+{
+    uint32_t compared = 0;
+    memset(met, 0, sizeof met);
+    for (uint32_t leaf = 0; tree->levels > 0 && leaf < tree->blocks[0]; leaf++) {
+        uint32_t first = leaf * LRCSI_TREE_LANES;
+        uint32_t end =
+            first + LRCSI_TREE_LANES < tree->count ? first + LRCSI_TREE_LANES : tree->count;
+        for (uint32_t place = first; place < end; place++) {
+            meet_row(tree, place, leaf, ~1u << place % LRCSI_TREE_LANES);
+        }
+        lrcsi_tree_walk walk = lrcsi_tree_after(tree, leaf);
+        uint32_t other;
+        while ((other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
+            assert_true(other > leaf && other < tree->blocks[0]);
+            compared++;
+            for (uint32_t place = first; place < end; place++) {
+                meet_row(tree, place, other, ~0u);
+            }
+        }
+    }
+    return compared;
+}
+
+static lrcsi_tree make_tree(uint32_t facets, const unsigned char *left_out, const uint32_t *labels)
+{
+    static lrcs_work work;
+    lrcsi_tree tree;
+    work = lrcs_work_make(room, ROOM);
+    assert_int_equal(lrcsi_tree_make(vertex, facet, facets, left_out, labels, 0, &work, &tree),
+                     LRCS_OK);
+    assert_true(work.peak <= lrcsi_tree_need(facets));
+    return tree;
+}
+
+/* Every pair of boxes that meet comes up once, none but of one label is left out. */
+static void check_join(uint32_t facets, const unsigned char *left_out, const uint32_t *labels)
+{
+    lrcsi_tree tree = make_tree(facets, left_out, labels);
+    join(&tree);
+    for (uint32_t f = 0; f < facets; f++) {
+        lrcsi_box a = lrcsi_box_of(vertex, &facet[f]);
+        for (uint32_t g = 0; g < facets; g++) {
+            lrcsi_box b = lrcsi_box_of(vertex, &facet[g]);
+            int both = f != g && !(left_out && (left_out[f] || left_out[g]));
+            int meet = both && boxes_meet(&a, &b);
+            int same = labels && labels[f] == labels[g] && labels[f] != LRCS_NONE;
+            assert_true(met[f][g] == meet || (same && meet));
+        }
+    }
+}
+
+static void the_join_finds_all_pairs_of_boxes_that_meet_once_each(void **state)
+{
+    (void)state;
+    static const uint32_t count[] = {0, 1, 2, 7, 8, 9, 63, 64, 65, 511, 513, 700};
+    for (size_t i = 0; i < sizeof count / sizeof *count; i++) {
+        make_soup(0, count[i], 0.0, 1.0);
+        check_join(count[i], NULL, NULL);
+    }
+    for (uint32_t f = 0; f < 700; f++) {
+        skip[f] = f % 3 == 0;
+    }
+    check_join(700, skip, NULL);
+}
+
+/* Boxes that end where others start, at -0 and 0 too, and of no size. */
+static void boxes_that_touch_meet(void **state)
+{
+    (void)state;
+    for (uint32_t f = 0; f < 500; f++) {
+        for (uint32_t c = 0; c < 3; c++) {
+            for (int k = 0; k < 3; k++) {
+                double x = floor(5.0 * next_number()) - 2.0;
+                vertex[3 * f + c].x[k] = x == 0.0 && f % 2 ? -0.0 : x;
+            }
+            facet[f].corner[c] = 3 * f + (f % 5 == 0 ? 0 : c);
+        }
+    }
+    check_join(500, NULL, NULL);
+}
+
+static void only_pairs_of_one_label_are_left_out(void **state)
+{
+    (void)state;
+    make_soup(0, 600, 0.0, 1.0);
+    for (uint32_t f = 0; f < 600; f++) {
+        label[f] = vertex[3 * f].x[0] < 0.5 ? 3 : f % 2 ? LRCS_NONE : 1;
+    }
+    check_join(600, NULL, label);
+    lrcsi_tree tree = make_tree(600, NULL, label);
+    uint32_t with = join(&tree);
+    tree = make_tree(600, NULL, NULL);
+    assert_true(with < join(&tree)); /* whole leaves are left out */
+}
+
+static void a_walk_finds_all_boxes_that_meet_a_given_one(void **state)
+{
+    (void)state;
+    make_soup(0, 600, 0.0, 1.0);
+    for (uint32_t f = 0; f < 600; f++) {
+        label[f] = vertex[3 * f].x[0] < 0.5 ? 3 : f % 2;
+    }
+    lrcsi_tree tree = make_tree(600, NULL, label);
+    uint32_t left_out = 0;
+    for (int round = 0; round < 200; round++) {
+        static unsigned char found[MOST];
+        uint32_t without = round % 2 ? 3 : LRCS_NONE;
+        lrcsi_box box;
+        for (int k = 0; k < 3; k++) {
+            box.low[k] = next_number();
+            box.high[k] = box.low[k] + 0.3 * next_number();
+        }
+        memset(found, 0, sizeof found);
+        lrcsi_tree_walk walk = lrcsi_tree_within(&tree, &box, without);
+        for (uint32_t at; (at = lrcsi_tree_next(&walk)) != LRCS_NONE;) {
+            assert_true(at < tree.count && !found[tree.order[at]]);
+            found[tree.order[at]] = 1;
+        }
+        for (uint32_t f = 0; f < 600; f++) {
+            lrcsi_box own = lrcsi_box_of(vertex, &facet[f]);
+            int meet = boxes_meet(&own, &box);
+            assert_true(found[f] == meet || (meet && label[f] == without));
+            left_out += found[f] != meet;
+        }
+    }
+    assert_true(left_out > 0);
+}
+
+/* One vertex 1e22 times as far away as the rest are from each other, and clusters within clusters,
+   each 1e-6 of the size of the last: the order is as good as without. */
+static void far_vertices_and_small_clusters_do_not_spoil_the_order(void **state)
+{
+    (void)state;
+    enum { N = 2800 };
+    make_soup(0, N, 0.0, 1.0);
+    lrcsi_tree tree = make_tree(N, NULL, NULL);
+    uint32_t compared = join(&tree);
+    vertex[5].x[1] = 1e22;
+    tree = make_tree(N, NULL, NULL);
+    assert_true(join(&tree) < compared + tree.blocks[0]);
+    double size = 1.0;
+    for (uint32_t first = 0; first < N; first += N / 7) {
+        make_soup(first, first + N / 7, 0.0, size);
+        size *= 1e-6;
+    }
+    tree = make_tree(N, NULL, NULL);
+    assert_true(join(&tree) < 2 * compared);
+}
+
+static void facets_in_one_place_are_found_there(void **state)
+{
+    (void)state;
+    enum { N = 1000 };
+    for (uint32_t f = 0; f < N; f++) {
+        facet[f] = (lrcs_facet){{0, 0, f % 3}};
+    }
+    for (uint32_t v = 0; v < 3; v++) {
+        vertex[v] = (lrcs_point){{0.1, 0.2, 0.3}};
+    }
+    lrcsi_tree tree = make_tree(N, NULL, NULL);
+    lrcsi_box box = lrcsi_box_of(vertex, &facet[7]);
+    lrcsi_tree_walk walk = lrcsi_tree_within(&tree, &box, LRCS_NONE);
+    uint32_t found = 0;
+    while (lrcsi_tree_next(&walk) != LRCS_NONE) {
+        found++;
+    }
+    assert_int_equal(found, N);
+}
+
+static void starved_trees_fail_clean(void **state)
+{
+    (void)state;
+    make_soup(0, 70, 0.0, 1.0);
+    size_t need = lrcsi_tree_need(70);
+    int status = LRCS_E_MEMORY;
+    for (size_t size = 0; size <= need; size += 8) {
+        unsigned char *bytes = malloc(size + 1);
+        assert_non_null(bytes);
+        lrcs_work work = lrcs_work_make(bytes, size);
+        lrcsi_tree tree = {.count = 99};
+        status = lrcsi_tree_make(vertex, facet, 70, NULL, NULL, 0, &work, &tree);
+        assert_int_equal(tree.count, status == LRCS_OK ? 70 : 99);
+        assert_true(status == LRCS_OK || work.used == 0);
+        free(bytes);
+    }
+    assert_int_equal(status, LRCS_OK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_join_finds_all_pairs_of_boxes_that_meet_once_each),
+        cmocka_unit_test(boxes_that_touch_meet),
+        cmocka_unit_test(only_pairs_of_one_label_are_left_out),
+        cmocka_unit_test(a_walk_finds_all_boxes_that_meet_a_given_one),
+        cmocka_unit_test(far_vertices_and_small_clusters_do_not_spoil_the_order),
+        cmocka_unit_test(facets_in_one_place_are_found_there),
+        cmocka_unit_test(starved_trees_fail_clean),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
