@@ -90,13 +90,13 @@ typedef struct lrcs_run_options {
    the bound; so do parts that are seen over which curved normals would have been integrated closer.
    LRCS_FLAG_STEPS_SPENT is set. What grows faster than the scene is counted, alike on every machine
    (over curved normals but for libm's last bits): passes over facets, edges and contacts are not,
-   nor are a raster's pixels and searches, by method zbuffer or for want of memory
+   nor are a raster's pixels and searches, by method zbuffer, for an estimate or for want of memory
    (examples/flight/README.md). lrcs_result.steps tells how many a run took.
-   4. For previews: with LRCS_ACCEPT_ESTIMATE auto draws a raster as coarse as the tolerance allows,
-   a finer one where its likely error, estimate_m2, exceeds what the proved parts of the bound
-   (tessellation, rounding) leave of the tolerance, and clips where no raster's does. An estimate
-   counts only where all depths were decided, no limit of steps was reached and sigma is not 0. The
-   bound stays the proved one, and an answer that it admits is none by estimate. With
+   4. For previews: with LRCS_ACCEPT_ESTIMATE auto draws a coarse raster, a finer one where its
+   likely error, estimate_m2, exceeds what the proved parts of the bound (tessellation, rounding)
+   leave of the tolerance, and clips where that costs less, or no raster's estimate suffices. An
+   estimate counts only where all depths were decided, no limit of steps was reached and sigma is
+   not 0. The bound stays the proved one, and an answer that it admits is none by estimate. With
    LRCS_ACCEPT_ANY auto draws the first of those rasters and takes what comes: no tolerance is
    missed. Other methods run as ever, and their answers are judged in the same way. */
 lrcs_run_options lrcs_run_options_default(void);

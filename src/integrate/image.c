@@ -12,7 +12,7 @@ void lrcsi_image_fill(const lrcsi_view *view, const uint32_t *owner, lrcs_image 
     double corner[2] = {view->low[0], view->low[1] + view->side};
     for (int k = 0; k < 2; k++) {
         const double *axis = view->R[k];
-        const double *c = p->centre;
+        const double *c = p->origin;
         corner[k] += axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2];
     }
     image->left_m = ldexp(corner[0], p->exponent);

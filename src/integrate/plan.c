@@ -3,15 +3,13 @@
    it was told to leave out or not to leave out. */
 #include "integrate/plan.h"
 
-#include <math.h>
-
 /* The first raster for the sake of its bound. */
 #define FIRST_SIZE 512u
 
-/* The first raster for the sake of its likely error: the coarsest one, and the tolerance which that
-   meets on most models (make estimate). */
-#define PREVIEW_FIRST 64u
-#define PREVIEW_REACH 0.05
+/* The first raster for the sake of its likely error, coarse enough to cost little more than its
+   passes over facets; and the tolerance below which no raster is tried. */
+#define PREVIEW_SIZE  256u
+#define PREVIEW_LEAST 1e-4
 
 static int effect_in(uint32_t set, int effect)
 {
@@ -54,25 +52,11 @@ int lrcsi_plan_previews(const lrcs_run_options *options)
     return options->method == LRCS_METHOD_AUTO && options->accept != LRCS_ACCEPT_BOUND;
 }
 
-/* The coarsest raster fit for the tolerance. A likely error falls about as N^-1.5: twice the size
-   for each factor sqrt(8). Above LRCSI_PREVIEW_LAST: none is. */
-static uint32_t preview_size(double tolerance)
+/* Its estimate tells which size the tolerance takes. */
+static int preview_tried(const lrcs_run_options *options)
 {
-    uint32_t size = PREVIEW_FIRST;
-    for (double reach = PREVIEW_REACH; tolerance < reach && size <= LRCSI_PREVIEW_LAST;
-         reach /= sqrt(8)) {
-        size *= 2;
-    }
-    return size;
-}
-
-static uint32_t plan_size(const lrcs_run_options *options)
-{
-    uint32_t size = lrcsi_plan_previews(options) ? preview_size(options->tolerance) : FIRST_SIZE;
-    int any = options->accept == LRCS_ACCEPT_ANY;
-    return options->resolution != 0           ? options->resolution
-           : any && size > LRCSI_PREVIEW_LAST ? LRCSI_PREVIEW_LAST
-                                              : size;
+    return lrcsi_plan_previews(options) &&
+           (options->tolerance >= PREVIEW_LEAST || options->accept == LRCS_ACCEPT_ANY);
 }
 
 /* What auto takes for the rest: clipping the contested facets costs no more than the coarsest
@@ -89,7 +73,7 @@ static void plan_method(lrcsi_plan *plan, const lrcs_run_options *options)
         plan_choose(plan, LRCS_METHOD_FACET, "proved convex and alone: nothing is hidden");
     } else if (options->resolution != 0) {
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "the raster asked for meets the tolerance");
-    } else if (lrcsi_plan_previews(options) && plan->size <= LRCSI_PREVIEW_LAST) {
+    } else if (preview_tried(options)) {
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "a raster is tried first: its estimate may count");
     } else {
         plan_choose(plan, LRCS_METHOD_EXACT,
@@ -108,7 +92,9 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *optio
     plan.searched = effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING);
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
     plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
-    plan.size = plan_size(options);
+    plan.size = options->resolution != 0 ? options->resolution
+                : preview_tried(options) ? PREVIEW_SIZE
+                                         : FIRST_SIZE;
     plan_method(&plan, options);
     return plan;
 }

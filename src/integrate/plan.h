@@ -13,9 +13,6 @@ enum lrcsi_term {
     LRCSI_TERM_FORCED /* evaluated even where its amplitude is 0 */
 };
 
-/* The finest raster that auto draws for its estimate: beyond it clipping costs less. */
-#define LRCSI_PREVIEW_LAST 2048u
-
 typedef struct lrcsi_plan {
     int method;         /* FACET, ZBUFFER or EXACT: the first to try */
     uint32_t size;      /* of the first raster, if one is drawn */

@@ -13,6 +13,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/tree.h"
+#include "scene/bulk.h"
 #include "scene/coincident.h"
 #include "scene/solid.h"
 
@@ -185,11 +186,12 @@ static void prepare_live(lrcs_prepared *p)
     }
 }
 
-/* The box around the live facets. */
+/* The box around the live facets, and that around most vertices. */
 static void prepare_box(lrcs_prepared *p)
 {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double half[3] = {0, 0, 0};
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
         for (int k = 0; k < 3 && p->stood[v]; k++) {
             low[k] = lrcsi_least(low[k], p->vertex[v].x[k]);
@@ -198,9 +200,10 @@ static void prepare_box(lrcs_prepared *p)
     }
     for (int k = 0; k < 3 && p->live > 0; k++) {
         p->centre[k] = 0.5 * (low[k] + high[k]);
-        double half = fmax(high[k] - p->centre[k], p->centre[k] - low[k]);
-        p->radius = fmax(p->radius, half);
+        half[k] = fmax(high[k] - p->centre[k], p->centre[k] - low[k]);
+        p->radius = fmax(p->radius, half[k]);
     }
+    lrcsi_bulk_find(p, half);
 }
 
 /* What the live facets' materials and parts call for. Curved is also what rounding left without

@@ -51,6 +51,8 @@ struct lrcs_prepared {
                                 else NULL */
     double centre[3];        /* of the box around the live facets */
     double radius;           /* no live vertex is farther from the centre in any coordinate */
+    double origin[3];        /* of views: the centre of the box around most vertices, */
+    double bulk[3];          /* and half its sides (scene/bulk.h) */
     uint32_t live;           /* facets not skipped */
     int convex;         /* live facets lie on one convex surface, outward and one-sided: exactly, or
                            by construction; then only facets that graze the light can be hidden */

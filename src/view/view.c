@@ -175,22 +175,32 @@ void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t co
     }
 }
 
-static void view_point(const lrcsi_view *view, const double *x, double *out)
+/* Let p be the point as seen from the origin, both doubles. The rounded difference is off by u |p|,
+   the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products and two
+   sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
+void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3])
 {
-    double p[3];
+    const double *o = view->prepared->origin;
+    const double p[3] = {point[0] - o[0], point[1] - o[1], point[2] - o[2]};
     for (int k = 0; k < 3; k++) {
-        p[k] = x[k] - view->prepared->centre[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        out[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
+        x[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
     }
 }
 
 void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3])
 {
     for (int k = 0; k < 3; k++) {
-        point[k] = view->prepared->centre[k] + (view->R[0][k] * x + view->R[1][k] * y);
+        point[k] = view->prepared->origin[k] + (view->R[0][k] * x + view->R[1][k] * y);
     }
+}
+
+/* As vectors: the rows are off by 4 u each, two products and a sum by 2 u (|x| + |y|), and the last
+   sum by u of its result, of length below |x| + |y| and sqrt(3) times the origin's largest. */
+double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
+{
+    const double *o = view->prepared->origin;
+    double origin = lrcsi_most(fabs(o[0]), lrcsi_most(fabs(o[1]), fabs(o[2])));
+    return U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
 }
 
 /* With 1.01 u for each component of n, u for d's, u for each product and sum: at most 5.1 u
@@ -315,16 +325,11 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
     if (!view->point) {
         return LRCS_E_MEMORY;
     }
-    /* A coordinate is three products of |R| <= 1 with a rounded difference: 6 u times the reach,
-       and R's own rows are off by 4 u (view/frame.h); a lifted point adds u of the centre. */
-    double reach = 0;
-    for (int k = 0; k < 3; k++) {
-        reach = lrcsi_most(reach, fabs(p->centre[k]));
-    }
-    view->off = 32 * U * (p->radius + reach);
     for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
-        view_point(view, p->vertex[i].x, view->point[i].x);
+        lrcsi_view_place(view, p->vertex[i].x, view->point[i].x);
     }
+    double bulk = p->bulk[0] + p->bulk[1] + p->bulk[2];
+    view->scale = bulk > 0 ? ldexp(1, -ilogb(bulk) - 1) : 1;
     view_window(view);
     return LRCS_OK;
 }

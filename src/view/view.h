@@ -5,7 +5,10 @@
 #ifndef LRCSI_VIEW_H
 #define LRCSI_VIEW_H
 
+#include <math.h>
+
 #include "base/meter.h"
+#include "base/range.h"
 #include "scene/prepare.h"
 
 /* The part of a facet's geometry that depends on direction. Lengths are scaled, as in
@@ -27,10 +30,10 @@ typedef struct lrcsi_view {
     double unit[3]; /* direction / length, rounded; and with unit_low to 2^-100 */
     double unit_low[3];
     signed char *facing; /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
-    lrcs_point *point;   /* vertex, view coordinates about the scene's centre: x right, y up,
-                            z to the laser; each off by at most `off` */
-    double off;
-    double low[2], side;  /* the square window around the projection of the live facets */
+    lrcs_point *point;   /* vertex, view coordinates about prepared->origin: x right, y up, z to the
+                            laser; how far each may be off, lrcsi_view_off tells */
+    double scale;        /* a power of two: the bulk of the scene, times that, is below 1 */
+    double low[2], side; /* the square window around the projection of the live facets */
     uint32_t front, back; /* live facets facing either way */
     int backs_cast;       /* facets facing away hide others and may be seen: not where the scene is
                              proved to show none, unless the planner was told otherwise */
@@ -38,7 +41,7 @@ typedef struct lrcsi_view {
     lrcsi_meter *meter;   /* steps that may be made to tell what is seen; NULL: no limit */
 } lrcsi_view;
 
-/* A view without coordinates (point, off and the window), which method facet does without: they
+/* A view without coordinates (point, scale and the window), which method facet does without: they
    follow by lrcsi_view_project. Status: LRCS_OK; LRCS_E_MEMORY; those of lrcsi_frame_make;
    LRCS_E_UNSUPPORTED (this thread rounds otherwise: base/ieee.h). It stays in the work area. */
 size_t lrcsi_view_face_need(const lrcs_prepared *prepared);
@@ -50,6 +53,34 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view);
 size_t lrcsi_view_need(const lrcs_prepared *prepared);
 int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view);
+
+/* How far each of the view coordinates x of a vertex, or of another point of doubles in scene
+   coordinates, may be from the truth: it grows with the distance from the origin, so that what is
+   far away blurs nothing but itself. Derivation: view_point in view.c. What it leaves over, 1.9 u
+   of the same sum, is for adding it to a coordinate, or for a difference of two coordinates. */
+static inline double lrcsi_view_off(const double x[3])
+{
+    return 10 * 0x1p-53 * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
+}
+
+/* Bounds of the true view coordinates of some vertices. Written out, for compilers leave short
+   loops as they are. */
+static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *vertex, int count,
+                                     double low[3], double high[3])
+{
+    low[0] = low[1] = low[2] = HUGE_VAL;
+    high[0] = high[1] = high[2] = -HUGE_VAL;
+    for (int i = 0; i < count; i++) {
+        const double *x = view->point[vertex[i]].x;
+        double off = lrcsi_view_off(x);
+        low[0] = lrcsi_least(low[0], x[0] - off);
+        low[1] = lrcsi_least(low[1], x[1] - off);
+        low[2] = lrcsi_least(low[2], x[2] - off);
+        high[0] = lrcsi_most(high[0], x[0] + off);
+        high[1] = lrcsi_most(high[1], x[1] + off);
+        high[2] = lrcsi_most(high[2], x[2] + off);
+    }
+}
 
 /* Does a facet send light back, if seen? */
 static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
@@ -76,8 +107,14 @@ void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t co
 #define LRCSI_DOT_ERROR 0x1.8p-51
 void lrcsi_view_dots(const lrcsi_view *view, uint32_t place, double dot[LRCSI_LANES]);
 
-/* The point (x, y) of the view plane, on the plane through the scene's centre, in scaled scene
-   coordinates, rounded: the sample line through it along the direction is exact by definition. */
+/* View coordinates of a scene point. */
+void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3]);
+
+/* The point (x, y) of the view plane, on the plane through the origin, in scaled scene coordinates,
+   rounded: the sample line through it along the direction is exact by definition. */
 void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]);
+
+/* How far, in each view coordinate, a lifted point may be from (x, y). */
+double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y);
 
 #endif

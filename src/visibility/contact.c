@@ -107,7 +107,7 @@ int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
 }
 
 /* In double-double where that tells it to TOLD, else exactly; in a needle, of which others may be
-   2^76 times as long as it is wide, always. Returns its sign. */
+   2^88 times as long as it is wide, always. Returns its sign. */
 static int height_find(const lrcsi_target *t, const double *x, lrcsi_dd *height, double *off)
 {
     const lrcs_prepared *p = t->view->prepared;
@@ -130,7 +130,7 @@ static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
 {
     contact_heights h;
     for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_corner(t->view, other, k);
+        const double *x = lrcsi_target_own(t->view, other, k);
         h.above[k] = height_find(t, x, &h.fine[k], &h.off[k]);
         h.height[k] = lrcsi_dd_value(h.fine[k]);
     }
@@ -138,21 +138,28 @@ static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
 }
 
 /* Where side k of the facet passes through the target's plane, its ends on both sides of it, and
-   how far that may be off: the share t = h / (h - h') moves by at most the heights' errors over |h|
-   + |h'|. */
-static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, double at[2])
+   how far that may be off. It lies at a share t = h / (h + h') of the side, from its nearer end,
+   which moves by (1 - t) / (h + h') of what h is off, and t / (h + h') of what h' is. Ends are off
+   by 10 u of their distance, so the point by as much of its own (that at t of the side counts as
+   at t between theirs), and its rounding is below 6 u of that. */
+static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, double at[2],
+                       double *reach)
 {
     int next = (k + 1) % 3;
+    int near = c->away[k] <= c->away[next] ? k : next;
+    int far = near == k ? next : k;
     double span = fabs(h->height[k]) + fabs(h->height[next]);
-    double off = h->off[k] + h->off[next];
-    double t = lrcsi_least(1, fabs(h->height[k]) / span);
+    double t = lrcsi_least(1, fabs(h->height[near]) / span);
     for (int i = 0; i < 2; i++) {
-        at[i] = c->corner[k][i] + t * (c->corner[next][i] - c->corner[k][i]);
+        at[i] = c->corner[near][i] + t * (c->corner[far][i] - c->corner[near][i]);
     }
-    return 4 * c->reach * (off / span);
+    *reach = (1 - t) * c->away[near] + t * c->away[far];
+    double off = (1 - t) * h->off[near] + t * h->off[far];
+    return 2 * (c->away[k] + c->away[next]) * (off / span);
 }
 
-/* May the segment be off by more than the facet is wide, about? */
+/* May the segment be off by more than the facet is wide, about? Its corners are counted from a near
+   one, so that its area is no difference of far ones. */
 static int slip_wide(const lrcsi_contact *c)
 {
     const double(*corner)[2] = (const double(*)[2])c->corner;
@@ -183,29 +190,36 @@ static void contact_leaves(const contact_heights *h, int leaves[2])
     }
 }
 
-static void contact_ends(const contact_heights *h, lrcsi_contact *c)
+/* Of what the segment has near the target. */
+static void contact_ends(const lrcsi_target *t, const contact_heights *h, lrcsi_contact *c)
 {
     int leaves[2];
+    double reach[2];
     contact_leaves(h, leaves);
     for (int i = 0; i < 2; i++) {
         if (leaves[i] >= SIDE) {
-            c->slip = lrcsi_most(c->slip, side_cut(h, c, leaves[i] - SIDE, c->end[i]));
+            double slip = side_cut(h, c, leaves[i] - SIDE, c->end[i], &reach[i]);
+            c->slip = lrcsi_most(c->slip, slip);
         } else {
             memcpy(c->end[i], c->corner[leaves[i]], sizeof c->end[i]);
+            reach[i] = c->away[leaves[i]];
         }
     }
+    c->reach = lrcsi_target_segment(t, c->end, reach);
 }
 
-/* The segment's ends are off by 16 u reach and the slip, e. Where the corner that it parts from the
-   others lies 4 e beyond its line, that crosses both sides of the facet within a quarter of this
-   beyond the ends, and parts the facet as the segment does. Else all that it cuts off is as near to
-   the line, or, where the segment is so short that its line may turn anywhere, to the line from it
-   to the corner: that is taken in then, and what the rest does is all there is to tell. */
+/* The segment's ends, and the corner that it parts from the others, are off by 16 u of how far away
+   they are and the slip, e at most. Where that corner lies 4 e beyond its line, that crosses both
+   sides of the facet within a quarter of this beyond the ends, and parts the facet as the segment
+   does. Else all that it cuts off is as near to the line, or, where the segment is so short that
+   its line may turn anywhere, to the line from it to the corner: that is taken in then, and what
+   the rest does is all there is to tell. */
 static int segment_kind(const contact_heights *h, lrcsi_contact *c, int above)
 {
-    double off = 16 * U * c->reach + c->slip;
     int lone = above == 1 ? 1 : -1; /* the sign of its height */
-    const double *p = c->corner[h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2];
+    int corner = h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2;
+    const double *p = c->corner[corner];
+    double off = 16 * U * lrcsi_most(c->away[corner], c->reach) + c->slip;
     const lrcsi_clip_line line = {{c->end[0][0], c->end[0][1]},
                                   {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]}};
     double length = lrcsi_length_flat(line.to[0], line.to[1]);
@@ -221,6 +235,7 @@ static int segment_kind(const contact_heights *h, lrcsi_contact *c, int above)
     } else {
         c->slip += length;
         memcpy(c->end[1], p, sizeof c->end[1]);
+        c->reach = lrcsi_most(c->reach, c->away[corner]);
     }
     return lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
 }
@@ -236,9 +251,8 @@ typedef struct contact_finely {
 static void corners_finely(const lrcsi_target *t, uint32_t other, contact_finely *f,
                            lrcsi_contact *c)
 {
-    c->reach = 0;
     for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_corner(t->view, other, k);
+        const double *x = lrcsi_target_own(t->view, other, k);
         c->off = lrcsi_most(c->off, lrcsi_needle_place(t->needle, x, f->corner[k]));
         for (int i = 0; i < 2; i++) {
             c->corner[k][i] = lrcsi_dd_value(f->corner[k][i]);
@@ -330,27 +344,23 @@ static int segment_finely(const contact_heights *h, contact_finely *f, lrcsi_con
 {
     ends_finely(h, f, c);
     int kind = kind_finely(h, f, c, above);
-    lrcsi_needle_clip((const lrcsi_dd *)f->end[0], (const lrcsi_dd *)f->end[1], c->end);
+    lrcsi_dd part[2];
+    lrcsi_needle_clip((const lrcsi_dd *)f->end[0], (const lrcsi_dd *)f->end[1], c->end, part);
     return kind;
 }
 
 /* --- either ----------------------------------------------------------------------------------- */
 
-static int segment_of(const contact_heights *h, lrcsi_contact *c, int above)
-{
-    contact_ends(h, c);
-    return segment_kind(h, c, above);
-}
-
 int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
 {
     contact_heights h = heights_of(t, other);
     contact_finely f = {0};
-    c->slip = c->off = 0;
+    *c = (lrcsi_contact){.slip = 0};
     if (t->needle) {
         corners_finely(t, other, &f, c);
-    } else {
-        c->reach = lrcsi_target_frame(t->view, t->facet, other, c->corner);
+    }
+    for (int k = 0; k < 3 && !t->needle; k++) {
+        c->away[k] = lrcsi_target_place(t, lrcsi_target_own(t->view, other, k), c->corner[k]);
     }
     int above = 0;
     int below = 0;
@@ -359,8 +369,15 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
         below += h.above[k] < 0;
     }
     int on = 3 - above - below;
-    return on == 3                                ? LRCSI_CONTACT_FLAT
-           : on < 2 && (above == 0 || below == 0) ? LRCSI_CONTACT_POINT
-           : t->needle                            ? segment_finely(&h, &f, c, above)
-                                                  : segment_of(&h, c, above);
+    if (on == 3) {
+        return LRCSI_CONTACT_FLAT;
+    }
+    if (on < 2 && (above == 0 || below == 0)) {
+        return LRCSI_CONTACT_POINT;
+    }
+    if (t->needle) {
+        return segment_finely(&h, &f, c, above);
+    }
+    contact_ends(t, &h, c);
+    return segment_kind(&h, c, above);
 }

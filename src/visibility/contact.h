@@ -17,10 +17,11 @@ enum lrcsi_contact_kind {
 
 /* A facet in the target's frame, and where it meets the target's plane. */
 typedef struct lrcsi_contact {
-    double corner[3][2]; /* as lrcsi_target_frame; in a needle, rounded */
-    double reach;        /* as lrcsi_target_frame; in a needle 0 */
+    double corner[3][2]; /* counter-clockwise; in a needle, rounded */
+    double away[3];      /* their distances, in space, from the target's first; in a needle 0 */
     double end[2][2];    /* of the segment; in a needle, of what lies near it */
-    double slip;         /* how far that may be off, but for 16 u reach, */
+    double reach;        /* how far away they are at most, likewise */
+    double slip;         /* how far they may be off, but for 16 u of that, */
     double off;          /* or, in a needle, for this and rounding */
 } lrcsi_contact;
 

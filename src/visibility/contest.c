@@ -12,49 +12,43 @@
 
 /* --- crossings -------------------------------------------------------------------------------- */
 
-/* A facet that asks which event edges cross it, and its box, widened by the view's error and by
-   what the edges' boxes are rounded. */
+/* A facet that asks which event edges cross it. */
 typedef struct contest_ask {
     uint32_t facet;
     int facing;
     const uint32_t *corner;
-    double low[2], high[2];
-    double far; /* no point of it is farther from the laser: z */
 } contest_ask;
 
-static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
-{
-    contest_ask ask = {.facet = facet,
-                       .facing = view->facing[facet],
-                       .corner = view->prepared->scene->facet[facet].corner};
-    /* of floats below 2 radii in magnitude: 2^-23 radii */
-    double wide = 2 * view->off + 0x1p-23 * view->prepared->radius;
-    lrcsi_grid_box(view, ask.corner, 3, ask.low, ask.high);
-    for (int k = 0; k < 2; k++) {
-        ask.low[k] -= wide;
-        ask.high[k] += wide;
-    }
-    double near;
-    lrcsi_grid_depth(view, facet, &ask.far, &near);
-    ask.far -= wide;
-    return ask;
-}
-
-/* Which way vertices a, b, c turn: from view coordinates where their error allows, else exactly.
-   With e for that error: differences are off by 2.2 e, rounding included (e is 32 u of the reach),
-   and so p x q by 2.2 e (|p| + |q| + 4.4 e) in the 1-norm, and by 3 u of its products, which are
-   below 4 reaches times |p|: another 0.4 e |p|. */
+/* Which way vertices a, b, c turn: from view coordinates where their error allows, else exactly. Of
+   three vertices that far away is not taken as the one from which both others are seen: it would
+   blur what the others tell. Differences are off by e and f at most, rounding included
+   (lrcsi_view_off), so p x q by e |q| + f |p| + 2 e f in the 1-norm, and by 2 u |p| |q| more, below
+   a fifth of that. */
 static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
 {
     if (c == a || c == b) {
         return 0;
     }
+    double off[3] = {lrcsi_view_off(view->point[a].x), lrcsi_view_off(view->point[b].x),
+                     lrcsi_view_off(view->point[c].x)};
+    if (off[0] > off[1] + off[2]) {
+        uint32_t far = a;
+        double far_off = off[0];
+        a = b;
+        b = c;
+        c = far;
+        off[0] = off[1];
+        off[1] = off[2];
+        off[2] = far_off;
+    }
     const double *at = view->point[a].x;
     const double p[2] = {view->point[b].x[0] - at[0], view->point[b].x[1] - at[1]};
     const double q[2] = {view->point[c].x[0] - at[0], view->point[c].x[1] - at[1]};
     double turn = p[0] * q[1] - p[1] * q[0];
-    double size = fabs(p[0]) + fabs(p[1]) + fabs(q[0]) + fabs(q[1]);
-    if (fabs(turn) > 4 * view->off * (size + 4 * view->off)) {
+    double e = off[0] + off[1];
+    double f = off[0] + off[2];
+    if (fabs(turn) >
+        1.5 * (e * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * (fabs(p[0]) + fabs(p[1])))) {
         return turn > 0 ? 1 : -1;
     }
     const lrcs_point *v = view->prepared->vertex;
@@ -106,21 +100,16 @@ static int edge_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t
            segment_crosses(view, ask, e->low, e->high, along);
 }
 
-/* The boxes of the event and of the facet lie apart beyond the view's error, in the view or in
-   depth: an edge that is farther than all of the facet is not nearer where it passes over it. */
-static int boxes_apart(const lrcsi_contest_edge *event, const contest_ask *ask)
-{
-    return (double)event->near < ask->far || (double)event->low[0] > ask->high[0] ||
-           (double)event->high[0] < ask->low[0] || (double)event->low[1] > ask->high[1] ||
-           (double)event->high[1] < ask->low[1];
-}
-
 /* At most `most` of them, so that one who only wants to know whether there are any can stop. Fewer
-   where the meter is spent. */
+   where the meter is spent. Events whose box lies beside the facet's do not cross it, and those
+   behind all of it are not nearer where they pass over it. */
 static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t most)
 {
+    const lrcsi_view *view = contest->view;
     const lrcsi_grid *grid = &contest->grid;
-    contest_ask ask = contest_ask_of(contest->view, facet);
+    const contest_ask ask = {facet, view->facing[facet],
+                             view->prepared->scene->facet[facet].corner};
+    lrcsi_view_box box = contest->box[facet];
     lrcsi_cells cells = contest->cells[facet];
     uint32_t count = 0;
     contest->asked++;
@@ -128,16 +117,17 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
         uint32_t end = grid->first[(size_t)y * grid->size + cells.x1];
-        if (!lrcsi_meter_take(contest->view->meter, end - i)) {
+        if (!lrcsi_meter_take(view->meter, end - i)) {
             break;
         }
         for (; i < end && count < most; i++) { /* a row's cells lie one behind the other */
             lrcsi_contest_edge *event = &contest->event[grid->item[i]];
-            if (boxes_apart(event, &ask) || event->asked == contest->asked) {
+            if (lrcsi_view_box_behind(&event->box, &box) ||
+                lrcsi_view_box_beside(&event->box, &box) || event->asked == contest->asked) {
                 continue;
             }
             event->asked = contest->asked;
-            if (edge_crosses(contest->view, &ask, event->edge, &contest->along)) {
+            if (edge_crosses(view, &ask, event->edge, &contest->along)) {
                 contest->crossing[count++] = event->edge;
             }
         }
@@ -202,21 +192,15 @@ static int contest_events(lrcsi_contest *c, lrcs_work *work)
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_contest_edge *event = &c->event[i];
         const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
-        double low[2];
-        double high[2];
-        lrcsi_grid_box(view, (const uint32_t[2]){edge->low, edge->high}, 2, low, high);
-        *event = (lrcsi_contest_edge){
-            {(float)low[0], (float)low[1]},
-            {(float)high[0], (float)high[1]},
-            (float)lrcsi_most(view->point[edge->low].x[2], view->point[edge->high].x[2]),
-            c->events.edge[i],
-            0};
+        const uint32_t ends[2] = {edge->low, edge->high};
+        *event = (lrcsi_contest_edge){lrcsi_view_box_of(view, ends, 2), c->events.edge[i], 0};
     }
     return lrcsi_grid_edges(c->events.edge, count, events_most(view->prepared), work, &c->grid,
                             c->cells);
 }
 
-/* Which way the facets face that can hide something, and which cells they touch. */
+/* Which way the facets face that can hide something, where they stand, and which cells they touch.
+ */
 static void contest_cast(lrcsi_contest *c)
 {
     const lrcsi_view *view = c->view;
@@ -224,10 +208,8 @@ static void contest_cast(lrcsi_contest *c)
     for (uint32_t f = 0; f < count; f++) {
         c->kin[f] = 0;
         if (lrcsi_grid_casts(view, f)) {
-            double low[2];
-            double high[2];
-            lrcsi_grid_box(view, view->prepared->scene->facet[f].corner, 3, low, high);
-            c->cells[f] = lrcsi_grid_cells(&c->grid, low, high);
+            c->box[f] = lrcsi_view_box_of(view, view->prepared->scene->facet[f].corner, 3);
+            c->cells[f] = lrcsi_grid_cells(&c->grid, &c->box[f]);
             c->kin[f] = view->facing[f];
         }
     }
@@ -265,6 +247,7 @@ size_t lrcsi_contest_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_view_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells)));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_contest_edge)));
@@ -284,9 +267,10 @@ int lrcsi_contest_make(const lrcsi_view *view, lrcs_work *work, lrcsi_contest *c
     c.kin = lrcsi_work_take(work, (size_t)count + 1, 1);
     c.sheet = lrcsi_work_take(work, count, sizeof *c.sheet);
     c.region = lrcsi_work_take(work, count, sizeof *c.region);
+    c.grid.box = c.box = lrcsi_work_take(work, count, sizeof *c.box);
     c.cells = lrcsi_work_take(work, count, sizeof *c.cells);
     int status = LRCS_E_MEMORY;
-    if (c.contested && c.kin && c.sheet && c.region && c.cells) {
+    if (c.contested && c.kin && c.sheet && c.region && c.box && c.cells) {
         contest_cast(&c);
         status = lrcsi_events_make(view, c.kin, work, &c.events);
         status = status == LRCS_OK ? contest_events(&c, work) : status;

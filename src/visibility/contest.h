@@ -24,11 +24,9 @@
 #include "visibility/event.h"
 #include "visibility/grid.h"
 
-/* An event edge's box in the view, rounded (so many of them are passed over that their size
-   matters), and who asked about it last. */
+/* An event edge's box in the view, and who asked about it last. */
 typedef struct lrcsi_contest_edge {
-    float low[2], high[2];
-    float near; /* the z of its nearer end */
+    lrcsi_view_box box;
     uint32_t edge;
     uint32_t asked;
 } lrcsi_contest_edge;
@@ -38,7 +36,8 @@ typedef struct lrcsi_contest {
     lrcsi_events events;
     lrcsi_contest_edge *event; /* one for each */
     lrcsi_grid grid;           /* of events */
-    lrcsi_cells *cells;        /* facet -> the cells of the grid that it touches, if it casts */
+    lrcsi_view_box *box;       /* facet -> its box, if it casts */
+    lrcsi_cells *cells;        /* facet -> the cells of the grid that it touches, likewise */
     uint32_t asked;            /* scratch: searches so far */
     int along;                 /* scratch: the last search met an event along a side of the facet */
     uint32_t *crossing;        /* scratch: what crosses facet `crossed`, `crossings` of them */

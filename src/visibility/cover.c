@@ -34,6 +34,7 @@ size_t lrcsi_cover_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_grid_facets_need(prepared),
                                  lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_COVER_KEPT, sizeof(lrcsi_cover_sides)));
     return lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cover_facet)));
 }
 
@@ -43,42 +44,17 @@ int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover
     *cover = (lrcsi_cover){.contest = contest};
     cover->asked = lrcsi_work_take_zero(work, count, sizeof *cover->asked);
     cover->candidate = lrcsi_work_take(work, count, sizeof *cover->candidate);
-    return cover->asked && cover->candidate ? LRCS_OK : LRCS_E_MEMORY;
+    cover->sides = lrcsi_work_take_zero(work, LRCSI_COVER_KEPT, sizeof *cover->sides);
+    return cover->asked && cover->candidate && cover->sides ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 /* --- candidates ------------------------------------------------------------------------------- */
 
-/* The box of a facet in the view, all three ways. */
-static void cover_box(const lrcsi_view *view, uint32_t facet, double low[3], double high[3])
-{
-    lrcsi_grid_box(view, view->prepared->scene->facet[facet].corner, 3, low, high);
-    lrcsi_grid_depth(view, facet, &low[2], &high[2]);
-}
-
-/* Lists a facet unless all of it is beside the target's box, or behind its farthest corner. */
-static void cover_add(lrcsi_cover *cover, uint32_t other, const double low[3], const double high[3])
-{
-    double off = 4 * cover->facets.view->off;
-    double its_low[3];
-    double its_high[3];
-    cover_box(cover->facets.view, other, its_low, its_high);
-    if (its_high[0] < low[0] - off || its_low[0] > high[0] + off || its_high[1] < low[1] - off ||
-        its_low[1] > high[1] + off || its_high[2] < low[2] - off) {
-        return;
-    }
-    cover->candidate[cover->count++] = (lrcsi_cover_facet){.low = {its_low[0], its_low[1]},
-                                                           .high = {its_high[0], its_high[1]},
-                                                           .facet = other,
-                                                           .order = ORDER_NEW};
-}
-
 void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
 {
     const lrcsi_grid *facets = &cover->facets;
-    double low[3];
-    double high[3];
-    cover_box(facets->view, target->facet, low, high);
-    lrcsi_cells cells = lrcsi_grid_cells(facets, low, high);
+    lrcsi_view_box box = facets->box[target->facet];
+    lrcsi_cells cells = lrcsi_grid_cells(facets, &box);
     cover->count = 0;
     cover->asks++;
     cover->asked[target->facet] = cover->asks;
@@ -90,9 +66,14 @@ void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
         }
         for (; i < end; i++) {
             uint32_t other = facets->item[i];
-            if (cover->asked[other] != cover->asks) {
-                cover->asked[other] = cover->asks;
-                cover_add(cover, other, low, high);
+            if (cover->asked[other] == cover->asks) {
+                continue;
+            }
+            cover->asked[other] = cover->asks;
+            const lrcsi_view_box *its = &facets->box[other];
+            if (!lrcsi_view_box_beside(its, &box) && !lrcsi_view_box_behind(its, &box)) {
+                cover->candidate[cover->count++] =
+                    (lrcsi_cover_facet){.box = *its, .facet = other, .order = ORDER_NEW};
             }
         }
     }
@@ -148,32 +129,79 @@ enum line_way {
 };
 
 typedef struct cover_line {
+    const lrcsi_cover *cover;
     const lrcsi_cuts *cuts;
     uint32_t count; /* of their list, that may divide what the line stands for */
     int way;
-    double at[2];    /* in the target's frame */
-    double xy[2];    /* in the view */
-    double point[3]; /* in space */
-    double off;      /* by which that may be elsewhere in the frame */
+    double at[2];       /* in the target's frame */
+    lrcsi_view_box box; /* in the view; its depth does not count */
+    double point[3];    /* in space */
+    double off;         /* by which that may be elsewhere in the frame */
 } cover_line;
 
-/* Corners are off in the frame by 10 u of their reach r, the side of a line by 4 u (r + d). 1 the
-   line surely meets the candidate, -1 surely not, 0 it passes too near a side. */
-static int line_meets_about(const cover_line *line, lrcsi_cover_facet *c)
+/* A candidate this many times as far as the target is long and its nearest corner is away counts as
+   far. */
+#define FAR_CANDIDATE 64.0
+
+/* Sides in the frame, with how near to one a place must be that its side of it is not sure.
+
+   A corner at distance r is off by e = 10 u r. So the candidate as computed is the true one but for
+   the largest e, the side of a line is told wrong within 4 u (r + d) of it, d the target's
+   diameter, and a place that is farther than both from a side is out of both, or in both if it is
+   so far inside all three.
+
+   Where one corner is far away that would be too coarse. There each side tells which side of its
+   own line a place is on. Let T be the side from p to q, n the nearer of the two, G the place as
+   seen from n. T is off by 12 u (r_p + r_q), rounding included, G by 12 u r_n + 2 u d, so T x G by
+   12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the 1-norm, and by its own rounding, 2 u |T|
+   |G|, below 3 u (r_p + r_q) |G|. */
+static void sides_place(const lrcsi_target *t, uint32_t facet, lrcsi_cover_sides *c)
 {
-    const lrcsi_target *t = line->cuts->target;
-    if (c->width == 0) {
-        double reach = lrcsi_target_frame(t->view, t->facet, c->facet, c->corner);
-        c->width = 24 * U * (lrcsi_most(reach, t->reach) + t->diameter);
+    double corner[3][2];
+    double reach[3];
+    double most = t->reach;
+    double least = HUGE_VAL;
+    for (int k = 0; k < 3; k++) {
+        reach[k] = lrcsi_target_place(t, lrcsi_target_corner(t->view, facet, k), corner[k]);
+        most = lrcsi_most(most, reach[k]);
+        least = lrcsi_least(least, reach[k]);
     }
-    double width = line->way == LINE_GUESSED ? 0 : c->width;
+    int far = most > FAR_CANDIDATE * (least + t->reach);
+    for (int k = 0; k < 3; k++) {
+        int next = k == 2 ? 0 : k + 1;
+        int near = reach[k] <= reach[next] ? k : next;
+        lrcsi_clip_line *side = &c->side[k];
+        for (int i = 0; i < 2; i++) {
+            side->at[i] = corner[near][i];
+            side->to[i] = corner[next][i] - corner[k][i];
+        }
+        double length = fabs(side->to[0]) + fabs(side->to[1]);
+        double gap = fabs(side->at[0]) + fabs(side->at[1]) + 1.5 * t->diameter;
+        c->clear[k] =
+            far ? 16 * U * ((reach[k] + reach[next]) * gap + (reach[near] + t->diameter) * length)
+                : 24 * U * (most + t->diameter) * length;
+    }
+}
+
+static const lrcsi_cover_sides *sides_of(const cover_line *line, uint32_t facet)
+{
+    lrcsi_cover_sides *sides = &line->cover->sides[facet % LRCSI_COVER_KEPT];
+    if (sides->facet != facet || sides->ask != line->cover->asks) {
+        sides_place(line->cuts->target, facet, sides);
+        sides->facet = facet;
+        sides->ask = line->cover->asks;
+    }
+    return sides;
+}
+
+/* 1 the line surely meets the candidate, -1 surely not, 0 it passes too near a side. */
+static int line_meets_about(const cover_line *line, const lrcsi_cover_facet *c)
+{
+    const lrcsi_cover_sides *sides = sides_of(line, c->facet);
     int inside = 1;
     for (int k = 0; k < 3; k++) {
-        const double *p = c->corner[k];
-        const double *q = c->corner[k == 2 ? 0 : k + 1];
-        const lrcsi_clip_line side = {{p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}};
-        double left = lrcsi_clip_side(&side, line->at);
-        double clear = width * (fabs(side.to[0]) + fabs(side.to[1]));
+        double left = lrcsi_clip_side(&sides->side[k], line->at);
+        double clear = line->way == LINE_GUESSED ? 0 : sides->clear[k];
         if (left < -clear) {
             return -1;
         }
@@ -203,10 +231,7 @@ static int line_meets_finely(const cover_line *line, const lrcsi_cover_facet *c)
 /* Does the line pass the candidate by, or is that one behind? Most are told so. */
 static int line_misses(const cover_line *line, const lrcsi_cover_facet *c)
 {
-    double off = 4 * line->cuts->target->view->off;
-    return line->xy[0] < c->low[0] - off || line->xy[0] > c->high[0] + off ||
-           line->xy[1] < c->low[1] - off || line->xy[1] > c->high[1] + off ||
-           c->order == ORDER_BEHIND;
+    return lrcsi_view_box_beside(&line->box, &c->box) || c->order == ORDER_BEHIND;
 }
 
 /* 1 the line meets the candidate, -1 not, 0 it must be asked another way. */
@@ -245,11 +270,12 @@ static int line_hidden(const cover_line *line, lrcsi_cover_facet *c)
 }
 
 /* The point that stands for a line in space. It is off by 100 u of the reach (visibility/target.h),
-   and 8 u for coordinates below 1; in a needle that is too much. */
+   and by 8 u of the target's coordinates; in a needle that is too much. */
 static void line_lift(cover_line *line)
 {
     const lrcsi_target *t = line->cuts->target;
     double weight[3];
+    double x[3];
     lrcsi_target_weights(t, line->at, weight);
     for (int k = 0; k < 3; k++) {
         line->point[k] = 0;
@@ -257,7 +283,24 @@ static void line_lift(cover_line *line)
             line->point[k] += weight[i] * lrcsi_prepared_corner(t->view->prepared, t->facet, i)[k];
         }
     }
-    line->off = t->needle ? HUGE_VAL : 100 * U * t->reach + 8 * U;
+    lrcsi_view_place(t->view, line->point, x);
+    line->box = lrcsi_view_box_about(t->view, x, lrcsi_view_off(x));
+    line->off = t->needle ? HUGE_VAL : lrcsi_target_lift_off(t);
+}
+
+/* The line as its place: the target's first corner and the way from there, which in a needle is off
+   by its own corners, 10 u of their reach, by rounding, 3 u, and by the frame's slip. */
+static lrcsi_view_box line_box(const lrcsi_target *t, const double at[2])
+{
+    double first[3];
+    double x[3];
+    lrcsi_view_place(t->view, t->origin, first);
+    x[2] = first[2];
+    double reach = t->needle ? t->needle->reach : t->reach;
+    lrcsi_target_unrefine(t, at, x);
+    x[0] += first[0];
+    x[1] += first[1];
+    return lrcsi_view_box_about(t->view, x, lrcsi_view_off(first) + (16 * U + 2 * t->slip) * reach);
 }
 
 /* Of the sheets that hide a point, the one that ends at the fewest cuts. */
@@ -314,16 +357,12 @@ static int line_tells(const cover_line *line, lrcsi_cover *cover, uint32_t *shee
 int lrcsi_cover_sample(lrcsi_cover *cover, const lrcsi_cuts *cuts, uint32_t count,
                        lrcsi_cover_place *place, uint32_t *sheet)
 {
-    const lrcsi_view *view = cuts->target->view;
-    const double *origin =
-        view->point[view->prepared->scene->facet[cuts->target->facet].corner[0]].x;
-    cover_line line = {.cuts = cuts,
+    cover_line line = {.cover = cover,
+                       .cuts = cuts,
                        .count = count,
                        .at = {place->at[0], place->at[1]},
+                       .box = line_box(cuts->target, place->at),
                        .off = cuts->target->slip};
-    lrcsi_target_unrefine(cuts->target, place->at, line.xy);
-    line.xy[0] += origin[0];
-    line.xy[1] += origin[1];
     int answer = place->clear > 0 ? line_tells(&line, cover, sheet) : LINE_AGAIN;
     if (answer == LINE_AGAIN) {
         line_lift(&line);

@@ -16,12 +16,20 @@ enum lrcsi_cover_answer {
 
 /* A facet that may hide some of the target. */
 typedef struct lrcsi_cover_facet {
-    double low[2], high[2]; /* its box in the view */
+    lrcsi_view_box box;
     uint32_t facet;
-    uint32_t order;      /* against the target's plane */
-    double corner[3][2]; /* in the target's frame, once it is wanted */
-    double width;        /* by which its sides there may be off; 0: not wanted yet */
+    uint32_t order; /* against the target's plane */
 } lrcsi_cover_facet;
+
+/* The sides of a candidate in the target's frame, kept for lines to come. */
+typedef struct lrcsi_cover_sides {
+    uint32_t facet, ask; /* whose they are, in which search */
+    lrcsi_clip_line side[3];
+    double clear[3]; /* how far lrcsi_clip_side may be off of each */
+} lrcsi_cover_sides;
+
+/* So many are kept at a time, each in the place that its facet's number tells. */
+#define LRCSI_COVER_KEPT 1024u
 
 typedef struct lrcsi_cover {
     lrcsi_contest *contest;
@@ -30,6 +38,7 @@ typedef struct lrcsi_cover {
     uint32_t asks;   /* searches so far */
     lrcsi_cover_facet *candidate;
     uint32_t count;
+    lrcsi_cover_sides *sides;
 } lrcsi_cover;
 
 /* Bytes at most, with those of the grid. */
@@ -39,7 +48,7 @@ size_t lrcsi_cover_need(const lrcs_prepared *prepared);
    stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover);
 
-/* Lists what may hide some of a facet: not all of it where the view's meter is spent. */
+/* Lists what may hide some of a facet that casts: not all of it where the view's meter is spent. */
 void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target);
 
 /* A place of the target's frame at which to ask. */

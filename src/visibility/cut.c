@@ -3,13 +3,14 @@
    edge or contact matters is exact (visibility/contest.h); only places are computed in doubles.
 
    In the facet's frame, with d its diameter and r the largest distance in space of a segment's ends
-   from its first corner, ends are off by 10 u r (visibility/target.h), those of a contact by 16 u r
-   and its slip (visibility/contact.h); the line through them by 2 u r more. The side of a line on
-   which a point lies is told wrong within 4 u (r + d) of it. A point put where a line cuts a side
-   of a cell lies within that and 8 u d of the line. So a segment that is told to be farther from a
-   shape than WIDTH (r + d) and the slip does not meet it; and where a cell was cut along a segment,
-   or lies on one side of its line as computed, the segment lies within that width of the line, and
-   all of the cell on one side but for as much (24 u of r + d would do, and 30 u for a contact).
+   from its first corner (of a long one's that runs far off, of what matters of it), ends are off by
+   10 u r (visibility/target.h), those of a contact by 16 u r and its slip (visibility/contact.h);
+   the line through them by 2 u r more. The side of a line on which a point lies is told wrong
+   within 4 u (r + d) of it. A point put where a line cuts a side of a cell lies within that and 8 u
+   d of the line. So a segment that is told to be farther from a shape than WIDTH (r + d) and the
+   slip does not meet it; and where a cell was cut along a segment, or lies on one side of its line
+   as computed, the segment lies within that width of the line, and all of the cell on one side but
+   for as much (24 u of r + d would do, and 30 u for a contact).
 
    In a needle's frame (visibility/needle.h) ends are off by less, and segments clipped: one that
    meets the facet starts, ends and runs on within the box, so that its part there is one long
@@ -89,9 +90,9 @@ static void cuts_edge(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t e
     if (cuts->target->needle) {
         width = width_in_needle(lrcsi_needle_segment(cuts->target->needle, from, to, end));
     } else {
-        double low = lrcsi_target_place(cuts->target, from, end[0]);
-        double high = lrcsi_target_place(cuts->target, to, end[1]);
-        width = width_of(cuts, lrcsi_most(low, high));
+        const double away[2] = {lrcsi_target_place(cuts->target, from, end[0]),
+                                lrcsi_target_place(cuts->target, to, end[1])};
+        width = width_of(cuts, lrcsi_target_segment(cuts->target, end, away));
     }
     lrcsi_cut *cut = cut_new(cuts, end[0], end[1], width);
     for (uint32_t i = 0; i < e->uses; i++) {
@@ -115,16 +116,22 @@ static void cuts_crossing(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32
 }
 
 /* The sides of a facet that touches the target. */
-static void cuts_outline(lrcsi_cuts *cuts, uint32_t other, const lrcsi_contact *c, double width)
+static void cuts_outline(lrcsi_cuts *cuts, uint32_t other, const lrcsi_contact *c)
 {
     const lrcsi_target *t = cuts->target;
     for (int k = 0; k < 3; k++) {
+        int next = (k + 1) % 3;
+        const double away[2] = {c->away[k], c->away[next]};
         double end[2][2];
+        double width = 0;
         memcpy(end[0], c->corner[k], sizeof end[0]);
-        memcpy(end[1], c->corner[(k + 1) % 3], sizeof end[1]);
+        memcpy(end[1], c->corner[next], sizeof end[1]);
         if (t->needle) {
-            lrcsi_needle_segment(t->needle, lrcsi_target_corner(t->view, other, k),
-                                 lrcsi_target_corner(t->view, other, (k + 1) % 3), end);
+            width =
+                width_in_needle(lrcsi_needle_segment(t->needle, lrcsi_target_own(t->view, other, k),
+                                                     lrcsi_target_own(t->view, other, next), end));
+        } else {
+            width = width_of(cuts, lrcsi_target_segment(t, end, away));
         }
         cut_new(cuts, end[0], end[1], width);
     }
@@ -134,14 +141,12 @@ static void cuts_contact(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_
 {
     lrcsi_contact c;
     int kind = lrcsi_contact_find(cuts->target, other, &c);
-    int outline = kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN;
-    double slip = outline ? 0 : c.slip;
-    double width =
-        cuts->target->needle ? width_in_needle(c.off + slip) : width_of(cuts, c.reach) + slip;
     uint32_t first = cuts->count;
-    if (outline) {
-        cuts_outline(cuts, other, &c, width);
+    if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
+        cuts_outline(cuts, other, &c);
     } else if (kind != LRCSI_CONTACT_POINT) {
+        double width = cuts->target->needle ? width_in_needle(c.off + c.slip)
+                                            : width_of(cuts, c.reach) + c.slip;
         cut_new(cuts, c.end[0], c.end[1], width);
     }
     for (uint32_t i = first; i < cuts->count; i++) {

@@ -78,7 +78,7 @@ static double drift_limit(const drift_facet *d, int axis, double along, double a
 {
     double limit = floor(across + 0.5);
     double sample = floor(across);
-    if (fabs(across - sample - 0.5) > 4 * d->raster->off) {
+    if (fabs(across - sample - 0.5) > 4 * d->edges.slip) {
         return limit;
     }
     int at = drift_shows(d, axis, along, sample);

@@ -46,6 +46,18 @@ static void depth_range(const lrcsi_view *view, double *least, double *most)
     }
 }
 
+/* Along a view axis, how far the centre of the scene is from the origin of views: nothing, mostly.
+ */
+static double centre_along(const lrcsi_view *view, int axis)
+{
+    const lrcs_prepared *p = view->prepared;
+    double along = 0;
+    for (int k = 0; k < 3; k++) {
+        along += view->R[axis][k] * (p->centre[k] - p->origin[k]);
+    }
+    return along;
+}
+
 static clip_matrix clip_make(const lrcsi_gpu *gpu)
 {
     const lrcsi_view *view = gpu->view;
@@ -61,7 +73,7 @@ static clip_matrix clip_make(const lrcsi_gpu *gpu)
         for (int j = 0; j < 3; j++) {
             clip.turn[k][j] = lrcsi_single(gpu->single, view->R[k][j] / (half[k] * clip.unit));
         }
-        clip.move[k] = lrcsi_single(gpu->single, -middle[k] / half[k]);
+        clip.move[k] = lrcsi_single(gpu->single, (centre_along(view, k) - middle[k]) / half[k]);
     }
     return clip;
 }

@@ -7,7 +7,6 @@
 
 #include "base/range.h"
 #include "base/work.h"
-#include "visibility/span.h"
 
 /* Cells along a side at most. */
 #define MOST_CELLS 2048
@@ -36,13 +35,23 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
                           lrcsi_grid_need(facets, LRCSI_GRID_FACET_CELLS * facets));
 }
 
+/* The window: what the view's own has in common with the projection of the box around the bulk. No
+   proof rests on where it is. */
 lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells)
 {
-    uint32_t size = grid_side(cells);
-    return (lrcsi_grid){.view = view,
-                        .size = size,
-                        .scale = view->side > 0 ? size / view->side : 0,
-                        .last = size - 1.0};
+    lrcsi_grid grid = {.view = view, .size = grid_side(cells)};
+    const double *bulk = view->prepared->bulk;
+    for (int k = 0; k < 2; k++) {
+        const double *row = view->R[k];
+        double half = fabs(row[0]) * bulk[0] + fabs(row[1]) * bulk[1] + fabs(row[2]) * bulk[2];
+        double low = lrcsi_most(view->low[k], -half);
+        double high = lrcsi_least(view->low[k] + view->side, half);
+        grid.low[k] = low * view->scale;
+        grid.side = lrcsi_most(grid.side, (high - low) * view->scale);
+    }
+    grid.scale = grid.side > 0 ? grid.size / grid.side : 0;
+    grid.last = grid.size - 1.0;
+    return grid;
 }
 
 /* Doubles the grid's cells; it has no lists then. Halving the scale is exact (but for numbers so
@@ -50,9 +59,10 @@ lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells)
    rounded down. */
 static void grid_coarsen(lrcsi_grid *grid, lrcsi_cells *cells)
 {
-    uint32_t size = (grid->size + 1) / 2;
-    *grid = (lrcsi_grid){
-        .view = grid->view, .size = size, .scale = grid->scale / 2, .last = size - 1.0};
+    grid->first = grid->item = NULL;
+    grid->size = (grid->size + 1) / 2;
+    grid->scale /= 2;
+    grid->last = grid->size - 1.0;
     for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count && cells; f++) {
         if (lrcsi_grid_casts(grid->view, f)) {
             cells[f] = (lrcsi_cells){.x0 = cells[f].x0 / 2u,
@@ -113,15 +123,74 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
     return x1 - x0;
 }
 
-/* The part of segment a -> b within a row of cells, as its range of x; the row is widened by the
-   view's error, and so is the range where it is used. */
-static void segment_row(const lrcsi_grid *grid, const double *a, const double *b, uint32_t y,
-                        double range[2])
+/* A segment in the units of boxes, from its end nearer to the origin: that of the exact one at the
+   share t of its length is off by at most off + t grow. */
+typedef struct grid_segment {
+    double from[2], to[2]; /* from + t to */
+    double off, grow;
+} grid_segment;
+
+/* Ends are off by a fourth of what is stated here. The rest is for what is computed of it: points
+   at t, rows and the t at which the segment enters one, each off by less than 8 u of coordinates
+   between the segment's and the window's; and boxes are rounded by 2^-24 of the latter. */
+static grid_segment segment_make(const lrcsi_grid *grid, uint32_t edge)
 {
-    double margin = 2 * grid->view->off;
-    double bottom = grid->view->low[1] + y / grid->scale - margin;
-    double top = grid->view->low[1] + (y + 1) / grid->scale + margin;
-    lrcsi_span_segment(a, b, bottom, top, margin, range);
+    const lrcsi_view *view = grid->view;
+    const lrcsi_edge *e = &view->prepared->topology.edge[edge];
+    const double *a = view->point[e->low].x;
+    const double *b = view->point[e->high].x;
+    if (lrcsi_view_off(a) > lrcsi_view_off(b)) {
+        const double *nearer = b;
+        b = a;
+        a = nearer;
+    }
+    double window = fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side;
+    double off = 4 * lrcsi_view_off(a);
+    double far = 4 * lrcsi_view_off(b);
+    return (grid_segment){{a[0] * view->scale, a[1] * view->scale},
+                          {(b[0] - a[0]) * view->scale, (b[1] - a[1]) * view->scale},
+                          off * view->scale + 0x1p-23 * window,
+                          (far - off) * view->scale};
+}
+
+/* Narrows the range of t to where value + t slope is not negative. */
+static void range_narrow(double value, double slope, double range[2])
+{
+    if (slope > 0) {
+        range[0] = lrcsi_most(range[0], -value / slope);
+    } else if (slope < 0) {
+        range[1] = lrcsi_least(range[1], -value / slope);
+    } else if (value < 0) {
+        range[1] = -1;
+    }
+}
+
+/* The cells of a row that the segment may touch; rows on the border reach on without end. Both what
+   it is off and where it is are linear in t, so that limits are met at the ends of a range. */
+static lrcsi_cells segment_row(const lrcsi_grid *grid, const grid_segment *s, uint32_t y)
+{
+    double t[2] = {0, 1};
+    if (y > 0) {
+        double bottom = grid->low[1] + y / grid->scale;
+        range_narrow(s->from[1] + s->off - bottom, s->to[1] + s->grow, t);
+    }
+    if (y + 1 < grid->size) {
+        double top = grid->low[1] + (y + 1) / grid->scale;
+        range_narrow(top - s->from[1] + s->off, s->grow - s->to[1], t);
+    }
+    lrcsi_cells cells = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
+    if (t[0] <= t[1]) {
+        double left[2];
+        double right[2];
+        for (int i = 0; i < 2; i++) {
+            double off = s->off + t[i] * s->grow;
+            left[i] = s->from[0] + t[i] * s->to[0] - off;
+            right[i] = s->from[0] + t[i] * s->to[0] + off;
+        }
+        cells.x0 = lrcsi_grid_cell(grid, lrcsi_least(left[0], left[1]), 0);
+        cells.x1 = (uint16_t)(lrcsi_grid_cell(grid, lrcsi_most(right[0], right[1]), 0) + 1);
+    }
+    return cells;
 }
 
 /* Returns in how many cells it is. */
@@ -129,20 +198,16 @@ static uint32_t grid_put_edge(lrcsi_grid *grid, uint32_t edge, uint32_t item)
 {
     const lrcsi_edge *e = &grid->view->prepared->topology.edge[edge];
     const uint32_t ends[2] = {e->low, e->high};
-    double low[2];
-    double high[2];
-    lrcsi_grid_box(grid->view, ends, 2, low, high);
-    lrcsi_cells cells = lrcsi_grid_cells(grid, low, high);
+    lrcsi_view_box box = lrcsi_view_box_of(grid->view, ends, 2);
+    lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
     if (cells.y1 - cells.y0 == 1) {
         return grid_put(grid, cells.y0, cells.x0, cells.x1, item);
     }
+    grid_segment segment = segment_make(grid, edge);
     uint32_t count = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        double range[2];
-        segment_row(grid, grid->view->point[e->low].x, grid->view->point[e->high].x, y, range);
-        double off = 4 * grid->view->off;
-        count += grid_put(grid, y, lrcsi_grid_cell(grid, range[0] - off, 0),
-                          lrcsi_grid_cell(grid, range[1] + off, 0) + 1, item);
+        lrcsi_cells row = segment_row(grid, &segment, y);
+        count += grid_put(grid, y, row.x0, row.x1, item);
     }
     return count;
 }

@@ -1,19 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* A uniform grid over the view's window: which items (facets, edges) may stand in which cell.
-   Conservative: an item is listed in every cell that it touches within the view's error. Where
-   items are so large that they would be listed too often, cells are doubled until they are not:
-   then the bytes that a grid takes are bounded whatever the scene, and so is what a walk through
-   the cells of all items costs. */
+/* A uniform grid over the window of the scene's bulk: which items (facets, edges) may stand in
+   which cell. What stands outside counts to the cells on the border. Conservative: an item is
+   listed in every cell that its box touches. Where items are so large that they would be listed too
+   often, cells are doubled until they are not: then the bytes that a grid takes are bounded
+   whatever the scene, and so is what a walk through the cells of all items costs. */
 #ifndef LRCSI_GRID_H
 #define LRCSI_GRID_H
 
 #include "base/range.h"
+#include "view/box.h"
 #include "view/view.h"
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
+    const lrcsi_view_box *box; /* facet -> its box, if it casts; NULL: the items are no facets */
+    double low[2];             /* of the window, in the units of boxes */
+    double side;
     uint32_t size;   /* cells along each side */
-    double scale;    /* cells per scaled unit */
+    double scale;    /* cells per unit */
     double last;     /* size - 1 */
     uint32_t *first; /* size * size + 1 */
     uint32_t *item;  /* those of cell c: item[first[c] .. first[c + 1]) */
@@ -24,22 +28,21 @@ typedef struct lrcsi_cells {
     uint16_t x0, x1, y0, y1;
 } lrcsi_cells;
 
-/* The cell of a view coordinate, kept within 0 .. size - 1. */
+/* The cell of a coordinate in units of boxes, kept within 0 .. size - 1; of two coordinates the
+   larger is never in the lower cell. */
 static inline uint16_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axis)
 {
-    double cell = (x - grid->view->low[axis]) * grid->scale;
+    double cell = (x - grid->low[axis]) * grid->scale;
     return (uint16_t)lrcsi_least(grid->last, lrcsi_most(0, cell));
 }
 
-/* The cells that the box low .. high of view coordinates touches. */
-static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const double low[2],
-                                           const double high[2])
+/* The cells that a box touches. */
+static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_view_box *box)
 {
-    double off = 2 * grid->view->off;
-    return (lrcsi_cells){.x0 = lrcsi_grid_cell(grid, low[0] - off, 0),
-                         .x1 = (uint16_t)(lrcsi_grid_cell(grid, high[0] + off, 0) + 1),
-                         .y0 = lrcsi_grid_cell(grid, low[1] - off, 1),
-                         .y1 = (uint16_t)(lrcsi_grid_cell(grid, high[1] + off, 1) + 1)};
+    return (lrcsi_cells){.x0 = lrcsi_grid_cell(grid, box->low[0], 0),
+                         .x1 = (uint16_t)(lrcsi_grid_cell(grid, box->high[0], 0) + 1),
+                         .y0 = lrcsi_grid_cell(grid, box->low[1], 1),
+                         .y1 = (uint16_t)(lrcsi_grid_cell(grid, box->high[1], 1) + 1)};
 }
 
 /* Do the cells list any item? A row's cells lie one behind the other. */
@@ -52,31 +55,6 @@ static inline int lrcsi_grid_any(const lrcsi_grid *grid, lrcsi_cells cells)
         }
     }
     return 0;
-}
-
-/* The box of some points of the view. */
-static inline void lrcsi_grid_box(const lrcsi_view *view, const uint32_t *vertex, int count,
-                                  double low[2], double high[2])
-{
-    for (int k = 0; k < 2; k++) {
-        low[k] = high[k] = view->point[vertex[0]].x[k];
-        for (int i = 1; i < count; i++) {
-            low[k] = lrcsi_least(low[k], view->point[vertex[i]].x[k]);
-            high[k] = lrcsi_most(high[k], view->point[vertex[i]].x[k]);
-        }
-    }
-}
-
-/* The least and the most z of a facet: how far from the laser it reaches, and how near. */
-static inline void lrcsi_grid_depth(const lrcsi_view *view, uint32_t facet, double *far,
-                                    double *near)
-{
-    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    double a = view->point[corner[0]].x[2];
-    double b = view->point[corner[1]].x[2];
-    double c = view->point[corner[2]].x[2];
-    *far = lrcsi_least(a, lrcsi_least(b, c));
-    *near = lrcsi_most(a, lrcsi_most(b, c));
 }
 
 /* How often a facet is listed at most, on average. Facets that fill 16 cells fill 9 of twice the

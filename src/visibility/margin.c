@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Adding up, facet by facet, the shares near event edges and near facets of other parts. It decides
-   nothing exactly: every distance is widened by the view's error. What doubt costs in sigma is
-   decided in integrate/tessellation.c. */
+   nothing exactly: every distance is widened by the errors of what it is between. What doubt costs
+   in sigma is decided in integrate/tessellation.c. */
 #include "visibility/margin.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "base/work.h"
 #include "mesh/slice.h"
 
-/* Coordinates are off by the view's error, and what is computed from them by as much again. */
+/* What is computed of coordinates is off by as much as they are, or less: so many times that. */
 #define OFF_MARGIN 8.0
 /* Rounding of a facet's cosine, generously. */
 #define COS_MARGIN 1e-9
@@ -24,8 +24,7 @@ typedef struct margin_job {
     uint32_t *seen;        /* event: the facet + 1 that last met it */
     uint32_t count;
     lrcsi_grid grid;
-    double low[2], high[2]; /* the curved parts' box in the view */
-    double off;
+    double low[3], high[3]; /* bounds of the curved parts in the view */
 } margin_job;
 
 static uint32_t margin_part(const margin_job *job, uint32_t facet)
@@ -98,7 +97,21 @@ static int margin_events(margin_job *job, lrcs_work *work)
 /* --- one facet and one edge --------------------------------------------------------------------
  */
 
-/* The share of a facet within `slack` of an edge in projection: in the rectangle about it. */
+/* The farthest that a corner of a facet may be off, and what is computed of it. */
+static double facet_off(const margin_job *job, uint32_t facet)
+{
+    const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
+    double off = 0;
+    for (int k = 0; k < 3; k++) {
+        off = lrcsi_most(off, lrcsi_view_off(job->view->point[corner[k]].x));
+    }
+    return OFF_MARGIN * off;
+}
+
+/* The share of a facet within `slack` of an edge in projection: in the rectangle about it. What the
+   edge is off at a share t of its length is linear in t. A point of it that is near the facet is no
+   farther from its end a than the facet's farthest corner and the width are, t length <= far +
+   wide, and what b is off counts for t of itself. */
 static double edge_share(const margin_job *job, uint32_t facet, const lrcsi_edge *edge,
                          double slack)
 {
@@ -107,16 +120,31 @@ static double edge_share(const margin_job *job, uint32_t facet, const lrcsi_edge
     const uint32_t *corner = p->scene->facet[facet].corner;
     const double *a = view->point[edge->low].x;
     const double *b = view->point[edge->high].x;
+    if (lrcsi_view_off(a) > lrcsi_view_off(b)) {
+        a = view->point[edge->high].x;
+        b = view->point[edge->low].x;
+    }
     double along[3] = {b[0] - a[0], b[1] - a[1], 0};
     double length = sqrt(along[0] * along[0] + along[1] * along[1]);
-    double wide = slack + job->off;
-    if (length > job->off) {
+    double first = OFF_MARGIN * lrcsi_view_off(a);
+    double last = OFF_MARGIN * lrcsi_view_off(b);
+    double off = facet_off(job, facet);
+    double far = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *x = view->point[corner[k]].x;
+        far = lrcsi_most(far, fabs(x[0] - a[0]) + fabs(x[1] - a[1]));
+    }
+    double wide = slack + off + first;
+    double end = wide + last;
+    if (length > 2 * (first + last)) {
         along[0] /= length;
         along[1] /= length;
+        wide += last * lrcsi_least(1, 2 * (far + wide) / length);
     } else { /* of no length: a square about it */
         along[0] = 1;
         along[1] = 0;
-        wide += length;
+        end += length;
+        wide = end;
     }
     const double aside[3] = {-along[1], along[0], 0};
     const double back[3] = {-along[0], -along[1], 0};
@@ -125,7 +153,7 @@ static double edge_share(const margin_job *job, uint32_t facet, const lrcsi_edge
                                           view->point[corner[2]].x);
     lrcsi_slice_cut(&slice, aside, a, wide);
     lrcsi_slice_cut(&slice, other, a, wide);
-    lrcsi_slice_cut(&slice, along, b, wide);
+    lrcsi_slice_cut(&slice, along, b, end);
     lrcsi_slice_cut(&slice, back, a, wide);
     return lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length, lrcsi_nears_longest(p, facet));
 }
@@ -137,14 +165,18 @@ static int edge_behind(const margin_job *job, uint32_t facet, const lrcsi_edge *
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
-    double height[2] = {0, 0};
-    for (int k = 0; k < 3; k++) {
-        double up = job->view->facing[facet] * n->high[k];
-        height[0] += up * (p->vertex[edge->low].x[k] - a[k]);
-        height[1] += up * (p->vertex[edge->high].x[k] - a[k]);
+    const uint32_t end[2] = {edge->low, edge->high};
+    double off = facet_off(job, facet);
+    int behind = job->view->facing[facet] != 0;
+    for (int i = 0; i < 2 && behind; i++) {
+        double height = 0;
+        for (int k = 0; k < 3; k++) {
+            height += job->view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
+        }
+        double end_off = OFF_MARGIN * lrcsi_view_off(job->view->point[end[i]].x);
+        behind = height < -(3 * slack + off + end_off) * n->length;
     }
-    return job->view->facing[facet] != 0 &&
-           lrcsi_most(height[0], height[1]) < -(3 * slack + job->off) * n->length;
+    return behind;
 }
 
 /* Is an edge of a part's own a rim beyond which its wall faces the laser, or may? Where the meter
@@ -188,12 +220,13 @@ static double event_slack(const margin_job *job, uint32_t facet, uint32_t event)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* All of it where the meter is spent. */
-static double event_shares(margin_job *job, uint32_t facet, const double low[2],
-                           const double high[2])
+/* Those near what the box may hold; all of it where the meter is spent. */
+static double event_shares(margin_job *job, uint32_t facet, const double low[3],
+                           const double high[3])
 {
     const lrcsi_edge *edge = job->view->prepared->topology.edge;
-    lrcsi_cells cells = lrcsi_grid_cells(&job->grid, low, high);
+    lrcsi_view_box box = lrcsi_view_box_round(job->view, low, high);
+    lrcsi_cells cells = lrcsi_grid_cells(&job->grid, &box);
     double share = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = job->grid.first[(size_t)y * job->grid.size + cells.x0];
@@ -226,11 +259,11 @@ static void facet_share(margin_job *job, uint32_t facet)
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     double reach = p->nears.reach[margin_part(job, facet)];
-    double wide = 2 * (reach + p->nears.most) + job->off + LRCSI_NEAR_OFF;
-    double low[2];
-    double high[2];
-    lrcsi_grid_box(view, p->scene->facet[facet].corner, 3, low, high);
-    for (int k = 0; k < 2; k++) {
+    double wide = 2 * (reach + p->nears.most) + facet_off(job, facet) + LRCSI_NEAR_OFF;
+    double low[3];
+    double high[3];
+    lrcsi_view_bounds(view, p->scene->facet[facet].corner, 3, low, high);
+    for (int k = 0; k < 3; k++) {
         low[k] -= wide;
         high[k] += wide;
     }
@@ -266,7 +299,7 @@ static void margin_contacts(margin_job *job)
 static void margin_box(margin_job *job)
 {
     const lrcs_prepared *p = job->view->prepared;
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 3; k++) {
         job->low[k] = HUGE_VAL;
         job->high[k] = -HUGE_VAL;
     }
@@ -274,10 +307,10 @@ static void margin_box(margin_job *job)
         if (p->skip[f] || p->nears.reach[margin_part(job, f)] == 0) {
             continue;
         }
-        double low[2];
-        double high[2];
-        lrcsi_grid_box(job->view, p->scene->facet[f].corner, 3, low, high);
-        for (int k = 0; k < 2; k++) {
+        double low[3];
+        double high[3];
+        lrcsi_view_bounds(job->view, p->scene->facet[f].corner, 3, low, high);
+        for (int k = 0; k < 3; k++) {
             job->low[k] = lrcsi_least(job->low[k], low[k]);
             job->high[k] = lrcsi_most(job->high[k], high[k]);
         }
@@ -381,7 +414,7 @@ int lrcsi_margin_make(const lrcsi_contest *contest, lrcs_work *work, lrcsi_margi
     m.share = lrcsi_work_take_zero(work, facets, sizeof *m.share);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
-    margin_job job = {.view = view, .share = m.share, .off = OFF_MARGIN * view->off};
+    margin_job job = {.view = view, .share = m.share};
     int status = m.share && m.region && m.hidden ? margin_shares(&job, work) : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;

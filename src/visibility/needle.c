@@ -35,7 +35,7 @@
    is above 1e-12 of the facet. */
 #define NEEDLE_LEAST 0x1p20
 #define NEEDLE_LARGE 0x1p8
-#define NEEDLE_MOST  0x1p76
+#define NEEDLE_MOST  0x1p88
 
 lrcsi_dd lrcsi_needle_quotient(lrcsi_dd a, lrcsi_dd b)
 {
@@ -76,16 +76,18 @@ int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corne
                       double reach, lrcsi_needle *n)
 {
     double turn = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
-    double least = reach > view->prepared->radius ? NEEDLE_LARGE : NEEDLE_LEAST;
+    const double *bulk = view->prepared->bulk;
+    double large = lrcsi_most(bulk[0], lrcsi_most(bulk[1], bulk[2]));
+    double least = reach > large ? NEEDLE_LARGE : NEEDLE_LEAST;
     if (turn * least > reach * reach) {
         return 0;
     }
-    n->origin = lrcsi_target_corner(view, facet, 0);
+    n->origin = lrcsi_target_own(view, facet, 0);
     n->direction = view->direction;
     n->length = view->length;
     n->reach = 0;
     for (int i = 0; i < 2; i++) {
-        const double *x = lrcsi_target_corner(view, facet, i + 1);
+        const double *x = lrcsi_target_own(view, facet, i + 1);
         n->reach = lrcsi_most(n->reach, gap_between(x, n->origin, n->side[i]));
         n->corner[i][0] = corner[i + 1][0];
         n->corner[i][1] = corner[i + 1][1];
@@ -130,10 +132,12 @@ static int clip_share(lrcsi_dd from, lrcsi_dd to, double bound, int sign, lrcsi_
     return 1;
 }
 
-void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[2][2])
+void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[2][2],
+                       lrcsi_dd part[2])
 {
-    lrcsi_dd part[2] = {{0, 0}, {1, 0}};
     int in = 1;
+    part[0] = (lrcsi_dd){0, 0};
+    part[1] = (lrcsi_dd){1, 0};
     for (int k = 0; k < 2 && in; k++) {
         in = clip_share(from[k], to[k], -1, 1, part) && clip_share(from[k], to[k], 2, -1, part);
     }
@@ -146,15 +150,23 @@ void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[
     }
 }
 
+/* From the nearer end, so that what the farther one is off counts for the share of the way there.
+ */
 double lrcsi_needle_segment(const lrcsi_needle *n, const double p[3], const double q[3],
                             double end[2][2])
 {
-    lrcsi_dd from[2];
-    lrcsi_dd to[2];
-    double off = lrcsi_needle_place(n, p, from);
-    off = lrcsi_most(off, lrcsi_needle_place(n, q, to));
-    lrcsi_needle_clip(from, to, end);
-    return off;
+    lrcsi_dd at[2][2];
+    lrcsi_dd part[2];
+    double cut[2][2];
+    const double off[2] = {lrcsi_needle_place(n, p, at[0]), lrcsi_needle_place(n, q, at[1])};
+    int far = off[1] > off[0];
+    lrcsi_needle_clip((const lrcsi_dd *)at[!far], (const lrcsi_dd *)at[far], cut, part);
+    for (int k = 0; k < 2; k++) {
+        end[!far][k] = cut[0][k];
+        end[far][k] = cut[1][k];
+    }
+    double share = lrcsi_least(1, lrcsi_most(part[0].hi, part[1].hi));
+    return off[!far] + share * off[far];
 }
 
 /* --- sides ------------------------------------------------------------------------------------ */

@@ -29,9 +29,10 @@ int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corne
 /* A scene point in the frame; returns by how much that may be off. */
 double lrcsi_needle_place(const lrcsi_needle *needle, const double x[3], lrcsi_dd out[2]);
 
-/* What a segment of the frame has in a box that reaches one beyond the facet on all sides; a point
-   in the box's corner, where it has nothing there. */
-void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[2][2]);
+/* What a segment of the frame has in a box that reaches one beyond the facet on all sides, and from
+   which share of it to which; a point in the box's corner, where it has nothing there. */
+void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[2][2],
+                       lrcsi_dd part[2]);
 
 /* The same of a segment between scene points; returns by how much it may be off. */
 double lrcsi_needle_segment(const lrcsi_needle *needle, const double p[3], const double q[3],

@@ -78,7 +78,7 @@ static double cell_margin(const lrcsi_occluding *o, double inset)
 /* How far the point of a sample may be from its place. */
 static double cell_off(const lrcsi_occluding *o)
 {
-    return 100 * U * o->frame.reach + 8 * U + o->frame.slip;
+    return lrcsi_target_lift_off(&o->frame) + o->frame.slip;
 }
 
 /* Is the cell known to be visible at a place that stands clear within it? */

@@ -36,7 +36,6 @@ static lrcs_ring_point point_at(const lrcsi_target *t, const double at[2])
 {
     const lrcs_prepared *p = t->view->prepared;
     const uint32_t *corner = p->scene->facet[t->facet].corner;
-    const double *origin = p->scene->vertex[corner[0]].x;
     lrcs_ring_point point;
     double weight[3];
     lrcsi_target_weights(t, at, weight);
@@ -47,8 +46,8 @@ static lrcs_ring_point point_at(const lrcsi_target *t, const double at[2])
     }
     for (int k = 0; k < 2; k++) {
         const double *row = t->view->R[k];
-        point.view[k] = (row[0] * origin[0] + row[1] * origin[1] + row[2] * origin[2]) +
-                        ldexp(at[k], p->exponent);
+        double first = row[0] * t->origin[0] + row[1] * t->origin[1] + row[2] * t->origin[2];
+        point.view[k] = ldexp(first, p->exponent) + ldexp(at[k], p->exponent);
     }
     return point;
 }

@@ -41,48 +41,13 @@ static int inside_point(const lrcsi_view *view, uint32_t facet, double point[3])
     return 0;
 }
 
-/* The view coordinates of a point near the scene's coordinates. */
-static void view_of(const lrcsi_view *view, const double *point, double xy[2])
-{
-    for (int k = 0; k < 2; k++) {
-        xy[k] = 0;
-        for (int j = 0; j < 3; j++) {
-            xy[k] += view->R[k][j] * (point[j] - view->prepared->centre[j]);
-        }
-    }
-}
-
-/* How near and how far a facet reaches: z, widened by more than the view's error. */
-typedef struct query_depth {
-    double far, near;
-} query_depth;
-
-static query_depth depth_of(const lrcsi_view *view, uint32_t facet)
-{
-    query_depth depth;
-    lrcsi_grid_depth(view, facet, &depth.far, &depth.near);
-    depth.far -= 2 * view->off;
-    depth.near += 2 * view->off;
-    return depth;
-}
-
-static int box_misses(const lrcsi_view *view, uint32_t facet, const double xy[2])
-{
-    double low[2];
-    double high[2];
-    lrcsi_grid_box(view, view->prepared->scene->facet[facet].corner, 3, low, high);
-    double off = 2 * view->off;
-    return xy[0] < low[0] - off || xy[0] > high[0] + off || xy[1] < low[1] - off ||
-           xy[1] > high[1] + off;
-}
-
 /* A line of sight through the inside of a facet, and how far the search along it has come. */
 typedef struct query_line {
     const lrcsi_grid *grid;
     uint32_t facet;
-    query_depth depth; /* of the facet */
-    double point[3], xy[2];
-    int sense; /* of the infinitesimal by which it counts as moved */
+    double point[3];
+    lrcsi_view_box at; /* the line in the view; in depth, all of the facet */
+    int sense;         /* of the infinitesimal by which it counts as moved */
     lrcsi_cells cells;
     uint32_t y, item, end; /* the row of cells at hand, and its items yet to be looked at */
 } query_line;
@@ -90,9 +55,14 @@ typedef struct query_line {
 /* Stands the line in its grid cells; its point is known. */
 static void line_place(query_line *line)
 {
-    line->depth = depth_of(line->grid->view, line->facet);
-    view_of(line->grid->view, line->point, line->xy);
-    line->cells = lrcsi_grid_cells(line->grid, line->xy, line->xy);
+    const lrcsi_view *view = line->grid->view;
+    const lrcsi_view_box *own = &line->grid->box[line->facet];
+    double x[3];
+    lrcsi_view_place(view, line->point, x);
+    line->at = lrcsi_view_box_about(view, x, lrcsi_view_off(x));
+    line->at.low[2] = own->low[2];
+    line->at.high[2] = own->high[2];
+    line->cells = lrcsi_grid_cells(line->grid, &line->at);
     line->y = line->cells.y0;
 }
 
@@ -126,8 +96,8 @@ static uint32_t line_next(query_line *line)
             }
         }
         uint32_t other = grid->item[line->item++];
-        if (other != line->facet && !box_misses(grid->view, other, line->xy) &&
-            depth_of(grid->view, other).near >= line->depth.far &&
+        if (other != line->facet && !lrcsi_view_box_beside(&grid->box[other], &line->at) &&
+            !lrcsi_view_box_behind(&grid->box[other], &line->at) &&
             lrcsi_sample_covers_towards(grid->view, other, line->point, line->sense)) {
             return other;
         }
@@ -138,7 +108,7 @@ static uint32_t line_next(query_line *line)
 static int line_nearer(const query_line *line, uint32_t other)
 {
     const lrcsi_view *view = line->grid->view;
-    return depth_of(view, other).far > line->depth.near
+    return lrcsi_view_box_behind(&line->at, &line->grid->box[other])
                ? 1
                : lrcsi_sample_nearer(view, other, line->facet, line->point, line->sense);
 }

@@ -14,56 +14,57 @@
 
 #define U 0x1p-53
 
-void lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2])
+double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2])
 {
     const double *p = raster->view->point[vertex].x;
     xy[0] = (p[0] - raster->view->low[0]) * raster->scale;
     xy[1] = (p[1] - raster->view->low[1]) * raster->scale;
+    return lrcsi_view_off(p) * raster->scale + raster->off;
 }
 
 /* First pixel whose centre is not left of `x` less its error, kept within 0 .. size. */
-static uint32_t pixel_from(const lrcsi_raster *raster, double x)
+static uint32_t pixel_from(const lrcsi_raster *raster, double x, double off)
 {
-    double least = lrcsi_least(lrcsi_most(x - 0.5 - raster->off, 0), raster->size);
+    double least = lrcsi_least(lrcsi_most(x - 0.5 - off, 0), raster->size);
     uint32_t pixel = (uint32_t)least;
     return pixel < least ? pixel + 1 : pixel;
 }
 
 /* One past the last pixel whose centre is not right of `x` plus its error. */
-static uint32_t pixel_to(const lrcsi_raster *raster, double x)
+static uint32_t pixel_to(const lrcsi_raster *raster, double x, double off)
 {
-    return (uint32_t)lrcsi_least(lrcsi_most(x + 0.5 + raster->off, 0), raster->size);
+    return (uint32_t)lrcsi_least(lrcsi_most(x + 0.5 + off, 0), raster->size);
 }
 
-/* The box of the corners, and the pixels that the facet may cover and touch. */
+/* The pixels that the facet may cover and touch, from the box of its corners and their slip. */
 static void edges_box(const lrcsi_raster *r, double p[3][2], lrcsi_edges *e)
 {
     double x0 = lrcsi_least(p[0][0], lrcsi_least(p[1][0], p[2][0]));
     double x1 = lrcsi_most(p[0][0], lrcsi_most(p[1][0], p[2][0]));
     double y0 = lrcsi_least(p[0][1], lrcsi_least(p[1][1], p[2][1]));
     double y1 = lrcsi_most(p[0][1], lrcsi_most(p[1][1], p[2][1]));
-    e->off = 8 * r->off * (x1 - x0 + y1 - y0 + 2);
-    e->x0 = pixel_from(r, x0);
-    e->x1 = pixel_to(r, x1);
-    e->y0 = pixel_from(r, y0);
-    e->y1 = pixel_to(r, y1);
+    e->off = 8 * e->slip * (x1 - x0 + y1 - y0 + 2);
+    e->x0 = pixel_from(r, x0, e->slip);
+    e->x1 = pixel_to(r, x1, e->slip);
+    e->y0 = pixel_from(r, y0, e->slip);
+    e->y1 = pixel_to(r, y1, e->slip);
     e->left = e->x0 > 0 ? e->x0 - 1 : 0;
     e->right = e->x1 < r->size ? e->x1 + 1 : r->size;
     e->bottom = e->y0 > 0 ? e->y0 - 1 : 0;
     e->top = e->y1 < r->size ? e->y1 + 1 : r->size;
 }
 
-/* Corners are off by `off`, and so is the sample; with |q - p| and |sample - p| at most the box's
-   half perimeter h and the margin of a pixel, the cross product is off by at most 4 off (h + 2).
+/* Corners are off by `slip`, and so is the sample; with |q - p| and |sample - p| at most the box's
+   half perimeter h and the margin of a pixel, the cross product is off by at most 4 slip (h + 2).
    Roundings add 2 u N h for `at`, u N h for the differences and 5 u N h for the value, together at
-   most off h. */
+   most slip h. */
 lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
 {
-    lrcsi_edges e;
+    lrcsi_edges e = {.slip = 0};
     const uint32_t *corner = raster->view->prepared->scene->facet[facet].corner;
     double p[3][2];
     for (int k = 0; k < 3; k++) {
-        lrcsi_raster_point(raster, corner[k], p[k]);
+        e.slip = lrcsi_most(e.slip, lrcsi_raster_point(raster, corner[k], p[k]));
     }
     edges_box(raster, p, &e);
     for (int k = 0; k < 3; k++) {
@@ -101,15 +102,24 @@ lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
     return plane;
 }
 
-/* A height in doubles: numerator terms below 2 |N| radius, each off by 16 u of that, and corners
-   by view->off, all over |N| |cos|; the denominator's own error moves a height that lies within
-   the scene by as much again. view->off holds 32 u (radius + reach). */
-double lrcsi_raster_slack(const lrcsi_view *view, uint32_t facet)
+/* A height in doubles: a corner's, and slopes times differences from that, of coordinates below the
+   reach of samples and of the corners together, each off by 16 u of that, and the sample beside
+   them, all over |cos|; the denominator's own error moves a height that lies within as much
+   again. */
+double lrcsi_raster_slack(const lrcsi_raster *raster, uint32_t facet)
 {
+    const lrcsi_view *view = raster->view;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     double n[3];
+    double reach = raster->reach;
     plane_normal(view, facet, n);
+    for (int k = 0; k < 3; k++) {
+        const double *x = view->point[corner[k]].x;
+        reach = lrcsi_most(reach, raster->reach + fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
+    }
     double cosine = fabs(n[2]) / view->prepared->normal[facet].length;
-    return cosine > 64 * U ? 8 * view->off / cosine : HUGE_VAL;
+    double off = 256 * U * reach + 4 * raster->off * raster->pixel;
+    return cosine > 64 * U ? off / cosine : HUGE_VAL;
 }
 
 /* --- facets ----------------------------------------------------------------------------------- */
@@ -191,7 +201,7 @@ static void draw_doubtful(const raster_job *job, uint32_t y, uint32_t x0, uint32
 void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet)
 {
     raster_job job = {.raster = raster, .facet = facet};
-    raster->slack[facet] = job.slack = lrcsi_raster_slack(raster->view, facet);
+    raster->slack[facet] = job.slack = lrcsi_raster_slack(raster, facet);
     job.edges = lrcsi_raster_edges(raster, facet);
     job.plane = lrcsi_raster_plane(raster, facet);
     for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
@@ -286,9 +296,9 @@ static uint32_t tile_of(const lrcsi_raster *r, double pixel)
 /* Is a tile wanted that the facet may touch? */
 static int facet_wanted(const lrcsi_raster *r, uint32_t facet)
 {
-    double low[2];
-    double high[2];
-    lrcsi_grid_box(r->view, r->view->prepared->scene->facet[facet].corner, 3, low, high);
+    double low[3];
+    double high[3];
+    lrcsi_view_bounds(r->view, r->view->prepared->scene->facet[facet].corner, 3, low, high);
     uint32_t tile[2][2];
     for (int k = 0; k < 2; k++) {
         tile[k][0] = tile_of(r, (low[k] - r->view->low[k]) * r->scale - r->off);
@@ -397,7 +407,10 @@ int lrcsi_raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work, l
     lrcsi_raster r = {.view = view, .size = size};
     r.pixel = view->side / size;
     r.scale = view->side > 0 ? size / view->side : 0;
-    r.off = view->off * r.scale + 8 * U * size;
+    for (int k = 0; k < 2; k++) {
+        r.reach += lrcsi_most(fabs(view->low[k]), fabs(view->low[k] + view->side));
+    }
+    r.off = lrcsi_view_lift_off(view, r.reach, 0) * r.scale + 8 * U * size;
     r.tiles = raster_tiles(size);
     int status = raster_arrays(&r, work);
     if (status != LRCS_OK) {

@@ -19,7 +19,8 @@ typedef struct lrcsi_raster {
     uint32_t size;
     double pixel;             /* side of a pixel, scaled units */
     double scale;             /* pixels per scaled unit */
-    double off;               /* bound on the error of a pixel coordinate */
+    double off;               /* bound on the error of a sample's pixel coordinates */
+    double reach;             /* no sample is farther from the view's origin, |x| + |y| */
     uint32_t tiles;           /* along each side */
     unsigned char *wanted;    /* tiles * tiles: 1 where samples are drawn */
     uint32_t *owner;          /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
@@ -64,10 +65,10 @@ lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet);
 lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet);
 
 /* Error bound of the heights of a facet's plane. */
-double lrcsi_raster_slack(const lrcsi_view *view, uint32_t facet);
+double lrcsi_raster_slack(const lrcsi_raster *raster, uint32_t facet);
 
-/* A vertex in pixel coordinates. */
-void lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2]);
+/* A vertex in pixel coordinates; returns how far each may be off, that of samples included. */
+double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2]);
 
 /* The owner of a sample: LRCS_NONE where nobody is, also outside wanted tiles. */
 static inline uint32_t lrcsi_raster_owner(const lrcsi_raster *raster, uint32_t x, uint32_t y)

@@ -71,11 +71,11 @@ static void mark_run(pixel_marks *m, uint32_t y, double from, double to)
     }
 }
 
-/* Marks every pixel that the segment a b may touch. Its ends are off by at most the raster's
-   error; the same margin widens the row and the range. */
-static void mark_segment(pixel_marks *m, const double a[2], const double b[2])
+/* Marks every pixel that the segment a b may touch. Its ends are off by at most `off`; the same
+   margin widens the row and the range. */
+static void mark_segment(pixel_marks *m, const double a[2], const double b[2], double off)
 {
-    double margin = 4 * m->raster->off;
+    double margin = 4 * off;
     double first = lrcsi_most(floor(lrcsi_least(a[1], b[1]) - margin), m->edges.bottom);
     double last = lrcsi_least(floor(lrcsi_most(a[1], b[1]) + margin) + 1, m->edges.top);
     for (double y = first; y < last; y++) {
@@ -90,9 +90,9 @@ static void mark_edge(pixel_marks *m, uint32_t edge)
     const lrcsi_edge *e = &m->raster->view->prepared->topology.edge[edge];
     double a[2];
     double b[2];
-    lrcsi_raster_point(m->raster, e->low, a);
-    lrcsi_raster_point(m->raster, e->high, b);
-    mark_segment(m, a, b);
+    double off = lrcsi_raster_point(m->raster, e->low, a);
+    off = lrcsi_most(off, lrcsi_raster_point(m->raster, e->high, b));
+    mark_segment(m, a, b, off);
 }
 
 /* Where a height may be 0 in a row, it being row + along (x + 1/2) to within slack: among pixels
@@ -122,7 +122,7 @@ static void mark_meeting(pixel_marks *m, uint32_t facet, uint32_t other)
     lrcsi_edges e = lrcsi_raster_edges(r, other);
     double along = p.along - q.along;
     double up = p.up - q.up;
-    double slack = lrcsi_raster_slack(r->view, facet) + lrcsi_raster_slack(r->view, other) +
+    double slack = lrcsi_raster_slack(r, facet) + lrcsi_raster_slack(r, other) +
                    0.51 * (fabs(along) + fabs(up));
     uint32_t bottom = e.bottom > m->edges.bottom ? e.bottom : m->edges.bottom;
     for (uint32_t y = bottom; y < m->edges.top && y < e.top; y++) {
@@ -179,7 +179,7 @@ static double square_share(double value, double most, double least)
 /* How much the facet surely covers, in pixels, of one that it may not cover whole. Where just one
    side passes: a value that is too large by off moves the line by off / |gradient|, and the area by
    that times its length in the pixel, below 1.5; roundings are below 8 u, and off is at least 64 u
-   N h. Else corners are off by the raster's error, and the area by at most the length of the cut,
+   N h. Else corners are off by their slip, and the area by at most the length of the cut,
    below 6, times that. */
 static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
 {
@@ -198,7 +198,7 @@ static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
     }
     if (sides != 1) {
         const double low[2] = {x, y};
-        share = lrcsi_clip_box_area((const double(*)[2])m->corner, low) - 8 * m->raster->off;
+        share = lrcsi_clip_box_area((const double(*)[2])m->corner, low) - 8 * m->edges.slip;
     }
     return lrcsi_most(0, share);
 }

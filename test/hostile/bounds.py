@@ -9,6 +9,7 @@ facet, cut by the plane where both have one height, is taken away. Eq. 2 is summ
 usage: bounds.py SCENES SEED hostile > FILE   degenerate, aligned, nearly so
        bounds.py SCENES SEED plain > FILE     soups, piercing plates, spacecraft, slivers at large
        bounds.py SCENES SEED lattice > FILE   facets on few points of a lattice, some of them far out
+       bounds.py SCENES SEED far > FILE       bodies with up to three vertices far away, 1e2 to 1e24
        bounds.py SCENES SEED doubled > FILE   any of these, with facets stored twice, mostly opposite
        bounds.py table [FAMILY:]SEED:NUMBER... > hostile.inc     scenes as rows of C
 """
@@ -140,6 +141,7 @@ class Scene:
     def __init__(self):
         self.v, self.f = [], []
         self.down = False  # seen along z
+        self.far = set()   # vertices far away
 
     def add(self, verts, facets):
         base = len(self.v)
@@ -447,6 +449,49 @@ def make_plain(r):
     return kind.__name__, s, tuple(r.gauss(0, 1) for _ in range(3))
 
 
+# Bodies of which some vertices are far away. Facets that stand on those are dull, mostly: then sigma
+# is the body's, and its bound must not know how far they reach.
+
+def far_point(r):
+    far = 10.0 ** r.choice((r.uniform(2, 6), r.uniform(2, 24)))
+    d = r.choice(((1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 1.0, 0.5), tuple(r.gauss(0, 1) for _ in range(3))))
+    return tuple(far * x for x in d)
+
+
+def make_far(r):
+    kind = r.choice(PLAIN + [spacecraft, spacecraft, satellite, boxes, sheet, comb, tjunction])
+    s = Scene()
+    kind(r, s)
+    at = far_point(r)
+    for _ in range(r.randint(1, 3)):
+        pick = r.random()
+        if pick < 0.4:  # a vertex of the body, moved
+            i = r.choice(r.choice(s.f))
+            s.v[i] = at
+            s.far.add(i)
+        elif pick < 0.6:  # a sail between an edge of the body and a point far away
+            a, b = r.sample(r.choice(s.f), 2)
+            s.far.add(len(s.v))
+            s.v.append(at)
+            s.f.append((a, b, len(s.v) - 1))
+        elif pick < 0.85:  # a facet over or under the body
+            s.far.add(len(s.v))
+            s.tri(at, point(r), point(r))
+        else:  # two of its corners far away
+            s.far |= {len(s.v), len(s.v) + 1}
+            s.tri(at, far_point(r), point(r))
+        if r.random() < 0.5:
+            at = far_point(r)
+    move = r.choice((0, 0, 0, 1e3, -1e6))
+    scale = r.choice((1, 1, 2.0 ** -20, 2.0 ** 30))
+    s.v = [tuple((x + move) * scale for x in p) for p in s.v]
+    valid(s)
+    d = tuple(r.gauss(0, 1) for _ in range(3))
+    if s.f and r.random() < 0.4:
+        d = direction(r, s)
+    return "far_" + kind.__name__, s, d
+
+
 def make(r):
     kind = KINDS[r.randrange(len(KINDS))] if r.random() < 0.9 else KINDS[0]
     s = Scene()
@@ -482,7 +527,8 @@ def make_doubled(r):
     return name, s, d
 
 
-FAMILIES = {"hostile": make, "plain": make_plain, "lattice": make_lattice, "doubled": make_doubled}
+FAMILIES = {"hostile": make, "plain": make_plain, "lattice": make_lattice, "doubled": make_doubled,
+            "far": make_far}
 
 
 # --- Eq. 2 -------------------------------------------------------------------------------------------
@@ -564,6 +610,9 @@ def main():
         brdfs = [(0, 0.25, 0.2, r.choice((0, 0.5))), (0, 0.5, 0.2, 1.0)] if r.random() < 0.4 else \
             [(r.choice((0, 1)), r.choice((0.25, 0.1)), 10.0 ** r.uniform(-3, -0.155), r.choice((0.5, 0, 3.7, 40))),
                  (r.choice((0, 3, 10)), r.choice((0, 0.3)), 10.0 ** r.uniform(-3, -0.155), 1.0)]
+        if s.far and r.random() < 0.7:
+            which = [int(any(i in s.far for i in t)) for t in s.f]
+            brdfs[1] = (0, 0, 0.2, 1.0)
         flat, den = integers([x for p in s.v for x in p])
         verts = [tuple(flat[3 * i:3 * i + 3]) for i in range(len(s.v))]
         di, _ = integers(d)

@@ -116,7 +116,7 @@ static void coarser_tolerances_are_met_by_coarser_rasters(void **state)
         assert_true(size >= last);
         last = size;
     }
-    assert_true(last > 64);
+    assert_true(last > 256);
 }
 
 /* --- rasters that were asked for -------------------------------------------------------------- */

@@ -216,24 +216,82 @@ static void window_is_the_square_around_the_projection(void **state)
     assert_int_equal(view.back, 2);
 }
 
-/* View coordinates against long double with the rows of R. */
-static void points_lie_within_their_error(void **state)
+/* View coordinates against long double with the rows of R, which may themselves be off by 4 u. */
+static void check_points(const lrcsi_view *view)
 {
-    (void)state;
-    scene_start(&scene);
-    scene_sphere(&scene, (const double[3]){1000, -300, 7}, 3, 12);
-    lrcsi_view view = view_along((const double[3]){0.3, -0.8, 0.55});
-    const lrcs_prepared *p = view.prepared;
-    for (uint32_t v = 0; v < scene.scene.vertex_count; v++) {
+    const lrcs_prepared *p = view->prepared;
+    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
+        long double square = 0;
         for (int k = 0; k < 3; k++) {
             long double want = 0;
             for (int i = 0; i < 3; i++) {
-                want += view.R[k][i] * ((long double)p->vertex[v].x[i] - p->centre[i]);
+                want += view->R[k][i] * ((long double)p->vertex[v].x[i] - p->origin[i]);
             }
-            check_abs(view.point[v].x[k], (double)want, view.off);
+            check_abs(view->point[v].x[k], (double)want,
+                      lrcsi_view_off(view->point[v].x) * (4 / 8.1));
+            square += want * want;
+        }
+        check_most(lrcsi_view_off(view->point[v].x), 2e-15 * sqrt((double)square));
+    }
+}
+
+static void points_lie_within_their_error(void **state)
+{
+    (void)state;
+    need_wide_long_double();
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){1000, -300, 7}, 3, 12);
+    lrcsi_view view = view_along((const double[3]){0.3, -0.8, 0.55});
+    check_points(&view);
+    check_same(view.prepared->origin[0], view.prepared->centre[0]);
+}
+
+/* Of a vertex far away it tells on itself alone. */
+static void a_far_vertex_leaves_the_others_their_errors(void **state)
+{
+    (void)state;
+    need_wide_long_double();
+    for (double far = 1e4; far <= 1e60; far *= 1e7) {
+        scene_start(&scene);
+        scene_sphere(&scene, (const double[3]){0.5, -0.25, 7}, 3, 12);
+        scene_triangle(&scene, (const double[3]){1, 1, 1}, (const double[3]){1, 2, 1},
+                       (const double[3]){-far, far, 0.5 * far});
+        lrcsi_view view = view_along((const double[3]){0.3, -0.8, 0.55});
+        const lrcs_prepared *p = view.prepared;
+        check_points(&view);
+        double metre = ldexp(1, -p->exponent);
+        for (uint32_t v = 0; v < scene.scene.vertex_count - 1; v++) {
+            check_most(lrcsi_view_off(view.point[v].x), 3e-14 * metre);
+        }
+        for (int k = 0; k < 3; k++) {
+            check_most(p->bulk[k], 8 * metre);
+        }
+        check_most(view.scale * metre, 0.5);
+        check_most(1e-2, view.scale * metre);
+    }
+}
+
+/* A lifted point and the line of sight through it, which meets the view plane at (x, y). */
+static void lifted_points_lie_within_their_error(void **state)
+{
+    (void)state;
+    need_wide_long_double();
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){1000, -300, 7}, 3, 12);
+    lrcsi_view view = view_along((const double[3]){0.3, -0.8, 0.55});
+    for (int i = 0; i < 100; i++) {
+        double at[2] = {1e-3 * sin(i), 1e-3 * cos(3 * i)};
+        double point[3];
+        lrcsi_view_lift(&view, at[0], at[1], point);
+        for (int k = 0; k < 2; k++) {
+            long double got = 0;
+            for (int j = 0; j < 3; j++) {
+                got += view.R[k][j] * ((long double)point[j] - view.prepared->origin[j]);
+            }
+            check_abs((double)got, at[k], lrcsi_view_lift_off(&view, at[0], at[1]));
         }
     }
-    check_most(view.off, 1e-13 * p->radius * 1000 / 3);
+    check_most(lrcsi_view_lift_off(&view, 0, 0), 3e-16);
 }
 
 /* Both against long double: the unit vector's two parts, and n . d of every facet. */
@@ -273,6 +331,8 @@ int main(void)
         cmocka_unit_test(dot_products_stay_within_their_error),
         cmocka_unit_test(window_is_the_square_around_the_projection),
         cmocka_unit_test(points_lie_within_their_error),
+        cmocka_unit_test(a_far_vertex_leaves_the_others_their_errors),
+        cmocka_unit_test(lifted_points_lie_within_their_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,12 +63,15 @@ static uint32_t listed(const lrcsi_grid *grid)
     return grid->first[(size_t)grid->size * grid->size];
 }
 
+/* In the cell of a place in the view, counted by hand. */
 static int lists(const lrcsi_grid *grid, const double at[2], uint32_t item)
 {
-    uint32_t x = (uint32_t)((at[0] - grid->view->low[0]) * grid->scale);
-    uint32_t y = (uint32_t)((at[1] - grid->view->low[1]) * grid->scale);
-    assert_true(x < grid->size && y < grid->size);
-    uint32_t cell = y * grid->size + x;
+    uint32_t in[2];
+    for (int k = 0; k < 2; k++) {
+        double cell = ((float)(at[k] * grid->view->scale) - grid->low[k]) * grid->scale;
+        in[k] = (uint32_t)fmin(fmax(cell, 0), grid->size - 1);
+    }
+    uint32_t cell = in[1] * grid->size + in[0];
     for (uint32_t i = grid->first[cell]; i < grid->first[cell + 1]; i++) {
         if (grid->item[i] == item) {
             return 1;
@@ -109,10 +112,8 @@ static uint32_t check_grids(void)
     assert_true(listed(&contest.grid) <= 8 * p->topology.edge_count);
     double at[2];
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        double low[2];
-        double high[2];
-        lrcsi_grid_box(&view, p->scene->facet[f].corner, 3, low, high);
-        lrcsi_cells cells = lrcsi_grid_cells(&facets, low, high);
+        lrcsi_view_box box = lrcsi_view_box_of(&view, p->scene->facet[f].corner, 3);
+        lrcsi_cells cells = lrcsi_grid_cells(&facets, &box);
         assert_memory_equal(&cells, &contest.cells[f], sizeof cells);
         for (int i = 0; i < 20; i++) {
             place_on(&view, p->scene->facet[f].corner, 3, at);
@@ -194,16 +195,17 @@ static void boxes_of_cells_grow_with_the_cells(void **state)
     for (uint32_t size = 1; size <= 37; size++) {
         for (int i = 0; i < 200; i++) {
             lrcsi_grid grid = lrcsi_grid_empty(&view, size * size);
-            double low[2];
-            double high[2];
+            double low[3] = {0, 0, 0};
+            double high[3] = {0, 0, 0};
             for (int k = 0; k < 2; k++) {
                 low[k] = view.low[k] + random_to(view.side);
                 high[k] = low[k] + random_to(view.low[k] + view.side - low[k]);
             }
-            lrcsi_cells cells = lrcsi_grid_cells(&grid, low, high);
+            lrcsi_view_box box = lrcsi_view_box_round(&view, low, high);
+            lrcsi_cells cells = lrcsi_grid_cells(&grid, &box);
             assert_int_equal(grid.size, size);
             lrcsi_grid_fit(&grid, &cells);
-            lrcsi_cells want = lrcsi_grid_cells(&grid, low, high);
+            lrcsi_cells want = lrcsi_grid_cells(&grid, &box);
             assert_memory_equal(&cells, &want, sizeof want);
             assert_true((cells.x1 - cells.x0) * (cells.y1 - cells.y0) <= 16);
         }

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT */
+/* The box around the bulk of the vertices, from a sample of them. It decides how fast and how sharp
+   a view is, never what is true. */
+#include "scene/bulk.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/range.h"
+
+/* Vertices looked at, at most, evenly spaced in the list. */
+#define SAMPLE 256u
+/* The bulk is taken for less than all only where that saves so much of a grid's work. */
+#define WORTH 8.0
+
+/* A sample of vertices that live facets stand on. */
+typedef struct bulk_sample {
+    double x[3][SAMPLE];
+    double far[SAMPLE]; /* distance from the median in the coordinate where that is largest */
+    uint32_t count;
+} bulk_sample;
+
+/* Shell's sort with gaps 3 h + 1: a few thousand steps for a sample. */
+static void bulk_sort(double *x, uint32_t count)
+{
+    for (uint32_t gap = 121; gap > 0; gap /= 3) {
+        for (uint32_t i = gap; i < count; i++) {
+            double moved = x[i];
+            uint32_t at = i;
+            for (; at >= gap && x[at - gap] > moved; at -= gap) {
+                x[at] = x[at - gap];
+            }
+            x[at] = moved;
+        }
+    }
+}
+
+/* An odd stride, so that models made of equal pieces are not met at the same corner of each. */
+static void sample_take(const lrcs_prepared *p, bulk_sample *s)
+{
+    uint32_t vertices = p->scene->vertex_count;
+    uint32_t stride = (vertices / SAMPLE + 1) | 1;
+    s->count = 0;
+    for (uint64_t v = 0; v < vertices; v += stride) {
+        for (int k = 0; k < 3 && p->stood[v]; k++) {
+            s->x[k][s->count] = p->vertex[v].x[k];
+        }
+        s->count += p->stood[v];
+    }
+}
+
+/* The median in each coordinate, and how far each vertex is from it. */
+static void sample_centre(bulk_sample *s, double median[3])
+{
+    double sorted[SAMPLE];
+    memset(s->far, 0, sizeof s->far);
+    for (int k = 0; k < 3; k++) {
+        memcpy(sorted, s->x[k], s->count * sizeof *sorted);
+        bulk_sort(sorted, s->count);
+        median[k] = sorted[s->count / 2];
+        for (uint32_t i = 0; i < s->count; i++) {
+            s->far[i] = lrcsi_most(s->far[i], fabs(s->x[k][i] - median[k]));
+        }
+    }
+}
+
+/* How far the bulk reaches from the median; 0 where it is all. The cost of a uniform grid of as
+   many cells as there are vertices, n, is about n (r / r')^2 where it reaches out to r and half of
+   the vertices stand within r'; and if c vertices are left out, which stand in border cells, about
+   sqrt(n) of them on four sides, (c / 2)^2 / sqrt(n) more. Of all numbers left out the cheapest. */
+static double bulk_radius(const bulk_sample *s, double whole, uint32_t vertices)
+{
+    double sorted[SAMPLE];
+    memcpy(sorted, s->far, s->count * sizeof *sorted);
+    bulk_sort(sorted, s->count);
+    double half = sorted[s->count / 2];
+    double all = (whole / half) * (whole / half);
+    double least = all / WORTH;
+    double radius = 0;
+    for (uint32_t out = 0; out < s->count / 2 && half > 0; out++) {
+        double reach = sorted[s->count - 1 - out] / half;
+        double share = (double)out / s->count;
+        double cost = reach * reach + 0.25 * share * share * sqrt(vertices);
+        if (cost < least) {
+            least = cost;
+            radius = sorted[s->count - 1 - out];
+        }
+    }
+    return radius;
+}
+
+void lrcsi_bulk_find(lrcs_prepared *p, const double half[3])
+{
+    bulk_sample s;
+    double median[3];
+    memcpy(p->origin, p->centre, sizeof p->origin);
+    memcpy(p->bulk, half, sizeof p->bulk);
+    sample_take(p, &s);
+    if (s.count == 0) {
+        return;
+    }
+    sample_centre(&s, median);
+    double whole = 0;
+    for (int k = 0; k < 3; k++) {
+        whole = lrcsi_most(whole, half[k] + fabs(median[k] - p->centre[k]));
+    }
+    double radius = 2 * bulk_radius(&s, whole, p->scene->vertex_count);
+    for (int k = 0; k < 3 && radius > 0; k++) { /* snug, where the bulk ends before that */
+        double low = median[k];
+        double high = median[k];
+        for (uint32_t i = 0; i < s.count; i++) {
+            if (s.far[i] <= radius) {
+                low = lrcsi_least(low, s.x[k][i]);
+                high = lrcsi_most(high, s.x[k][i]);
+            }
+        }
+        p->origin[k] = 0.5 * (low + high);
+        p->bulk[k] = lrcsi_most(high - p->origin[k], p->origin[k] - low);
+    }
+}
