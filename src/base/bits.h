@@ -24,7 +24,7 @@ static inline double lrcsi_bits_double(uint64_t bits)
 /* All ones where the sign of x is minus, else zero. */
 static inline uint64_t lrcsi_bits_negative(double x)
 {
-    return 0 - (lrcsi_bits_of(x) >> 63);
+    return ~((lrcsi_bits_of(x) >> 63) - 1);
 }
 
 /* x, or 0 where the mask is zero. */

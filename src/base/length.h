@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+#include "base/dd.h"
+
 /* Relative error at most 3 u, u = 2^-53, for components at most 2^500 whose largest is above
    2^-950. Below 2^-450, where squares lose bits, it works on them times 2^500. */
 static inline double lrcsi_length(const double v[3])
@@ -23,6 +25,40 @@ static inline double lrcsi_length_flat(double x, double y)
 {
     const double v[3] = {x, y, 0};
     return lrcsi_length(v);
+}
+
+/* 1/|v|, as y (1 + half) to 2^-98, and |v|, rounded once. */
+typedef struct lrcsi_inverse {
+    double y, half, length;
+} lrcsi_inverse;
+
+/* Given: v = high + low, |v| in 2^-450 .. 2^100, and |v| in plain doubles, good to 4 u. |v|^2 comes
+   out to 12 u^2: what products and sums lose is added up in plain doubles. y = 1/|v| is good to 5
+   u; r = 1 - y^2 |v|^2, below 11 u, to 30 u^2; y (1 + r/2) leaves 3/8 r^2, and |v| = y |v|^2 (1 +
+   r/2). No root and no branch: compilers handle many at once. */
+static inline lrcsi_inverse lrcsi_length_inverse(const double high[3], const double low[3],
+                                                 double plain)
+{
+    lrcsi_dd xx = lrcsi_dd_two_product(high[0], high[0]);
+    lrcsi_dd yy = lrcsi_dd_two_product(high[1], high[1]);
+    lrcsi_dd zz = lrcsi_dd_two_product(high[2], high[2]);
+    lrcsi_dd xy = lrcsi_dd_two_sum(xx.hi, yy.hi);
+    lrcsi_dd xyz = lrcsi_dd_two_sum(xy.hi, zz.hi);
+    double cross = 2 * ((high[0] * low[0] + high[1] * low[1]) + high[2] * low[2]);
+    double rest = (((xx.lo + yy.lo) + zz.lo) + (xy.lo + xyz.lo)) + cross;
+    double y = 1 / plain;
+    lrcsi_dd length = lrcsi_dd_two_product(y, xyz.hi);
+    length.lo += y * rest;
+    lrcsi_dd one = lrcsi_dd_two_product(y, length.hi);
+    double half = 0.5 * (((1 - one.hi) - one.lo) - y * length.lo);
+    return (lrcsi_inverse){y, half, length.hi + (length.lo + length.hi * half)};
+}
+
+/* high + low times that, as a sum good to 2^-97. */
+static inline lrcsi_dd lrcsi_inverse_times(const lrcsi_inverse *inverse, double high, double low)
+{
+    lrcsi_dd p = lrcsi_dd_two_product(high, inverse->y);
+    return lrcsi_dd_quick_sum(p.hi, p.lo + (low * inverse->y + p.hi * inverse->half));
 }
 
 #endif

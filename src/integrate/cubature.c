@@ -27,6 +27,7 @@
 
 #include <math.h>
 
+#include "base/elementary.h"
 #include "base/range.h"
 #include "base/work.h"
 
@@ -575,7 +576,7 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     cube_measure(&cell);
     sum.most = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
     double far = cell.theta + cube_turn(&cell);
-    sum.least = far < HALF_TURN / 2 ? brdf->B * pow(cos(far), brdf->m + 1) : 0;
+    sum.least = far < HALF_TURN / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(far)), brdf->m + 1) : 0;
     sum.nothing =
         NOTHING * tolerance *
         (sum.most.glint * lrcsi_least(1, brdf->s * brdf->s) + sum.most.diffuse / (brdf->m + 1));

@@ -278,16 +278,18 @@ static int run_exact(sigma_run *run, int method)
     return status;
 }
 
-/* The size at which the visibility bound, or the likely error where that is to count, would leave
-   the tolerance room: both fall at least as 1/N. */
+/* The size at which the visibility bound, falling as 1/N, would leave the tolerance room; or the
+   likely error, which falls at least as N^-1.33 on most models: there in steps of at most four
+   times, since a coarse raster's estimate is rough. */
 static uint32_t next_size(const sigma_run *run, const lrcs_run_options *options)
 {
     double sigma = run->total.glint + run->total.diffuse;
     double proved = run_bound(&run->total) - run->total.visibility;
     double room = options->tolerance * sigma - proved;
-    double off =
-        options->accept == LRCS_ACCEPT_BOUND ? 1.2 * run->total.visibility : run->total.likely;
-    double size = run->size * fmax(1.5, off / room);
+    double likely = sqrt(run->total.likely / room);
+    double times = options->accept == LRCS_ACCEPT_BOUND ? 1.2 * run->total.visibility / room
+                                                        : fmin(likely * sqrt(likely), 4);
+    double size = run->size * fmax(1.5, times);
     if (!(room > 0) || !(size < LAST_SIZE)) {
         return LAST_SIZE;
     }

@@ -310,7 +310,7 @@ typedef struct total_batch {
     int seen;                      /* one that reflects shows */
     lrcsi_shades shades;
     double area[LRCSI_LANES]; /* visible; by method facet S, then S cos(theta) */
-    double most[LRCSI_LANES]; /* that may be visible */
+    double most[LRCSI_LANES]; /* that may be visible; unused by method facet */
     uint32_t facet[LRCSI_LANES], count;
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
@@ -342,6 +342,7 @@ static void block_run(total_job *job, total_batch *batch)
 {
     const lrcsi_view *view = job->view;
     lrcsi_shades *shades = &batch->shades;
+    const double *most = job->visible ? batch->most : batch->area;
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
     for (uint32_t i = batch->count; i < LRCSI_LANES; i++) {
@@ -354,7 +355,6 @@ static void block_run(total_job *job, total_batch *batch)
     if (!job->visible) {
         for (int i = 0; i < LRCSI_LANES; i++) {
             batch->area[i] *= shades->cosine[i];
-            batch->most[i] = batch->area[i];
         }
     }
     for (int i = 0; i < LRCSI_LANES; i++) {
@@ -363,7 +363,7 @@ static void block_run(total_job *job, total_batch *batch)
     }
     for (int i = 0; i < LRCSI_LANES; i += LRCSI_SUM_LANES) {
         for (int k = 0; k < LRCSI_SUM_LANES; k++) {
-            batch->error[k] += shades->error[i + k] * batch->most[i + k];
+            batch->error[k] += shades->error[i + k] * most[i + k];
         }
     }
     lrcsi_sum_lanes_add(&batch->glint, glint);
@@ -381,23 +381,37 @@ static void block_run(total_job *job, total_batch *batch)
     batch->count = 0;
 }
 
+/* Does a facet that is seen from that side show? Of redundant ones another is seen instead. */
+static inline int side_shows(const total_job *job, uint32_t facet, double side)
+{
+    int most = side > 0 ? LRCSI_REDUNDANT : LRCSI_REDUNDANT_FROM_BEHIND;
+    return job->visible ? job->visible[facet].high > 0
+                        : job->view->prepared->redundant[facet] < most;
+}
+
 /* Of facets that reflect, those that show stay listed; ones with curved normals are summed at once.
    Returns how many stay. */
-static uint32_t batch_filter(total_job *job, uint32_t place, uint32_t *list, uint32_t count)
+static uint32_t batch_filter(total_job *job, uint32_t place, uint32_t *list, uint32_t count,
+                             double side)
 {
     const uint32_t *facet = job->view->prepared->batches.facet + place;
     uint32_t kept = 0;
     for (uint32_t k = 0; k < count; k++) {
-        uint32_t f = facet[list[k]];
-        if (!facet_shows(job, f)) {
-            job->total.hidden++;
-        } else if (job->curved && lrcsi_curve_wanted(job->view, f)) {
-            sum_precisely(job, f);
+        uint32_t i = list[k];
+        list[kept] = i;
+        kept += (uint32_t)side_shows(job, facet[i], side);
+    }
+    job->total.hidden += count - kept;
+    count = kept;
+    kept = 0;
+    for (uint32_t k = 0; job->curved && k < count; k++) {
+        if (lrcsi_curve_wanted(job->view, facet[list[k]])) {
+            sum_precisely(job, facet[list[k]]);
         } else {
             list[kept++] = list[k];
         }
     }
-    return kept;
+    return job->curved ? kept : count;
 }
 
 /* Facets listed join the block, which is run whenever it is full. Given: 1, or -1 where they face
@@ -435,7 +449,7 @@ static void batch_add(total_job *job, total_batch *batch, uint32_t place, uint32
                       uint32_t count, double side)
 {
     if (job->visible || job->curved || job->view->prepared->batches.redundant) {
-        count = batch_filter(job, place, list, count);
+        count = batch_filter(job, place, list, count, side);
     }
     batch_gather(job, batch, place, list, count, side);
 }
@@ -451,10 +465,9 @@ static void batch_backs(total_job *job, total_batch *batch, uint32_t place, cons
         memset(area, 0, sizeof area);
         for (uint32_t k = 0; k < count; k++) {
             uint32_t facet = b->facet[place + back[k]];
-            area[k] = job->visible ? job->visible[facet].area
-                      : lrcsi_grid_casts(job->view, facet)
-                          ? -dot[back[k]] * b->area[place + back[k]]
-                          : 0;
+            double shown =
+                job->visible ? job->visible[facet].area : -dot[back[k]] * b->area[place + back[k]];
+            area[k] = side_shows(job, facet, -1) ? shown : 0;
             job->total.back_sides += area[k] > 0;
         }
     } else {
@@ -468,8 +481,9 @@ static void batch_backs(total_job *job, total_batch *batch, uint32_t place, cons
     lrcsi_sum_lanes_add(&batch->back_side, area);
 }
 
-/* Up to LRCSI_LANES facets from a place on. Lists are made without branches: which way a facet
-   faces is anybody's guess. */
+/* Up to LRCSI_LANES facets from a place on: those that blocks serve, back sides that do not
+   reflect, and the rest one by one. Lists are made without branches, for facings follow no pattern.
+ */
 static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint32_t count)
 {
     double dot[LRCSI_LANES];

@@ -60,8 +60,7 @@ enum { LEAF_LANES = LRCSI_TREE_LANES };
    only once there have been as many more meetings, which is what filling them costs. */
 enum { MANY_LEAVES = 16, SLABS_COST = 8 };
 
-/* The corners of a leaf's facets whose rings are proved, in structure of arrays; others are
-   LRCS_NONE. */
+/* The corners of a leaf's facets, welded, in structure of arrays. */
 typedef struct touch_leaf {
     uint32_t corner[3][LEAF_LANES];
 } touch_leaf;
@@ -70,8 +69,8 @@ typedef struct touch_leaf {
 typedef struct touch_search {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
-    const uint32_t *weld;
     const uint32_t *piece; /* or NULL */
+    unsigned char *proved; /* welded vertex: its ring is */
     lrcsi_tree tree;
     touch_leaf *leaf;
     uint64_t crowded;   /* meetings of leaves that meet many others */
@@ -97,14 +96,14 @@ static int append_found(touch_search *search, touch_found found)
     return LRCS_OK;
 }
 
-/* The facet at a place, its corners welded: those in one place are one. */
+/* The facet at a place. */
 static lrcsi_touch_facet facet_of_place(const touch_search *search, uint32_t place)
 {
-    const uint32_t *c = search->facet[search->tree.order[place]].corner;
-    const uint32_t *weld = search->weld;
-    const lrcs_point *vertex = search->vertex;
-    return (lrcsi_touch_facet){
-        .x = {vertex[weld[c[0]]].x, vertex[weld[c[1]]].x, vertex[weld[c[2]]].x}};
+    const touch_leaf *leaf = &search->leaf[place / LEAF_LANES];
+    uint32_t lane = place % LEAF_LANES;
+    return (lrcsi_touch_facet){.x = {search->vertex[leaf->corner[0][lane]].x,
+                                     search->vertex[leaf->corner[1][lane]].x,
+                                     search->vertex[leaf->corner[2][lane]].x}};
 }
 
 /* Files how a pair meets. */
@@ -129,17 +128,25 @@ static int file_pair(touch_search *search, uint32_t facet, const lrcsi_touch_fac
     return status;
 }
 
-/* The lanes of a leaf whose facets have a corner with a proved ring in common with the facet in a
-   lane of another. */
-static unsigned lanes_in_ring(const touch_leaf *leaf, const touch_leaf *other, uint32_t lane)
+/* The lanes of a leaf whose facets have a corner with a proved ring in common with the facet at a
+   place. */
+static unsigned lanes_in_ring(const touch_search *search, uint32_t place, const touch_leaf *leaf)
 {
     static const uint32_t lane_bit[LEAF_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
-    uint32_t a = other->corner[0][lane];
-    uint32_t b = other->corner[1][lane];
-    uint32_t c = other->corner[2][lane];
-    a = a != LRCS_NONE ? a : b != LRCS_NONE ? b : c; /* any of them in the stead of none */
-    b = b != LRCS_NONE ? b : a;
-    c = c != LRCS_NONE ? c : a;
+    const touch_leaf *own = &search->leaf[place / LEAF_LANES];
+    uint32_t proved[3];
+    int count = 0;
+    for (int k = 0; k < 3; k++) {
+        uint32_t v = own->corner[k][place % LEAF_LANES];
+        proved[count] = v;
+        count += search->proved[v];
+    }
+    if (count == 0) {
+        return 0;
+    }
+    const uint32_t a = proved[0];
+    const uint32_t b = count > 1 ? proved[1] : a;
+    const uint32_t c = count > 2 ? proved[2] : a;
     uint32_t lanes = 0;
     for (int k = 0; k < LEAF_LANES; k++) {
         uint32_t x = leaf->corner[0][k];
@@ -149,7 +156,7 @@ static unsigned lanes_in_ring(const touch_leaf *leaf, const touch_leaf *other, u
                  (z == b) | (z == c);
         lanes |= in ? lane_bit[k] : 0;
     }
-    return a != LRCS_NONE ? lanes : 0;
+    return lanes;
 }
 
 /* The facet at a place against those in some lanes of a leaf. */
@@ -194,10 +201,10 @@ static int meet_leaves(touch_search *search, uint32_t first, uint32_t second)
     for (; rows != 0 && columns != 0 && status == LRCS_OK; rows &= rows - 1) {
         uint32_t lane = lrcsi_tree_lane(rows);
         columns &= first == second ? ~1u << lane : ~0u;
-        unsigned lanes =
-            columns & ~lanes_in_ring(&search->leaf[second], &search->leaf[first], lane);
+        uint32_t place = first * LEAF_LANES + lane;
+        unsigned lanes = columns & ~lanes_in_ring(search, place, &search->leaf[second]);
         if (lanes != 0) {
-            status = meet_lanes(search, first * LEAF_LANES + lane, second, lanes);
+            status = meet_lanes(search, place, second, lanes);
         }
     }
     return status;
@@ -259,13 +266,13 @@ static int prepare_search(touch_search *search, uint32_t vertex_count, uint32_t 
                           const lrcsi_topology *topology, const unsigned char *skip)
 {
     lrcs_work *work = search->work;
-    unsigned char *proved = lrcsi_work_take(work, vertex_count, sizeof *proved);
+    search->proved = lrcsi_work_take(work, vertex_count, sizeof *search->proved);
     uint32_t *hub = lrcsi_work_take(work, facet_count, sizeof *hub);
-    if (!proved || !hub) {
+    if (!search->proved || !hub) {
         return LRCS_E_MEMORY;
     }
     int status = lrcsi_rings_prove(search->vertex, vertex_count, search->facet, facet_count,
-                                   topology, skip, work, proved, hub);
+                                   topology, skip, work, search->proved, hub);
     if (status == LRCS_OK) {
         status = lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, hub, 1, work,
                                  &search->tree);
@@ -279,8 +286,7 @@ static int prepare_search(touch_search *search, uint32_t vertex_count, uint32_t 
         const uint32_t *c = search->facet[tree->order[place]].corner;
         touch_leaf *leaf = &search->leaf[place / LEAF_LANES];
         for (int k = 0; k < 3; k++) {
-            uint32_t v = search->weld[c[k]];
-            leaf->corner[k][place % LEAF_LANES] = proved[v] ? v : LRCS_NONE;
+            leaf->corner[k][place % LEAF_LANES] = topology->weld[c[k]];
         }
     }
     return LRCS_OK;
@@ -340,12 +346,8 @@ int lrcsi_touches_make(const lrcs_point *vertex, uint32_t vertex_count, const lr
 {
     size_t mark = work->used;
     lrcsi_touches made = {0};
-    touch_search search = {.vertex = vertex,
-                           .facet = facet,
-                           .weld = topology->weld,
-                           .piece = piece,
-                           .work = work,
-                           .touches = &made};
+    touch_search search = {
+        .vertex = vertex, .facet = facet, .piece = piece, .work = work, .touches = &made};
     int status = touches_build(&search, vertex_count, facet_count, topology, skip);
     if (status != LRCS_OK) {
         work->used = mark;

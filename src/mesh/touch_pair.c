@@ -74,36 +74,31 @@ static int is_corner_of(const lrcsi_touch_facet *f, const double *p)
 
 /* ---- proved apart, rounded ---- */
 
-/* The sides of F's plane on which T's corners are proved to lie; 0 for corners of F, UNSURE for
-   what is not proved. */
-static void rounded_sides(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t, int side[3])
+/* The side of F's plane on which p is proved to lie; 0 for a corner of F, UNSURE where it is not
+   proved. */
+static int rounded_side(const lrcsi_touch_facet *f, const double *p)
 {
     const double *a = f->x[0];
-    for (int k = 0; k < 3; k++) {
-        const double *p = t->x[k];
-        if (is_corner_of(f, p)) {
-            side[k] = 0;
-            continue;
-        }
-        double x = p[0] - a[0];
-        double y = p[1] - a[1];
-        double z = p[2] - a[2];
-        double height = (f->normal[0] * x + f->normal[1] * y) + f->normal[2] * z;
-        double error = TOUCH_FILTER *
-                       ((f->weight[0] * fabs(x) + f->weight[1] * fabs(y)) + f->weight[2] * fabs(z));
-        side[k] = height > error ? 1 : height < -error ? -1 : UNSURE;
+    if (is_corner_of(f, p)) {
+        return 0;
     }
+    double x = p[0] - a[0];
+    double y = p[1] - a[1];
+    double z = p[2] - a[2];
+    double height = (f->normal[0] * x + f->normal[1] * y) + f->normal[2] * z;
+    double error =
+        TOUCH_FILTER * ((f->weight[0] * fabs(x) + f->weight[1] * fabs(y)) + f->weight[2] * fabs(z));
+    return height > error ? 1 : height < -error ? -1 : UNSURE;
 }
 
-/* Given these: are the corners of T that are not corners of F all strictly on one side, and are
-   there any? Then T meets the plane in corners of F or between them at most. 1: proved; 0: there
-   are some on either side; -1: not known. */
+/* Given the sides of T's corners: are those that are not corners of F all strictly on one side, and
+   are there any? Then T meets the plane in corners of F or between them at most. */
 static int plane_separates(const int side[3])
 {
     int above = side[0] == 1 || side[1] == 1 || side[2] == 1;
     int below = side[0] == -1 || side[1] == -1 || side[2] == -1;
     int unsure = side[0] == UNSURE || side[1] == UNSURE || side[2] == UNSURE;
-    return above && below ? 0 : unsure || above == below ? -1 : 1;
+    return above != below && !unsure;
 }
 
 /* The sign of the turn a b c seen along an axis, where it is proved, or 0. */
@@ -361,26 +356,32 @@ int lrcsi_touch_meet(const lrcsi_touch_facet *f, lrcsi_touch_facet *t, lrcsi_tou
     int of_t[3];
     int of_f[3];
     *result = (lrcsi_touch_result){{LRCSI_TOUCH_NONE, LRCSI_TOUCH_NONE}, {0, 0}};
-    rounded_sides(f, t, of_t);
-    int plane = plane_separates(of_t);
-    if (plane == 1 || (plane == -1 && lines_separate(f, t))) {
-        return 0; /* where they may be in one plane, lines are likelier to tell than the plane of T
-                   */
+    of_t[0] = rounded_side(f, t->x[0]);
+    int flat = of_t[0] == UNSURE; /* in one plane, as it seems: then lines are likelier to tell */
+    if (flat && lines_separate(f, t)) {
+        return 0;
+    }
+    of_t[1] = rounded_side(f, t->x[1]);
+    of_t[2] = rounded_side(f, t->x[2]);
+    if (plane_separates(of_t)) {
+        return 0;
     }
     lrcsi_touch_plane(t);
-    rounded_sides(t, f, of_f);
-    if (plane_separates(of_f) == 1 || (plane == 0 && lines_separate(f, t))) {
+    for (int k = 0; k < 3; k++) {
+        of_f[k] = rounded_side(t, f->x[k]);
+    }
+    if (plane_separates(of_f) || (!flat && lines_separate(f, t))) {
         return 0;
     }
     int on_f = exact_sides(f, t, of_t);
-    if (!on_f && plane_separates(of_t) == 1) {
+    if (!on_f && plane_separates(of_t)) {
         return 0;
     }
     if (of_t[0] == 0 && of_t[1] == 0 && of_t[2] == 0) {
         meet_flat(f, t, result);
     } else {
         int on_t = exact_sides(t, f, of_f);
-        if (!on_t && plane_separates(of_f) == 1) {
+        if (!on_t && plane_separates(of_f)) {
             return 0;
         }
         touch_cross c = {

@@ -94,7 +94,8 @@ static void facet_centre(const tree_sort *s, const uint32_t *hub, uint32_t place
 }
 
 /* Orders places first .. end along a curve through the box of their centres; returns 0, and does
-   nothing, where that is a point. Cells number some 16 times the facets on a surface. */
+   nothing, where that is a point. A surface of one size is cut into some
+   cells a facet. */
 static int sort_along_curve(const tree_sort *s, const uint32_t *hub, uint32_t first, uint32_t end)
 {
     lrcsi_box all = empty_box();
@@ -111,7 +112,7 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *hub, uint32_t fi
         return 0;
     }
     int bits = MORTON_LEAST;
-    while (bits < MORTON_MOST && (UINT64_C(1) << 2 * bits) / 16 < end - first) {
+    while (bits < MORTON_MOST && (UINT64_C(1) << 2 * bits) < end - first) {
         bits++;
     }
     const double scale = (double)((UINT64_C(1) << bits) - 1) / side;

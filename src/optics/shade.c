@@ -216,16 +216,18 @@ void lrcsi_shade(const lrcsi_lobes *lobes, const double d[3], const double d_low
 {
     shade_chord chord;
     chords_make(lobes, d, d_low, shades, &chord);
-    memset(shades->glint, 0, sizeof shades->glint);
-    memset(shades->diffuse, 0, sizeof shades->diffuse);
     if (lobes->glint) {
         lobe_glint(lobes, &chord, shades);
+    } else {
+        memset(shades->glint, 0, sizeof shades->glint);
     }
-    if (lobes->diffuse && lobes->m == 0.5) {
+    if (!lobes->diffuse) {
+        memset(shades->diffuse, 0, sizeof shades->diffuse);
+    } else if (lobes->m == 0.5) {
         lobe_root(lobes, &chord, shades);
-    } else if (lobes->diffuse && (lobes->m == 0 || lobes->m == 1 || lobes->m == 2)) {
+    } else if (lobes->m == 0 || lobes->m == 1 || lobes->m == 2) {
         lobe_power(lobes, &chord, shades);
-    } else if (lobes->diffuse) {
+    } else {
         lobe_any(lobes, &chord, shades);
     }
 }

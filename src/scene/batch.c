@@ -2,49 +2,64 @@
 /* Facets sorted by material, with unit normals. It decides the order in which facets are summed. */
 #include "scene/batch.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/dd.h"
+#include "base/length.h"
 #include "base/work.h"
 #include "scene/prepare.h"
 
-/* |N|^2 to 8 u^2: three squares to 2 u^2 of what they lose, twice their low parts' products, sums.
- */
-static lrcsi_dd normal_square(const double *high, const double *low)
+/* Normals side by side, on their way to unit length. */
+typedef struct batch_normals {
+    double high[3][LRCSI_LANES], low[3][LRCSI_LANES];
+    double length[LRCSI_LANES], back[LRCSI_LANES];
+} batch_normals;
+
+/* Normals of up to LRCSI_LANES facets; where squares of small components would lose bits, all is
+   times 2^500, exactly. Idle places repeat the first. */
+static void normals_gather(const lrcs_prepared *p, const uint32_t *facet, uint32_t count,
+                           batch_normals *n)
 {
-    lrcsi_dd sum = {0, 0};
-    for (int k = 0; k < 3; k++) {
-        lrcsi_dd square = lrcsi_dd_two_product(high[k], high[k]);
-        square.lo += 2 * high[k] * low[k];
-        sum = lrcsi_dd_add(sum, lrcsi_dd_quick_sum(square.hi, square.lo));
+    for (uint32_t i = 0; i < LRCSI_LANES; i++) {
+        const lrcsi_normal *from = &p->normal[facet[i < count ? i : 0]];
+        double scale = from->length < 0x1p-400 ? 0x1p500 : 1;
+        for (int k = 0; k < 3; k++) {
+            n->high[k][i] = from->high[k] * scale;
+            n->low[k][i] = from->low[k] * scale;
+        }
+        n->length[i] = from->length * scale;
+        n->back[i] = 0.5 / scale;
     }
-    return sum;
 }
 
-/* N / |N|, its components rounded once: y = 1 / |N| to 4 u, and with r = 1 - y^2 |N|^2, at most 8 u
-   and good to u of itself, y (1 + r / 2) is good to 3/8 r^2 + u r, some 32 u^2; so is the product
-   before it is rounded. N is off by 2^-90 of itself. |N| = (1 + r / 2) y |N|^2, two roundings.
-   Where squares of small components lose bits, all is times 2^500, exactly. */
-static void batch_place(lrcsi_batches *b, uint32_t place, const lrcsi_normal *n)
+/* N / |N| and |N| / 2, N being off by 2^-90 of itself. Those of all LRCSI_LANES places are written.
+ */
+static void normals_finish(const batch_normals *restrict n, double *restrict x, double *restrict y,
+                           double *restrict z, double *restrict area)
 {
-    double scale = n->length < 0x1p-400 ? 0x1p500 : 1;
-    double high[3];
-    double low[3];
-    for (int k = 0; k < 3; k++) {
-        high[k] = n->high[k] * scale;
-        low[k] = n->low[k] * scale;
+    for (int i = 0; i < LRCSI_LANES; i++) {
+        const double high[3] = {n->high[0][i], n->high[1][i], n->high[2][i]};
+        const double low[3] = {n->low[0][i], n->low[1][i], n->low[2][i]};
+        lrcsi_inverse inverse = lrcsi_length_inverse(high, low, n->length[i]);
+        x[i] = lrcsi_inverse_times(&inverse, high[0], low[0]).hi;
+        y[i] = lrcsi_inverse_times(&inverse, high[1], low[1]).hi;
+        z[i] = lrcsi_inverse_times(&inverse, high[2], low[2]).hi;
+        area[i] = inverse.length * n->back[i];
     }
-    lrcsi_dd square = normal_square(high, low);
-    double y = 1 / sqrt(square.hi);
-    lrcsi_dd y2 = lrcsi_dd_two_product(y, y);
-    double half = 0.5 * lrcsi_dd_value(lrcsi_dd_sub((lrcsi_dd){1, 0}, lrcsi_dd_mul(y2, square)));
-    for (int k = 0; k < 3; k++) {
-        lrcsi_dd p = lrcsi_dd_two_product(high[k], y);
-        b->normal[k][place] = p.hi + (p.lo + (low[k] * y + p.hi * half));
+}
+
+static void batch_normals_make(const lrcs_prepared *p, lrcsi_batches *b)
+{
+    batch_normals n;
+    for (uint32_t place = 0; place < b->count; place += LRCSI_LANES) {
+        uint32_t left = b->count - place;
+        normals_gather(p, b->facet + place, left < LRCSI_LANES ? left : LRCSI_LANES, &n);
+        normals_finish(&n, b->normal[0] + place, b->normal[1] + place, b->normal[2] + place,
+                       b->area + place);
     }
-    double length = y * square.hi;
-    b->area[place] = 0.5 * (length + length * half) / scale;
+    for (uint32_t i = 0; i < LRCSI_LANES; i++) {
+        b->normal[0][b->count + i] = 0;
+        b->normal[1][b->count + i] = 0;
+        b->normal[2][b->count + i] = 0;
+        b->area[b->count + i] = 0;
+    }
 }
 
 size_t lrcsi_batches_need(const lrcs_scene *scene)
@@ -67,9 +82,9 @@ int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work)
     size_t room = (size_t)scene->facet_count + LRCSI_LANES;
     b->first = lrcsi_work_take_zero(work, (size_t)scene->material_count + 2, sizeof *b->first);
     b->facet = lrcsi_work_take(work, scene->facet_count, sizeof *b->facet);
-    b->area = lrcsi_work_take_zero(work, room, sizeof *b->area);
+    b->area = lrcsi_work_take(work, room, sizeof *b->area);
     for (int k = 0; k < 3; k++) {
-        b->normal[k] = lrcsi_work_take_zero(work, room, sizeof *b->normal[k]);
+        b->normal[k] = lrcsi_work_take(work, room, sizeof *b->normal[k]);
     }
     if (!b->first || !b->facet || !b->area || !b->normal[2]) {
         return LRCS_E_MEMORY;
@@ -86,8 +101,8 @@ int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work)
         if (!p->skip[f]) {
             uint32_t place = b->first[scene->facet_material[f] + 1]++;
             b->facet[place] = f;
-            batch_place(b, place, &p->normal[f]);
         }
     }
+    batch_normals_make(p, b);
     return LRCS_OK;
 }

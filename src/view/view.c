@@ -252,22 +252,14 @@ static void view_facings(lrcsi_view *view)
     }
 }
 
-/* The direction's components over its length, to twice the digits: as scene/batch.c does it. */
 static void view_unit(lrcsi_view *view)
 {
-    const double *d = view->direction;
-    lrcsi_dd square = {0, 0};
+    static const double no_low[3] = {0, 0, 0};
+    lrcsi_inverse inverse = lrcsi_length_inverse(view->direction, no_low, view->length);
     for (int k = 0; k < 3; k++) {
-        square = lrcsi_dd_add(square, lrcsi_dd_two_product(d[k], d[k]));
-    }
-    double y = 1 / sqrt(square.hi);
-    lrcsi_dd y2 = lrcsi_dd_two_product(y, y);
-    double half = 0.5 * lrcsi_dd_value(lrcsi_dd_sub((lrcsi_dd){1, 0}, lrcsi_dd_mul(y2, square)));
-    for (int k = 0; k < 3; k++) {
-        lrcsi_dd p = lrcsi_dd_two_product(d[k], y);
-        p = lrcsi_dd_quick_sum(p.hi, p.lo + p.hi * half);
-        view->unit[k] = p.hi;
-        view->unit_low[k] = p.lo;
+        lrcsi_dd d = lrcsi_inverse_times(&inverse, view->direction[k], 0);
+        view->unit[k] = d.hi;
+        view->unit_low[k] = d.lo;
     }
 }
 

@@ -51,22 +51,19 @@ static int boxes_meet(const lrcsi_box *a, const lrcsi_box *b)
     return 1;
 }
 
-/* One pair of a row of a leaf's facets and a leaf, by the tree. */
-static uint32_t meet_row(const lrcsi_tree *tree, uint32_t place, uint32_t leaf, unsigned allowed)
+/* The pairs of a facet with those in the allowed lanes of a leaf whose boxes meet: marks them. */
+static void meet_row(const lrcsi_tree *tree, uint32_t place, uint32_t leaf, unsigned allowed)
 {
     lrcsi_box box =
         lrcsi_tree_box(&tree->block[0][place / LRCSI_TREE_LANES], place % LRCSI_TREE_LANES);
     unsigned lanes = lrcsi_tree_meets(&tree->block[0][leaf], &box) & allowed;
-    uint32_t pairs = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t at = leaf * LRCSI_TREE_LANES + lrcsi_tree_lane(lanes);
         uint32_t f = tree->order[place];
         uint32_t g = tree->order[at];
         assert_true(at < tree->count && f != g && !met[f][g] && !met[g][f]);
         met[f][g] = met[g][f] = 1;
-        pairs++;
     }
-    return pairs;
 }
 
 /* The self-join of a tree: marks pairs whose boxes meet. Returned: leaves that were compared. */
@@ -134,6 +131,74 @@ static void the_join_finds_all_pairs_of_boxes_that_meet_once_each(void **state)
         skip[f] = f % 3 == 0;
     }
     check_join(700, skip, NULL);
+}
+
+/* Leaves that walks by slabs from the start leave out, of those that meet by boxes: none that has a
+   corner in common. Returned: how many are left. */
+static uint32_t check_slabs(uint32_t facets)
+{
+    lrcsi_tree tree = make_tree(facets, NULL, NULL);
+    uint32_t left = 0;
+    lrcsi_tree_fill_slabs(vertex, facet, &tree);
+    for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
+        static unsigned char kept[MOST];
+        memset(kept, 0, sizeof kept);
+        lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
+        lrcsi_tree_narrow(&walk, leaf);
+        for (uint32_t other; (other = lrcsi_tree_next(&walk)) != LRCS_NONE; left++) {
+            kept[other] = 1;
+        }
+        for (uint32_t i = leaf * LRCSI_TREE_LANES; i < (leaf + 1) * LRCSI_TREE_LANES; i++) {
+            for (uint32_t j = (leaf + 1) * LRCSI_TREE_LANES; j < facets && i < facets; j++) {
+                const uint32_t *a = facet[tree.order[i]].corner;
+                const uint32_t *b = facet[tree.order[j]].corner;
+                for (int k = 0; k < 9; k++) {
+                    assert_true(a[k / 3] != b[k % 3] || kept[j / LRCSI_TREE_LANES]);
+                }
+            }
+        }
+    }
+    return left;
+}
+
+/* A tilted sheet, plane or not; a fan of slivers about a line; sheets one above the other, which
+   slabs alone tell apart. */
+static void slabs_leave_out_no_neighbours(void **state)
+{
+    (void)state;
+    enum { N = 30 };
+    for (int wave = 0; wave < 3; wave++) {
+        for (uint32_t i = 0; i <= N * (N + 2); i++) {
+            double x = (double)(i / (N + 1)) / N;
+            double y = (double)(i % (N + 1)) / N;
+            double z = wave * 0.2 * sin(9 * x) * cos(7 * y);
+            vertex[i] = (lrcs_point){{x + 0.3 * z, y - 0.7 * z + 0.4 * x, z + 0.8 * x + 0.6 * y}};
+        }
+        for (uint32_t i = 0; i < N * N; i++) {
+            uint32_t at = i / N * (N + 1) + i % N;
+            facet[2 * i] = (lrcs_facet){{at, at + N + 1, at + N + 2}};
+            facet[2 * i + 1] = (lrcs_facet){{at, at + N + 2, at + 1}};
+        }
+        assert_true(check_slabs(2 * N * N) > 0);
+    }
+    for (uint32_t i = 0; i < 600; i++) {
+        double turn = 6.28 * i / 600;
+        vertex[i] = (lrcs_point){{cos(turn), 0.6 * sin(turn), 0.8 * sin(turn)}};
+        facet[i] = (lrcs_facet){{600, 601, i}};
+    }
+    vertex[600] = (lrcs_point){{0, 0, 0}};
+    vertex[601] = (lrcs_point){{0, -0.8, 0.6}};
+    check_slabs(600);
+    for (uint32_t f = 0; f < 1600; f++) {
+        for (uint32_t c = 0; c < 3; c++) { /* of either winding */
+            double x = c > 0;
+            double y = c > 1;
+            double z = 1e-5 * f;
+            vertex[3 * f + c] = (lrcs_point){{x + 0.5 * z, y - 0.3 * z, 0.7 * x + 0.4 * y + z}};
+            facet[f].corner[f % 2 ? c : 2 - c] = 3 * f + c;
+        }
+    }
+    assert_true(check_slabs(1600) < 2 * 200); /* of 200 leaves that all meet by boxes */
 }
 
 /* Boxes that end where others start, at -0 and 0 too, and of no size. */
@@ -263,6 +328,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_join_finds_all_pairs_of_boxes_that_meet_once_each),
+        cmocka_unit_test(slabs_leave_out_no_neighbours),
         cmocka_unit_test(boxes_that_touch_meet),
         cmocka_unit_test(only_pairs_of_one_label_are_left_out),
         cmocka_unit_test(a_walk_finds_all_boxes_that_meet_a_given_one),
