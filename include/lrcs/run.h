@@ -96,9 +96,11 @@ typedef struct lrcs_run_options {
    likely error, estimate_m2, exceeds what the proved parts of the bound (tessellation, rounding)
    leave of the tolerance, and clips where that costs less, or no raster's estimate suffices. An
    estimate counts only where all depths were decided, no limit of steps was reached and sigma is
-   not 0. The bound stays the proved one, and an answer that it admits is none by estimate. With
-   LRCS_ACCEPT_ANY auto draws the first of those rasters and takes what comes: no tolerance is
-   missed. Other methods run as ever, and their answers are judged in the same way. */
+   not 0. Such rasters, of method zbuffer too, cost no more than to draw them: their samples prove
+   nothing of areas, so that the bound, proved as ever, holds all that could show of each facet or
+   be hidden (where normals are curved, or curved shapes stand among others, it is closer, and costs
+   more). An answer that the bound admits is none by estimate. With LRCS_ACCEPT_ANY auto draws the
+   first of those rasters and takes what comes: no tolerance is missed. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {

@@ -11,6 +11,7 @@
 #include "integrate/plan.h"
 #include "integrate/total.h"
 #include "visibility/occlude.h"
+#include "visibility/preview.h"
 
 /* The finest raster: beyond it the bound gains less than it costs. */
 #define LAST_SIZE 4096u
@@ -37,6 +38,7 @@ typedef struct sigma_run {
     lrcs_image *image;
     int last;      /* lrcsi_sigma_stage: the run ends after it */
     uint32_t size; /* of the raster used, 0: none */
+    int contested; /* contest has been made, and margin where it is wanted */
     uint32_t flags;
 } sigma_run;
 
@@ -259,14 +261,61 @@ static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
     return status;
 }
 
+/* Which facets are contested, and what curved shapes may show otherwise: once. Where back sides are
+   left out of a scene that shows some, its true curves are not known. */
+static int run_contest(sigma_run *run)
+{
+    const lrcs_prepared *p = run->view.prepared;
+    if (run->contested) {
+        return LRCS_OK;
+    }
+    int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    if (status == LRCS_OK && p->nears.reach && (run->view.backs_cast || p->solid)) {
+        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
+        run->doubt = &run->margin;
+    }
+    run->contested = status == LRCS_OK;
+    return status;
+}
+
+/* Are areas taken from samples alone, without a proof? Curved normals need to know where on a facet
+   it is seen, and curved shapes among others which facets are contested. */
+static int run_samples_only(const sigma_run *run, const lrcs_run_options *options)
+{
+    const lrcs_prepared *p = run->view.prepared;
+    return run->plan.method == LRCS_METHOD_ZBUFFER && options->accept != LRCS_ACCEPT_BOUND &&
+           !p->smooth && !p->nears.reach && run->flags == 0;
+}
+
+/* One such raster; of a size that the work area holds, if it can. */
+static int run_preview_at(sigma_run *run, uint32_t size)
+{
+    int undecided = 0;
+    int status = LRCS_E_MEMORY;
+    run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
+    for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
+        status = lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
+        run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
+        run->size = size;
+    }
+    if (status == LRCS_OK) {
+        run->flags |= undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
+        run_sum(run, 1);
+    }
+    return status;
+}
+
 /* Facets that find no memory to be clipped in widen the bound; under auto a raster does better. */
 static int run_exact(sigma_run *run, int method)
 {
     uint32_t starved = 0;
     lrcsi_curving how = run_curving(run);
-    int status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
+    int status = run_contest(run);
+    if (status == LRCS_OK) {
+        status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
                                                   run->curved, &starved)
                              : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
+    }
     if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
         return LRCS_E_MEMORY;
     }
@@ -297,11 +346,13 @@ static uint32_t next_size(const sigma_run *run, const lrcs_run_options *options)
 }
 
 /* For the sake of an estimate: is a raster of the given size worth drawing? Not where clipping the
-   contested facets costs less, nor where depths stay undecided. */
+   contested facets costs less (where they were not searched for, all facets count: samples alone
+   cost a fraction), nor where depths stay undecided. */
 static int preview_refines(const sigma_run *run, uint32_t size)
 {
     return size <= PREVIEW_LAST && !(run->flags & LRCS_FLAG_DEPTH_UNDECIDED) &&
-           (double)size * size < CLIP_PIXELS * run->contest.contested_count;
+           (double)size * size < CLIP_PIXELS * (run->contested ? run->contest.contested_count
+                                                               : run->view.front + run->view.back);
 }
 
 /* Rasters, from the first to one that is accepted, or to the finest that is worth it. */
@@ -309,15 +360,19 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
     lrcsi_known known;
     size_t mark = run->work->used;
+    int samples_only = run_samples_only(run, options);
     uint32_t size = run->plan.size;
-    run->view.meter = NULL;
-    int status = lrcsi_visible_known(&run->contest, run->work, &known);
-    run->view.meter = &run->meter;
+    int status = samples_only ? LRCS_OK : run_contest(run);
+    if (status == LRCS_OK && !samples_only) {
+        run->view.meter = NULL;
+        status = lrcsi_visible_known(&run->contest, run->work, &known);
+        run->view.meter = &run->meter;
+    }
     while (status == LRCS_OK) {
-        status = run_raster(run, &known, size);
+        status = samples_only ? run_preview_at(run, size) : run_raster(run, &known, size);
         if (status != LRCS_OK || options->resolution != 0 || run->size >= LAST_SIZE ||
             run->meter.spent || (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
-            run->contest.contested_count == 0 ||
+            (!samples_only && run->contest.contested_count == 0) ||
             !(run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
             break;
         }
@@ -342,18 +397,10 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_view_project(run->work, &run->view);
-    if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW) {
-        status = lrcsi_contest_make(&run->view, run->work, &run->contest);
+    if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run_samples_only(run, options)) {
+        status = run_contest(run);
     }
     if (status != LRCS_OK || run->last <= LRCSI_SIGMA_CLASSIFY) {
-        return status;
-    }
-    /* where back sides are left out of a scene that shows some, its true curves are not known */
-    if (run->view.prepared->nears.reach && (run->view.backs_cast || run->view.prepared->solid)) {
-        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
-        run->doubt = &run->margin;
-    }
-    if (status != LRCS_OK) {
         return status;
     }
     status = run_method(run, options);

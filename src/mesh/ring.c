@@ -9,29 +9,31 @@
    2. no spoke is the start of two facets, nor the end of two;
    3. at most one spoke is a start only; then one spoke is an end only, for there are as many starts
       as ends;
-   4. some direction is in no sector, or, where each spoke is a start and an end, in just one.
+   4. if there is such a spoke, some direction is in no sector; if not, some direction is in exactly
+      one.
    Then any two facets of the ring meet in nothing but v and the side that they have in common.
    Proof. Going round counter-clockwise, the number of sectors above a direction rises by one at a
-   start and falls by one at an end (2). Where each spoke is both, it is the same everywhere: one
-   (4). Else it has two values, k and k + 1; in the first case k = 0 (4). So sectors overlap
-   nowhere, and no ray bounds sectors by two spokes: before the one of which it is the end, and
-   after the one of which it is the start, there would be two sectors above the same directions, but
-   where a sole start and the sole end are one ray, and then no direction would be in no sector. Now
-   seen against m, points of two facets coincide in v or on a ray that bounds both sectors; this is
-   one spoke, on which both facets have the same side, and m is parallel to neither facet. QED
+   start and falls by one at an end (2). If every spoke is both, the number is the same everywhere:
+   one (4). If not, it is k + 1 from the spoke that is a start only to the one that is an end only
+   and k beyond, and k = 0 (4). So the insides of sectors do not overlap. Nor are two spokes one
+   ray, seen against m: just before that ray there would be two sectors if both are ends, just after
+   it if both are starts; and a lone start in one ray with the lone end would leave no direction
+   free. So points of two facets that coincide, seen against m, are v or on one spoke that bounds
+   both sectors. m is parallel to neither facet (1): the points are the same where they lie on that
+   spoke, along which both facets have the same side. QED
 
    4 is decided with a line through v: g = m x w for some w. A sector crosses the ray along w, seen
-   against m, where it starts with g . (b - v) < 0 and ends with g . (c - v) > 0, and the opposite
-   ray where the signs are the other way round. Where all signs are sure, no spoke lies on the line,
-   and the crossings counted are the sectors above those two directions: `up` and `down`. With a
-   start that is no end, up = 0 or down = 0 shows a direction that is in no sector. Where both are
-   1, k is 0 or 1, both directions are between the sole start and the sole end or both beyond, and
-   so start and end lie on one side of the line: k = 0 where the turn from the end to the start is
-   counter-clockwise (less than 180 degrees, in no sector), k = 1 where it is clockwise.
+   against m, if it starts with g . (b - v) < 0 and ends with g . (c - v) > 0, and the opposite ray
+   if the signs are the other way round. If all signs are sure, no spoke lies on the line, and the
+   crossings counted are the numbers of sectors above these two directions: `up` and `down`. With a
+   spoke that is a start only, up = 0 or down = 0 shows a direction in no sector. If both are 1,
+   then k is 0 or 1, and both directions are between the lone start and the lone end, or both
+   beyond; so these two lie on one side of the line, and k = 0 if the turn from the end to the start
+   is counter-clockwise (less than 180 degrees, in no sector), k = 1 if it is clockwise.
 
-   m, roughly the mean normal, is rounded to whole numbers below 2^21 and w is (5, 3, 7), so that g
-   is exact. The determinant of 1 is decided by the filter of base/exact.c. A difference rounds
-   once, a product with a component of g once, their sum twice: 10 u covers the four. */
+   m, roughly the mean normal, is rounded to whole numbers up to 2^20 and w is (5, 3, 7), so that g
+   is exact. The determinant of 1 is decided by the filter of base/exact.c. In g . d a difference
+   rounds once, a product once, their sum twice: 10 u covers the four. */
 #include "mesh/ring.h"
 
 #include <math.h>
@@ -42,8 +44,8 @@
 /* 10 u */
 #define RING_FILTER (10.0 * 0x1p-53)
 
-/* Rings of fewer facets are no hubs. */
-enum { HUB_FACETS = 32 };
+/* The point of a smaller ring is no apex. */
+enum { FAN_FACETS = 32 };
 
 /* m's largest component. */
 #define RING_SCALE 0x1p20
@@ -70,8 +72,7 @@ static void difference(const double *a, const double *b, double d[3])
     d[2] = b[2] - a[2];
 }
 
-/* A vector is surely on the positive side of a plane's normal, or on the negative side: 1, -1; else
-   0. */
+/* The sign of normal . d where it is proved, or 0; the normal is exact, d rounded once. */
 static int sure_sign(const double normal[3], const double d[3])
 {
     double x = normal[0] * d[0];
@@ -221,18 +222,18 @@ static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const vertex_rin
 }
 
 /* Of a facet's proved points with many facets, the one with the most, or LRCS_NONE. */
-static uint32_t hub_of(const lrcs_facet *facet, const uint32_t *weld, const vertex_ring *rings,
-                       const unsigned char *proved)
+static uint32_t apex_of(const lrcs_facet *facet, const uint32_t *weld, const vertex_ring *rings,
+                        const unsigned char *proved)
 {
-    uint32_t hub = LRCS_NONE;
+    uint32_t apex = LRCS_NONE;
     for (int k = 0; k < 3; k++) {
         uint32_t v = weld[facet->corner[k]];
-        if (proved[v] && rings[v].count >= HUB_FACETS &&
-            (hub == LRCS_NONE || rings[v].count > rings[hub].count)) {
-            hub = v;
+        if (proved[v] && rings[v].count >= FAN_FACETS &&
+            (apex == LRCS_NONE || rings[v].count > rings[apex].count)) {
+            apex = v;
         }
     }
-    return hub;
+    return apex;
 }
 
 size_t lrcsi_rings_need(uint32_t vertex_count)
@@ -243,7 +244,7 @@ size_t lrcsi_rings_need(uint32_t vertex_count)
 int lrcsi_rings_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                       uint32_t facet_count, const lrcsi_topology *topology,
                       const unsigned char *skip, lrcs_work *work, unsigned char *proved,
-                      uint32_t *hub)
+                      uint32_t *apex)
 {
     size_t mark = work->used;
     const uint32_t *weld = topology->weld;
@@ -259,8 +260,8 @@ int lrcsi_rings_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrc
     for (uint32_t v = 0; v < vertex_count; v++) {
         proved[v] = (unsigned char)ring_is_proved(vertex, v, &rings[v]);
     }
-    for (uint32_t f = 0; f < facet_count && hub; f++) {
-        hub[f] = hub_of(&facet[f], weld, rings, proved);
+    for (uint32_t f = 0; f < facet_count && apex; f++) {
+        apex[f] = apex_of(&facet[f], weld, rings, proved);
     }
     return LRCS_OK;
 }

@@ -11,12 +11,12 @@ size_t lrcsi_rings_need(uint32_t vertex_count);
 /* Marks the points (topology->weld) about which the facets are proved to meet each other in nothing
    but the point and the sides that two of them have in common. Facets marked in `skip` (which may
    be NULL) are left out.
-   Returned: proved[vertex_count]; hub[facet], unless hub is NULL: of the proved points that a facet
-   has, the one with the most facets, or LRCS_NONE where none has 32.
-   Status: LRCS_OK; LRCS_E_MEMORY. Nothing stays in the work area. Linear time. */
+   Returned: proved[vertex_count]; apex[facet], unless apex is NULL: of a facet's corners, the
+   proved point with the most facets if that has at least 32, else LRCS_NONE. Status: LRCS_OK;
+   LRCS_E_MEMORY. Nothing stays in the work area. Linear time. */
 int lrcsi_rings_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                       uint32_t facet_count, const lrcsi_topology *topology,
                       const unsigned char *skip, lrcs_work *work, unsigned char *proved,
-                      uint32_t *hub);
+                      uint32_t *apex);
 
 #endif

@@ -267,14 +267,14 @@ static int prepare_search(touch_search *search, uint32_t vertex_count, uint32_t 
 {
     lrcs_work *work = search->work;
     search->proved = lrcsi_work_take(work, vertex_count, sizeof *search->proved);
-    uint32_t *hub = lrcsi_work_take(work, facet_count, sizeof *hub);
-    if (!search->proved || !hub) {
+    uint32_t *apex = lrcsi_work_take(work, facet_count, sizeof *apex);
+    if (!search->proved || !apex) {
         return LRCS_E_MEMORY;
     }
     int status = lrcsi_rings_prove(search->vertex, vertex_count, search->facet, facet_count,
-                                   topology, skip, work, search->proved, hub);
+                                   topology, skip, work, search->proved, apex);
     if (status == LRCS_OK) {
-        status = lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, hub, 1, work,
+        status = lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, apex, 1, work,
                                  &search->tree);
     }
     const lrcsi_tree *tree = &search->tree;

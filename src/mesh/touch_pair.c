@@ -101,31 +101,28 @@ static int plane_separates(const int side[3])
     return above != below && !unsure;
 }
 
-/* The sign of the turn a b c seen along an axis, where it is proved, or 0. */
-static inline int sure_turn(const double *a, const double *b, const double *c, int axis)
-{
-    int i = axis == 2 ? 0 : axis + 1;
-    int j = axis == 0 ? 2 : axis - 1;
-    double plus = (b[i] - a[i]) * (c[j] - a[j]);
-    double minus = (b[j] - a[j]) * (c[i] - a[i]);
-    double error = TOUCH_FILTER * (fabs(plus) + fabs(minus));
-    return plus - minus > error ? 1 : plus - minus < -error ? -1 : 0;
-}
-
 /* Seen along an axis along which F turns by `turn`: has the line of a side of F all corners of T
-   strictly outside, but those that are ends of the side? Then they meet in these or between them at
-   most. */
+   proved to be outside, but those that are ends of the side? Then they meet in these or between
+   them at most. */
 static int line_separates(const lrcsi_touch_facet *f, int turn, const lrcsi_touch_facet *t,
                           int axis)
 {
+    const int i = axis == 2 ? 0 : axis + 1;
+    const int j = axis == 0 ? 2 : axis - 1;
     for (int k = 0; k < 3; k++) {
         const double *a = f->x[k];
         const double *b = f->x[k < 2 ? k + 1 : 0];
-        int i = 0;
-        while (i < 3 && (t->x[i] == a || t->x[i] == b || sure_turn(a, b, t->x[i], axis) == -turn)) {
-            i++;
+        const double along[2] = {turn * (b[i] - a[i]), turn * (b[j] - a[j])};
+        int corner = 0;
+        for (; corner < 3; corner++) {
+            const double *p = t->x[corner];
+            double plus = along[0] * (p[j] - a[j]);
+            double minus = along[1] * (p[i] - a[i]);
+            if (p != a && p != b && !(plus - minus < -TOUCH_FILTER * (fabs(plus) + fabs(minus)))) {
+                break;
+            }
         }
-        if (i == 3) {
+        if (corner == 3) {
             return 1;
         }
     }
@@ -138,7 +135,13 @@ static int lines_separate(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t
     if (line_separates(f, f->turn, t, f->axis)) {
         return 1;
     }
-    int turn = sure_turn(t->x[0], t->x[1], t->x[2], f->axis);
+    const int i = f->axis == 2 ? 0 : f->axis + 1;
+    const int j = f->axis == 0 ? 2 : f->axis - 1;
+    const double *a = t->x[0];
+    double plus = (t->x[1][i] - a[i]) * (t->x[2][j] - a[j]);
+    double minus = (t->x[1][j] - a[j]) * (t->x[2][i] - a[i]);
+    double error = TOUCH_FILTER * (fabs(plus) + fabs(minus));
+    int turn = (plus - minus > error) - (plus - minus < -error);
     return turn != 0 && line_separates(t, turn, f, f->axis);
 }
 

@@ -2,11 +2,21 @@
 /* Boxes over facets in the order of a Morton curve (Morton 1966), eight by eight, in as many levels
    as it takes. Where the curve runs decides speed alone.
 
-   The curve's cells are as fine as the number of facets asks for. Facets whose centres share a cell
-   all the same, because a few others are far away, are sorted again along a curve through their own
-   box, and so on: a scale of its own for every cluster. Each time the box shrinks by its cells
-   along a side, at least 2^MORTON_LEAST; differences of coordinates lie between 2^1 and 2^-352
-   (base/exact.c), so that SCALES suffice. What has one centre stays together. */
+   There are about as many cells as facets on a surface. Facets whose centres share a cell all the
+   same, because a few others are far away, are sorted again along a curve through their own box,
+   and so on: a scale of its own for every cluster. A facet with an apex has its place there, among
+   the others of the apex by its centre. Each time the box shrinks at least 2^MORTON_LEAST - 1
+   times; differences of coordinates lie between 2^1 and 2^-352 (base/exact.c): 45 times by apexes
+   and 45 by centres at most. What has one centre stays together.
+
+   Slabs. A leaf A and a block B are compared along the direction d of A. For x in B, with
+   e = d - d_B,
+       d . x = d_B . x + e . x,
+   the first bounded by B's own slab, the second by B's box. If B's mean normal is that of A, e is
+   all but 0, and thin layers are told apart however wide they are. The slab of either is compared
+   with the box of the other too. Errors: |d_k|, |d_Bk| <= 1; let W be the sum of the boxes' largest
+   |x_k|. Slabs are sums of three products, within 4 u W; e is off by u |e_k| <= 2 u, its products
+   and four sums round by less than 20 u W in all: 64 u W covers both sides. */
 #include "mesh/tree.h"
 
 #include <math.h>
@@ -22,7 +32,7 @@ enum { TREE_LANES = LRCSI_TREE_LANES };
 enum { MORTON_LEAST = 8, MORTON_MOST = 21 };
 
 /* More facets than this in one cell are sorted again; curves one within another, at most. */
-enum { CELL_FACETS = 64, SCALES = 64 };
+enum { CELL_FACETS = 64, SCALES = 96 };
 
 /* See above: 64 u. */
 #define SLAB_FILTER (64.0 * 0x1p-53)
@@ -72,18 +82,18 @@ static uint64_t spread_bits(uint64_t x)
 typedef struct tree_sort {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
-    const uint32_t *hub; /* or NULL */
+    const uint32_t *apex; /* or NULL */
     uint32_t *order, *order_spare;
     uint64_t *key, *key_spare;
 } tree_sort;
 
-/* Twice the centre of a facet's box, or twice its hub. */
-static void facet_centre(const tree_sort *s, const uint32_t *hub, uint32_t place, double centre[3])
+/* Twice the centre of a facet's box, or twice its apex. */
+static void facet_centre(const tree_sort *s, const uint32_t *apex, uint32_t place, double centre[3])
 {
     uint32_t f = s->order[place];
-    if (hub && hub[f] != LRCS_NONE) {
+    if (apex && apex[f] != LRCS_NONE) {
         for (int k = 0; k < 3; k++) {
-            centre[k] = 2.0 * s->vertex[hub[f]].x[k];
+            centre[k] = 2.0 * s->vertex[apex[f]].x[k];
         }
         return;
     }
@@ -94,14 +104,13 @@ static void facet_centre(const tree_sort *s, const uint32_t *hub, uint32_t place
 }
 
 /* Orders places first .. end along a curve through the box of their centres; returns 0, and does
-   nothing, where that is a point. A surface of one size is cut into some
-   cells a facet. */
-static int sort_along_curve(const tree_sort *s, const uint32_t *hub, uint32_t first, uint32_t end)
+   nothing, where that is a point. */
+static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t first, uint32_t end)
 {
     lrcsi_box all = empty_box();
     double centre[3];
     for (uint32_t i = first; i < end; i++) {
-        facet_centre(s, hub, i, centre);
+        facet_centre(s, apex, i, centre);
         grow_box(&all, centre, centre);
     }
     double side = 0.0;
@@ -118,7 +127,7 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *hub, uint32_t fi
     const double scale = (double)((UINT64_C(1) << bits) - 1) / side;
     for (uint32_t i = first; i < end; i++) {
         uint64_t key = 0;
-        facet_centre(s, hub, i, centre);
+        facet_centre(s, apex, i, centre);
         for (int k = 0; k < 3; k++) {
             double cell = (centre[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
             key |= spread_bits((uint64_t)cell) << k;
@@ -129,7 +138,7 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *hub, uint32_t fi
     return 1;
 }
 
-/* Orders all places: along one curve, then along one more wherever many share a cell or a hub. */
+/* Orders all places: along one curve, then along one more wherever many share a cell or an apex. */
 static void sort_places(const tree_sort *s, uint32_t count)
 {
     uint32_t end[SCALES] = {count};
@@ -145,8 +154,8 @@ static void sort_places(const tree_sort *s, uint32_t count)
             next++;
         }
         if (next - first > CELL_FACETS && scales < SCALES &&
-            (sort_along_curve(s, s->hub, first, next) ||
-             (s->hub && sort_along_curve(s, NULL, first, next)))) {
+            (sort_along_curve(s, s->apex, first, next) ||
+             (s->apex && sort_along_curve(s, NULL, first, next)))) {
             end[scales++] = next;
         } else {
             first = next;
@@ -257,14 +266,14 @@ size_t lrcsi_tree_need(uint32_t facet_count)
 }
 
 int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                    const unsigned char *skip, const uint32_t *label, int hubs, lrcs_work *work,
+                    const unsigned char *skip, const uint32_t *label, int apexes, lrcs_work *work,
                     lrcsi_tree *tree)
 {
     size_t mark = work->used;
     lrcsi_tree made = {.order = lrcsi_work_take(work, facet_count, sizeof *made.order)};
     size_t stays = work->used;
     tree_sort s = {
-        .vertex = vertex, .facet = facet, .hub = hubs ? label : NULL, .order = made.order};
+        .vertex = vertex, .facet = facet, .apex = apexes ? label : NULL, .order = made.order};
     s.key = lrcsi_work_take(work, facet_count, sizeof *s.key);
     s.key_spare = lrcsi_work_take(work, facet_count, sizeof *s.key_spare);
     s.order_spare = lrcsi_work_take(work, facet_count, sizeof *s.order_spare);

@@ -18,9 +18,9 @@ typedef struct lrcsi_tree_block {
     double low[3][LRCSI_TREE_LANES], high[3][LRCSI_TREE_LANES];
 } lrcsi_tree_block;
 
-/* What bounds the eight boxes' contents besides: slabs, low <= direction . x <= high for every
-   corner x, the direction a unit vector across the mean normal's plane. Parallel layers, at an
-   angle to the axes, fill boxes badly. */
+/* Slabs that bound what is in the eight boxes: low <= direction . x <= high for every corner x; the
+   direction is the mean normal, of length 1, or 0 where there is none. For parallel layers, which
+   fill boxes badly where they are at an angle to the axes. */
 typedef struct lrcsi_tree_slabs {
     double direction[3][LRCSI_TREE_LANES], low[LRCSI_TREE_LANES], high[LRCSI_TREE_LANES];
 } lrcsi_tree_slabs;
@@ -71,12 +71,11 @@ static inline uint32_t lrcsi_tree_lane(unsigned mask)
 size_t lrcsi_tree_need(uint32_t facet_count);
 
 /* Facets marked in `skip` (which may be NULL) are left out. label[facet] (or NULL: LRCS_NONE for
-   all) is what walks may leave out; where `hubs`, it is a vertex at which the facet is to have its
-   place in the order, so that those of one label are together.
-   Status: LRCS_OK; LRCS_E_MEMORY. Work: linear in time but where facets are of ever finer scales,
-   40 times that at most. */
+   all) is what walks may leave out; where `apexes`, it is a vertex at which the facet is to have
+   its place in the order, so that those of one label are together. Status: LRCS_OK; LRCS_E_MEMORY.
+   Work: linear in time but where facets are of ever finer scales, 90 times that at most. */
 int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                    const unsigned char *skip, const uint32_t *label, int hubs, lrcs_work *work,
+                    const unsigned char *skip, const uint32_t *label, int apexes, lrcs_work *work,
                     lrcsi_tree *tree);
 
 /* A walk over the places of all facets whose boxes meet `box`; of facets of the label `without`

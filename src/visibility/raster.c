@@ -401,9 +401,8 @@ static int raster_arrays(lrcsi_raster *r, lrcs_work *work)
     return r->wanted && r->covered && r->owned && r->undecided ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-int lrcsi_raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster)
+void lrcsi_raster_over(const lrcsi_view *view, uint32_t size, lrcsi_raster *raster)
 {
-    size_t mark = work->used;
     lrcsi_raster r = {.view = view, .size = size};
     r.pixel = view->side / size;
     r.scale = view->side > 0 ? size / view->side : 0;
@@ -411,6 +410,14 @@ int lrcsi_raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work, l
         r.reach += lrcsi_most(fabs(view->low[k]), fabs(view->low[k] + view->side));
     }
     r.off = lrcsi_view_lift_off(view, r.reach, 0) * r.scale + 8 * U * size;
+    *raster = r;
+}
+
+int lrcsi_raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster)
+{
+    size_t mark = work->used;
+    lrcsi_raster r;
+    lrcsi_raster_over(view, size, &r);
     r.tiles = raster_tiles(size);
     int status = raster_arrays(&r, work);
     if (status != LRCS_OK) {

@@ -61,6 +61,9 @@ void lrcsi_raster_claim(lrcsi_raster *raster, uint32_t facet);
 /* Draws a facet, all tiles of which are wanted, where it is nearer than what was drawn. */
 void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet);
 
+/* The geometry of a raster, without samples. */
+void lrcsi_raster_over(const lrcsi_view *view, uint32_t size, lrcsi_raster *raster);
+
 lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet);
 lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet);
 

@@ -227,6 +227,15 @@ static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t secon
     return 0;
 }
 
+int lrcsi_sample_order(const lrcsi_view *view, uint32_t first, uint32_t second)
+{
+    if (sample_coplanar(view, first, second)) {
+        return lrcsi_sample_beats(view, first, second) ? 1 : -1;
+    }
+    int side = sample_side(view, first, second);
+    return side != 0 ? side : -sample_side(view, second, first);
+}
+
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
                         const double point[3], int sense)
 {
@@ -242,15 +251,9 @@ int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
     if (fabs(difference) > 1.01 * off) {
         return difference > 0 ? 1 : -1;
     }
-    if (sample_coplanar(view, first, second)) {
-        return lrcsi_sample_beats(view, first, second) ? 1 : -1;
-    }
-    int side = sample_side(view, first, second);
-    if (side == 0) {
-        side = -sample_side(view, second, first);
-    }
-    if (side != 0) {
-        return side;
+    int order = lrcsi_sample_order(view, first, second);
+    if (order != 0) {
+        return order;
     }
     const lrcs_scene *scene = view->prepared->scene;
     return lrcsi_touch_pair(view->prepared->vertex, scene->facet[first], scene->facet[second]) ==

@@ -24,6 +24,10 @@ int lrcsi_sample_above(const lrcsi_view *view, uint32_t facet, const double poin
    reflecting back a dead one, then the lower index. */
 int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser);
 
+/* Which of two facets is nearer wherever a line meets both, where that is so: 1 the first, -1 the
+   second (they lie in one plane, or one lies on one side of the other's plane), else 0. Exact. */
+int lrcsi_sample_order(const lrcsi_view *view, uint32_t first, uint32_t second);
+
 /* Which of two facets that the line meets hides the other: 1 the first, -1 the second, 0
    undecided: nearer to each other there than double-double tells, each with corners on both sides
    of the other's plane, yet not touching. Where they pierce each other that near, a guess. The

@@ -126,6 +126,36 @@ lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
     return row;
 }
 
+lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y)
+{
+    double x0 = edges->x0;
+    double x1 = edges->x1;
+    double may[2] = {x0, x1};
+    double sure[2] = {x0, x1};
+    for (int k = 0; k < 3; k++) {
+        double row = edges->at[k] + edges->up[k] * (y + 0.5);
+        double zero = -row * edges->over[k];
+        double near = edges->near[k];
+        if (edges->over[k] > 0) {
+            may[0] = lrcsi_most(may[0], zero - near);
+            sure[0] = lrcsi_most(sure[0], zero + near);
+        } else if (edges->over[k] < 0) {
+            may[1] = lrcsi_least(may[1], zero + near);
+            sure[1] = lrcsi_least(sure[1], zero - near);
+        } else {
+            may[1] = row < -edges->off ? 0 : may[1];
+            sure[1] = row > edges->off ? sure[1] : 0;
+        }
+    }
+    lrcsi_samples samples;
+    samples.may = span_of(round_up(lrcsi_least(may[0], x1)), (uint32_t)lrcsi_most(may[1], x0));
+    x0 = samples.may.x0;
+    x1 = samples.may.x1;
+    samples.sure = span_of((uint32_t)lrcsi_most(lrcsi_least(sure[0], x1), x0),
+                           round_up(lrcsi_least(lrcsi_most(sure[1], x0), x1)));
+    return samples;
+}
+
 lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *edges, uint32_t y)
 {
     span_ends ends = {.from = {edges->left}, .to = {edges->right}};

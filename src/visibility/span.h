@@ -47,6 +47,12 @@ void lrcsi_span_prepare(lrcsi_edges *edges);
 
 lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y);
 
+/* What is covered of a row, alone: half of the work. */
+typedef struct lrcsi_samples {
+    lrcsi_pixels may, sure; /* as in lrcsi_row */
+} lrcsi_samples;
+lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y);
+
 /* What is touched of a row, alone: a third of the work. */
 lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *edges, uint32_t y);
 

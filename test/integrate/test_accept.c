@@ -47,7 +47,6 @@ static void estimates_are_flagged_and_are_those_of_the_raster_they_name(void **s
     (void)state;
     static const double tolerance[] = {0.9, 0.1, 1e-2, 3e-3, 1e-4, 1e-6};
     int flagged = 0;
-    int proved = 0;
     int clipped = 0;
     lrcs_work work;
     shadows();
@@ -62,15 +61,16 @@ static void estimates_are_flagged_and_are_those_of_the_raster_they_name(void **s
         double most = options.tolerance * r.sigma_m2;
         plain.method = r.method;
         plain.resolution = r.resolution;
+        plain.accept = LRCS_ACCEPT_ESTIMATE;
         lrcs_result again = answer(prepared, &work, d, &plain);
         assert_true(same_numbers(&r, &again));
+        plain.accept = LRCS_ACCEPT_BOUND;
         plain.method = LRCS_METHOD_EXACT;
         plain.resolution = 0;
         lrcs_result truth = answer(prepared, &work, d, &plain);
         check_abs(r.sigma_m2, truth.sigma_m2, r.bound_m2 + truth.bound_m2);
         if (r.bound_m2 <= most) {
             assert_int_equal(r.flags & VERDICTS, 0);
-            proved += r.method == LRCS_METHOD_ZBUFFER;
         } else if (r.method == LRCS_METHOD_ZBUFFER) {
             assert_int_equal(r.flags & VERDICTS, LRCS_FLAG_ACCEPTED_BY_ESTIMATE);
             assert_true(r.estimate_m2 >= 0 && r.estimate_m2 + r.budget.rounding_m2 <= most);
@@ -78,7 +78,7 @@ static void estimates_are_flagged_and_are_those_of_the_raster_they_name(void **s
         }
         clipped += r.method == LRCS_METHOD_EXACT;
     }
-    assert_true(flagged >= 15 && proved >= 3 && clipped >= 10);
+    assert_true(flagged >= 15 && clipped >= 10);
 }
 
 /* What needs no raster is proved, and not called an estimate. */

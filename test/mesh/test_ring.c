@@ -18,7 +18,7 @@ static lrcs_point vertex[MOST];
 static lrcs_facet facet[MOST];
 static unsigned char skip[MOST];
 static unsigned char proved[MOST];
-static uint32_t hub[MOST];
+static uint32_t apex[MOST];
 
 static uint32_t seed = 1;
 
@@ -37,7 +37,7 @@ static void prove_rings(uint32_t vertices, uint32_t facets)
     size_t before = work.used;
     work.peak = before;
     assert_int_equal(
-        lrcsi_rings_prove(vertex, vertices, facet, facets, &topology, skip, &work, proved, hub),
+        lrcsi_rings_prove(vertex, vertices, facet, facets, &topology, skip, &work, proved, apex),
         LRCS_OK);
     assert_int_equal(work.used, before);
     assert_true(work.peak - before <= lrcsi_rings_need(vertices));
@@ -149,7 +149,7 @@ static void no_point_among_random_facets_is_proved_wrongly(void **state)
 }
 
 /* A cone, tilted, over its base, with thousands of slivers about its tip and the middle of its
-   base: all rings are proved, each facet knows its hub, and the tree leaves their pairs out. */
+   base: all rings are proved, each facet knows its apex, and the tree leaves their pairs out. */
 static void fans_are_proved_and_their_pairs_left_out(void **state)
 {
     (void)state;
@@ -171,11 +171,11 @@ static void fans_are_proved_and_their_pairs_left_out(void **state)
         assert_true(proved[v]);
     }
     for (uint32_t f = 0; f < 2 * N; f++) {
-        assert_int_equal(hub[f], f < N ? N : N + 1);
+        assert_int_equal(apex[f], f < N ? N : N + 1);
     }
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_tree tree;
-    assert_int_equal(lrcsi_tree_make(vertex, facet, 2 * N, NULL, hub, 1, &work, &tree), LRCS_OK);
+    assert_int_equal(lrcsi_tree_make(vertex, facet, 2 * N, NULL, apex, 1, &work, &tree), LRCS_OK);
     uint32_t mixed = 0;
     for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
         mixed += tree.label[0][leaf] == LRCS_NONE;
@@ -185,7 +185,7 @@ static void fans_are_proved_and_their_pairs_left_out(void **state)
                         tree.label[0][leaf] != tree.label[0][other]);
         }
     }
-    assert_true(mixed <= 1); /* where one hub's facets end and the other's start */
+    assert_true(mixed <= 1); /* where one apex's facets end and the other's start */
 }
 
 /* What is proved of a ring does not hang on where the direction points that is counted. */

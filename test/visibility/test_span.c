@@ -76,6 +76,9 @@ static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
     e.right = (uint32_t)(x1 < N ? x1 + 1 : N);
     lrcsi_row row = lrcsi_span_row(&e, (uint32_t)y);
     lrcsi_pixels touched = lrcsi_span_touched(&e, (uint32_t)y);
+    lrcsi_samples samples = lrcsi_span_samples(&e, (uint32_t)y);
+    assert_memory_equal(&samples.may, &row.may, sizeof row.may);
+    assert_memory_equal(&samples.sure, &row.sure, sizeof row.sure);
     assert_int_equal(touched.x0, row.touched.x0);
     assert_int_equal(touched.x1, row.touched.x1);
     for (uint32_t x = 0; x < N; x++) {

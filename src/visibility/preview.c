@@ -1,0 +1,503 @@
+/* SPDX-License-Identifier: MIT */
+/* Drawing every facet into one item buffer, then counting. It decides exactly who owns a sample:
+   floats and doubles where their error bounds allow, which is nearly always, else
+   visibility/sample.h. How far areas may be off it guesses.
+
+   Depths are kept as floats. A facet is ordinary where its heights, as floats, are within a
+   millionth of the window's side; nearly all are. Ordinary facets are drawn first, samples side by
+   side, and compared by the floats kept; the others (all but edge-on, or reaching far from the
+   window) follow sample by sample, and their heights are computed anew. */
+#include "visibility/preview.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/range.h"
+#include "base/work.h"
+#include "visibility/grid.h"
+#include "visibility/sample.h"
+
+/* Samples drawn side by side: what a run stores beyond its end is what was there before. */
+enum { LANES = 8 };
+
+/* Of a part of the window's side: what an ordinary facet's heights may be off. */
+#define ORDINARY_HEIGHT 0x1p-20
+
+/* What owners change across: a border between two facets in a column or row of pixels, and how long
+   the same one has been going on. */
+typedef struct preview_border {
+    uint32_t facet[2];
+    uint32_t at, length;
+} preview_border;
+
+/* A facet's samples, and the borders of what it shows that are not its own surface going on: how
+   many pixels they pass, and how many the longest one along a row or column. */
+typedef struct preview_counts {
+    uint32_t covered, owned, borders, longest;
+    float share;    /* of it that is seen */
+    uint32_t round; /* in which that was found: 0 from its samples, LRCS_NONE not yet */
+} preview_counts;
+
+/* Fewer samples than this are few. */
+#define FEW_SAMPLES 16u
+
+/* How far from facets with samples others take their shares. */
+enum { SHARE_ROUNDS = 8 };
+
+typedef struct preview_job {
+    const lrcsi_view *view;
+    lrcsi_raster raster; /* its geometry alone */
+    uint32_t *owner;     /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
+    float *depth; /* N * N: height of an ordinary owner's plane; -HUGE_VALF where nobody is */
+    preview_counts *counts; /* facet */
+    preview_border *column; /* column of pixels */
+    double ordinary_err;    /* bound on the error of an ordinary facet's depth */
+    int undecided;
+} preview_job;
+
+/* --- drawing ---------------------------------------------------------------------------------- */
+
+/* A facet being drawn. */
+typedef struct preview_facet {
+    uint32_t facet;
+    lrcsi_plane plane;
+    double err; /* of its heights */
+    int ordinary;
+    float close;           /* ordinary: depths that differ by no more are not told apart */
+    uint32_t met;          /* the owner last met at a depth too close for floats, or LRCS_NONE, */
+    lrcsi_plane met_plane; /* its plane, */
+    double met_err;        /* the error of its heights, */
+    int met_order;         /* and its lrcsi_sample_order */
+} preview_facet;
+
+static double plane_height(const lrcsi_plane *plane, uint32_t x, uint32_t y)
+{
+    return plane->at + plane->along * (x + 0.5) + plane->up * (y + 0.5);
+}
+
+static void preview_point(const lrcsi_raster *r, uint32_t x, uint32_t y, double point[3])
+{
+    lrcsi_view_lift(r->view, r->view->low[0] + (x + 0.5) * r->pixel,
+                    r->view->low[1] + (y + 0.5) * r->pixel, point);
+}
+
+/* Is the facet nearer than the owner of a sample that both cover? From heights in doubles, computed
+   anew, else exactly. */
+static int preview_nearer(preview_job *job, preview_facet *f, uint32_t owner, uint32_t x,
+                          uint32_t y)
+{
+    if (owner != f->met) {
+        f->met = owner;
+        f->met_plane = lrcsi_raster_plane(&job->raster, owner);
+        f->met_err = lrcsi_raster_slack(&job->raster, owner);
+        f->met_order = 2; /* not asked yet */
+    }
+    double ahead = plane_height(&f->plane, x, y) - plane_height(&f->met_plane, x, y);
+    if (fabs(ahead) > f->err + f->met_err) {
+        return ahead > 0;
+    }
+    if (f->met_order == 2) {
+        f->met_order = lrcsi_sample_order(job->view, f->facet, owner);
+    }
+    if (f->met_order != 0) {
+        return f->met_order > 0;
+    }
+    double point[3];
+    preview_point(&job->raster, x, y, point);
+    int nearer = lrcsi_sample_nearer(job->view, f->facet, owner, point, 1);
+    job->undecided |= nearer == 0;
+    return nearer > 0;
+}
+
+/* Gives the facet a sample that it covers, if it is nearer than the owner. */
+static void preview_sample(preview_job *job, preview_facet *f, uint32_t x, uint32_t y)
+{
+    size_t at = (size_t)y * job->raster.size + x;
+    if (job->owner[at] == LRCS_NONE || preview_nearer(job, f, job->owner[at], x, y)) {
+        job->owner[at] = f->facet;
+        job->depth[at] = (float)plane_height(&f->plane, x, y);
+    }
+}
+
+/* Gives the facet those of the first `left` of LANES samples at which it is surely nearer. Returns
+   bits of which some are set where there are others at which it is not surely farther. Masks in the
+   place of branches: so compilers do the lanes at once. */
+static inline uint32_t lanes_draw(uint32_t *restrict owner, float *restrict depth, float first,
+                                  float along, float close, uint32_t facet, int32_t left)
+{
+    uint32_t doubt[LANES];
+    for (int32_t k = 0; k < LANES; k++) {
+        float height = first + along * (float)k;
+        float ahead = height - depth[k];
+        uint32_t within = 0u - (uint32_t)(k < left);
+        uint32_t nearer = (0u - (uint32_t)(ahead > close)) & within;
+        uint32_t close_by = (0u - (uint32_t)(ahead >= -close)) & within;
+        uint32_t new_bits;
+        uint32_t bits;
+        memcpy(&new_bits, &height, sizeof bits);
+        memcpy(&bits, &depth[k], sizeof bits);
+        bits = (new_bits & nearer) | (bits & ~nearer);
+        memcpy(&depth[k], &bits, sizeof bits);
+        owner[k] = (facet & nearer) | (owner[k] & ~nearer);
+        doubt[k] = close_by & ~nearer;
+    }
+    uint32_t any = 0;
+    for (int32_t k = 0; k < LANES; k++) {
+        any |= doubt[k];
+    }
+    return any;
+}
+
+/* Samples x0 <= x < x1 of a row, which the facet covers. The float heights of an ordinary one: with
+   z the largest magnitude of a corner's depth, those of samples covered and what they change along
+   the run are at most z and 2 z; rounding the first, the slope, two products and two sums costs
+   less than 2^-21 z. */
+static void preview_run(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
+{
+    size_t at = (size_t)y * job->raster.size + x0;
+    float first = (float)plane_height(&f->plane, x0, y);
+    float along = (float)f->plane.along;
+    uint32_t doubt = !f->ordinary;
+    for (uint32_t i = 0; i < x1 - x0 && f->ordinary; i += LANES) {
+        doubt |=
+            lanes_draw(job->owner + at + i, job->depth + at + i, first + along * (float)(int32_t)i,
+                       along, f->close, f->facet, (int32_t)(x1 - x0 - i));
+    }
+    for (uint32_t i = 0; i < x1 - x0 && doubt != 0; i++) { /* those in doubt, one by one */
+        float ahead = first + along * (float)(int32_t)i - job->depth[at + i];
+        if (job->owner[at + i] != f->facet && (!f->ordinary || ahead >= -f->close)) {
+            preview_sample(job, f, x0 + i, y);
+        }
+    }
+    job->counts[f->facet].covered += x1 - x0;
+}
+
+/* Samples of which the edge functions cannot tell whether the facet covers them. */
+static void preview_doubtful(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0,
+                             uint32_t x1)
+{
+    for (uint32_t x = x0; x < x1; x++) {
+        double point[3];
+        preview_point(&job->raster, x, y, point);
+        if (lrcsi_sample_covers(job->view, f->facet, point)) {
+            preview_run(job, f, y, x, x + 1);
+        }
+    }
+}
+
+/* Does a box of the view hold a sample? */
+static int box_sampled(const lrcsi_raster *r, const double low[3], const double high[3])
+{
+    for (int k = 0; k < 2; k++) {
+        double from = (low[k] - r->view->low[k]) * r->scale - r->off - 0.5;
+        double to = (high[k] - r->view->low[k]) * r->scale + r->off - 0.5;
+        if (from > 0 && floor(to) < from) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Draws a facet if it is ordinary, or if it is not, as asked for. Returns 0 where it is not. Those
+   that cover no sample count as ordinary. Floats are subnormal below 2^-126: the last term. */
+static int preview_draw(preview_job *job, uint32_t facet, int ordinary)
+{
+    double low[3];
+    double high[3];
+    lrcsi_view_bounds(job->view, job->view->prepared->scene->facet[facet].corner, 3, low, high);
+    if (!box_sampled(&job->raster, low, high)) {
+        return 1; /* as most small ones */
+    }
+    preview_facet f = {.facet = facet, .met = LRCS_NONE};
+    f.plane = lrcsi_raster_plane(&job->raster, facet);
+    f.err = lrcsi_raster_slack(&job->raster, facet);
+    double most = lrcsi_most(fabs(low[2]), fabs(high[2])) + f.err;
+    double err = f.err + 0x1p-21 * most + 0x1p-140;
+    f.ordinary = err <= job->ordinary_err;
+    if (f.ordinary != ordinary) {
+        return f.ordinary;
+    }
+    f.close = f.ordinary ? (float)(1.01 * (err + job->ordinary_err)) : 0;
+    lrcsi_edges e = lrcsi_raster_edges(&job->raster, facet);
+    for (uint32_t y = e.y0; y < e.y1; y++) {
+        lrcsi_samples row = lrcsi_span_samples(&e, y);
+        preview_doubtful(job, &f, y, row.may.x0, row.sure.x0);
+        if (row.sure.x0 < row.sure.x1) {
+            preview_run(job, &f, y, row.sure.x0, row.sure.x1);
+        }
+        preview_doubtful(job, &f, y, row.sure.x1, row.may.x1);
+    }
+    return f.ordinary;
+}
+
+static void preview_facets(preview_job *job)
+{
+    uint32_t left = 0; /* facets that are not ordinary */
+    uint32_t count = job->view->prepared->scene->facet_count;
+    for (uint32_t f = 0; f < count; f++) {
+        left += lrcsi_grid_casts(job->view, f) && !preview_draw(job, f, 1);
+    }
+    for (uint32_t f = 0; f < count && left > 0; f++) {
+        left -= lrcsi_grid_casts(job->view, f) && !preview_draw(job, f, 0);
+    }
+}
+
+/* --- counting --------------------------------------------------------------------------------- */
+
+/* Do two facets, or a facet and nothing, border on each other otherwise than as one surface that
+   goes on? */
+static int preview_parts(const lrcs_prepared *p, uint32_t a, uint32_t b)
+{
+    if (a == LRCS_NONE || b == LRCS_NONE) {
+        return 1;
+    }
+    const uint32_t *across = p->across.facet[a].corner;
+    return across[0] != b && across[1] != b && across[2] != b;
+}
+
+/* Does a facet reach beyond a border, to the sample of another, which hides it there? Its own sides
+   miscount neither more nor less of what it shows than of what it covers. */
+static int preview_reaches(const preview_job *job, uint32_t facet, uint32_t x, uint32_t y)
+{
+    const lrcsi_raster *r = &job->raster;
+    const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
+    double at[2] = {job->view->low[0] + (x + 0.5) * r->pixel,
+                    job->view->low[1] + (y + 0.5) * r->pixel};
+    for (int k = 0; k < 3; k++) {
+        const double *a = job->view->point[corner[k]].x;
+        const double *b = job->view->point[corner[(k + 1) % 3]].x;
+        double side = (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0]);
+        if (job->view->facing[facet] * side < 0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* The sample at x, y and its owner. */
+typedef struct preview_owned {
+    uint32_t facet, x, y;
+} preview_owned;
+
+/* Two samples side by side; `at` is the step along the border between them. */
+static void preview_step(preview_job *job, preview_border *border, uint32_t at, preview_owned a,
+                         preview_owned b)
+{
+    if (!preview_parts(job->view->prepared, a.facet, b.facet)) {
+        return;
+    }
+    int goes_on =
+        border->at + 1 == at && border->facet[0] == a.facet && border->facet[1] == b.facet;
+    *border = (preview_border){{a.facet, b.facet}, at, goes_on ? border->length + 1 : 1};
+    for (int k = 0; k < 2; k++) {
+        const preview_owned *beyond = k == 0 ? &b : &a;
+        uint32_t facet = border->facet[k];
+        if (facet != LRCS_NONE && preview_reaches(job, facet, beyond->x, beyond->y)) {
+            preview_counts *c = &job->counts[facet];
+            c->borders++;
+            c->longest = c->longest > border->length ? c->longest : border->length;
+        }
+    }
+}
+
+static void preview_count(preview_job *job)
+{
+    uint32_t size = job->raster.size;
+    for (uint32_t y = 0; y < size; y++) {
+        const uint32_t *row = job->owner + (size_t)y * size;
+        const uint32_t *next = y + 1 < size ? row + size : row;
+        preview_border along = {{LRCS_NONE, LRCS_NONE}, LRCS_NONE - 1, 0};
+        uint32_t from = 0; /* of the run of samples that one owner has */
+        for (uint32_t x = 0; x < size; x++) {
+            uint32_t owner = row[x];
+            if (next[x] != owner) {
+                preview_step(job, &along, x, (preview_owned){owner, x, y},
+                             (preview_owned){next[x], x, y + 1});
+            }
+            if (x + 1 < size && row[x + 1] == owner) {
+                continue;
+            }
+            if (owner != LRCS_NONE) {
+                job->counts[owner].owned += x + 1 - from;
+            }
+            from = x + 1;
+            if (x + 1 < size) {
+                preview_step(job, &job->column[x], y + 1, (preview_owned){owner, x, y},
+                             (preview_owned){row[x + 1], x + 1, y});
+            }
+        }
+    }
+}
+
+/* --- areas ------------------------------------------------------------------------------------ */
+
+/* All or nothing, as the centroid of a facet is no farther than the owner of the sample next to it
+   is there, but for a pixel. */
+static float preview_nearest(const preview_job *job, uint32_t facet)
+{
+    const lrcsi_raster *r = &job->raster;
+    const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
+    double middle[3] = {0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        double xy[2];
+        lrcsi_raster_point(r, corner[k], xy);
+        middle[0] += xy[0] / 3;
+        middle[1] += xy[1] / 3;
+        middle[2] += job->view->point[corner[k]].x[2] / 3;
+    }
+    uint32_t x = (uint32_t)lrcsi_least(lrcsi_most(middle[0], 0), r->size - 1.0);
+    uint32_t y = (uint32_t)lrcsi_least(lrcsi_most(middle[1], 0), r->size - 1.0);
+    uint32_t owner = job->owner[(size_t)y * r->size + x];
+    if (owner == LRCS_NONE) {
+        return 1;
+    }
+    lrcsi_plane plane = lrcsi_raster_plane(r, owner);
+    double height = plane.at + plane.along * middle[0] + plane.up * middle[1];
+    return middle[2] > height - r->pixel;
+}
+
+/* The share of a facet without samples: the mean of those across its sides that were found in
+   earlier rounds. Returns whether there are any. */
+static int preview_beside(const preview_job *job, uint32_t facet, uint32_t round, float *share)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const uint32_t *across = p->across.facet[facet].corner;
+    float sum = 0;
+    float count = 0;
+    for (int k = 0; k < 3; k++) {
+        if (across[k] != facet && across[k] != p->scene->facet_count &&
+            job->counts[across[k]].round < round) {
+            sum += job->counts[across[k]].share;
+            count += 1;
+        }
+    }
+    *share = count > 0 ? sum / count : 0;
+    return count > 0;
+}
+
+/* Shares from samples; of facets without, from those across their sides, in rounds, so that the
+   order of facets does not matter; of what is left, by its depth. */
+static void preview_shares(preview_job *job)
+{
+    uint32_t facets = job->view->prepared->scene->facet_count;
+    for (uint32_t f = 0; f < facets; f++) {
+        preview_counts *c = &job->counts[f];
+        c->round = c->covered != 0 ? 0 : LRCS_NONE;
+        c->share = c->covered != 0 ? (float)c->owned / (float)c->covered : 0;
+    }
+    for (uint32_t round = 1; round <= SHARE_ROUNDS + 1; round++) {
+        for (uint32_t f = 0; f < facets; f++) {
+            preview_counts *c = &job->counts[f];
+            float share;
+            if (c->round == LRCS_NONE && lrcsi_grid_casts(job->view, f) &&
+                (preview_beside(job, f, round, &share) || round > SHARE_ROUNDS)) {
+                c->share = round > SHARE_ROUNDS ? preview_nearest(job, f) : share;
+                c->round = round;
+            }
+        }
+    }
+}
+
+/* The square of the likely error. Where a border of what is seen passes a pixel, a share that is as
+   good as any is taken for 0 or 1, whichever is nearer: that errs by half a pixel at most, and by 1
+   / 12 in the mean square. Pixels err by chance, of which this is sqrt(3) standard deviations, but
+   for those along a border that runs along a row or column, all of which err alike: so the longest
+   one counts again, as one. */
+#define LIKELY_SQUARE 0.25
+
+static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, double lean)
+{
+    const preview_counts *c = &job->counts[facet];
+    double area = lrcsi_view_projected(job->view, facet);
+    double pixel = job->raster.pixel * job->raster.pixel;
+    lrcsi_visible v = {0, 0, area, 0, 0};
+    v.area = area * (double)c->share;
+    v.lean = c->covered < FEW_SAMPLES ? lean * v.area : 0;
+    if (c->covered == 0) {
+        v.likely = sqrt(LIKELY_SQUARE) * area;
+    } else if (c->owned != 0 && c->owned != c->covered) {
+        double square = c->borders + (double)c->longest * c->longest;
+        v.likely = lrcsi_least(area, sqrt(LIKELY_SQUARE * square) * pixel);
+    }
+    return v;
+}
+
+/* How far the shares of facets with few samples lean one way, as a part of what they show: their
+   samples count what shows of them all together without leaning, but by chance, told from it at
+   four standard deviations. Thin parts that show, or hide, no more than their borders lean. */
+static double preview_lean(const preview_job *job)
+{
+    double pixel = job->raster.pixel * job->raster.pixel;
+    double counted = 0;
+    double shared = 0;
+    double borders = 0;
+    for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
+        const preview_counts *c = &job->counts[f];
+        if (c->covered < FEW_SAMPLES && c->share > 0) {
+            counted += pixel * c->owned;
+            shared += lrcsi_view_projected(job->view, f) * (double)c->share;
+            borders += c->borders;
+        }
+    }
+    double chance = sqrt(LIKELY_SQUARE * borders) * pixel;
+    double over = shared - counted;
+    return fabs(over) > 2 * chance ? over / shared : 0;
+}
+
+/* --- all of it -------------------------------------------------------------------------------- */
+
+/* Samples, and room for lanes behind the last one. */
+static size_t preview_samples(uint32_t size)
+{
+    return lrcsi_work_add(lrcsi_work_square(size), LANES);
+}
+
+size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size)
+{
+    size_t need = lrcsi_work_bytes(preview_samples(size), sizeof(uint32_t));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(preview_samples(size), sizeof(float)));
+    need = lrcsi_work_add(need,
+                          lrcsi_work_bytes(prepared->scene->facet_count, sizeof(preview_counts)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(preview_border)));
+}
+
+static int preview_start(preview_job *job, uint32_t size, lrcs_work *work)
+{
+    size_t samples = preview_samples(size);
+    lrcsi_raster_over(job->view, size, &job->raster);
+    job->ordinary_err = ORDINARY_HEIGHT * job->view->side;
+    job->owner = lrcsi_work_take(work, samples, sizeof *job->owner);
+    job->depth = lrcsi_work_take(work, samples, sizeof *job->depth);
+    job->counts =
+        lrcsi_work_take_zero(work, job->view->prepared->scene->facet_count, sizeof *job->counts);
+    job->column = lrcsi_work_take_zero(work, size, sizeof *job->column);
+    if (!job->owner || !job->depth || !job->counts || !job->column) {
+        return LRCS_E_MEMORY;
+    }
+    memset(job->owner, 0xff, samples * sizeof *job->owner); /* LRCS_NONE */
+    for (size_t i = 0; i < samples; i++) {
+        job->depth[i] = -HUGE_VALF;
+    }
+    return LRCS_OK;
+}
+
+int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
+                       lrcsi_visible *visible, int *undecided)
+{
+    preview_job job = {.view = view};
+    size_t mark = work->used;
+    int status = preview_start(&job, size, work);
+    if (status == LRCS_OK) {
+        preview_facets(&job);
+        preview_count(&job);
+        preview_shares(&job);
+        double lean = preview_lean(&job);
+        for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+            visible[f] = lrcsi_grid_casts(view, f) ? preview_area(&job, f, lean)
+                                                   : (lrcsi_visible){0, 0, 0, 0, 0};
+        }
+        *undecided = job.undecided;
+    }
+    work->used = mark;
+    return status;
+}

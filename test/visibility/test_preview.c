@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+/* Areas from samples alone: the shares of samples that the z-buffer, drawn another way, counts
+   exactly; likely errors near the true ones; no more memory than promised. */
+#include "visibility/preview.h"
+
+#include "scenes.h"
+#include "visibility/occlude.h"
+
+static test_scene scene;
+static lrcs_work work;
+static lrcsi_visible visible[SCENE_FACETS], truth[SCENE_FACETS];
+
+static const double seen_along[][3] = {{0, 0, 1},     {1, 0, 1}, {0.3, -0.4, 0.5},
+                                       {-1, -2, 0.1}, {1, 1, 1}, {-0.7, 0.2, -0.9}};
+enum { DIRECTIONS = sizeof seen_along / sizeof *seen_along };
+
+/* Bodies before, behind and through one another, a plate stored twice, and two plates 2^-40 apart
+   that are seen all but edge-on along (0, 0, 1). */
+static void crowd(void)
+{
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 12);
+    scene_box(&scene, (const double[3]){-2, -0.5, -0.5}, (const double[3]){2, 0.25, 0.75});
+    scene_sphere(&scene, (const double[3]){0.5, 2.25, 3}, 0.75, 16);
+    for (int i = 0; i < 2; i++) {
+        scene_plate(&scene, (const double[3]){-3, 1 + 0.25 * i, -1 + 0.125 * i},
+                    (const double[3]){3, 0.125, 0.5}, (const double[3]){0.25, 0.5, 3});
+        scene_plate(&scene, (const double[3]){2.5 + i * 0x1p-40, -1, -4},
+                    (const double[3]){0x1p-26, 0, 8}, (const double[3]){0, 1, 0});
+        scene_triangle(&scene, (const double[3]){-3, -3, 2}, (const double[3]){-1, -3, 2},
+                       (const double[3]){-3, -1, 2.5});
+    }
+}
+
+/* Large triangles of all slopes, each through all others. */
+static void tangle(uint64_t seed)
+{
+    scene_start(&scene);
+    for (int i = 0; i < 12; i++) {
+        double corner[3][3];
+        for (int k = 0; k < 3; k++) {
+            double angle = 2 * (double)SCENE_PI * (k + scene_random(&seed, 64) / 192.0) / 3;
+            corner[k][0] = 2 * cos(angle);
+            corner[k][1] = 2 * sin(angle);
+            corner[k][2] = scene_random(&seed, 256) / 64.0 - 2;
+        }
+        scene_triangle(&scene, corner[0], corner[1], corner[2]);
+    }
+}
+
+static lrcsi_view seen_from(int i)
+{
+    lrcs_pose pose;
+    lrcsi_view view;
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(seen_along[i], &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    view.backs_cast = 1;
+    return view;
+}
+
+static void check_shares(const lrcsi_view *view, uint32_t size, unsigned *parted)
+{
+    int undecided = 7;
+    size_t mark = work.peak = work.used;
+    assert_int_equal(lrcsi_preview_make(view, size, &work, visible, &undecided), LRCS_OK);
+    assert_true(work.peak - mark <= lrcsi_preview_need(view->prepared, size));
+    assert_int_equal(work.used, mark);
+    assert_int_equal(undecided, 0);
+    lrcsi_raster raster;
+    assert_int_equal(lrcsi_raster_make(view, size, &work, &raster), LRCS_OK);
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        double area = lrcsi_view_projected(view, f);
+        const lrcsi_visible *v = &visible[f];
+        if (!lrcsi_grid_casts(view, f)) {
+            assert_true(v->area == 0 && v->high == 0);
+            continue;
+        }
+        assert_true(v->low == 0 && v->high == area && v->area >= 0 && v->area <= area);
+        if (raster.covered[f] != 0) {
+            check_abs(v->area, area * raster.owned[f] / raster.covered[f], 1e-7 * area);
+            int parts = raster.owned[f] != 0 && raster.owned[f] != raster.covered[f];
+            *parted += (unsigned)parts;
+            assert_true(parts || v->likely == 0);
+        }
+    }
+    work.used = mark;
+}
+
+static void shares_are_those_of_the_exact_raster(void **state)
+{
+    (void)state;
+    static const uint32_t size[] = {1, 2, 7, 33, 128, 257};
+    unsigned parted = 0;
+    for (int s = 0; s < 6; s++) {
+        for (int i = 0; i < DIRECTIONS; i++) {
+            if (s == 0) {
+                crowd();
+            } else {
+                tangle((uint64_t)s);
+            }
+            lrcsi_view view = seen_from(i);
+            for (int k = 0; k < 6; k++) {
+                check_shares(&view, size[k], &parted);
+            }
+        }
+    }
+    assert_true(parted > 1000);
+}
+
+/* Facets far smaller than a pixel take what their neighbours show. */
+static void facets_without_samples_show_what_those_beside_them_show(void **state)
+{
+    (void)state;
+    int undecided;
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 40);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 0.5, 30); /* inside the first */
+    lrcsi_view view = seen_from(2);
+    assert_int_equal(lrcsi_preview_make(&view, 24, &work, visible, &undecided), LRCS_OK);
+    double sum = 0;
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        sum += visible[f].area;
+    }
+    sum = lrcsi_prepared_area(view.prepared, sum);
+    check_abs(sum, (double)SCENE_PI, 0.03 * (double)SCENE_PI);
+}
+
+/* Whatever the order of facets. */
+static void areas_do_not_depend_on_the_order_of_facets(void **state)
+{
+    (void)state;
+    static double before;
+    for (uint64_t seed = 0; seed < 4; seed++) {
+        int undecided;
+        scene_start(&scene);
+        scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 20);
+        scene_box(&scene, (const double[3]){-2, -0.5, -0.5}, (const double[3]){2, 0.25, 0.75});
+        if (seed > 0) {
+            scene_shuffle(&scene, seed);
+        }
+        lrcsi_view view = seen_from(2);
+        assert_int_equal(lrcsi_preview_make(&view, 30, &work, visible, &undecided), LRCS_OK);
+        double sum = 0;
+        double likely = 0;
+        for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+            sum += visible[f].area;
+            likely += visible[f].likely * visible[f].likely;
+        }
+        before = seed == 0 ? sum + likely : before;
+        check_abs(sum + likely, before, 1e-12);
+    }
+}
+
+/* In half of the cases within a factor of 8 of the error, above it in 19 of 20. */
+static void the_likely_error_is_near_the_error(void **state)
+{
+    (void)state;
+    unsigned runs = 0;
+    unsigned below = 0;
+    unsigned far = 0;
+    for (int s = 0; s < 16; s++) {
+        tangle((uint64_t)s + 100);
+        for (int i = 0; i < DIRECTIONS; i++) {
+            lrcsi_view view = seen_from(i);
+            lrcsi_contest contest;
+            uint32_t starved;
+            assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+            assert_int_equal(lrcsi_occlude_all(&contest, &work, truth, &starved), LRCS_OK);
+            for (uint32_t size = 32; size <= 512; size *= 4) {
+                int undecided;
+                assert_int_equal(lrcsi_preview_make(&view, size, &work, visible, &undecided),
+                                 LRCS_OK);
+                double error = 0;
+                double square = 0;
+                double lean = 0;
+                for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+                    double weight = 1 + f % 5;
+                    error += weight * (visible[f].area - truth[f].area);
+                    square += weight * weight * visible[f].likely * visible[f].likely;
+                    lean += weight * visible[f].lean;
+                }
+                double likely = sqrt(square + lean * lean);
+                below += likely < fabs(error);
+                far += likely > 8 * fabs(error);
+                runs++;
+            }
+        }
+    }
+    assert_true(runs == 288);
+    assert_true(below <= runs / 20);
+    assert_true(far <= runs / 2);
+}
+
+static void memory_below_the_need_is_refused(void **state)
+{
+    (void)state;
+    int undecided = 7;
+    crowd();
+    lrcsi_view view = seen_from(2);
+    size_t mark = work.peak = work.used;
+    assert_int_equal(lrcsi_preview_make(&view, 50, &work, visible, &undecided), LRCS_OK);
+    size_t peak = work.peak - mark;
+    for (size_t bytes = 0; bytes < peak; bytes += 1 + bytes / 7) {
+        lrcs_work small = lrcs_work_make(work.bytes + work.used, bytes);
+        undecided = 7;
+        assert_int_equal(lrcsi_preview_make(&view, 50, &small, visible, &undecided), LRCS_E_MEMORY);
+        assert_int_equal(small.used, 0);
+        assert_int_equal(undecided, 7);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shares_are_those_of_the_exact_raster),
+        cmocka_unit_test(facets_without_samples_show_what_those_beside_them_show),
+        cmocka_unit_test(areas_do_not_depend_on_the_order_of_facets),
+        cmocka_unit_test(the_likely_error_is_near_the_error),
+        cmocka_unit_test(memory_below_the_need_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
