@@ -42,7 +42,7 @@ RECORD = struct(("area_m2", D), ("cos_theta", D), ("visible_area_m2", D), ("sigm
                 ("sigma_glint_m2", D))
 SCENE = struct(("recipe", P * 6), ("model", P), ("vertex_count", U), ("facet_count", U),
                ("scene", P * 11), ("prepared", P), ("notices", P * 2), ("input", P),
-               ("seconds", D * 2), ("blocks", P))
+               ("seconds", D * 7), ("blocks", P))
 ERROR = struct(("text", C.c_char * 1024))
 
 

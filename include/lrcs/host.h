@@ -82,6 +82,23 @@ typedef struct lrcs_host_input {
     struct lrcs_host_input *next;
 } lrcs_host_input;
 
+/* The stages of preparing a scene, and of a pose. */
+enum lrcs_host_prepare_stage {
+    LRCS_HOST_PREPARE_EDGES,      /* checks; points welded; edges */
+    LRCS_HOST_PREPARE_NEIGHBOURS, /* coincident facets; which facet lies across each side */
+    LRCS_HOST_PREPARE_NORMALS,    /* and what else is found facet by facet */
+    LRCS_HOST_PREPARE_CONTACTS,
+    LRCS_HOST_PREPARE_PROOFS, /* closed and outward, convex, what is near curved shapes */
+    LRCS_HOST_PREPARE_STAGES
+};
+enum lrcs_host_pose_stage {
+    LRCS_HOST_POSE_VIEW,
+    LRCS_HOST_POSE_CLASSIFY, /* facets seen whole or not at all, and undecided ones */
+    LRCS_HOST_POSE_VISIBILITY,
+    LRCS_HOST_POSE_SUM,
+    LRCS_HOST_POSE_STAGES
+};
+
 /* A scene with all that it stands on. Zero it before the first read; free it in any case. */
 typedef struct lrcs_host_scene {
     lrcs_recipe recipe;
@@ -91,7 +108,9 @@ typedef struct lrcs_host_scene {
     lrcs_host_notices notices;
     lrcs_host_input *input; /* every file read, the last one first; NULL: none */
     double seconds_load, seconds_prepare;
-    void *blocks; /* memory owned */
+    double seconds_stage[LRCS_HOST_PREPARE_STAGES]; /* of seconds_prepare, in the work area that
+                                                       sufficed */
+    void *blocks;                                   /* memory owned */
 } lrcs_host_scene;
 
 /* Loads a scene: a model file (3DS, OBJ with its MTL, STL), a scene file, or "demo", which is
@@ -135,6 +154,12 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         const lrcs_run_options *options, lrcs_result *result,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error);
+
+/* Runs a pose up to a stage (lrcs_host_pose_stage) and drops what it found: to time what stages
+   take, one by one. options->method is not AUTO, which may go through stages more than once.
+   Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_ARGUMENT (the method or the stage); as lrcs_sigma_run. */
+int lrcs_host_scene_run_until(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                              const lrcs_run_options *options, int stage, lrcs_host_error *error);
 
 /* The same pose as graphics hardware computes it: lrcs_emulate_run with memory from the heap.
    Returned: emulation; records unless NULL; seconds unless NULL. Status: LRCS_OK; LRCS_E_SYSTEM; as

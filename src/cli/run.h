@@ -16,7 +16,9 @@ typedef struct run_explained_effect {
 } run_explained_effect;
 
 typedef struct run_explained {
-    double pose; /* seconds of the pose as planned */
+    double pose;                         /* seconds of the pose as planned */
+    double stage[LRCS_HOST_POSE_STAGES]; /* of a pose by the method and raster that answered */
+    double stage_scatter[LRCS_HOST_POSE_STAGES];
     uint32_t rounds;
     run_explained_effect effect[LRCS_EFFECTS];
 } run_explained;
@@ -77,10 +79,12 @@ lrcs_host_picture cli_run_picture(const run_job *job);
 /* Does a file's table take the place of the one for people? */
 int cli_run_outputs_stdout(const run_job *job);
 
-/* --explain: runs the pose again and again, each effect flipped in turn; 0 or CLI_FAILED. Then as
-   keys of an effect's JSON object, and as a table after the result's. */
+/* --explain: runs the pose again and again, each effect flipped in turn, and up to each stage; 0 or
+   CLI_FAILED. Then as keys of an effect's JSON object and of "seconds", and as a table after the
+   result's. */
 int cli_run_explain(run_job *job);
 void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json);
+void cli_run_explain_stages_json(const run_job *job, lrcs_host_json *json);
 void cli_run_explain_table(const run_job *job);
 
 /* Is a result as good as a tolerance, by its bound and by the estimate of what curved normals add?

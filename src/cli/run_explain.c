@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs run --explain: what each effect takes and does, measured by leaving it out, or by simulating
    it where the planner does not. Which effects are on, and why, is the planner's; timings are this
-   machine's, and what is smaller than their scatter is said to be so. */
+   machine's, and what is smaller than their scatter is said to be so. Stages of the pose are told
+   by runs that end after each of them. */
 #include "cli/run.h"
 
 #include <math.h>
@@ -16,10 +17,17 @@
 #define WHY_FROM 67
 #define WHY_TO   100
 
-/* Seconds of every round: as planned, with each effect flipped, and as planned once more. */
+static const char *const prepare_stage[LRCS_HOST_PREPARE_STAGES] = {
+    "edges", "neighbours", "normals", "contacts", "proofs"};
+static const char *const pose_stage[LRCS_HOST_POSE_STAGES] = {"view", "classify", "visibility",
+                                                              "sum"};
+
+/* Seconds of every round: as planned, with each effect flipped, as planned once more, and up to
+   each stage. */
 typedef struct explain_times {
     double first[ROUNDS_MOST], last[ROUNDS_MOST];
     double flipped[LRCS_EFFECTS][ROUNDS_MOST];
+    double until[LRCS_HOST_POSE_STAGES][ROUNDS_MOST];
 } explain_times;
 
 static int is_switched(int effect)
@@ -59,6 +67,19 @@ static int explain_pose(const run_job *job, const lrcs_run_options *options, lrc
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
+/* The pose up to a stage, by the method and raster that answered; likewise. */
+static int explain_stage(const run_job *job, int stage, double *seconds)
+{
+    lrcs_host_error error;
+    lrcs_run_options options = job->options;
+    options.method = job->result.method;
+    options.resolution = job->result.resolution;
+    double start = processor_seconds();
+    int status = lrcs_host_scene_run_until(&job->scene, &job->pose, &options, stage, &error);
+    *seconds = processor_seconds() - start;
+    return status == LRCS_OK ? 0 : cli_failed(&error);
+}
+
 /* One round: runs close together, so that a machine that slows down slows them all. Adds to what
    was spent. */
 static int explain_round(run_job *job, explain_times *times, uint32_t round, double *spent)
@@ -78,6 +99,10 @@ static int explain_round(run_job *job, explain_times *times, uint32_t round, dou
     if (code == 0) {
         code = explain_pose(job, &job->options, &result, &times->last[round]);
         *spent += times->first[round] + times->last[round];
+    }
+    for (int i = 0; i < LRCS_HOST_POSE_STAGES && code == 0; i++) {
+        code = explain_stage(job, i, &times->until[i][round]);
+        *spent += times->until[i][round];
     }
     return code;
 }
@@ -104,6 +129,29 @@ static void explain_effect(const run_job *job, const explain_times *times, uint3
     out->scatter = fmax(1.86 * median(away, rounds), 1.09 * median(equal, rounds)) / sqrt(rounds);
 }
 
+/* What each stage takes: the median over rounds of the difference between runs up to it and up to
+   the one before; not less than nothing, which scatter may make it. The scatter as an effect's: of
+   runs that are shorter than the pose it is less in proportion. */
+static void explain_stages(const explain_times *times, uint32_t rounds, run_explained *out)
+{
+    double difference[ROUNDS_MOST];
+    double run[ROUNDS_MOST];
+    double equal[ROUNDS_MOST];
+    for (int i = 0; i < LRCS_HOST_POSE_STAGES; i++) {
+        for (uint32_t r = 0; r < rounds; r++) {
+            difference[r] = times->until[i][r] - (i > 0 ? times->until[i - 1][r] : 0.0);
+            run[r] = times->until[i][r];
+            equal[r] = fabs(times->first[r] - times->last[r]) / times->first[r];
+        }
+        out->stage[i] = fmax(0.0, median(difference, rounds));
+        for (uint32_t r = 0; r < rounds; r++) {
+            difference[r] = fabs(difference[r] - out->stage[i]);
+        }
+        double single = 1.09 * median(equal, rounds) * median(run, rounds);
+        out->stage_scatter[i] = fmax(1.86 * median(difference, rounds), single) / sqrt(rounds);
+    }
+}
+
 int cli_run_explain(run_job *job)
 {
     explain_times times;
@@ -118,6 +166,9 @@ int cli_run_explain(run_job *job)
         if (is_switched(i)) {
             explain_effect(job, &times, rounds, i, &job->explained.effect[i]);
         }
+    }
+    if (code == 0) {
+        explain_stages(&times, rounds, &job->explained);
     }
     job->explained.rounds = rounds;
     job->explained.pose = code == 0 ? median(times.first, rounds) : 0.0;
@@ -136,6 +187,20 @@ void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json)
     lrcs_host_json_number(json, "seconds", where_switched(effect, e->seconds));
     lrcs_host_json_number(json, "share", where_switched(effect, e->seconds / job->explained.pose));
     lrcs_host_json_number(json, "sigma_m2_flipped", where_switched(effect, e->sigma_m2));
+}
+
+void cli_run_explain_stages_json(const run_job *job, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, "prepare_stages", LRCS_HOST_ROW_OBJECT);
+    for (int i = 0; i < LRCS_HOST_PREPARE_STAGES; i++) {
+        lrcs_host_json_number(json, prepare_stage[i], job->scene.seconds_stage[i]);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_begin(json, "pose_stages", LRCS_HOST_ROW_OBJECT);
+    for (int i = 0; i < LRCS_HOST_POSE_STAGES; i++) {
+        lrcs_host_json_number(json, pose_stage[i], job->explained.stage[i]);
+    }
+    lrcs_host_json_end(json);
 }
 
 /* ---- the table ---- */
@@ -202,6 +267,20 @@ static void stage_print(const char *name, double seconds, double all)
            share);
 }
 
+/* scatter: of each, or NULL. What is lost in it is at most so much. */
+static void stages_list(const char *label, const char *const *name, const double *seconds,
+                        const double *scatter, int count)
+{
+    printf("  %-11s", label);
+    for (int i = 0; i < count; i++) {
+        double off = scatter ? 2.0 * scatter[i] : 0.0;
+        double ms = 1e3 * fmax(seconds[i], off);
+        printf("%s%s %s%.*f", i > 0 ? ", " : "", name[i], seconds[i] < off ? "< " : "",
+               decimals(ms), ms);
+    }
+    printf(" ms\n");
+}
+
 static void stages_print(const run_job *job)
 {
     double load = job->scene.seconds_load;
@@ -212,6 +291,9 @@ static void stages_print(const run_job *job)
     stage_print(", prepare", prepare, all);
     stage_print(", pose", pose, all);
     putchar('\n');
+    stages_list("prepare", prepare_stage, job->scene.seconds_stage, NULL, LRCS_HOST_PREPARE_STAGES);
+    stages_list("pose", pose_stage, job->explained.stage, job->explained.stage_scatter,
+                LRCS_HOST_POSE_STAGES);
 }
 
 void cli_run_explain_table(const run_job *job)

@@ -146,6 +146,9 @@ static void json_tail(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_number(json, "load", job->scene.seconds_load);
     lrcs_host_json_number(json, "prepare", job->scene.seconds_prepare);
     lrcs_host_json_number(json, "pose", job->seconds);
+    if (job->explain) {
+        cli_run_explain_stages_json(job, json);
+    }
     lrcs_host_json_end(json);
 }
 

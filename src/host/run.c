@@ -5,10 +5,28 @@
 
 #include <stdlib.h>
 
+#include "integrate/sigma.h"
+#include "scene/prepare.h"
+
+_Static_assert((int)LRCS_HOST_PREPARE_STAGES == LRCSI_PREPARE_STAGES &&
+                   (int)LRCS_HOST_POSE_STAGES == LRCSI_SIGMA_STAGES,
+               "the core's stages under public names");
+
+/* lrcs_prepare_run, its stages timed; the first holds the checks. */
 static int run_prepare(void *context, lrcs_work *work)
 {
     lrcs_host_scene *scene = context;
-    return lrcs_prepare_run(&scene->scene, work, &scene->prepared);
+    lrcs_prepared *p = NULL;
+    double start = lrcsi_host_seconds();
+    int status = lrcsi_prepare_start(&scene->scene, work, &p);
+    for (int stage = 0; stage < LRCSI_PREPARE_STAGES && status == LRCS_OK; stage++) {
+        status = lrcsi_prepare_stage(p, stage, work);
+        double end = lrcsi_host_seconds();
+        scene->seconds_stage[stage] = end - start;
+        start = end;
+    }
+    scene->prepared = status == LRCS_OK ? p : scene->prepared;
+    return status;
 }
 
 static int run_fail(lrcs_host_error *error, int status, const char *what)
@@ -103,6 +121,33 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
     }
     lrcsi_host_area_free(&area);
     return status;
+}
+
+typedef struct until_step {
+    const lrcs_prepared *prepared;
+    const lrcs_pose *pose;
+    const lrcs_run_options *options;
+    int stage;
+} until_step;
+
+static int run_until(void *context, lrcs_work *work)
+{
+    until_step *step = context;
+    return lrcsi_sigma_until(step->prepared, step->pose, step->options, step->stage, work);
+}
+
+int lrcs_host_scene_run_until(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                              const lrcs_run_options *options, int stage, lrcs_host_error *error)
+{
+    until_step step = {scene->prepared, pose, options, stage};
+    lrcsi_host_area area = {NULL, 0};
+    int status = stage >= 0 && stage < LRCS_HOST_POSE_STAGES ? LRCS_OK : LRCS_E_ARGUMENT;
+    if (status == LRCS_OK) {
+        size_t need = sigma_room(scene, options, NULL, &area);
+        status = lrcsi_host_area_run(&area, need, run_until, &step, error);
+    }
+    lrcsi_host_area_free(&area);
+    return run_fail(error, status, "sigma");
 }
 
 typedef struct emulate_step {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* One pose, from a prepared scene to a result: it chooses the raster's resolution, lays out the
    memory and hands each stage the work of the one before. */
-#include <lrcs/run.h>
+#include "integrate/sigma.h"
 
 #include <math.h>
 
@@ -18,8 +18,9 @@
 
 /* For the sake of an estimate: the finest raster, and the pixels that cost as much as clipping a
    contested facet (make bench: 10 us and 15 ns on most models). */
-#define PREVIEW_LAST 2048u
-#define CLIP_PIXELS  650.0
+#define PREVIEW_LAST   2048u
+#define PREVIEW_FACETS 1024u /* fewer are never judged by samples alone */
+#define CLIP_PIXELS    650.0
 
 /* What a run passes from stage to stage. */
 typedef struct sigma_run {
@@ -36,6 +37,7 @@ typedef struct sigma_run {
     lrcsi_total total;
     lrcs_work *work;
     lrcs_image *image;
+    int last;      /* lrcsi_sigma_stage: the run ends after it */
     uint32_t size; /* of the raster used, 0: none */
     int contested; /* contest has been made, and margin where it is wanted */
     uint32_t flags;
@@ -154,6 +156,9 @@ static lrcsi_curving run_curving(const sigma_run *run)
 /* Areas are written down for curved normals only: the sum takes them from the plan. */
 static int run_facet(sigma_run *run)
 {
+    if (run->last < LRCSI_SIGMA_SUM) {
+        return LRCS_OK;
+    }
     if (run->curved) {
         const lrcsi_view *view = &run->view;
         lrcsi_curving how = run_curving(run);
@@ -215,6 +220,9 @@ static void sum_curved(sigma_run *run)
 /* The sum over visible areas found by sampling or clipping. */
 static void run_sum(sigma_run *run, int sampled)
 {
+    if (run->last < LRCSI_SIGMA_SUM) {
+        return;
+    }
     if (run->plan.unshadowed) {
         fronts_are_known(&run->view, &run->plan, run->visible);
     }
@@ -272,12 +280,15 @@ static int run_contest(sigma_run *run)
 }
 
 /* Are areas taken from samples alone, without a proof? Curved normals need to know where on a facet
-   it is seen, and curved shapes among others which facets are contested. */
+   it is seen, and curved shapes among others which facets are contested. Of few facets, what could
+   hide them is searched for at less than the cost of a raster, and tells more of errors than so few
+   do by chance. */
 static int run_samples_only(const sigma_run *run, const lrcs_run_options *options)
 {
     const lrcs_prepared *p = run->view.prepared;
     return run->plan.method == LRCS_METHOD_ZBUFFER && options->accept != LRCS_ACCEPT_BOUND &&
-           !p->smooth && !p->nears.reach && run->flags == 0;
+           !p->smooth && !p->nears.reach && run->flags == 0 &&
+           run->view.front + run->view.back >= PREVIEW_FACETS;
 }
 
 /* One such raster; of a size that the work area holds, if it can. */
@@ -390,10 +401,10 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_view_project(run->work, &run->view);
-    if (status == LRCS_OK && !run_samples_only(run, options)) {
+    if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run_samples_only(run, options)) {
         status = run_contest(run);
     }
-    if (status != LRCS_OK) {
+    if (status != LRCS_OK || run->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;
     }
     status = run_method(run, options);
@@ -459,6 +470,39 @@ static int run_take(sigma_run *run)
                : LRCS_E_MEMORY;
 }
 
+static int run_stages(sigma_run *run, const lrcs_prepared *prepared, const lrcs_pose *pose,
+                      const lrcs_run_options *options)
+{
+    run->tolerance = options->tolerance;
+    run->meter.most = options->steps != 0 ? options->steps : UINT64_MAX;
+    int status = lrcsi_view_face(prepared, pose, run->work, &run->view);
+    if (status == LRCS_OK) {
+        run->view.meter = &run->meter;
+        lrcsi_plan_backs(options, &run->view);
+        run->plan = lrcsi_plan_make(&run->view, options);
+        status = run_take(run);
+    }
+    if (status == LRCS_OK) {
+        status =
+            run->plan.method == LRCS_METHOD_FACET ? run_facet(run) : run_shadowed(run, options);
+    }
+    return status;
+}
+
+int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                      const lrcs_run_options *options, int last, lrcs_work *work)
+{
+    int status = options->method == LRCS_METHOD_AUTO ? LRCS_E_ARGUMENT : run_check(options, NULL);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    size_t mark = work->used;
+    sigma_run run = {.work = work, .last = last};
+    status = run_stages(&run, prepared, pose, options);
+    work->used = mark;
+    return status;
+}
+
 int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                    const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,
                    lrcs_facet_record *records, lrcs_image *image)
@@ -468,21 +512,8 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         return status;
     }
     size_t mark = work->used;
-    sigma_run run = {.work = work,
-                     .image = image,
-                     .tolerance = options->tolerance,
-                     .meter = {.most = options->steps != 0 ? options->steps : UINT64_MAX}};
-    status = lrcsi_view_face(prepared, pose, work, &run.view);
-    if (status == LRCS_OK) {
-        run.view.meter = &run.meter;
-        lrcsi_plan_backs(options, &run.view);
-        run.plan = lrcsi_plan_make(&run.view, options);
-        status = run_take(&run);
-    }
-    if (status == LRCS_OK) {
-        status =
-            run.plan.method == LRCS_METHOD_FACET ? run_facet(&run) : run_shadowed(&run, options);
-    }
+    sigma_run run = {.work = work, .image = image, .last = LRCSI_SIGMA_SUM};
+    status = run_stages(&run, prepared, pose, options);
     if (status == LRCS_OK && !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse +
                                        run.total.curvature)) {
         status = LRCS_E_NUMBER;

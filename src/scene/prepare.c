@@ -273,31 +273,20 @@ static void contacts_none(const lrcs_prepared *p, unsigned char *none)
     }
 }
 
-/* Contacts, and with them whether the scene is solid. Returned also: whether it is all one piece of
-   surface, as a convex body is. Pieces, and which facets were asked, stay beneath the contacts. */
-static int prepare_contacts(lrcs_prepared *p, lrcs_work *work, int *lone)
+/* Which facets take part; what of those in one place counts; what lies across the sides of those
+   that do. */
+static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
 {
-    uint32_t *piece = lrcsi_work_take(work, p->scene->facet_count, sizeof *piece);
-    unsigned char *none = lrcsi_work_take(work, p->scene->facet_count, sizeof *none);
-    if (!piece || !none) {
-        return LRCS_E_MEMORY;
-    }
-    contacts_none(p, none);
-    int closed = lrcsi_solid_pieces(p, piece);
-    int status = lrcsi_touches_make(p->vertex, p->scene->vertex_count, p->scene->facet,
-                                    p->scene->facet_count, &p->topology, none,
-                                    closed ? piece : NULL, work, &p->touches);
-    if (status == LRCS_OK) {
-        status = lrcsi_coincident_touches(p, work);
-    }
-    if (status == LRCS_OK && closed && !p->touches.self) {
-        status = lrcsi_solid_outward(p, piece, work, &p->solid);
-    }
-    *lone = closed && count_pieces(p, piece) == 1;
-    return status;
+    prepare_live(p);
+    int status = lrcsi_coincident_mark(p, work);
+    return status == LRCS_OK ? lrcsi_across_make(&p->topology, p->scene->facet_count, p->redundant,
+                                                 p->twin, work, &p->across)
+                             : status;
 }
 
-static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
+/* Contacts, unless the scene is convex by construction. Pieces of surface are told apart first, for
+   contacts within one. They stay, as does which facets were asked, beneath the contacts. */
+static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     if (lrcsi_convex_made(p, &p->solid, &p->graze)) {
         return prepare_made(p, work);
@@ -305,9 +294,32 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     p->graze = 0;
     p->solid = 0;
     p->convex = p->live == 0;
-    int lone = 0;
-    int status = prepare_contacts(p, work, &lone);
-    if (status == LRCS_OK && p->solid && lone) {
+    unsigned char *none = lrcsi_work_take(work, p->scene->facet_count, sizeof *none);
+    size_t mark = work->used;
+    uint32_t *piece = lrcsi_work_take(work, p->scene->facet_count, sizeof *piece);
+    if (!none || !piece) {
+        return LRCS_E_MEMORY;
+    }
+    contacts_none(p, none);
+    if (lrcsi_solid_pieces(p, piece)) {
+        p->piece = piece;
+    } else {
+        work->used = mark;
+    }
+    int status =
+        lrcsi_touches_make(p->vertex, p->scene->vertex_count, p->scene->facet,
+                           p->scene->facet_count, &p->topology, none, p->piece, work, &p->touches);
+    return status == LRCS_OK ? lrcsi_coincident_touches(p, work) : status;
+}
+
+/* Whether the scene is solid, and then convex: one piece of surface, as a convex body is. */
+static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
+{
+    int status = LRCS_OK;
+    if (p->piece && !p->touches.self) {
+        status = lrcsi_solid_outward(p, p->piece, work, &p->solid);
+    }
+    if (status == LRCS_OK && p->piece && p->solid && count_pieces(p, p->piece) == 1) {
         status = lrcsi_convex_exact(p, work, &p->convex);
     }
     if (status == LRCS_OK && p->curved && !p->convex) {
@@ -338,36 +350,45 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     return lrcsi_work_add(need, proof);
 }
 
-int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared)
+int lrcsi_prepare_start(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared **prepared)
 {
     int status = lrcsi_ieee_kept() ? prepare_door(scene) : LRCS_E_UNSUPPORTED;
-    if (status != LRCS_OK) {
-        return status;
-    }
-    size_t mark = work->used;
-    lrcs_prepared *p = lrcsi_work_take_zero(work, 1, sizeof *p);
+    lrcs_prepared *p = status == LRCS_OK ? lrcsi_work_take_zero(work, 1, sizeof *p) : NULL;
     if (!p) {
-        return LRCS_E_MEMORY;
+        return status == LRCS_OK ? LRCS_E_MEMORY : status;
     }
     p->scene = scene;
     p->exponent = prepare_exponent(scene);
-    status = prepare_arrays(scene, work, p);
-    if (status == LRCS_OK) {
+    *prepared = p;
+    return LRCS_OK;
+}
+
+int lrcsi_prepare_stage(lrcs_prepared *p, int stage, lrcs_work *work)
+{
+    switch (stage) {
+    case LRCSI_PREPARE_EDGES:
+        return prepare_arrays(p->scene, work, p);
+    case LRCSI_PREPARE_NEIGHBOURS:
+        return prepare_neighbours(p, work);
+    case LRCSI_PREPARE_NORMALS:
         prepare_normals(p);
-        prepare_live(p);
         prepare_box(p);
         prepare_effects(p);
-        status = lrcsi_coincident_mark(p, work);
+        return lrcsi_batches_make(p, work);
+    case LRCSI_PREPARE_CONTACTS:
+        return prepare_contacts(p, work);
+    default:
+        return prepare_proofs(p, work);
     }
-    if (status == LRCS_OK) {
-        status = lrcsi_across_make(&p->topology, scene->facet_count, p->redundant, p->twin, work,
-                                   &p->across);
-    }
-    if (status == LRCS_OK) {
-        status = lrcsi_batches_make(p, work);
-    }
-    if (status == LRCS_OK) {
-        status = prepare_proofs(p, work);
+}
+
+int lrcs_prepare_run(const lrcs_scene *scene, lrcs_work *work, const lrcs_prepared **prepared)
+{
+    size_t mark = work->used;
+    lrcs_prepared *p = NULL;
+    int status = lrcsi_prepare_start(scene, work, &p);
+    for (int stage = 0; stage < LRCSI_PREPARE_STAGES && status == LRCS_OK; stage++) {
+        status = lrcsi_prepare_stage(p, stage, work);
     }
     if (status != LRCS_OK) {
         work->used = mark;

@@ -47,6 +47,8 @@ struct lrcs_prepared {
     lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
     lrcsi_across across;     /* across the sides of facets that are not redundant */
     lrcsi_touches touches;   /* between facets that are not redundant, but not between twins */
+    uint32_t *piece;         /* facet: its piece of surface (scene/solid.h), where all are closed;
+                                else NULL */
     double centre[3];        /* of the box around the live facets */
     double radius;           /* no live vertex is farther from the centre in any coordinate */
     double origin[3];        /* of views: the centre of the box around most vertices, */
@@ -63,6 +65,22 @@ struct lrcs_prepared {
     int articulated;    /* some part stands on a joint */
     int smooth;         /* some live facet has curved normals */
 };
+
+/* The stages of lrcs_prepare_run, which are run in this order: one by one, so that a host can time
+   them (the core has no clock). */
+enum lrcsi_prepare_stage {
+    LRCSI_PREPARE_EDGES,      /* scaled points, welded; edges */
+    LRCSI_PREPARE_NEIGHBOURS, /* coincident facets; which facet lies across each side */
+    LRCSI_PREPARE_NORMALS,    /* and what else is found facet by facet: box, effects, batches */
+    LRCSI_PREPARE_CONTACTS,
+    LRCSI_PREPARE_PROOFS, /* solid, convex, what is near curved shapes */
+    LRCSI_PREPARE_STAGES
+};
+
+/* Checks the scene and starts its preparation. Status: as lrcs_prepare_run. After a failure, here
+   or in a stage, the caller releases the work area. */
+int lrcsi_prepare_start(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared **prepared);
+int lrcsi_prepare_stage(lrcs_prepared *prepared, int stage, lrcs_work *work);
 
 /* The material of a facet. */
 static inline const lrcs_material *lrcsi_prepared_material(const lrcs_prepared *p, uint32_t facet)

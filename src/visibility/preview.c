@@ -34,6 +34,7 @@ typedef struct preview_border {
    many pixels they pass, and how many the longest one along a row or column. */
 typedef struct preview_counts {
     uint32_t covered, owned, borders, longest;
+    uint32_t met;   /* 1 where a border passes that may be another's, too */
     float share;    /* of it that is seen */
     uint32_t round; /* in which that was found: 0 from its samples, LRCS_NONE not yet */
 } preview_counts;
@@ -292,8 +293,12 @@ static void preview_step(preview_job *job, preview_border *border, uint32_t at, 
     for (int k = 0; k < 2; k++) {
         const preview_owned *beyond = k == 0 ? &b : &a;
         uint32_t facet = border->facet[k];
-        if (facet != LRCS_NONE && preview_reaches(job, facet, beyond->x, beyond->y)) {
-            preview_counts *c = &job->counts[facet];
+        if (facet == LRCS_NONE) {
+            continue;
+        }
+        preview_counts *c = &job->counts[facet];
+        c->met = 1;
+        if (preview_reaches(job, facet, beyond->x, beyond->y)) {
             c->borders++;
             c->longest = c->longest > border->length ? c->longest : border->length;
         }
@@ -415,8 +420,10 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, double
     v.lean = c->covered < FEW_SAMPLES ? lean * v.area : 0;
     if (c->covered == 0) {
         v.likely = sqrt(LIKELY_SQUARE) * area;
-    } else if (c->owned != 0 && c->owned != c->covered) {
+    } else if (c->owned !=
+               0) { /* of one that owns all, a strip may be hidden where a border passes */
         double square = c->borders + (double)c->longest * c->longest;
+        square = c->owned != c->covered ? square : c->met;
         v.likely = lrcsi_least(area, sqrt(LIKELY_SQUARE * square) * pixel);
     }
     return v;

@@ -144,6 +144,35 @@ static void every_method_is_judged_alike(void **state)
     }
 }
 
+/* Samples alone prove little of many facets, and guess as well. Of few, the raster is the same. */
+static void samples_alone_prove_less_and_guess_as_well(void **state)
+{
+    (void)state;
+    static const double d[3] = {0.5, 0.3, 0.8};
+    lrcs_work work;
+    for (int many = 0; many < 2; many++) {
+        shadows();
+        if (many) {
+            scene_sphere(&scene, (const double[3]){-1, 0.5, 1.5}, 0.8, 40);
+        }
+        const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+        lrcs_run_options options = {
+            .tolerance = 0.02, .method = LRCS_METHOD_ZBUFFER, .resolution = 256};
+        lrcs_result proved = answer(prepared, &work, d, &options);
+        options.accept = LRCS_ACCEPT_ESTIMATE;
+        lrcs_result guessed = answer(prepared, &work, d, &options);
+        options.method = LRCS_METHOD_EXACT;
+        lrcs_result truth = answer(prepared, &work, d, &options);
+        int alone = truth.facets_total > 2000;
+        assert_int_equal(alone, many);
+        assert_int_equal(same_numbers(&proved, &guessed), !alone);
+        assert_true(guessed.bound_m2 >= (alone ? 2 : 1) * proved.bound_m2);
+        check_abs(guessed.sigma_m2, truth.sigma_m2, guessed.bound_m2);
+        check_abs(guessed.sigma_m2, truth.sigma_m2, 0.01 * truth.sigma_m2);
+        assert_true(guessed.estimate_m2 > 0 && guessed.estimate_m2 < 0.02 * truth.sigma_m2);
+    }
+}
+
 /* A coarse raster that misses gives way to clipping, but not where anything is accepted. */
 static void any_takes_the_first_raster(void **state)
 {
@@ -227,6 +256,7 @@ int main(void)
         cmocka_unit_test(a_proof_that_costs_nothing_is_none_by_estimate),
         cmocka_unit_test(coarser_tolerances_are_met_by_coarser_rasters),
         cmocka_unit_test(every_method_is_judged_alike),
+        cmocka_unit_test(samples_alone_prove_less_and_guess_as_well),
         cmocka_unit_test(any_takes_the_first_raster),
         cmocka_unit_test(where_no_sample_reflects_the_estimate_does_not_count),
         cmocka_unit_test(names_and_numbers_go_both_ways),
