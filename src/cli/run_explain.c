@@ -45,7 +45,7 @@ static double median(double *value, uint32_t count)
         }
         value[k] = at;
     }
-    return 0.5 * (value[(count - 1) / 2] + value[count / 2]);
+    return count > 0 ? 0.5 * (value[(count - 1) / 2] + value[count / 2]) : 0;
 }
 
 static double processor_seconds(void)

@@ -153,7 +153,7 @@ static int line_covers_segment(const double *a, const double *b, const double *c
                                const double *axis)
 {
     int k = 0;
-    while (axis[k] != 0 || a[k] == b[k]) {
+    while (k < 2 && (axis[k] != 0 || a[k] == b[k])) {
         k++;
     }
     int below = 0;

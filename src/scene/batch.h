@@ -19,8 +19,8 @@ typedef struct lrcsi_batches {
     int redundant;     /* some are, on one side at least */
 } lrcsi_batches;
 
-/* Given: the scene's normals, and which facets are skipped or redundant. Status: LRCS_OK; LRCS_E_MEMORY.
-   Work: lrcsi_batches_need, all of which stays. */
+/* Given: the scene's normals, and which facets are skipped or redundant. Status: LRCS_OK;
+   LRCS_E_MEMORY. Work: lrcsi_batches_need, all of which stays. */
 size_t lrcsi_batches_need(const lrcs_scene *scene);
 int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work);
 

@@ -226,7 +226,7 @@ static void view_facings(lrcsi_view *view)
     for (uint32_t place = 0; place < b->count; place += LRCSI_LANES) {
         const uint32_t *facet = b->facet + place;
         uint32_t count = b->count - place < LRCSI_LANES ? b->count - place : LRCSI_LANES;
-        uint32_t unsure[LRCSI_LANES];
+        uint32_t unsure[LRCSI_LANES] = {0};
         uint32_t unsures = 0;
         uint32_t back = 0;
         double dot[LRCSI_LANES];

@@ -328,9 +328,8 @@ static void facet_flatten(cells_facet *f)
 /* The plane and its error, as told above; HUGE_VAL where it is so narrow that only corners tell. */
 static void facet_slope(cells_facet *f, const double z[3])
 {
-    double dx[2] = {f->x[1] - f->x[0], f->x[2] - f->x[0]};
-    double dy[2] = {f->y[1] - f->y[0], f->y[2] - f->y[0]};
-    double dz[2] = {z[1] - z[0], z[2] - z[0]};
+    const double dx[2] = {f->x[1] - f->x[0], f->x[2] - f->x[0]};
+    const double dy[2] = {f->y[1] - f->y[0], f->y[2] - f->y[0]};
     double twice = dx[0] * dy[1] - dx[1] * dy[0];
     double longest = lrcsi_most(f->length[0], lrcsi_most(f->length[1], f->length[2]));
     double height = twice / longest; /* the least */
@@ -341,6 +340,7 @@ static void facet_slope(cells_facet *f, const double z[3])
     f->z[0] = f->z[1] = f->z[2] = 0;
     f->z_off[0] = f->z_off[1] = HUGE_VAL;
     if (height > 64 * f->off && height > 0x1p-40 * longest) {
+        const double dz[2] = {z[1] - z[0], z[2] - z[0]};
         f->z[0] = (dz[0] * dy[1] - dz[1] * dy[0]) / twice;
         f->z[1] = (dz[1] * dx[0] - dz[0] * dx[1]) / twice;
         f->z[2] = z[0] - f->z[0] * f->x[0] - f->z[1] * f->y[0];
@@ -880,7 +880,7 @@ static int segment_behind(const cells_work *c, const cells_cell *cell, const cel
     if (lrcsi_most(e->end[0][2], e->end[1][2]) + z_off < low) {
         return 1;
     }
-    cells_part part;
+    cells_part part = {0, 1, 0};
     segment_place(cell, s, e->end[0], e->end[1], e->line, w, &part);
     double at[2][3];
     for (int i = 0; i < 2; i++) {
@@ -1030,111 +1030,111 @@ static void part_near(const cells_facet *f, const lrcsi_clip_polygon *left,
     }
 }
 
-/* Cuts a cell along a line: the part on the left stays where it is, that on the right goes behind
-   it. 0 where there is no room. */
-static int cells_cut(cells_work *c, const cells_cell *cell, const cells_sides *s,
-                     const double line[3], const cells_segment *along)
+/* A shape divided along a line. */
+typedef struct shape_cut {
+    const double *common[2]; /* corners that both parts share, so many of them */
+    int commons;
+    double longest; /* of the sides that are cut, |x| + |y| */
+} shape_cut;
+
+static shape_cut shape_divide(const lrcsi_clip_polygon *shape, const double line[3],
+                              lrcsi_clip_polygon *left, lrcsi_clip_polygon *right)
 {
-    uint32_t struck = along ? (uint32_t)(along - c->segment) : LRCS_NONE;
-    cells_part part = {0, 1, 0};
-    double strip = 0;
-    if (along) {
-        strip = along->off + s->g + 4 * U * c->reach + U * s->perimeter;
-        segment_place(cell, s, along->end[0], along->end[1], along->line, strip, &part);
-    }
-    double from = part.from * 0.7 * (along ? along->length : 0);
-    double to = part.to * (along ? along->length : 0);
-    cells_cell left = *cell;
-    cells_cell right = *cell;
-    lrcsi_clip_polygon *side[2] = {&left.shape, &right.shape};
-    const lrcsi_clip_polygon *p = &cell->shape;
-    const double *common[2]; /* corners of both parts */
-    int commons = 0;
-    double longest = 0; /* of the sides that are cut */
-    side[0]->count = side[1]->count = 0;
-    if (p->count + 2 > LRCSI_CLIP_SIDES) {
-        return 0;
-    }
-    for (uint32_t i = 0; i < p->count; i++) {
-        const double *here = p->corner[i];
-        const double *next = p->corner[i + 1 < p->count ? i + 1 : 0];
+    shape_cut cut = {{NULL, NULL}, 0, 0};
+    left->count = right->count = 0;
+    for (uint32_t i = 0; i < shape->count; i++) {
+        const double *here = shape->corner[i];
+        const double *next = shape->corner[i + 1 < shape->count ? i + 1 : 0];
         double a = line_at(line, here[0], here[1]);
         double b = line_at(line, next[0], next[1]);
-        for (int k = 0; k < 2; k++) {
-            if (k == 0 ? a >= 0 : a <= 0) {
-                memcpy(side[k]->corner[side[k]->count++], here, 2 * sizeof *here);
-            }
-            if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
-                double t = a / (a - b);
-                double *corner = side[k]->corner[side[k]->count++];
-                corner[0] = here[0] + t * (next[0] - here[0]);
-                corner[1] = here[1] + t * (next[1] - here[1]);
-                longest = lrcsi_most(longest, fabs(next[0] - here[0]) + fabs(next[1] - here[1]));
-                if (k == 0 && commons < 2) {
-                    common[commons++] = corner;
-                }
+        if (a >= 0) {
+            memcpy(left->corner[left->count++], here, 2 * sizeof *here);
+        }
+        if (a <= 0) {
+            memcpy(right->corner[right->count++], here, 2 * sizeof *here);
+        }
+        if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
+            double t = a / (a - b);
+            double *corner = left->corner[left->count++];
+            corner[0] = here[0] + t * (next[0] - here[0]);
+            corner[1] = here[1] + t * (next[1] - here[1]);
+            memcpy(right->corner[right->count++], corner, 2 * sizeof *corner);
+            cut.longest =
+                lrcsi_most(cut.longest, fabs(next[0] - here[0]) + fabs(next[1] - here[1]));
+            if (cut.commons < 2) {
+                cut.common[cut.commons++] = corner;
             }
         }
     }
-    double drift = cell->drift + U * longest + 0.75 * U * c->reach;
-    memcpy(left.cut, line, sizeof left.cut);
-    memcpy(right.cut, line, sizeof right.cut);
-    left.sign = 1;
-    right.sign = -1;
-    left.cuts = right.cuts = cell->cuts + 1;
-    left.struck = right.struck = cell->struck + (along != NULL);
-    left.inset = right.inset = lrcsi_most(cell->inset, 2 * strip);
-    uint32_t total = cell->facets + cell->segments;
-    size_t end = cell->first + total;
-    double g = 16 * U * c->reach + drift;
-    left.drift = right.drift = drift;
-    if (c->top + 2 > CELLS_WAITING || end + total > c->room) {
-        return 0;
+    return cut;
+}
+
+/* The strip along a segment at which a cell is cut. Distances along it from its first end, its
+   length being known as |x| + |y|: at most 1 / 0.7 of the true one. */
+typedef struct cut_strip {
+    const cells_segment *along; /* or NULL: then there is none */
+    double width, from, to;
+} cut_strip;
+
+/* Charges a facet that is still open, on both sides of the cut, for its part of the strip. */
+static void strip_charge(cells_work *c, uint32_t index, const double line[3],
+                         const cut_strip *strip)
+{
+    const cells_facet *f = &c->facet[index];
+    const cells_segment *along = strip->along;
+    double near[2] = {HUGE_VAL, -HUGE_VAL};
+    for (int k = 0; k < 3; k++) {
+        double t = line[1] * (f->x[k] - along->end[0][0]) - line[0] * (f->y[k] - along->end[0][1]);
+        near[0] = lrcsi_least(near[0], t);
+        near[1] = lrcsi_most(near[1], t);
     }
-    if (left.shape.count < 3 || right.shape.count < 3) {
-        return 0;
-    }
-    left.facets = right.facets = left.segments = right.segments = 0;
-    right.first = end;
+    double beyond = CELLS_FAR * strip->width + f->off;
+    double length = lrcsi_least(near[1] + beyond, strip->to + beyond) -
+                    lrcsi_most(near[0] - beyond, strip->from - beyond);
+    c->area[index].doubt += 2 * strip->width * lrcsi_most(0, length);
+    c->area[index].cut += lrcsi_most(0, length);
+}
+
+/* Lists the facets of a cell with the parts that they may come near. */
+static void cut_facets(cells_work *c, const cells_cell *cell, const double line[3],
+                       const shape_cut *cut, const cut_strip *strip, double g, cells_cell *left,
+                       cells_cell *right)
+{
     uint32_t *in = c->list + cell->first;
-    uint32_t *to_left = in;
-    uint32_t *to_right = c->list + end;
+    uint32_t *to_right = c->list + right->first;
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t index = in[i];
         const cells_facet *f = &c->facet[index];
-        double w = f->off + g + strip;
+        double w = f->off + g + strip->width;
         double a = line_at(line, f->x[0], f->y[0]);
         double b = line_at(line, f->x[1], f->y[1]);
         double d = line_at(line, f->x[2], f->y[2]);
         int on_left = lrcsi_most(a, lrcsi_most(b, d)) > -w;
         int on_right = lrcsi_least(a, lrcsi_least(b, d)) < w;
-        if (on_left && on_right && along && c->open[index]) {
-            double near[2] = {HUGE_VAL, -HUGE_VAL};
-            for (int k = 0; k < 3; k++) {
-                double t =
-                    line[1] * (f->x[k] - along->end[0][0]) - line[0] * (f->y[k] - along->end[0][1]);
-                near[0] = lrcsi_least(near[0], t);
-                near[1] = lrcsi_most(near[1], t);
-            }
-            double beyond = CELLS_FAR * strip + f->off;
-            double length = lrcsi_least(near[1] + beyond, to + beyond) -
-                            lrcsi_most(near[0] - beyond, from - beyond);
-            c->area[index].doubt += 2 * strip * lrcsi_most(0, length);
-            c->area[index].cut += lrcsi_most(0, length);
-        }
         if (on_left && on_right) {
-            part_near(f, &left.shape, &right.shape, common, commons, g, &on_left, &on_right);
+            if (strip->along && c->open[index]) {
+                strip_charge(c, index, line, strip);
+            }
+            part_near(f, &left->shape, &right->shape, cut->common, cut->commons, g, &on_left,
+                      &on_right);
         }
         if (on_left) {
-            to_left[left.facets++] = index;
+            in[left->facets++] = index;
         }
         if (on_right) {
-            to_right[right.facets++] = index;
+            to_right[right->facets++] = index;
         }
     }
-    to_left += left.facets;
-    to_right += right.facets;
-    for (uint32_t i = cell->facets; i < total; i++) {
+}
+
+/* Lists its segments likewise, after the facets, but the one at which it is cut. */
+static void cut_segments(cells_work *c, const cells_cell *cell, const double line[3],
+                         uint32_t struck, double g, cells_cell *left, cells_cell *right)
+{
+    const uint32_t *in = cells_segments(c, cell);
+    uint32_t *to_left = c->list + left->first + left->facets;
+    uint32_t *to_right = c->list + right->first + right->facets;
+    for (uint32_t i = 0; i < cell->segments; i++) {
         uint32_t index = in[i];
         const cells_segment *e = &c->segment[index];
         if (index == struck) {
@@ -1144,12 +1144,54 @@ static int cells_cut(cells_work *c, const cells_cell *cell, const cells_sides *s
         double a = line_at(line, e->end[0][0], e->end[0][1]);
         double b = line_at(line, e->end[1][0], e->end[1][1]);
         if (a > -w || b > -w) {
-            to_left[left.segments++] = index;
+            to_left[left->segments++] = index;
         }
         if (a < w || b < w) {
-            to_right[right.segments++] = index;
+            to_right[right->segments++] = index;
         }
     }
+}
+
+/* Cuts a cell along a line: the part on the left stays where it is, that on the right goes behind
+   it. 0 where there is no room. */
+static int cells_cut(cells_work *c, const cells_cell *cell, const cells_sides *s,
+                     const double line[3], const cells_segment *along)
+{
+    uint32_t struck = along ? (uint32_t)(along - c->segment) : LRCS_NONE;
+    cut_strip strip = {along, 0, 0, 0};
+    if (along) {
+        cells_part part = {0, 1, 0};
+        strip.width = along->off + s->g + 4 * U * c->reach + U * s->perimeter;
+        segment_place(cell, s, along->end[0], along->end[1], along->line, strip.width, &part);
+        strip.from = part.from * 0.7 * along->length;
+        strip.to = part.to * along->length;
+    }
+    uint32_t total = cell->facets + cell->segments;
+    size_t end = cell->first + total;
+    if (cell->shape.count + 2 > LRCSI_CLIP_SIDES || c->top + 2 > CELLS_WAITING ||
+        end + total > c->room) {
+        return 0;
+    }
+    cells_cell left = *cell;
+    cells_cell right = *cell;
+    shape_cut cut = shape_divide(&cell->shape, line, &left.shape, &right.shape);
+    if (left.shape.count < 3 || right.shape.count < 3) {
+        return 0;
+    }
+    double drift = cell->drift + U * cut.longest + 0.75 * U * c->reach;
+    double g = 16 * U * c->reach + drift;
+    memcpy(left.cut, line, sizeof left.cut);
+    memcpy(right.cut, line, sizeof right.cut);
+    left.sign = 1;
+    right.sign = -1;
+    left.cuts = right.cuts = cell->cuts + 1;
+    left.struck = right.struck = cell->struck + (along != NULL);
+    left.inset = right.inset = lrcsi_most(cell->inset, 2 * strip.width);
+    left.drift = right.drift = drift;
+    left.facets = right.facets = left.segments = right.segments = 0;
+    right.first = end;
+    cut_facets(c, cell, line, &cut, &strip, g, &left, &right);
+    cut_segments(c, cell, line, struck, g, &left, &right);
     c->stack[c->top++] = left;
     c->stack[c->top++] = right;
     return 1;
@@ -1260,22 +1302,13 @@ static const cells_segment *cells_choose(const cells_work *c, const cells_cell *
     return best;
 }
 
-/* Does one cell: it is decided, cut, or left. */
-static void cells_do(cells_work *c, cells_cell *cell)
+/* Asks a sample well inside of a cell; where it cannot be told, another. Returns its answer, the
+   facet found, and how far inside the last one lies. */
+static int cells_look(cells_work *c, const cells_cell *cell, const cells_sides *s, uint32_t *best,
+                      double *clear)
 {
-    cells_sides s;
-    if (!cells_wanted(c, cell)) {
-        return;
-    }
-    cells_sides_of(c, cell, &s);
-    cells_strike(c, cell, &s);
-    c->components = 0;
-
-    /* 1. A sample; where it cannot be told, another. */
     static const double weight[TRIES][3] = {{1, 1, 1}, {1.3, 0.9, 1.1}, {0.7, 1.2, 1.6}};
     int answer = SAMPLE_UNSURE;
-    uint32_t best = LRCS_NONE;
-    double clear = 0;
     for (int t = 0; t < TRIES && answer == SAMPLE_UNSURE; t++) {
         double at[2] = {0, 0};
         double sum = 0;
@@ -1287,13 +1320,30 @@ static void cells_do(cells_work *c, cells_cell *cell)
         }
         at[0] /= sum;
         at[1] /= sum;
-        clear = sides_clear(&s, at);
+        *clear = sides_clear(s, at);
         c->look++;
-        if (clear > 4 * (cell->inset + c->off + s.g)) {
-            answer = cells_sample(c, cell, &s, at, &best);
+        if (*clear > 4 * (cell->inset + c->off + s->g)) {
+            answer = cells_sample(c, cell, s, at, best);
         }
     }
+    return answer;
+}
 
+/* Does one cell: it is decided, cut, or left. */
+static void cells_do(cells_work *c, cells_cell *cell)
+{
+    cells_sides s;
+    if (!cells_wanted(c, cell)) {
+        return;
+    }
+    cells_sides_of(c, cell, &s);
+    cells_strike(c, cell, &s);
+    c->components = 0;
+
+    /* 1. A sample. */
+    uint32_t best = LRCS_NONE;
+    double clear = 0;
+    int answer = cells_look(c, cell, &s, &best, &clear);
     if (answer == SAMPLE_UNSURE && cells_spare(c, cell, &s)) {
         return;
     }

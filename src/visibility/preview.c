@@ -262,8 +262,8 @@ static int preview_reaches(const preview_job *job, uint32_t facet, uint32_t x, u
 {
     const lrcsi_raster *r = &job->raster;
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
-    double at[2] = {job->view->low[0] + (x + 0.5) * r->pixel,
-                    job->view->low[1] + (y + 0.5) * r->pixel};
+    const double at[2] = {job->view->low[0] + (x + 0.5) * r->pixel,
+                          job->view->low[1] + (y + 0.5) * r->pixel};
     for (int k = 0; k < 3; k++) {
         const double *a = job->view->point[corner[k]].x;
         const double *b = job->view->point[corner[(k + 1) % 3]].x;
