@@ -64,8 +64,11 @@
 #define TINY_MARGINS 64.0
 /* Cells that wait at most. Of two, that with the sample comes first: the other has all the room. */
 #define MOST_WAITING 256u
-/* So many undecided facets, or more, are done together (visibility/cells.h). */
+/* So many undecided facets, or more, are done together (visibility/cells.h), if they are one of so
+   many facets at least: all facets are sorted into the blocks for that, which costs more than to
+   clip a few of them. */
 #define CELLS_LEAST 192u
+#define CELLS_SHARE 32u
 /* Cells that a facet may be cut into: so many, and so many a cut. */
 #define PARTS_MOST  4096u
 #define PARTS_A_CUT 256u
@@ -463,6 +466,7 @@ int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *vi
         open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
     }
     if (status == LRCS_OK && contest->contested_count >= CELLS_LEAST &&
+        contest->contested_count >= view->prepared->scene->facet_count / CELLS_SHARE &&
         cells_serve(view->prepared)) {
         lrcsi_cells_areas(contest, work, open, visible);
     }
