@@ -39,10 +39,10 @@ static inline uint16_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axi
 /* The cells that a box touches. */
 static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_view_box *box)
 {
-    return (lrcsi_cells){.x0 = lrcsi_grid_cell(grid, box->low[0], 0),
-                         .x1 = (uint16_t)(lrcsi_grid_cell(grid, box->high[0], 0) + 1),
-                         .y0 = lrcsi_grid_cell(grid, box->low[1], 1),
-                         .y1 = (uint16_t)(lrcsi_grid_cell(grid, box->high[1], 1) + 1)};
+    return (lrcsi_cells){.x0 = lrcsi_grid_cell(grid, (double)box->low[0], 0),
+                         .x1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[0], 0) + 1),
+                         .y0 = lrcsi_grid_cell(grid, (double)box->low[1], 1),
+                         .y1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[1], 1) + 1)};
 }
 
 /* Do the cells list any item? A row's cells lie one behind the other. */
