@@ -69,6 +69,10 @@ static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options 
         lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
     size_t exact = lrcsi_occlude_need(prepared);
     raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
+    if (options->accept != LRCS_ACCEPT_BOUND) {
+        size_t preview = lrcsi_preview_need(prepared, size);
+        raster = preview > raster ? preview : raster;
+    }
     return options->method == LRCS_METHOD_EXACT                       ? exact
            : options->method == LRCS_METHOD_ZBUFFER || raster > exact ? raster
                                                                       : exact;

@@ -815,17 +815,19 @@ static int cells_component(cells_work *c, const cells_cell *cell, const cells_si
     return whole;
 }
 
-static int segment_owned(const cells_work *c, const cells_segment *e)
+/* Is any facet of an edge, or of a contact, marked by the look at hand? Given: c->joined or
+   c->listed. */
+static int segment_marked(const cells_work *c, const cells_segment *e, const uint32_t *mark)
 {
-    if (c->joined[e->owner[0]] == c->look ||
-        (e->owner[1] != LRCS_NONE && c->joined[e->owner[1]] == c->look)) {
+    if (mark[e->owner[0]] == c->look ||
+        (e->owner[1] != LRCS_NONE && mark[e->owner[1]] == c->look)) {
         return 1;
     }
     if (e->edge != LRCS_NONE) {
         const lrcsi_topology *t = &c->view->prepared->topology;
         const lrcsi_edge_use *use = t->use + t->edge[e->edge].first_use;
         for (uint32_t i = 0; i < t->edge[e->edge].uses; i++) {
-            if (c->joined[use[i].facet] == c->look) {
+            if (mark[use[i].facet] == c->look) {
                 return 1;
             }
         }
@@ -833,27 +835,19 @@ static int segment_owned(const cells_work *c, const cells_segment *e)
     return 0;
 }
 
+static int segment_owned(const cells_work *c, const cells_segment *e)
+{
+    return segment_marked(c, e, c->joined);
+}
+
 /* Whether all facets of an edge have been dropped as hidden, or one of a contact. */
 static int segment_idle(const cells_work *c, const cells_segment *e)
 {
-    int first = c->listed[e->owner[0]] == c->look;
-    int second = e->owner[1] != LRCS_NONE && c->listed[e->owner[1]] == c->look;
     if (e->contact) {
-        return !first || !second;
+        return c->listed[e->owner[0]] != c->look || e->owner[1] == LRCS_NONE ||
+               c->listed[e->owner[1]] != c->look;
     }
-    if (first || second) {
-        return 0;
-    }
-    if (e->edge != LRCS_NONE) {
-        const lrcsi_topology *t = &c->view->prepared->topology;
-        const lrcsi_edge_use *use = t->use + t->edge[e->edge].first_use;
-        for (uint32_t i = 0; i < t->edge[e->edge].uses; i++) {
-            if (c->listed[use[i].facet] == c->look) {
-                return 0;
-            }
-        }
-    }
-    return 1;
+    return !segment_marked(c, e, c->listed);
 }
 
 /* What a plane's z is at least, or at most, at places of the facet in the box of the cell. */
