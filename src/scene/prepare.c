@@ -325,6 +325,9 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     if (status == LRCS_OK && p->curved && !p->convex) {
         status = lrcsi_nears_make(p, work);
     }
+    if (status == LRCS_OK && p->curved) {
+        status = lrcsi_extents_make(p, work);
+    }
     return status;
 }
 
@@ -347,6 +350,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
     proof = lrcsi_work_add(proof, lrcsi_tree_need(scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_nears_need(scene));
+    need = lrcsi_work_add(need, lrcsi_extents_need(scene));
     return lrcsi_work_add(need, proof);
 }
 
