@@ -142,10 +142,12 @@ fuzz-%:
 	    $(FUZZ_DIR)/liblrcs.a
 	clang $(STD) -O2 -g1 -D_XOPEN_SOURCE=700 -DFUZZ_CHOOSE -fsanitize=fuzzer $(FUZZ_CFLAGS) -Iinclude -Isrc \
 	    -o $(FUZZ_DIR)/$* test/fuzz/fuzz_$*.c $(FUZZ_DIR)/liblrcs.a $(LDLIBS)
-	@mkdir -p $(FUZZ_DIR)/corpus/$*
+	$(MAKE) $(BUILD)/test/fuzz/fuzz_$*
+	@mkdir -p $(FUZZ_DIR)/corpus/$* $(FUZZ_DIR)/seeds/$*
+	$(BUILD)/test/fuzz/fuzz_$* unpack $(FUZZ_DIR)/seeds/$* test/fuzz/seeds/$*
 	$(FUZZ_DIR)/$* $(FUZZ_LIMIT) -max_len=$(FUZZ_LENGTH) -entropic=0 -rss_limit_mb=3000 \
 	    -print_final_stats=1 -artifact_prefix=$(FUZZ_DIR)/$*- $(FUZZ_FLAGS) \
-	    $(FUZZ_DIR)/corpus/$* test/fuzz/seeds/$*
+	    $(FUZZ_DIR)/corpus/$* $(FUZZ_DIR)/seeds/$*
 FUZZ_DIR      = $(BUILD)/fuzz
 FUZZ_SECONDS  = 20
 FUZZ_RUNS     = 10000000
