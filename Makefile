@@ -29,8 +29,9 @@ LDLIBS   = $(THREADS) -lm
 
 V        =
 Q        = $(if $(V),,@)
+SILENT   = $(findstring s,$(filter-out -%,$(firstword $(MAKEFLAGS))))
 # $(call say,WHAT): the line for one file, before a command that begins with $(Q)
-say      = $(if $(V),,@printf '  %-4s %s\n' $(1) $@)
+say      = $(if $(V)$(SILENT),,@printf '  %-4s %s\n' $(1) $@)
 
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
