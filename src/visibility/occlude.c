@@ -413,12 +413,10 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* May undecided facets be done together? There must be many; and none may stand for a curved
-   surface: one that is hidden but for strips then costs more than its strips
-   (integrate/tessellation.c), so that each must be asked. */
+/* May undecided facets be done together? There must be many. */
 static int cells_serve(const lrcs_prepared *prepared)
 {
-    return prepared->scene->facet_count >= CELLS_LEAST && !prepared->curved && !prepared->convex;
+    return prepared->scene->facet_count >= CELLS_LEAST && !prepared->convex;
 }
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
