@@ -461,15 +461,18 @@ static int normalise(double v[3])
 static void facet_directions(const lrcs_point *vertex, const lrcs_facet *facet, const double *from,
                              double direction[2][3])
 {
-    int n = 0;
-    for (int c = 0; c < 3; c++) {
-        const double *x = vertex[facet->corner[c]].x;
-        if ((x[0] != from[0] || x[1] != from[1] || x[2] != from[2]) && n < 2) {
-            for (int k = 0; k < 3; k++) {
-                direction[n][k] = x[k] - from[k];
-            }
-            normalise(direction[n++]);
+    int at = 0;
+    while (at < 2 && !(vertex[facet->corner[at]].x[0] == from[0] &&
+                       vertex[facet->corner[at]].x[1] == from[1] &&
+                       vertex[facet->corner[at]].x[2] == from[2])) {
+        at++;
+    }
+    for (int n = 0; n < 2; n++) {
+        const double *x = vertex[facet->corner[(at + 1 + n) % 3]].x;
+        for (int k = 0; k < 3; k++) {
+            direction[n][k] = x[k] - from[k];
         }
+        normalise(direction[n]);
     }
 }
 
