@@ -25,7 +25,7 @@ code=$root/examples/gpu
 # shellcheck disable=SC2086 # flags are words
 if ! printf '#include <EGL/egl.h>\n#include <GL/glcorearb.h>\nint main(void) { return eglGetError() == 0; }\n' |
     ${CC:-cc} -o "$gl" -x c - -lEGL 2>/dev/null; then
-    echo 'skip a_gpu_code_takes_part_in_the_kit: no EGL to build with (Debian: libegl-dev libgl1-mesa-dri)'
+    skip a_gpu_code_takes_part_in_the_kit 'no EGL to build with (Debian: libegl-dev libgl1-mesa-dri)'
     finish
     exit
 fi
@@ -35,7 +35,7 @@ same it_builds_without_a_warning "$said" ""
 "$gl" "$scratch/kit" 256 "$scratch/facets.csv" >"$scratch/gl.csv" 2>"$scratch/driver"
 rc=$?
 if [ $rc -eq 77 ]; then
-    echo 'skip a_gpu_code_takes_part_in_the_kit: no driver with OpenGL 3.3 (Debian: libgl1-mesa-dri)'
+    skip a_gpu_code_takes_part_in_the_kit 'no driver with OpenGL 3.3 (Debian: libgl1-mesa-dri)'
     finish
     exit
 fi
@@ -51,7 +51,7 @@ same and_the_judge_sees_why "$(printf '%s\n' "$out" | grep -c '^why  *depth prec
 
 # ---- the emulation beside a driver that does as it says: 8 bits below a pixel, top-left rule ----
 if ! grep -q llvmpipe "$scratch/driver"; then
-    echo 'skip the_emulation_gives_what_the_driver_gave: another driver than llvmpipe'
+    skip the_emulation_gives_what_the_driver_gave 'another driver than llvmpipe'
     finish
     exit
 fi

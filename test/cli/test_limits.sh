@@ -68,6 +68,6 @@ if (ulimit -v 4000000 && exec "$tool" help) >/dev/null 2>&1; then
     starve sweep sweep demo --az 0:20:10 --el 0
     same nothing_half_written "$(find "$scratch" -name '*.png*' | grep -v '/demo.png$')" ""
 else
-    echo "skip little_memory: this build does not run in a limited address space"
+    skip "little_memory" "this build does not run in a limited address space"
 fi
 finish

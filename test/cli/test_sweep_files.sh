@@ -98,7 +98,7 @@ if command -v timeout >/dev/null; then
     sed 1d cut.csv.partial | head -n "$(wc -l <one.txt)" >two.txt
     equal stopped_rows_are_the_rows one.txt two.txt
 else
-    echo "skip sigINT_says_how_to_go_on: no timeout"
+    skip "sigINT_says_how_to_go_on" "no timeout"
 fi
 
 # ---- shards ----
