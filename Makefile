@@ -2,7 +2,7 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make charts     accuracy against time, for the README
-#   make study      what sigma depends on: examples/study anew
+#   make study      what sigma of simple bodies depends on: examples/study/results anew
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan tsan lint purity layers fuzz coverage    further checks
@@ -12,6 +12,7 @@
 #   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
 #   make gpu                the paper's method in OpenGL, judged by the conformance kit
 #   make bench scaling      what poses cost on this machine, beside other engines, and how that grows
+# Compiling prints one line a file; V=1 prints the commands instead.
 
 # --- settings ------------------------------------------------------------------------------------
 CC       = gcc
@@ -26,6 +27,12 @@ CFLAGS   =
 THREADS  = -pthread
 LDLIBS   = $(THREADS) -lm
 
+V        =
+Q        = $(if $(V),,@)
+SILENT   = $(findstring s,$(filter-out -%,$(firstword $(MAKEFLAGS))))
+# $(call say,WHAT): the line for one file, before a command that begins with $(Q)
+say      = $(if $(V)$(SILENT),,@printf '  %-4s %s\n' $(1) $@)
+
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
 HOST_SRC = $(sort $(wildcard src/host/*.c))
@@ -37,7 +44,8 @@ CORE_OBJ = $(CORE_SRC:%.c=$(BUILD)/%.o)
 HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
-EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
+EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c))) $(STUDY)
+STUDY    = $(BUILD)/examples/study/study
 CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 JOINED   = $(BUILD)/amalgamation
 FLIGHT   = $(BUILD)/flight
@@ -63,8 +71,8 @@ charts: $(TOOL)
 	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
 
 # Tables, plots and laws as they are kept; the same bytes every time.
-study: $(TOOL)
-	$(TOOL) study -o examples/study
+study: $(STUDY)
+	$(STUDY) -o examples/study/results
 
 test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TESTS)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
@@ -142,10 +150,12 @@ fuzz-%:
 	    $(FUZZ_DIR)/liblrcs.a
 	clang $(STD) -O2 -g1 -D_XOPEN_SOURCE=700 -DFUZZ_CHOOSE -fsanitize=fuzzer $(FUZZ_CFLAGS) -Iinclude -Isrc \
 	    -o $(FUZZ_DIR)/$* test/fuzz/fuzz_$*.c $(FUZZ_DIR)/liblrcs.a $(LDLIBS)
-	@mkdir -p $(FUZZ_DIR)/corpus/$*
+	$(MAKE) $(BUILD)/test/fuzz/fuzz_$*
+	@mkdir -p $(FUZZ_DIR)/corpus/$* $(FUZZ_DIR)/seeds/$*
+	$(BUILD)/test/fuzz/fuzz_$* unpack $(FUZZ_DIR)/seeds/$* test/fuzz/seeds/$*
 	$(FUZZ_DIR)/$* $(FUZZ_LIMIT) -max_len=$(FUZZ_LENGTH) -entropic=0 -rss_limit_mb=3000 \
 	    -print_final_stats=1 -artifact_prefix=$(FUZZ_DIR)/$*- $(FUZZ_FLAGS) \
-	    $(FUZZ_DIR)/corpus/$* test/fuzz/seeds/$*
+	    $(FUZZ_DIR)/corpus/$* $(FUZZ_DIR)/seeds/$*
 FUZZ_DIR      = $(BUILD)/fuzz
 FUZZ_SECONDS  = 20
 FUZZ_RUNS     = 10000000
@@ -281,87 +291,112 @@ cmocka:
 # --- rules ---------------------------------------------------------------------------------------
 $(TOOL): $(CLI_OBJ) $(LIB)
 	@mkdir -p $(@D)
-	$(CC) -o $@ $(CLI_OBJ) $(LIB) $(LDLIBS)
+	$(call say,link)
+	$(Q)$(CC) -o $@ $(CLI_OBJ) $(LIB) $(LDLIBS)
 
 $(LIB): $(CORE_OBJ) $(HOST_OBJ)
 	@mkdir -p $(@D)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(call say,ar)
+	$(Q)$(AR) rcs $@ $^
 
 # The same objects once more as position-independent code; only lrcs_ names are to be seen.
 $(SHARED): $(LIB)
 	$(MAKE) BUILD=$(BUILD)/pic CFLAGS="$(CFLAGS) -fPIC" $(BUILD)/pic/liblrcs.a
-	echo '{ global: lrcs_*; local: *; };' >$(BUILD)/lrcs.map
-	$(CC) -shared -o $@ -Wl,-soname,$(SONAME) -Wl,--version-script,$(BUILD)/lrcs.map \
+	$(Q)echo '{ global: lrcs_*; local: *; };' >$(BUILD)/lrcs.map
+	$(call say,link)
+	$(Q)$(CC) -shared -o $@ -Wl,-soname,$(SONAME) -Wl,--version-script,$(BUILD)/lrcs.map \
 	    -Wl,--whole-archive $(BUILD)/pic/liblrcs.a -Wl,--no-whole-archive $(LDLIBS)
 
 $(BUILD)/lrcs.pc: include/lrcs/status.h Makefile
 	@mkdir -p $(@D)
-	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$${prefix}/lib' '' \
+	$(Q)printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$${prefix}/lib' '' \
 	    'Name: lrcs' 'Description: laser radar cross-section of a facet mesh, with a proved bound' \
 	    'Version: $(VERSION)' 'Cflags: -I$${includedir}' 'Libs: -L$${libdir} -llrcs' \
 	    'Libs.private: $(LDLIBS)' >$@
 
 $(BUILD)/src/cli/%.o: src/cli/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -MMD -MP -c -o $@ $<
+	$(call say,cc)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -MMD -MP -c -o $@ $<
 
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
+	$(call say,cc)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
 
 $(JOINED)/lrcs.c: src/amalgamate.sh $(CORE_SRC) $(wildcard $(CORE:%=src/%/*.h) include/lrcs/*.h)
-	sh src/amalgamate.sh $(JOINED) $(foreach layer,$(CORE),$(filter src/$(layer)/%,$(CORE_SRC)))
+	$(call say,join)
+	$(Q)sh src/amalgamate.sh $(JOINED) $(foreach layer,$(CORE),$(filter src/$(layer)/%,$(CORE_SRC)))
 
 $(JOINED)/lrcs.o: $(JOINED)/lrcs.c
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -c -o $@ $<
+	$(call say,cc)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -c -o $@ $<
 
 $(JOINED)/test/%: $(BUILD)/test/%.o $(JOINED)/lrcs.o
 	@mkdir -p $(@D)
-	$(CC) -o $@ $^ -lcmocka $(LDLIBS)
+	$(call say,link)
+	$(Q)$(CC) -o $@ $^ -lcmocka $(LDLIBS)
 
 $(FLIGHT)/task: $(wildcard examples/flight/*) $(LIB)
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) -Iinclude -o $@ examples/flight/task.c examples/flight/main.c \
+	$(call say,link)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) -Iinclude -o $@ examples/flight/task.c examples/flight/main.c \
 	    examples/flight/board_host.c $(LIB) $(LDLIBS)
 
 $(FLIGHT)/task.elf: $(wildcard examples/flight/*) $(JOINED)/lrcs.c
 	@mkdir -p $(@D)
-	$(ARM) $(CORTEX_M7) $(STD) $(OPT) -ffunction-sections -I$(JOINED) -Iinclude -nostartfiles -Wl,--gc-sections \
+	$(call say,link)
+	$(Q)$(ARM) $(CORTEX_M7) $(STD) $(OPT) -ffunction-sections -I$(JOINED) -Iinclude -nostartfiles -Wl,--gc-sections \
 	    -T examples/flight/board_m7.ld -o $@ examples/flight/task.c examples/flight/main.c \
 	    examples/flight/board_m7.c $(JOINED)/lrcs.c -lm
 
 # The built-in scene, as the bytes of a C array.
 $(BUILD)/demo.inc: examples/satellite.toml
 	@mkdir -p $(@D)
-	od -An -v -td1 $< | sed 's/-*[0-9][0-9]*/&,/g' >$@
+	$(call say,gen)
+	$(Q)od -An -v -td1 $< | sed 's/-*[0-9][0-9]*/&,/g' >$@
 
 $(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
 
 $(BUILD)/src/%.o: src/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -Isrc -MMD -MP -c -o $@ $<
+	$(call say,cc)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -Isrc -MMD -MP -c -o $@ $<
 
 $(BUILD)/examples/%: examples/%.c $(LIB)
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -o $@ $< $(LIB) $(LDLIBS)
+	$(call say,link)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -o $@ $< $(LIB) $(LDLIBS)
+
+$(STUDY): $(wildcard examples/study/*.[ch]) $(LIB)
+	@mkdir -p $(@D)
+	$(call say,link)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -o $@ $(filter %.c,$^) $(LIB) $(LDLIBS)
 
 # Tests compute references in long double, of which clang warns at every step.
 $(BUILD)/test/%.o: test/%.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(OPT) $(WARN) -Wno-double-promotion $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -Itest -MMD -MP -c -o $@ $<
+	$(call say,cc)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) -Wno-double-promotion $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -Itest -MMD -MP -c -o $@ $<
 
 $(BUILD)/test/%: $(BUILD)/test/%.o $(LIB)
-	$(CC) -o $@ $< $(LIB) -lcmocka $(LDLIBS)
+	$(call say,link)
+	$(Q)$(CC) -o $@ $< $(LIB) -lcmocka $(LDLIBS)
+
+# Tests are compiled once cmocka is there.
+$(TEST_SRC:%.c=$(BUILD)/%.o): | cmocka
 
 # A fuzz target with a driver in the place of libFuzzer.
 $(BUILD)/test/fuzz/fuzz_%: $(BUILD)/test/fuzz/fuzz_%.o $(BUILD)/test/fuzz/replay.o $(LIB)
-	$(CC) -o $@ $^ $(LDLIBS)
+	$(call say,link)
+	$(Q)$(CC) -o $@ $^ $(LDLIBS)
 
 # The benchmarks tell how they were built.
 $(BENCH_DIR)/measure.o: override CFLAGS += -DBENCH_BUILD='"$(CC) $(STD) $(OPT)"'
 $(BENCH_DIR)/%: $(BENCH_DIR)/%.o $(BENCH_OBJ) $(LIB)
-	$(CC) -o $@ $< $(BENCH_OBJ) $(LIB) $(LDLIBS)
+	$(call say,link)
+	$(Q)$(CC) -o $@ $< $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
 .SECONDARY: $(BENCH_OBJ) $(FUZZ_TESTS:%=%.o) $(BUILD)/test/fuzz/replay.o $(TEST_SRC:%.c=$(BUILD)/%.o)
 -include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d $(BUILD)/test/fuzz/*.d)

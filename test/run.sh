@@ -1,16 +1,19 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Runs every test given, C programs and shell scripts, and closes with one line of counts.
-# Tests that lack what they need (models that are not part of the project) skip, and say so.
-# As many at a time as there are processors; told in the order given.
+# Runs every test given, C programs and shell scripts, as many at a time as there are processors.
+# Each prints TAP (Test Anything Protocol) and so does this: one line a program, in the order given,
+# then the counts of all. Tests that lack what they need (models that are not part of the project)
+# are skipped, and say why.
 # usage: run.sh TOOL TEST...
 tool=$1
 shift
 passed=0
 failed=0
 skipped=0
+number=0
 logs=$(mktemp -d) || exit 1
 trap 'rm -rf "$logs"' EXIT
+export CMOCKA_MESSAGE_OUTPUT=TAP
 # one test: its output and its exit status, in files named after it
 one='name=$2/$(echo "$3" | tr / _)
 case $3 in
@@ -19,27 +22,30 @@ case $3 in
 esac >"$name" 2>&1
 echo $? >"$name.status"'
 printf '%s\n' "$@" | xargs -n 1 -P "$(getconf _NPROCESSORS_ONLN)" sh -c "$one" sh "$tool" "$logs"
+echo "1..$#"
 for test in "$@"; do
+    number=$((number + 1))
     log=$logs/$(echo "$test" | tr / _)
     status=$(cat "$log.status")
-    good=$(grep -cE '^(\[       OK \]|ok )' "$log")
-    # cmocka names a failed test twice
-    bad=$(grep -E '^(\[  FAILED  \] [a-z0-9_]+$|not ok )' "$log" | sort -u | grep -c .)
-    # and a skipped one once as it skips, once in its summary
-    skip=$(grep -E '^(\[  SKIPPED \] [a-z0-9_]+$|skip )' "$log" | sort -u | grep -c .)
-    if [ "$status" -eq 0 ] && [ "$bad" -eq 0 ] && [ "$((good + skip))" -gt 0 ]; then
+    # cmocka 1.1.5 writes "not ok 1 # SKIP name" for a skipped test.
+    skip=$(grep -cE '^(not )?ok .*# SKIP' "$log")
+    good=$(grep -E '^ok ' "$log" | grep -cv '# SKIP')
+    bad=$(grep -E '^not ok ' "$log" | grep -cv '# SKIP')
+    planned=$(sed -n 's/^1\.\.\([0-9]*\)$/\1/p' "$log" | awk '{ sum += $1 } END { print sum + 0 }')
+    if [ "$status" -eq 0 ] && [ "$bad" -eq 0 ] && [ "$planned" -gt 0 ] && [ "$planned" -eq "$((good + skip))" ]; then
         note=
-        [ "$skip" -eq 0 ] || note=", $skip skipped: $(grep -vE '^(\[| *$| *[0-9])' "$log" | sed -n 1p)"
-        echo "ok   $test ($good$note)"
+        [ "$skip" -eq 0 ] || note=", $skip skipped: $(sed -nE '/^(ok .*)# SKIP /{ s/.*# SKIP //p; q; }
+            /^(not ok|ok|#|1\.\.)/d; /./{ p; q; }' "$log")"
+        echo "ok $number - $test ($good$note)"
     else
         [ "$bad" -gt 0 ] || bad=1
-        echo "FAIL $test (exit $status)"
-        cat "$log"
+        echo "not ok $number - $test (exit $status; $planned tests planned, $good passed, $skip skipped)"
+        sed 's/^/# /' "$log"
     fi
     passed=$((passed + good))
     failed=$((failed + bad))
     skipped=$((skipped + skip))
 done
-[ "$skipped" -eq 0 ] || echo "$skipped skipped"
+[ "$skipped" -eq 0 ] || echo "# $skipped skipped"
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]

@@ -6,8 +6,8 @@
    Let U be the facet's patch and f the facet, of area S, |U| within a S of it; v and w say what is
    seen of them, off a share b of both alike. Truth T = Int_U F v, the facets' M = F_i Int_f w.
      seen all over, b = 0: T - M is the whole patch's stray; its numbers hold for the two facets of
-   a sector together, so both must be seen; hidden all over: M = 0, T <= (1 + a) S b sup F; else |T
-   - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
+   a sector together, so both must be seen; hidden but for a share h: M <= S h F_i and T <= (1 + a)
+   S (b + h) sup F, neither below 0; else |T - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
                   <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b), and <= (1 + a) S sup F;
          where neither facet of the sector is hidden or dark, the first term together is at most
    what (F - F_i) integrates to over any part of both. Patches of facets that face away from the
@@ -23,12 +23,14 @@
 
 /* Of a flat facet: wider than the error of its angle. */
 #define FLAT_TILT 1e-12
+/* A facet of which no larger share can be seen counts as hidden, and this share is charged. */
+#define HIDDEN_SHARE 0x1p-20
 
 /* What is known of a facet and its patch. */
 enum patch_state {
     PATCH_DARK,   /* no side of it that reflects faces the laser */
     PATCH_SEEN,   /* all of it is seen, in truth too */
-    PATCH_HIDDEN, /* none of the facet is seen */
+    PATCH_HIDDEN, /* no more of the facet is seen than its visible area's bounds leave open */
     PATCH_MIXED
 };
 
@@ -70,7 +72,17 @@ static int patch_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visib
                     visible[facet].low > 0)) {
         return PATCH_SEEN;
     }
-    return visible[facet].high > 0 ? PATCH_MIXED : PATCH_HIDDEN;
+    return visible[facet].high > HIDDEN_SHARE * lrcsi_view_projected(view, facet) ? PATCH_MIXED
+                                                                                  : PATCH_HIDDEN;
+}
+
+/* The share of a hidden facet that may be seen. */
+static double share_seen(const lrcsi_tilt *tilt, uint32_t facet, const lrcsi_visible *visible,
+                         const lrcsi_margin *margin)
+{
+    return !margin || margin->hidden[margin->region[facet]] || !(visible[facet].high > 0)
+               ? 0
+               : fmin(1, visible[facet].high / tilt->projected * (1 + 2 * tilt->error));
 }
 
 /* The state of the other facet of the sector. The two lie side by side in a part's list, which
@@ -173,6 +185,9 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
     int state = patch_state(view, facet, visible, margin);
     double share = margin ? margin->share[facet] : 0;
     double area = 0.5 * p->normal[facet].length;
+    if (curve && state == PATCH_HIDDEN) {
+        share += share_seen(tilt, facet, visible, margin);
+    }
     if (share == 0 && (!curve || state == PATCH_HIDDEN)) {
         return state == PATCH_DARK ? area * inside_shown(view, facet, brdf, tilt, visible, margin)
                                    : 0;

@@ -7,7 +7,8 @@
      (2) a point where another facet touches the inside of i itself (mesh/touch.h); a coplanar
          facet that i beats hides nothing.
    A facet that meets neither is uniform: one exact sample tells whether all of it is visible. The
-   others are contested. All decisions are exact, so a uniform facet is certain.
+   others are contested, and so are facets that many events might cross but are not asked whether
+   they do. All decisions are exact, so a uniform facet is certain.
 
    Uniform facets are seen alike where they share an edge that is no event edge, along which no
    nearer event edge lies in projection, and which nothing else meets in space: a path from one

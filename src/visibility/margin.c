@@ -343,6 +343,7 @@ static void margin_regions(const lrcsi_margin *margin)
     }
 }
 
+/* A region is hidden all over or nowhere: so a front of which less is seen than half is hidden. */
 void lrcsi_margin_settle(const lrcsi_margin *margin, const lrcsi_visible *visible)
 {
     const lrcsi_view *view = margin->contest->view;
@@ -352,7 +353,7 @@ void lrcsi_margin_settle(const lrcsi_margin *margin, const lrcsi_visible *visibl
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         if (view->facing[f] > 0 && p->nears.reach[p->scene->facet_part[f]] > 0 &&
-            margin->share[f] == 0 && visible[f].high == 0) {
+            margin->share[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f)) {
             margin->hidden[margin->region[f]] = 1;
         }
     }

@@ -14,8 +14,9 @@ same the_tool_says_the_same_version "$("$tool" --version)" "lrcs $text"
 same the_changelog_begins_with_this_version "$(sed -n 's/^## \[\([0-9.]*\)\].*/\1/p' CHANGELOG.md | sed -n 1p)" "$text"
 
 if ! command -v python3 >/dev/null; then
-    echo 'skip the_public_surface: no python3'
+    skip the_public_surface 'no python3'
     finish
+    exit
 fi
 said=$(python3 test/api/contract.py 2>&1)
 same comments_name_every_status_and_no_other "$?: $said" "0: "

@@ -1,11 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The benchmarks work, and what they print, write and draw agrees with itself. No time is judged.
-case $1 in /*) bench=$(dirname "$1")/test/bench ;; *) bench=$PWD/$(dirname "$1")/test/bench ;; esac
-command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; exit 0; }
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-tests=$(cd "$(dirname "$0")/.." && pwd)
+. "$(dirname "$0")/../cli/check.sh"
+bench=$(dirname "$tool")/test/bench
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 cd "$scratch" || exit 1
 mkdir cases peers
 printf 'import sys\nprint("v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3")\nassert sys.argv[1] == "10"\n' >cases/hatch.py
@@ -18,10 +16,10 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
 "$bench/bench" --tiny --limit 0 --only doubled --csv late.csv --scratch . >late.txt 2>/dev/null; echo $? >late.rc
 "$bench/bench" --sizes 3 >/dev/null 2>usage.txt; echo $? >usage.rc
 "$bench/scaling" --tiny >scaling.txt; echo $? >scaling.rc
-PYTHONPATH=$tests python3 -B - <<'END'
+python3 - <<'END' || not_ok the_python_ends_well
 import csv, glob, math
 import xml.etree.ElementTree as tree
-from told import check, finish
+from tap import check
 def text(path):
     return open(path).read()
 def cells(line):
@@ -80,5 +78,5 @@ check("four_methods_are_fitted", [f[2] for f in fits] == ["prepare", "facet", "z
 check("two_points_are_on_their_line", all(abs(math.log(t[1] / t[0]) / math.log(s[1] / s[0]) - float(f[5])) < 0.006 and f[5] == f[7]
       and f[6] == "1.00" for f, s, t in zip(fits, sizes, times)))
 check("the_worst_cases_are_answered", sum(l.rstrip().endswith("| none |") for l in text("scaling.txt").splitlines()) == 6)
-finish()
 END
+finish

@@ -8,13 +8,26 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 models=$root/../shared/models
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
-failures=0
-export PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/test # no traces in the tree; told, png_file
+export PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/test # no traces in the tree; tap, png_file
 
-ok() { echo "ok $1"; }
+# Results in the Test Anything Protocol. Each leaves one letter in $TAP_RESULTS, of which finish makes
+# the plan: the Python in a test (test/tap.py) and subshells write there, too.
+export TAP_RESULTS=$scratch/.results
+: >"$TAP_RESULTS"
+ok() {
+    echo "ok $1"
+    printf o >>"$TAP_RESULTS"
+}
+# not_ok NAME DETAIL
 not_ok() {
-    echo "not ok $1: ${2:-}"
-    failures=$((failures + 1))
+    echo "not ok $1"
+    printf '%s\n' "${2:-}" | sed 's/^/# /'
+    printf n >>"$TAP_RESULTS"
+}
+# skip NAME REASON
+skip() {
+    echo "ok $1 # SKIP $2"
+    printf s >>"$TAP_RESULTS"
 }
 
 # run ARGUMENTS...: runs the tool.
@@ -119,4 +132,8 @@ translate = [0.5, 0.5, 1]
 END
 }
 
-finish() { [ "$failures" -eq 0 ]; }
+# finish: the plan; its status is that of the test. Nothing follows it but exit.
+finish() {
+    echo "1..$(wc -c <"$TAP_RESULTS" | tr -d ' ')"
+    ! grep -q n "$TAP_RESULTS"
+}

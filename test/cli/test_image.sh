@@ -61,12 +61,12 @@ run image demo --azel 50,40 --tolerance 0.01 --vtk demo.vtk
 run run demo --azel 50,40 --tolerance 0.01 --facets demo.csv --json
 printf '%s\n' "$out" >demo.json
 
-command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; finish; exit; }
-python3 - <<'END' || failures=1
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
+python3 - <<'END' || not_ok the_python_ends_well
 import csv, json, math, re, struct, sys
 import xml.etree.ElementTree as tree
 from png_file import Png
-from told import check, finish
+from tap import check, skip
 
 def pixels(path):
     return [[tuple(row[k:k + 3]) for k in range(0, len(row), 3)] for row in Png(path).rows]
@@ -186,7 +186,6 @@ try:
         check("vtk_reads_" + path, read.GetNumberOfPolys() == len(table) and cells.GetNumberOfArrays() == 7 and
               [sigma.GetTuple1(i) for i in range(len(table))] == want["sigma_m2"])
 except ImportError:
-    print("ok no_vtk_here_skipped")
-finish()
+    skip("vtk_reads_them", "no vtk")
 END
 finish

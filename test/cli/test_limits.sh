@@ -81,6 +81,6 @@ if (ulimit -v 4000000 && exec "$tool" help) >/dev/null 2>&1; then
     same fewer_threads_where_memory_refuses_more "$? $(cmp "$scratch/one.csv" "$scratch/five.csv" && echo same)" "0 same"
     same nothing_half_written "$(find "$scratch" -name '*.png*' | grep -v '/demo.png$')" ""
 else
-    echo "skip little_memory: this build does not run in a limited address space"
+    skip "little_memory" "this build does not run in a limited address space"
 fi
 finish

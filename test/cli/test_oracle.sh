@@ -14,6 +14,7 @@ for name in examples/oracle/test_mine.c "$scratch/wrong.c"; do
     # shellcheck disable=SC2086 # flags are words
     "${CC:-cc}" -std=c11 -Iinclude "$name" "$build/liblrcs.a" -lcmocka ${LDLIBS:--lm -pthread} -o "$scratch/$(basename "$name" .c)"
 done
+export CMOCKA_MESSAGE_OUTPUT=STDOUT
 same a_unit_test_of_good_code_passes "$("$scratch/test_mine" 2>&1 | grep -c '  PASSED  ')" 1
 same a_unit_test_of_wrong_code_fails "$("$scratch/wrong" 2>&1 | grep -cm1 '  FAILED  .*my_sigma')" 1
 

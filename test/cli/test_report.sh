@@ -50,7 +50,7 @@ run report plates.toml $quick --method zbuffer --resolution 16 --tolerance 1e-9 
 printf '%s' "$out" >stdout.html
 same a_missed_tolerance_exits_3 "$rc" 3
 
-command -v python3 >/dev/null || { echo "skip no_python3_here"; finish; exit; }
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 # The command lines that the page names make the same again.
 python3 - <<'END'
 import xml.etree.ElementTree as tree
@@ -63,9 +63,9 @@ tool=$tool sh again.sh >again.txt 2>again.err
 same the_commands_are_taken "$(grep -c '^Try ' again.err)" 0
 same they_make_what_stands_on_the_page "$(ls -s facets.csv sigma.png material.png xy.svg xz.csv yz.csv map.svg | grep -vc '^ *0 ')" 7
 same they_make_the_same_map "$(cmp map.csv first.csv && echo same)" same
-python3 - <<'END' || failures=1
+python3 - <<'END' || not_ok the_python_ends_well
 import base64, csv, html.parser, json, math, re, sys, xml.etree.ElementTree as tree
-from told import check, finish
+from tap import check
 H, S = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
 VOID = {"meta", "img", "source", "br", "link", "hr", "input"}
 class Tags(html.parser.HTMLParser):  # every tag closes what was opened
@@ -145,6 +145,5 @@ for svg in svgs:  # of a chart only a box is shown: its words but the title and 
 check("what_is_cut_off_are_titles", inside == 5)
 dark = " ".join("".join(tree.parse("dark.html").getroot().itertext()).split())
 check("a_scene_without_a_return_says_so", "Nothing returns" in dark and "There are none: nothing returns." in dark and "NaN" not in dark and "nan" not in dark)
-finish()
 END
 finish

@@ -5,7 +5,7 @@
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome)
-[ -n "$browser" ] && command -v python3 >/dev/null || { echo "skip no_chromium_here"; finish; exit; }
+[ -n "$browser" ] && command -v python3 >/dev/null || { skip the_page_in_a_browser "no chromium or no python3"; finish; exit; }
 
 # A part and a material whose names no line can hold, beside the demo's.
 long=$(printf 'x%.0s' $(seq 300))
@@ -72,13 +72,9 @@ for scheme in light dark; do
         --dump-dom "file://$scratch/frames.html" >$scheme.dom 2>$scheme.log
     same "nothing_is_said_on_the_console_in_$scheme" "$(grep -c 'CONSOLE' $scheme.log)" 0
 done
-python3 - <<'END' || failures=1
-import html, json, re, sys
-bad = 0
-def check(name, good, why=""):
-    global bad
-    print(("ok " if good else "not ok ") + name + ("" if good else ": %s" % why))
-    bad += not good
+python3 - <<'END' || not_ok the_python_ends_well
+import html, json, re
+from tap import check
 paper = {}
 for scheme in ("light", "dark"):
     found = re.search("RESULT(.*)END", html.unescape(open(scheme + ".dom", encoding="utf-8").read()), re.S)
@@ -95,6 +91,5 @@ for scheme in ("light", "dark"):
         check("all_words_can_be_read" + where, not r["faint"], r["faint"][:5])
         check("all_pictures_are_there" + where, not r["empty"], r["empty"][:5])
 check("dark_is_dark_and_light_is_light", paper.get("dark", 999) < 120 and paper.get("light", 0) > 700, paper)
-sys.exit(bad != 0)
 END
 finish

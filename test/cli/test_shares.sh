@@ -44,7 +44,7 @@ printf '%s\n' "$out" >many.txt
 run run many.toml --shares --json
 printf '%s\n' "$out" >many.json
 
-command -v python3 >/dev/null || { echo "skip no_python3_here"; finish; exit; }
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 
 # Objects of one name, as 3DS files have them.
 python3 - <<'END'
@@ -59,9 +59,9 @@ END
 run run alike.3ds --method facet --shares --json
 same objects_of_one_name_are_told_apart "$(printf '%s\n' "$out" | sed -n '/"parts"/,/"materials"/s/.*"name": "\([^"]*\)".*/\1/p' | tr '\n' ' ')" "b a #3 a #1 "
 
-python3 - <<'END' || failures=1
+python3 - <<'END' || not_ok the_python_ends_well
 import csv, json, math, sys
-from told import check, finish
+from tap import check
 def near(a, b, most=4e-15):
     return abs(a - b) <= most * abs(b)
 def names(row): return [r["name"] for r in row]
@@ -112,6 +112,5 @@ others = [l.split() for l in lines if "3 others" in l]
 rest = math.fsum(s["sigma_m2"] for s in many["shares"]["parts"][10:])
 check("json_lists_all_parts", len(many["shares"]["parts"]) == 13)
 check("the_table_says_what_it_left_out", len(others) == 1 and float(others[0][2]) == float("%.6g" % rest))
-finish()
 END
 finish

@@ -108,7 +108,7 @@ import json
 head, *rows, last = [json.loads(line) for line in open("rows.jsonl")]
 print(head["rows"], head["shape"], [r["az_deg"] for r in rows], rows[0]["sigma_m2"] > 0, rows[0]["flags"], list(last))')" "3 [3] [0, 10, 20] True [] ['checksum']"
 else
-    echo "skip json_lines_are_json: no python3"
+    skip "json_lines_are_json" "no python3"
 fi
 same json_and_csv_agree "$(printf '%s\n' "$out" | sed -n 's/.*"sigma_m2": \([^,]*\),.*/\1/p' | tr '\n' ' ')" "$(sweep pair.toml --az 0:20:10 | column 4 | tr '\n' ' ')"
 
@@ -128,7 +128,7 @@ print(m.shape, bool((m.reshape(-1, 2) == c).all()))')" "(5, 3, 2) True"
     numpy=yes
     break
 done
-[ "${numpy:-}" ] || echo "skip numpy_reads_the_rows_of_the_csv: no numpy"
+[ "${numpy:-}" ] || skip "numpy_reads_the_rows_of_the_csv" "no numpy"
 
 # ---- exit codes ----
 run sweep pair.toml --az 0:20:10 --el 75 --method zbuffer --resolution 16 --tolerance 1e-9

@@ -51,10 +51,10 @@ printf '%s\n' "$out" >shares.json
 run sweep pair.toml --tolerance 0.01 --az 90 --el 0 -o one.csv --brightest 1
 printf '%s\n' "$out" >one.txt
 
-command -v python3 >/dev/null || { echo "skip no_python3_here"; finish; exit; }
-python3 - <<'END' || failures=1
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
+python3 - <<'END' || not_ok the_python_ends_well
 import csv, itertools, json, math, sys
-from told import check, finish
+from tap import check
 def rows(name): return list(csv.DictReader(l for l in open(name + ".csv") if not l.startswith("#")))
 def table(name): return [l.split() for l in open(name + ".txt") if l[:4].strip().isdigit()]
 def attitude(az, el):
@@ -125,6 +125,5 @@ check("parts_are_those_of_the_run", lines[3].split(None, 1)[1].split(", ") == to
 check("materials_are_those_of_the_run", lines[4].split(None, 1)[1].split(", ") == told(shares["shares"]["materials"])[:3])
 check("facets_are_those_of_the_run", lines[5].split(None, 1)[1].split(", ") == [
     "%d of %s at %.2f deg %.1f %%" % (f["facet"], f["part"], f["theta_deg"], 100 * f["share"]) for f in shares["shares"]["facets"][:3]])
-finish()
 END
 finish

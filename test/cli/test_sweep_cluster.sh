@@ -27,8 +27,8 @@ if parallel --version 2>/dev/null </dev/null | grep -q '^GNU parallel'; then
     PARALLEL_HOME=$scratch sh "$examples/sweep_parallel.sh" map.npy 5 $what >parallel.txt 2>&1
     equal and_again_from_what_is_there map.npy whole.npy
 else
-    echo "skip parallel_makes_the_single_runs_map: no GNU parallel"
-    echo "skip and_again_from_what_is_there: no GNU parallel"
+    skip "parallel_makes_the_single_runs_map" "no GNU parallel"
+    skip "and_again_from_what_is_there" "no GNU parallel"
 fi
 
 # ---- Slurm: its daemons started here, for this test alone ----
@@ -37,7 +37,7 @@ for needed in slurmctld slurmd sbatch squeue; do
     command -v $needed >/dev/null || missing=$needed
 done
 if [ "${missing:-}" ]; then
-    echo "skip slurm_makes_the_single_runs_file: no $missing"
+    skip "slurm_makes_the_single_runs_file" "no $missing"
     finish
     exit
 fi
@@ -77,7 +77,7 @@ for _ in $(seq 60); do
     sleep 0.5
 done
 if [ "$(sinfo -h -o %t 2>/dev/null)" != idle ]; then
-    echo "skip slurm_makes_the_single_runs_file: Slurm does not start here"
+    skip "slurm_makes_the_single_runs_file" "Slurm does not start here"
     finish
     exit
 fi

@@ -164,7 +164,7 @@ if command -v timeout >/dev/null; then
     equal stopped_rows_are_the_rows one.txt two.txt
     same and_no_lock "$(ls cut.csv.lock 2>/dev/null)" ""
 else
-    echo "skip sigINT_says_how_to_go_on: no timeout"
+    skip "sigINT_says_how_to_go_on" "no timeout"
 fi
 
 # ---- two at once ----

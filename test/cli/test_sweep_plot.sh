@@ -49,11 +49,11 @@ same a_plot_may_have_gaps "$rc" 0
 run sweep box.toml --tolerance 0.01 --poses track.csv -o track.out.csv --plot time.svg
 same a_track_is_drawn_over_time "$rc $(grep -c '>time<' time.svg)" "0 1"
 
-command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; finish; exit; }
-python3 - <<'END' || failures=1
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
+python3 - <<'END' || not_ok the_python_ends_well
 import csv, math, struct, sys
 import xml.etree.ElementTree as tree
-from told import check, finish
+from tap import check
 NS = "{http://www.w3.org/2000/svg}"
 def table(path):
     return list(csv.DictReader(l for l in open(path) if not l.startswith("#")))
@@ -148,6 +148,5 @@ check("what_returns_nothing_is_a_gap", gaps > 0 and not any(abs(a[0] - b[0]) > 4
 for name in ("line", "map"):
     data = open(name + ".png", "rb").read(24)
     check(name + "_png_is_twice_the_size", data[:4] == b"\x89PNG" and struct.unpack(">II", data[16:]) == (1720, 1040))
-finish()
 END
 finish

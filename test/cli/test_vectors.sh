@@ -35,12 +35,12 @@ same a_case_can_be_run_again "$(value sigma_m2)" "$(awk -F, '$1 == "plate-turned
 run image kit/scenes/comb.obj --quaternion "$(awk -F, '$1 == "comb" && $2 == "f" { print $4 "," $5 "," $6 "," $7 }' kit/cases.csv)" --by facet -o comb.png
 same a_case_can_be_looked_at "$rc $(head -c 4 comb.png | tail -c 3)" "0 PNG"
 
-command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; finish; exit; }
-python3 - <<'END' || failures=1
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
+python3 - <<'END' || not_ok the_python_ends_well
 import csv, glob, json, math, os, struct, sys
 from png_file import Png
 
-from told import check, finish
+from tap import check
 
 def obj(path):
     v, f, m, now = [], [], [], None
@@ -157,6 +157,5 @@ check("most_scenes_have_images", shown > 30)
 check("item_images_show_the_nearest_facet", not wrong, wrong[:3])
 check("depths_are_those_of_the_planes", not deep, deep[:3])
 check("pngs_hold_the_same_items", not pictures, pictures[:3])
-finish()
 END
 finish

@@ -23,7 +23,7 @@ needs() {
     shift
     for program in "$@"; do
         if ! command -v "$program" >/dev/null; then
-            echo "skip $skipped: no $program"
+            skip "$skipped" "no $program"
             finish
             exit
         fi

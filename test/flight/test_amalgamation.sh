@@ -40,7 +40,7 @@ refused"
     refused an_array_of_any_length_is_found 'void g(char *); void f(int n) { char a[n]; g(a); }' \
         'the frame of f has no known size'
 else
-    echo "skip the_core_has_no_recursion: ${CC:-cc} writes no call graph"
+    skip "the_core_has_no_recursion" "${CC:-cc} writes no call graph"
 fi
 
 # ---- arithmetic: symptom: gcc left to its defaults fused a * b + c, and proved bounds did not hold ----

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* A fuzz target without libFuzzer: every file given, and MUTATIONS mutations of them from a fixed
-   generator, the same on every machine. A target that finds something aborts.
-   usage: fuzz_NAME MUTATIONS FILE... */
+/* A fuzz target without libFuzzer: it runs every seed, and MUTATIONS mutations of them from a fixed
+   generator, the same on every machine. A target that finds a fault aborts. Seeds are kept packed:
+   one seed a line, in hexadecimal digits (pack.sh writes them). With unpack it writes each seed to
+   a file of its own, as libFuzzer wants them. usage: fuzz_NAME MUTATIONS SEEDS fuzz_NAME unpack
+   FOLDER SEEDS */
 #include "fuzz.h"
 
 #define MOST_BYTES 4096u
-#define MOST_FILES 256
+#define MOST_SEEDS 256u
 
-typedef struct replay_file {
+typedef struct replay_seed {
     unsigned char bytes[MOST_BYTES];
     size_t size;
-} replay_file;
+} replay_seed;
 
-static replay_file files[MOST_FILES];
+static replay_seed seeds[MOST_SEEDS];
 
 /* Marsaglia (2003), xorshift64. */
 static uint32_t replay_random(uint64_t *state)
@@ -34,61 +36,101 @@ static void replay(const unsigned char *bytes, size_t size)
 }
 
 /* A few bytes at once: values that counts fear, bits, digits, pieces moved or doubled, an end. */
-static void mutate(replay_file *file, uint64_t *state)
+static void mutate(replay_seed *seed, uint64_t *state)
 {
     static const unsigned char feared[8] = {0x00, 0x01, 0x7f, 0x80, 0xff, '-', '9', '\n'};
-    for (uint32_t left = 1 + replay_random(state) % 4; left > 0 && file->size > 0; left--) {
+    for (uint32_t left = 1 + replay_random(state) % 4; left > 0 && seed->size > 0; left--) {
         uint32_t value = replay_random(state);
-        size_t at = replay_random(state) % file->size;
-        size_t from = replay_random(state) % file->size;
-        size_t more = file->size - (at > from ? at : from);
+        size_t at = replay_random(state) % seed->size;
+        size_t from = replay_random(state) % seed->size;
+        size_t more = seed->size - (at > from ? at : from);
         switch (value % 5) {
         case 0:
-            file->bytes[at] = feared[value >> 8 & 7];
+            seed->bytes[at] = feared[value >> 8 & 7];
             break;
         case 1:
-            file->bytes[at] ^= (unsigned char)(1u << (value >> 8 & 7));
+            seed->bytes[at] ^= (unsigned char)(1u << (value >> 8 & 7));
             break;
         case 2:
-            file->bytes[at] = (unsigned char)(value >> 8);
+            seed->bytes[at] = (unsigned char)(value >> 8);
             break;
         case 3:
-            memmove(file->bytes + at, file->bytes + from, more < 16 ? more : 16);
+            memmove(seed->bytes + at, seed->bytes + from, more < 16 ? more : 16);
             break;
         default:
-            file->size = value >> 8 & 3 ? file->size : at;
+            seed->size = value >> 8 & 3 ? seed->size : at;
         }
     }
 }
 
-static size_t replay_read(const char *path, replay_file *file)
+/* Digits up to the end of the line; 0 where the line is no seed. */
+static int seed_read(const char *line, replay_seed *seed)
 {
-    FILE *in = fopen(path, "rb");
-    if (!in) {
-        return 0;
+    unsigned value;
+    seed->size = 0;
+    while (seed->size < MOST_BYTES && sscanf(line, "%2x", &value) == 1) {
+        seed->bytes[seed->size++] = (unsigned char)value;
+        line += 2;
     }
-    file->size = fread(file->bytes, 1, MOST_BYTES, in);
-    fclose(in);
-    return file->size;
+    return seed->size > 0 && (*line == '\n' || *line == '\0');
+}
+
+/* How many seeds the file at path holds; 0, with a message, where it cannot be read. */
+static uint32_t seeds_read(const char *path)
+{
+    static char line[2 * MOST_BYTES + 2];
+    uint32_t count = 0;
+    FILE *in = fopen(path, "r");
+    while (in && count < MOST_SEEDS && fgets(line, sizeof line, in)) {
+        if (!seed_read(line, &seeds[count])) {
+            fprintf(stderr, "%s:%u: expected hexadecimal digits\n", path, (unsigned)count + 1);
+            count = 0;
+            break;
+        }
+        count++;
+    }
+    if (in) {
+        fclose(in);
+    } else {
+        fprintf(stderr, "%s: cannot be read\n", path);
+    }
+    return count;
+}
+
+static int unpack(const char *folder, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s/%03u", folder, (unsigned)i);
+        FILE *out = fopen(path, "wb");
+        if (!out || fwrite(seeds[i].bytes, 1, seeds[i].size, out) != seeds[i].size || fclose(out)) {
+            fprintf(stderr, "%s: cannot be written\n", path);
+            return 1;
+        }
+    }
+    return 0;
 }
 
 int main(int argc, char **argv)
 {
-    unsigned long mutations = argc > 1 ? strtoul(argv[1], NULL, 10) : 0;
-    uint32_t count = 0;
+    int unpacks = argc == 4 && strcmp(argv[1], "unpack") == 0;
+    if (argc != 3 && !unpacks) {
+        fprintf(stderr, "usage: %s MUTATIONS SEEDS, or: %s unpack FOLDER SEEDS\n", argv[0],
+                argv[0]);
+        return 2;
+    }
+    uint32_t count = seeds_read(argv[argc - 1]);
+    if (count == 0 || unpacks) {
+        return count == 0 || unpack(argv[2], count);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        replay(seeds[i].bytes, seeds[i].size);
+    }
     uint64_t state = 88172645463325252u;
-    for (int i = 2; i < argc && count < MOST_FILES; i++) {
-        if (replay_read(argv[i], &files[count]) == 0) {
-            fprintf(stderr, "%s: nothing to read\n", argv[i]);
-            return 1;
-        }
-        replay(files[count].bytes, files[count].size);
-        count++;
+    for (unsigned long left = strtoul(argv[1], NULL, 10); left > 0; left--) {
+        replay_seed seed = seeds[replay_random(&state) % count];
+        mutate(&seed, &state);
+        replay(seed.bytes, seed.size);
     }
-    for (unsigned long i = 0; i < mutations && count > 0; i++) {
-        replay_file file = files[replay_random(&state) % count];
-        mutate(&file, &state);
-        replay(file.bytes, file.size);
-    }
-    return count == 0;
+    return 0;
 }

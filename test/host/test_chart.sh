@@ -1,21 +1,17 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The tool's charts as others read them: Python's XML parser and zlib, where there is Python.
-tool=$1
-command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; exit 0; }
-case $tool in /*) ;; *) tool=$PWD/$tool ;; esac
-root=$(cd "$(dirname "$0")/../.." && pwd)
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
+. "$(dirname "$0")/../cli/check.sh"
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 cd "$scratch" || exit 1
 cp "$root/examples/plate.toml" 'a<b&"c.toml'
 "$tool" converge 'a<b&"c.toml' --azel 0,30 --seconds 0.5 --plot p.svg --plot p.png >/dev/null 2>&1
 "$tool" converge demo --azel 50,40 --seconds 0.5 --plot d.svg --csv d.csv >/dev/null 2>&1
-PYTHONPATH=$root/test python3 -B - <<'END'
-import csv, math, sys
+python3 - <<'END' || not_ok the_python_ends_well
+import csv, math
 import xml.etree.ElementTree as tree
 from png_file import Png
-from told import check, finish
+from tap import check
 NS = "{http://www.w3.org/2000/svg}"
 def words(svg):
     return ["".join(t.itertext()) for t in svg.iter(NS + "text")]
@@ -67,5 +63,5 @@ colours = {r[k:k + 3] for r in rows for k in range(0, 3 * w, 3)}
 for name, rgb in (("white", "ffffff"), ("blue", "0072b2"), ("vermilion", "d55e00"), ("purple", "cc79a7")):
     check("png_has_" + name, bytes.fromhex(rgb) in colours)
 check("png_margin_is_white", set(rows[0]) == {255} and all(set(r[:9]) == {255} and set(r[-9:]) == {255} for r in rows))
-finish()
 END
+finish

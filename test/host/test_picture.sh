@@ -1,18 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The tool's files as others read them: Python's zlib and json modules, where there is Python.
-tool=$1
-command -v python3 >/dev/null || { echo "ok no_python3_here_skipped"; exit 0; }
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
+. "$(dirname "$0")/../cli/check.sh"
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 "$tool" run demo --tolerance 0.01 --azel 30,20 --json --image "$scratch/i.png" --image-size 200 \
     --facets "$scratch/f.csv" >"$scratch/o.json" 2>/dev/null
 "$tool" info demo --json >"$scratch/info.json" 2>/dev/null
-PYTHONPATH=$(dirname "$0")/.. python3 -B - "$scratch" <<'END'
+python3 - "$scratch" <<'END' || not_ok the_python_ends_well
 import csv, json, math, sys
 from png_file import Png
 at = sys.argv[1]
-from told import check, finish
+from tap import check
 png = Png(at + "/i.png")
 check("chunk_sums_are_right", png.sums)
 check("head_is_200_x_200_rgb", png.head == (200, 200, 8, 2, 0, 0, 0))
@@ -31,5 +29,5 @@ check("rows_match_the_count", len(table) == run["facets"]["total"])
 check("rows_of_sigma_add_up", math.isclose(math.fsum(float(r["sigma_m2"]) for r in table), run["sigma_m2"], rel_tol=1e-12))
 check("visible_areas_add_up_to_the_silhouette", math.isclose(math.fsum(float(r["visible_area_m2"]) for r in table), run["projected_area_m2"], rel_tol=1e-9))
 check("cosines_are_cosines", all(-1 <= float(r["cos_theta"]) <= 1 for r in table))
-finish()
 END
+finish

@@ -183,10 +183,10 @@ static void digest_reader(const char *name, reader *read)
 
 static void digest_readers(void)
 {
-    digest_reader("test/fuzz/seeds/3ds/all.3ds", lrcs_3ds_read);
-    digest_reader("test/fuzz/seeds/stl/square.stl", lrcs_stl_read);
-    digest_reader("test/fuzz/seeds/stl/text.stl", lrcs_stl_read);
-    digest_reader("test/fuzz/seeds/obj/all.obj", lrcs_obj_read);
+    digest_reader("test/portable/models/all.3ds", lrcs_3ds_read);
+    digest_reader("test/portable/models/square.stl", lrcs_stl_read);
+    digest_reader("test/portable/models/text.stl", lrcs_stl_read);
+    digest_reader("test/portable/models/all.obj", lrcs_obj_read);
 }
 
 /* --- numbers ---------------------------------------------------------------------------------- */

@@ -356,6 +356,45 @@ static void grids_serve_those_that_ask(void **state)
     }
 }
 
+/* Of any two events, the one whose nearest point is nearer comes first. */
+static void events_stand_in_order_of_depth(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    for (int i = 0; i < 40; i++) {
+        square(0.1 * i, 0.05 * i, 1 - 2 * (i * 13 % 40) / 39.0, 1);
+    }
+    look_from(0.3, 0.2, 0.9);
+    assert_int_equal(contest.events.count, 160);
+    for (uint32_t i = 1; i < contest.events.count; i++) {
+        assert_true(contest.event[i].box.high[2] <= contest.event[i - 1].box.high[2]);
+    }
+}
+
+/* Triangles in a stack, each crossed by edges of all above it, of which most look as if they might:
+   asking each about every edge in front of it took 15 million steps for 1,000. */
+static void stacked_facets_are_told_in_linear_time(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    for (uint32_t i = 0; i < 1000; i++) {
+        double z = 1e-6 * i;
+        uint32_t v = scene_vertex(&scene, 0, 0, z);
+        scene_vertex(&scene, 1, 0, z);
+        scene_vertex(&scene, 0, 1, z);
+        scene_facet(&scene, v, v + 1, v + 2);
+    }
+    lrcs_pose pose;
+    lrcsi_meter meter = {UINT64_MAX, 0, 0};
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){0.3, 0.2, 0.9}, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    view.meter = &meter;
+    assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+    assert_true(contest.contested_count >= 999);
+    assert_true(meter.taken <= 600 * 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -370,6 +409,8 @@ int main(void)
         cmocka_unit_test(a_plane_through_a_shared_edge_parts_regions),
         cmocka_unit_test(sheets_end_at_contours),
         cmocka_unit_test(whole_sheets_screen_and_others_do_not),
+        cmocka_unit_test(events_stand_in_order_of_depth),
+        cmocka_unit_test(stacked_facets_are_told_in_linear_time),
         cmocka_unit_test(grids_list_every_item_wherever_it_stands),
         cmocka_unit_test(grids_serve_those_that_ask),
     };

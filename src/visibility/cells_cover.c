@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: MIT */
+/* One cell: what a sample sees, the surface component around it, and what is behind that.
+
+   Why this is right. All statements are about the cell but for some strips; x is any point of it,
+   in general position, and the way from P to x is straight.
+     (1) Let K be a set of facets such that any edge of theirs that crosses the cell is no event,
+   and joins two facets of K. Then as many facets of K cover x as cover P: on the way from P to x
+   their number does not change, since where one ends the next begins. So if just one facet of K
+   surely covers P and the others surely do not, K covers the cell once. How K was found does not
+   matter.
+     (2) Let K cover the cell once, let no contact between a facet of K and another cross the cell,
+   and let K be nearest at P. The number of surfaces in front of K is 0 at P, and changes on the way
+   only at an event edge in front of K: at an edge that joins two facets one ends and one begins. So
+   where no event is in front of K, all of K is seen in the cell, and nothing else.
+     (3) Let K be as in (2), but perhaps with events in front of it. What is behind K at one place
+   of the cell is behind it wherever it is in the cell. It may be dropped there: at no point is it
+   nearest. (2) holds for the facets that are left: an edge that joins one of them with a dropped
+   one is behind a cover, and a component that is nearest at P and has no contact with that cover
+   is behind it nowhere.
+     (4) Where no facet covers P, and no event crosses the cell, no facet is seen in it.
+   A contact is where two facets meet in space other than along a common edge or in a point: across
+   segments of the inside of one (mesh/touch.h), along parts of edges of both (the facets are then
+   marked as rims), or in one plane. All edges of rims and of facets with another in their plane
+   count as events, so that no component goes on across them. Facets of which a contact is not known
+   tell nothing (`vague`). Contacts in points do not matter: ways in general position miss them. */
+#include "visibility/cells_cover.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/range.h"
+
+/* Samples that may be tried in a cell. */
+#define TRIES 3
+
+/* The facet nearest to the laser at a place; all others that may cover it are then surely behind.
+ */
+static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                        const lrcsi_cells_sides *s, const double at[2], uint32_t *best)
+{
+    uint32_t hits = 0;
+    double most = -HUGE_VAL;
+    *best = LRCS_NONE;
+    for (uint32_t i = 0; i < cell->facets; i++) {
+        uint32_t index = c->list[cell->first + i];
+        const lrcsi_cells_facet *f = &c->facet[index];
+        double w = f->off + s->g;
+        c->listed[index] = c->look;
+        if (at[0] < f->low[0] - w || at[0] > f->high[0] + w || at[1] < f->low[1] - w ||
+            at[1] > f->high[1] + w) {
+            continue;
+        }
+        double inside = lrcsi_line_at(f->side[0], at[0], at[1]);
+        inside = lrcsi_least(inside, lrcsi_line_at(f->side[1], at[0], at[1]));
+        inside = lrcsi_least(inside, lrcsi_line_at(f->side[2], at[0], at[1]));
+        if (inside < -w) {
+            continue;
+        }
+        c->hit[hits++] = index;
+        int covers = inside > w && !f->thin;
+        c->met[index] = 2 * c->look + (uint32_t)covers;
+        double range[2];
+        lrcsi_cells_facet_height(f, at, s->g, range);
+        if (covers && (*best == LRCS_NONE || range[0] > most)) {
+            *best = index;
+            most = range[0];
+        }
+    }
+    if (*best == LRCS_NONE) {
+        return hits == 0 ? LRCSI_CELLS_NONE : LRCSI_CELLS_UNSURE;
+    }
+    uint32_t changes = 0;
+    for (uint32_t i = 0; i < hits; i++) {
+        uint32_t other = c->hit[i];
+        double range[2];
+        lrcsi_cells_facet_height(&c->facet[other], at, s->g, range);
+        if (other == *best || range[1] < most) {
+            continue;
+        }
+        int order = c->met[other] % 2 == 1 && changes < 8
+                        ? lrcsi_cells_facet_order(c->view, *best, other)
+                        : 0;
+        if (order == 0) {
+            return LRCSI_CELLS_UNSURE;
+        }
+        if (order > 0) { /* those before it are asked again */
+            *best = other;
+            most = lrcsi_least(most, range[0]);
+            changes++;
+            i = (uint32_t)-1;
+        }
+    }
+    return LRCSI_CELLS_FOUND;
+}
+
+int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                     uint32_t *best, double *clear)
+{
+    static const double weight[TRIES][3] = {{1, 1, 1}, {1.3, 0.9, 1.1}, {0.7, 1.2, 1.6}};
+    int answer = LRCSI_CELLS_UNSURE;
+    for (int t = 0; t < TRIES && answer == LRCSI_CELLS_UNSURE; t++) {
+        double at[2] = {0, 0};
+        double sum = 0;
+        for (uint32_t i = 0; i < cell->shape.count; i++) {
+            double share = weight[t][i % 3];
+            at[0] += share * cell->shape.corner[i][0];
+            at[1] += share * cell->shape.corner[i][1];
+            sum += share;
+        }
+        at[0] /= sum;
+        at[1] /= sum;
+        *clear = lrcsi_cells_sides_clear(s, at);
+        c->look++;
+        if (*clear > 4 * (cell->inset + c->off + s->g)) {
+            answer = cells_sample(c, cell, s, at, best);
+        }
+    }
+    return answer;
+}
+
+int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                          const lrcsi_cells_sides *s, uint32_t best)
+{
+    int whole = 1;
+    c->borders = 0;
+    c->component[0] = best;
+    c->components = 1;
+    c->joined[best] = c->look;
+    for (uint32_t i = 0; i < c->components; i++) {
+        uint32_t facet = c->component[i];
+        const lrcsi_cells_facet *f = &c->facet[facet];
+        double w = f->off + s->g;
+        whole &= (c->kind[facet] & LRCSI_CELLS_VAGUE) == 0 &&
+                 (facet == best || (c->met[facet] >> 1) != c->look);
+        for (int k = 0; k < 3; k++) {
+            double range[2];
+            lrcsi_cells_part part;
+            uint32_t next = lrcsi_cells_next(c->view, c->kind, facet,
+                                             lrcsi_cells_side_number(c->view, facet, k));
+            if (next != LRCS_NONE && c->joined[next] == c->look) {
+                continue;
+            }
+            int n = k == 2 ? 0 : k + 1;
+            const double p[2] = {f->x[k], f->y[k]};
+            const double q[2] = {f->x[n], f->y[n]};
+            double line[3];
+            memcpy(line, f->side[k], sizeof line);
+            if (f->thin) {
+                lrcsi_line_through(p, q, line);
+            }
+            lrcsi_box_range(s->low, s->high, line, range);
+            if (range[0] > w || range[1] < -w) {
+                continue;
+            }
+            int place = lrcsi_cells_place_of(&cell->shape, s, p, q, line, w, &part);
+            if (place == LRCSI_CELLS_AWAY) {
+                continue;
+            }
+            if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
+                whole &= c->borders < LRCSI_CELLS_BORDERS;
+                if (whole) {
+                    c->border[c->borders++] = (lrcsi_cells_border){
+                        {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], w, part};
+                }
+            } else if (place == LRCSI_CELLS_BORDER) {
+                continue;
+            } else if (next == LRCS_NONE || c->listed[next] != c->look) {
+                whole = 0;
+            } else {
+                c->joined[next] = c->look;
+                c->component[c->components++] = next;
+            }
+        }
+    }
+    return whole;
+}
+
+/* Is any facet of an edge, or of a contact, marked by the look at hand? Given: c->joined or
+   c->listed. */
+static int segment_marked(const lrcsi_cells_work *c, const lrcsi_cells_segment *e,
+                          const uint32_t *mark)
+{
+    if (mark[e->owner[0]] == c->look ||
+        (e->owner[1] != LRCS_NONE && mark[e->owner[1]] == c->look)) {
+        return 1;
+    }
+    if (e->edge != LRCS_NONE) {
+        const lrcsi_topology *t = &c->view->prepared->topology;
+        const lrcsi_edge_use *use = t->use + t->edge[e->edge].first_use;
+        for (uint32_t i = 0; i < t->edge[e->edge].uses; i++) {
+            if (mark[use[i].facet] == c->look) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
+{
+    return segment_marked(c, e, c->joined);
+}
+
+/* Whether all facets of an edge have been dropped as hidden, or one of a contact. */
+static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
+{
+    if (e->contact) {
+        return c->listed[e->owner[0]] != c->look || e->owner[1] == LRCS_NONE ||
+               c->listed[e->owner[1]] != c->look;
+    }
+    return !segment_marked(c, e, c->listed);
+}
+
+/* Is the part of an edge in the cell behind the component, which covers the cell? Where one facet
+   is all of it, its plane tells; else a point of the edge over one of its facets. */
+static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                          const lrcsi_cells_sides *s, const lrcsi_cells_segment *e, double w,
+                          double low)
+{
+    double z_off = 2 * e->z_err;
+    if (lrcsi_most(e->end[0][2], e->end[1][2]) + z_off < low) {
+        return 1;
+    }
+    lrcsi_cells_part part = {0, 1, 0};
+    lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w, &part);
+    double at[2][3];
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 3; k++) {
+            at[i][k] =
+                e->end[0][k] + (i == 0 ? part.from : part.to) * (e->end[1][k] - e->end[0][k]);
+        }
+    }
+    if (lrcsi_most(at[0][2], at[1][2]) + z_off < low) {
+        return 1;
+    }
+    if (c->components == 1) {
+        const lrcsi_cells_facet *f = &c->facet[c->component[0]];
+        double off = f->z_off[0] + f->z_off[1] * w + z_off;
+        return at[0][2] + off < f->z[0] * at[0][0] + f->z[1] * at[0][1] + f->z[2] &&
+               at[1][2] + off < f->z[0] * at[1][0] + f->z[1] * at[1][1] + f->z[2];
+    }
+    double middle[3];
+    for (int k = 0; k < 3; k++) {
+        middle[k] = 0.5 * (at[0][k] + at[1][k]);
+    }
+    for (uint32_t i = 0; i < s->count; i++) {
+        if (!(lrcsi_line_at(s->line[i], middle[0], middle[1]) > w)) {
+            return 0;
+        }
+    }
+    for (uint32_t i = 0; i < c->components; i++) {
+        const lrcsi_cells_facet *f = &c->facet[c->component[i]];
+        double clear = f->thin ? HUGE_VAL : 2 * f->off + w;
+        if (lrcsi_line_at(f->side[0], middle[0], middle[1]) > clear &&
+            lrcsi_line_at(f->side[1], middle[0], middle[1]) > clear &&
+            lrcsi_line_at(f->side[2], middle[0], middle[1]) > clear) {
+            double range[2];
+            lrcsi_cells_facet_height(f, middle, w, range);
+            return middle[2] + z_off < range[0];
+        }
+    }
+    return 0;
+}
+
+static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double doubt)
+{
+    c->area[facet].doubt += c->open[facet] ? doubt : 0;
+}
+
+void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                      double doubt)
+{
+    double low = HUGE_VAL;
+    for (uint32_t i = 0; i < c->components; i++) {
+        low = lrcsi_least(low, lrcsi_cells_facet_limit(&c->facet[c->component[i]], s, -1));
+    }
+    uint32_t *list = c->list + cell->first;
+    uint32_t *segments = lrcsi_cells_segments(c, cell);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < cell->facets; i++) {
+        uint32_t f = list[i];
+        if (c->joined[f] != c->look &&
+            (c->met[f] == 2 * c->look + 1 || lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
+            c->listed[f] = 0;
+            c->found[f] |= LRCSI_CELLS_HIDDEN;
+            facet_charge(c, f, cell->doubt + doubt);
+            continue;
+        }
+        list[kept++] = f;
+    }
+    cell->facets = kept;
+    kept = 0;
+    for (uint32_t i = 0; i < cell->segments; i++) {
+        const lrcsi_cells_segment *e = &c->segment[segments[i]];
+        if (!segment_idle(c, e) &&
+            (e->contact || !segment_behind(c, cell, s, e, e->off + s->g, low))) {
+            segments[kept++] = segments[i];
+        }
+    }
+    cell->segments = kept;
+    memmove(list + cell->facets, segments, kept * sizeof *list);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* What a sample in a cell sees, whether the surface component around it covers the cell, and what
+   is behind it (visibility/cells.c). */
+#ifndef LRCSI_CELLS_COVER_H
+#define LRCSI_CELLS_COVER_H
+
+#include "visibility/cells_state.h"
+
+/* The clearance of a sample in a cell that is not thin, of the perimeter. */
+#define LRCSI_CELLS_THIN 0x1p-32
+
+enum { LRCSI_CELLS_UNSURE, LRCSI_CELLS_NONE, LRCSI_CELLS_FOUND };
+
+/* Asks a sample well inside of a cell; where it cannot be told, another. Returns its answer, the
+   facet found, nearest to the laser with all others surely behind, and how far inside the last
+   sample lies. */
+int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                     uint32_t *best, double *clear);
+
+/* Follows the surface around a facet through the cell. 1 where it covers the cell once, unless
+   events or contacts in the list cross it; its edges at the border of the cell are noted. */
+int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                          const lrcsi_cells_sides *s, uint32_t best);
+
+/* Is any facet of a segment in the component? */
+int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
+
+/* Drops facets behind the component, which covers the cell, and the edges behind it. */
+void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                      double doubt);
+
+#endif

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: MIT */
+/* Facets and segments in view coordinates, and their errors. It does not know of cells but their
+   sides.
+
+   Error. b is the largest coordinate of the block. A vertex is known to double-double: off by 256
+   u^2 of its distance from the origin. From the middle of the block it is rounded once, by u of
+   where it then is, and a sum of products that tells how far it is from a line by 5 u of that:
+   `off`. The line through two vertices is off by less where it matters. Its direction is turned by
+   at most 2 u, and its distance from the middle of the block, which is computed in double-double,
+   is off by 2 u of itself but for a factor that a, b and c share: both cost 5.7 u b in the block,
+   and evaluating it there 2.9 u b. That is less than 16 u b, which all cells allow for
+   (visibility/cells_charge.c); `line_off` is what comes of the vertices.
+
+   Heights. In a facet of height H above each side, a place within w of it has barycentric
+   coordinates off by w / H; with the facet's slope at most G, twice what it is as computed, its z
+   there is off by e + G (w + 8 u l^2 / H), l its longest side, the second for the slope's own
+   error, and is never beyond the z of its corners. Where H < 8 w only these count. */
+#include "visibility/cells_facet.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/dd.h"
+#include "base/range.h"
+#include "visibility/contact.h"
+#include "visibility/sample.h"
+
+#define U 0x1p-53
+
+/* The axes of the view, exactly perpendicular to the direction but for 32 u^2: R's rows are so but
+   for 4 u, which is taken off in their lower parts. They may be oblique by as much. */
+void lrcsi_cells_frame_make(lrcsi_cells_frame *c)
+{
+    const double *d = c->view->direction;
+    for (int i = 0; i < 2; i++) {
+        const double *row = c->view->R[i];
+        lrcsi_dd dot = {0, 0};
+        for (int k = 0; k < 3; k++) {
+            dot = lrcsi_dd_add(dot, lrcsi_dd_two_product(row[k], d[k]));
+        }
+        double along = lrcsi_dd_value(dot) / (c->view->length * c->view->length);
+        for (int k = 0; k < 3; k++) {
+            c->axis_low[i][k] = -along * d[k];
+        }
+    }
+}
+
+/* A vertex in the view: x and y to double-double, off by 100 u^2 of the distance from the origin; z
+   as the view has it, off by 20 u of that. */
+static void point_make(const lrcsi_cells_frame *c, uint32_t vertex, lrcsi_cells_point *p)
+{
+    const lrcs_prepared *prepared = c->view->prepared;
+    lrcsi_dd gap[3];
+    for (int k = 0; k < 3; k++) {
+        gap[k] = lrcsi_dd_two_sum(prepared->vertex[vertex].x[k], -prepared->origin[k]);
+    }
+    for (int i = 0; i < 2; i++) {
+        const double *row = c->view->R[i];
+        lrcsi_dd sum = {0, 0};
+        double rest = 0;
+        for (int k = 0; k < 3; k++) {
+            lrcsi_dd term = lrcsi_dd_two_product(row[k], gap[k].hi);
+            rest += term.lo + (row[k] * gap[k].lo + c->axis_low[i][k] * gap[k].hi);
+            lrcsi_dd next = lrcsi_dd_two_sum(sum.hi, term.hi);
+            sum = (lrcsi_dd){next.hi, sum.lo + next.lo};
+        }
+        p->x[i] = lrcsi_dd_quick_sum(sum.hi, sum.lo + rest);
+    }
+    p->z = c->view->point[vertex].x[2];
+    double far = fabs(p->x[0].hi) + fabs(p->x[1].hi) + fabs(p->z);
+    p->line_off = 256 * U * U * far;
+    p->z_err = 20 * U * far;
+    p->made = 1;
+}
+
+const lrcsi_cells_point *lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t vertex)
+{
+    lrcsi_cells_point *p = &c->point[vertex];
+    if (!p->made) {
+        point_make(c, vertex, p);
+    }
+    if (p->block != c->block) {
+        for (int k = 0; k < 2; k++) {
+            lrcsi_dd gap = lrcsi_dd_two_sum(p->x[k].hi, -c->middle[k]);
+            p->local[k] = lrcsi_dd_two_sum(gap.hi, gap.lo + p->x[k].lo);
+        }
+        p->off = 6 * U * (fabs(p->local[0].hi) + fabs(p->local[1].hi)) + p->line_off;
+        p->block = c->block;
+    }
+    return p;
+}
+
+double lrcsi_cells_line(const lrcsi_cells_point *p, const lrcsi_cells_point *q, double line[3])
+{
+    const lrcsi_dd *at = p->local;
+    lrcsi_dd along[2];
+    for (int k = 0; k < 2; k++) {
+        lrcsi_dd gap = lrcsi_dd_two_sum(q->local[k].hi, -at[k].hi);
+        along[k] = lrcsi_dd_two_sum(gap.hi, gap.lo + (q->local[k].lo - at[k].lo));
+    }
+    lrcsi_dd one = lrcsi_dd_two_product(along[1].hi, at[0].hi);
+    lrcsi_dd two = lrcsi_dd_two_product(along[0].hi, at[1].hi);
+    double low = (along[1].hi * at[0].lo + along[1].lo * at[0].hi) -
+                 (along[0].hi * at[1].lo + along[0].lo * at[1].hi);
+    lrcsi_dd cross = lrcsi_dd_two_sum(one.hi, -two.hi);
+    double length = sqrt(along[0].hi * along[0].hi + along[1].hi * along[1].hi);
+    line[0] = length > 0 ? -along[1].hi / length : 1;
+    line[1] = length > 0 ? along[0].hi / length : 0;
+    line[2] = length > 0 ? (cross.hi + (cross.lo + (one.lo - two.lo + low))) / length : -at[0].hi;
+    return length;
+}
+
+static int longest_side(const lrcsi_cells_facet *f)
+{
+    int k = f->length[1] > f->length[0] ? 1 : 0;
+    return f->length[2] > f->length[k] ? 2 : k;
+}
+
+/* Its least height, as computed: negative where rounding has turned it over. */
+static double facet_least(const lrcsi_cells_facet *f)
+{
+    int k = (longest_side(f) + 2) % 3;
+    return lrcsi_line_at(f->side[longest_side(f)], f->x[k], f->y[k]);
+}
+
+/* A facet so narrow that it may have been turned over: its sides are replaced by those of the band
+   about its longest side that has all of it. It covers nothing surely, and is not decided. */
+static void facet_flatten(lrcsi_cells_facet *f)
+{
+    double wide = fabs(facet_least(f)) + 4 * f->off;
+    double line[3];
+    memcpy(line, f->side[longest_side(f)], sizeof line);
+    for (int k = 0; k < 3; k++) {
+        int sign = k == 1 ? -1 : 1;
+        f->side[k][0] = sign * line[0];
+        f->side[k][1] = sign * line[1];
+        f->side[k][2] = sign * line[2] + wide;
+    }
+}
+
+/* The plane and its error, as told above; HUGE_VAL where it is so narrow that only corners tell. */
+static void facet_slope(lrcsi_cells_facet *f, const double z[3])
+{
+    const double dx[2] = {f->x[1] - f->x[0], f->x[2] - f->x[0]};
+    const double dy[2] = {f->y[1] - f->y[0], f->y[2] - f->y[0]};
+    double twice = dx[0] * dy[1] - dx[1] * dy[0];
+    double longest = lrcsi_most(f->length[0], lrcsi_most(f->length[1], f->length[2]));
+    double height = twice / longest; /* the least */
+    double rise = lrcsi_most(z[0], lrcsi_most(z[1], z[2])) -
+                  lrcsi_least(z[0], lrcsi_least(z[1], z[2])) + 4 * f->z_err;
+    f->z_low = lrcsi_least(z[0], lrcsi_least(z[1], z[2])) - f->z_err;
+    f->z_high = lrcsi_most(z[0], lrcsi_most(z[1], z[2])) + f->z_err;
+    f->z[0] = f->z[1] = f->z[2] = 0;
+    f->z_off[0] = f->z_off[1] = HUGE_VAL;
+    if (height > 64 * f->off && height > 0x1p-40 * longest) {
+        const double dz[2] = {z[1] - z[0], z[2] - z[0]};
+        f->z[0] = (dz[0] * dy[1] - dz[1] * dy[0]) / twice;
+        f->z[1] = (dz[1] * dx[0] - dz[0] * dx[1]) / twice;
+        f->z[2] = z[0] - f->z[0] * f->x[0] - f->z[1] * f->y[0];
+        double slope = lrcsi_least(4 * rise / height,
+                                   2 * (fabs(f->z[0]) + fabs(f->z[1])) + 8 * f->z_err / height);
+        f->z_off[1] = slope;
+        f->z_off[0] = 3 * f->z_err + slope * (2 * f->off + 8 * U * longest * longest / height) +
+                      8 * U * (fabs(z[0]) + fabs(f->z[0] * f->x[0]) + fabs(f->z[1] * f->y[0]));
+    }
+}
+
+void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_facet *f)
+{
+    const lrcsi_view *view = c->view;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    const lrcsi_cells_point *p[3];
+    double z[3];
+    f->off = f->z_err = f->line_off = 0;
+    for (int k = 0; k < 3; k++) {
+        p[k] = lrcsi_cells_vertex(c, corner[view->facing[facet] > 0 ? k : (3 - k) % 3]);
+        f->x[k] = p[k]->local[0].hi;
+        f->y[k] = p[k]->local[1].hi;
+        z[k] = p[k]->z;
+        f->off = lrcsi_most(f->off, p[k]->off);
+        f->line_off = lrcsi_most(f->line_off, p[k]->line_off);
+        f->z_err = lrcsi_most(f->z_err, p[k]->z_err);
+    }
+    for (int k = 0; k < 3; k++) {
+        f->length[k] = lrcsi_cells_line(p[k], p[k == 2 ? 0 : k + 1], f->side[k]) + 4 * f->off;
+    }
+    f->low[0] = lrcsi_least(f->x[0], lrcsi_least(f->x[1], f->x[2]));
+    f->high[0] = lrcsi_most(f->x[0], lrcsi_most(f->x[1], f->x[2]));
+    f->low[1] = lrcsi_least(f->y[0], lrcsi_least(f->y[1], f->y[2]));
+    f->high[1] = lrcsi_most(f->y[0], lrcsi_most(f->y[1], f->y[2]));
+    facet_slope(f, z);
+    f->thin = !(facet_least(f) > 16 * f->off);
+    if (f->thin) {
+        facet_flatten(f);
+    }
+}
+
+int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape,
+                           const double low[2], const double high[2], double g)
+{
+    double w = f->off + g;
+    if (f->low[0] > high[0] + w || f->high[0] < low[0] - w || f->low[1] > high[1] + w ||
+        f->high[1] < low[1] - w) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        double range[2];
+        lrcsi_box_range(low, high, f->side[k], range);
+        if (range[1] > -w && range[0] + range[1] < 0) {
+            lrcsi_line_range(shape, f->side[k], range);
+        }
+        if (range[1] < -w) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+void lrcsi_cells_facet_height(const lrcsi_cells_facet *f, const double at[2], double g,
+                              double range[2])
+{
+    range[0] = f->z_low;
+    range[1] = f->z_high;
+    double off = f->z_off[0] + f->z_off[1] * g;
+    if (off < HUGE_VAL) {
+        double z = f->z[0] * at[0] + f->z[1] * at[1] + f->z[2];
+        range[0] = lrcsi_most(range[0], z - off);
+        range[1] = lrcsi_least(range[1], z + off);
+    }
+}
+
+double lrcsi_cells_facet_limit(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign)
+{
+    double corner = sign > 0 ? f->z_high : f->z_low;
+    double off = f->z_off[0] + f->z_off[1] * s->g;
+    if (!(off < HUGE_VAL)) {
+        return corner;
+    }
+    double x = 0.5 * (s->low[0] + s->high[0]);
+    double y = 0.5 * (s->low[1] + s->high[1]);
+    double half = fabs(f->z[0]) * (s->high[0] - x) + fabs(f->z[1]) * (s->high[1] - y);
+    double z = f->z[0] * x + f->z[1] * y + f->z[2];
+    return sign > 0 ? lrcsi_least(corner, z + half + off) : lrcsi_most(corner, z - half - off);
+}
+
+int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t second)
+{
+    const lrcsi_touches *touches = &view->prepared->touches;
+    int side = lrcsi_contact_side(view, first, second);
+    int touch = 0;
+    for (int way = 0; way < 2 && side == 0; way++) {
+        uint32_t facet = way == 0 ? first : second;
+        uint32_t other = way == 0 ? second : first;
+        for (uint32_t i = touches->first[facet]; i < touches->first[facet + 1]; i++) {
+            if (touches->touch[i].other == other) {
+                touch = 1;
+                if (touches->touch[i].kind == LRCSI_TOUCH_COPLANAR) {
+                    return lrcsi_sample_beats(view, second, first) ? 1 : -1;
+                }
+            }
+        }
+    }
+    if (side == 0 && !touch) {
+        side = lrcsi_contact_order(view, first, second);
+        side = side == 0 ? lrcsi_contact_within(view, first, second) : side;
+    }
+    return side;
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* The cell that a block begins as: its facets, and its segments (visibility/cells.c). */
+#ifndef LRCSI_CELLS_OPEN_H
+#define LRCSI_CELLS_OPEN_H
+
+#include "visibility/cells_state.h"
+
+/* Segments that a block may have at most. */
+size_t lrcsi_cells_segments_most(const lrcs_prepared *prepared);
+
+/* Lists what a block has, and makes the records. 0 where there is no room. */
+int lrcsi_cells_open(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell);
+
+#endif

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT */
+/* What the modules of cells share: a cell, what is found of facets, and the state of a view that is
+   being divided (visibility/cells.c). */
+#ifndef LRCSI_CELLS_STATE_H
+#define LRCSI_CELLS_STATE_H
+
+#include "visibility/cells_block.h"
+#include "visibility/cells_facet.h"
+#include "visibility/cells_join.h"
+
+/* Cuts on the way to a cell, at most; cells that wait. */
+#define LRCSI_CELLS_CUTS    200u
+#define LRCSI_CELLS_WAITING (LRCSI_CELLS_CUTS + 2)
+/* Edges of a component at the border of a cell. */
+#define LRCSI_CELLS_BORDERS 128u
+
+/* A part of the view plane that is yet to be done. list[first ..] holds its facets, then its
+   segments. */
+typedef struct lrcsi_cells_cell {
+    lrcsi_clip_polygon shape;
+    size_t first;
+    uint32_t facets, segments;
+    uint32_t cuts, struck;
+    double drift;  /* how far a place that belongs to it may be from it */
+    double doubt;  /* area that may be wrong for any facet, yet to be charged */
+    double inset;  /* the widest w of what was struck */
+    double cut[3]; /* the line along which it was last cut, */
+    double sign;   /* and on which side of it it lies */
+} lrcsi_cells_cell;
+
+/* What is found of a facet that is asked about. */
+typedef struct lrcsi_cells_found {
+    double seen;  /* area in cells where it is seen */
+    double off;   /* by which that may be wrong */
+    double doubt; /* area of strips */
+} lrcsi_cells_found;
+
+/* A segment at the border of a cell. */
+typedef struct lrcsi_cells_border {
+    double line[3], start[2]; /* of it, and where it starts */
+    double length, w;
+    lrcsi_cells_part part;
+} lrcsi_cells_border;
+
+/* What was found of a facet. */
+enum {
+    LRCSI_CELLS_SEEN = 1,   /* a cell shows it */
+    LRCSI_CELLS_HIDDEN = 2, /* it is hidden in a cell */
+    LRCSI_CELLS_OPEN = 4,   /* nothing can be told of it in a cell */
+    LRCSI_CELLS_SPARED = 8  /* a cell was charged whole */
+};
+
+typedef struct lrcsi_cells_work {
+    const lrcsi_view *view;
+    lrcsi_cells_grid grid;
+    lrcsi_cells_frame frame;
+    unsigned char *open;
+    unsigned char *found; /* facet: what was found of it, as above */
+    unsigned char *kind;  /* facet: LRCSI_CELLS_APART, LRCSI_CELLS_VAGUE */
+    lrcsi_cells_facet *facet;
+    lrcsi_cells_found *area;
+    uint32_t *listed; /* facet: the look that found it in the list */
+    uint32_t *met; /* facet: 2 look + 1 where it surely covers the sample, 2 look where perhaps */
+    uint32_t *joined; /* facet: the look whose component it is in */
+    uint32_t *component, *hit;
+    uint32_t components, look;
+    lrcsi_cells_border *border; /* of the component, at the border of the cell */
+    uint32_t borders;
+    uint32_t *list;
+    size_t room;
+    lrcsi_cells_segment *segment;
+    uint32_t segments, segment_room;
+    lrcsi_cells_cell *stack;
+    uint32_t top;
+    double reach; /* the largest coordinate in the block at hand, from its middle */
+    double off;   /* the largest of what is listed there */
+} lrcsi_cells_work;
+
+/* The segments of a cell stand behind its facets. */
+static inline uint32_t *lrcsi_cells_segments(const lrcsi_cells_work *c,
+                                             const lrcsi_cells_cell *cell)
+{
+    return c->list + cell->first + cell->facets;
+}
+
+/* What is said of a cell holds for places within so much of it, computed: its drift, and 16 u of
+   the largest coordinate for distances from lines. */
+static inline double lrcsi_cells_reach(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
+{
+    return 16 * 0x1p-53 * c->reach + cell->drift;
+}
+
+#endif
