@@ -6,10 +6,10 @@
 
 #include <lrcs/shape.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "optics/reflect.h"
 
-#define LRCSI_PI          3.14159265358979323846
 #define LRCSI_CLOSED_UNIT 0x1p-53
 
 /* An angle by its sine and cosine, good to 2^-96 each. */
