@@ -42,7 +42,7 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
     }
     double cut = 0.7 * e->length; /* length is the sum of both components, below 1.42 of it */
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t facet = c->list[cell->first + i];
+        uint32_t facet = c->facets[i];
         const lrcsi_cells_facet *f = &c->facet[facet];
         if (!c->open[facet]) {
             continue;
@@ -100,7 +100,7 @@ int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         return 0;
     }
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t facet = c->list[cell->first + i];
+        uint32_t facet = c->facets[i];
         c->found[facet] |= LRCSI_CELLS_SPARED;
         if (c->open[facet]) {
             c->area[facet].doubt += cell->doubt + area;

@@ -138,11 +138,10 @@ void lrcsi_cells_shape_clip(lrcsi_clip_polygon *shape, const double line[3])
     *shape = out;
 }
 
-lrcsi_cells_shape_cut lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape,
-                                               const double line[3], lrcsi_clip_polygon *left,
-                                               lrcsi_clip_polygon *right)
+double lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape, const double line[3],
+                                lrcsi_clip_polygon *left, lrcsi_clip_polygon *right)
 {
-    lrcsi_cells_shape_cut cut = {{NULL, NULL}, 0, 0};
+    double longest = 0;
     left->count = right->count = 0;
     for (uint32_t i = 0; i < shape->count; i++) {
         const double *here = shape->corner[i];
@@ -161,12 +160,8 @@ lrcsi_cells_shape_cut lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape,
             corner[0] = here[0] + t * (next[0] - here[0]);
             corner[1] = here[1] + t * (next[1] - here[1]);
             memcpy(right->corner[right->count++], corner, 2 * sizeof *corner);
-            cut.longest =
-                lrcsi_most(cut.longest, fabs(next[0] - here[0]) + fabs(next[1] - here[1]));
-            if (cut.commons < 2) {
-                cut.common[cut.commons++] = corner;
-            }
+            longest = lrcsi_most(longest, fabs(next[0] - here[0]) + fabs(next[1] - here[1]));
         }
     }
-    return cut;
+    return longest;
 }
