@@ -2,7 +2,7 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make charts     accuracy against time, for the README
-#   make study      what sigma depends on: examples/study anew
+#   make study      what sigma of simple bodies depends on: examples/study/results anew
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan tsan lint purity layers fuzz coverage    further checks
@@ -44,7 +44,8 @@ CORE_OBJ = $(CORE_SRC:%.c=$(BUILD)/%.o)
 HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
-EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
+EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c))) $(STUDY)
+STUDY    = $(BUILD)/examples/study/study
 CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 JOINED   = $(BUILD)/amalgamation
 FLIGHT   = $(BUILD)/flight
@@ -70,8 +71,8 @@ charts: $(TOOL)
 	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
 
 # Tables, plots and laws as they are kept; the same bytes every time.
-study: $(TOOL)
-	$(TOOL) study -o examples/study
+study: $(STUDY)
+	$(STUDY) -o examples/study/results
 
 test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TESTS)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
@@ -367,6 +368,11 @@ $(BUILD)/examples/%: examples/%.c $(LIB)
 	@mkdir -p $(@D)
 	$(call say,link)
 	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -o $@ $< $(LIB) $(LDLIBS)
+
+$(STUDY): $(wildcard examples/study/*.[ch]) $(LIB)
+	@mkdir -p $(@D)
+	$(call say,link)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -o $@ $(filter %.c,$^) $(LIB) $(LDLIBS)
 
 # Tests compute references in long double, of which clang warns at every step.
 $(BUILD)/test/%.o: test/%.c

@@ -224,7 +224,6 @@ extern const cli_command cli_sweep_command;
 extern const cli_command cli_merge_command;
 extern const cli_command cli_fit_command;
 extern const cli_command cli_report_command;
-extern const cli_command cli_study_command;
 extern const cli_command cli_vectors_command;
 extern const cli_command cli_compare_command;
 

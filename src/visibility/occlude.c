@@ -41,6 +41,7 @@
 #include "visibility/occlude.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/range.h"
 #include "base/work.h"
@@ -446,38 +447,49 @@ int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding 
     return status;
 }
 
-int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible,
-                      uint32_t *starved)
+int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, const unsigned char **answer,
+                      lrcsi_visible *visible, uint32_t *starved)
 {
     const lrcsi_view *view = contest->view;
+    uint32_t count = view->prepared->scene->facet_count;
     size_t mark = work->used;
     lrcsi_occluding o;
     int status = lrcsi_occlude_make(contest, work, &o);
+    unsigned char *open = lrcsi_work_take(work, count, 1);
     *starved = 0;
-    if (status == LRCS_OK) {
-        lrcsi_visible_answered(view, o.uniform, visible);
+    if (status != LRCS_OK || !open) {
+        work->used = mark;
+        return status == LRCS_OK ? LRCS_E_MEMORY : status;
     }
     /* 1. Many undecided facets all together, by cells of the view plane. */
-    unsigned char *open = lrcsi_work_take(work, view->prepared->scene->facet_count, 1);
-    status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
+    for (uint32_t f = 0; f < count; f++) {
         open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
+        o.uniform[f] = open[f] ? LRCSI_QUERY_UNDECIDED : o.uniform[f];
     }
-    if (status == LRCS_OK && contest->contested_count >= CELLS_LEAST &&
-        contest->contested_count >= view->prepared->scene->facet_count / CELLS_SHARE &&
-        cells_serve(view->prepared)) {
+    if (contest->contested_count >= CELLS_LEAST &&
+        contest->contested_count >= count / CELLS_SHARE && cells_serve(view->prepared)) {
         lrcsi_cells_areas(contest, work, open, visible);
     }
-    /* 2. One by one what that left open. */
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        int parted = open[f];
-        if (parted && lrcsi_occlude_open(&o, f) == LRCS_OK) {
-            visible[f] = lrcsi_occlude_area(&o);
-        } else if (parted || o.uniform[f] == LRCSI_QUERY_UNDECIDED) {
+    /* 2. One by one what that left open, and uniform facets that no sample told of. */
+    for (uint32_t f = 0; f < count; f++) {
+        if (open[f] && lrcsi_occlude_open(&o, f) == LRCS_OK) {
+            lrcsi_visible area = lrcsi_occlude_area(&o);
+            if (area.high == 0) { /* where it is known to be hidden, visible[] is not touched */
+                o.uniform[f] = LRCSI_QUERY_HIDDEN;
+            } else {
+                visible[f] = area;
+            }
+        } else if (open[f] || (o.uniform[f] == LRCSI_QUERY_UNDECIDED && !contest->contested[f])) {
             visible[f] = lrcsi_occlude_unknown(view, f);
-            *starved += (uint32_t)parted;
+            *starved += open[f];
         }
     }
+    /* 3. What the answers tell. They move down to where the work area was, if not there yet. */
     work->used = mark;
-    return status;
+    if (answer) {
+        *answer = memmove(lrcsi_work_take(work, count, 1), o.uniform, count);
+    } else {
+        lrcsi_visible_answered(view, o.uniform, visible);
+    }
+    return LRCS_OK;
 }

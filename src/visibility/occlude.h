@@ -76,8 +76,11 @@ lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet);
 /* Every facet: uniform ones by one exact sample, contested ones cell by cell unless one sheet hides
    all of them. A facet whose cuts find no memory may show anything: *starved counts those. One
    that falls into more cells than the limit is bounded by what was reached.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. */
-int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible,
-                      uint32_t *starved);
+   Returned: *answer, unless answer is NULL: facet -> LRCSI_QUERY_HIDDEN or _VISIBLE where it shows
+   nothing or all of itself, which is exact then; else LRCSI_QUERY_UNDECIDED, and visible[facet] is
+   its area. So most of visible[] is never touched. With answer NULL visible[] has the areas of all.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */
+int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, const unsigned char **answer,
+                      lrcsi_visible *visible, uint32_t *starved);
 
 #endif

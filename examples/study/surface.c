@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Sigma and angles against one number: a body's size, the slope s, the diffusivity m. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
@@ -15,7 +15,7 @@ static const int wall_list[] = {STUDY_DISC, STUDY_CONE, STUDY_CYLINDER, STUDY_SP
 static study_table *dial_table(study_job *job, const char *stem, const char *title, int chart,
                                const char *x_id, const char *x_name, const char *y_name)
 {
-    study_table *table = cli_study_table(job, stem, title);
+    study_table *table = study_table_add(job, stem, title);
     table->chart = chart;
     table->x_id = x_id;
     table->x_name = x_name;
@@ -26,8 +26,8 @@ static study_table *dial_table(study_job *job, const char *stem, const char *tit
 static uint32_t body_column(study_table *table, int kind, const char *unit)
 {
     char id[32];
-    snprintf(id, sizeof id, "%s_%s", cli_study_name(kind), unit);
-    return cli_study_column(table, id, cli_study_name(kind), cli_study_colour(kind),
+    snprintf(id, sizeof id, "%s_%s", study_name(kind), unit);
+    return study_column_add(table, id, study_name(kind), study_colour(kind),
                             kind == STUDY_CONE ? LRCS_HOST_DASHED : LRCS_HOST_SOLID);
 }
 
@@ -41,10 +41,10 @@ static void size_table(study_job *job)
     for (size_t k = 0; k < COUNT_OF(list); k++) {
         uint32_t column = body_column(table, list[k], "m2");
         for (int i = -3; i <= 3; i++) {
-            lrcs_shape shape = cli_study_scaled_body(cli_study_body(list[k]), ldexp(1.0, i));
+            lrcs_shape shape = study_scaled_body(study_body(list[k]), ldexp(1.0, i));
             uint32_t row = (uint32_t)(i + 3);
             table->x[row] = ldexp(1.0, i);
-            cli_study_put(table, column, row, cli_study_sigma(job, &shape, &job->brdf, 90.0));
+            study_put(table, column, row, study_sigma(job, &shape, &job->brdf, 90.0));
         }
     }
 }
@@ -72,16 +72,16 @@ static void width_columns(study_table *table, const char *unit, const char *unit
         char name[48];
         snprintf(id, sizeof id, "%s_%s", curve->id, unit);
         snprintf(name, sizeof name, "%s%s", curve->name, unit_name);
-        cli_study_column(table, id, name, curve->colour, curve->dash);
+        study_column_add(table, id, name, curve->colour, curve->dash);
     }
 }
 
 static study_number width_of(study_job *job, const width_curve *curve, double s)
 {
-    const lrcs_shape shape = cli_study_wall(curve->kind, STUDY_HALF);
-    const lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', s);
-    double normal = cli_study_normal(curve->kind, STUDY_HALF);
-    return cli_study_half_power(job, &shape, &brdf, normal, curve->side);
+    const lrcs_shape shape = study_wall(curve->kind, STUDY_HALF);
+    const lrcs_brdf brdf = study_with(study_finish(job, STUDY_GLINT), 's', s);
+    double normal = study_normal(curve->kind, STUDY_HALF);
+    return study_half_power(job, &shape, &brdf, normal, curve->side);
 }
 
 /* s sqrt(ln 2) rad, in deg. */
@@ -96,13 +96,13 @@ static void width_table(study_job *job)
     study_table *table = dial_table(job, "glint-width", "Half-power angle of a glint (deg)",
                                     STUDY_NO_CHART, "s", "s", NULL);
     width_columns(table, "deg", "");
-    cli_study_column(table, "first_order_deg", "s sqrt(ln 2)", 0, 0);
+    study_column_add(table, "first_order_deg", "s sqrt(ln 2)", 0, 0);
     for (uint32_t i = 0; i < COUNT_OF(slope_list); i++) {
         table->x[i] = slope_list[i];
         for (uint32_t k = 0; k < columns; k++) {
-            cli_study_put(table, k, i, width_of(job, &width_curves[k], slope_list[i]));
+            study_put(table, k, i, width_of(job, &width_curves[k], slope_list[i]));
         }
-        cli_study_put(table, columns, i, cli_study_exact(width_first_order(slope_list[i])));
+        study_put(table, columns, i, study_exact(width_first_order(slope_list[i])));
     }
 }
 
@@ -120,7 +120,7 @@ static void widening_table(study_job *job)
         double s = table->x[i] = (i + 1) / 50.0;
         for (uint32_t k = 0; k < COUNT_OF(width_curves); k++) {
             study_number half = width_of(job, &width_curves[k], s);
-            cli_study_put(table, k, i, cli_study_scaled(half, 1.0 / width_first_order(s)));
+            study_put(table, k, i, study_scaled(half, 1.0 / width_first_order(s)));
         }
     }
 }
@@ -129,9 +129,9 @@ static void widening_table(study_job *job)
 static void wall_fill(study_job *job, study_table *table, const lrcs_brdf *brdf, uint32_t row)
 {
     for (uint32_t k = 0; k < COUNT_OF(wall_list); k++) {
-        const lrcs_shape shape = cli_study_wall(wall_list[k], STUDY_HALF);
-        double normal = cli_study_normal(wall_list[k], STUDY_HALF);
-        cli_study_put(table, k, row, cli_study_sigma(job, &shape, brdf, normal));
+        const lrcs_shape shape = study_wall(wall_list[k], STUDY_HALF);
+        double normal = study_normal(wall_list[k], STUDY_HALF);
+        study_put(table, k, row, study_sigma(job, &shape, brdf, normal));
     }
 }
 
@@ -146,7 +146,7 @@ static void peak_table(study_job *job)
         body_column(table, wall_list[k], "m2");
     }
     for (uint32_t i = 0; i < COUNT_OF(slope_list); i++) {
-        lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', slope_list[i]);
+        lrcs_brdf brdf = study_with(study_finish(job, STUDY_GLINT), 's', slope_list[i]);
         table->x[i] = slope_list[i];
         wall_fill(job, table, &brdf, i);
     }
@@ -164,7 +164,7 @@ static void diffuse_table(study_job *job)
         body_column(table, wall_list[k], "m2");
     }
     for (uint32_t i = 0; i <= 40; i++) {
-        lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_DIFFUSE), 'm', 0.5 * i);
+        lrcs_brdf brdf = study_with(study_finish(job, STUDY_DIFFUSE), 'm', 0.5 * i);
         table->x[i] = 0.5 * i;
         wall_fill(job, table, &brdf, i);
     }
@@ -175,19 +175,19 @@ static void lobe_table(study_job *job)
     study_table *table =
         dial_table(job, "diffuse-width", "Half-power angle of the diffuse lobe (deg)",
                    STUDY_NO_CHART, "m", "m", NULL);
-    const lrcs_shape disc = cli_study_wall(STUDY_DISC, 0.0);
-    const lrcs_shape cylinder = cli_study_wall(STUDY_CYLINDER, 0.0);
+    const lrcs_shape disc = study_wall(STUDY_DISC, 0.0);
+    const lrcs_shape cylinder = study_wall(STUDY_CYLINDER, 0.0);
     body_column(table, STUDY_DISC, "deg");
     body_column(table, STUDY_CYLINDER, "deg");
     for (uint32_t i = 0; i < COUNT_OF(m_list); i++) {
-        lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_DIFFUSE), 'm', m_list[i]);
+        lrcs_brdf brdf = study_with(study_finish(job, STUDY_DIFFUSE), 'm', m_list[i]);
         table->x[i] = m_list[i];
-        cli_study_put(table, 0, i, cli_study_half_power(job, &disc, &brdf, 0.0, 1.0));
-        cli_study_put(table, 1, i, cli_study_half_power(job, &cylinder, &brdf, 90.0, -1.0));
+        study_put(table, 0, i, study_half_power(job, &disc, &brdf, 0.0, 1.0));
+        study_put(table, 1, i, study_half_power(job, &cylinder, &brdf, 90.0, -1.0));
     }
 }
 
-void cli_study_surface_tables(study_job *job)
+void study_surface_tables(study_job *job)
 {
     size_table(job);
     width_table(job);

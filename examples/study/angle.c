@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Angles at which sigma has fallen to half or to another sigma: between two aspects that are proved
    to enclose such an angle, sigma being continuous. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
@@ -16,9 +16,9 @@ typedef struct angle_search {
 static int level_side(study_job *job, const angle_search *search, double angle)
 {
     double aspect = search->from_deg + search->side * angle;
-    study_number sigma = cli_study_sigma(job, search->shape, search->falling, aspect);
+    study_number sigma = study_sigma(job, search->shape, search->falling, aspect);
     study_number level =
-        search->other ? cli_study_sigma(job, search->shape, search->other, aspect) : search->level;
+        search->other ? study_sigma(job, search->shape, search->other, aspect) : search->level;
     return sigma.value - sigma.bound > level.value + level.bound   ? 1
            : sigma.value + sigma.bound < level.value - level.bound ? -1
                                                                    : 0;
@@ -52,10 +52,10 @@ static study_number level_angle(study_job *job, const angle_search *search, doub
     return (study_number){0.5 * (above + below), 0.5 * (below - above) + 0x1p-45};
 }
 
-study_number cli_study_half_power(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
-                                  double aspect_deg, double side)
+study_number study_half_power(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
+                              double aspect_deg, double side)
 {
-    study_number peak = cli_study_sigma(job, shape, brdf, aspect_deg);
+    study_number peak = study_sigma(job, shape, brdf, aspect_deg);
     const angle_search search = {.shape = shape,
                                  .falling = brdf,
                                  .level = {0.5 * peak.value, 0.5 * peak.bound},
@@ -65,8 +65,8 @@ study_number cli_study_half_power(study_job *job, const lrcs_shape *shape, const
     return level_angle(job, &search, fmin(room, 90.0));
 }
 
-study_number cli_study_crossing(study_job *job, const lrcs_shape *shape, const lrcs_brdf *falling,
-                                const lrcs_brdf *other)
+study_number study_crossing(study_job *job, const lrcs_shape *shape, const lrcs_brdf *falling,
+                            const lrcs_brdf *other)
 {
     const angle_search search = {.shape = shape, .falling = falling, .other = other, .side = 1.0};
     return level_angle(job, &search, 60.0);
@@ -74,15 +74,15 @@ study_number cli_study_crossing(study_job *job, const lrcs_shape *shape, const l
 
 /* The solid angle of a zone of aspects a .. b is 2 pi (cos a - cos b); cosines change by no more
    than their angles, and are rounded. */
-study_number cli_study_share(study_job *job, int kind, double half_angle_deg, const lrcs_brdf *brdf)
+study_number study_share(study_job *job, int kind, double half_angle_deg, const lrcs_brdf *brdf)
 {
-    const lrcs_shape wall = cli_study_wall(kind, half_angle_deg);
-    double normal = cli_study_normal(kind, half_angle_deg);
+    const lrcs_shape wall = study_wall(kind, half_angle_deg);
+    double normal = study_normal(kind, half_angle_deg);
     const double radian = STUDY_PI / 180.0;
-    study_number up = cli_study_half_power(job, &wall, brdf, normal, 1.0);
+    study_number up = study_half_power(job, &wall, brdf, normal, 1.0);
     study_number down = {0.0, 0.0};
     if (kind != STUDY_DISC) {
-        down = cli_study_half_power(job, &wall, brdf, normal, -1.0);
+        down = study_half_power(job, &wall, brdf, normal, -1.0);
     }
     double first = cos((normal - down.value) * radian);
     double last = cos((normal + up.value) * radian);

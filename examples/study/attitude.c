@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Sigma against attitude: bodies of the same surface beside each other for each kind of surface,
    the kinds beside each other for each body, and a cylinder with one parameter changed. */
-#include "cli/study.h"
+#include "study.h"
 
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
 static study_table *attitude_table(study_job *job, const char *stem, const char *title,
                                    double floor_m2)
 {
-    study_table *table = cli_study_table(job, stem, title);
+    study_table *table = study_table_add(job, stem, title);
     table->x_id = "aspect_deg";
     table->x_name = "angle between line of sight and axis (deg)";
     table->y_name = "sigma (dBsm)";
@@ -24,7 +24,7 @@ static void attitude_fill(study_job *job, study_table *table, uint32_t column,
 {
     for (uint32_t i = 0; i * step_deg <= last_deg; i++) {
         table->x[i] = i * step_deg;
-        cli_study_put(table, column, i, cli_study_sigma(job, shape, brdf, table->x[i]));
+        study_put(table, column, i, study_sigma(job, shape, brdf, table->x[i]));
     }
 }
 
@@ -57,17 +57,17 @@ static const int body_dash[STUDY_KINDS] = {[STUDY_DISC] = LRCS_HOST_DOTTED,
 
 static void bodies_table(study_job *job, int finish)
 {
-    const lrcs_brdf brdf = cli_study_finish(job, finish);
+    const lrcs_brdf brdf = study_finish(job, finish);
     study_table *table = attitude_table(job, finish_stem[finish], finish_title[finish],
                                         finish == STUDY_GLINT ? 1e-6 : 0.1);
     material_note(table, "bodies of 6 m2 of surface", &brdf, 0);
     table->polar = finish == STUDY_MIXED;
     for (int kind = 0; kind < STUDY_KINDS; kind++) {
-        const lrcs_shape shape = cli_study_body(kind);
+        const lrcs_shape shape = study_body(kind);
         char id[32];
-        snprintf(id, sizeof id, "%s_m2", cli_study_name(kind));
-        uint32_t column = cli_study_column(table, id, cli_study_name(kind), cli_study_colour(kind),
-                                           body_dash[kind]);
+        snprintf(id, sizeof id, "%s_m2", study_name(kind));
+        uint32_t column =
+            study_column_add(table, id, study_name(kind), study_colour(kind), body_dash[kind]);
         attitude_fill(job, table, column, &shape, &brdf, 1.0, 180.0);
     }
 }
@@ -79,13 +79,13 @@ static void finishes_table(study_job *job, int kind, const char *stem, const cha
     static const char *const id[] = {"diffuse_m2", "glint_m2", "mixed_m2"};
     static const char *const name[] = {"purely diffuse", "purely specular", "mixed"};
     static const int colour[] = {LRCS_HOST_GREEN, LRCS_HOST_ORANGE, LRCS_HOST_BLACK};
-    const lrcs_shape shape = cli_study_body(kind);
+    const lrcs_shape shape = study_body(kind);
     study_table *table = attitude_table(job, stem, title, 1e-3);
     material_note(table, "6 m2 of surface", &job->brdf, 0);
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
-        const lrcs_brdf brdf = cli_study_finish(job, finish);
+        const lrcs_brdf brdf = study_finish(job, finish);
         uint32_t column =
-            cli_study_column(table, id[finish], name[finish], colour[finish],
+            study_column_add(table, id[finish], name[finish], colour[finish],
                              finish == STUDY_MIXED ? LRCS_HOST_DASHED : LRCS_HOST_SOLID);
         attitude_fill(job, table, column, &shape, &brdf, 1.0, 180.0);
     }
@@ -111,21 +111,21 @@ static void influence_table(study_job *job, const influence *of)
                                  LRCS_HOST_GREEN};
     static const int dash[] = {LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_SOLID,
                                LRCS_HOST_DOTTED};
-    const lrcs_shape shape = cli_study_body(STUDY_CYLINDER);
+    const lrcs_shape shape = study_body(STUDY_CYLINDER);
     study_table *table = attitude_table(job, of->stem, of->title, 1e-3);
     material_note(table, "cylinder of 6 m2 of surface", &job->brdf, of->parameter);
     for (int i = 0; i < 4; i++) {
-        const lrcs_brdf brdf = cli_study_with(job->brdf, of->parameter, of->value[i]);
+        const lrcs_brdf brdf = study_with(job->brdf, of->parameter, of->value[i]);
         char id[32];
         char name[48];
         snprintf(id, sizeof id, "%c_%g_m2", of->parameter, of->value[i]);
         snprintf(name, sizeof name, "%c = %g", of->parameter, of->value[i]);
-        uint32_t column = cli_study_column(table, id, name, colour[i], dash[i]);
+        uint32_t column = study_column_add(table, id, name, colour[i], dash[i]);
         attitude_fill(job, table, column, &shape, &brdf, 0.5, 90.0);
     }
 }
 
-void cli_study_attitude_tables(study_job *job)
+void study_attitude_tables(study_job *job)
 {
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
         bodies_table(job, finish);

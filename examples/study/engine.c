@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The study's scenes for the engine itself: the bodies by facets, against their closed forms, and
    one of parts that shade each other, which has none. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
@@ -35,8 +35,8 @@ static int engine_run(const lrcs_host_scene *scene, const lrcs_pose *pose, int m
 }
 
 /* The aspect is an angle from the axis: s_hat = (sin, 0, cos), as elevation 90 - angle. */
-void cli_study_engine(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
-                      const double *aspect_deg, uint32_t count, study_number *sigma)
+void study_engine(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
+                  const double *aspect_deg, uint32_t count, study_number *sigma)
 {
     lrcs_recipe_part part = {.name = lrcs_shape_text(shape->kind),
                              .shape = *shape,
@@ -87,7 +87,7 @@ static study_number shaded_look(study_job *job, const void *what, const double d
     return sigma;
 }
 
-study_number cli_study_shaded(study_job *job, const lrcs_brdf *brdf, double *surface_m2)
+study_number study_shaded(study_job *job, const lrcs_brdf *brdf, double *surface_m2)
 {
     lrcs_recipe_part part[3];
     lrcs_host_scene scene = {.prepared = NULL};
@@ -102,7 +102,7 @@ study_number cli_study_shaded(study_job *job, const lrcs_brdf *brdf, double *sur
         job->status = engine_scene(part, 3, brdf, &scene, &job->error);
     }
     if (job->status == LRCS_OK) {
-        mean = cli_study_octant(job, shaded_look, &scene, ENGINE_PANELS);
+        mean = study_octant(job, shaded_look, &scene, ENGINE_PANELS);
     }
     lrcs_host_scene_free(&scene);
     return mean;

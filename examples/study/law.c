@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* How a law stands or falls: each comparison with its limits and bound, the closest one kept. It
    decides no law. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
 #define LAW_WIDTH 24
 #define LAW_TIGHT 1e-9
 
-study_law *cli_study_law(study_job *job, const char *name, const char *quantity)
+study_law *study_law_add(study_job *job, const char *name, const char *quantity)
 {
     study_law *law = &job->law[job->laws++];
     law->name = name;
@@ -35,7 +35,7 @@ static void law_take(study_law *law, double slack, study_number number, double l
     law->checks++;
 }
 
-void cli_study_within(study_law *law, study_number number, double least, double most)
+void study_within(study_law *law, study_number number, double least, double most)
 {
     double bound = law_bound(number);
     double slack = fmin((number.value - least) - bound, (most - number.value) - bound);
@@ -43,33 +43,33 @@ void cli_study_within(study_law *law, study_number number, double least, double 
 }
 
 /* What is hardly known does not count as equal. */
-void cli_study_equal(study_law *law, study_number number, double expected)
+void study_equal(study_law *law, study_number number, double expected)
 {
     int known = number.bound <= LAW_TIGHT * fabs(expected);
     double slack = known ? number.bound - fabs(number.value - expected) : -HUGE_VAL;
     law_take(law, slack, number, expected, expected);
 }
 
-void cli_study_order(study_law *law, study_number large, study_number small)
+void study_order(study_law *law, study_number large, study_number small)
 {
-    cli_study_within(law, cli_study_ratio(small, large), -HUGE_VAL, 1.0);
+    study_within(law, study_ratio(small, large), -HUGE_VAL, 1.0);
 }
 
-int cli_study_holds(const study_law *law)
+int study_holds(const study_law *law)
 {
     return law->checks > 0 && law->slack >= 0.0;
 }
 
-uint32_t cli_study_held(const study_job *job)
+uint32_t study_held(const study_job *job)
 {
     uint32_t held = 0;
     for (uint32_t i = 0; i < job->laws; i++) {
-        held += cli_study_holds(&job->law[i]) != 0;
+        held += study_holds(&job->law[i]) != 0;
     }
     return held;
 }
 
-void cli_study_limits(const study_law *law, char text[64])
+void study_limits(const study_law *law, char text[64])
 {
     if (law->least == law->most) {
         snprintf(text, 64, "= %.8g", law->least);
@@ -82,18 +82,18 @@ void cli_study_limits(const study_law *law, char text[64])
     }
 }
 
-void cli_study_print(const study_job *job)
+void study_print(const study_job *job)
 {
     printf("%-*s %-13s %11s  %-16s %8s %12s\n", LAW_WIDTH, "law", "verdict", "comparisons",
            "closest: value", "bound", "limits");
     for (uint32_t i = 0; i < job->laws; i++) {
         const study_law *law = &job->law[i];
         char limits[64];
-        cli_study_limits(law, limits);
+        study_limits(law, limits);
         printf("%-*s %-13s %11d  %-16.9g %7.1e%c %12s\n", LAW_WIDTH, law->name,
-               cli_study_holds(law) ? "holds" : "not supported", law->checks, law->worst.value,
+               study_holds(law) ? "holds" : "not supported", law->checks, law->worst.value,
                law->worst.bound, law->estimate ? '*' : ' ', limits);
     }
     printf("%lu of %lu laws hold (* the bound holds a quadrature's error, which is an estimate)\n",
-           (unsigned long)cli_study_held(job), (unsigned long)job->laws);
+           (unsigned long)study_held(job), (unsigned long)job->laws);
 }

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /* What the engine adds to the laws: that its facets give the closed forms, and what shadows do to
    the law of the mean. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
 static void shading_law(study_job *job)
 {
     study_law *law =
-        cli_study_law(job, "mutual shadowing", "mean / sigma of the sphere of the same surface");
+        study_law_add(job, "mutual shadowing", "mean / sigma of the sphere of the same surface");
     double surface;
-    study_number mean = cli_study_shaded(job, &job->brdf, &surface);
+    study_number mean = study_shaded(job, &job->brdf, &surface);
     const lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE,
                                .radius = sqrt(surface / (4.0 * STUDY_PI))};
-    study_number convex = cli_study_meant(cli_study_sigma(job, &sphere, &job->brdf, 0.0));
-    study_number ratio = cli_study_ratio(mean, convex);
+    study_number convex = study_meant(study_sigma(job, &sphere, &job->brdf, 0.0));
+    study_number ratio = study_ratio(mean, convex);
     law->estimate = 1;
-    cli_study_within(law, ratio, -HUGE_VAL, 1.0);
+    study_within(law, ratio, -HUGE_VAL, 1.0);
     snprintf(
         law->text, sizeof law->text,
         "Parts that shadow each other return less in the mean than their surface would: a cube "
@@ -30,8 +30,8 @@ static void shading_law(study_job *job)
 
 static void engine_law(study_job *job)
 {
-    const study_table *table = cli_study_find(job, "engine");
-    study_law *law = cli_study_law(job, "engine = closed form", "difference / bound");
+    const study_table *table = study_find(job, "engine");
+    study_law *law = study_law_add(job, "engine = closed form", "difference / bound");
     double worst = 0.0;
     double largest = 0.0;
     for (uint32_t c = 0; c + 2 < table->columns; c += 3) {
@@ -39,7 +39,7 @@ static void engine_law(study_job *job)
             double closed = table->column[c].value[r];
             double off = fabs(table->column[c + 1].value[r] - closed);
             double bound = table->column[c + 2].value[r] + table->bound[r];
-            cli_study_within(law, cli_study_exact(off / bound), -HUGE_VAL, 1.0);
+            study_within(law, study_exact(off / bound), -HUGE_VAL, 1.0);
             worst = fmax(worst, off / closed);
             largest = fmax(largest, bound / closed);
         }
@@ -51,7 +51,7 @@ static void engine_law(study_job *job)
     snprintf(law->range, sizeof law->range, "Mixed surface, ten aspects, tolerance 1e-4.");
 }
 
-void cli_study_engine_laws(study_job *job)
+void study_engine_laws(study_job *job)
 {
     shading_law(job);
     engine_law(job);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The study as a page: what is asked, the laws, plots and tables, and how the numbers were made. It
    decides the words and their order; numbers come from tables and laws. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
@@ -12,7 +12,7 @@
 static const char page_head[] =
     "# What the laser radar cross-section of simple bodies depends on\n"
     "\n"
-    "Written by `lrcs study`. It asks the questions of Y. Han et al., *Analysis of influential "
+    "Written by `make study`. It asks the questions of Y. Han et al., *Analysis of influential "
     "factors on a space\n"
     "target's laser radar cross-section*, Opt. Laser Technol. 56 (2014) 151-157, doi\n"
     "10.1016/j.optlastec.2013.08.007: how the shape, size and surface of a cube, a cylinder and a "
@@ -75,13 +75,13 @@ static void page_bodies(FILE *out)
           "| body | equal surface, 6 m² |\n|---|---|\n",
           out);
     for (int kind = 0; kind < STUDY_KINDS; kind++) {
-        const lrcs_shape shape = cli_study_body(kind);
-        dimensions_row(cli_study_name(kind), &shape, out);
+        const lrcs_shape shape = study_body(kind);
+        dimensions_row(study_name(kind), &shape, out);
     }
     fputs("\n| body | equal projected area, 1 m² at 90 deg |\n|---|---|\n", out);
     for (int kind = STUDY_CUBE; kind < STUDY_KINDS; kind++) {
-        const lrcs_shape shape = cli_study_silhouette(kind);
-        dimensions_row(cli_study_name(kind), &shape, out);
+        const lrcs_shape shape = study_silhouette(kind);
+        dimensions_row(study_name(kind), &shape, out);
     }
     fputc('\n', out);
 }
@@ -91,10 +91,10 @@ static void page_bodies(FILE *out)
 static void page_law(const study_law *law, uint32_t number, FILE *out)
 {
     char limits[64];
-    cli_study_limits(law, limits);
+    study_limits(law, limits);
     fprintf(out, "### %lu. %c%s: %s\n\n%s\n\n*Range:* %s\n\n", (unsigned long)number,
             law->name[0] >= 'a' ? law->name[0] - 'a' + 'A' : law->name[0], law->name + 1,
-            cli_study_holds(law) ? "holds" : "not supported", law->text, law->range);
+            study_holds(law) ? "holds" : "not supported", law->text, law->range);
     fprintf(out, "*Support:* %s, to be %s. Of %d comparison%s the closest to its limits gave %.9g",
             law->quantity, limits, law->checks, law->checks == 1 ? "" : "s", law->worst.value);
     if (law->worst.bound > 0.0) {
@@ -115,7 +115,7 @@ static void page_laws(const study_job *job, FILE *out)
         "below 1e-9. %lu of "
         "%lu hold.\n"
         "\n",
-        (unsigned long)cli_study_held(job), (unsigned long)job->laws);
+        (unsigned long)study_held(job), (unsigned long)job->laws);
     for (uint32_t i = 0; i < job->laws; i++) {
         page_law(&job->law[i], i + 1, out);
     }
@@ -129,7 +129,7 @@ static void page_source(const study_table *table, FILE *out)
     fprintf(out, "*%s: [%s.csv](%s.csv); %s at most %.1e of the value", table->maker, table->stem,
             table->stem, table->estimate ? "error estimated at" : "bound", 1.1 * table->relative);
     if (table->floor > 0.0) {
-        fprintf(out, " where that is above %g dBsm", cli_dbsm(table->floor));
+        fprintf(out, " where that is above %g dBsm", study_dbsm(table->floor));
     }
     fputs(".*\n\n", out);
 }
@@ -226,7 +226,7 @@ static const char page_end[] =
     "measured one. The laws are about\n"
     "this model; whether a paint follows it is outside every bound.\n";
 
-void cli_study_page(const study_job *job, FILE *out)
+void study_page(const study_job *job, FILE *out)
 {
     fputs(page_head, out);
     page_surfaces(job, out);
@@ -235,7 +235,7 @@ void cli_study_page(const study_job *job, FILE *out)
     for (size_t i = 0; i < COUNT_OF(page_sections); i++) {
         fputs(page_sections[i].text, out);
         for (int k = 0; k < 4 && page_sections[i].stem[k]; k++) {
-            const study_table *table = cli_study_find(job, page_sections[i].stem[k]);
+            const study_table *table = study_find(job, page_sections[i].stem[k]);
             if (table->chart != STUDY_NO_CHART) {
                 page_figure(table, out);
             } else {

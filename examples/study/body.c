@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The bodies of the study: which dimensions give them the same surface, the same reflecting wall
    or the same silhouette, and their sigma from closed forms. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
@@ -14,12 +14,12 @@ static const struct {
                               [STUDY_CONE] = {"cone", LRCS_HOST_GREEN},
                               [STUDY_SPHERE] = {"sphere", LRCS_HOST_PURPLE}};
 
-const char *cli_study_name(int kind)
+const char *study_name(int kind)
 {
     return study_looks[kind].name;
 }
 
-int cli_study_colour(int kind)
+int study_colour(int kind)
 {
     return study_looks[kind].colour;
 }
@@ -31,7 +31,7 @@ static double radian_of(double deg)
 
 /* Disc 2 pi R^2 (a cylinder of no length); cylinder of L = 2R 6 pi R^2; cone of half-angle 30 deg
    3 pi R^2; sphere 4 pi R^2. */
-lrcs_shape cli_study_body(int kind)
+lrcs_shape study_body(int kind)
 {
     switch (kind) {
     case STUDY_CUBE: {
@@ -56,7 +56,7 @@ lrcs_shape cli_study_body(int kind)
 }
 
 /* Disc pi R^2; cylinder 2 pi R L; cone pi R^2 / sin(half-angle); sphere 4 pi R^2. */
-lrcs_shape cli_study_wall(int kind, double half_angle_deg)
+lrcs_shape study_wall(int kind, double half_angle_deg)
 {
     switch (kind) {
     case STUDY_CYLINDER: {
@@ -79,7 +79,7 @@ lrcs_shape cli_study_wall(int kind, double half_angle_deg)
 }
 
 /* Cube a^2; cylinder of L = 2R 4 R^2; cone R^2 / tan(half-angle); sphere pi R^2. */
-lrcs_shape cli_study_silhouette(int kind)
+lrcs_shape study_silhouette(int kind)
 {
     switch (kind) {
     case STUDY_CUBE:
@@ -95,7 +95,7 @@ lrcs_shape cli_study_silhouette(int kind)
     }
 }
 
-lrcs_shape cli_study_scaled_body(lrcs_shape shape, double factor)
+lrcs_shape study_scaled_body(lrcs_shape shape, double factor)
 {
     for (int i = 0; i < 3; i++) {
         shape.size[i] *= factor;
@@ -105,12 +105,12 @@ lrcs_shape cli_study_scaled_body(lrcs_shape shape, double factor)
     return shape;
 }
 
-double cli_study_normal(int kind, double half_angle_deg)
+double study_normal(int kind, double half_angle_deg)
 {
     return kind == STUDY_CYLINDER ? 90.0 : kind == STUDY_CONE ? 90.0 - half_angle_deg : 0.0;
 }
 
-lrcs_brdf cli_study_finish(const study_job *job, int finish)
+lrcs_brdf study_finish(const study_job *job, int finish)
 {
     lrcs_brdf brdf = job->brdf;
     brdf.A = finish == STUDY_DIFFUSE ? 0.0 : brdf.A;
@@ -118,7 +118,7 @@ lrcs_brdf cli_study_finish(const study_job *job, int finish)
     return brdf;
 }
 
-lrcs_brdf cli_study_with(lrcs_brdf brdf, char parameter, double value)
+lrcs_brdf study_with(lrcs_brdf brdf, char parameter, double value)
 {
     double *at = parameter == 'A'   ? &brdf.A
                  : parameter == 'B' ? &brdf.B
@@ -128,8 +128,8 @@ lrcs_brdf cli_study_with(lrcs_brdf brdf, char parameter, double value)
     return brdf;
 }
 
-study_number cli_study_sigma_at(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
-                                const lrcs_aspect *aspect)
+study_number study_sigma_at(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
+                            const lrcs_aspect *aspect)
 {
     lrcs_closed closed;
     int status = lrcs_closed_eval(shape, brdf, aspect, &closed);
@@ -144,25 +144,25 @@ study_number cli_study_sigma_at(study_job *job, const lrcs_shape *shape, const l
     return (study_number){(double)NAN, HUGE_VAL};
 }
 
-study_number cli_study_sigma(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
-                             double aspect_deg)
+study_number study_sigma(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
+                         double aspect_deg)
 {
     const lrcs_aspect aspect = {.deg = aspect_deg};
-    return cli_study_sigma_at(job, shape, brdf, &aspect);
+    return study_sigma_at(job, shape, brdf, &aspect);
 }
 
 /* Lengths are square roots of quotients with pi, a sine among them: each is within 5 * 2^-53 of
    itself, libm's sine being within 2 ulp, and sigma goes with products of two. */
-study_number cli_study_meant(study_number sigma)
+study_number study_meant(study_number sigma)
 {
     sigma.bound += 16.0 * 0x1p-53 * fabs(sigma.value);
     return sigma;
 }
 
-study_number cli_study_wall_sigma(study_job *job, int kind, double half_angle_deg,
-                                  const lrcs_brdf *brdf)
+study_number study_wall_sigma(study_job *job, int kind, double half_angle_deg,
+                              const lrcs_brdf *brdf)
 {
-    const lrcs_shape shape = cli_study_wall(kind, half_angle_deg);
-    double normal = cli_study_normal(kind, half_angle_deg);
-    return cli_study_meant(cli_study_sigma(job, &shape, brdf, normal));
+    const lrcs_shape shape = study_wall(kind, half_angle_deg);
+    double normal = study_normal(kind, half_angle_deg);
+    return study_meant(study_sigma(job, &shape, brdf, normal));
 }

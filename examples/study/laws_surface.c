@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The laws of the surface, A, B, s and m, each with its comparisons on sigma computed here and
    now. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
@@ -15,34 +15,33 @@ static const double slopes[] = {0.05, 0.1, 0.2, 0.4};
 
 static void linear_checks(study_job *job, study_law *law, const lrcs_shape *shape, double aspect)
 {
-    const lrcs_brdf glint = cli_study_finish(job, STUDY_GLINT);
-    const lrcs_brdf diffuse = cli_study_finish(job, STUDY_DIFFUSE);
-    const lrcs_brdf twice[] = {cli_study_with(glint, 'A', 2.0 * glint.A),
-                               cli_study_with(diffuse, 'B', 2.0 * diffuse.B)};
-    study_number g = cli_study_sigma(job, shape, &glint, aspect);
-    study_number d = cli_study_sigma(job, shape, &diffuse, aspect);
-    study_number both = cli_study_sigma(job, shape, &job->brdf, aspect);
+    const lrcs_brdf glint = study_finish(job, STUDY_GLINT);
+    const lrcs_brdf diffuse = study_finish(job, STUDY_DIFFUSE);
+    const lrcs_brdf twice[] = {study_with(glint, 'A', 2.0 * glint.A),
+                               study_with(diffuse, 'B', 2.0 * diffuse.B)};
+    study_number g = study_sigma(job, shape, &glint, aspect);
+    study_number d = study_sigma(job, shape, &diffuse, aspect);
+    study_number both = study_sigma(job, shape, &job->brdf, aspect);
     if (g.value > LAW_TINY) {
-        study_number more = cli_study_sigma(job, shape, &twice[0], aspect);
-        cli_study_equal(law, cli_study_exact(more.value / g.value), 2.0);
+        study_number more = study_sigma(job, shape, &twice[0], aspect);
+        study_equal(law, study_exact(more.value / g.value), 2.0);
     }
     if (d.value > LAW_TINY) {
-        study_number more = cli_study_sigma(job, shape, &twice[1], aspect);
-        cli_study_equal(law, cli_study_exact(more.value / d.value), 2.0);
+        study_number more = study_sigma(job, shape, &twice[1], aspect);
+        study_equal(law, study_exact(more.value / d.value), 2.0);
     }
     if (both.value > LAW_TINY) {
-        cli_study_equal(law, cli_study_scaled(cli_study_ratio(cli_study_sum(g, d), both), 2.0),
-                        2.0);
+        study_equal(law, study_scaled(study_ratio(study_sum(g, d), both), 2.0), 2.0);
     }
 }
 
 static void linear_law(study_job *job)
 {
-    study_law *law = cli_study_law(
+    study_law *law = study_law_add(
         job, "linear in A and B",
         "sigma after doubling A or B over sigma before, and twice (glint + diffuse) / mixed");
     for (int kind = 0; kind < STUDY_KINDS; kind++) {
-        const lrcs_shape shape = cli_study_body(kind);
+        const lrcs_shape shape = study_body(kind);
         for (size_t i = 0; i < COUNT_OF(surface_aspects); i++) {
             linear_checks(job, law, &shape, surface_aspects[i]);
         }
@@ -61,22 +60,22 @@ static void linear_law(study_job *job)
 static void flat_law(study_job *job)
 {
     static const double m[] = {0.0, 1.0, 5.0, 20.0};
-    study_law *law = cli_study_law(job, "flat face at its normal",
+    study_law *law = study_law_add(job, "flat face at its normal",
                                    "sigma / (4 pi (A + B) S), and disc / square");
     const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {1.0, 1.0}};
-    const lrcs_shape disc = cli_study_wall(STUDY_DISC, 0.0);
+    const lrcs_shape disc = study_wall(STUDY_DISC, 0.0);
     study_number expected = {4.0 * STUDY_PI * (job->brdf.A + job->brdf.B), 0.0};
     expected.bound = 0x1p-50 * expected.value; /* three roundings, and pi's */
     for (size_t i = 0; i < COUNT_OF(slopes); i++) {
-        const lrcs_brdf brdf = cli_study_with(cli_study_with(job->brdf, 's', slopes[i]), 'm', m[i]);
-        study_number peak = cli_study_sigma(job, &plate, &brdf, 0.0);
-        cli_study_equal(law, cli_study_ratio(peak, expected), 1.0);
+        const lrcs_brdf brdf = study_with(study_with(job->brdf, 's', slopes[i]), 'm', m[i]);
+        study_number peak = study_sigma(job, &plate, &brdf, 0.0);
+        study_equal(law, study_ratio(peak, expected), 1.0);
     }
     for (double aspect = 0.0; aspect < 90.0; aspect += 5.0) {
-        study_number square = cli_study_sigma(job, &plate, &job->brdf, aspect);
-        study_number round = cli_study_sigma(job, &disc, &job->brdf, aspect);
-        round = cli_study_meant(round);
-        cli_study_equal(law, cli_study_ratio(round, square), 1.0);
+        study_number square = study_sigma(job, &plate, &job->brdf, aspect);
+        study_number round = study_sigma(job, &disc, &job->brdf, aspect);
+        round = study_meant(round);
+        study_equal(law, study_ratio(round, square), 1.0);
     }
     snprintf(
         law->text, sizeof law->text,
@@ -95,22 +94,22 @@ static void width_check(study_law *law, study_number half_deg, double s)
 {
     study_number first = {s * sqrt(log(2.0)) * 180.0 / STUDY_PI, 0.0};
     first.bound = 0x1p-49 * first.value; /* of some ten roundings */
-    study_number more = cli_study_sum(cli_study_ratio(half_deg, first), cli_study_exact(-1.0));
+    study_number more = study_sum(study_ratio(half_deg, first), study_exact(-1.0));
     study_number square = {s * s, 0x1p-52 * s * s};
-    cli_study_within(law, cli_study_ratio(more, square), 0.0, 1.0);
+    study_within(law, study_ratio(more, square), 0.0, 1.0);
 }
 
 static void width_law(study_job *job)
 {
     study_law *law =
-        cli_study_law(job, "glint width", "(half-power angle / (s sqrt(ln 2)) - 1) / s²");
-    const lrcs_shape disc = cli_study_wall(STUDY_DISC, 0.0);
-    const lrcs_shape cylinder = cli_study_wall(STUDY_CYLINDER, 0.0);
+        study_law_add(job, "glint width", "(half-power angle / (s sqrt(ln 2)) - 1) / s²");
+    const lrcs_shape disc = study_wall(STUDY_DISC, 0.0);
+    const lrcs_shape cylinder = study_wall(STUDY_CYLINDER, 0.0);
     double deg[COUNT_OF(slopes)];
     for (size_t i = 0; i < COUNT_OF(slopes); i++) {
-        const lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', slopes[i]);
-        study_number flat = cli_study_half_power(job, &disc, &brdf, 0.0, 1.0);
-        study_number band = cli_study_half_power(job, &cylinder, &brdf, 90.0, -1.0);
+        const lrcs_brdf brdf = study_with(study_finish(job, STUDY_GLINT), 's', slopes[i]);
+        study_number flat = study_half_power(job, &disc, &brdf, 0.0, 1.0);
+        study_number band = study_half_power(job, &cylinder, &brdf, 90.0, -1.0);
         width_check(law, flat, slopes[i]);
         width_check(law, band, slopes[i]);
         deg[i] = flat.value;
@@ -142,11 +141,11 @@ static study_number number_log2(study_number x)
 /* What a doubling of s from slopes[i] does to a glint's height, as a power. */
 static study_number height_power(study_job *job, int kind, size_t i)
 {
-    const lrcs_brdf glint = cli_study_finish(job, STUDY_GLINT);
-    const lrcs_brdf narrow = cli_study_with(glint, 's', slopes[i]);
-    const lrcs_brdf wide = cli_study_with(glint, 's', slopes[i + 1]);
-    return number_log2(cli_study_ratio(cli_study_wall_sigma(job, kind, STUDY_HALF, &wide),
-                                       cli_study_wall_sigma(job, kind, STUDY_HALF, &narrow)));
+    const lrcs_brdf glint = study_finish(job, STUDY_GLINT);
+    const lrcs_brdf narrow = study_with(glint, 's', slopes[i]);
+    const lrcs_brdf wide = study_with(glint, 's', slopes[i + 1]);
+    return number_log2(study_ratio(study_wall_sigma(job, kind, STUDY_HALF, &wide),
+                                   study_wall_sigma(job, kind, STUDY_HALF, &narrow)));
 }
 
 /* The powers are 0, 1 or 2 to first order. */
@@ -157,14 +156,14 @@ static void height_law(study_job *job)
         double power;
     } wall[] = {{STUDY_DISC, 0.0}, {STUDY_CONE, 1.0}, {STUDY_CYLINDER, 1.0}, {STUDY_SPHERE, 2.0}};
     study_law *law =
-        cli_study_law(job, "glint height", "log2 of what a doubling of s does to the height");
+        study_law_add(job, "glint height", "log2 of what a doubling of s does to the height");
     double power[COUNT_OF(wall)];
     for (size_t k = 0; k < COUNT_OF(wall); k++) {
         power[k] = height_power(job, wall[k].kind, 0).value;
         for (size_t i = 0; i < 3; i++) {
             study_number of = height_power(job, wall[k].kind, i);
             double room = 3.0 * slopes[i + 1] * slopes[i + 1];
-            cli_study_within(law, of, wall[k].power - room, wall[k].power + room);
+            study_within(law, of, wall[k].power - room, wall[k].power + room);
         }
     }
     snprintf(law->text, sizeof law->text,
@@ -184,25 +183,25 @@ static void height_law(study_job *job)
    cylinder's. Returns that gain. */
 static double band_checks(study_job *job, study_law *law, double half_angle, double s)
 {
-    const lrcs_shape cone = cli_study_wall(STUDY_CONE, half_angle);
-    const lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', s);
-    double middle = cli_study_normal(STUDY_CONE, half_angle);
+    const lrcs_shape cone = study_wall(STUDY_CONE, half_angle);
+    const lrcs_brdf brdf = study_with(study_finish(job, STUDY_GLINT), 's', s);
+    double middle = study_normal(STUDY_CONE, half_angle);
     double off = 180.0 / STUDY_PI * s * s;
-    study_number peak = cli_study_sigma(job, &cone, &brdf, middle);
-    cli_study_order(law, peak, cli_study_sigma(job, &cone, &brdf, middle + off));
-    cli_study_order(law, peak, cli_study_sigma(job, &cone, &brdf, middle - off));
-    study_number cylinder = cli_study_wall_sigma(job, STUDY_CYLINDER, 0.0, &brdf);
-    study_number gain = cli_study_ratio(cli_study_meant(peak), cylinder);
+    study_number peak = study_sigma(job, &cone, &brdf, middle);
+    study_order(law, peak, study_sigma(job, &cone, &brdf, middle + off));
+    study_order(law, peak, study_sigma(job, &cone, &brdf, middle - off));
+    study_number cylinder = study_wall_sigma(job, STUDY_CYLINDER, 0.0, &brdf);
+    study_number gain = study_ratio(study_meant(peak), cylinder);
     study_number secant = {1.0 / cos(half_angle * STUDY_PI / 180.0), 0.0};
     secant.bound = 0x1p-48 * secant.value; /* of an angle of 60 deg at most */
-    cli_study_within(law, cli_study_ratio(gain, secant), 1.0 - 2.0 * s * s, 1.0 + 2.0 * s * s);
+    study_within(law, study_ratio(gain, secant), 1.0 - 2.0 * s * s, 1.0 + 2.0 * s * s);
     return gain.value;
 }
 
 static void band_law(study_job *job)
 {
     static const double angle[] = {15.0, 30.0, 45.0, 60.0};
-    study_law *law = cli_study_law(
+    study_law *law = study_law_add(
         job, "cone's glint band",
         "sigma s² rad off / sigma in the middle, and the gain over the cylinder times "
         "cos(half-angle)");
@@ -232,31 +231,31 @@ static void band_law(study_job *job)
    hundredth, 1/sqrt(2 pi (m + 5/2)). */
 static void m_checks(study_job *job, study_law *law, double m)
 {
-    const lrcs_brdf flat = cli_study_finish(job, STUDY_DIFFUSE);
-    const lrcs_brdf brdf = cli_study_with(flat, 'm', m);
-    study_number unit = cli_study_wall_sigma(job, STUDY_DISC, 0.0, &flat);
-    study_number disc = cli_study_wall_sigma(job, STUDY_DISC, 0.0, &brdf);
-    study_number sphere = cli_study_wall_sigma(job, STUDY_SPHERE, 0.0, &brdf);
-    study_number cylinder = cli_study_wall_sigma(job, STUDY_CYLINDER, 0.0, &brdf);
+    const lrcs_brdf flat = study_finish(job, STUDY_DIFFUSE);
+    const lrcs_brdf brdf = study_with(flat, 'm', m);
+    study_number unit = study_wall_sigma(job, STUDY_DISC, 0.0, &flat);
+    study_number disc = study_wall_sigma(job, STUDY_DISC, 0.0, &brdf);
+    study_number sphere = study_wall_sigma(job, STUDY_SPHERE, 0.0, &brdf);
+    study_number cylinder = study_wall_sigma(job, STUDY_CYLINDER, 0.0, &brdf);
     study_number root = {sqrt(2.0 * STUDY_PI * (m + 2.5)), 0.0};
     root.bound = 0x1p-50 * root.value;
-    cylinder = cli_study_ratio(cylinder, unit);
-    cylinder = cli_study_ratio(cylinder, cli_study_ratio(cli_study_exact(1.0), root));
-    sphere = cli_study_ratio(cli_study_scaled(sphere, 2.0 * (m + 3.0)), unit);
-    cli_study_equal(law, cli_study_ratio(disc, unit), 1.0);
-    cli_study_equal(law, sphere, 1.0);
-    cli_study_within(law, cylinder, 0.99, 1.0);
+    cylinder = study_ratio(cylinder, unit);
+    cylinder = study_ratio(cylinder, study_ratio(study_exact(1.0), root));
+    sphere = study_ratio(study_scaled(sphere, 2.0 * (m + 3.0)), unit);
+    study_equal(law, study_ratio(disc, unit), 1.0);
+    study_equal(law, sphere, 1.0);
+    study_within(law, cylinder, 0.99, 1.0);
 }
 
 /* cos(theta)^(m + 2) = 1/2 of a flat face. */
 static double lobe_check(study_job *job, study_law *law, double m)
 {
-    const lrcs_brdf brdf = cli_study_with(cli_study_finish(job, STUDY_DIFFUSE), 'm', m);
-    const lrcs_shape disc = cli_study_wall(STUDY_DISC, 0.0);
-    study_number half = cli_study_half_power(job, &disc, &brdf, 0.0, 1.0);
+    const lrcs_brdf brdf = study_with(study_finish(job, STUDY_DIFFUSE), 'm', m);
+    const lrcs_shape disc = study_wall(STUDY_DISC, 0.0);
+    study_number half = study_half_power(job, &disc, &brdf, 0.0, 1.0);
     study_number expected = {acos(exp2(-1.0 / (m + 2.0))) * 180.0 / STUDY_PI, 0.0};
     expected.bound = 0x1p-46 * expected.value; /* acos enlarges what exp2 rounds 16-fold */
-    cli_study_equal(law, cli_study_ratio(half, expected), 1.0);
+    study_equal(law, study_ratio(half, expected), 1.0);
     return half.value;
 }
 
@@ -264,7 +263,7 @@ static void m_law(study_job *job)
 {
     static const double m[] = {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0};
     study_law *law =
-        cli_study_law(job, "diffusivity m", "height or half-power angle / stated value");
+        study_law_add(job, "diffusivity m", "height or half-power angle / stated value");
     double half[COUNT_OF(m)];
     for (size_t i = 0; i < COUNT_OF(m); i++) {
         m_checks(job, law, m[i]);
@@ -285,25 +284,23 @@ static void m_law(study_job *job)
 
 static void crossing_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "where diffuse takes over",
+    study_law *law = study_law_add(job, "where diffuse takes over",
                                    "(tan(theta) / (s sqrt(ln(A/B))) - 1) / ((3 + m/2) s²)");
-    const lrcs_shape disc = cli_study_wall(STUDY_DISC, 0.0);
+    const lrcs_shape disc = study_wall(STUDY_DISC, 0.0);
     double power = 3.0 + 0.5 * job->brdf.m;
     double first = sqrt(log(job->brdf.A / job->brdf.B));
     double deg[3];
     for (size_t i = 0; i < 3; i++) {
-        const lrcs_brdf glint = cli_study_with(cli_study_finish(job, STUDY_GLINT), 's', slopes[i]);
-        const lrcs_brdf diffuse =
-            cli_study_with(cli_study_finish(job, STUDY_DIFFUSE), 's', slopes[i]);
-        study_number angle = cli_study_crossing(job, &disc, &glint, &diffuse);
+        const lrcs_brdf glint = study_with(study_finish(job, STUDY_GLINT), 's', slopes[i]);
+        const lrcs_brdf diffuse = study_with(study_finish(job, STUDY_DIFFUSE), 's', slopes[i]);
+        study_number angle = study_crossing(job, &disc, &glint, &diffuse);
         /* twice what the angle's bound makes, which holds the tangent's rounding */
         study_number tangent = {tan(angle.value * STUDY_PI / 180.0), 0.0};
         tangent.bound = (1.0 + tangent.value * tangent.value) * angle.bound * STUDY_PI / 90.0;
         study_number expected = {slopes[i] * first, 0x1p-50 * slopes[i] * first};
-        study_number more =
-            cli_study_sum(cli_study_ratio(tangent, expected), cli_study_exact(-1.0));
+        study_number more = study_sum(study_ratio(tangent, expected), study_exact(-1.0));
         study_number limit = {power * slopes[i] * slopes[i], 0x1p-50};
-        cli_study_within(law, cli_study_ratio(more, limit), 0.0, 1.0);
+        study_within(law, study_ratio(more, limit), 0.0, 1.0);
         deg[i] = angle.value;
     }
     snprintf(law->text, sizeof law->text,
@@ -316,7 +313,7 @@ static void crossing_law(study_job *job)
              "m/2) s².");
 }
 
-void cli_study_surface_laws(study_job *job)
+void study_surface_laws(study_job *job)
 {
     linear_law(job);
     flat_law(job);

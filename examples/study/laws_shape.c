@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The laws of size and shape, each with its comparisons on sigma computed here and now. The
    sentences are completed with numbers of the run. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
@@ -15,24 +15,24 @@ static const double law_aspects[] = {0.0, 20.0, 37.0, 60.0, 90.0, 123.0, 180.0};
 /* By powers of two to the bit, by other factors to within the bounds. */
 static void size_checks(study_job *job, study_law *law, int kind, int finish, double factor)
 {
-    const lrcs_shape shape = cli_study_body(kind);
-    const lrcs_shape larger = cli_study_scaled_body(shape, factor);
-    const lrcs_brdf brdf = cli_study_finish(job, finish);
+    const lrcs_shape shape = study_body(kind);
+    const lrcs_shape larger = study_scaled_body(shape, factor);
+    const lrcs_brdf brdf = study_finish(job, finish);
     int exponent;
     int exact = frexp(factor, &exponent) == 0.5;
     for (size_t i = 0; i < COUNT_OF(law_aspects); i++) {
-        study_number one = cli_study_sigma(job, &shape, &brdf, law_aspects[i]);
-        study_number other = cli_study_sigma(job, &larger, &brdf, law_aspects[i]);
+        study_number one = study_sigma(job, &shape, &brdf, law_aspects[i]);
+        study_number other = study_sigma(job, &larger, &brdf, law_aspects[i]);
         if (one.value < LAW_TINY) {
             continue;
         }
         if (exact) {
             double ratio = other.value / one.value / (factor * factor);
-            cli_study_equal(law, cli_study_exact(ratio), 1.0);
+            study_equal(law, study_exact(ratio), 1.0);
         } else {
             study_number ratio =
-                cli_study_ratio(cli_study_meant(other), cli_study_scaled(one, factor * factor));
-            cli_study_equal(law, ratio, 1.0);
+                study_ratio(study_meant(other), study_scaled(one, factor * factor));
+            study_equal(law, ratio, 1.0);
         }
     }
 }
@@ -40,7 +40,7 @@ static void size_checks(study_job *job, study_law *law, int kind, int finish, do
 static void size_law(study_job *job)
 {
     static const double factor[] = {0.125, 0.5, 2.0, 8.0, 3.0, 10.0};
-    study_law *law = cli_study_law(job, "size", "sigma of the scaled body / (factor² sigma)");
+    study_law *law = study_law_add(job, "size", "sigma of the scaled body / (factor² sigma)");
     for (int kind = 0; kind < STUDY_KINDS; kind++) {
         for (int finish = 0; finish < STUDY_FINISHES; finish++) {
             for (size_t i = 0; i < COUNT_OF(factor); i++) {
@@ -62,31 +62,31 @@ static void size_law(study_job *job)
 /* The smallest sigma over the largest, of every whole degree. */
 static study_number swing_of(study_job *job, int kind, int finish)
 {
-    const lrcs_shape shape = cli_study_body(kind);
-    const lrcs_brdf brdf = cli_study_finish(job, finish);
+    const lrcs_shape shape = study_body(kind);
+    const lrcs_brdf brdf = study_finish(job, finish);
     study_number least = {HUGE_VAL, 0.0};
     study_number most = {0.0, 0.0};
     for (int aspect = 0; aspect <= 180; aspect++) {
-        study_number sigma = cli_study_sigma(job, &shape, &brdf, aspect);
+        study_number sigma = study_sigma(job, &shape, &brdf, aspect);
         least = sigma.value < least.value ? sigma : least;
         most = sigma.value > most.value ? sigma : most;
     }
-    return cli_study_ratio(least, most);
+    return study_ratio(least, most);
 }
 
 static void swing_law(study_job *job)
 {
-    study_law *law = cli_study_law(
+    study_law *law = study_law_add(
         job, "glints make the swing",
         "0.1 / (least / largest sigma) diffuse, (least / largest sigma) / 1e-4 specular");
     double db[STUDY_KINDS][2];
     for (int kind = STUDY_CUBE; kind <= STUDY_CONE; kind++) {
         study_number diffuse = swing_of(job, kind, STUDY_DIFFUSE);
         study_number glint = swing_of(job, kind, STUDY_GLINT);
-        cli_study_order(law, diffuse, cli_study_exact(0.1));
-        cli_study_order(law, cli_study_exact(1e-4), glint);
-        db[kind][STUDY_DIFFUSE] = -cli_dbsm(diffuse.value);
-        db[kind][STUDY_GLINT] = -cli_dbsm(glint.value);
+        study_order(law, diffuse, study_exact(0.1));
+        study_order(law, study_exact(1e-4), glint);
+        db[kind][STUDY_DIFFUSE] = -study_dbsm(diffuse.value);
+        db[kind][STUDY_GLINT] = -study_dbsm(glint.value);
     }
     snprintf(
         law->text, sizeof law->text,
@@ -106,16 +106,16 @@ static void swing_law(study_job *job)
 
 static study_number axis_sigma(study_job *job, int kind, int finish)
 {
-    const lrcs_shape shape = cli_study_body(kind);
-    const lrcs_brdf brdf = cli_study_finish(job, finish);
-    return cli_study_sigma(job, &shape, &brdf, 0.0);
+    const lrcs_shape shape = study_body(kind);
+    const lrcs_brdf brdf = study_finish(job, finish);
+    return study_sigma(job, &shape, &brdf, 0.0);
 }
 
 /* The largest whole half-angle of a diffuse cone of the surface that still returns less along its
    axis than the cylinder. */
 static int axis_largest_cone(study_job *job)
 {
-    const lrcs_brdf brdf = cli_study_finish(job, STUDY_DIFFUSE);
+    const lrcs_brdf brdf = study_finish(job, STUDY_DIFFUSE);
     study_number cylinder = axis_sigma(job, STUDY_CYLINDER, STUDY_DIFFUSE);
     int deg = 1;
     for (; deg < 89; deg++) {
@@ -123,7 +123,7 @@ static int axis_largest_cone(study_job *job)
         const lrcs_shape cone = {.kind = LRCS_SHAPE_CONE,
                                  .radius = sqrt(STUDY_SURFACE / (STUDY_PI * (1.0 + 1.0 / sine))),
                                  .half_angle_deg = deg + 1};
-        study_number sigma = cli_study_sigma(job, &cone, &brdf, 0.0);
+        study_number sigma = study_sigma(job, &cone, &brdf, 0.0);
         if (!(sigma.value + sigma.bound < cylinder.value - cylinder.bound)) {
             break;
         }
@@ -134,14 +134,14 @@ static int axis_largest_cone(study_job *job)
 static void axis_law(study_job *job)
 {
     double ratio[STUDY_FINISHES][2];
-    study_law *law = cli_study_law(job, "order along the axis",
+    study_law *law = study_law_add(job, "order along the axis",
                                    "sigma of the later / sigma of the earlier in the order");
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
         study_number disc = axis_sigma(job, STUDY_DISC, finish);
         study_number cylinder = axis_sigma(job, STUDY_CYLINDER, finish);
         study_number cone = axis_sigma(job, STUDY_CONE, finish);
-        cli_study_order(law, disc, cylinder);
-        cli_study_order(law, cylinder, cone);
+        study_order(law, disc, cylinder);
+        study_order(law, cylinder, cone);
         ratio[finish][0] = disc.value / cylinder.value;
         ratio[finish][1] = cylinder.value / cone.value;
     }
@@ -165,10 +165,10 @@ static const int wall_order[] = {STUDY_DISC, STUDY_CONE, STUDY_CYLINDER, STUDY_S
 
 static void wall_checks(study_job *job, study_law *law, double half_angle, const lrcs_brdf *brdf)
 {
-    study_number before = cli_study_wall_sigma(job, wall_order[0], half_angle, brdf);
+    study_number before = study_wall_sigma(job, wall_order[0], half_angle, brdf);
     for (size_t k = 1; k < COUNT_OF(wall_order); k++) {
-        study_number sigma = cli_study_wall_sigma(job, wall_order[k], half_angle, brdf);
-        cli_study_order(law, before, sigma);
+        study_number sigma = study_wall_sigma(job, wall_order[k], half_angle, brdf);
+        study_order(law, before, sigma);
         before = sigma;
     }
 }
@@ -176,18 +176,18 @@ static void wall_checks(study_job *job, study_law *law, double half_angle, const
 static void wall_law(study_job *job)
 {
     static const double angle[] = {15.0, 30.0, 45.0, 60.0, 75.0};
-    const lrcs_brdf glint = cli_study_finish(job, STUDY_GLINT);
-    study_law *law = cli_study_law(job, "order of curved walls",
+    const lrcs_brdf glint = study_finish(job, STUDY_GLINT);
+    study_law *law = study_law_add(job, "order of curved walls",
                                    "sigma of the later / sigma of the earlier in the order");
     double height[COUNT_OF(wall_order)];
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
-        const lrcs_brdf brdf = cli_study_finish(job, finish);
+        const lrcs_brdf brdf = study_finish(job, finish);
         for (size_t i = 0; i < COUNT_OF(angle); i++) {
             wall_checks(job, law, angle[i], &brdf);
         }
     }
     for (size_t k = 0; k < COUNT_OF(wall_order); k++) {
-        height[k] = cli_study_wall_sigma(job, wall_order[k], STUDY_HALF, &glint).value;
+        height[k] = study_wall_sigma(job, wall_order[k], STUDY_HALF, &glint).value;
     }
     snprintf(
         law->text, sizeof law->text,
@@ -208,24 +208,24 @@ static const double face_area[] = {0.5, 1.0 / 6.0, 1.0 / 6.0, 1.0 / 3.0}; /* of 
 
 static void face_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "largest flat face",
+    study_law *law = study_law_add(job, "largest flat face",
                                    "peak / (4 pi (A + B) S), and sigma elsewhere / peak");
     double flat = 4.0 * STUDY_PI * (job->brdf.A + job->brdf.B);
     double peak_dbsm[STUDY_SPHERE + 1];
     for (int kind = STUDY_DISC; kind <= STUDY_CONE; kind++) {
-        const lrcs_shape shape = cli_study_body(kind);
+        const lrcs_shape shape = study_body(kind);
         study_number expected = {face_area[kind] * STUDY_SURFACE * flat, 0.0};
         expected.bound = 0x1p-49 * expected.value; /* of some ten roundings */
-        study_number peak = cli_study_meant(
-            cli_study_sigma(job, &shape, &job->brdf, kind == STUDY_CONE ? 180.0 : 0.0));
-        cli_study_equal(law, cli_study_ratio(peak, expected), 1.0);
+        study_number peak =
+            study_meant(study_sigma(job, &shape, &job->brdf, kind == STUDY_CONE ? 180.0 : 0.0));
+        study_equal(law, study_ratio(peak, expected), 1.0);
         for (double aspect = 1.0; aspect < 180.0; aspect += 1.0) {
             if (kind != STUDY_CUBE || fmod(aspect, 90.0) != 0.0) {
-                study_number sigma = cli_study_sigma(job, &shape, &job->brdf, aspect);
-                cli_study_order(law, peak, sigma);
+                study_number sigma = study_sigma(job, &shape, &job->brdf, aspect);
+                study_order(law, peak, sigma);
             }
         }
-        peak_dbsm[kind] = cli_dbsm(peak.value);
+        peak_dbsm[kind] = study_dbsm(peak.value);
     }
     snprintf(
         law->text, sizeof law->text,
@@ -242,26 +242,26 @@ static void face_law(study_job *job)
 
 static study_number silhouette_sigma(study_job *job, int kind, int finish)
 {
-    const lrcs_shape shape = cli_study_silhouette(kind);
-    const lrcs_brdf brdf = cli_study_finish(job, finish);
-    return cli_study_meant(cli_study_sigma(job, &shape, &brdf, 90.0));
+    const lrcs_shape shape = study_silhouette(kind);
+    const lrcs_brdf brdf = study_finish(job, finish);
+    return study_meant(study_sigma(job, &shape, &brdf, 90.0));
 }
 
 static void silhouette_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "equal projected area", "smaller / larger sigma");
+    study_law *law = study_law_add(job, "equal projected area", "smaller / larger sigma");
     study_number sigma[STUDY_FINISHES][STUDY_KINDS];
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
         for (int kind = STUDY_CUBE; kind < STUDY_KINDS; kind++) {
             sigma[finish][kind] = silhouette_sigma(job, kind, finish);
         }
-        cli_study_order(law, sigma[finish][STUDY_CUBE], sigma[finish][STUDY_CYLINDER]);
-        cli_study_order(law, sigma[finish][STUDY_CYLINDER], sigma[finish][STUDY_CONE]);
-        cli_study_order(law, sigma[finish][STUDY_CYLINDER], sigma[finish][STUDY_SPHERE]);
+        study_order(law, sigma[finish][STUDY_CUBE], sigma[finish][STUDY_CYLINDER]);
+        study_order(law, sigma[finish][STUDY_CYLINDER], sigma[finish][STUDY_CONE]);
+        study_order(law, sigma[finish][STUDY_CYLINDER], sigma[finish][STUDY_SPHERE]);
     }
     const study_number *d = sigma[STUDY_DIFFUSE];
     const study_number *g = sigma[STUDY_GLINT];
-    cli_study_order(law, g[STUDY_SPHERE], g[STUDY_CONE]);
+    study_order(law, g[STUDY_SPHERE], g[STUDY_CONE]);
     snprintf(
         law->text, sizeof law->text,
         "The projected area alone does not tell sigma: at the same one a cube's face returns "
@@ -286,10 +286,10 @@ static void tilt_law(study_job *job)
 {
     static const double angle[] = {10.0, 20.0, 30.0, 45.0, 60.0, 75.0};
     study_law *law =
-        cli_study_law(job, "diffuse tilt", "sigma of cone / (sigma of disc sin(half-angle)^(m+1))");
-    const lrcs_brdf brdf = cli_study_finish(job, STUDY_DIFFUSE);
+        study_law_add(job, "diffuse tilt", "sigma of cone / (sigma of disc sin(half-angle)^(m+1))");
+    const lrcs_brdf brdf = study_finish(job, STUDY_DIFFUSE);
     const lrcs_shape disc = {.kind = LRCS_SHAPE_DISC, .radius = 1.0};
-    study_number flat = cli_study_sigma(job, &disc, &brdf, 0.0);
+    study_number flat = study_sigma(job, &disc, &brdf, 0.0);
     for (size_t i = 0; i < COUNT_OF(angle); i++) {
         const lrcs_shape cone = {.kind = LRCS_SHAPE_CONE,
                                  .parts = LRCS_SHAPE_WALL,
@@ -297,8 +297,8 @@ static void tilt_law(study_job *job)
                                  .half_angle_deg = angle[i]};
         study_number expected = {pow(sin(angle[i] * STUDY_PI / 180.0), brdf.m + 1.0), 0.0};
         expected.bound = (12.0 + 6.0 * brdf.m) * 0x1p-53 * expected.value;
-        study_number ratio = cli_study_ratio(cli_study_sigma(job, &cone, &brdf, 0.0), flat);
-        cli_study_equal(law, cli_study_ratio(ratio, expected), 1.0);
+        study_number ratio = study_ratio(study_sigma(job, &cone, &brdf, 0.0), flat);
+        study_equal(law, study_ratio(ratio, expected), 1.0);
     }
     snprintf(
         law->text, sizeof law->text,
@@ -314,18 +314,18 @@ static void tilt_law(study_job *job)
 /* The sphere of the same surface is the mean of any convex body, S (pi A E + 2 pi B / (m + 3)). */
 static void mean_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "attitude mean", "mean / sigma of the sphere");
-    const lrcs_shape sphere = cli_study_body(STUDY_SPHERE);
+    study_law *law = study_law_add(job, "attitude mean", "mean / sigma of the sphere");
+    const lrcs_shape sphere = study_body(STUDY_SPHERE);
     double worst = 0.0;
     double of[STUDY_FINISHES];
     law->estimate = 1;
     for (int finish = 0; finish < STUDY_FINISHES; finish++) {
-        const lrcs_brdf brdf = cli_study_finish(job, finish);
-        study_number expected = cli_study_meant(cli_study_sigma(job, &sphere, &brdf, 0.0));
+        const lrcs_brdf brdf = study_finish(job, finish);
+        study_number expected = study_meant(study_sigma(job, &sphere, &brdf, 0.0));
         for (int kind = 0; kind < STUDY_SPHERE; kind++) {
-            const lrcs_shape shape = cli_study_body(kind);
-            study_number ratio = cli_study_ratio(cli_study_mean(job, &shape, &brdf), expected);
-            cli_study_within(law, ratio, 1.0 - 1e-7, 1.0 + 1e-7);
+            const lrcs_shape shape = study_body(kind);
+            study_number ratio = study_ratio(study_mean(job, &shape, &brdf), expected);
+            study_within(law, ratio, 1.0 - 1e-7, 1.0 + 1e-7);
             worst = fmax(worst, fabs(ratio.value - 1.0));
         }
         of[finish] = expected.value;
@@ -348,16 +348,16 @@ static void mean_law(study_job *job)
 
 static void share_law(study_job *job)
 {
-    study_law *law = cli_study_law(job, "higher glints are rarer",
+    study_law *law = study_law_add(job, "higher glints are rarer",
                                    "share of the higher / share of the lower glint");
-    const lrcs_brdf brdf = cli_study_finish(job, STUDY_GLINT);
+    const lrcs_brdf brdf = study_finish(job, STUDY_GLINT);
     study_number share[3];
     for (int k = 0; k < 3; k++) {
-        share[k] = cli_study_share(job, wall_order[k], STUDY_HALF, &brdf);
+        share[k] = study_share(job, wall_order[k], STUDY_HALF, &brdf);
     }
-    cli_study_order(law, share[1], share[0]);
-    cli_study_order(law, share[2], share[1]);
-    cli_study_order(law, cli_study_exact(1.0), share[2]);
+    study_order(law, share[1], share[0]);
+    study_order(law, share[2], share[1]);
+    study_order(law, study_exact(1.0), share[2]);
     snprintf(
         law->text, sizeof law->text,
         "What a wall gains in the height of its glint it loses in how often it is seen. Within "
@@ -369,7 +369,7 @@ static void share_law(study_job *job)
              "One-sided flat face, cone of half-angle %g deg, s of this material.", STUDY_HALF);
 }
 
-void cli_study_shape_laws(study_job *job)
+void study_shape_laws(study_job *job)
 {
     size_law(job);
     swing_law(job);

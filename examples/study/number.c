@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Values with bounds, for laws: sums and ratios that carry their bounds along, rounding included.
    It decides no limits. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <float.h>
 #include <math.h>
@@ -18,19 +18,19 @@ static double number_outward(double bound)
     return bound * (1.0 + 0x1p-48);
 }
 
-study_number cli_study_exact(double value)
+study_number study_exact(double value)
 {
     return (study_number){value, 0.0};
 }
 
-study_number cli_study_sum(study_number a, study_number b)
+study_number study_sum(study_number a, study_number b)
 {
     double value = a.value + b.value;
     return (study_number){value, number_outward(a.bound + b.bound + number_rounding(value))};
 }
 
 /* The factor is taken as exact. */
-study_number cli_study_scaled(study_number a, double factor)
+study_number study_scaled(study_number a, double factor)
 {
     double value = a.value * factor;
     double bound = a.bound * fabs(factor);
@@ -38,7 +38,7 @@ study_number cli_study_scaled(study_number a, double factor)
 }
 
 /* With A, B the truths: A/B - a/b = ((A - a) - (B - b) a/b) / B, and |B| >= |b| - its bound. */
-study_number cli_study_ratio(study_number a, study_number b)
+study_number study_ratio(study_number a, study_number b)
 {
     double value = a.value / b.value;
     double below = (fabs(b.value) - b.bound) * (1.0 - 0x1p-52);
@@ -47,4 +47,9 @@ study_number cli_study_ratio(study_number a, study_number b)
     }
     double bound = (a.bound + number_outward(fabs(value)) * b.bound) / below;
     return (study_number){value, number_outward(bound + number_rounding(value))};
+}
+
+double study_dbsm(double sigma_m2)
+{
+    return 10.0 * log10(sigma_m2);
 }

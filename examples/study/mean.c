@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The mean of sigma over all attitudes, by a quadrature whose error is estimated. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 
@@ -60,8 +60,8 @@ static study_number mean_turned(study_job *job, const lrcs_shape *shape, const l
         double aspect = half * rule_place(&rule, i);
         double weight = 0.5 * rule.weight[i % MEAN_NODES] * half * (STUDY_PI / 180.0) *
                         sin(aspect * (STUDY_PI / 180.0));
-        study_number sigma = cli_study_sigma(job, shape, brdf, aspect);
-        mean = cli_study_sum(mean, cli_study_scaled(sigma, weight));
+        study_number sigma = study_sigma(job, shape, brdf, aspect);
+        mean = study_sum(mean, study_scaled(sigma, weight));
     }
     return mean;
 }
@@ -83,7 +83,7 @@ static study_number mean_octant(study_job *job, study_look *look, const void *wh
                                      cos(polar)};
         double weight = half * half * rule.weight[row % MEAN_NODES] *
                         rule.weight[column % MEAN_NODES] * sin(polar) * (2.0 / STUDY_PI);
-        mean = cli_study_sum(mean, cli_study_scaled(look(job, what, direction), weight));
+        mean = study_sum(mean, study_scaled(look(job, what, direction), weight));
     }
     return mean;
 }
@@ -95,7 +95,7 @@ static study_number mean_refined(study_number coarse, study_number fine)
     return fine;
 }
 
-study_number cli_study_octant(study_job *job, study_look *look, const void *what, int panels)
+study_number study_octant(study_job *job, study_look *look, const void *what, int panels)
 {
     study_number coarse = mean_octant(job, look, what, panels / 2);
     return mean_refined(coarse, mean_octant(job, look, what, panels));
@@ -111,15 +111,15 @@ static study_number box_look(study_job *job, const void *what, const double dire
     const mean_box *box = what;
     const lrcs_aspect aspect = {.by_direction = 1,
                                 .direction = {direction[0], direction[1], direction[2]}};
-    return cli_study_sigma_at(job, box->shape, box->brdf, &aspect);
+    return study_sigma_at(job, box->shape, box->brdf, &aspect);
 }
 
-study_number cli_study_mean(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf)
+study_number study_mean(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf)
 {
     int finer = brdf->A > 0.0 ? (int)fmax(ceil(MEAN_SLOPE / brdf->s), 1.0) : 1;
     if (shape->kind == LRCS_SHAPE_BOX) {
         const mean_box box = {shape, brdf};
-        return cli_study_octant(job, box_look, &box, 4 * finer);
+        return study_octant(job, box_look, &box, 4 * finer);
     }
     study_number coarse = mean_turned(job, shape, brdf, 12 * finer);
     return mean_refined(coarse, mean_turned(job, shape, brdf, 24 * finer));

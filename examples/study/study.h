@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* What a study computes, between its command, its tables, its laws and its files. */
-#ifndef LRCS_CLI_STUDY_H
-#define LRCS_CLI_STUDY_H
+/* What a study computes, as its program, tables, laws and files share it. */
+#ifndef STUDY_H
+#define STUDY_H
 
-#include "cli/cli.h"
+#include <lrcs/host.h>
+
+#include <stdio.h>
 
 #define STUDY_PI      3.14159265358979323846
 #define STUDY_SURFACE 6.0  /* m2: that of a cube of 1 m, which every body has */
@@ -87,103 +89,103 @@ typedef struct study_job {
 } study_job;
 
 /* ---- numbers ---- */
-study_number cli_study_exact(double value);
-study_number cli_study_sum(study_number a, study_number b);
-study_number cli_study_scaled(study_number a, double factor);
-study_number cli_study_ratio(study_number a, study_number b);
+study_number study_exact(double value);
+study_number study_sum(study_number a, study_number b);
+study_number study_scaled(study_number a, double factor);
+study_number study_ratio(study_number a, study_number b);
+double study_dbsm(double sigma_m2);
 
 /* ---- bodies and their sigma ---- */
-const char *cli_study_name(int kind);
-int cli_study_colour(int kind);
+const char *study_name(int kind);
+int study_colour(int kind);
 
 /* A body with the surface STUDY_SURFACE. */
-lrcs_shape cli_study_body(int kind);
+lrcs_shape study_body(int kind);
 /* What glints: the flat face, the curved wall alone, of 1 m2; not of a cube. */
-lrcs_shape cli_study_wall(int kind, double half_angle_deg);
+lrcs_shape study_wall(int kind, double half_angle_deg);
 /* A body that shows 1 m2 at 90 deg from its axis; not a disc. */
-lrcs_shape cli_study_silhouette(int kind);
-lrcs_shape cli_study_scaled_body(lrcs_shape shape, double factor);
+lrcs_shape study_silhouette(int kind);
+lrcs_shape study_scaled_body(lrcs_shape shape, double factor);
 /* The aspect at which some of such a wall is seen along its normal, deg. */
-double cli_study_normal(int kind, double half_angle_deg);
+double study_normal(int kind, double half_angle_deg);
 
-lrcs_brdf cli_study_finish(const study_job *job, int finish);
+lrcs_brdf study_finish(const study_job *job, int finish);
 /* A material with one of 'A', 'B', 's', 'm' changed. */
-lrcs_brdf cli_study_with(lrcs_brdf brdf, char parameter, double value);
-study_number cli_study_sigma(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
-                             double aspect_deg);
+lrcs_brdf study_with(lrcs_brdf brdf, char parameter, double value);
+study_number study_sigma(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
+                         double aspect_deg);
 /* That of such a wall at such an aspect. */
-study_number cli_study_wall_sigma(study_job *job, int kind, double half_angle_deg,
-                                  const lrcs_brdf *brdf);
+study_number study_wall_sigma(study_job *job, int kind, double half_angle_deg,
+                              const lrcs_brdf *brdf);
 /* The same sigma for the lengths that were meant, which the bodies above have but for rounding. */
-study_number cli_study_meant(study_number sigma);
-study_number cli_study_sigma_at(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
-                                const lrcs_aspect *aspect);
+study_number study_meant(study_number sigma);
+study_number study_sigma_at(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
+                            const lrcs_aspect *aspect);
 
 /* ---- what takes more than one sigma ---- */
 
 /* The angle from `aspect_deg`, up or down, at which sigma has fallen to half, deg. */
-study_number cli_study_half_power(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
-                                  double aspect_deg, double side);
+study_number study_half_power(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
+                              double aspect_deg, double side);
 /* The angle at which that of one material has fallen to that of another, likewise. */
-study_number cli_study_crossing(study_job *job, const lrcs_shape *shape, const lrcs_brdf *falling,
-                                const lrcs_brdf *other);
+study_number study_crossing(study_job *job, const lrcs_shape *shape, const lrcs_brdf *falling,
+                            const lrcs_brdf *other);
 /* The part of all attitudes from which a glint is at least half of what it is at normal incidence
    (one face of the disc). */
-study_number cli_study_share(study_job *job, int kind, double half_angle_deg,
-                             const lrcs_brdf *brdf);
+study_number study_share(study_job *job, int kind, double half_angle_deg, const lrcs_brdf *brdf);
 /* The mean over all attitudes. Its bound holds the quadrature's error, an estimate. */
-study_number cli_study_mean(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf);
+study_number study_mean(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf);
 /* The same of what looks alike in all eight octants, with some panels each way of one of them, an
    even number: `look` says its sigma from a direction. */
 typedef study_number study_look(study_job *job, const void *what, const double direction[3]);
-study_number cli_study_octant(study_job *job, study_look *look, const void *what, int panels);
+study_number study_octant(study_job *job, study_look *look, const void *what, int panels);
 
 /* ---- the engine itself, where a scene calls for it ---- */
 
 /* A body alone, from some aspects, by tessellation and facets. */
-void cli_study_engine(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
-                      const double *aspect_deg, uint32_t count, study_number *sigma);
+void study_engine(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
+                  const double *aspect_deg, uint32_t count, study_number *sigma);
 /* A cube with two panels, which shade each other: its surface, m2, and its mean over attitudes, as
-   cli_study_mean says it. */
-study_number cli_study_shaded(study_job *job, const lrcs_brdf *brdf, double *surface_m2);
+   study_mean says it. */
+study_number study_shaded(study_job *job, const lrcs_brdf *brdf, double *surface_m2);
 
 /* ---- tables ---- */
 
 /* A new one; what else it says is the caller's to fill in. A column of it, and a value. */
-study_table *cli_study_table(study_job *job, const char *stem, const char *title);
-uint32_t cli_study_column(study_table *table, const char *id, const char *name, int colour,
+study_table *study_table_add(study_job *job, const char *stem, const char *title);
+uint32_t study_column_add(study_table *table, const char *id, const char *name, int colour,
                           int dash);
-void cli_study_put(study_table *table, uint32_t column, uint32_t row, study_number number);
-/* That of a stem; never NULL for those of cli_study_..._tables. */
-const study_table *cli_study_find(const study_job *job, const char *stem);
+void study_put(study_table *table, uint32_t column, uint32_t row, study_number number);
+/* That of a stem; never NULL for those of study_..._tables. */
+const study_table *study_find(const study_job *job, const char *stem);
 
 /* The tables there are; what fails says so in job->status. */
-void cli_study_attitude_tables(study_job *job);
-void cli_study_surface_tables(study_job *job);
-void cli_study_body_tables(study_job *job);
+void study_attitude_tables(study_job *job);
+void study_surface_tables(study_job *job);
+void study_body_tables(study_job *job);
 
 /* ---- laws ---- */
-void cli_study_surface_laws(study_job *job);
-void cli_study_shape_laws(study_job *job);
-void cli_study_engine_laws(study_job *job);
+void study_surface_laws(study_job *job);
+void study_shape_laws(study_job *job);
+void study_engine_laws(study_job *job);
 
 /* A new one; its sentences are the caller's to fill in. */
-study_law *cli_study_law(study_job *job, const char *name, const char *quantity);
+study_law *study_law_add(study_job *job, const char *name, const char *quantity);
 /* How a comparison enters it: within limits, bound included; or equal to within the bound. */
-void cli_study_within(study_law *law, study_number number, double least, double most);
-void cli_study_equal(study_law *law, study_number number, double expected);
+void study_within(study_law *law, study_number number, double least, double most);
+void study_equal(study_law *law, study_number number, double expected);
 /* The first is the larger. */
-void cli_study_order(study_law *law, study_number large, study_number small);
-int cli_study_holds(const study_law *law);
+void study_order(study_law *law, study_number large, study_number small);
+int study_holds(const study_law *law);
 /* How many hold. */
-uint32_t cli_study_held(const study_job *job);
+uint32_t study_held(const study_job *job);
 /* The limits of a law's closest comparison, in words. */
-void cli_study_limits(const study_law *law, char text[64]);
+void study_limits(const study_law *law, char text[64]);
 
 /* ---- what is written ---- */
-void cli_study_print(const study_job *job);
-void cli_study_page(const study_job *job, FILE *out);
-/* All files. 0, or an exit code with the message printed. */
-int cli_study_write(const study_job *job, const char *folder);
+void study_print(const study_job *job);
+void study_page(const study_job *job, FILE *out);
+/* All files, each complete or not at all. A status, with the error filled in. */
+int study_write(const study_job *job, const char *folder, lrcs_host_error *error);
 
 #endif

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Tables of a study: how they fill, and how they are written as CSV and as charts. What stands in
    them, and which there are, is decided where they are made. */
-#include "cli/study.h"
+#include "study.h"
 
 #include <math.h>
 #include <string.h>
 
 /* ---- filling ---- */
 
-study_table *cli_study_table(study_job *job, const char *stem, const char *title)
+study_table *study_table_add(study_job *job, const char *stem, const char *title)
 {
     study_table *table = &job->table[job->tables++];
     table->stem = stem;
@@ -17,7 +17,7 @@ study_table *cli_study_table(study_job *job, const char *stem, const char *title
     return table;
 }
 
-uint32_t cli_study_column(study_table *table, const char *id, const char *name, int colour,
+uint32_t study_column_add(study_table *table, const char *id, const char *name, int colour,
                           int dash)
 {
     study_column *column = &table->column[table->columns];
@@ -28,7 +28,7 @@ uint32_t cli_study_column(study_table *table, const char *id, const char *name, 
     return table->columns++;
 }
 
-void cli_study_put(study_table *table, uint32_t column, uint32_t row, study_number number)
+void study_put(study_table *table, uint32_t column, uint32_t row, study_number number)
 {
     table->column[column].value[row] = number.value;
     table->bound[row] = fmax(table->bound[row], number.bound);
@@ -38,7 +38,7 @@ void cli_study_put(study_table *table, uint32_t column, uint32_t row, study_numb
     table->rows = row + 1 > table->rows ? row + 1 : table->rows;
 }
 
-const study_table *cli_study_find(const study_job *job, const char *stem)
+const study_table *study_find(const study_job *job, const char *stem)
 {
     uint32_t i = 0;
     while (i + 1 < job->tables && strcmp(job->table[i].stem, stem) != 0) {
@@ -101,7 +101,7 @@ static void curve_take(const study_table *table, uint32_t column, int polar, cha
         uint32_t row = i < table->rows ? i : 2 * table->rows - 2 - i;
         double value = table->column[column].value[row];
         curve->x[i] = i < table->rows ? table->x[row] : 360.0 - table->x[row];
-        curve->y[i] = table->chart == STUDY_DBSM ? cli_dbsm(value) : value;
+        curve->y[i] = table->chart == STUDY_DBSM ? study_dbsm(value) : value;
     }
 }
 
@@ -133,7 +133,7 @@ static int chart_write(FILE *out, const study_table *table, int polar)
     for (uint32_t c = 0; c < table->columns; c++) {
         curve_take(table, c, polar, &curve[c]);
         if (table->chart == STUDY_DBSM) {
-            curve_clip(&curve[c], cli_dbsm(table->floor));
+            curve_clip(&curve[c], study_dbsm(table->floor));
         }
         series[c] = (lrcs_host_series){.name = table->column[c].name,
                                        .count = curve[c].count,
@@ -175,34 +175,44 @@ static int polar_write(FILE *out, const void *context, lrcs_host_error *error)
 static int page_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     (void)error;
-    cli_study_page(context, out);
+    study_page(context, out);
     return LRCS_OK;
 }
 
-static int file_write(const char *folder, const char *stem, const char *end, cli_writer *write,
-                      const void *context)
+typedef int study_writer(FILE *out, const void *context, lrcs_host_error *error);
+
+static int file_write(const char *folder, const char *stem, const char *end, study_writer *write,
+                      const void *context, lrcs_host_error *error)
 {
     char path[4096];
     int size = snprintf(path, sizeof path, "%s/%s%s", folder, stem, end);
     if (size < 0 || (size_t)size >= sizeof path) {
-        fprintf(stderr, "lrcs: %s: the name of a folder is at most %d bytes long\n", folder, 4000);
-        return CLI_FAILED;
+        snprintf(error->text, sizeof error->text, "the name of the folder is too long");
+        return LRCS_E_LIMIT;
     }
-    return cli_output_write(path, write, context);
+    lrcs_host_output out;
+    int status = lrcs_host_output_open(path, &out, error);
+    if (status == LRCS_OK) {
+        status = write(out.stream, context, error);
+        int good = status == LRCS_OK;
+        int closed = lrcs_host_output_close(&out, good, good ? error : NULL);
+        status = good ? closed : status;
+    }
+    return status;
 }
 
-int cli_study_write(const study_job *job, const char *folder)
+int study_write(const study_job *job, const char *folder, lrcs_host_error *error)
 {
-    int code = 0;
-    for (uint32_t i = 0; i < job->tables && code == 0; i++) {
+    int status = LRCS_OK;
+    for (uint32_t i = 0; i < job->tables && status == LRCS_OK; i++) {
         const study_table *table = &job->table[i];
-        code = file_write(folder, table->stem, ".csv", csv_write, table);
-        if (code == 0 && table->chart != STUDY_NO_CHART) {
-            code = file_write(folder, table->stem, ".svg", svg_write, table);
+        status = file_write(folder, table->stem, ".csv", csv_write, table, error);
+        if (status == LRCS_OK && table->chart != STUDY_NO_CHART) {
+            status = file_write(folder, table->stem, ".svg", svg_write, table, error);
         }
-        if (code == 0 && table->polar) {
-            code = file_write(folder, table->stem, "-polar.svg", polar_write, table);
+        if (status == LRCS_OK && table->polar) {
+            status = file_write(folder, table->stem, "-polar.svg", polar_write, table, error);
         }
     }
-    return code == 0 ? file_write(folder, "study", ".md", page_write, job) : code;
+    return status == LRCS_OK ? file_write(folder, "study", ".md", page_write, job, error) : status;
 }
