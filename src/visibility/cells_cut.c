@@ -97,7 +97,7 @@ static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         int on_right = range[0] < w;
         if (on_left && on_right) {
             if (strip->along && c->open[index]) {
-                lrcsi_cells_charge_cut(c, index, left->cut, strip);
+                lrcsi_cells_charge_cut(c, index, range[0], range[1], strip);
             }
             on_left = !facet_beyond(f, &left->shape, f->off + g);
         }
@@ -169,13 +169,13 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
                     const double line[3], const lrcsi_cells_segment *along)
 {
     uint32_t struck = along ? (uint32_t)(along - c->segment) : LRCS_NONE;
-    lrcsi_cells_strip strip = {along, 0, 0, 0};
+    lrcsi_cells_strip strip = {along, 0, 0, 0, s->g};
     if (along) {
         lrcsi_cells_part part = {0, 1, 0};
-        strip.width = along->off + s->g + 4 * U * c->reach + U * s->perimeter;
+        strip.width = along->line_off + s->g + 4 * U * c->reach + U * s->perimeter;
         lrcsi_cells_place_of(&cell->shape, s, along->end[0], along->end[1], along->line,
-                             strip.width, &part);
-        strip.from = part.from * 0.7 * along->length;
+                             lrcsi_most(strip.width, along->off + s->g), &part);
+        strip.from = part.from * along->length;
         strip.to = part.to * along->length;
     }
     if (cell->shape.count + 2 > LRCSI_CLIP_SIDES || c->top + 2 > LRCSI_CELLS_WAITING) {
@@ -183,7 +183,7 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     }
     lrcsi_cells_cell left = *cell;
     lrcsi_cells_cell right = *cell;
-    double longest = lrcsi_cells_shape_divide(&cell->shape, line, &left.shape, &right.shape);
+    double drift = lrcsi_cells_shape_divide(&cell->shape, line, &left.shape, &right.shape);
     if (left.shape.count < 3 || right.shape.count < 3) {
         return 0;
     }
@@ -194,7 +194,7 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     left.cuts = right.cuts = cell->cuts + 1;
     left.struck = right.struck = cell->struck + (along != NULL);
     left.inset = right.inset = lrcsi_most(cell->inset, 2 * strip.width);
-    left.drift = right.drift = cell->drift + U * longest + 0.75 * U * c->reach;
+    left.drift = right.drift = cell->drift + drift;
     left.strip = right.strip = strip.width;
     left.facets = left.segments = 0;
     cut_facets(c, cell, &strip, &left, &right);

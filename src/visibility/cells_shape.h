@@ -6,8 +6,9 @@
 
 #include "visibility/clip.h"
 
-/* The line through two points: a x + b y + c is the distance from it, positive on the left. */
-void lrcsi_line_through(const double *p, const double *q, double line[3]);
+/* The line through two points: a x + b y + c is the distance from it, positive on the left. Returns
+   how far they are apart, but for 4 u of it. */
+double lrcsi_line_through(const double *p, const double *q, double line[3]);
 
 static inline double lrcsi_line_at(const double line[3], double x, double y)
 {
@@ -22,7 +23,7 @@ typedef struct lrcsi_cells_sides {
     uint32_t count;
     double low[2], high[2];
     double perimeter;
-    double g; /* (16 + 4 n) u b */
+    double g; /* what was given for places near the cell */
 } lrcsi_cells_sides;
 
 /* Makes them for a cell, of which is said what holds of places within `g` of it. */
@@ -59,8 +60,8 @@ double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2]);
 /* Keeps what lies left of a line. */
 void lrcsi_cells_shape_clip(lrcsi_clip_polygon *shape, const double line[3]);
 
-/* Divides a shape along a line, into what lies left of it and what lies right of it. Returned: the
-   length of the longest side that is cut, |x| + |y|. */
+/* Divides a shape along a line, into what lies left of it and what lies right of it. Returned: how
+   far the new corners are from the sides that they cut, at most. */
 double lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape, const double line[3],
                                 lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 

@@ -36,8 +36,7 @@ typedef struct lrcsi_cells_cell {
 typedef struct lrcsi_cells_found {
     double seen;  /* area in cells where it is seen */
     double off;   /* by which that may be wrong */
-    double doubt; /* area of strips, */
-    double cut;   /* and their length */
+    double doubt; /* area of strips */
 } lrcsi_cells_found;
 
 /* A segment at the border of a cell. */
@@ -89,7 +88,8 @@ static inline void lrcsi_cells_keep(uint32_t *list, uint32_t i, uint32_t kept)
     list[kept] = item;
 }
 
-/* What is said of a cell holds for places within so much of it: (16 + 4 n) u b. */
+/* What is said of a cell holds for places within so much of it, computed: its drift, and 16 u of
+   the largest coordinate for distances from lines. */
 static inline double lrcsi_cells_reach(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     return 16 * 0x1p-53 * c->reach + cell->drift;
