@@ -36,7 +36,8 @@ typedef struct lrcsi_cells_cell {
 typedef struct lrcsi_cells_found {
     double seen;  /* area in cells where it is seen */
     double off;   /* by which that may be wrong */
-    double doubt; /* area of strips */
+    double doubt; /* area of strips, */
+    double cut;   /* and their length */
 } lrcsi_cells_found;
 
 /* A segment at the border of a cell. */
