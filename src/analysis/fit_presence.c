@@ -13,7 +13,7 @@
    a tube about the arc and half a cap at its end (a cap of angle a is at most sin(a)^(N-1)/2 of
    the sphere). With known errors the power becomes exp(-fall/2). Exact for a linear rest, which the
    derivative makes of the other part's shape. */
-#include "optics/fit_presence.h"
+#include "analysis/fit_presence.h"
 
 #include <math.h>
 
