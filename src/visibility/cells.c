@@ -148,6 +148,19 @@ static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
     return best;
 }
 
+/* What strips beyond the ends of segments may cost in a cell whose sample is near to a side: it is
+   thin. Any facet in it may be off by that. */
+static double thin_doubt(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                         const lrcsi_cells_sides *s, double clear)
+{
+    if (!(clear < LRCSI_CELLS_THIN * s->perimeter)) {
+        return 0;
+    }
+    double strips =
+        2 * ((double)cell->struck + c->borders) * (cell->inset + c->off + s->g) * s->perimeter;
+    return lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s->g * s->perimeter);
+}
+
 /* Does one cell: it is decided (1), cut, or left. */
 static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
@@ -161,34 +174,44 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 
     /* 1. A sample. */
     uint32_t best = LRCS_NONE;
+    double at[2];
     double clear = 0;
-    int answer = lrcsi_cells_look(c, cell, &s, &best, &clear);
+    int answer = lrcsi_cells_look(c, cell, &s, &best, at, &clear);
     if (answer == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
         return 0;
     }
 
-    /* 2. The component, and what is behind it. */
+    /* 2. What is behind a facet that covers the cell alone. */
     double doubt = 0;
     int covers = 0;
     const lrcsi_cells_segment *cut = NULL;
+    uint32_t screen = LRCS_NONE;
     if (answer == LRCSI_CELLS_FOUND) {
+        screen = lrcsi_cells_screen(c, cell, &s, at);
+    }
+    if (screen != LRCS_NONE) {
+        covers = screen == best;
+        lrcsi_cells_component_of(c, screen);
+        doubt = thin_doubt(c, cell, &s, clear);
+        lrcsi_cells_drop(c, cell, &s, covers ? NULL : at, doubt);
+        c->joined[screen] = covers ? c->look : 0;
+    }
+
+    /* 3. The component around the nearest facet, and what is behind it. */
+    if (answer == LRCSI_CELLS_FOUND && !covers) {
         covers = lrcsi_cells_component(c, cell, &s, best);
         cut = cells_choose(c, cell, CHOOSE_OWN);
         covers = covers && !cut;
-        if (clear < LRCSI_CELLS_THIN * s.perimeter) {
-            double strips = 2 * ((double)cell->struck + c->borders) * (cell->inset + c->off + s.g) *
-                            s.perimeter;
-            doubt = lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s.g * s.perimeter);
-        }
         for (uint32_t i = 0; i < c->borders && covers; i++) {
             lrcsi_cells_charge_border(c, cell, &s, &c->border[i]);
         }
         if (covers) {
-            lrcsi_cells_drop(c, cell, &s, doubt);
+            doubt = thin_doubt(c, cell, &s, clear);
+            lrcsi_cells_drop(c, cell, &s, NULL, doubt);
         }
     }
 
-    /* 3. Decided, or cut. */
+    /* 4. Decided, or cut. */
     if (!cut) {
         int told = covers || answer == LRCSI_CELLS_NONE;
         cut = cells_choose(c, cell, told ? CHOOSE_EDGES : CHOOSE_ANY);
