@@ -161,6 +161,44 @@ static double thin_doubt(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell
     return lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s->g * s->perimeter);
 }
 
+/* The nearest facet at the sample, there, and how far inside the cell that is. */
+typedef struct cells_seen {
+    uint32_t best;
+    double at[2];
+    double clear;
+} cells_seen;
+
+/* Drops what is behind surfaces that cover the cell. 1 where the component around the nearest facet
+   does; else the segment of the component at which to cut, if it has one. *doubt: what any facet of
+   a thin cell may be off by. */
+static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                       const cells_seen *seen, double *doubt, const lrcsi_cells_segment **cut)
+{
+    /* 1. A facet that covers the cell alone. */
+    uint32_t screen = lrcsi_cells_screen(c, cell, s, seen->at);
+    if (screen != LRCS_NONE) {
+        lrcsi_cells_component_of(c, screen);
+        *doubt = thin_doubt(c, cell, s, seen->clear);
+        lrcsi_cells_drop(c, cell, s, screen == seen->best ? NULL : seen->at, *doubt);
+        if (screen == seen->best) {
+            return 1;
+        }
+        c->joined[screen] = 0;
+    }
+    /* 2. The component around the nearest facet. */
+    int covers = lrcsi_cells_component(c, cell, s, seen->best);
+    *cut = cells_choose(c, cell, CHOOSE_OWN);
+    if (!covers || *cut) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < c->borders; i++) {
+        lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
+    }
+    *doubt = thin_doubt(c, cell, s, seen->clear);
+    lrcsi_cells_drop(c, cell, s, NULL, *doubt);
+    return 1;
+}
+
 /* Does one cell: it is decided (1), cut, or left. */
 static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
@@ -173,47 +211,20 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     c->components = 0;
 
     /* 1. A sample. */
-    uint32_t best = LRCS_NONE;
-    double at[2];
-    double clear = 0;
-    int answer = lrcsi_cells_look(c, cell, &s, &best, at, &clear);
+    cells_seen seen = {.best = LRCS_NONE};
+    int answer = lrcsi_cells_look(c, cell, &s, &seen.best, seen.at, &seen.clear);
     if (answer == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
         return 0;
     }
 
-    /* 2. What is behind a facet that covers the cell alone. */
+    /* 2. What is behind covers. */
     double doubt = 0;
-    int covers = 0;
     const lrcsi_cells_segment *cut = NULL;
-    uint32_t screen = LRCS_NONE;
-    if (answer == LRCSI_CELLS_FOUND) {
-        screen = lrcsi_cells_screen(c, cell, &s, at);
-    }
-    if (screen != LRCS_NONE) {
-        covers = screen == best;
-        lrcsi_cells_component_of(c, screen);
-        doubt = thin_doubt(c, cell, &s, clear);
-        lrcsi_cells_drop(c, cell, &s, covers ? NULL : at, doubt);
-        c->joined[screen] = covers ? c->look : 0;
-    }
+    int told = answer == LRCSI_CELLS_FOUND ? cells_cover(c, cell, &s, &seen, &doubt, &cut)
+                                           : answer == LRCSI_CELLS_NONE;
 
-    /* 3. The component around the nearest facet, and what is behind it. */
-    if (answer == LRCSI_CELLS_FOUND && !covers) {
-        covers = lrcsi_cells_component(c, cell, &s, best);
-        cut = cells_choose(c, cell, CHOOSE_OWN);
-        covers = covers && !cut;
-        for (uint32_t i = 0; i < c->borders && covers; i++) {
-            lrcsi_cells_charge_border(c, cell, &s, &c->border[i]);
-        }
-        if (covers) {
-            doubt = thin_doubt(c, cell, &s, clear);
-            lrcsi_cells_drop(c, cell, &s, NULL, doubt);
-        }
-    }
-
-    /* 4. Decided, or cut. */
+    /* 3. Decided, or cut. */
     if (!cut) {
-        int told = covers || answer == LRCSI_CELLS_NONE;
         cut = cells_choose(c, cell, told ? CHOOSE_EDGES : CHOOSE_ANY);
         if (!cut && told) {
             cells_decide(c, cell, &s, cell->doubt + doubt);
