@@ -19,7 +19,7 @@
       (visibility/cells_charge.h). A facet's area is told where its error is small enough.
 
    The area of a facet in a cell is off by the error of its sides times their length there, and by
-   8 u b and the cell's drift times the perimeter of what it has there (visibility/cells_charge.c).
+   4 u b and the cell's drift times the perimeter of what it has there (visibility/cells_charge.c).
  */
 #include "visibility/cells.h"
 

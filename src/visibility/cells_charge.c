@@ -37,22 +37,22 @@
 #define SLIVER 8
 
 /* How far a facet goes along a line, from `start`. */
-static void facet_along(const lrcsi_cells_facet *f, const double line[3], const double start[2],
-                        double along[2])
+static inline void facet_along(const lrcsi_cells_facet *f, const double line[3],
+                               const double start[2], double along[2])
 {
-    double t[3];
-    for (int k = 0; k < 3; k++) {
-        t[k] = line[1] * (f->x[k] - start[0]) - line[0] * (f->y[k] - start[1]);
-    }
-    along[0] = lrcsi_least(t[0], lrcsi_least(t[1], t[2]));
-    along[1] = lrcsi_most(t[0], lrcsi_most(t[1], t[2]));
+    double from = line[1] * start[0] - line[0] * start[1];
+    double a = line[1] * f->x[0] - line[0] * f->y[0];
+    double b = line[1] * f->x[1] - line[0] * f->y[1];
+    double d = line[1] * f->x[2] - line[0] * f->y[2];
+    along[0] = lrcsi_least(a, lrcsi_least(b, d)) - from;
+    along[1] = lrcsi_most(a, lrcsi_most(b, d)) - from;
 }
 
 void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e)
 {
-    double strip = e->w + lrcsi_most(0, e->part.deep);
-    double doubt = strip * ((e->part.to - e->part.from) * e->length + CELLS_FAR * e->w);
+    double strip = e->part.strip;
+    double doubt = strip * ((e->part.to - e->part.from) * e->length + CELLS_FAR * strip);
     if (doubt < 0x1p-58 * c->reach * c->reach) {
         cell->doubt += doubt;
         return;
@@ -70,7 +70,7 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             continue;
         }
         double far = 4 * strip + f->off + s->g;
-        double beyond = CELLS_FAR * e->w + far;
+        double beyond = CELLS_FAR * strip + far;
         if (f->low[0] > box[1][0] + beyond || f->high[0] < box[0][0] - beyond ||
             f->low[1] > box[1][1] + beyond || f->high[1] < box[0][1] - beyond) {
             continue;
@@ -97,18 +97,16 @@ void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, dou
     const lrcsi_cells_segment *e = strip->along;
     const lrcsi_cells_facet *f = &c->facet[index];
     double far = f->off + strip->g;
+    double beyond = CELLS_FAR * strip->width + far;
     double along[2];
     facet_along(f, e->line, e->end[0], along);
-    double beyond = CELLS_FAR * strip->width + far;
     double length =
         lrcsi_least(along[1], strip->to) - lrcsi_most(along[0], strip->from) + 2 * beyond;
     double wide = lrcsi_least(high + far, strip->width) - lrcsi_most(low - far, -strip->width);
     if (!e->contact && (e->owner[0] == index || e->owner[1] == index)) {
         wide = lrcsi_least(wide, strip->width);
     }
-    if (length > 0 && wide > 0) {
-        c->area[index].doubt += wide * length;
-    }
+    c->area[index].doubt += lrcsi_most(0, wide) * lrcsi_most(0, length);
 }
 
 int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,

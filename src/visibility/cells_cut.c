@@ -19,9 +19,7 @@ static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment
         !(cell->sign * lrcsi_line_at(cell->cut, e->end[1][0], e->end[1][1]) > w)) {
         return 0;
     }
-    double range[2];
-    lrcsi_line_range(&cell->shape, e->line, range);
-    return range[0] < -w && range[1] > w;
+    return lrcsi_line_divides(&cell->shape, e->line, w);
 }
 
 void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
@@ -36,17 +34,17 @@ void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi
             continue;
         }
         lrcsi_cells_part part;
-        int place = lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w, &part);
+        int place = lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w,
+                                         e->line_off + s->g, &part);
         if (place == LRCSI_CELLS_MEETS) {
             list[kept++] = list[i];
         } else if (place == LRCSI_CELLS_BORDER) {
             cell->struck++;
-            cell->inset = lrcsi_most(cell->inset, w + lrcsi_most(0, part.deep));
+            cell->inset = lrcsi_most(cell->inset, part.strip);
             lrcsi_cells_charge_border(c, cell, s,
                                       &(lrcsi_cells_border){{e->line[0], e->line[1], e->line[2]},
                                                             {e->end[0][0], e->end[0][1]},
                                                             e->length,
-                                                            w,
                                                             part});
         }
     }
@@ -66,11 +64,8 @@ static void part_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *left
             beyond = lrcsi_line_at(f->side[k], common[i][0], common[i][1]) < -w;
         }
         if (beyond) {
-            double range[2];
-            lrcsi_line_range(left, f->side[k], range);
-            *on_left &= !(range[1] < -w);
-            lrcsi_line_range(right, f->side[k], range);
-            *on_right &= !(range[1] < -w);
+            *on_left = *on_left && !lrcsi_line_clears(left, f->side[k], w);
+            *on_right = *on_right && !lrcsi_line_clears(right, f->side[k], w);
         }
     }
 }
@@ -141,9 +136,9 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     lrcsi_cells_strip strip = {along, 0, 0, 0, s->g};
     if (along) {
         lrcsi_cells_part part = {0, 1, 0};
-        strip.width = along->line_off + s->g + 4 * U * c->reach + U * s->perimeter;
+        strip.width = along->line_off + cell->drift + 12 * U * c->reach;
         lrcsi_cells_place_of(&cell->shape, s, along->end[0], along->end[1], along->line,
-                             lrcsi_most(strip.width, along->off + s->g), &part);
+                             along->off + s->g, along->off + s->g, &part);
         strip.from = part.from * along->length;
         strip.to = part.to * along->length;
     }

@@ -38,7 +38,7 @@ typedef struct lrcsi_cells_found {
 /* A segment at the border of a cell. */
 typedef struct lrcsi_cells_border {
     double line[3], start[2]; /* of it, and where it starts */
-    double length, w;
+    double length;
     lrcsi_cells_part part;
 } lrcsi_cells_border;
 
