@@ -35,12 +35,14 @@ say      = $(if $(V)$(SILENT),,@printf '  %-4s %s\n' $(1) $@)
 
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
+ABOVE_SRC = $(sort $(wildcard src/analysis/*.c))
 HOST_SRC = $(sort $(wildcard src/host/*.c))
 CLI_SRC  = $(sort $(wildcard src/cli/*.c))
 TEST_SRC = $(sort $(wildcard test/*/test_*.c))
 SH_TESTS = $(sort $(wildcard test/*/test_*.sh))
 
 CORE_OBJ = $(CORE_SRC:%.c=$(BUILD)/%.o)
+ABOVE_OBJ = $(ABOVE_SRC:%.c=$(BUILD)/%.o)
 HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
@@ -294,7 +296,7 @@ $(TOOL): $(CLI_OBJ) $(LIB)
 	$(call say,link)
 	$(Q)$(CC) -o $@ $(CLI_OBJ) $(LIB) $(LDLIBS)
 
-$(LIB): $(CORE_OBJ) $(HOST_OBJ)
+$(LIB): $(CORE_OBJ) $(ABOVE_OBJ) $(HOST_OBJ)
 	@mkdir -p $(@D)
 	@rm -f $@
 	$(call say,ar)
@@ -399,4 +401,4 @@ $(BENCH_DIR)/%: $(BENCH_DIR)/%.o $(BENCH_OBJ) $(LIB)
 	$(Q)$(CC) -o $@ $< $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
 .SECONDARY: $(BENCH_OBJ) $(FUZZ_TESTS:%=%.o) $(BUILD)/test/fuzz/replay.o $(TEST_SRC:%.c=$(BUILD)/%.o)
--include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d $(BUILD)/test/fuzz/*.d)
+-include $(CORE_OBJ:.o=.d) $(ABOVE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d $(BUILD)/test/fuzz/*.d)

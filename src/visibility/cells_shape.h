@@ -33,13 +33,7 @@ void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double g, lrcsi_cells_s
 /* How a line passes the corners of a cell: the least and the most distance. */
 void lrcsi_line_range(const lrcsi_clip_polygon *shape, const double line[3], double range[2]);
 
-/* Are all corners farther than w to the right of a line? */
-int lrcsi_line_clears(const lrcsi_clip_polygon *shape, const double line[3], double w);
-
-/* Are there corners farther than w from a line on both sides of it? */
-int lrcsi_line_divides(const lrcsi_clip_polygon *shape, const double line[3], double w);
-
-/* The same as lrcsi_line_range of a box around it: the range is as wide or wider. */
+/* The same of a box around it: the range is as wide or wider. */
 void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
                      double range[2]);
 
@@ -53,8 +47,8 @@ typedef struct lrcsi_cells_part {
 static inline int lrcsi_cells_box_away(const lrcsi_cells_sides *s, const double p[2],
                                        const double q[2], double w)
 {
-    return lrcsi_most(p[0], q[0]) < s->low[0] - w || lrcsi_least(p[0], q[0]) > s->high[0] + w ||
-           lrcsi_most(p[1], q[1]) < s->low[1] - w || lrcsi_least(p[1], q[1]) > s->high[1] + w;
+    return (lrcsi_most(p[0], q[0]) < s->low[0] - w) | (lrcsi_least(p[0], q[0]) > s->high[0] + w) |
+           (lrcsi_most(p[1], q[1]) < s->low[1] - w) | (lrcsi_least(p[1], q[1]) > s->high[1] + w);
 }
 
 enum lrcsi_cells_place {
@@ -75,16 +69,9 @@ double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2]);
 /* Keeps what lies left of a line. */
 void lrcsi_cells_shape_clip(lrcsi_clip_polygon *shape, const double line[3]);
 
-/* A shape divided along a line. */
-typedef struct lrcsi_cells_shape_cut {
-    const double *common[2]; /* corners that both parts share, so many of them */
-    int commons;
-    double drift; /* how far the new corners are from the sides that they cut, at most */
-} lrcsi_cells_shape_cut;
-
-/* Divides a shape along a line, into what lies left of it and what lies right of it. */
-lrcsi_cells_shape_cut lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape,
-                                               const double line[3], lrcsi_clip_polygon *left,
-                                               lrcsi_clip_polygon *right);
+/* Divides a shape along a line, into what lies left of it and what lies right of it. Returned: how
+   far the new corners are from the sides that they cut, at most. */
+double lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape, const double line[3],
+                                lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 
 #endif

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Hardware emulated: bit for bit what another implementation computes (test/vectors/emulate.py),
    pixels counted by hand, known costs of depth and precision, and scenes made to break floats. */
+#include <lrcs/emulate.h>
+
+#include "curved.h"
 #include "scenes.h"
+#include "starve.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -438,6 +442,77 @@ static void the_work_area_that_it_asks_for_is_enough_and_no_less(void **state)
     }
 }
 
+/* Graphics hardware is emulated for flat facets only. */
+static void curved_normals_are_not_emulated(void **state)
+{
+    (void)state;
+    static char text[1 << 16];
+    curved_cylinder(text, 8, 0.5, 2, 'v');
+    curved_case c = curved_obj(text);
+    for (int normals = LRCS_NORMALS_FLAT; normals <= LRCS_NORMALS_SMOOTH; normals += 2) {
+        curved_build(&c, normals);
+        const lrcs_emulation_options options = {16, LRCS_PRECISION_FLOAT32, 24};
+        size_t need = lrcs_emulate_need(c.prepared, &options);
+        void *area = malloc(need);
+        assert_non_null(area);
+        lrcs_work given = lrcs_work_make(area, need);
+        lrcs_pose pose;
+        lrcs_emulation e = {.sigma_m2 = -1};
+        assert_int_equal(lrcs_pose_from_azel(20, 30, &pose), LRCS_OK);
+        int status = lrcs_emulate_run(c.prepared, &pose, &options, &given, &e, NULL, NULL);
+        assert_int_equal(status, normals == LRCS_NORMALS_FLAT ? LRCS_OK : LRCS_E_UNSUPPORTED);
+        assert_true((e.sigma_m2 > 0) == (status == LRCS_OK));
+        free(area);
+    }
+    curved_free(&c);
+}
+
+/* A pose of which one number is none; 0 to 2 are the direction's, from 3 on R's. */
+static void pose_that_is_none_is_refused(void **state)
+{
+    (void)state;
+    static const double wrong[] = {NAN, HUGE_VAL, 1.5, 1e308};
+    scene_start(&scene);
+    scene_material(&scene, 1, 0.25, 0.2, 0.5);
+    scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    for (int number = 0; number < 12; number++) {
+        for (int i = 0; i < 4; i++) {
+            lrcs_pose pose;
+            assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
+            *(number < 3 ? &pose.direction[number] : &pose.R[number / 3 - 1][number % 3]) =
+                wrong[i];
+            const lrcs_emulation_options options = {8, LRCS_PRECISION_FLOAT32, 24};
+            lrcs_emulation e;
+            int status = lrcs_emulate_run(prepared, &pose, &options, &work, &e, NULL, NULL);
+            assert_int_equal(status, i < 2 ? LRCS_E_NUMBER : LRCS_E_ARGUMENT);
+        }
+    }
+}
+
+static const lrcs_prepared *starved_scene;
+static lrcs_emulation starved_emulation;
+static const lrcs_emulation_options starved_options = {16, LRCS_PRECISION_FLOAT32, 24};
+
+static int call_emulation(lrcs_work *area)
+{
+    lrcs_pose pose;
+    assert_int_equal(lrcs_pose_from_azel(20, 60, &pose), LRCS_OK);
+    return lrcs_emulate_run(starved_scene, &pose, &starved_options, area, &starved_emulation, NULL,
+                            NULL);
+}
+
+static void it_grows_until_it_fits(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_material(&scene, 1, 0.25, 0.2, 0.5);
+    scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+    starved_scene = scene_prepare(&scene, &work);
+    starve(STARVED("emulation", lrcs_emulate_need(starved_scene, &starved_options), call_emulation,
+                   starved_emulation, 0));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -458,6 +533,9 @@ int main(void)
         cmocka_unit_test(an_empty_scene_gives_nothing),
         cmocka_unit_test(options_outside_their_domain_are_refused),
         cmocka_unit_test(names_of_precisions_find_them_again),
-        cmocka_unit_test(the_work_area_that_it_asks_for_is_enough_and_no_less)};
+        cmocka_unit_test(the_work_area_that_it_asks_for_is_enough_and_no_less),
+        cmocka_unit_test(curved_normals_are_not_emulated),
+        cmocka_unit_test(pose_that_is_none_is_refused),
+        cmocka_unit_test(it_grows_until_it_fits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

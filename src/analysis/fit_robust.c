@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which readings a fit trusts. It decides how large the errors of readings are taken to be, how a
    descent is kept from following single readings, and which of them are set aside. */
-#include "optics/fit_search.h"
+#include "analysis/fit_search.h"
 
 #include <math.h>
 

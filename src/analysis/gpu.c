@@ -2,7 +2,7 @@
 /* Drawing as graphics hardware does it. It decides which facet owns which pixel, by that hardware's
    arithmetic and rules; what the laser truly sees, visibility/raster.c and visibility/occlude.c
    decide. */
-#include "visibility/gpu.h"
+#include "analysis/gpu.h"
 
 #include <math.h>
 

@@ -7,7 +7,7 @@
    the form of L. Kaufman 1975): the Gauss-Newton matrix of log(s) and log(1 + m) alone is the
    Schur complement of A and B in that of all four. Steps are damped after Levenberg and Marquardt
    and clipped to the limits of the search. */
-#include "optics/fit_solve.h"
+#include "analysis/fit_solve.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "starve.h"
 
 #include "../vectors/fit.inc"
 
@@ -560,6 +561,37 @@ static void grazing_readings_alone_give_back_a_matt_surface(void **state)
     assert_true(fit.parameter[LRCS_FIT_A].low == 0 && isfinite(fit.brdf.A + fit.brdf.B));
 }
 
+static lrcs_fit_reading starved_reading[9];
+static lrcs_fit starved_fit;
+
+static int call_fit(lrcs_work *work)
+{
+    lrcs_fit_options options = lrcs_fit_options_default();
+    return lrcs_fit_run(starved_reading, 9, &options, work, &starved_fit, NULL);
+}
+
+static void a_fit_grows_until_it_fits(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 9; i++) {
+        starved_reading[i].angle_deg = 8.0 * i;
+        starved_reading[i].value = 0.3 + exp(-0.02 * i * i);
+    }
+    starve(STARVED("fit", lrcs_fit_need(9), call_fit, starved_fit, 0));
+}
+
+/* Where size_t has 32 bits, a product of counts that wrapped would ask for too little. */
+static void need_never_shrinks_as_readings_grow(void **state)
+{
+    (void)state;
+    size_t last = 0;
+    for (double count = 1; count < 4294967295.0; count *= 1.03) {
+        size_t need = lrcs_fit_need((uint32_t)count);
+        assert_true(need >= last && need >= (uint32_t)count);
+        last = need;
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -584,6 +616,8 @@ int main(void)
         cmocka_unit_test(readings_of_one_value_at_the_normal_leave_both_parts_open),
         cmocka_unit_test(readings_of_nothing_beside_outliers_have_finite_errors),
         cmocka_unit_test(grazing_readings_alone_give_back_a_matt_surface),
+        cmocka_unit_test(a_fit_grows_until_it_fits),
+        cmocka_unit_test(need_never_shrinks_as_readings_grow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

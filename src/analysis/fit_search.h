@@ -3,7 +3,7 @@
 #ifndef LRCSI_FIT_SEARCH_H
 #define LRCSI_FIT_SEARCH_H
 
-#include "optics/fit_solve.h"
+#include "analysis/fit_solve.h"
 
 #define LRCSI_FIT_STARTS 8u
 

@@ -2,7 +2,7 @@
 /* Where the fit of readings starts: a grid of s and m, at each of whose nodes A and B have the
    least sum of absolute residuals, which single readings cannot pull far. It decides the grid and
    which of its nodes are starts. */
-#include "optics/fit_search.h"
+#include "analysis/fit_search.h"
 
 #include <math.h>
 #include <string.h>

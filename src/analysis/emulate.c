@@ -10,7 +10,7 @@
 #include "base/single.h"
 #include "base/work.h"
 #include "integrate/image.h"
-#include "visibility/gpu.h"
+#include "analysis/gpu.h"
 
 #define FOUR_PI 12.566370614359172954
 

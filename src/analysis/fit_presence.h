@@ -3,7 +3,7 @@
 #ifndef LRCSI_FIT_PRESENCE_H
 #define LRCSI_FIT_PRESENCE_H
 
-#include "optics/fit_solve.h"
+#include "analysis/fit_solve.h"
 
 /* Does a part, LRCS_FIT_A or LRCS_FIT_B, stand out of the noise? 1, or 0 where noise alone would
    lower the sum of squares as much in 1 of 20 cases or more.

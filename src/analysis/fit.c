@@ -10,9 +10,9 @@
 #include "base/degrees.h"
 #include "base/range.h"
 #include "base/work.h"
-#include "optics/fit_presence.h"
-#include "optics/fit_profile.h"
-#include "optics/fit_search.h"
+#include "analysis/fit_presence.h"
+#include "analysis/fit_profile.h"
+#include "analysis/fit_search.h"
 #include "optics/special.h"
 
 /* The vectors of lrcsi_fit_data. */

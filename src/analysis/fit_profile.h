@@ -3,7 +3,7 @@
 #ifndef LRCSI_FIT_PROFILE_H
 #define LRCSI_FIT_PROFILE_H
 
-#include "optics/fit_solve.h"
+#include "analysis/fit_solve.h"
 
 /* The standard errors of a fit in its coordinates and their correlations, from the matrix of its
    columns; HUGE_VAL and 0 for a coordinate that does not enter, or only as others do.

@@ -2,7 +2,7 @@
 /* How far readings determine the parameters of a fit: by the matrix of its derivatives, and by
    walking away from the fit in one parameter while the others follow, until the readings object.
    It decides where that is; what an interval without an end means is said elsewhere. */
-#include "optics/fit_profile.h"
+#include "analysis/fit_profile.h"
 
 #include <math.h>
 #include <string.h>
