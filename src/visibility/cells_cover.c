@@ -46,9 +46,9 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->off + s->g;
         c->listed[index] = c->look;
-        int outside = (at[0] < f->low[0] - w) | (at[0] > f->high[0] + w) | (at[1] < f->low[1] - w) |
-                      (at[1] > f->high[1] + w); /* one branch */
-        if (outside) {
+        double outside = lrcsi_most(lrcsi_most(f->low[0] - at[0], at[0] - f->high[0]),
+                                    lrcsi_most(f->low[1] - at[1], at[1] - f->high[1]));
+        if (outside > w) {
             continue;
         }
         double inside = lrcsi_line_at(f->side[0], at[0], at[1]);

@@ -47,8 +47,9 @@ typedef struct lrcsi_cells_part {
 static inline int lrcsi_cells_box_away(const lrcsi_cells_sides *s, const double p[2],
                                        const double q[2], double w)
 {
-    return (lrcsi_most(p[0], q[0]) < s->low[0] - w) | (lrcsi_least(p[0], q[0]) > s->high[0] + w) |
-           (lrcsi_most(p[1], q[1]) < s->low[1] - w) | (lrcsi_least(p[1], q[1]) > s->high[1] + w);
+    double x = lrcsi_most(s->low[0] - lrcsi_most(p[0], q[0]), lrcsi_least(p[0], q[0]) - s->high[0]);
+    double y = lrcsi_most(s->low[1] - lrcsi_most(p[1], q[1]), lrcsi_least(p[1], q[1]) - s->high[1]);
+    return lrcsi_most(x, y) > w;
 }
 
 enum lrcsi_cells_place {
