@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FIT_PI 3.14159265358979323846
-
 static const char fit_help[] =
     "usage: lrcs fit DATA.csv [options]\n"
     "\n"
@@ -51,9 +49,11 @@ static const char fit_help[] =
     "  lrcs fit gold.csv --plot gold.svg --residuals gold-residuals.svg\n"
     "  lrcs fit panels.csv --panel 0.99 --noise absolute --name white --json\n";
 
-static const cli_option fit_options[] = {
-    {"panel", 1, 0},     {"cosine", 0, 0}, {"noise", 1, 0}, {"name", 1, 0}, {"plot", 1, 1},
-    {"residuals", 1, 1}, {"csv", 1, 0},    {"json", 0, 0},  {"help", 0, 0}, {NULL, 0, 0}};
+static const cli_option fit_options[] = {{"panel", 1, 0},       {"cosine", 0, 0},
+                                         {"noise", 1, 0},       {"name", 1, 0},
+                                         {"plot", CLI_FILE, 1}, {"residuals", CLI_FILE, 1},
+                                         {"csv", CLI_FILE, 0},  {"json", 0, 0},
+                                         {"help", 0, 0},        {NULL, 0, 0}};
 
 /* ---- options ---- */
 
@@ -120,7 +120,7 @@ static int fit_read(fit_job *job)
                              "found '%s'",
                              cli_value(args, "panel"));
         }
-        job->options.unit = job->panel / FIT_PI;
+        job->options.unit = job->panel / CLI_PI;
     }
     if (code == 0 && csv && strcmp(csv, "-") == 0 && cli_value(args, "json")) {
         return cli_usage(args->command, "--csv - and --json both want standard output");

@@ -135,6 +135,7 @@ int main(int count, char **word)
     }
     cli_args args;
     int code = cli_args_read(command, count - 2, word + 2, &args);
+    code = code ? code : cli_outputs_places(&args);
     if (code == 0) {
         code = cli_finish(command->run(&args));
     }
