@@ -10,7 +10,7 @@
 #include "visibility/grid.h"
 
 /* Facets that are looked at to count: all of so many, else about as many, spread at random. */
-#define SAMPLE 4096u
+#define COST_SAMPLE 4096u
 
 /* Prices in ns. Drawing: of a facet, of a pixel on the rim of one, of a pixel, of one covered once.
    Clipping: of a facet (it is classified and summed) and of an undecided one. */
@@ -76,7 +76,7 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t count = p->scene->facet_count;
-    uint32_t stride = count / SAMPLE + 1;
+    uint32_t stride = count / COST_SAMPLE + 1;
     lrcsi_cost cost = {.facets = count};
     uint32_t random = 1;
     for (uint32_t first = 0; first < count; first += stride) {

@@ -116,10 +116,6 @@ static void clipping_that_takes_too_long_gives_way_to_a_raster(void **state)
     options.accept = LRCS_ACCEPT_ESTIMATE;
     options.tolerance = 0.01;
     assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
-    printf("%d %s steps %lu res %u U %g clip %g draw %g\n", r.method, r.method_reason,
-           (unsigned long)r.steps, r.resolution, lrcsi_cost_undecided(&cost),
-           lrcsi_cost_clip(&cost, lrcsi_cost_undecided(&cost)),
-           lrcsi_cost_draw(&cost, lrcsi_cost_size(&cost, options.tolerance, 4096)));
     assert_int_equal(r.method, LRCS_METHOD_ZBUFFER);
     assert_int_equal(r.flags, LRCS_FLAG_ACCEPTED_BY_ESTIMATE);
     assert_true(r.steps > 0);
