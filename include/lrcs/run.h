@@ -135,7 +135,7 @@ const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 /* Notices: true and worth knowing, not a degradation. */
 enum lrcs_notice {
     LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,  /* open or inverted mesh */
-    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape scaled unevenly, say */
+    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape as small as rounding */
 };
 const char *lrcs_notice_text(int bit);
 
