@@ -85,6 +85,8 @@ static void finer_tolerances_take_finer_rasters(void **state)
         last = size;
     }
     assert_int_equal(last, 4096);
+    assert_true(lrcsi_cost_first(&cost, 4096) < 1024); /* the first is not much dearer than any */
+    assert_int_equal(lrcsi_cost_first(&cost, 256), 256);
     assert_true(lrcsi_cost_size(&plain, 1e-9, 4096) < 512);
 }
 
