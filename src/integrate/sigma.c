@@ -211,14 +211,12 @@ static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
    there is memory for that. */
 static void sum_curved(sigma_run *run)
 {
-    uint32_t starved;
     lrcsi_curving how = run_curving(run);
-    int status =
-        lrcsi_curve_pieces(&run->contest, &how, 1, run->work, run->visible, run->curved, &starved);
+    int status = lrcsi_curve_pieces(&run->contest, &how, 1, run->work, run->visible, run->curved);
     if (status != LRCS_OK) {
         lrcsi_curve_shares(&run->view, &how, run->visible, run->curved);
     }
-    run->flags |= status != LRCS_OK || starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
+    run->flags |= status != LRCS_OK ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
 }
 
 /* The sum over visible areas found by sampling or clipping. */
@@ -313,23 +311,17 @@ static int run_preview_at(sigma_run *run, uint32_t size)
     return status;
 }
 
-/* Facets that find no memory to be clipped in widen the bound; under auto a raster does better. */
-static int run_exact(sigma_run *run, int method)
+static int run_exact(sigma_run *run)
 {
-    uint32_t starved = 0;
     lrcsi_curving how = run_curving(run);
     int status = run_contest(run);
     if (status == LRCS_OK) {
         status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
-                                                  run->curved, &starved)
-                             : lrcsi_occlude_all(&run->contest, run->work, run->visible, &starved);
-    }
-    if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
-        return LRCS_E_MEMORY;
+                                                  run->curved)
+                             : lrcsi_occlude_all(&run->contest, run->work, run->visible);
     }
     if (status == LRCS_OK) {
         run->size = 0;
-        run->flags |= starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         run_sum(run, 0);
     }
     return status;
@@ -395,8 +387,7 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 
 static int run_method(sigma_run *run, const lrcs_run_options *options)
 {
-    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run, options->method)
-                                                 : run_zbuffer(run, options);
+    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run) : run_zbuffer(run, options);
 }
 
 /* Under auto a raster goes first where its size was asked for or an estimate may count; where it is
@@ -419,7 +410,7 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
         run->plan.reason = options->resolution != 0 ? "the raster asked for misses the tolerance"
                                                     : "no raster's estimate meets the tolerance";
         run->flags = 0;
-        status = run_exact(run, options->method);
+        status = run_exact(run);
     }
     if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
         run->plan.method = LRCS_METHOD_ZBUFFER;

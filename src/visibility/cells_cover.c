@@ -30,9 +30,6 @@
 
 #include "base/range.h"
 
-/* Samples that may be tried in a cell. */
-#define TRIES 3
-
 /* The facet nearest to the laser at a place; all others that may cover it are then surely behind.
  */
 static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
@@ -93,22 +90,29 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     return LRCSI_CELLS_FOUND;
 }
 
+void lrcsi_cells_spot(const lrcsi_cells_cell *cell, int number, double at[2])
+{
+    static const double weight[LRCSI_CELLS_TRIES][3] = {
+        {1, 1, 1}, {1.3, 0.9, 1.1}, {0.7, 1.2, 1.6}};
+    double sum = 0;
+    at[0] = at[1] = 0;
+    for (uint32_t i = 0; i < cell->shape.count; i++) {
+        double share = weight[number][i % 3];
+        at[0] += share * cell->shape.corner[i][0];
+        at[1] += share * cell->shape.corner[i][1];
+        sum += share;
+    }
+    at[0] /= sum;
+    at[1] /= sum;
+}
+
 int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                      uint32_t *best, double *clear)
 {
-    static const double weight[TRIES][3] = {{1, 1, 1}, {1.3, 0.9, 1.1}, {0.7, 1.2, 1.6}};
     int answer = LRCSI_CELLS_UNSURE;
-    for (int t = 0; t < TRIES && answer == LRCSI_CELLS_UNSURE; t++) {
-        double at[2] = {0, 0};
-        double sum = 0;
-        for (uint32_t i = 0; i < cell->shape.count; i++) {
-            double share = weight[t][i % 3];
-            at[0] += share * cell->shape.corner[i][0];
-            at[1] += share * cell->shape.corner[i][1];
-            sum += share;
-        }
-        at[0] /= sum;
-        at[1] /= sum;
+    for (int t = 0; t < LRCSI_CELLS_TRIES && answer == LRCSI_CELLS_UNSURE; t++) {
+        double at[2];
+        lrcsi_cells_spot(cell, t, at);
         *clear = lrcsi_cells_sides_clear(s, at);
         c->look++;
         if (*clear > 4 * (cell->inset + c->off + s->g)) {
@@ -201,8 +205,7 @@ int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
     return segment_marked(c, e, c->joined);
 }
 
-/* Whether all facets of an edge have been dropped as hidden, or one of a contact. */
-static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
+int lrcsi_cells_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
 {
     if (e->contact) {
         return c->listed[e->owner[0]] != c->look || e->owner[1] == LRCS_NONE ||
@@ -292,7 +295,7 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[segments[i]];
-        if (!segment_idle(c, e) &&
+        if (!lrcsi_cells_idle(c, e) &&
             (e->contact || !segment_behind(c, cell, s, e, e->off + s->g, low))) {
             segments[kept++] = segments[i];
         }

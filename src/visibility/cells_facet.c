@@ -38,18 +38,27 @@ void lrcsi_cells_frame_make(lrcsi_cells_frame *c)
             c->axis_low[i][k] = -along * d[k];
         }
     }
+    lrcsi_cells_frame_move(c, c->view->prepared->origin);
+}
+
+void lrcsi_cells_frame_move(lrcsi_cells_frame *c, const double *origin)
+{
+    c->origin = origin;
+    c->middle[0] = c->middle[1] = 0;
+    c->number++;
 }
 
 /* A vertex in the view: each coordinate rounded once, of a sum that is off by 100 u^2 of the
-   distance from the origin; z as the view has it, off by 20 u of that. */
+   distance from the origin; z as the view has it, or of three products that round off as little,
+   off by 20 u of that. */
 static const double *point_of(lrcsi_cells_frame *c, uint32_t vertex)
 {
     lrcsi_cells_point *p = &c->point[vertex];
-    if (!p->made) {
+    if (p->frame != c->number) {
         const lrcs_prepared *prepared = c->view->prepared;
         lrcsi_dd gap[3];
         for (int k = 0; k < 3; k++) {
-            gap[k] = lrcsi_dd_two_sum(prepared->vertex[vertex].x[k], -prepared->origin[k]);
+            gap[k] = lrcsi_dd_two_sum(prepared->vertex[vertex].x[k], -c->origin[k]);
         }
         for (int i = 0; i < 2; i++) {
             const double *row = c->view->R[i];
@@ -63,8 +72,11 @@ static const double *point_of(lrcsi_cells_frame *c, uint32_t vertex)
             }
             p->x[i] = sum.hi + (sum.lo + rest);
         }
-        p->x[2] = c->view->point[vertex].x[2];
-        p->made = 1;
+        const double *up = c->view->R[2];
+        p->x[2] = c->origin == prepared->origin
+                      ? c->view->point[vertex].x[2]
+                      : up[0] * gap[0].hi + up[1] * gap[1].hi + up[2] * gap[2].hi;
+        p->frame = c->number;
     }
     return p->x;
 }

@@ -33,22 +33,27 @@ typedef struct lrcsi_cells_segment {
     int contact;
 } lrcsi_cells_segment;
 
-/* A vertex in the view, once it is made. */
+/* A vertex in the view, made in the frame of that number. */
 typedef struct lrcsi_cells_point {
     double x[3];
-    int made;
+    uint32_t frame;
 } lrcsi_cells_point;
 
 /* The axes of the view, and its vertices as they are made: zeros at first. */
 typedef struct lrcsi_cells_frame {
     const lrcsi_view *view;
     double axis_low[2][3];
+    const double *origin;     /* a scene point */
+    uint32_t number;          /* of frames so far */
     lrcsi_cells_point *point; /* vertex */
     double middle[2];         /* of the block at hand */
 } lrcsi_cells_frame;
 
-/* Makes the axes. */
+/* Makes the axes; the origin is that of the view. */
 void lrcsi_cells_frame_make(lrcsi_cells_frame *c);
+
+/* Puts the origin elsewhere, and the middle there. */
+void lrcsi_cells_frame_move(lrcsi_cells_frame *c, const double *origin);
 
 /* A vertex from the middle of the block at hand; *off grows to how far that may be off, and lines
    through it, *z_err to the error of z. */

@@ -13,7 +13,7 @@
 /* Room for segments of a block, beside one a facet. */
 #define SEGMENT_LEAST 1024u
 
-static lrcsi_cells_segment *segment_new(lrcsi_cells_work *c)
+lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c)
 {
     if (c->segments == c->segment_room) {
         return NULL;
@@ -23,26 +23,33 @@ static lrcsi_cells_segment *segment_new(lrcsi_cells_work *c)
     return e;
 }
 
-static int open_edge(lrcsi_cells_work *c, uint32_t edge)
+lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge)
 {
-    const lrcsi_view *view = c->view;
-    const lrcsi_topology *t = &view->prepared->topology;
-    const lrcsi_edge *of = &t->edge[edge];
-    lrcsi_cells_segment *e = segment_new(c);
-    if (!e) {
-        return 0;
-    }
+    const lrcsi_topology *t = &c->view->prepared->topology;
+    lrcsi_cells_segment *e = lrcsi_cells_segment_new(c);
     uint32_t owners = 0;
-    for (uint32_t i = 0; i < of->uses; i++) {
-        uint32_t facet = t->use[of->first_use + i].facet;
-        if (lrcsi_grid_casts(view, facet)) {
+    for (uint32_t i = 0; e && i < t->edge[edge].uses; i++) {
+        uint32_t facet = t->use[t->edge[edge].first_use + i].facet;
+        if (lrcsi_grid_casts(c->view, facet)) {
             if (owners < 2) {
                 e->owner[owners] = facet;
             }
             owners++;
         }
     }
-    e->edge = owners > 2 ? edge : LRCS_NONE;
+    if (owners > 2) {
+        e->edge = edge;
+    }
+    return e;
+}
+
+static int open_edge(lrcsi_cells_work *c, uint32_t edge)
+{
+    const lrcsi_edge *of = &c->view->prepared->topology.edge[edge];
+    lrcsi_cells_segment *e = lrcsi_cells_edge(c, edge);
+    if (!e) {
+        return 0;
+    }
     lrcsi_cells_vertex(&c->frame, of->low, e->end[0], &e->off, &e->z_err);
     lrcsi_cells_vertex(&c->frame, of->high, e->end[1], &e->off, &e->z_err);
     lrcsi_cells_segment_line(e);
@@ -101,7 +108,7 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
             c->kind[other] |= LRCSI_CELLS_VAGUE;
             continue;
         }
-        lrcsi_cells_segment *e = segment_new(c);
+        lrcsi_cells_segment *e = lrcsi_cells_segment_new(c);
         if (!e) {
             return 0;
         }
