@@ -2,7 +2,7 @@
 #   make            the tool build/lrcs and the library build/liblrcs.a
 #   make demo       sigma of the built-in satellite, with a picture
 #   make charts     accuracy against time, for the README
-#   make study      what sigma depends on: examples/study anew
+#   make study      what sigma of simple bodies depends on: examples/study/results anew
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
 #   make asan tsan lint purity layers fuzz coverage    further checks
@@ -35,16 +35,19 @@ say      = $(if $(V)$(SILENT),,@printf '  %-4s %s\n' $(1) $@)
 
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
+ABOVE_SRC = $(sort $(wildcard src/analysis/*.c))
 HOST_SRC = $(sort $(wildcard src/host/*.c))
 CLI_SRC  = $(sort $(wildcard src/cli/*.c))
 TEST_SRC = $(sort $(wildcard test/*/test_*.c))
 SH_TESTS = $(sort $(wildcard test/*/test_*.sh))
 
 CORE_OBJ = $(CORE_SRC:%.c=$(BUILD)/%.o)
+ABOVE_OBJ = $(ABOVE_SRC:%.c=$(BUILD)/%.o)
 HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
-EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
+EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c))) $(STUDY)
+STUDY    = $(BUILD)/examples/study/study
 CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 JOINED   = $(BUILD)/amalgamation
 FLIGHT   = $(BUILD)/flight
@@ -70,8 +73,8 @@ charts: $(TOOL)
 	$(TOOL) converge examples/cone.toml --azel 0,30 --plot examples/converge_cone.svg
 
 # Tables, plots and laws as they are kept; the same bytes every time.
-study: $(TOOL)
-	$(TOOL) study -o examples/study
+study: $(STUDY)
+	$(STUDY) -o examples/study/results
 
 test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TESTS)
 	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
@@ -295,7 +298,7 @@ $(TOOL): $(CLI_OBJ) $(LIB)
 	$(call say,link)
 	$(Q)$(CC) -o $@ $(CLI_OBJ) $(LIB) $(LDLIBS)
 
-$(LIB): $(CORE_OBJ) $(HOST_OBJ)
+$(LIB): $(CORE_OBJ) $(ABOVE_OBJ) $(HOST_OBJ)
 	@mkdir -p $(@D)
 	@rm -f $@
 	$(call say,ar)
@@ -370,6 +373,11 @@ $(BUILD)/examples/%: examples/%.c $(LIB)
 	$(call say,link)
 	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -o $@ $< $(LIB) $(LDLIBS)
 
+$(STUDY): $(wildcard examples/study/*.[ch]) $(LIB)
+	@mkdir -p $(@D)
+	$(call say,link)
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -o $@ $(filter %.c,$^) $(LIB) $(LDLIBS)
+
 # Tests compute references in long double, of which clang warns at every step.
 $(BUILD)/test/%.o: test/%.c
 	@mkdir -p $(@D)
@@ -395,4 +403,4 @@ $(BENCH_DIR)/%: $(BENCH_DIR)/%.o $(BENCH_OBJ) $(LIB)
 	$(Q)$(CC) -o $@ $< $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
 .SECONDARY: $(BENCH_OBJ) $(FUZZ_TESTS:%=%.o) $(BUILD)/test/fuzz/replay.o $(TEST_SRC:%.c=$(BUILD)/%.o)
--include $(CORE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d $(BUILD)/test/fuzz/*.d)
+-include $(CORE_OBJ:.o=.d) $(ABOVE_OBJ:.o=.d) $(HOST_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_SRC:%.c=$(BUILD)/%.d) $(wildcard $(BENCH_DIR)/*.d $(BUILD)/test/fuzz/*.d)

@@ -5,6 +5,8 @@
 #ifndef LRCS_HOST_H
 #define LRCS_HOST_H
 
+#include <lrcs/emulate.h>
+#include <lrcs/fit.h>
 #include <lrcs/lrcs.h>
 
 #include <stdio.h>

@@ -4,8 +4,6 @@
 #define LRCS_LRCS_H
 
 #include <lrcs/brdf.h>
-#include <lrcs/emulate.h>
-#include <lrcs/fit.h>
 #include <lrcs/mesh.h>
 #include <lrcs/polygon.h>
 #include <lrcs/pose.h>

@@ -45,7 +45,8 @@ typedef struct lrcs_host_sweep {
    lrcs_host_scene_run or `pose` for the first pose that fails, whose number the sentence says: all
    before it were taken, whatever the number of threads; as `take`.
    Work: for each thread a work area that grows as the poses need it; a bounded queue of results,
-   however many poses there are. Threads that the system refuses are done without. */
+   however many poses there are. Threads that the system refuses are done without, and where a pose
+   runs short of memory the rest, itself included, is run by half as many. */
 int lrcs_host_sweep_run(const lrcs_host_scene *scene, const lrcs_run_options *options,
                         const lrcs_host_sweep *sweep, uint64_t *done, lrcs_host_error *error);
 

@@ -62,9 +62,11 @@ enum cli_exit {
         "keep-transparent", 0, 0                                                                   \
     }
 
+#define CLI_FILE 2
+
 typedef struct cli_option {
     const char *name; /* without its dashes, of which one letter has one; NULL ends a list */
-    int has_value;
+    int has_value;    /* CLI_FILE: the name of a file to write */
     int repeats;
 } cli_option;
 
@@ -198,6 +200,10 @@ typedef struct cli_output {
 /* Does a path end so, in letters of either case, with something before? */
 int cli_extension(const char *path, const char *extension);
 
+/* Can the files that options name be written, as far as can be told before the work: none is a
+   folder, and each lies in one that may be written? 0 or CLI_FAILED with the message printed. */
+int cli_outputs_places(const cli_args *args);
+
 /* No two outputs are one file; none would replace a file that the scene was read from. 0 or
    CLI_USAGE. */
 int cli_outputs_apart(const cli_command *command, const cli_output *output, int count);
@@ -224,7 +230,6 @@ extern const cli_command cli_sweep_command;
 extern const cli_command cli_merge_command;
 extern const cli_command cli_fit_command;
 extern const cli_command cli_report_command;
-extern const cli_command cli_study_command;
 extern const cli_command cli_vectors_command;
 extern const cli_command cli_compare_command;
 

@@ -38,9 +38,10 @@ static const char compare_help[] =
     "  lrcs compare kit theirs.csv --tier 1\n"
     "  lrcs compare kit theirs.csv --pixels 1024 --facets facets.csv --junit kit.xml\n";
 
-static const cli_option compare_options[] = {{"tier", 1, 0},   {"class", 1, 0}, {"pixels", 1, 0},
-                                             {"facets", 1, 0}, {"items", 1, 0}, {"json", 1, 0},
-                                             {"junit", 1, 0},  {"help", 0, 0},  {NULL, 0, 0}};
+static const cli_option compare_options[] = {
+    {"tier", 1, 0},         {"class", 1, 0}, {"pixels", 1, 0},
+    {"facets", 1, 0},       {"items", 1, 0}, {"json", CLI_FILE, 0},
+    {"junit", CLI_FILE, 0}, {"help", 0, 0},  {NULL, 0, 0}};
 
 /* ---- options ---- */
 

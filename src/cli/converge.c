@@ -29,8 +29,8 @@ static const char converge_help[] =
     "  lrcs converge examples/cylinder.toml --azel 0,30 --plot cylinder.png\n";
 
 static const cli_option converge_options[] = {
-    CLI_POSE_OPTIONS,           {"csv", 1, 0},  {"plot", 1, 1},    {"unit", 1, 0},
-    {"material", 1, 1},         {"json", 0, 0}, {"seconds", 1, 0}, {"help", 0, 0},
+    CLI_POSE_OPTIONS,           {"csv", CLI_FILE, 0}, {"plot", CLI_FILE, 1}, {"unit", 1, 0},
+    {"material", 1, 1},         {"json", 0, 0},       {"seconds", 1, 0},     {"help", 0, 0},
     {"keep-transparent", 0, 0}, {NULL, 0, 0}};
 
 /* ---- options ---- */

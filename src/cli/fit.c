@@ -51,9 +51,11 @@ static const char fit_help[] =
     "  lrcs fit gold.csv --plot gold.svg --residuals gold-residuals.svg\n"
     "  lrcs fit panels.csv --panel 0.99 --noise absolute --name white --json\n";
 
-static const cli_option fit_options[] = {
-    {"panel", 1, 0},     {"cosine", 0, 0}, {"noise", 1, 0}, {"name", 1, 0}, {"plot", 1, 1},
-    {"residuals", 1, 1}, {"csv", 1, 0},    {"json", 0, 0},  {"help", 0, 0}, {NULL, 0, 0}};
+static const cli_option fit_options[] = {{"panel", 1, 0},       {"cosine", 0, 0},
+                                         {"noise", 1, 0},       {"name", 1, 0},
+                                         {"plot", CLI_FILE, 1}, {"residuals", CLI_FILE, 1},
+                                         {"csv", CLI_FILE, 0},  {"json", 0, 0},
+                                         {"help", 0, 0},        {NULL, 0, 0}};
 
 /* ---- options ---- */
 

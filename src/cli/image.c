@@ -44,9 +44,9 @@ static const char image_help[] =
     "  lrcs image aura.3ds --azel 30,20 --by material --ground white -o aura.png\n";
 
 static const cli_option image_options[] = {
-    CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"o", 1, 0},
-    {"visible", 1, 0}, {"vtk", 1, 0},        {"by", 1, 0},      {"size", 1, 0},
-    {"ground", 1, 0},  {"help", 0, 0},       {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,         CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"o", CLI_FILE, 0},
+    {"visible", CLI_FILE, 0}, {"vtk", CLI_FILE, 0}, {"by", 1, 0},      {"size", 1, 0},
+    {"ground", 1, 0},         {"help", 0, 0},       {NULL, 0, 0}};
 
 enum image_file { IMAGE_PNG, IMAGE_SVG, IMAGE_VTK, IMAGE_FILES };
 

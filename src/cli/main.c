@@ -6,10 +6,9 @@
 #include <string.h>
 
 static const cli_command *const main_commands[] = {
-    &cli_run_command,    &cli_image_command,    &cli_info_command,  &cli_shape_command,
-    &cli_verify_command, &cli_converge_command, &cli_sweep_command, &cli_merge_command,
-    &cli_report_command, &cli_fit_command,      &cli_study_command, &cli_vectors_command,
-    &cli_compare_command};
+    &cli_run_command,    &cli_image_command,    &cli_info_command,    &cli_shape_command,
+    &cli_verify_command, &cli_converge_command, &cli_sweep_command,   &cli_merge_command,
+    &cli_report_command, &cli_fit_command,      &cli_vectors_command, &cli_compare_command};
 
 #define MAIN_COMMANDS (sizeof main_commands / sizeof main_commands[0])
 
@@ -28,7 +27,6 @@ static const char main_help[] =
     "  merge FILE...   the shards of a sweep made whole\n"
     "  report SCENE    all of it on one page of HTML, with pictures and charts inside\n"
     "  fit DATA.csv    a material's A, B, s, m from measured BRDF against angle\n"
-    "  study           what sigma of simple bodies depends on: tables, plots, laws\n"
     "  vectors DIR     a conformance kit for other implementations: scenes, attitudes, truth\n"
     "  compare DIR ..  what another implementation answered to a kit: a verdict, and why\n"
     "  help COMMAND    options, units and examples of one command; --man: all as a manual page;\n"
@@ -137,6 +135,7 @@ int main(int count, char **word)
     }
     cli_args args;
     int code = cli_args_read(command, count - 2, word + 2, &args);
+    code = code ? code : cli_outputs_places(&args);
     if (code == 0) {
         code = cli_finish(command->run(&args));
     }

@@ -11,7 +11,8 @@ static const char merge_help[] =
     "\n"
     "Joins the files that lrcs sweep --shard made, in any order, into the file that one sweep "
     "would\n"
-    "have made, byte for byte. All must be of one sweep, and hold every row once.\n"
+    "have made, byte for byte. All must be of one sweep, hold every row once, and agree with the\n"
+    "checksum in their last lines. FILE.npy.head says of which sweep a map is.\n"
     "\n"
     "options\n"
     "  -o OUT                FILE.csv or FILE.jsonl, as the shards are; or FILE.npy; '-' for\n"
@@ -21,7 +22,7 @@ static const char merge_help[] =
     "  lrcs merge map.1.csv map.2.csv map.3.csv -o map.csv\n"
     "  lrcs merge map.*.csv -o map.npy\n";
 
-static const cli_option merge_options[] = {{"o", 1, 0}, {"help", 0, 0}, {NULL, 0, 0}};
+static const cli_option merge_options[] = {{"o", CLI_FILE, 0}, {"help", 0, 0}, {NULL, 0, 0}};
 
 typedef struct merge_shard {
     const char *path;
@@ -36,25 +37,29 @@ static int shard_refuse(const merge_shard *shard, const char *what)
     return CLI_FAILED;
 }
 
-/* Where its rows stand; they must follow one another. */
+/* Where its rows stand; they must follow one another, whole to the checksum. */
 static int shard_rows(merge_shard *shard)
 {
     sweep_text text = shard->text;
     sweep_row row;
     const char *line;
     size_t size;
-    while (cli_text_next(&text, &row, &line, &size)) {
+    int more;
+    while ((more = cli_text_next(&text, NULL, &row, &line, &size)) == 1) {
         shard->first = shard->rows == 0 ? row.index : shard->first;
         if (row.index != shard->first + shard->rows) {
             return shard_refuse(shard, "its rows are not in order");
         }
         shard->rows++;
     }
-    int mean = shard->rows == text.rows && text.has_mean;
-    if (text.at < text.end && !mean) {
-        return shard_refuse(shard, "ends in what is no row: was its sweep stopped? --resume");
+    int end = more == 0 ? cli_text_end(&text) : -1;
+    if (end < 0) {
+        fprintf(stderr, "lrcs: %s: is damaged: %s\n", shard->path, text.fault);
+        return CLI_FAILED;
     }
-    return 0;
+    return end == 1 ? 0
+                    : shard_refuse(shard, "ends without its checksum: was its sweep stopped? "
+                                          "--resume goes on with it");
 }
 
 static int shard_read(merge_shard *shard, const merge_shard *first)
@@ -103,32 +108,55 @@ static int shards_check(const merge_shard *shard, int count)
     return 0;
 }
 
-static void shards_write(FILE *out, int npy, const merge_shard *shard, int count)
-{
-    const sweep_text *head = &shard[0].text;
-    sweep_tally tally = {0};
-    sweep_row row;
+/* The rows of all shards, in order. */
+typedef struct merge_rows {
+    const merge_shard *shard;
+    int count, at;
+    sweep_text text; /* of shard `at`, what is left of it */
     const char *line;
     size_t size;
-    if (npy) {
-        cli_npy_head(out, head);
-    } else {
-        fwrite(head->head, 1, head->head_size, out);
-    }
-    for (int i = 0; i < count; i++) {
-        sweep_text text = shard[i].text;
-        while (cli_text_next(&text, &row, &line, &size)) {
-            cli_tally_add(&tally, &row);
-            if (npy) {
-                cli_npy_row(out, head, &row);
-            } else {
-                fwrite(line, 1, size, out);
-            }
+} merge_rows;
+
+static int merge_next(void *context, sweep_row *row)
+{
+    merge_rows *rows = context;
+    while (rows->at < rows->count) {
+        if (cli_text_next(&rows->text, NULL, row, &rows->line, &rows->size) == 1) {
+            return 1;
         }
+        rows->at++;
+        rows->text = rows->at < rows->count ? rows->shard[rows->at].text : rows->text;
     }
-    if (head->has_mean && !npy) {
-        cli_rows_mean(out, head->format, &tally);
+    return 0;
+}
+
+/* Bytes to the output, and into its checksum. */
+static uint64_t sum_write(FILE *out, const char *bytes, size_t size, uint64_t sum)
+{
+    fwrite(bytes, 1, size, out);
+    return cli_sum_more(sum, bytes, size);
+}
+
+static void rows_write(FILE *out, merge_rows *rows)
+{
+    const sweep_text *head = &rows->shard[0].text;
+    sweep_tally tally = {0};
+    sweep_row row;
+    uint64_t sum = sum_write(out, head->head, head->head_size, SWEEP_SUM_BEGIN);
+    while (merge_next(rows, &row) == 1) {
+        cli_tally_add(&tally, &row);
+        sum = sum_write(out, rows->line, rows->size, sum);
     }
+    if (head->has_mean) {
+        char mean[256] = "";
+        FILE *text = fmemopen(mean, sizeof mean, "w");
+        if (text) {
+            cli_rows_mean(text, head->format, &tally);
+            fclose(text);
+        }
+        sum = sum_write(out, mean, strlen(mean), sum);
+    }
+    cli_rows_sum(out, head->format, sum);
 }
 
 /* The form of OUT is that of the shards, or a map. 0 or CLI_USAGE. */
@@ -152,10 +180,14 @@ static int merge_write(const sweep_file *file, const merge_shard *shard, int cou
 {
     lrcs_host_error error;
     lrcs_host_output out;
+    merge_rows rows = {.shard = shard, .count = count, .text = shard[0].text};
+    if (file->npy) {
+        return cli_map_write(file->path, &shard[0].text, merge_next, &rows);
+    }
     if (lrcs_host_output_open(file->path ? file->path : "-", &out, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    shards_write(out.stream, file->npy, shard, count);
+    rows_write(out.stream, &rows);
     return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? CLI_DONE : cli_failed(&error);
 }
 

@@ -3,14 +3,53 @@
    from, and that each appears whole or not at all. What stands in them is the command's. */
 #include "cli/cli.h"
 
+#include <errno.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 int cli_extension(const char *path, const char *extension)
 {
     size_t size = strlen(path);
     size_t end = strlen(extension);
     return size > end && strcasecmp(path + size - end, extension) == 0;
+}
+
+/* Can a file of that name be written: no folder, and in a folder that is there? */
+static int output_place(const char *path)
+{
+    struct stat about;
+    char folder[4096] = ".";
+    const char *slash = strrchr(path, '/');
+    if (strcmp(path, "-") == 0) {
+        return 0;
+    }
+    if (slash && (size_t)(slash - path) + 2 < sizeof folder) {
+        snprintf(folder, sizeof folder, "%.*s/", (int)(slash - path), path);
+    }
+    int there = stat(path, &about) == 0;
+    if (there && S_ISDIR(about.st_mode)) {
+        errno = EISDIR;
+    } else if ((there && !S_ISREG(about.st_mode)) || access(folder, W_OK | X_OK) == 0) {
+        return 0; /* a device is written as it is */
+    }
+    fprintf(stderr, "lrcs: %s: cannot write: %s\n", path, strerror(errno));
+    return CLI_FAILED;
+}
+
+int cli_outputs_places(const cli_args *args)
+{
+    int code = 0;
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        const cli_option *option = args->command->option;
+        while (option->name && strcmp(option->name, args->given[i].name) != 0) {
+            option++;
+        }
+        code =
+            option->name && option->has_value == CLI_FILE ? output_place(args->given[i].value) : 0;
+    }
+    return code;
 }
 
 int cli_outputs_apart(const cli_command *command, const cli_output *output, int count)

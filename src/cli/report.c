@@ -38,8 +38,9 @@ static const char report_help[] =
     "-o lander.html\n";
 
 static const cli_option report_options[] = {
-    CLI_POSE_OPTIONS,   CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"o", 1, 0},    {"seconds", 1, 0},
-    {"cut-step", 1, 0}, {"map-step", 1, 0},   {"jobs", 1, 0},    {"help", 0, 0}, {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS,  {"o", CLI_FILE, 0},
+    {"seconds", 1, 0}, {"cut-step", 1, 0},   {"map-step", 1, 0}, {"jobs", 1, 0},
+    {"help", 0, 0},    {NULL, 0, 0}};
 
 #define REPORT_SECONDS   40.0
 #define REPORT_COMPARE   0.25 /* of the time is for the comparison */

@@ -57,11 +57,14 @@ static const char run_help[] =
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
-static const cli_option run_options[] = {
-    CLI_POSE_OPTIONS,     CLI_ACCURACY_OPTIONS,  CLI_SCENE_OPTIONS, {"json", 0, 0},
-    {"facets", 1, 0},     {"polygons", 1, 0},    {"image", 1, 0},   {"image-size", 1, 0},
-    {"explain", 0, 0},    {"time-budget", 1, 0}, {"shares", 0, 0},  {"precision", 1, 0},
-    {"depth-bits", 1, 0}, {"steps", 1, 0},       {"help", 0, 0},    {NULL, 0, 0}};
+static const cli_option run_options[] = {CLI_POSE_OPTIONS,        CLI_ACCURACY_OPTIONS,
+                                         CLI_SCENE_OPTIONS,       {"json", 0, 0},
+                                         {"facets", CLI_FILE, 0}, {"polygons", CLI_FILE, 0},
+                                         {"image", CLI_FILE, 0},  {"image-size", 1, 0},
+                                         {"explain", 0, 0},       {"time-budget", 1, 0},
+                                         {"shares", 0, 0},        {"precision", 1, 0},
+                                         {"depth-bits", 1, 0},    {"steps", 1, 0},
+                                         {"help", 0, 0},          {NULL, 0, 0}};
 
 /* ---- options ---- */
 

@@ -9,21 +9,18 @@
 static const char sweep_help[] =
     "usage: lrcs sweep SCENE WHAT [options]\n"
     "\n"
-    "Computes sigma (m2) and its bound for every combination of what varies, the axis given last\n"
+    "Computes sigma (m2) and its bound for every combination of what varies, the last axis\n"
     "fastest. Rows are the same bytes for any number of threads.\n"
     "\n"
     "what varies: RANGE is A:B:STEP, both ends included, or one number; steps do not drift\n"
     "  --az RANGE, --el RANGE  azimuth and elevation of the laser, deg, body frame\n"
     "  --euler SEQ:a,b,c     deg, each a RANGE; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c)\n"
-    "  --rotate AXIS:RANGE   the body turns about its axis x, y, z or u,v,w, deg; from the pose "
-    "of\n"
+    "  --rotate AXIS:RANGE   turns about the body's x, y, z or u,v,w, deg; from the pose of\n"
     "                        --direction, --azel, --euler or --quaternion, else laser on +z\n"
-    "  --sphere N            N near-uniform directions, and the mean of sigma over them with an\n"
-    "                        estimate of its standard error\n"
-    "  --poses FILE.csv      rows of time,w,x,y,z (quaternion, body to observation) or of\n"
-    "                        time,x,y,z (direction to the laser, body frame)\n"
-    "  --joint PART:RANGE    the joint's angle, deg; several parts as NAME,NAME or '*' turn "
-    "together\n"
+    "  --sphere N            N near-uniform directions, and their mean with its standard error\n"
+    "  --poses FILE.csv      rows time,w,x,y,z (quaternion, body to observation) or time,x,y,z\n"
+    "                        (direction to the laser, body frame)\n"
+    "  --joint PART:RANGE    the joint's angle, deg; several as NAME,NAME or '*' turn together\n"
     "  --vary MATERIAL.KEY:RANGE  A, B, s or m of a material\n"
     "  --vary PART.KEY:RANGE   of a shape: size_x, size_y, size_z, radius, radius2, length (m) or\n"
     "                        half_angle_deg; shapes are tessellated anew for every value\n"
@@ -31,42 +28,38 @@ static const char sweep_help[] =
     "output\n"
     "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: shape of the map, then "
     "sigma\n"
-    "                        and bound); without it CSV on standard output\n"
-    "  --json                JSON lines on standard output\n"
-    "  --resume              go on with what an earlier sweep left in FILE.partial\n"
+    "                        and bound; FILE.npy.head says of what); without it CSV on stdout\n"
+    "  --json                JSON lines on stdout\n"
+    "  --resume              go on with FILE.partial, its rows checked; never replaces a whole "
+    "FILE\n"
     "  --shard K/N           only the K-th of N parts of the rows; lrcs merge joins the files\n"
-    "  --jobs N              threads (one for each processor)\n"
-    "  --plot FILE           also drawn, as FILE.svg or FILE.png; repeatable. What varies, one or "
-    "two\n"
-    "                        things: curves, up to 7 of them, or a map with contours\n"
+    "  --jobs N              threads (one for each processor; fewer where memory is short)\n"
+    "  --plot FILE           FILE.svg or FILE.png, repeatable: up to 7 curves, or a map\n"
     "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
     "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
-    "  --brightest N         with -o FILE: the N brightest peaks, who makes each, on standard "
-    "output;\n"
-    "                        a peak outshines the rows one step away (--sphere: those around)\n"
+    "  --brightest N         with -o FILE: the N brightest peaks, who makes each, on stdout; a\n"
+    "                        peak outshines the rows one step away (--sphere: those around)\n"
     "\n"
     "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
-    "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, flags. Exit 3 where a row "
-    "misses\n"
-    "the tolerance; stderr says how many. With --accept estimate or any, .npy has a third number: "
-    "1\n"
-    "by estimate, 2 by any, 0 by bound, -1 missed.\n"
+    "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, sigma_glint_m2,\n"
+    "sigma_diffuse_m2, flags; last a checksum, a comment in CSV; JSON lines without an index are\n"
+    "no rows. Exit 3 where a row misses the tolerance; stderr says how many. With --accept\n"
+    "estimate or any, .npy has a third number: 1 by estimate, 2 by any, 0 by bound, -1 missed.\n"
     "\n"
     "examples\n"
-    "  lrcs sweep demo --az 0:360:1 --el 0 -o cut.csv --plot cut.svg --plot cut.png\n"
     "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
     "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy --brightest 10\n"
     "  lrcs sweep demo --sphere 1000 --tolerance 1e-2 --accept estimate\n"
-    "  lrcs sweep demo --joint '*:0:90:5' --azel 50,40\n"
-    "  lrcs sweep demo --vary foil.s:0.02:0.5:0.02 --az 0:90:1 -o foil.npy\n"
+    "  lrcs sweep demo --vary foil.s:0.02:0.5:0.02 --az 0:90:1\n"
     "  lrcs sweep demo --poses track.csv -o track.jsonl --resume\n"
     "  lrcs sweep demo --az 0:360:1 --el -90:90:1 --shard 3/16 -o map.3.csv\n";
 
 static const cli_option sweep_options[] = {
-    CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"az", 1, 0},        {"el", 1, 0},
-    {"joint", 1, 1},  {"vary", 1, 1},       {"rotate", 1, 0},  {"sphere", 1, 0},    {"poses", 1, 0},
-    {"o", 1, 0},      {"json", 0, 0},       {"resume", 0, 0},  {"shard", 1, 0},     {"jobs", 1, 0},
-    {"plot", 1, 1},   {"dbsm", 0, 0},       {"polar", 0, 0},   {"brightest", 1, 0}, {"help", 0, 0},
+    CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS,   {"az", 1, 0},
+    {"el", 1, 0},     {"joint", 1, 1},      {"vary", 1, 1},      {"rotate", 1, 0},
+    {"sphere", 1, 0}, {"poses", 1, 0},      {"o", CLI_FILE, 0},  {"json", 0, 0},
+    {"resume", 0, 0}, {"shard", 1, 0},      {"jobs", 1, 0},      {"plot", CLI_FILE, 1},
+    {"dbsm", 0, 0},   {"polar", 0, 0},      {"brightest", 1, 0}, {"help", 0, 0},
     {NULL, 0, 0}};
 
 #define JOBS_MOST 1024.0
@@ -176,6 +169,8 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
     sweep_row row = {.index = index,
                      .sigma_m2 = result->sigma_m2,
                      .bound_m2 = result->bound_m2,
+                     .sigma_glint_m2 = result->sigma_glint_m2,
+                     .sigma_diffuse_m2 = result->sigma_diffuse_m2,
                      .flags = result->flags};
     cli_plan_values(&job->plan, index, row.value);
     job->notices |= result->notices;
@@ -255,8 +250,12 @@ static void job_say(const sweep_job *job)
         }
     }
     if (cli_plan_has_mean(&job->plan) && tally->rows == job->plan.rows) {
-        fprintf(stderr, "mean of sigma %.10g m2, standard error %.3g m2, mean bound %.3g m2\n",
-                tally->mean, cli_tally_error(tally), tally->bound / (double)tally->rows);
+        char spread[40] = "not known from one direction";
+        if (tally->rows > 1) {
+            snprintf(spread, sizeof spread, "%.3g m2", cli_tally_error(tally));
+        }
+        fprintf(stderr, "mean of sigma %.10g m2, standard error %s, mean bound %.3g m2\n",
+                tally->mean, spread, tally->bound / (double)tally->rows);
     }
     if (tally->missed > 0) {
         fprintf(stderr, "lrcs: %llu of %llu rows miss the tolerance %g\n",

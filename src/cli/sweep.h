@@ -9,6 +9,7 @@
 
 #define SWEEP_AXES    8
 #define SWEEP_COLUMNS 12
+#define SWEEP_FIELDS  6 /* of a row after its values: sigma to flags */
 
 /* ---- ranges ---- */
 
@@ -113,7 +114,7 @@ enum sweep_format { SWEEP_CSV, SWEEP_JSONL, SWEEP_NPY };
 typedef struct sweep_row {
     uint64_t index;
     double value[SWEEP_COLUMNS];
-    double sigma_m2, bound_m2;
+    double sigma_m2, bound_m2, sigma_glint_m2, sigma_diffuse_m2;
     uint32_t flags;
 } sweep_row;
 
@@ -145,10 +146,16 @@ void cli_tally_add(sweep_tally *tally, const sweep_row *row);
 /* sigma's standard error, as if directions were drawn at random. */
 double cli_tally_error(const sweep_tally *tally);
 
-/* The first lines, one row, and for --sphere the last line. */
+/* The first lines, one row, and for --sphere a line after the rows. */
 void cli_rows_head(FILE *out, int format, const sweep_head *head, const sweep_plan *plan);
 void cli_rows_put(FILE *out, int format, const sweep_plan *plan, const sweep_row *row);
 void cli_rows_mean(FILE *out, int format, const sweep_tally *tally);
+
+/* The last line: FNV-1a of all bytes before it. The sum of no bytes, of more bytes, and the line,
+   which always has the same length in a format. */
+#define SWEEP_SUM_BEGIN 0xcbf29ce484222325u
+uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size);
+void cli_rows_sum(FILE *out, int format, uint64_t sum);
 
 /* ---- rows that were written ---- */
 
@@ -158,37 +165,56 @@ typedef struct sweep_text {
     const char *head; /* its first lines */
     size_t head_size;
     const char *at, *end; /* what follows */
+    uint64_t line;        /* that `at` stands at, from 1 */
     uint64_t rows;        /* of the whole sweep */
     uint64_t shape[SWEEP_AXES + 1];
     uint32_t dimensions;
-    int has_mean; /* one --sphere */
-    int flagged;  /* rows may be accepted unproved: a map of them shows their flags */
+    uint32_t columns; /* values of a row */
+    int has_mean;     /* one --sphere */
+    int flagged;      /* rows may be accepted unproved: a map of them shows their flags */
+    char fault[200];  /* what is wrong with the line at `at` */
 } sweep_text;
 
 /* 0, or -1 where the bytes are no rows of a sweep. */
 int cli_text_open(const char *bytes, size_t size, sweep_text *text);
 
-/* The next whole row, of which value stays as it is; line and line_size say where it stands.
-   1; 0 at the end, or before what is no row. */
-int cli_text_next(sweep_text *text, sweep_row *row, const char **line, size_t *line_size);
+/* The next row; line and line_size say where it stands. Every field is held against what it must
+   be: as many as the head names, finite, dBsm that of sigma, bound >= 0, glint and diffuse adding
+   up, flags known, and with a plan (or NULL) the values of that row. 1; 0 after the last row, whose
+   line may be cut short; -1 where a whole line is no such row: text->fault says why. */
+int cli_text_next(sweep_text *text, const sweep_plan *plan, sweep_row *row, const char **line,
+                  size_t *line_size);
 
-/* A NumPy array of shape (.., 2), sigma and bound, or (.., 3), where text->flagged: 0 in the third
-   place where the bound meets the tolerance, 1 where the estimate was accepted, 2 where any answer
-   was, -1 where the tolerance is missed. Its head, and each row in order. */
-void cli_npy_head(FILE *out, const sweep_text *text);
-void cli_npy_row(FILE *out, const sweep_text *text, const sweep_row *row);
+/* After the last row: 1 where nothing follows but the mean of a sphere and a checksum that agrees;
+   0 where there is no checksum, or one cut short; -1, with text->fault, where it does not agree or
+   something else follows. */
+int cli_text_end(sweep_text *text);
+
+/* ---- maps ---- */
+
+/* Writes FILE.npy, a NumPy array of shape (.., 2), sigma and bound, or (.., 3), where
+   text->flagged: 0 in the third place where the bound meets the tolerance, 1 where the estimate was
+   accepted, 2 where any answer was, -1 where the tolerance is missed. And FILE.npy.head, the first
+   lines of its rows with a checksum of the map. The rows are those that `next` gives in order (1: a
+   row; 0: the end; else it has failed and said so). 0 or CLI_FAILED. */
+typedef int sweep_next(void *context, sweep_row *row);
+int cli_map_write(const char *path, const sweep_text *text, sweep_next *next, void *context);
 
 /* ---- files ---- */
 
 /* Where rows go: to standard output, or to FILE.partial, which becomes FILE when it is whole and is
    valid at every line before. */
 typedef struct sweep_file {
-    int format;           /* of the rows: SWEEP_CSV or SWEEP_JSONL */
-    int npy;              /* they become a map at the end */
-    int whole;            /* FILE is there already, and is what would be made */
-    char *path, *partial; /* NULL: standard output */
-    FILE *stream;
-    uint64_t next; /* the first row that is still to come */
+    int format;                       /* of the rows: SWEEP_CSV or SWEEP_JSONL */
+    int npy;                          /* they become a map at the end */
+    char *path, *partial, *lock_path; /* NULL: standard output */
+    int lock;                         /* descriptor of FILE.lock; 0: not locked */
+    int descriptor;                   /* of FILE.partial; 0: not open */
+    FILE *stream;                     /* rows not yet handed to the system, in memory */
+    char *waiting;                    /* those bytes */
+    size_t waiting_size;
+    uint64_t size, sum; /* bytes in FILE.partial before its checksum, and that */
+    uint64_t next;      /* the first row that is still to come */
     sweep_tally tally;
     double flushed;   /* when rows were last handed to the system, s */
     double (*row)[2]; /* sigma and bound of every row, or NULL; whoever made it frees it */
@@ -197,7 +223,8 @@ typedef struct sweep_file {
 /* What -o and --json ask for; 0 or CLI_USAGE. */
 int cli_file_read(const cli_args *args, sweep_file *file);
 
-/* Begins, or goes on where --resume finds rows of the same head. 0 or CLI_FAILED. */
+/* Locks the file; then begins, or goes on where --resume finds rows of the same head. A second
+   process is told who holds the lock. 0 or CLI_FAILED. */
 int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head,
                   const sweep_plan *plan);
 
@@ -209,6 +236,18 @@ int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
    0 or CLI_FAILED. */
 int cli_file_close(sweep_file *file, const sweep_plan *plan, int all);
 void cli_file_free(sweep_file *file);
+
+/* Takes up a row that is written, now or before. */
+void cli_file_take(sweep_file *file, const sweep_row *row);
+
+/* Takes up the rows of FILE.npy where FILE.npy.head begins with one of these heads and has the
+   map's checksum. 0, or -1 with nothing taken. */
+int cli_map_recover(sweep_file *file, const sweep_plan *plan, const char *const head[2],
+                    const size_t head_size[2]);
+
+/* FILE.lock: 0, or CLI_FAILED where another process holds it, with a message that says who. */
+int cli_lock_take(sweep_file *file);
+void cli_lock_drop(sweep_file *file);
 
 /* ---- plots ---- */
 

@@ -66,7 +66,7 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
         putc(',', out);
         csv_field(out, plan->column[i]);
     }
-    fputs(",sigma_m2,sigma_dbsm,bound_m2,flags\n", out);
+    fputs(",sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2,flags\n", out);
 }
 
 static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
@@ -79,6 +79,8 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     number_put(out, ",", row->sigma_m2);
     number_put(out, ",", row->sigma_m2 > 0.0 ? cli_dbsm(row->sigma_m2) : (double)NAN);
     number_put(out, ",", row->bound_m2);
+    number_put(out, ",", row->sigma_glint_m2);
+    number_put(out, ",", row->sigma_diffuse_m2);
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
             fprintf(out, "%s%s", before, lrcs_flag_text((int)bit));
@@ -129,6 +131,8 @@ static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     lrcs_host_json_number(&json, "sigma_dbsm",
                           row->sigma_m2 > 0.0 ? cli_dbsm(row->sigma_m2) : (double)NAN);
     lrcs_host_json_number(&json, "bound_m2", row->bound_m2);
+    lrcs_host_json_number(&json, "sigma_glint_m2", row->sigma_glint_m2);
+    lrcs_host_json_number(&json, "sigma_diffuse_m2", row->sigma_diffuse_m2);
     lrcs_host_json_begin(&json, "flags", LRCS_HOST_ROW_ARRAY);
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
@@ -175,4 +179,21 @@ void cli_rows_mean(FILE *out, int format, const sweep_tally *tally)
     number_put(out, "; standard_error_m2=", cli_tally_error(tally));
     number_put(out, "; mean_bound_m2=", bound);
     putc('\n', out);
+}
+
+uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < size; i++) {
+        sum = (sum ^ at[i]) * 0x100000001b3u;
+    }
+    return sum;
+}
+
+void cli_rows_sum(FILE *out, int format, uint64_t sum)
+{
+    fprintf(out,
+            format == SWEEP_JSONL ? "{\"checksum\": \"fnv1a:%016llx\"}\n"
+                                  : "# checksum=fnv1a:%016llx\n",
+            (unsigned long long)sum);
 }

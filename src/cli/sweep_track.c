@@ -117,15 +117,6 @@ static int first_read(track_reader *reader, sweep_track *track)
     return code ? code : row_read(reader, track);
 }
 
-static uint64_t bytes_hash(const unsigned char *bytes, size_t size)
-{
-    uint64_t hash = 0xcbf29ce484222325u; /* FNV-1a, as scene hashes */
-    for (size_t i = 0; i < size; i++) {
-        hash = (hash ^ bytes[i]) * 0x100000001b3u;
-    }
-    return hash;
-}
-
 static int track_parse(track_reader *reader, const lrcs_host_file *file, sweep_track *track)
 {
     size_t lines = 1;
@@ -156,7 +147,7 @@ int cli_track_read(const char *path, sweep_track *track)
     if (lrcs_host_file_read(path, &file, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    track->hash = bytes_hash(file.bytes, file.size);
+    track->hash = cli_sum_more(SWEEP_SUM_BEGIN, file.bytes, file.size);
     reader.table = lrcs_host_table_make(path, &file);
     int code = track_parse(&reader, &file, track);
     lrcs_host_file_free(&file);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which files a scene was read from, so that no output replaces one of them. A file is known by
-   device and node, whatever path leads to it. It decides nothing about what the files hold; devices
-   and pipes are not kept, for writing to them replaces nothing. */
+   device and node, whatever path leads to it. Models and scene files are regular files: devices and
+   pipes are refused. It decides nothing about what the files hold. */
 #include "host/input.h"
 
 #include <stdlib.h>
@@ -14,8 +14,13 @@ int lrcsi_host_input_read(lrcs_host_scene *scene, const char *path, lrcs_host_fi
                           lrcs_host_error *error)
 {
     struct stat about;
+    /* before it is opened: a pipe without a writer would wait for ever, a device need not end */
+    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)) {
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM,
+                               "%s: expected a regular file, found a device, pipe or socket", path);
+    }
     int status = lrcsi_host_file_read(path, file, &about, error);
-    if (status != LRCS_OK || !S_ISREG(about.st_mode)) {
+    if (status != LRCS_OK) {
         return status;
     }
     lrcs_host_input *input = lrcsi_host_take(scene, 1, sizeof *input);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Many poses over one prepared scene, or each over its own. It decides what each thread keeps (a
-   work area of its own) and how a pose that fails is told; in which order poses are run is the
-   crew's (host/crew). */
+   work area of its own), how many threads there are where memory is short, and how a pose that
+   fails is told; in which order poses are run is the crew's (host/crew). */
 #include <lrcs/sweep.h>
 
 #include <stdlib.h>
@@ -17,6 +17,7 @@ typedef struct sweep_slot {
     lrcs_pose pose;
     lrcs_result result;
     int status;
+    int crowded;           /* short of memory beside other threads: not an answer yet */
     lrcs_host_error error; /* where the status says so */
 } sweep_slot;
 
@@ -25,6 +26,8 @@ typedef struct sweep_run {
     const lrcs_run_options *options;
     const lrcs_host_sweep *sweep;
     lrcsi_host_area *area; /* one for each thread */
+    uint32_t threads;
+    int crowded; /* the sweep ended at a pose that may do with fewer threads */
     lrcs_host_error *error;
 } sweep_run;
 
@@ -53,14 +56,22 @@ static int sweep_one(const sweep_run *run, uint32_t member, uint64_t index, swee
 
 static void sweep_work(void *context, uint32_t member, uint64_t index, void *slot)
 {
+    const sweep_run *run = context;
     sweep_slot *one = slot;
-    one->status = sweep_one(context, member, index, one);
+    one->status = sweep_one(run, member, index, one);
+    one->crowded = run->threads > 1 &&
+                   (one->status == LRCS_E_SYSTEM || one->status == LRCS_E_MEMORY ||
+                    (one->status == LRCS_OK && (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)));
 }
 
 static int sweep_take(void *context, uint64_t index, const void *slot)
 {
-    const sweep_run *run = context;
+    sweep_run *run = context;
     const sweep_slot *one = slot;
+    if (one->crowded) {
+        run->crowded = 1;
+        return LRCS_E_SYSTEM;
+    }
     if (one->status != LRCS_OK) {
         return lrcsi_host_fail(run->error, one->status, "pose %llu: %.1000s",
                                (unsigned long long)index, one->error.text);
@@ -80,37 +91,57 @@ static uint32_t sweep_threads(const lrcs_host_sweep *sweep)
     return threads > 0 ? (uint32_t)threads : 1;
 }
 
+/* The poses from `taken` on, which it moves, by run->threads threads. */
+static int sweep_threads_run(sweep_run *run, uint64_t *taken)
+{
+    const lrcs_host_sweep *sweep = run->sweep;
+    uint64_t done = 0;
+    lrcsi_crew crew = {.first = sweep->first + *taken,
+                       .count = sweep->count - *taken,
+                       .members = run->threads,
+                       .slot_size = sizeof(sweep_slot),
+                       .context = run,
+                       .work = sweep_work,
+                       .take = sweep_take,
+                       .cancel = sweep->cancel};
+    run->crowded = 0;
+    run->area = calloc(run->threads, sizeof *run->area);
+    int status = run->area ? lrcsi_crew_run(&crew, &done, run->error)
+                           : lrcsi_host_fail_memory(run->error, run->threads * sizeof *run->area);
+    for (uint32_t i = 0; run->area && i < run->threads; i++) {
+        lrcsi_host_area_free(&run->area[i]);
+    }
+    free(run->area);
+    *taken += done;
+    return status;
+}
+
 int lrcs_host_sweep_run(const lrcs_host_scene *scene, const lrcs_run_options *options,
                         const lrcs_host_sweep *sweep, uint64_t *done, lrcs_host_error *error)
 {
     uint64_t taken = 0;
-    sweep_run run = {scene, options, sweep, NULL, error};
-    lrcsi_crew crew = {.first = sweep->first,
-                       .count = sweep->count,
-                       .members = sweep_threads(sweep),
-                       .slot_size = sizeof(sweep_slot),
-                       .context = &run,
-                       .work = sweep_work,
-                       .take = sweep_take,
-                       .cancel = sweep->cancel};
+    sweep_run run = {.scene = scene,
+                     .options = options,
+                     .sweep = sweep,
+                     .threads = sweep_threads(sweep),
+                     .error = error};
     int status;
     if ((!sweep->scene && !scene->prepared) || sweep->threads > SWEEP_THREADS ||
         sweep->count > UINT64_MAX - sweep->first) {
         status =
             lrcsi_host_fail(error, LRCS_E_ARGUMENT, "sweep: %s", lrcs_status_text(LRCS_E_ARGUMENT));
-    } else if (!(run.area = calloc(crew.members, sizeof *run.area))) {
-        status = lrcsi_host_fail_memory(error, crew.members * sizeof *run.area);
     } else {
-        status = lrcsi_crew_run(&crew, &taken, error);
+        status = sweep_threads_run(&run, &taken);
+        /* what is an answer for one thread is one: the loop ends there */
+        while (run.crowded) {
+            run.threads = (run.threads + 1) / 2;
+            status = sweep_threads_run(&run, &taken);
+        }
     }
     if (status == LRCS_E_CANCELLED) {
         lrcsi_host_fail(error, status, "stopped after %llu of %llu poses",
                         (unsigned long long)taken, (unsigned long long)sweep->count);
     }
-    for (uint32_t i = 0; run.area && i < crew.members; i++) {
-        lrcsi_host_area_free(&run.area[i]);
-    }
-    free(run.area);
     if (done) {
         *done = taken;
     }

@@ -30,6 +30,7 @@ typedef struct sigma_run {
     lrcsi_margin margin;
     const lrcsi_margin *doubt; /* margin, or NULL where none was made */
     lrcsi_visible *visible;
+    const unsigned char *answer;  /* of facets of which visible[] tells nothing, or NULL */
     lrcsi_curved *curved;         /* NULL: all facets are flat */
     lrcsi_cubature_cell *waiting; /* NULL: the same */
     double tolerance;
@@ -148,8 +149,8 @@ static int run_image(sigma_run *run)
 
 static void run_total(sigma_run *run, lrcs_facet_record *records)
 {
-    run->total =
-        lrcsi_total_make(&run->view, &run->plan, run->visible, run->curved, run->doubt, records);
+    const lrcsi_areas areas = {run->visible, run->answer};
+    run->total = lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->doubt, records);
 }
 
 static lrcsi_curving run_curving(const sigma_run *run)
@@ -311,14 +312,24 @@ static int run_preview_at(sigma_run *run, uint32_t size)
     return status;
 }
 
+/* Is the sum all that reads visible areas? It takes those of facets that are seen whole or not at
+   all from their answers; tessellation, and what is known of fronts and backs, need them all. */
+static int run_sums_alone(const sigma_run *run)
+{
+    const lrcs_prepared *p = run->view.prepared;
+    return !p->curved && !run->plan.unshadowed && !(p->solid && run->view.backs_cast);
+}
+
 static int run_exact(sigma_run *run)
 {
     lrcsi_curving how = run_curving(run);
     int status = run_contest(run);
     if (status == LRCS_OK) {
-        status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
-                                                  run->curved)
-                             : lrcsi_occlude_all(&run->contest, run->work, run->visible);
+        status =
+            run->curved
+                ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible, run->curved)
+                : lrcsi_occlude_all(&run->contest, run->work,
+                                    run_sums_alone(run) ? &run->answer : NULL, run->visible);
     }
     if (status == LRCS_OK) {
         run->size = 0;
@@ -359,6 +370,7 @@ static int preview_refines(const sigma_run *run, uint32_t size)
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
     lrcsi_known known;
+    run->answer = NULL;
     size_t mark = run->work->used;
     int samples_only = run_samples_only(run, options);
     uint32_t size = run->plan.size;

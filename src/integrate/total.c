@@ -22,6 +22,7 @@
 #include "integrate/tessellation.h"
 #include "optics/reflect.h"
 #include "optics/shade.h"
+#include "visibility/query.h"
 
 #define U       0x1p-53
 #define FOUR_PI 12.566370614359172954
@@ -47,6 +48,7 @@ typedef struct total_job {
     const lrcsi_view *view;
     const lrcsi_plan *plan;
     const lrcsi_visible *visible; /* NULL: all that nothing is known to hide */
+    const unsigned char *answer;  /* lrcsi_areas */
     const lrcsi_curved *curved;   /* NULL: all facets are flat */
     const lrcsi_margin *margin;   /* NULL: none was made */
     lrcs_facet_record *records;   /* NULL: none asked for */
@@ -225,9 +227,19 @@ static void total_finish(total_job *job)
     total->seen = sums->seen;
 }
 
+/* Is all of the facet visible, or nothing, as its answer tells? */
+static inline int facet_answered(const total_job *job, uint32_t facet)
+{
+    return job->answer && job->answer[facet] != LRCSI_QUERY_UNDECIDED;
+}
+
 /* What is visible of a facet. */
 static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)
 {
+    if (facet_answered(job, facet)) {
+        double area = job->answer[facet] == LRCSI_QUERY_VISIBLE ? tilt->projected : 0;
+        return (lrcsi_visible){area, area, area, 0, 0};
+    }
     if (job->visible) {
         return job->visible[facet];
     }
@@ -273,6 +285,13 @@ static void sum_precisely(total_job *job, uint32_t facet)
     }
 }
 
+/* The visible area of a facet that shows, where areas were found. */
+static inline double facet_area(const total_job *job, uint32_t facet)
+{
+    return facet_answered(job, facet) ? lrcsi_view_projected(job->view, facet)
+                                      : job->visible[facet].area;
+}
+
 /* A back side that shows and does not reflect. */
 static void sum_back(total_job *job, double area)
 {
@@ -281,9 +300,16 @@ static void sum_back(total_job *job, double area)
     job->total.back_sides += area > 0 ? 1 : 0;
 }
 
+/* Does something of a facet show, where areas were found? */
+static inline int area_shows(const total_job *job, uint32_t facet)
+{
+    return facet_answered(job, facet) ? job->answer[facet] == LRCSI_QUERY_VISIBLE
+                                      : job->visible[facet].high > 0;
+}
+
 static int facet_shows(const total_job *job, uint32_t facet)
 {
-    return job->visible ? job->visible[facet].high > 0 : lrcsi_grid_casts(job->view, facet);
+    return job->visible ? area_shows(job, facet) : lrcsi_grid_casts(job->view, facet);
 }
 
 /* Any facet, by its exact facing. */
@@ -295,7 +321,7 @@ static void sum_facet(total_job *job, uint32_t facet)
         sum_precisely(job, facet);
     } else if (shows) {
         sum_back(job,
-                 job->visible ? job->visible[facet].area : lrcsi_view_projected(job->view, facet));
+                 job->visible ? facet_area(job, facet) : lrcsi_view_projected(job->view, facet));
     } else if (reflects) {
         job->total.hidden++;
     }
@@ -330,7 +356,7 @@ static void block_doubts(total_job *job, const total_batch *batch)
         }
         uint32_t facet = batch->facet[i];
         const lrcsi_visible *visible = &job->visible[facet];
-        if (visible->low < visible->high) {
+        if (!facet_answered(job, facet) && visible->low < visible->high) {
             add_doubt(&job->sums, per_area, visible);
             count_shown(&job->total, lrcsi_view_projected(job->view, facet), visible);
         }
@@ -385,8 +411,7 @@ static void block_run(total_job *job, total_batch *batch)
 static inline int side_shows(const total_job *job, uint32_t facet, double side)
 {
     int most = side > 0 ? LRCSI_REDUNDANT : LRCSI_REDUNDANT_FROM_BEHIND;
-    return job->visible ? job->visible[facet].high > 0
-                        : job->view->prepared->redundant[facet] < most;
+    return job->visible ? area_shows(job, facet) : job->view->prepared->redundant[facet] < most;
 }
 
 /* Of facets that reflect, those that show stay listed; ones with curved normals are summed at once.
@@ -432,8 +457,9 @@ static void batch_gather(total_job *job, total_batch *batch, uint32_t place, con
             batch->facet[i] = b->facet[at];
         }
         for (uint32_t i = batch->count; job->visible && i < batch->count + take; i++) {
-            batch->area[i] = job->visible[batch->facet[i]].area;
-            batch->most[i] = job->visible[batch->facet[i]].high;
+            uint32_t f = batch->facet[i];
+            batch->area[i] = facet_area(job, f);
+            batch->most[i] = facet_answered(job, f) ? batch->area[i] : job->visible[f].high;
         }
         batch->seen = 1;
         batch->count += take;
@@ -465,9 +491,10 @@ static void batch_backs(total_job *job, total_batch *batch, uint32_t place, cons
         memset(area, 0, sizeof area);
         for (uint32_t k = 0; k < count; k++) {
             uint32_t facet = b->facet[place + back[k]];
-            double shown =
-                job->visible ? job->visible[facet].area : -dot[back[k]] * b->area[place + back[k]];
-            area[k] = side_shows(job, facet, -1) ? shown : 0;
+            if (side_shows(job, facet, -1)) {
+                area[k] = job->visible ? facet_area(job, facet)
+                                       : -dot[back[k]] * b->area[place + back[k]];
+            }
             job->total.back_sides += area[k] > 0;
         }
     } else {
@@ -612,13 +639,14 @@ static void records_start(const total_job *job)
 }
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                             const lrcsi_visible *visible, const lrcsi_curved *curved,
+                             const lrcsi_areas *areas, const lrcsi_curved *curved,
                              const lrcsi_margin *margin, lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
     total_job job = {.view = view,
                      .plan = plan,
-                     .visible = visible,
+                     .visible = areas->visible,
+                     .answer = areas->answer,
                      .curved = curved,
                      .margin = margin,
                      .records = records};

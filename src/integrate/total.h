@@ -17,14 +17,21 @@ typedef struct lrcsi_total {
     uint32_t seen; /* effects that some facet calls for which may be seen: GLINT, DIFFUSE bits */
 } lrcsi_total;
 
-/* Given: the view, its plan, and the visible area of each facet (NULL: by method facet, whose plan
-   tells them); where the plan does not know every front facet to be wholly visible, on the true
-   shapes as on their meshes, the margin of doubt about the true shapes (NULL: none was made).
+/* The visible areas of facets: all, or nothing, of those whose answer[] is LRCSI_QUERY_VISIBLE or
+   LRCSI_QUERY_HIDDEN; visible[] has those of the others, and of all where answer is NULL. */
+typedef struct lrcsi_areas {
+    const lrcsi_visible *visible; /* NULL: by method facet, whose plan tells them */
+    const unsigned char *answer;
+} lrcsi_areas;
+
+/* Given: the view, its plan, and the visible areas (answer NULL where shapes are curved); where the
+   plan does not know every front facet to be wholly visible, on the true shapes as on their meshes,
+   the margin of doubt about the true shapes (NULL: none was made).
    Facets with curved normals come with their own sums in curved[facet_count]; NULL: all are flat.
    Returned: the total, summed material by material, each in facet order; records[facet_count]
    unless NULL. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                             const lrcsi_visible *visible, const lrcsi_curved *curved,
+                             const lrcsi_areas *areas, const lrcsi_curved *curved,
                              const lrcsi_margin *margin, lrcs_facet_record *records);
 
 #endif

@@ -221,15 +221,17 @@ static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const vertex_rin
            lrcsi_exact_turn(vertex[v].x, vertex[r->end].x, vertex[r->start].x, m) > 0;
 }
 
-/* Of a facet's proved points with many facets, the one with the most, or LRCS_NONE. */
+/* Of a facet's points with many facets the one with the most, a proved one before others; or
+   LRCS_NONE. */
 static uint32_t apex_of(const lrcs_facet *facet, const uint32_t *weld, const vertex_ring *rings,
                         const unsigned char *proved)
 {
     uint32_t apex = LRCS_NONE;
     for (int k = 0; k < 3; k++) {
         uint32_t v = weld[facet->corner[k]];
-        if (proved[v] && rings[v].count >= FAN_FACETS &&
-            (apex == LRCS_NONE || rings[v].count > rings[apex].count)) {
+        if (rings[v].count >= FAN_FACETS &&
+            (apex == LRCS_NONE || proved[v] > proved[apex] ||
+             (proved[v] == proved[apex] && rings[v].count > rings[apex].count))) {
             apex = v;
         }
     }

@@ -12,7 +12,8 @@ size_t lrcsi_rings_need(uint32_t vertex_count);
    but the point and the sides that two of them have in common. Facets marked in `skip` (which may
    be NULL) are left out.
    Returned: proved[vertex_count]; apex[facet], unless apex is NULL: of a facet's corners, the
-   proved point with the most facets if that has at least 32, else LRCS_NONE. Status: LRCS_OK;
+   point with the most facets of those that have at least 32, a proved one before others; LRCS_NONE
+   where there is none. Status: LRCS_OK;
    LRCS_E_MEMORY. Nothing stays in the work area. Linear time. */
 int lrcsi_rings_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                       uint32_t facet_count, const lrcsi_topology *topology,

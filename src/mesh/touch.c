@@ -57,9 +57,10 @@ static void sort_found(touch_found *found, size_t n)
 
 enum { LEAF_LANES = LRCSI_TREE_LANES };
 
-/* A leaf that meets more others than this by boxes is compared by slabs too; but slabs are filled
-   only once there have been as many more meetings, which is what filling them costs. */
-enum { MANY_LEAVES = 16, SLABS_COST = 8 };
+/* A leaf that meets more others than this by boxes is compared by slabs too, and the next one from
+   the first, if slabs left out so many blocks; but slabs are filled only once there have been as
+   many more meetings as there are leaves, which is what filling them costs. */
+enum { MANY_LEAVES = 16, BLOCKS_APART = 8 };
 
 /* The corners of a leaf's facets, welded, in structure of arrays. */
 typedef struct touch_leaf {
@@ -75,6 +76,7 @@ typedef struct touch_search {
     lrcsi_tree tree;
     touch_leaf *leaf;
     uint64_t crowded;   /* meetings of leaves that meet many others */
+    int slabs_pay;      /* they did so for the last leaf */
     touch_found *found; /* above the tree */
     uint32_t count;
     lrcs_work *work;
@@ -243,24 +245,36 @@ static int meet_leaves(touch_search *search, uint32_t first, uint32_t second)
     return status;
 }
 
-/* All pairs of a leaf's facets with each other, unless all have one ring, and with those of leaves
-   after it. */
+/* All pairs of a leaf's facets with each other, unless all have one proved ring, and with those of
+   leaves after it. */
 static int meet_leaf(touch_search *search, uint32_t leaf)
 {
     lrcsi_tree *tree = &search->tree;
     lrcsi_tree_walk walk = lrcsi_tree_after(tree, leaf);
-    int status = tree->label[0][leaf] == LRCS_NONE ? meet_leaves(search, leaf, leaf) : LRCS_OK;
+    uint32_t apex = tree->label[0][leaf];
+    int in_ring = apex != LRCS_NONE && search->proved[apex];
+    int status = in_ring ? LRCS_OK : meet_leaves(search, leaf, leaf);
     uint32_t other;
+    if (!in_ring) {
+        walk.without = LRCS_NONE;
+    }
+    if (apex != LRCS_NONE && !in_ring) {
+        lrcsi_tree_narrow_fan(&walk, leaf);
+    }
+    if (search->slabs_pay) {
+        lrcsi_tree_narrow(&walk, leaf);
+    }
     for (int met = 0; status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
         search->crowded += met >= MANY_LEAVES;
-        if (!tree->has_slabs && search->crowded / SLABS_COST > tree->blocks[0]) {
+        if (!tree->has_slabs && search->crowded > tree->blocks[0]) {
             lrcsi_tree_fill_slabs(search->vertex, search->facet, tree);
         }
-        if (tree->has_slabs && met == MANY_LEAVES) {
+        if (tree->has_slabs && met == MANY_LEAVES && walk.leaf == LRCS_NONE) {
             lrcsi_tree_narrow(&walk, leaf);
         }
         status = meet_leaves(search, leaf, other);
     }
+    search->slabs_pay = walk.apart >= BLOCKS_APART;
     return status;
 }
 
@@ -310,11 +324,12 @@ static int prepare_search(touch_search *search, uint32_t vertex_count, uint32_t 
         status = lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, apex, 1, work,
                                  &search->tree);
     }
-    const lrcsi_tree *tree = &search->tree;
+    lrcsi_tree *tree = &search->tree;
     search->leaf = lrcsi_work_take(work, tree->blocks[0], sizeof *search->leaf);
     if (status != LRCS_OK || !search->leaf) {
         return LRCS_E_MEMORY;
     }
+    lrcsi_tree_fill_cones(search->vertex, search->facet, search->proved, tree);
     for (uint32_t place = 0; place < tree->count; place++) {
         const uint32_t *c = search->facet[tree->order[place]].corner;
         touch_leaf *leaf = &search->leaf[place / LEAF_LANES];

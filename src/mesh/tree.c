@@ -16,13 +16,23 @@
    all but 0, and thin layers are told apart however wide they are. The slab of either is compared
    with the box of the other too. Errors: |d_k|, |d_Bk| <= 1; let W be the sum of the boxes' largest
    |x_k|. Slabs are sums of three products, within 4 u W; e is off by u |e_k| <= 2 u, its products
-   and four sums round by less than 20 u W in all: 64 u W covers both sides. */
+   and four sums round by less than 20 u W in all: 64 u W covers both sides.
+
+   Cones. Let v be a corner of every facet in two blocks, and let the directions from v to their
+   other corners lie within alpha of an axis a in the one, within beta of b in the other, both less
+   than 90 degrees. A facet is, as seen from v, an arc between two such directions: within alpha
+   too, for caps that small are convex. So if a and b are more than alpha + beta apart, that is if
+   a . b < cos(alpha + beta) = cos(alpha) cos(beta) - sin(alpha) sin(beta), facets of one and of the
+   other meet in v alone. Errors, u = 2^-53: axes and directions are off by 6 u, so that cosines
+   computed of them are by 16 u; CONE_MARGIN is 512 u, and is given away for each. A cosine kept
+   counts as exact: the sine, the root of (1 - c) (1 + c), is then good to 3 u. */
 #include "mesh/tree.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/ieee.h"
+#include "base/length.h"
 #include "base/sort.h"
 #include "base/work.h"
 
@@ -36,6 +46,7 @@ enum { CELL_FACETS = 64, SCALES = 96 };
 
 /* See above: 64 u. */
 #define SLAB_FILTER (64.0 * 0x1p-53)
+#define CONE_MARGIN 0x1p-44
 
 static lrcsi_box empty_box(void)
 {
@@ -181,7 +192,8 @@ static int take_levels(lrcs_work *work, lrcsi_tree *tree)
         tree->block[l] = lrcsi_work_take(work, below, sizeof *tree->block[l]);
         tree->label[l] = lrcsi_work_take(work, below, sizeof *tree->label[l]);
         tree->slabs[l] = lrcsi_work_take(work, l > 0 ? below : 0, sizeof *tree->slabs[l]);
-        if (!tree->block[l] || !tree->label[l] || !tree->slabs[l]) {
+        tree->cone[l] = lrcsi_work_take(work, below, sizeof *tree->cone[l]);
+        if (!tree->block[l] || !tree->label[l] || !tree->slabs[l] || !tree->cone[l]) {
             return LRCS_E_MEMORY;
         }
     }
@@ -260,6 +272,7 @@ size_t lrcsi_tree_need(uint32_t facet_count)
         boxes = lrcsi_work_add(boxes, lrcsi_work_bytes(below, sizeof(uint32_t)));
         boxes =
             lrcsi_work_add(boxes, lrcsi_work_bytes(l > 0 ? below : 0, sizeof(lrcsi_tree_slabs)));
+        boxes = lrcsi_work_add(boxes, lrcsi_work_bytes(below, sizeof(lrcsi_tree_cone)));
     }
     return lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(uint32_t)),
                           scratch > boxes ? scratch : boxes);
@@ -414,16 +427,131 @@ static int slab_is_apart(const lrcsi_tree *tree, uint32_t leaf, int level, uint3
 }
 
 /* The lanes of a mask that slabs do not prove to lie apart from the walk's leaf. */
-static unsigned narrowed(const lrcsi_tree_walk *w, int level, unsigned mask)
+static unsigned narrowed(lrcsi_tree_walk *w, int level, unsigned mask)
 {
     unsigned left = mask;
     for (; mask != 0; mask &= mask - 1) {
         uint32_t lane = lrcsi_tree_lane(mask);
         if (slab_is_apart(w->tree, w->leaf, level, w->at[level], lane)) {
             left &= ~(1u << lane);
+            w->apart++;
         }
     }
     return left;
+}
+
+/* ---- cones ---- */
+
+static double dot_product(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* To length 1; 0 where there is no direction. */
+static int normalise(double v[3])
+{
+    double size = lrcsi_length(v);
+    for (int k = 0; k < 3 && size > 0.0; k++) {
+        v[k] /= size;
+    }
+    return size > 0.0;
+}
+
+/* The directions from a vertex to the two other corners of a facet that has it. */
+static void facet_directions(const lrcs_point *vertex, const lrcs_facet *facet, const double *from,
+                             double direction[2][3])
+{
+    int at = 0;
+    while (at < 2 && !(vertex[facet->corner[at]].x[0] == from[0] &&
+                       vertex[facet->corner[at]].x[1] == from[1] &&
+                       vertex[facet->corner[at]].x[2] == from[2])) {
+        at++;
+    }
+    for (int n = 0; n < 2; n++) {
+        const double *x = vertex[facet->corner[(at + 1 + n) % 3]].x;
+        for (int k = 0; k < 3; k++) {
+            direction[n][k] = x[k] - from[k];
+        }
+        normalise(direction[n]);
+    }
+}
+
+/* The cone of a leaf about the vertex that is its label. */
+static lrcsi_tree_cone leaf_cone(const lrcs_point *vertex, const lrcs_facet *facet,
+                                 const lrcsi_tree *tree, uint32_t b)
+{
+    const double *from = vertex[tree->label[0][b]].x;
+    uint32_t first = b * TREE_LANES;
+    uint32_t count = tree->count - first < TREE_LANES ? tree->count - first : TREE_LANES;
+    double direction[TREE_LANES][2][3];
+    lrcsi_tree_cone cone = {{0, 0, 0}, 1.0};
+    for (uint32_t i = 0; i < count; i++) {
+        facet_directions(vertex, &facet[tree->order[first + i]], from, direction[i]);
+        for (int k = 0; k < 3; k++) {
+            cone.axis[k] += direction[i][0][k] + direction[i][1][k];
+        }
+    }
+    int found = normalise(cone.axis);
+    for (uint32_t i = 0; i < count; i++) {
+        for (int n = 0; n < 2; n++) {
+            cone.cosine = fmin(cone.cosine, dot_product(cone.axis, direction[i][n]));
+        }
+    }
+    cone.cosine = found ? cone.cosine - CONE_MARGIN : -1.0;
+    return cone;
+}
+
+static double cone_sine(const lrcsi_tree_cone *cone)
+{
+    return sqrt((1.0 - cone->cosine) * (1.0 + cone->cosine));
+}
+
+/* The cone around those of a block's lanes, all of which have one label. */
+static lrcsi_tree_cone block_cone(const lrcsi_tree *tree, int level, uint32_t b)
+{
+    uint32_t first = b * TREE_LANES;
+    uint32_t left = tree->blocks[level - 1] - first;
+    uint32_t count = left < TREE_LANES ? left : TREE_LANES;
+    const lrcsi_tree_cone *below = tree->cone[level - 1] + first;
+    lrcsi_tree_cone cone = {{0, 0, 0}, 1.0};
+    for (uint32_t i = 0; i < count; i++) {
+        for (int k = 0; k < 3; k++) {
+            cone.axis[k] += below[i].axis[k];
+        }
+    }
+    int found = normalise(cone.axis);
+    for (uint32_t i = 0; i < count; i++) {
+        double c = fmin(1.0, dot_product(cone.axis, below[i].axis)) - CONE_MARGIN;
+        double all = -1.0;
+        if (c > 0.0 && below[i].cosine > 0.0) {
+            all = c * below[i].cosine - sqrt((1.0 - c) * (1.0 + c)) * cone_sine(&below[i]);
+        }
+        cone.cosine = fmin(cone.cosine, all - CONE_MARGIN);
+    }
+    cone.cosine = found ? cone.cosine : -1.0;
+    return cone;
+}
+
+void lrcsi_tree_fill_cones(const lrcs_point *vertex, const lrcs_facet *facet,
+                           const unsigned char *proved, lrcsi_tree *tree)
+{
+    for (int level = 0; level < tree->levels; level++) {
+        for (uint32_t b = 0; b < tree->blocks[level]; b++) {
+            uint32_t label = tree->label[level][b];
+            if (label != LRCS_NONE && !proved[label]) {
+                tree->cone[level][b] =
+                    level == 0 ? leaf_cone(vertex, facet, tree, b) : block_cone(tree, level, b);
+            }
+        }
+    }
+}
+
+/* Are two cones about one vertex proved to have nothing else in common? */
+static int cones_are_apart(const lrcsi_tree_cone *a, const lrcsi_tree_cone *b)
+{
+    return a->cosine > 0.0 && b->cosine > 0.0 &&
+           dot_product(a->axis, b->axis) + CONE_MARGIN <
+               a->cosine * b->cosine - cone_sine(a) * cone_sine(b);
 }
 
 /* ---- walks ---- */
@@ -508,6 +636,12 @@ void lrcsi_tree_narrow(lrcsi_tree_walk *w, uint32_t leaf)
     }
 }
 
+void lrcsi_tree_narrow_fan(lrcsi_tree_walk *w, uint32_t leaf)
+{
+    w->fan = w->tree->label[0][leaf];
+    w->cone = &w->tree->cone[0][leaf];
+}
+
 uint32_t lrcsi_tree_next(lrcsi_tree_walk *w)
 {
     const lrcsi_tree *tree = w->tree;
@@ -520,6 +654,10 @@ uint32_t lrcsi_tree_next(lrcsi_tree_walk *w)
         uint32_t child = w->at[level] * TREE_LANES + lrcsi_tree_lane(w->mask[level]);
         w->mask[level] &= w->mask[level] - 1;
         if (level > 0 && w->without != LRCS_NONE && tree->label[level - 1][child] == w->without) {
+            continue;
+        }
+        if (level > 0 && w->cone && tree->label[level - 1][child] == w->fan &&
+            cones_are_apart(w->cone, &tree->cone[level - 1][child])) {
             continue;
         }
         if (level == w->last) {

@@ -25,6 +25,13 @@ typedef struct lrcsi_tree_slabs {
     double direction[3][LRCSI_TREE_LANES], low[LRCSI_TREE_LANES], high[LRCSI_TREE_LANES];
 } lrcsi_tree_slabs;
 
+/* What a block of facets with one vertex in common fills as seen from there: for every other corner
+   x, axis . (x - vertex) / |x - vertex| >= cosine. The axis has length 1. A cosine of 0 or less
+   bounds nothing. */
+typedef struct lrcsi_tree_cone {
+    double axis[3], cosine;
+} lrcsi_tree_cone;
+
 /* A facet's place is its position in order[]; neighbours in space mostly have places close to each
    other. Level 0 has the facets' boxes, by place, and level l the boxes of level l - 1's blocks, up
    to the last level, which has one block. */
@@ -37,6 +44,7 @@ typedef struct lrcsi_tree {
     uint32_t *label[LRCSI_TREE_LEVELS]; /* of each block: that of all facets below, or LRCS_NONE */
     lrcsi_tree_slabs *slabs[LRCSI_TREE_LEVELS]; /* from level 1 on: of the blocks below */
     int has_slabs;                              /* 0: not yet filled */
+    lrcsi_tree_cone *cone[LRCSI_TREE_LEVELS];   /* of each block that has a label, if filled */
 } lrcsi_tree;
 
 /* The boxes of one level that meet a given one; `mask` has a bit for each lane still to be looked
@@ -47,6 +55,9 @@ typedef struct lrcsi_tree_walk {
     uint32_t without; /* a label of which whole blocks are left out, or LRCS_NONE */
     int last, level;  /* the level whose boxes are sought; where the walk is now */
     uint32_t leaf;    /* where slabs are compared too: the leaf that walks; else LRCS_NONE */
+    uint32_t apart;   /* blocks that slabs have left out */
+    const lrcsi_tree_cone *cone; /* where cones are compared too: that of the leaf, */
+    uint32_t fan;                /* and its label; else NULL */
     uint32_t at[LRCSI_TREE_LEVELS];
     unsigned mask[LRCSI_TREE_LEVELS];
 } lrcsi_tree_walk;
@@ -91,6 +102,14 @@ lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
    a walk of a leaf what lies apart by slabs. For leaves whose boxes meet many others. */
 void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree);
 void lrcsi_tree_narrow(lrcsi_tree_walk *walk, uint32_t leaf);
+
+/* Fills the cones of blocks whose label is a vertex that all facets in them have, from what the
+   tree was made of, but where proved[label]; then leaves out from a walk of a leaf with such a
+   label the blocks of the same label whose facets are proved to meet those of the leaf in that
+   vertex alone. For fans of which a ring is not proved (mesh/ring.h), where all boxes meet. */
+void lrcsi_tree_fill_cones(const lrcs_point *vertex, const lrcs_facet *facet,
+                           const unsigned char *proved, lrcsi_tree *tree);
+void lrcsi_tree_narrow_fan(lrcsi_tree_walk *walk, uint32_t leaf);
 
 /* The next place or block, or LRCS_NONE at the end. */
 uint32_t lrcsi_tree_next(lrcsi_tree_walk *walk);

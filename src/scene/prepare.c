@@ -328,26 +328,39 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     return status;
 }
 
+/* Of the last stages only the largest counts: each gives back what it does not leave. Facets'
+   contacts that stay are those of touches_need, less what searching for them takes. */
 size_t lrcs_prepare_need(const lrcs_scene *scene)
 {
     size_t facets = scene->facet_count;
+    size_t contacts = 4 * facets + 64;
+    /* 1. What the stages before the contacts leave. */
     size_t need = lrcsi_work_bytes(1, sizeof(lrcs_prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, sizeof(lrcs_point)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, 1));
     need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
-    need = lrcsi_work_add(need, lrcsi_coincident_need(scene->vertex_count, scene->facet_count));
+    size_t coincident =
+        lrcsi_work_add(need, lrcsi_coincident_need(scene->vertex_count, scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* twins */
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_batches_need(scene));
-    need = lrcsi_work_add(
-        need, lrcsi_touches_need(scene->vertex_count, scene->facet_count, 4 * facets + 64));
-    size_t proof = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
-    proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 32));
-    proof = lrcsi_work_add(proof, lrcsi_tree_need(scene->facet_count));
-    need = lrcsi_work_add(need, lrcsi_nears_need(scene));
-    return lrcsi_work_add(need, proof);
+    /* 2. Contacts, on top of which facets are asked and their pieces of surface. */
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    size_t search = lrcsi_touches_need(scene->vertex_count, scene->facet_count, contacts);
+    /* 3. On top of contacts: the volumes of pieces, the proof of convexity, or what is near. */
+    size_t proof = 2 * lrcsi_work_bytes(facets, sizeof(double));
+    size_t convex = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
+    proof = convex > proof ? convex : proof;
+    size_t nears = lrcsi_work_add(lrcsi_nears_need(scene), lrcsi_tree_need(scene->facet_count));
+    proof = nears > proof ? nears : proof;
+    proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets + 1, sizeof(uint32_t)));
+    proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 1));
+    proof = lrcsi_work_add(proof, lrcsi_work_bytes(contacts, sizeof(lrcsi_touch)));
+    need = lrcsi_work_add(need, search > proof ? search : proof);
+    return need > coincident ? need : coincident;
 }
 
 int lrcsi_prepare_start(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared **prepared)

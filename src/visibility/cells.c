@@ -18,8 +18,9 @@
    5. What errors put in doubt along events is charged to the facets near them
       (visibility/cells_charge.h). A facet's area is told where its error is small enough.
 
-   The area of a facet in a cell is off by w times the length of its sides there, and 4 u b n times
-   the cell's perimeter (w, b, n: visibility/cells_charge.c). */
+   The area of a facet in a cell is off by the error of its sides times their length there, and by
+   8 u b and the cell's drift times the perimeter of what it has there (visibility/cells_charge.c).
+ */
 #include "visibility/cells.h"
 
 #include <math.h>
@@ -70,7 +71,8 @@ static int cells_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
     return 0;
 }
 
-/* A facet is seen wherever it is in the cell. */
+/* A facet is seen wherever it is in the cell. Of the cell's sides, and of its own, only what is in
+   both boxes matters: a convex curve is no longer there than the box is around. */
 static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                        const lrcsi_cells_sides *s, uint32_t facet)
 {
@@ -78,9 +80,15 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     lrcsi_cells_found *area = &c->area[facet];
     lrcsi_clip_polygon piece = cell->shape;
     double w = f->off + s->g;
-    double diameter = 0.5 * s->perimeter;
-    area->off += 4 * s->g * s->perimeter +
-                 5 * U * (piece.count + 3) * (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
+    double wide[2];
+    for (int k = 0; k < 2; k++) {
+        wide[k] =
+            lrcsi_most(0, lrcsi_least(s->high[k], f->high[k]) - lrcsi_most(s->low[k], f->low[k])) +
+            4 * w;
+    }
+    double around = wide[0] + wide[1];
+    area->off += 2 * (cell->drift + 8 * U * c->reach) * around +
+                 5 * U * (piece.count + 3) * wide[0] * wide[1];
     for (int k = 0; k < 3 && piece.count > 0; k++) {
         double range[2];
         lrcsi_box_range(s->low, s->high, f->side[k], range);
@@ -88,7 +96,8 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             lrcsi_line_range(&cell->shape, f->side[k], range);
         }
         if (range[0] < w) {
-            area->off += w * (lrcsi_least(f->length[k], diameter) + 4 * w);
+            area->off +=
+                (f->line_off + 16 * U * c->reach) * lrcsi_least(f->length[k] + 4 * w, around);
             lrcsi_cells_shape_clip(&piece, f->side[k]);
         }
     }
@@ -220,6 +229,7 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
     }
     lrcsi_cells_cell cell = {.first = 0};
     c->reach = lrcsi_cells_grid_square(&c->grid, x, y, &cell.shape, c->frame.middle);
+    c->frame.block = (uint32_t)block + 1;
     c->look++;
     if (!lrcsi_cells_open(c, block, &cell)) {
         block_leave(c, block);
@@ -256,10 +266,8 @@ static lrcsi_visible facet_told(const lrcsi_cells_work *c, uint32_t facet, doubl
     return (lrcsi_visible){seen, lrcsi_most(0, seen - *off), lrcsi_least(whole, seen + *off), 0, 0};
 }
 
-/* What a facet's area may be off by, so that it is told: as much as clipping the facet alone would
-   cost (visibility/occlude.c), 52 u of its diameter times its perimeter, and for each cut a strip
-   128 u of the diameter wide, or wider; or so little that it does not matter. Clipping finds
-   needles and what is larger than the bulk of the scene better than that. */
+/* What a facet's area may be off by, so that it is told. Clipping finds needles and what is larger
+   than the bulk of the scene better than to a share of the extent. */
 static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet)
 {
     const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
@@ -270,12 +278,10 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet)
         const double *q = c->view->point[corner[(k + 1) % 3]].x;
         diameter = lrcsi_most(diameter, lrcsi_most(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
     }
-    double alone = U * diameter * (104 * diameter + 128 * c->area[facet].cut);
     const double *bulk = c->view->prepared->bulk;
     double extent = 2 * lrcsi_most(bulk[0], lrcsi_most(bulk[1], bulk[2]));
     int ordinary = projected > NEEDLE * diameter * diameter && diameter < 2 * extent;
-    return ACCURACY_OF_FACET * projected +
-           (ordinary ? alone + ACCURACY_OF_SCENE * extent * extent : 0);
+    return ACCURACY_OF_FACET * projected + (ordinary ? ACCURACY_OF_SCENE * extent * extent : 0);
 }
 
 static void areas_tell(const lrcsi_cells_work *c, lrcsi_visible *visible)

@@ -27,7 +27,9 @@
 #include "visibility/cells_alone.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "base/length.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/cells_charge.h"
@@ -77,31 +79,50 @@ static double needle_off(double off)
     return off < 0.25 ? 192 * U + 2 * off : 4;
 }
 
-/* f's own record in a needle's frame; those of all others say that they may be anywhere. */
-static void needle_record(const lrcsi_target *frame, lrcsi_cells_facet *f)
+/* The record of a facet whose corners are told, counter-clockwise. Where it is so narrow that it
+   may have been turned over, its sides tell nothing. */
+static void record_make(const double (*corner)[2], double off, lrcsi_cells_facet *f)
 {
-    *f = (lrcsi_cells_facet){.off = frame->slip + 8 * U, .high = {1, 1}};
+    *f = (lrcsi_cells_facet){.off = off, .line_off = off};
+    double longest = 0;
     for (int k = 0; k < 3; k++) {
-        const double *next = frame->corner[(k + 1) % 3];
-        f->x[k] = frame->corner[k][0];
-        f->y[k] = frame->corner[k][1];
-        f->length[k] = k == 1 ? 1.4143 : 1;
-        lrcsi_line_through(frame->corner[k], next, f->side[k]);
+        const double *next = corner[k == 2 ? 0 : k + 1];
+        f->x[k] = corner[k][0];
+        f->y[k] = corner[k][1];
+        lrcsi_line_through(corner[k], next, f->side[k]);
+        f->length[k] = lrcsi_length_flat(next[0] - corner[k][0], next[1] - corner[k][1]) + 4 * off;
+        longest = lrcsi_most(longest, f->length[k]);
+    }
+    for (int i = 0; i < 2; i++) {
+        f->low[i] = lrcsi_least(corner[0][i], lrcsi_least(corner[1][i], corner[2][i]));
+        f->high[i] = lrcsi_most(corner[0][i], lrcsi_most(corner[1][i], corner[2][i]));
+    }
+    double twice =
+        (f->x[1] - f->x[0]) * (f->y[2] - f->y[0]) - (f->y[1] - f->y[0]) * (f->x[2] - f->x[0]);
+    f->thin = !(twice > 16 * off * longest);
+    if (f->thin) {
+        memset(f->side, 0, sizeof f->side);
     }
 }
 
 /* Makes the record of a facet that may be in front of f. 0 where it does not come near. */
 static int facet_record(lrcsi_alone *a, uint32_t other, const lrcsi_cells_cell *cell)
 {
-    lrcsi_cells_work *c = &a->cells;
+    const lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &c->facet[other];
+    double corner[3][2];
     double low[2];
     double high[2];
-    if (a->frame.needle) {
+    double away = 0;
+    if (a->frame.needle) { /* it may be anywhere */
         *f = (lrcsi_cells_facet){.off = HUGE_VAL};
         return 1;
     }
-    lrcsi_cells_facet_make(&c->frame, other, f);
+    for (int k = 0; k < 3; k++) {
+        const double *x = lrcsi_target_corner(c->view, other, k);
+        away = lrcsi_most(away, lrcsi_target_place(&a->frame, x, corner[k]));
+    }
+    record_make((const double(*)[2])corner, 20 * U * away, f);
     lrcsi_clip_box(&cell->shape, low, high);
     return lrcsi_cells_facet_near(f, &cell->shape, low, high, 16 * U * c->reach);
 }
@@ -149,7 +170,9 @@ static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
         e->end[n][0] = end[n][0];
         e->end[n][1] = end[n][1];
     }
-    lrcsi_cells_segment_line(e);
+    lrcsi_line_through(end[0], end[1], e->line);
+    e->length = lrcsi_length_flat(end[1][0] - end[0][0], end[1][1] - end[0][1]);
+    e->line_off = e->off;
 }
 
 /* An edge, unless none of its facets is listed. 0 where there is no room. */
@@ -254,14 +277,10 @@ static void open_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &c->facet[a->facet];
-    if (a->frame.needle) {
-        needle_record(&a->frame, f);
-        c->reach = 1;
-    } else {
-        lrcsi_cells_frame_move(&c->frame, a->target.origin);
-        lrcsi_cells_facet_make(&c->frame, a->facet, f);
-        c->reach = 0;
-    }
+    const lrcsi_target *frame = &a->frame;
+    record_make((const double(*)[2])frame->corner,
+                frame->needle ? frame->slip + 8 * U : 20 * U * frame->reach, f);
+    c->reach = 0;
     cell->shape.count = 3;
     for (int k = 0; k < 3; k++) {
         cell->shape.corner[k][0] = f->x[k];
@@ -281,7 +300,7 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     a->hidden = 0;
     lrcsi_target_make(c->view, facet, &a->target);
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
-    c->area[facet] = (lrcsi_cells_found){0, 0, 0, 0};
+    c->area[facet] = (lrcsi_cells_found){.seen = 0};
     c->open[facet] = 1;
     c->segments = c->top = 0;
     c->look++;
@@ -431,7 +450,7 @@ static int place_covered(const lrcsi_alone *a, const alone_place *place, uint32_
     if (place->way == WAY_GUESSED) {
         return inside > 0 ? 1 : -1;
     }
-    return inside < -w ? -1 : inside > w && !f->thin;
+    return f->thin ? 0 : inside < -w ? -1 : inside > w;
 }
 
 /* How a facet stands to f, neither of which lies on one side of the other's plane. */
@@ -687,8 +706,6 @@ size_t lrcsi_alone_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need =
-        lrcsi_work_add(need, lrcsi_work_bytes(p->scene->vertex_count, sizeof(lrcsi_cells_point)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(list_room(p), sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segment_room(p), sizeof(lrcsi_cells_segment)));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
@@ -700,7 +717,7 @@ int lrcsi_alone_make(lrcsi_contest *contest, const lrcsi_grid *grid, lrcs_work *
     const lrcs_prepared *p = contest->view->prepared;
     uint32_t count = p->scene->facet_count;
     *a = (lrcsi_alone){.contest = contest, .grid = *grid};
-    lrcsi_cells_work c = {.view = contest->view, .frame = {.view = contest->view}};
+    lrcsi_cells_work c = {.view = contest->view};
     c.room = list_room(p);
     c.segment_room = (uint32_t)segment_room(p);
     c.open = lrcsi_work_take_zero(work, count, 1);
@@ -709,15 +726,13 @@ int lrcsi_alone_make(lrcsi_contest *contest, const lrcsi_grid *grid, lrcs_work *
     c.listed = lrcsi_work_take_zero(work, count, sizeof *c.listed);
     a->met = lrcsi_work_take_zero(work, count, sizeof *a->met);
     a->order = lrcsi_work_take(work, count, sizeof *a->order);
-    c.frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *c.frame.point);
     c.list = lrcsi_work_take(work, c.room, sizeof *c.list);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c.stack);
-    if (!c.open || !c.facet || !c.area || !c.listed || !a->met || !a->order || !c.frame.point ||
-        !c.list || !c.segment || !c.stack) {
+    if (!c.open || !c.facet || !c.area || !c.listed || !a->met || !a->order || !c.list ||
+        !c.segment || !c.stack) {
         return LRCS_E_MEMORY;
     }
-    lrcsi_cells_frame_make(&c.frame);
     a->cells = c;
     return LRCS_OK;
 }

@@ -1,19 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 /* How much area is in doubt along segments that are not asked about any more, and whose.
 
-   Cutting puts new corners within 3 u b of a side, b the largest coordinate; the two parts of a
-   cell then miss no point of it by more. So a point of the block belongs to one of the cells that
-   come of it, or is within 3 u b n of that, n the number of cuts; what is said of a cell holds for
-   points so near to it. Let w be 2 e of what is asked about (e: visibility/cells_facet.c) and (16 +
-   4 n) u b. A segment that is computed to be farther than w from the cell does not come near it.
-   One that is nowhere deeper than w within the cell (LRCSI_CELLS_BORDER) has its part in the cell
-   within 2 w of the line along a side of the cell, or of its own line with the cell on one side.
-   The sample P is clear of these by c. So the way from P to x crosses the segment only if x lies
-   within 2 w of that line, and no farther along it from the segment than 2 w / c of the cell's
-   diameter, which is below CELLS_FAR w where c is above LRCSI_CELLS_THIN of the perimeter. That
-   area is in doubt; it is charged to the facets of the list that come near, when the segment is
-   struck from the list; all cells that come of the cell are then rid of it. In a thin cell the
-   strips of all that were struck run along the whole of it. */
+   Cells. A cut puts new corners beside the sides that it cuts, by no more than is measured where it
+   is made (lrcsi_cells_shape_divide); the two parts of a cell then miss no point of it by more. The
+   sum of that over all cuts on the way to a cell is its `drift`. So a point of the block belongs to
+   a cell that is no farther from it than its drift; what is said of a cell holds for points so near
+   to it. A facet that is seen in a cell has its area there off by no more than the drift times the
+   perimeter of what it has there: at each cut it is two triangles upon the cut sides, as high as
+   the drift grows by then.
+
+   Strips. Let w be the error of what is asked about (`off`, `line_off`: visibility/cells_facet.c),
+   16 u times the largest coordinate of the block, and the drift. A segment that is computed to be
+   farther than w from the cell does not come near it. One that is nowhere deeper than w within the
+   cell (LRCSI_CELLS_BORDER) has its part in the cell within 2 w of the line along a side of the
+   cell, or of its own line with the cell on one side. The sample P is clear of these by c. So the
+   way from P to x crosses the segment only if x lies within 2 w of that line, and no farther along
+   it from the segment than 2 w / c of the cell's diameter, which is below CELLS_FAR w where c is
+   above LRCSI_CELLS_THIN of the perimeter. That area is in doubt; it is charged to the facets of
+   the list, as much of it as they have, when the segment is struck from the list; all cells that
+   come of the cell are then rid of it. In a thin cell the strips of all that were struck run along
+   the whole of it.
+
+   A cell is cut along the line of a segment as computed. Then P is on one side of the true line,
+   and x may be on the other only within w of it. A facet F lies on one side of its own edge. So
+   where the cell is cut along that, F is in no doubt on its own side: neither P nor any point of F
+   is beyond the edge. What F has on the other side is nearer to the line than w. */
 #include "visibility/cells_charge.h"
 
 #include <math.h>
@@ -24,6 +35,18 @@
 #define CELLS_FAR 0x1p34
 /* A cell that is no wider than so many strips may be charged whole. */
 #define SLIVER 8
+
+/* How far a facet goes along a line, from `start`. */
+static void facet_along(const lrcsi_cells_facet *f, const double line[3], const double start[2],
+                        double along[2])
+{
+    double t[3];
+    for (int k = 0; k < 3; k++) {
+        t[k] = line[1] * (f->x[k] - start[0]) - line[0] * (f->y[k] - start[1]);
+    }
+    along[0] = lrcsi_least(t[0], lrcsi_least(t[1], t[2]));
+    along[1] = lrcsi_most(t[0], lrcsi_most(t[1], t[2]));
+}
 
 void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e)
@@ -40,7 +63,6 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
         box[0][k] = lrcsi_most(s->low[k], lrcsi_least(e->start[k], to));
         box[1][k] = lrcsi_least(s->high[k], lrcsi_most(e->start[k], to));
     }
-    double cut = 0.7 * e->length; /* length is the sum of both components, below 1.42 of it */
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t facet = c->list[cell->first + i];
         const lrcsi_cells_facet *f = &c->facet[facet];
@@ -48,47 +70,45 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             continue;
         }
         double far = 4 * strip + f->off + s->g;
-        double reject = far + CELLS_FAR * e->w;
-        if (f->low[0] > box[1][0] + reject || f->high[0] < box[0][0] - reject ||
-            f->low[1] > box[1][1] + reject || f->high[1] < box[0][1] - reject) {
+        double beyond = CELLS_FAR * e->w + far;
+        if (f->low[0] > box[1][0] + beyond || f->high[0] < box[0][0] - beyond ||
+            f->low[1] > box[1][1] + beyond || f->high[1] < box[0][1] - beyond) {
             continue;
         }
-        double across[2] = {HUGE_VAL, -HUGE_VAL};
-        double along[2] = {HUGE_VAL, -HUGE_VAL};
+        double d[3];
+        double along[2];
         for (int k = 0; k < 3; k++) {
-            double d = lrcsi_line_at(e->line, f->x[k], f->y[k]);
-            double t = e->line[1] * (f->x[k] - e->start[0]) - e->line[0] * (f->y[k] - e->start[1]);
-            across[0] = lrcsi_least(across[0], d);
-            across[1] = lrcsi_most(across[1], d);
-            along[0] = lrcsi_least(along[0], t);
-            along[1] = lrcsi_most(along[1], t);
+            d[k] = lrcsi_line_at(e->line, f->x[k], f->y[k]);
         }
-        double beyond = CELLS_FAR * e->w + far;
-        if (across[1] > -far && across[0] < far && along[1] > e->part.from * cut - beyond &&
+        facet_along(f, e->line, e->start, along);
+        if (lrcsi_most(d[0], lrcsi_most(d[1], d[2])) > -far &&
+            lrcsi_least(d[0], lrcsi_least(d[1], d[2])) < far &&
+            along[1] > e->part.from * e->length - beyond &&
             along[0] < e->part.to * e->length + beyond) {
             double length = along[1] - along[0] + 2 * far;
             c->area[facet].doubt += lrcsi_least(doubt, strip * length);
-            c->area[facet].cut += lrcsi_least(doubt / strip, length);
         }
     }
 }
 
-void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, const double line[3],
+void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double high,
                             const lrcsi_cells_strip *strip)
 {
+    const lrcsi_cells_segment *e = strip->along;
     const lrcsi_cells_facet *f = &c->facet[index];
-    const lrcsi_cells_segment *along = strip->along;
-    double near[2] = {HUGE_VAL, -HUGE_VAL};
-    for (int k = 0; k < 3; k++) {
-        double t = line[1] * (f->x[k] - along->end[0][0]) - line[0] * (f->y[k] - along->end[0][1]);
-        near[0] = lrcsi_least(near[0], t);
-        near[1] = lrcsi_most(near[1], t);
+    double far = f->off + strip->g;
+    double along[2];
+    facet_along(f, e->line, e->end[0], along);
+    double beyond = CELLS_FAR * strip->width + far;
+    double length =
+        lrcsi_least(along[1], strip->to) - lrcsi_most(along[0], strip->from) + 2 * beyond;
+    double wide = lrcsi_least(high + far, strip->width) - lrcsi_most(low - far, -strip->width);
+    if (!e->contact && (e->owner[0] == index || e->owner[1] == index)) {
+        wide = lrcsi_least(wide, strip->width);
     }
-    double beyond = CELLS_FAR * strip->width + f->off;
-    double length = lrcsi_least(near[1] + beyond, strip->to + beyond) -
-                    lrcsi_most(near[0] - beyond, strip->from - beyond);
-    c->area[index].doubt += 2 * strip->width * lrcsi_most(0, length);
-    c->area[index].cut += lrcsi_most(0, length);
+    if (length > 0 && wide > 0) {
+        c->area[index].doubt += wide * length;
+    }
 }
 
 int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
@@ -104,7 +124,6 @@ int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         c->found[facet] |= LRCSI_CELLS_SPARED;
         if (c->open[facet]) {
             c->area[facet].doubt += cell->doubt + area;
-            c->area[facet].cut += 0.5 * s->perimeter;
         }
     }
     return 1;

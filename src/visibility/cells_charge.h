@@ -6,11 +6,12 @@
 
 #include "visibility/cells_state.h"
 
-/* The strip along a segment at which a cell is cut. Distances along it from its first end, its
-   length being known as |x| + |y|: at most 1 / 0.7 of the true one. */
+/* The strip along a segment at which a cell is cut, so wide on both sides. Distances along it from
+   its first end. */
 typedef struct lrcsi_cells_strip {
     const lrcsi_cells_segment *along; /* or NULL: then there is none */
     double width, from, to;
+    double g; /* of the cell that is cut */
 } lrcsi_cells_strip;
 
 /* Charges what a segment at the border puts in doubt to the facets that come near: no more than the
@@ -18,8 +19,9 @@ typedef struct lrcsi_cells_strip {
 void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e);
 
-/* Charges a facet that is still open, on both sides of the cut, for its part of the strip. */
-void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, const double line[3],
+/* Charges a facet that is still open for its part of the strip of a cut. Its corners have distances
+   from the line between `low` and `high`, as computed. */
+void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double high,
                             const lrcsi_cells_strip *strip);
 
 /* Charges all of a cell that has no room for a sample, where it is a sliver; 0 where it is none. */

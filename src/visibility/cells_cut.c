@@ -89,11 +89,13 @@ static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const 
         double a = lrcsi_line_at(line, f->x[0], f->y[0]);
         double b = lrcsi_line_at(line, f->x[1], f->y[1]);
         double d = lrcsi_line_at(line, f->x[2], f->y[2]);
-        int on_left = lrcsi_most(a, lrcsi_most(b, d)) > -w;
-        int on_right = lrcsi_least(a, lrcsi_least(b, d)) < w;
+        double low = lrcsi_least(a, lrcsi_least(b, d));
+        double high = lrcsi_most(a, lrcsi_most(b, d));
+        int on_left = high > -w;
+        int on_right = low < w;
         if (on_left && on_right) {
             if (strip->along && c->open[index]) {
-                lrcsi_cells_charge_cut(c, index, line, strip);
+                lrcsi_cells_charge_cut(c, index, low, high, strip);
             }
             part_near(f, &left->shape, &right->shape, cut->common, cut->commons, g, &on_left,
                       &on_right);
@@ -136,13 +138,13 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
                     const double line[3], const lrcsi_cells_segment *along)
 {
     uint32_t struck = along ? (uint32_t)(along - c->segment) : LRCS_NONE;
-    lrcsi_cells_strip strip = {along, 0, 0, 0};
+    lrcsi_cells_strip strip = {along, 0, 0, 0, s->g};
     if (along) {
         lrcsi_cells_part part = {0, 1, 0};
-        strip.width = along->off + s->g + 4 * U * c->reach + U * s->perimeter;
+        strip.width = along->line_off + s->g + 4 * U * c->reach + U * s->perimeter;
         lrcsi_cells_place_of(&cell->shape, s, along->end[0], along->end[1], along->line,
-                             strip.width, &part);
-        strip.from = part.from * 0.7 * along->length;
+                             lrcsi_most(strip.width, along->off + s->g), &part);
+        strip.from = part.from * along->length;
         strip.to = part.to * along->length;
     }
     uint32_t total = cell->facets + cell->segments;
@@ -158,7 +160,7 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     if (left.shape.count < 3 || right.shape.count < 3) {
         return 0;
     }
-    double drift = cell->drift + U * cut.longest + 0.75 * U * c->reach;
+    double drift = cell->drift + cut.drift;
     double g = 16 * U * c->reach + drift;
     memcpy(left.cut, line, sizeof left.cut);
     memcpy(right.cut, line, sizeof right.cut);

@@ -2,9 +2,14 @@
 /* Facets and segments in view coordinates, and their errors. It does not know of cells but their
    sides.
 
-   Error. A vertex is off in the view by less than 1.5 e, e its error in each coordinate; a sum of
-   products that tells on which side of a line a point lies is off by at most 12 u b, b the largest
-   coordinate.
+   Error. b is the largest coordinate of the block. A vertex is known to double-double: off by 256
+   u^2 of its distance from the origin. From the middle of the block it is rounded once, by u of
+   where it then is, and a sum of products that tells how far it is from a line by 5 u of that:
+   `off`. The line through two vertices is off by less where it matters. Its direction is turned by
+   at most 2 u, and its distance from the middle of the block, which is computed in double-double,
+   is off by 2 u of itself but for a factor that a, b and c share: both cost 5.7 u b in the block,
+   and evaluating it there 2.9 u b. That is less than 16 u b, which all cells allow for
+   (visibility/cells_charge.c); `line_off` is what comes of the vertices.
 
    Heights. In a facet of height H above each side, a place within w of it has barycentric
    coordinates off by w / H; with the facet's slope at most G, twice what it is as computed, its z
@@ -38,64 +43,71 @@ void lrcsi_cells_frame_make(lrcsi_cells_frame *c)
             c->axis_low[i][k] = -along * d[k];
         }
     }
-    lrcsi_cells_frame_move(c, c->view->prepared->origin);
 }
 
-void lrcsi_cells_frame_move(lrcsi_cells_frame *c, const double *origin)
+/* A vertex in the view: x and y to double-double, off by 100 u^2 of the distance from the origin; z
+   as the view has it, off by 20 u of that. */
+static void point_make(const lrcsi_cells_frame *c, uint32_t vertex, lrcsi_cells_point *p)
 {
-    c->origin = origin;
-    c->middle[0] = c->middle[1] = 0;
-    c->number++;
+    const lrcs_prepared *prepared = c->view->prepared;
+    lrcsi_dd gap[3];
+    for (int k = 0; k < 3; k++) {
+        gap[k] = lrcsi_dd_two_sum(prepared->vertex[vertex].x[k], -prepared->origin[k]);
+    }
+    for (int i = 0; i < 2; i++) {
+        const double *row = c->view->R[i];
+        lrcsi_dd sum = {0, 0};
+        double rest = 0;
+        for (int k = 0; k < 3; k++) {
+            lrcsi_dd term = lrcsi_dd_two_product(row[k], gap[k].hi);
+            rest += term.lo + (row[k] * gap[k].lo + c->axis_low[i][k] * gap[k].hi);
+            lrcsi_dd next = lrcsi_dd_two_sum(sum.hi, term.hi);
+            sum = (lrcsi_dd){next.hi, sum.lo + next.lo};
+        }
+        p->x[i] = lrcsi_dd_quick_sum(sum.hi, sum.lo + rest);
+    }
+    p->z = c->view->point[vertex].x[2];
+    double far = fabs(p->x[0].hi) + fabs(p->x[1].hi) + fabs(p->z);
+    p->line_off = 256 * U * U * far;
+    p->z_err = 20 * U * far;
+    p->made = 1;
 }
 
-/* A vertex in the view: each coordinate rounded once, of a sum that is off by 100 u^2 of the
-   distance from the origin; z as the view has it, or of three products that round off as little,
-   off by 20 u of that. */
-static const double *point_of(lrcsi_cells_frame *c, uint32_t vertex)
+const lrcsi_cells_point *lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t vertex)
 {
     lrcsi_cells_point *p = &c->point[vertex];
-    if (p->frame != c->number) {
-        const lrcs_prepared *prepared = c->view->prepared;
-        lrcsi_dd gap[3];
-        for (int k = 0; k < 3; k++) {
-            gap[k] = lrcsi_dd_two_sum(prepared->vertex[vertex].x[k], -c->origin[k]);
-        }
-        for (int i = 0; i < 2; i++) {
-            const double *row = c->view->R[i];
-            lrcsi_dd sum = {0, 0};
-            double rest = 0;
-            for (int k = 0; k < 3; k++) {
-                lrcsi_dd term = lrcsi_dd_two_product(row[k], gap[k].hi);
-                rest += term.lo + (row[k] * gap[k].lo + c->axis_low[i][k] * gap[k].hi);
-                lrcsi_dd next = lrcsi_dd_two_sum(sum.hi, term.hi);
-                sum = (lrcsi_dd){next.hi, sum.lo + next.lo};
-            }
-            p->x[i] = sum.hi + (sum.lo + rest);
-        }
-        const double *up = c->view->R[2];
-        p->x[2] = c->origin == prepared->origin
-                      ? c->view->point[vertex].x[2]
-                      : up[0] * gap[0].hi + up[1] * gap[1].hi + up[2] * gap[2].hi;
-        p->frame = c->number;
+    if (!p->made) {
+        point_make(c, vertex, p);
     }
-    return p->x;
+    if (p->block != c->block) {
+        for (int k = 0; k < 2; k++) {
+            lrcsi_dd gap = lrcsi_dd_two_sum(p->x[k].hi, -c->middle[k]);
+            p->local[k] = lrcsi_dd_two_sum(gap.hi, gap.lo + p->x[k].lo);
+        }
+        p->off = 6 * U * (fabs(p->local[0].hi) + fabs(p->local[1].hi)) + p->line_off;
+        p->block = c->block;
+    }
+    return p;
 }
 
-/* The same from the middle of the block at hand; *off grows to how far that may be off, and lines
-   through it (0.5 u of the sum of its coordinates from the centre of the view, and of those from
-   the middle 0.5 u, and 5 u for a line); *z_err to the error of z. */
-void lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t vertex, double out[3], double *off,
-                        double *z_err)
+double lrcsi_cells_line(const lrcsi_cells_point *p, const lrcsi_cells_point *q, double line[3])
 {
-    const double *x = point_of(c, vertex);
-    out[0] = x[0] - c->middle[0];
-    out[1] = x[1] - c->middle[1];
-    out[2] = x[2];
-    double flat = fabs(x[0]) + fabs(x[1]);
-    double far = flat + fabs(x[2]);
-    double near = fabs(out[0]) + fabs(out[1]);
-    *off = lrcsi_most(*off, U * (0.6 * flat + 6 * near) + 128 * U * U * far);
-    *z_err = lrcsi_most(*z_err, 20 * U * far);
+    const lrcsi_dd *at = p->local;
+    lrcsi_dd along[2];
+    for (int k = 0; k < 2; k++) {
+        lrcsi_dd gap = lrcsi_dd_two_sum(q->local[k].hi, -at[k].hi);
+        along[k] = lrcsi_dd_two_sum(gap.hi, gap.lo + (q->local[k].lo - at[k].lo));
+    }
+    lrcsi_dd one = lrcsi_dd_two_product(along[1].hi, at[0].hi);
+    lrcsi_dd two = lrcsi_dd_two_product(along[0].hi, at[1].hi);
+    double low = (along[1].hi * at[0].lo + along[1].lo * at[0].hi) -
+                 (along[0].hi * at[1].lo + along[0].lo * at[1].hi);
+    lrcsi_dd cross = lrcsi_dd_two_sum(one.hi, -two.hi);
+    double length = sqrt(along[0].hi * along[0].hi + along[1].hi * along[1].hi);
+    line[0] = length > 0 ? -along[1].hi / length : 1;
+    line[1] = length > 0 ? along[0].hi / length : 0;
+    line[2] = length > 0 ? (cross.hi + (cross.lo + (one.lo - two.lo + low))) / length : -at[0].hi;
+    return length;
 }
 
 static int longest_side(const lrcsi_cells_facet *f)
@@ -157,36 +169,30 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
 {
     const lrcsi_view *view = c->view;
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    double p[3][3];
+    const lrcsi_cells_point *p[3];
     double z[3];
-    f->off = f->z_err = 0;
+    f->off = f->z_err = f->line_off = 0;
     for (int k = 0; k < 3; k++) {
-        lrcsi_cells_vertex(c, corner[view->facing[facet] > 0 ? k : (3 - k) % 3], p[k], &f->off,
-                           &f->z_err);
-        f->x[k] = p[k][0];
-        f->y[k] = p[k][1];
-        z[k] = p[k][2];
+        p[k] = lrcsi_cells_vertex(c, corner[view->facing[facet] > 0 ? k : (3 - k) % 3]);
+        f->x[k] = p[k]->local[0].hi;
+        f->y[k] = p[k]->local[1].hi;
+        z[k] = p[k]->z;
+        f->off = lrcsi_most(f->off, p[k]->off);
+        f->line_off = lrcsi_most(f->line_off, p[k]->line_off);
+        f->z_err = lrcsi_most(f->z_err, p[k]->z_err);
     }
     for (int k = 0; k < 3; k++) {
-        const double *q = p[(k + 1) % 3];
-        lrcsi_line_through(p[k], q, f->side[k]);
-        f->length[k] = fabs(q[0] - p[k][0]) + fabs(q[1] - p[k][1]) + 4 * f->off;
+        f->length[k] = lrcsi_cells_line(p[k], p[k == 2 ? 0 : k + 1], f->side[k]) + 4 * f->off;
     }
-    for (int i = 0; i < 2; i++) {
-        f->low[i] = lrcsi_least(p[0][i], lrcsi_least(p[1][i], p[2][i]));
-        f->high[i] = lrcsi_most(p[0][i], lrcsi_most(p[1][i], p[2][i]));
-    }
+    f->low[0] = lrcsi_least(f->x[0], lrcsi_least(f->x[1], f->x[2]));
+    f->high[0] = lrcsi_most(f->x[0], lrcsi_most(f->x[1], f->x[2]));
+    f->low[1] = lrcsi_least(f->y[0], lrcsi_least(f->y[1], f->y[2]));
+    f->high[1] = lrcsi_most(f->y[0], lrcsi_most(f->y[1], f->y[2]));
     facet_slope(f, z);
     f->thin = !(facet_least(f) > 16 * f->off);
     if (f->thin) {
         facet_flatten(f);
     }
-}
-
-void lrcsi_cells_segment_line(lrcsi_cells_segment *e)
-{
-    lrcsi_line_through(e->end[0], e->end[1], e->line);
-    e->length = fabs(e->end[1][0] - e->end[0][0]) + fabs(e->end[1][1] - e->end[0][1]);
 }
 
 int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape,

@@ -4,6 +4,7 @@
 #ifndef LRCSI_CELLS_FACET_H
 #define LRCSI_CELLS_FACET_H
 
+#include "base/dd.h"
 #include "view/view.h"
 #include "visibility/cells_shape.h"
 
@@ -16,7 +17,8 @@ typedef struct lrcsi_cells_facet {
     double z_off[2];        /* that of a place on the facet is off by [0] + [1] w */
     double z_low, z_high;   /* that of all of it */
     double low[2], high[2]; /* its box */
-    double off;             /* of its vertices */
+    double off;             /* of its vertices, and of how far they are from a line */
+    double line_off;        /* of its sides within the block, but for 16 u b */
     double z_err;           /* of their z */
     int thin;               /* its sides are those of a band */
 } lrcsi_cells_facet;
@@ -26,45 +28,44 @@ typedef struct lrcsi_cells_segment {
     double end[2][3];
     double line[3]; /* distance from its line: a x + b y + c */
     double length;
-    double off;        /* of its ends */
+    double off;        /* of its ends, and of how far they are from a line */
+    double line_off;   /* of its line within the block, but for 16 u b */
     double z_err;      /* of their z */
     uint32_t owner[2]; /* facets whose edge or contact it is, the second perhaps LRCS_NONE */
     uint32_t edge;     /* of more facets; else LRCS_NONE */
     int contact;
 } lrcsi_cells_segment;
 
-/* A vertex in the view, made in the frame of that number. */
+/* A vertex, once it is made: in the view, and from the middle of a block. */
 typedef struct lrcsi_cells_point {
-    double x[3];
-    uint32_t frame;
+    lrcsi_dd x[2], local[2];
+    double z;
+    double off;      /* of `local`, rounded, and of how far that is from a line */
+    double line_off; /* of lines through it within the block, but for 16 u b */
+    double z_err;
+    uint32_t made, block; /* not 0 if made; the block */
 } lrcsi_cells_point;
 
 /* The axes of the view, and its vertices as they are made: zeros at first. */
 typedef struct lrcsi_cells_frame {
     const lrcsi_view *view;
     double axis_low[2][3];
-    const double *origin;     /* a scene point */
-    uint32_t number;          /* of frames so far */
     lrcsi_cells_point *point; /* vertex */
-    double middle[2];         /* of the block at hand */
+    double middle[2];         /* of the block at hand, */
+    uint32_t block;           /* and its number, from 1 */
 } lrcsi_cells_frame;
 
-/* Makes the axes; the origin is that of the view. */
+/* Makes the axes. */
 void lrcsi_cells_frame_make(lrcsi_cells_frame *c);
 
-/* Puts the origin elsewhere, and the middle there. */
-void lrcsi_cells_frame_move(lrcsi_cells_frame *c, const double *origin);
+/* A vertex from the middle of the block at hand. */
+const lrcsi_cells_point *lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t vertex);
 
-/* A vertex from the middle of the block at hand; *off grows to how far that may be off, and lines
-   through it, *z_err to the error of z. */
-void lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t vertex, double out[3], double *off,
-                        double *z_err);
+/* The line through two of them. Returns how far they are apart, but for 4 u of it. */
+double lrcsi_cells_line(const lrcsi_cells_point *p, const lrcsi_cells_point *q, double line[3]);
 
 /* Makes the record of a facet for the block at hand. */
 void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_facet *f);
-
-/* The line and the length of a segment whose ends are told. */
-void lrcsi_cells_segment_line(lrcsi_cells_segment *e);
 
 /* May the facet come near a cell in a box? */
 int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape,

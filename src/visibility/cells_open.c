@@ -50,9 +50,17 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
     if (!e) {
         return 0;
     }
-    lrcsi_cells_vertex(&c->frame, of->low, e->end[0], &e->off, &e->z_err);
-    lrcsi_cells_vertex(&c->frame, of->high, e->end[1], &e->off, &e->z_err);
-    lrcsi_cells_segment_line(e);
+    const lrcsi_cells_point *end[2] = {lrcsi_cells_vertex(&c->frame, of->low),
+                                       lrcsi_cells_vertex(&c->frame, of->high)};
+    for (int i = 0; i < 2; i++) {
+        e->end[i][0] = end[i]->local[0].hi;
+        e->end[i][1] = end[i]->local[1].hi;
+        e->end[i][2] = end[i]->z;
+    }
+    e->off = lrcsi_most(end[0]->off, end[1]->off);
+    e->line_off = lrcsi_most(end[0]->line_off, end[1]->line_off);
+    e->z_err = lrcsi_most(end[0]->z_err, end[1]->z_err);
+    e->length = lrcsi_cells_line(end[0], end[1], e->line);
     return 1;
 }
 
@@ -112,23 +120,23 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
         if (!e) {
             return 0;
         }
-        double origin[3];
         const lrcs_point *vertex = view->prepared->vertex;
         uint32_t corner = view->prepared->scene->facet[facet].corner[0];
         for (int k = 1; k < 3 && vertex[corner].x != target.origin; k++) {
             corner = view->prepared->scene->facet[facet].corner[k];
         }
-        lrcsi_cells_vertex(&c->frame, corner, origin, &e->off, &e->z_err);
+        const lrcsi_cells_point *origin = lrcsi_cells_vertex(&c->frame, corner);
         for (int n = 0; n < 2; n++) {
-            e->end[n][0] = origin[0] + contact.end[n][0];
-            e->end[n][1] = origin[1] + contact.end[n][1];
+            e->end[n][0] = origin->local[0].hi + contact.end[n][0];
+            e->end[n][1] = origin->local[1].hi + contact.end[n][1];
         }
         e->end[0][2] = e->end[1][2] = 0;
-        e->off += 32 * U * contact.reach + contact.slip;
+        e->off = origin->off + 32 * U * contact.reach + contact.slip;
         e->owner[0] = facet;
         e->owner[1] = other;
         e->contact = 1;
-        lrcsi_cells_segment_line(e);
+        e->line_off = e->off;
+        e->length = lrcsi_line_through(e->end[0], e->end[1], e->line);
     }
     return 1;
 }

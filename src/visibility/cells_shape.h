@@ -6,8 +6,9 @@
 
 #include "visibility/clip.h"
 
-/* The line through two points: a x + b y + c is the distance from it, positive on the left. */
-void lrcsi_line_through(const double *p, const double *q, double line[3]);
+/* The line through two points: a x + b y + c is the distance from it, positive on the left. Returns
+   how far they are apart, but for 4 u of it. */
+double lrcsi_line_through(const double *p, const double *q, double line[3]);
 
 static inline double lrcsi_line_at(const double line[3], double x, double y)
 {
@@ -22,7 +23,7 @@ typedef struct lrcsi_cells_sides {
     uint32_t count;
     double low[2], high[2];
     double perimeter;
-    double g; /* (16 + 4 n) u b */
+    double g; /* what was given for places near the cell */
 } lrcsi_cells_sides;
 
 /* Makes them for a cell, of which is said what holds of places within `g` of it. */
@@ -63,7 +64,7 @@ void lrcsi_cells_shape_clip(lrcsi_clip_polygon *shape, const double line[3]);
 typedef struct lrcsi_cells_shape_cut {
     const double *common[2]; /* corners that both parts share, so many of them */
     int commons;
-    double longest; /* of the sides that are cut, |x| + |y| */
+    double drift; /* how far the new corners are from the sides that they cut, at most */
 } lrcsi_cells_shape_cut;
 
 /* Divides a shape along a line, into what lies left of it and what lies right of it. */

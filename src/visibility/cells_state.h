@@ -32,8 +32,7 @@ typedef struct lrcsi_cells_cell {
 typedef struct lrcsi_cells_found {
     double seen;  /* area in cells where it is seen */
     double off;   /* by which that may be wrong */
-    double doubt; /* area of strips, */
-    double cut;   /* and their length */
+    double doubt; /* area of strips */
 } lrcsi_cells_found;
 
 /* A segment at the border of a cell. */
@@ -84,7 +83,8 @@ static inline uint32_t *lrcsi_cells_segments(const lrcsi_cells_work *c,
     return c->list + cell->first + cell->facets;
 }
 
-/* What is said of a cell holds for places within so much of it: (16 + 4 n) u b. */
+/* What is said of a cell holds for places within so much of it, computed: its drift, and 16 u of
+   the largest coordinate for distances from lines. */
 static inline double lrcsi_cells_reach(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     return 16 * 0x1p-53 * c->reach + cell->drift;

@@ -3,6 +3,8 @@
    others in cells of the view plane, together or one by one. */
 #include "visibility/occlude.h"
 
+#include <string.h>
+
 #include "base/work.h"
 #include "visibility/cells.h"
 #include "visibility/query.h"
@@ -36,7 +38,7 @@ void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
     if (!contest->contested[facet]) {
         o->answer = answered_area(o, facet);
         o->whole = o->answer.low > 0;
-    } else if (!lrcsi_query_screened(contest, &o->alone.grid, facet)) {
+    } else if (!lrcsi_query_screened(contest, &o->facets, facet)) {
         o->contested = 1;
         lrcsi_alone_open(&o->alone, facet);
     }
@@ -75,51 +77,84 @@ static int cells_serve(const lrcs_prepared *prepared)
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
-    size_t facets = lrcsi_work_bytes(prepared->scene->facet_count, 1);
-    size_t need = lrcsi_work_add(lrcsi_grid_facets_need(prepared), facets);
-    need = lrcsi_work_add(need, lrcsi_alone_need(prepared));
+    size_t need = 2 * lrcsi_work_bytes(prepared->scene->facet_count, 1);
+    size_t alone = lrcsi_alone_need(prepared);
     size_t cells = cells_serve(prepared) ? lrcsi_cells_need(prepared) : 0;
-    return lrcsi_work_add(facets, need > cells ? need : cells);
+    need = lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
+    return lrcsi_work_add(need, alone > cells ? alone : cells);
+}
+
+/* All but what single facets take. */
+static int occlude_begin(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)
+{
+    *o = (lrcsi_occluding){.contest = contest};
+    o->uniform = lrcsi_work_take(work, contest->view->prepared->scene->facet_count, 1);
+    return o->uniform ? lrcsi_query_uniform(contest, work, &o->facets, o->uniform) : LRCS_E_MEMORY;
 }
 
 int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)
 {
     size_t mark = work->used;
-    *o = (lrcsi_occluding){.contest = contest};
-    o->uniform = lrcsi_work_take(work, contest->view->prepared->scene->facet_count, 1);
-    lrcsi_grid facets;
-    int status =
-        o->uniform ? lrcsi_query_uniform(contest, work, &facets, o->uniform) : LRCS_E_MEMORY;
-    status = status == LRCS_OK ? lrcsi_alone_make(contest, &facets, work, &o->alone) : status;
+    int status = occlude_begin(contest, work, o);
+    status = status == LRCS_OK ? lrcsi_alone_make(contest, &o->facets, work, &o->alone) : status;
     if (status != LRCS_OK) {
         work->used = mark;
     }
     return status;
 }
 
-int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible)
+/* Contested facets: many all together, then one by one what that left open. */
+static int occlude_contested(lrcsi_occluding *o, lrcs_work *work, unsigned char *open,
+                             lrcsi_visible *visible)
 {
-    const lrcsi_view *view = contest->view;
-    uint32_t facets = view->prepared->scene->facet_count;
-    size_t mark = work->used;
-    lrcsi_occluding o;
-    unsigned char *open = lrcsi_work_take(work, facets, 1);
-    for (uint32_t f = 0; f < facets && open; f++) {
-        open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
-    }
-    /* 1. Many undecided facets all together, by cells of the view plane. */
-    if (open && contest->contested_count >= CELLS_LEAST &&
-        contest->contested_count >= facets / CELLS_SHARE && cells_serve(view->prepared)) {
+    lrcsi_contest *contest = o->contest;
+    const lrcs_prepared *p = contest->view->prepared;
+    uint32_t count = p->scene->facet_count;
+    if (contest->contested_count >= CELLS_LEAST &&
+        contest->contested_count >= count / CELLS_SHARE && cells_serve(p)) {
         lrcsi_cells_areas(contest, work, open, visible);
     }
-    /* 2. One by one what that left open, and what is not contested. */
-    int status = open ? lrcsi_occlude_make(contest, work, &o) : LRCS_E_MEMORY;
-    for (uint32_t f = 0; f < facets && status == LRCS_OK; f++) {
-        if (open[f] || !contest->contested[f]) {
-            lrcsi_occlude_open(&o, f);
-            visible[f] = lrcsi_occlude_area(&o);
+    if (!memchr(open, 1, count)) {
+        return LRCS_OK;
+    }
+    int status = lrcsi_alone_make(contest, &o->facets, work, &o->alone);
+    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
+        if (open[f]) {
+            lrcsi_occlude_open(o, f);
+            visible[f] = lrcsi_occlude_area(o);
+            if (visible[f].high == 0) {
+                o->uniform[f] = LRCSI_QUERY_HIDDEN;
+            }
         }
     }
+    return status;
+}
+
+int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, const unsigned char **answer,
+                      lrcsi_visible *visible)
+{
+    const lrcsi_view *view = contest->view;
+    uint32_t count = view->prepared->scene->facet_count;
+    size_t mark = work->used;
+    lrcsi_occluding o;
+    int status = occlude_begin(contest, work, &o);
+    unsigned char *open = lrcsi_work_take(work, count, 1);
+    status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
+    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
+        open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
+        if (open[f]) {
+            o.uniform[f] = LRCSI_QUERY_UNDECIDED;
+        } else if (o.uniform[f] == LRCSI_QUERY_UNDECIDED) {
+            visible[f] = answered_area(&o, f);
+        }
+    }
+    status = status == LRCS_OK ? occlude_contested(&o, work, open, visible) : status;
+    /* What the answers tell. They move down to where the work area was, if not there yet. */
     work->used = mark;
+    if (status == LRCS_OK && answer) {
+        *answer = memmove(lrcsi_work_take(work, count, 1), o.uniform, count);
+    } else if (status == LRCS_OK) {
+        lrcsi_visible_answered(view, o.uniform, visible);
+    }
     return status;
 }

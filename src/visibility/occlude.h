@@ -9,6 +9,7 @@
 /* What serves all facets of a view, and the facet at hand. */
 typedef struct lrcsi_occluding {
     lrcsi_contest *contest;
+    lrcsi_grid facets;
     unsigned char *uniform; /* facet: what a uniform one shows, a lrcsi_query_answer */
     lrcsi_alone alone;      /* target and piece of the facet at hand */
     lrcsi_visible answer;   /* of a facet that is not contested */
@@ -37,9 +38,13 @@ lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o);
 lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o);
 
 /* Every facet: uniform ones by one exact sample; contested ones all together where they are many
-   (visibility/cells.h), else one by one. One that takes more steps than its limit is bounded by
-   what was reached.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. */
-int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible);
+   (visibility/cells.h), else one by one. One that falls into more cells than the limit is bounded
+   by what was reached.
+   Returned: *answer, unless answer is NULL: facet -> LRCSI_QUERY_HIDDEN or _VISIBLE where it shows
+   nothing or all of itself, which is exact then; else LRCSI_QUERY_UNDECIDED, and visible[facet] is
+   its area. So most of visible[] is never touched. With answer NULL visible[] has the areas of all.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */
+int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, const unsigned char **answer,
+                      lrcsi_visible *visible);
 
 #endif

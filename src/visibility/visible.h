@@ -25,7 +25,8 @@ static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_tilt *tilt, dou
     return (lrcsi_visible){tilt->projected, low, tilt->projected, 0, 0};
 }
 
-/* All or nothing of each facet, by its lrcsi_query_answer; nothing where that is undecided. */
+/* All or nothing of each facet, by its lrcsi_query_answer; visible[facet] stays as it is where that
+   is undecided. */
 void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
                             lrcsi_visible *visible);
 

@@ -10,6 +10,7 @@ typedef struct bench_sample {
     double cpu, wall;
     double bound, estimate; /* of a pose, over its sigma */
     double bytes;           /* of work area */
+    double first;           /* cpu, of the same pose in a work area that nothing has been in */
 } bench_sample;
 
 /* Measures until it is done, and hands over every sample as soon as it is taken. Returned: a

@@ -10,13 +10,14 @@
 /* ---- rows ---- */
 
 /* A number of a sample. */
-enum sample_item { ITEM_CPU, ITEM_WALL, ITEM_BOUND, ITEM_ESTIMATE };
+enum sample_item { ITEM_CPU, ITEM_WALL, ITEM_BOUND, ITEM_ESTIMATE, ITEM_FIRST };
 
 static double sample_item(const bench_sample *s, int item)
 {
     return item == ITEM_CPU     ? s->cpu
            : item == ITEM_WALL  ? s->wall
            : item == ITEM_BOUND ? s->bound
+           : item == ITEM_FIRST ? s->first
                                 : s->estimate;
 }
 
@@ -47,7 +48,7 @@ const bench_row *bench_row_add(bench_table *table, const char *scene, const lrcs
     row->ms = cell_quantile(cell, from, item, 0.5);
     row->low = cell_quantile(cell, from, item, 0.25);
     row->high = cell_quantile(cell, from, item, 0.75);
-    row->first = warm > 0 && cell->count > 0 ? cell->sample[0].cpu : 0;
+    row->first = cell_quantile(cell, from, ITEM_FIRST, 0.5);
     row->bound = cell_quantile(cell, from, ITEM_BOUND, 0.5);
     row->estimate = cell_quantile(cell, from, ITEM_ESTIMATE, 0.5);
     for (int i = 0; i < cell->count; i++) {
@@ -121,7 +122,8 @@ static void times_print(const bench_table *table, double limit_s)
         "auto 1e-1", "auto 1e-2", "auto 1e-3", "auto 1e-4",   "estimate 1e-2", "estimate 1e-3"};
     enum { SHOWN = sizeof shown / sizeof shown[0], EXACT = 5 };
     printf(
-        "\nMedians in ms of one processor's time; first: the first pose, the rest: later ones\n\n");
+        "\nMedians in ms of one processor's time, over the same directions; first: in a work area "
+        "that nothing has been in\n\n");
     printf("| %-26s | %7s |", "scene", "facets");
     for (int k = 0; k < SHOWN; k++) {
         printf(k == EXACT ? " exact, first | exact |" : " %s |", shown[k]);

@@ -14,7 +14,7 @@ typedef struct bench_row {
     int end;                /* bench_cell_end */
     int samples;            /* that the median is of */
     double ms, low, high;   /* of the processor: median and quartiles; of a peer: on the wall */
-    double wall, first;     /* median on the wall; the first pose, of the processor */
+    double wall, first;     /* medians: on the wall; of the processor, in fresh memory */
     double bytes;           /* of work area, at most */
     double bound, estimate; /* over sigma, medians */
 } bench_row;
@@ -24,8 +24,8 @@ typedef struct bench_table {
     uint32_t count;
 } bench_table;
 
-/* Adds a row. The first `warm` samples are none of steady use: the first of them is row->first.
-   Where there are no more than those, they are the median's, too. */
+/* Adds a row. The first `warm` samples are none of steady use: they count where there are no
+   others. */
 const bench_row *bench_row_add(bench_table *table, const char *scene, const lrcs_scene *of,
                                const char *what, const bench_cell *cell, int warm);
 

@@ -39,6 +39,12 @@ same obj_name_of_a_megabyte_is_read "$rc" 0
 failure empty_file "there is nothing to read" run "$scratch/m.stl"
 failure folder_is_no_file "cannot read" run "$scratch"
 
+mkfifo "$scratch/pipe.obj"
+failure pipe_is_no_model "pipe.obj: expected a regular file, found a device, pipe or socket" run "$scratch/pipe.obj"
+failure device_is_no_model "/dev/zero: expected a regular file" info /dev/zero
+printf '[[part]]\nname = "p"\nfile = "pipe.obj"\n' >"$scratch/s.toml"
+failure pipe_is_no_part "pipe.obj: expected a regular file" run "$scratch/s.toml"
+
 # Bytes of address space from too few for anything to enough: done, degraded or refused with a
 # message, never a crash. Sanitizers need all of it.
 starve() {
@@ -66,6 +72,13 @@ if (ulimit -v 4000000 && exec "$tool" help) >/dev/null 2>&1; then
     starve a_raster run demo --method zbuffer --resolution 2048
     starve a_picture image demo -o "$scratch/demo.png"
     starve sweep sweep demo --az 0:20:10 --el 0
+    # Where memory refuses threads there are fewer, and the rows are those of one alone.
+    what='demo --az 0:8:2 --el 20 --method zbuffer --resolution 4096'
+    # shellcheck disable=SC2086
+    "$tool" sweep $what --jobs 1 >"$scratch/one.csv" 2>/dev/null
+    # shellcheck disable=SC2086
+    (ulimit -v 400000 && exec "$tool" sweep $what --jobs 5 >"$scratch/five.csv" 2>"$scratch/err")
+    same fewer_threads_where_memory_refuses_more "$? $(cmp "$scratch/one.csv" "$scratch/five.csv" && echo same)" "0 same"
     same nothing_half_written "$(find "$scratch" -name '*.png*' | grep -v '/demo.png$')" ""
 else
     skip "little_memory" "this build does not run in a limited address space"

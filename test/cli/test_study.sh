@@ -1,21 +1,21 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs study: its numbers against test/vectors/study.csv (40 digits, from Eq. 2 itself), its laws,
-# its files, and that examples/study is what it writes.
+# examples/study: its numbers against test/vectors/study.csv (40 digits, from Eq. 2 itself), its laws,
+# its files, and that examples/study/results is what it writes.
 . "$(dirname "$0")/check.sh"
-kept=$root/examples/study
+kept=$root/examples/study/results
+tool=$(dirname "$tool")/examples/study/study
 cd "$scratch" || exit 1
 
-run study -o one
+run -o one
 table=$out
 same all_laws_hold_and_exit_is_0 "$rc $(printf '%s\n' "$out" | tail -1 | cut -d' ' -f1-5)" "0 18 of 18 laws hold"
 same table_has_a_line_for_every_law "$(printf '%s\n' "$out" | grep -cE ' holds +[0-9]+ ')" 18
 same nothing_on_stderr "$err" ""
-run study
+run
 same without_a_folder_it_prints_the_same "$out" "$table"
 same and_writes_nothing "$(ls)" one
-run study -o=two
-run study -o two
+run -o two
 same the_same_bytes_every_time "$(diff -r one two && echo same)" same
 same no_temporary_file_stays "$(find . -name '.lrcs*' | wc -l | tr -d ' ')" 0
 
@@ -71,21 +71,22 @@ same every_law_has_its_range_and_support "$(grep -c '^### ' one/study.md) $(grep
 # ---- laws that the numbers do not support ----
 # With m = 0 the diffuse cylinder and cone of the study are equal along the axis; with A < B there
 # is no angle up to which the glint is the larger.
-run study --material 1,2,0.2,0 -o three
+run --material 1,2,0.2,0 -o three
 same exit_is_1 "$rc" 1
 same laws_not_supported "$(printf '%s\n' "$out" | grep 'not supported' | cut -c1-24 | sed 's/ *$//' | tr '\n' ';')" "where diffuse takes over;order along the axis;"
 same the_page_says_so_too "$(grep -c '^### .*: not supported$' three/study.md)" 2
-run study --material 2,0.1,0.1,1
+run --material 2,0.1,0.1,1
 same another_material_keeps_the_laws "$rc" 0
 
 # ---- what cannot be ----
-usage_error no_glint "expected A > 0, B > 0, s from 0.02 to 0.5 and m up to 100, found A = 0" study --material 0,0.25,0.2,1
-usage_error slope_too_large "found A = 1, B = 0.25, s = 0.6" study --material 1,0.25,0.6,1
-usage_error exponent_too_large "m = 101" study --material 1,0.25,0.2,101
-usage_error unknown_material "the nearest in the library is" study --material gold
-usage_error standard_output_is_no_folder "-o: expected a folder, found '-'" study -o -
-usage_error no_operand "study" study demo
+usage_error no_glint "expected A > 0, B > 0, s from 0.02 to 0.5 and m up to 100, found A = 0" --material 0,0.25,0.2,1
+usage_error slope_too_large "found A = 1, B = 0.25, s = 0.6" --material 1,0.25,0.6,1
+usage_error exponent_too_large "m = 101" --material 1,0.25,0.2,101
+usage_error unknown_material "expected A,B,s,m or a library material, found 'gold'" --material gold
+usage_error standard_output_is_no_folder "-o: expected a folder, found '-'" -o -
+usage_error no_operand "found 'demo'" demo
+usage_error an_option_has_a_value "expected a value after '-o'" -o
 : >file
-failure a_file_is_no_folder "-o file: cannot make the folder" study -o file
-failure no_folder_in_a_folder_that_is_not_there "-o no/where: cannot make the folder" study -o no/where
+failure a_file_is_no_folder "-o file: cannot make the folder" -o file
+failure no_folder_in_a_folder_that_is_not_there "-o no/where: cannot make the folder" -o no/where
 finish

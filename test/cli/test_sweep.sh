@@ -23,14 +23,14 @@ run sweep pair.toml --az 0:30:10 --el 0
 same a_cut_exits_0 "$rc" 0
 same the_first_line_says_what_it_is "$(printf '%s\n' "$out" | head -1)" \
     "# lrcs $("$tool" --version | cut -d' ' -f2) sweep; scene_hash=$("$tool" run pair.toml --json 2>/dev/null | sed -n 's/.*"scene_hash": "\(.*\)",/\1/p'); rows=4; shape=4; az=0:30:10; el=0; tolerance=0.0001; method=auto; resolution=auto; normals=flat"
-same the_second_line_names_columns "$(printf '%s\n' "$out" | sed -n 2p)" "index,az_deg,el_deg,sigma_m2,sigma_dbsm,bound_m2,flags"
-same both_ends_are_in "$(printf '%s\n' "$out" | sed 1,2d | column 2 | tr '\n' ' ')" "0 10 20 30 "
+same the_second_line_names_columns "$(printf '%s\n' "$out" | sed -n 2p)" "index,az_deg,el_deg,sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2,flags"
+same both_ends_are_in "$(printf '%s\n' "$out" | sed '1,2d;$d' | column 2 | tr '\n' ' ')" "0 10 20 30 "
 
 for axis in 10 20; do
     run run pair.toml --azel $axis,0 --json
     same "row_of_${axis}_deg_is_what_run_says" \
-        "$(sweep pair.toml --az 0:30:10 | grep ",$axis,0," | column 4,5,6)" \
-        "$(value sigma_m2),$(value sigma_dbsm),$(value bound_m2)"
+        "$(sweep pair.toml --az 0:30:10 | grep ",$axis,0," | column 4-8)" \
+        "$(value sigma_m2),$(value sigma_dbsm),$(value bound_m2),$(value sigma_glint_m2),$(value sigma_diffuse_m2)"
 done
 run run pair.toml --euler XZY:10,20,30 --json
 same an_euler_row_is_what_run_says "$(sweep pair.toml --euler XZY:10,0:20:20,30 | tail -1 | column 5)" "$(value sigma_m2)"
@@ -70,7 +70,8 @@ same directions_are_unit_vectors "$(printf '%s\n' "$out" | awk -F, '/^[0-9]/ { d
 same octants_hold_an_eighth_each "$(printf '%s\n' "$out" | awk -F, '/^[0-9]/ { k = ($2 > 0) + 2 * ($3 > 0) + 4 * ($4 > 0); c[k]++ } END { for (k = 0; k < 8; k++) if (c[k] < 245 || c[k] > 255) bad++; print bad + 0 }')" 0
 same no_two_directions_are_near "$(printf '%s\n' "$out" | awk -F, '/^[0-9]/ { x[n] = $2; y[n] = $3; z[n++] = $4 } END { for (i = 0; i < n; i++) for (j = i + 1; j < n && z[i] - z[j] < 0.05; j++) { d = (x[i]-x[j])^2 + (y[i]-y[j])^2 + (z[i]-z[j])^2; if (d < 0.05^2) bad++ } print bad + 0 }')" 0
 run sweep box.toml --sphere 1
-same one_direction_has_no_standard_error "$(printf '%s\n' "$out" | tail -1 | grep -c 'standard_error_m2=;')" 1
+same one_direction_has_no_standard_error "$(printf '%s\n' "$out" | grep -c '^# mean.*standard_error_m2=;')" 1
+same and_nobody_reads_nan "$(printf '%s\n' "$out$err" | grep -ci nan) $(printf '%s\n' "$err" | grep -c 'standard error not known from one direction')" "0 1"
 
 # ---- attitudes from a file ----
 printf '# a track\ntime,w,x,y,z\n0,1,0,0,0\n0.5,2,0,0,0\n\n1,0.70710678118654752,0.70710678118654752,0,0\r\n' >q.csv
@@ -99,13 +100,13 @@ failure a_track_that_is_not_there "none.csv: cannot open" sweep pair.toml --pose
 
 # ---- JSON lines ----
 run sweep pair.toml --az 0:20:10 --json
-same json_lines_are_one_a_row "$(printf '%s\n' "$out" | grep -c '^{.*}$')" 4
+same json_lines_are_one_a_row "$(printf '%s\n' "$out" | grep -c '^{.*}$')" 5
 if command -v python3 >/dev/null; then
     printf '%s\n' "$out" >rows.jsonl
     same json_lines_are_json "$(python3 -c '
 import json
-head, *rows = [json.loads(line) for line in open("rows.jsonl")]
-print(head["rows"], head["shape"], [r["az_deg"] for r in rows], rows[0]["sigma_m2"] > 0, rows[0]["flags"])')" "3 [3] [0, 10, 20] True []"
+head, *rows, last = [json.loads(line) for line in open("rows.jsonl")]
+print(head["rows"], head["shape"], [r["az_deg"] for r in rows], rows[0]["sigma_m2"] > 0, rows[0]["flags"], list(last))')" "3 [3] [0, 10, 20] True [] ['checksum']"
 else
     skip "json_lines_are_json" "no python3"
 fi

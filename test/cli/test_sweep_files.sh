@@ -42,28 +42,88 @@ cp whole.csv map.npy.partial
 "$tool" sweep $what -o map.npy --resume 2>/dev/null
 equal a_map_resumes_from_its_rows map.npy whole.npy
 same and_leaves_none_of_them "$(find . -name '*.partial' | wc -l | tr -d ' ')" 0
-# A whole file is not made again: its row with another sigma stays.
-sed 's/^3,.*/3,30,-20,7,8.4509804001425675,0.001,tolerance_not_met/' whole.csv >again.csv
-cp again.csv before.csv
-# shellcheck disable=SC2086
-run sweep $what -o again.csv --resume
-equal a_whole_file_is_left_alone again.csv before.csv
-same its_rows_decide_the_exit "$rc" 3
+# A whole file is not made again, and its rows decide the exit.
+missed='pair.toml --az 0:90:10 --el 75 --method zbuffer --resolution 16 --tolerance 1e-9'
+pair_scene >pair.toml
+for kind in csv jsonl npy; do
+    # shellcheck disable=SC2086
+    "$tool" sweep $missed -o missed.$kind 2>/dev/null
+    touch -d '2001-01-01' missed.$kind
+    # shellcheck disable=SC2086
+    run sweep $missed -o missed.$kind --resume
+    same "a_whole_${kind}_is_left_alone" "$rc $(find . -name missed.$kind -newermt 2002-01-01)" "3 "
+    same "and_its_missed_rows_of_${kind}_are_told" "$(printf '%s\n' "$err" | grep -c '10 of 10 rows miss the tolerance')" 1
+done
 
-# What is there but of another sweep gives way, as a file without --resume does.
+# What is there but is of another sweep stays: --resume replaces no whole file.
 for shard in 1/2 1/100; do
     cp whole.csv again.csv
     # shellcheck disable=SC2086
-    "$tool" sweep $what --shard $shard -o part.csv 2>/dev/null
-    # shellcheck disable=SC2086
-    run sweep $what --shard $shard -o again.csv --resume
-    equal "a_whole_sweep_is_no_shard_$(echo $shard | tr / _)" again.csv part.csv
-    rm part.csv
+    failure "a_whole_sweep_is_no_shard_$(echo $shard | tr / _)" "again.csv: is not of this sweep" sweep $what --shard $shard -o again.csv --resume
+    equal "and_stays_beside_$(echo $shard | tr / _)" again.csv whole.csv
 done
+for kind in csv jsonl npy; do
+    cp whole.$kind again.$kind
+    [ $kind != npy ] || cp whole.npy.head again.npy.head
+    failure "a_whole_${kind}_of_another_sweep_stays" "is not of this sweep" sweep box.toml --az 0:90:10 --el -20:20:10 --tolerance 1e-2 -o again.$kind --resume
+    equal "the_${kind}_is_as_it_was" again.$kind whole.$kind
+    printf x | dd of=again.$kind bs=1 seek=900 conv=notrunc 2>/dev/null
+    # shellcheck disable=SC2086
+    run sweep $what -o again.$kind --resume
+    same "a_damaged_${kind}_is_not_taken_for_whole" "$rc $(printf '%s\n' "$err" | grep -c 'is damaged: line .* found .* expected\|is not what its .head says')" "1 1"
+    rm again.$kind
+done
+cp whole.npy again.npy
+rm again.npy.head
+# shellcheck disable=SC2086
+failure a_map_without_its_head_is_not_known "again.npy: is not of this sweep" sweep $what -o again.npy --resume
+rm again.npy
+same a_map_says_of_which_sweep_it_is "$(sed -n 1,2p whole.npy.head) $(sed -n 3p whole.npy.head | sed 's/=fnv1a:[0-9a-f]*;/=H;/')" "$(sed -n 1,2p whole.csv) # map=H; missed=0; starved=0; estimated=0; unjudged=0"
+
+# ---- damaged rows ----
+# damage NAME SED TEXT: row 8 changed so is not gone on with, and the message says why.
+damage() {
+    head -20 whole.csv | sed "$2" >again.csv.partial
+    # shellcheck disable=SC2086
+    failure "$1" "again.csv.partial: is damaged: line 11, $3" sweep $what -o again.csv --resume
+}
+row=$(grep '^8,' whole.csv)
+damage an_axis_changed 's/^8,10,10,/8,70,10,/' "az_deg: found '70', expected 10"
+damage a_field_missing 's/^\(8,10,10,[^,]*\),[^,]*/\1/' "the row: found '8,10,10,"
+damage a_field_too_many 's/^8,/8,8,/' "the row: found '8,8,10,10"
+damage sigma_changed 's/^8,10,10,[^,]*/8,10,10,3/' "sigma_dbsm: found '$(printf %s "$row" | cut -d, -f5)', expected 4.77121"
+damage a_negative_bound 's/^\(8,10,10,[^,]*,[^,]*\),[^,]*/\1,-1/' "bound_m2: found '-1', expected a number of at least 0"
+damage dbsm_that_is_no_number 's/^\(8,10,10,[^,]*\),[^,]*/\1,junk/' "sigma_dbsm: found 'junk', expected a number"
+damage no_bound 's/^\(8,10,10,[^,]*,[^,]*\),[^,]*/\1,/' "bound_m2: found '', expected"
+damage nan_for_sigma 's/^8,10,10,[^,]*/8,10,10,nan/' "sigma_m2: found 'nan'"
+damage glint_changed 's/^\(8,10,10,[^,]*,[^,]*,[^,]*\),[^,]*/\1,7/' "sigma_glint_m2 and sigma_diffuse_m2: found '7'"
+damage a_flag_that_is_none 's/^\(8,.*\)$/\1fine/' "flags: found 'fine', expected names of flags"
+damage an_index_that_is_none 's/^8,/x8,/' "index: found 'x8'"
+{ head -10 whole.csv && sed -n 12,15p whole.csv; } >again.csv.partial
+# shellcheck disable=SC2086
+failure a_row_lost "line 11: found row 9, expected row 8" sweep $what -o again.csv --resume
+{ head -12 whole.jsonl | sed 's/^{"index": 8, "az_deg": 10/{"index": 8, "az_deg": 40/'; } >again.jsonl.partial
+# shellcheck disable=SC2086
+failure an_axis_changed_in_json "line 10, az_deg: found '40', expected 10" sweep $what -o again.jsonl --resume
+sed 's/"bound_m2": /"sigma_m2": /' whole.jsonl | head -12 >again.jsonl.partial
+# shellcheck disable=SC2086
+failure a_key_changed_in_json "line 2, the row" sweep $what -o again.jsonl --resume
+rm again.*partial
+
+# A sweep that was stopped leaves a checksum: no digit of what is above it may change.
+# shellcheck disable=SC2086
+"$tool" sweep $what --shard 1/2 -o half.csv 2>/dev/null
+sed "s/^\(7,.*[^,]*,[^,]*,\)[0-9]\(.[0-9]*e-[0-9]*,[^,]*,[^,]*,\)/\19\2/" half.csv >half.csv.partial
+rm half.csv
+same the_bound_was_changed "$(diff half.csv.partial whole.csv | grep -c '^[<>] 7,')" 2
+# shellcheck disable=SC2086
+failure a_changed_bound_is_seen_by_the_checksum "the last line: found '# checksum=" sweep $what --shard 1/2 -o half.csv --resume
+rm half.csv.partial
 
 # ---- what is refused ----
+rm -f again.csv
 # shellcheck disable=SC2086
-head -c 500 whole.csv >again.csv.partial && cp again.csv.partial before.csv
+head -c 800 whole.csv >again.csv.partial && cp again.csv.partial before.csv
 # shellcheck disable=SC2086
 failure work_of_hours_is_not_overwritten "--resume goes on with it; or remove it" sweep $what -o again.csv
 failure another_sweep_is_not_resumed "is of another sweep" sweep box.toml --az 0:90:10 --el -20:20:20 -o again.csv --resume
@@ -76,7 +136,12 @@ failure nor_another_material "is of another sweep" sweep $what -o again.csv --re
 equal and_the_rows_are_still_there again.csv.partial before.csv
 rm again.csv.partial
 # shellcheck disable=SC2086
-failure a_folder_that_is_not_there "none/x.csv.partial: cannot write" sweep $what -o none/x.csv
+mkdir folder.csv
+# shellcheck disable=SC2086
+failure a_folder_is_refused_before_the_work "folder.csv: cannot write: Is a directory" sweep $what -o folder.csv
+same and_nothing_was_begun "$(ls -d folder.csv* | tr '\n' ' ')$(ls folder.csv)" "folder.csv "
+# shellcheck disable=SC2086
+failure a_folder_that_is_not_there "none/x.csv: cannot write: No such file or directory" sweep $what -o none/x.csv
 # shellcheck disable=SC2086
 [ -e /dev/full ] && { "$tool" sweep $what >/dev/full 2>full.txt; same a_full_disk_exits_1 "$?" 1; }
 
@@ -89,17 +154,54 @@ if command -v timeout >/dev/null; then
         same "sig${signal}_says_how_to_go_on" "$(grep -c 'cut.csv.partial holds .* --resume goes on' stop.txt)" 1
         same "sig${signal}_leaves_no_file" "$([ -e cut.csv ] && echo there)" ""
         rows=$(grep -c '^[0-9]' cut.csv.partial)
-        same "sig${signal}_leaves_whole_rows" "$(tail -c 1 cut.csv.partial | od -An -c | tr -d ' ') $(grep -vc '^#\|^index\|^[0-9]*,[^,]*,0,[^,]*,[^,]*,[^,]*,[a-z_]*$' cut.csv.partial)" '\n 0'
+        same "sig${signal}_leaves_whole_rows" "$(tail -c 1 cut.csv.partial | od -An -c | tr -d ' ') $(grep -vc '^#\|^index\|^[0-9]*,[^,]*,0,[^,]*,[^,]*,[^,]*,[^,]*,[^,]*,[a-z_]*$' cut.csv.partial)" '\n 0'
         same "sig${signal}_leaves_rows_in_order" "$(grep '^[0-9]' cut.csv.partial | awk -F, '$1 != NR - 1' | wc -l | tr -d ' ') $((rows > 0))" "0 1"
     done
     # the rows of two stops are those of one sweep
     last=$(grep '^[0-9]' cut.csv.partial | sed -n 300p | cut -d, -f2)
-    "$tool" sweep box.toml --az "0:$last:0.00001" 2>/dev/null | sed 1d >one.txt
+    "$tool" sweep box.toml --az "0:$last:0.00001" 2>/dev/null | sed '1d;$d' >one.txt
     sed 1d cut.csv.partial | head -n "$(wc -l <one.txt)" >two.txt
     equal stopped_rows_are_the_rows one.txt two.txt
+    same and_no_lock "$(ls cut.csv.lock 2>/dev/null)" ""
 else
     skip "sigINT_says_how_to_go_on" "no timeout"
 fi
+
+# ---- two at once ----
+# The second process says who holds the file, and the first one's rows are as if it had been alone.
+long='box.toml --az 0:360:0.01'
+for kind in csv jsonl npy; do
+    # shellcheck disable=SC2086
+    "$tool" sweep $long -o alone.$kind 2>/dev/null
+    # shellcheck disable=SC2086
+    "$tool" sweep $long -o two.$kind 2>/dev/null &
+    first=$!
+    while [ ! -s two.$kind.partial ] && [ ! -e two.$kind ]; do :; done
+    for again in --resume ''; do
+        # shellcheck disable=SC2086
+        run sweep $long -o two.$kind $again
+        if [ -e two.$kind ]; then break; fi # it was too late
+        same "the_second_${kind}${again}_says_who_holds_it" "$rc $(printf '%s\n' "$err" | grep -c "two.$kind: is being written by process $first on $(uname -n)")" "1 1"
+    done
+    wait $first
+    same "the_first_${kind}_ends_well" "$?" 0
+    equal "its_${kind}_is_as_if_alone" two.$kind alone.$kind
+done
+# A lock that a killed process left is none.
+echo 'process 1 on nowhere' >dead.csv.lock
+# shellcheck disable=SC2086
+run sweep $what -o dead.csv
+equal a_dead_lock_locks_nothing dead.csv whole.csv
+same and_goes_away "$(ls dead.csv.lock 2>/dev/null)" ""
+# What another program did to the rows does not become the file.
+# shellcheck disable=SC2086
+"$tool" sweep $endless -o gone.csv 2>gone.txt &
+first=$!
+while [ ! -s gone.csv.partial ]; do :; done
+mv gone.csv.partial moved.csv
+kill -TERM $first
+wait $first
+same a_file_moved_away_is_told "$(grep -c 'was changed or removed by another program' gone.txt)" 1
 
 # ---- shards ----
 # shellcheck disable=SC2086
@@ -138,9 +240,19 @@ failure a_shard_twice "part.2.csv: holds rows that another file holds" merge par
 failure a_shard_of_another_sweep "half.1.csv: is of another sweep" merge part.1.csv half.1.csv -o x.csv
 failure a_shard_of_another_form "part.2.jsonl: is of another sweep" merge part.1.csv part.2.jsonl -o x.csv
 head -c 300 part.2.csv >torn.csv
-failure a_torn_shard "torn.csv: ends in what is no row" merge part.1.csv torn.csv -o x.csv
+failure a_torn_shard "torn.csv: ends without its checksum" merge part.1.csv torn.csv -o x.csv
 failure what_is_no_sweep "box.toml: expected rows of lrcs sweep" merge box.toml -o x.csv
 failure a_shard_that_is_not_there "none.csv: cannot open" merge none.csv -o x.csv
+# ---- damaged shards ----
+for change in 's/^8,10,10,/8,70,10,/' 's/^8,10,10,\([^,]*\),[^,]*/8,10,10,\1/' 's/^\(8,10,10,[^,]*,[^,]*\),[^,]*/\1,-1/' 's/^\(8,10,10,[^,]*\),[^,]*/\1,junk/'; do
+    sed "$change" whole.csv >torn.csv
+    failure "damage_${change}_is_refused" "torn.csv: is damaged: line" merge torn.csv -o x.csv
+    failure "damage_${change}_makes_no_map" "torn.csv: is damaged: line" merge torn.csv -o x.npy
+done
+sed '$d' whole.jsonl >torn.jsonl
+failure a_shard_without_a_checksum "torn.jsonl: ends without its checksum" merge torn.jsonl -o x.jsonl
+same a_map_of_shards_has_its_head "$(cmp -s joined.npy.head whole.npy.head || head -1 joined.npy.head | grep -c '^{"lrcs": "sweep"')" 1
+
 usage_error a_merge_without_output "-o OUT is missing" merge part.1.csv
 usage_error a_merge_without_files "FILE... is missing" merge -o x.csv
 usage_error a_merge_into_another_form "the shards are CSV" merge part.1.csv -o x.jsonl

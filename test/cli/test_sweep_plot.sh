@@ -31,7 +31,7 @@ ln -s box.toml box.svg
 usage_error not_over_the_scene "--plot box.svg: would overwrite box.toml" $cut --plot box.svg
 same nothing_was_written "$(ls x.svg 2>/dev/null)" ""
 failure a_folder_that_is_not_there "none/x.svg" $cut -o c.csv --plot none/x.svg
-same the_rows_are_there_all_the_same "$(grep -c '^[0-9]' c.csv)" 46
+same is_told_before_the_work "$(ls c.csv* 2>/dev/null)" ""
 
 run $cut -o line.csv --plot line.svg --plot line.png
 same a_curve_is_drawn "$rc" 0

@@ -110,7 +110,7 @@ done
 for jobs in 1 3; do
     "$tool" sweep base.toml --joint '*:0:60:5' --azel 40,30 --tolerance 1e-2 --jobs $jobs >jobs.$jobs 2>/dev/null
 done
-same scenes_in_threads_are_the_same_bytes "$(wc -l <jobs.1 | tr -d ' ') $(cmp jobs.1 jobs.3 && echo same)" "15 same"
+same scenes_in_threads_are_the_same_bytes "$(wc -l <jobs.1 | tr -d ' ') $(cmp jobs.1 jobs.3 && echo same)" "16 same"
 
 usage_error a_part_without_a_joint "no part 'bus' has a joint; the nearest is" sweep base.toml --joint bus:0:1:1
 usage_error a_scene_without_joints "no part of the scene has a joint" sweep fin.obj --joint fin:0:1:1

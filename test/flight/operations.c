@@ -1,24 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* One pose of one scene, and how many steps it may take at most by the formulas of
-   examples/flight/README.md: questions of visibility, parts of curved facets, pixels drawn.
+   examples/flight/README.md: questions of visibility, parts of curved facets.
    test/flight/operations.sh counts how many it did take.
    usage: operations KIND COUNT [STEPS]     STEPS: lrcs_run_options.steps
    KIND: boxes (apart), sheets (over each other), random (pierced), book (on one edge), half
    (curved, half hidden) by method exact; patches, razors (curved, of a wide and of an all but
-   singular BRDF) by method facet; drawn (sheets as graphics hardware draws them) */
+   singular BRDF) by method facet */
 #include <stdlib.h>
 
 #include "scene/prepare.h"
 #include "scenes.h"
-
-#define PIXELS 128u
 
 static test_scene scene;
 static lrcs_point normal[3 * SCENE_FACETS];
 static int method = LRCS_METHOD_EXACT;
 static double tolerance = 1e-4;
 static uint64_t steps;
-static int drawn; /* by lrcs_emulate_run */
 
 static void make_boxes(uint32_t count)
 {
@@ -82,7 +79,6 @@ static void curve_facets(void)
 static void make_scene(const char *kind, uint32_t count)
 {
     scene_start(&scene);
-    drawn = strcmp(kind, "drawn") == 0;
     if (strcmp(kind, "boxes") == 0) {
         make_boxes(count);
     } else if (strcmp(kind, "random") == 0) {
@@ -147,22 +143,6 @@ static double most_parts(const lrcs_prepared *p)
     return most;
 }
 
-static double most_pixels(const lrcs_prepared *p)
-{
-    double n = p->scene->facet_count;
-    double N = PIXELS;
-    return p->scene->vertex_count + 2 * n + n * (N + N * N) + 2 * N * N;
-}
-
-static void draw(const lrcs_prepared *prepared, lrcs_work *work, const lrcs_pose *pose)
-{
-    lrcs_emulation emulation;
-    lrcs_emulation_options options = lrcs_emulation_options_default();
-    options.resolution = PIXELS;
-    assert_int_equal(lrcs_emulate_run(prepared, pose, &options, work, &emulation, NULL, NULL),
-                     LRCS_OK);
-}
-
 static void run(const lrcs_prepared *prepared, lrcs_work *work, const lrcs_pose *pose)
 {
     lrcs_result result;
@@ -180,11 +160,10 @@ static void one_pose(void **state)
     lrcs_pose pose;
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0.25, -0.5, 1}, &pose), LRCS_OK);
-    (drawn ? draw : run)(prepared, &work, &pose);
-    printf("%u %u %.0f %.0f %.0f\n", (unsigned)scene.scene.facet_count,
+    run(prepared, &work, &pose);
+    printf("%u %u %.0f %.0f\n", (unsigned)scene.scene.facet_count,
            (unsigned)prepared->touches.first[scene.scene.facet_count],
-           method == LRCS_METHOD_EXACT && !drawn ? most_questions(prepared) : 0,
-           most_parts(prepared), drawn ? most_pixels(prepared) : 0);
+           method == LRCS_METHOD_EXACT ? most_questions(prepared) : 0, most_parts(prepared));
 }
 
 int main(int words, char **word)

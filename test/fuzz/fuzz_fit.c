@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A few arbitrary readings to a material: what comes out is finite and in order, or a status. */
+#include <lrcs/fit.h>
+
 #include "fuzz.h"
 
 #include <math.h>

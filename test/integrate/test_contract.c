@@ -4,7 +4,6 @@
 #include "scenes.h"
 
 #include <fenv.h>
-#include <lrcs/emulate.h>
 #include <lrcs/polygon.h>
 
 static test_scene scene;
@@ -127,10 +126,6 @@ static void pose_is_refused(int number, double value, int status)
     }
     lrcs_polygons polygons;
     assert_int_equal(lrcs_polygon_run(prepared, &pose, &work, &polygons), status);
-    const lrcs_emulation_options options = {8, LRCS_PRECISION_FLOAT32, 24};
-    lrcs_emulation emulation;
-    assert_int_equal(lrcs_emulate_run(prepared, &pose, &options, &work, &emulation, NULL, NULL),
-                     status);
 }
 
 static void pose_that_is_none_is_refused(void **state)

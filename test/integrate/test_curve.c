@@ -388,30 +388,6 @@ static void the_work_area_is_enough_and_less_is_refused_or_falls_back(void **sta
     curved_free(&c);
 }
 
-/* Graphics hardware is emulated for flat facets only. */
-static void curved_normals_are_not_emulated(void **state)
-{
-    (void)state;
-    curved_cylinder(text, 8, 0.5, 2, 'v');
-    curved_case c = curved_obj(text);
-    for (int normals = LRCS_NORMALS_FLAT; normals <= LRCS_NORMALS_SMOOTH; normals += 2) {
-        curved_build(&c, normals);
-        const lrcs_emulation_options options = {16, LRCS_PRECISION_FLOAT32, 24};
-        size_t need = lrcs_emulate_need(c.prepared, &options);
-        void *area = malloc(need);
-        assert_non_null(area);
-        lrcs_work work = lrcs_work_make(area, need);
-        lrcs_pose pose;
-        lrcs_emulation e = {.sigma_m2 = -1};
-        assert_int_equal(lrcs_pose_from_azel(20, 30, &pose), LRCS_OK);
-        int status = lrcs_emulate_run(c.prepared, &pose, &options, &work, &e, NULL, NULL);
-        assert_int_equal(status, normals == LRCS_NORMALS_FLAT ? LRCS_OK : LRCS_E_UNSUPPORTED);
-        assert_true((e.sigma_m2 > 0) == (status == LRCS_OK));
-        free(area);
-    }
-    curved_free(&c);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -427,7 +403,6 @@ int main(void)
         cmocka_unit_test(an_estimate_above_the_tolerance_is_a_tolerance_not_met),
         cmocka_unit_test(effects_tell_what_was_curved_and_why),
         cmocka_unit_test(the_work_area_is_enough_and_less_is_refused_or_falls_back),
-        cmocka_unit_test(curved_normals_are_not_emulated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

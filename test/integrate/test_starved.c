@@ -3,25 +3,13 @@
    what its _need says. Below what serves it says LRCS_E_MEMORY, takes nothing, touches neither its
    output nor a byte beyond the area, and tells that it wanted more; once served it is served by
    every larger area; at _need it is served, and undegraded. */
-#include <stdlib.h>
-
 #include "build3ds.h"
 #include "integrate/cubature.h"
 #include "scene/near.h"
 #include "scene/solid.h"
 #include "scenes.h"
+#include "starve.h"
 #include "visibility/margin.h"
-
-#define CANARY 64
-
-typedef struct starved {
-    const char *name;
-    size_t need;
-    int (*call)(lrcs_work *work);
-    const void *output;
-    size_t output_size;
-    int stays; /* 1: what it made stays in the work area */
-} starved;
 
 static const char text[] =
     "[[material]]\nname='m'\nlike='mli-gold'\n[[part]]\nname='low'\nshape='plate'\n"
@@ -42,10 +30,8 @@ static lrcs_scene scene;
 static const lrcs_prepared *prepared;
 static lrcs_pose pose;
 static lrcs_run_options options;
-static const lrcs_emulation_options coarse = {16, LRCS_PRECISION_FLOAT32, 24};
 static lrcs_shape shape;
 static lrcs_divisions divisions;
-static lrcs_fit_reading reading[9];
 
 /* Outputs. */
 static struct {
@@ -56,8 +42,6 @@ static struct {
     const lrcs_prepared *prepared;
     lrcs_result result;
     lrcs_polygons polygons;
-    lrcs_emulation emulation;
-    lrcs_fit fit;
 } out;
 
 static int call_3ds(lrcs_work *work)
@@ -111,71 +95,14 @@ static int call_polygons(lrcs_work *work)
     return lrcs_polygon_run(prepared, &pose, work, &out.polygons);
 }
 
-static int call_emulation(lrcs_work *work)
+/* A degraded answer says what would have served in full. Under auto a raster of curved facets may
+   starve where clipping, which takes less, does not. */
+static int sigma_wanted(size_t wanted, size_t size)
 {
-    return lrcs_emulate_run(prepared, &pose, &coarse, work, &out.emulation, NULL, NULL);
+    int gives_up = options.method == LRCS_METHOD_AUTO && prepared->smooth;
+    return (out.result.flags & LRCS_FLAG_MEMORY_FALLBACK) ? wanted > size
+                                                          : wanted <= size || gives_up;
 }
-
-static int call_fit(lrcs_work *work)
-{
-    lrcs_fit_options fit = lrcs_fit_options_default();
-    return lrcs_fit_run(reading, sizeof reading / sizeof *reading, &fit, work, &out.fit, NULL);
-}
-
-/* Under auto a raster of curved facets may starve where clipping, which takes less, does not. */
-static int gives_up(const starved *s)
-{
-    return s->call == call_sigma && options.method == LRCS_METHOD_AUTO && prepared->smooth;
-}
-
-/* One call in so many bytes, with a canary behind them. */
-static int feed(const starved *s, unsigned char *memory, size_t size)
-{
-    static unsigned char before[sizeof out];
-    memset(&out, 0x5a, sizeof out);
-    memcpy(before, s->output, s->output_size);
-    memset(memory + size, 0xc3, CANARY);
-    lrcs_work work = lrcs_work_make(memory, size);
-    int status = s->call(&work);
-    for (int i = 0; i < CANARY; i++) {
-        assert_int_equal(memory[size + (size_t)i], 0xc3);
-    }
-    if (status == LRCS_OK) {
-        int degraded = s->output == &out.result && (out.result.flags & LRCS_FLAG_MEMORY_FALLBACK);
-        /* it tells what would have served in full, under auto the methods it gave up as well */
-        assert_true(degraded ? work.peak > size : work.peak <= size || gives_up(s));
-        assert_true(s->stays ? work.used > 0 : work.used == 0);
-    } else {
-        assert_int_equal(status, LRCS_E_MEMORY);
-        assert_int_equal(work.used, 0);
-        assert_true(work.peak > size);
-        assert_memory_equal(before, s->output, s->output_size);
-    }
-    return status;
-}
-
-/* Byte by byte, but for the middle of those that need much: the first and last 1024 sizes, and
-   every 31st between. */
-static void starve(const starved *s)
-{
-    unsigned char *memory = malloc(s->need + CANARY);
-    assert_non_null(memory);
-    int served = 0;
-    for (size_t size = 0; size <= s->need;) {
-        int status = feed(s, memory, size);
-        if (status != LRCS_OK && (served || size == s->need)) {
-            fprintf(stderr, "%s: not served by %zu of %zu bytes\n", s->name, size, s->need);
-            fail();
-        }
-        served |= status == LRCS_OK;
-        size += size < 1024 || size + 1024 > s->need ? 1 : 31;
-    }
-    assert_true(served);
-    free(memory);
-}
-
-#define STARVED(name, need, call, output, stays)                                                   \
-    (&(const starved){name, need, call, &(output), sizeof(output), stays})
 
 static void setup(void)
 {
@@ -190,10 +117,6 @@ static void setup(void)
     options.resolution = 16;
     shape = (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 1};
     divisions = (lrcs_divisions){8, 2};
-    for (int i = 0; i < 9; i++) {
-        reading[i].angle_deg = 8.0 * i;
-        reading[i].value = 0.3 + exp(-0.02 * i * i);
-    }
     assert_int_equal(lrcs_recipe_read(text, sizeof text - 1, &base, &recipe, NULL), LRCS_OK);
     assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &base, &scene, NULL), LRCS_OK);
     assert_int_equal(lrcs_prepare_run(&scene, &base, &prepared), LRCS_OK);
@@ -230,8 +153,10 @@ static void starve_methods(void)
 {
     for (int method = LRCS_METHOD_AUTO; method <= LRCS_METHOD_EXACT; method++) {
         options.method = method;
-        starve(STARVED(lrcs_method_text(method), lrcs_sigma_need(prepared, &options), call_sigma,
-                       out.result, 0));
+        starved sigma = *STARVED(lrcs_method_text(method), lrcs_sigma_need(prepared, &options),
+                                 call_sigma, out.result, 0);
+        sigma.wanted = sigma_wanted;
+        starve(&sigma);
         assert_false(out.result.flags & LRCS_FLAG_MEMORY_FALLBACK); /* of the last, at _need */
     }
 }
@@ -241,8 +166,6 @@ static void a_pose_grows_until_it_fits(void **state)
     (void)state;
     setup();
     starve_methods();
-    starve(STARVED("emulation", lrcs_emulate_need(prepared, &coarse), call_emulation, out.emulation,
-                   0));
     starve(STARVED("polygons", lrcs_polygon_need(prepared), call_polygons, out.polygons, 1));
 }
 
@@ -266,25 +189,18 @@ static void a_pose_over_curved_normals_grows_until_it_fits(void **state)
     assert_true(out.result.curvature_estimate_m2 > 0 && out.result.facets_partial > 0);
 }
 
-static void a_fit_grows_until_it_fits(void **state)
-{
-    (void)state;
-    setup();
-    starve(STARVED("fit", lrcs_fit_need(sizeof reading / sizeof *reading), call_fit, out.fit, 0));
-}
-
 /* Where size_t has 32 bits, a product of counts that wrapped would ask for too little. */
 static void needs_never_shrink_as_counts_grow(void **state)
 {
     (void)state;
-    size_t last[5] = {0};
+    size_t last[4] = {0};
     for (double count = 1; count < 4294967295.0; count *= 1.03) {
         uint32_t n = (uint32_t)count;
         const lrcs_mesh_counts facets = {n, n, 0, 1, 8, 0};
         const lrcs_mesh_counts names = {3, 1, n, n, 8, n};
-        const size_t need[5] = {lrcs_mesh_check_need(n, n), lrcs_fit_need(n), lrcs_recipe_need(n),
+        const size_t need[4] = {lrcs_mesh_check_need(n, n), lrcs_recipe_need(n),
                                 lrcs_mesh_need(&facets), lrcs_mesh_need(&names)};
-        for (int i = 0; i < 5; i++) {
+        for (int i = 0; i < 4; i++) {
             assert_true(need[i] >= last[i] && need[i] >= n);
             last[i] = need[i];
         }
@@ -375,7 +291,6 @@ int main(void)
         cmocka_unit_test(building_grows_until_it_fits),
         cmocka_unit_test(a_pose_grows_until_it_fits),
         cmocka_unit_test(a_pose_over_curved_normals_grows_until_it_fits),
-        cmocka_unit_test(a_fit_grows_until_it_fits),
         cmocka_unit_test(needs_never_shrink_as_counts_grow),
         cmocka_unit_test(steps_within_grow_until_they_fit),
     };

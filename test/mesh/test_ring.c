@@ -188,6 +188,101 @@ static void fans_are_proved_and_their_pairs_left_out(void **state)
     assert_true(mixed <= 1); /* where one apex's facets end and the other's start */
 }
 
+/* Needles about vertex 0 at random, within `width` of each other; a few of them are broad. */
+static void make_needles(uint32_t facets, double width, double broad)
+{
+    vertex[0] = (lrcs_point){{0.25, -0.5, 0.125}};
+    for (uint32_t f = 0; f < facets; f++) {
+        double size = next_number() < 0.02 ? broad : width;
+        double length = 0.5 + next_number();
+        double x[3];
+        for (int k = 0; k < 3; k++) {
+            x[k] = length * (2 * next_number() - 1);
+        }
+        for (int k = 0; k < 3; k++) {
+            vertex[2 * f + 1].x[k] = vertex[0].x[k] + x[k];
+            vertex[2 * f + 2].x[k] = vertex[0].x[k] + x[k] + size * (next_number() - 0.5);
+        }
+        facet[f] = (lrcs_facet){{0, 2 * f + 1, 2 * f + 2}};
+    }
+}
+
+/* Pairs of leaves of one fan that cones leave out: by brute force their facets meet in the apex
+   alone. Returned: how many are left; *met: pairs of facets that meet otherwise. */
+static uint32_t check_cones(uint32_t facets, uint32_t *met)
+{
+    static unsigned char kept[MOST];
+    static const unsigned char none[1] = {0};
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_tree tree;
+    uint32_t left = 0;
+    memset(apex, 0, sizeof apex);
+    assert_int_equal(lrcsi_tree_make(vertex, facet, facets, NULL, apex, 1, &work, &tree), LRCS_OK);
+    lrcsi_tree_fill_cones(vertex, facet, none, &tree);
+    for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
+        memset(kept, 0, sizeof kept);
+        lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
+        walk.without = LRCS_NONE;
+        lrcsi_tree_narrow_fan(&walk, leaf);
+        for (uint32_t other; (other = lrcsi_tree_next(&walk)) != LRCS_NONE; left++) {
+            kept[other] = 1;
+        }
+        for (uint32_t i = leaf * LRCSI_TREE_LANES; i < (leaf + 1) * LRCSI_TREE_LANES; i++) {
+            for (uint32_t j = (leaf + 1) * LRCSI_TREE_LANES; j < facets && i < facets; j++) {
+                contacts_facet a = contacts_facet_make(vertex, &facet[tree.order[i]]);
+                contacts_facet b = contacts_facet_make(vertex, &facet[tree.order[j]]);
+                if (contacts_kind(&a, &b) != LRCSI_TOUCH_NONE || contacts_rim(&a, &b)) {
+                    assert_true(kept[j / LRCSI_TREE_LANES]);
+                    ++*met;
+                }
+            }
+        }
+    }
+    return left;
+}
+
+/* A fan without a proof, at random: cones leave out most pairs of leaves where facets are narrow,
+   and never one that meets in more than the apex. */
+static void cones_leave_out_only_facets_that_meet_in_the_apex(void **state)
+{
+    (void)state;
+    enum { N = 800, LEAVES = N / LRCSI_TREE_LANES };
+    static const double width[] = {1e-14, 1e-9, 1e-3, 0.03, 0.3, 2};
+    uint32_t met = 0;
+    for (int i = 0; i < 6; i++) {
+        for (int broad = 0; broad < 2; broad++) {
+            make_needles(N, width[i], broad ? 3 : width[i]);
+            uint32_t left = check_cones(N, &met);
+            assert_true(width[i] > 1e-3 || broad || left < LEAVES * LEAVES / 5);
+        }
+    }
+    assert_true(met > 1000);
+}
+
+/* Two cones tip to tip: the ring is not proved, its facets know their apex all the same. */
+static void fans_without_a_proof_have_an_apex(void **state)
+{
+    (void)state;
+    enum { N = 700 };
+    uint32_t met = 0;
+    vertex[0] = (lrcs_point){{0, 0, 0}};
+    for (uint32_t i = 0; i < N; i++) {
+        double turn = 2.0 * 3.14159265358979 * i / N;
+        vertex[1 + i] = (lrcs_point){{cos(turn), sin(turn), 1}};
+        vertex[1 + N + i] = (lrcs_point){{cos(turn), sin(turn), -1}};
+        facet[i] = (lrcs_facet){{0, 1 + i, 1 + (i + 1) % N}};
+        facet[N + i] = (lrcs_facet){{0, 1 + N + (i + 1) % N, 1 + N + i}};
+    }
+    memset(skip, 0, sizeof skip);
+    prove_rings(2 * N + 1, 2 * N);
+    assert_false(proved[0]);
+    for (uint32_t f = 0; f < 2 * N; f++) {
+        assert_int_equal(apex[f], 0);
+    }
+    assert_true(check_cones(2 * N, &met) < 8 * 2 * N / LRCSI_TREE_LANES);
+    assert_int_equal(met, 0);
+}
+
 /* What is proved of a ring does not hang on where the direction points that is counted. */
 static void surfaces_are_proved_whichever_way_they_face(void **state)
 {
@@ -226,6 +321,8 @@ int main(void)
         cmocka_unit_test(no_ring_that_meets_itself_is_proved),
         cmocka_unit_test(no_point_among_random_facets_is_proved_wrongly),
         cmocka_unit_test(fans_are_proved_and_their_pairs_left_out),
+        cmocka_unit_test(cones_leave_out_only_facets_that_meet_in_the_apex),
+        cmocka_unit_test(fans_without_a_proof_have_an_apex),
         cmocka_unit_test(surfaces_are_proved_whichever_way_they_face),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -74,17 +74,18 @@ static inline int cmocka_run(const struct CMUnitTest *test, size_t count)
         switch (setjmp(cmocka_way_out)) {
         case 0:
             test[i].function(&state);
-            printf("[       OK ] %s\n", test[i].name);
+            printf("ok %s\n", test[i].name);
             break;
         case CMOCKA_SKIPPED:
-            printf("[  SKIPPED ] %s\n", test[i].name);
+            printf("ok %s # SKIP\n", test[i].name);
             break;
         default:
-            printf("[  FAILED  ] %s\n", test[i].name);
+            printf("not ok %s\n", test[i].name);
             failed++;
         }
         fflush(stdout);
     }
+    printf("1..%zu\n", count);
     return failed;
 }
 

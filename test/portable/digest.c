@@ -8,6 +8,7 @@
    reference is what this printed elsewhere)
    With a reference exit 1 where a hash differs, where two bounds do not overlap, or where such a
    sigma is off by more than SIGMA_ULPS. */
+#include <lrcs/emulate.h>
 #include <lrcs/lrcs.h>
 
 #include <inttypes.h>

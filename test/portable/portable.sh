@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The core built for other machines and run under qemu-user: the core's own tests (on a stand-in for
+# The core, and analysis beside it, built for other machines and run under qemu-user: the core's own tests (on a stand-in for
 # cmocka), and the digest, whose hashes must be those of this machine. Machines or compilers that are
 # not installed are skipped with a line.
 # usage: portable.sh FOLDER TEST...    (in the root; FOLDER holds lrcs.c, and takes what is built)
@@ -31,7 +31,7 @@ machine() {
 
 mkdir -p "$folder" || exit 1
 # shellcheck disable=SC2086 # flags are words
-"${CC:-cc}" $FLAGS -O2 $includes -o "$folder/digest" test/portable/digest.c "$folder/lrcs.c" -lm &&
+"${CC:-cc}" $FLAGS -O2 $includes -o "$folder/digest" test/portable/digest.c src/analysis/*.c "$folder/lrcs.c" -lm &&
     "$folder/digest" 1 >"$folder/digest.here" || exit 1
 
 # one MACHINE COMPILER LEVEL TEST...: builds everything, runs it. Called in a folder of its own.
@@ -52,13 +52,16 @@ one() {
     shift 3
     rm -rf "$at"
     mkdir -p "$at" && $compile -c -o "$at/lrcs.o" "$folder/lrcs.c" || { bad=1; return; }
+    for source in src/analysis/*.c; do
+        $compile -c -o "$at/analysis_$(basename "$source" .c).o" "$source" || { bad=1; return; }
+    done
     for source in test/portable/digest.c "$@"; do
         echo "$source"
     done | AT=$at COMPILE=$compile LINK=$triplet-gcc QEMU=$qemu REFERENCE=$folder/digest.here \
         xargs -n 1 -P "$JOBS" sh -c '
             program=$AT/$(basename "$0" .c)
             case $program in */digest) word="1 $REFERENCE" ;; *) word= ;; esac
-            $COMPILE -c -o "$program.o" "$0" && $LINK -static -o "$program" "$program.o" "$AT/lrcs.o" -lm &&
+            $COMPILE -c -o "$program.o" "$0" && $LINK -static -o "$program" "$program.o" "$AT"/analysis_*.o "$AT/lrcs.o" -lm &&
                 echo "exec $QEMU $program $word" >"$program.sh"' || { bad=1; return; }
     sh test/run.sh - "$at"/*.sh >"$at/log" 2>&1 || bad=1
     grep -v '^ok ' "$at/log" | sed "s|^|$at: |"

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Numbers of `lrcs study` from elsewhere: Eq. 2 integrated by mpmath at 40 digits over bodies whose
+"""Numbers of examples/study from elsewhere: Eq. 2 integrated by mpmath at 40 digits over bodies whose
 dimensions follow from their surface, half-power angles as roots of it, means by their closed form.
 usage: python3 study.py >study.csv    columns: file, row, column, value, relative tolerance"""
 from mpmath import mp, mpf, cos, sin, exp, sqrt, pi, quad, log, erfc, findroot, linspace, asin

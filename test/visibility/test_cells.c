@@ -40,7 +40,8 @@ static uint32_t ask(uint32_t *left)
     return asked;
 }
 
-/* What is found against samples and clipping: the bounds overlap, and cells are as good as is said.
+/* What is found against clipping: the bounds overlap; and what cells tell is as good as is
+   promised, 1e-12 of the facet's projected area and 1e-15 of the square of the scene's extent.
    Returns how many facets cells decided. */
 static uint32_t agree(const double direction[3])
 {
@@ -49,12 +50,19 @@ static uint32_t agree(const double direction[3])
     uint32_t asked = ask(&left);
     lrcsi_occluding o;
     assert_int_equal(lrcsi_occlude_make(&contest, &work, &o), LRCS_OK);
+    const double *bulk = view.prepared->bulk;
+    double extent = 2 * fmax(bulk[0], fmax(bulk[1], bulk[2]));
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         if (!lrcsi_grid_casts(&view, f)) {
             continue;
         }
         lrcsi_occlude_open(&o, f);
         lrcsi_visible clipped = lrcsi_occlude_area(&o);
+        if (!open[f]) {
+            double told = 1e-12 * lrcsi_view_projected(&view, f) + 1e-15 * extent * extent;
+            check_most(found[f].high - found[f].area, told * (1 + 1e-9));
+            check_most(found[f].area - found[f].low, told * (1 + 1e-9));
+        }
         found[f] = open[f] ? clipped : found[f];
         double rounding = 1e-16 * lrcsi_view_projected(&view, f);
         check_most(found[f].low - clipped.high, rounding);

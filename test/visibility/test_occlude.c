@@ -3,6 +3,7 @@
 #include "visibility/occlude.h"
 
 #include "scenes.h"
+#include "visibility/query.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -270,12 +271,9 @@ static void a_needle_shows_its_share_in_pieces(void **state)
 
 enum { SECTORS = 256 };
 
-/* A disc of many sectors of which only the rim divides what lies below. The area is that of the
-   square less that of the polygon, and comes in few pieces although a sector's tip is as thin as
-   rounding. */
-static void a_fan_costs_pieces_along_its_rim_only(void **state)
+/* A plate of two facets below a disc of many sectors. */
+static void fan_over_plate(void)
 {
-    (void)state;
     scene_start(&scene);
     scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
                 (const double[3]){0, 4, 0});
@@ -287,6 +285,14 @@ static void a_fan_costs_pieces_along_its_rim_only(void **state)
     for (uint32_t k = 0; k < SECTORS; k++) {
         scene_facet(&scene, apex, apex + 1 + k, apex + 1 + (k + 1) % SECTORS);
     }
+}
+
+/* Only the disc's rim divides what lies below. The area is that of the square less that of the
+   polygon, and comes in few pieces although a sector's tip is as thin as rounding. */
+static void a_fan_costs_pieces_along_its_rim_only(void **state)
+{
+    (void)state;
+    fan_over_plate();
     lrcsi_occluding o = open_scene();
     lrcsi_occlude_open(&o, 0);
     int steps = 0;
@@ -299,6 +305,47 @@ static void a_fan_costs_pieces_along_its_rim_only(void **state)
     check_abs(seen.area, (double)truth, 1e-15);
     assert_true(seen.low <= (double)truth && (double)truth <= seen.high);
     assert_true(steps > 0 && steps < 8 * SECTORS);
+}
+
+/* A facet seen whole, one seen in part, one hidden: the answers together with the areas that they
+   leave open are the areas of all, to the bit, and the other places of visible[] are not touched.
+ */
+static void answers_and_areas_tell_what_areas_alone_tell(void **state)
+{
+    (void)state;
+    static lrcsi_visible all[SECTORS + 3];
+    static lrcsi_visible some[SECTORS + 3];
+    const lrcsi_visible untouched = {-1, -2, -3, -4, -5};
+    const unsigned char *answer;
+    uint32_t times[3] = {0, 0, 0};
+    fan_over_plate();
+    uint32_t low = scene_vertex(&scene, 2.7, 1.2, 0.5); /* hidden by the disc */
+    scene_vertex(&scene, 2.8, 1.2, 0.5);
+    scene_vertex(&scene, 2.7, 1.3, 0.5);
+    scene_facet(&scene, low, low + 1, low + 2);
+    open_scene();
+    for (uint32_t f = 0; f < SECTORS + 3; f++) {
+        some[f] = untouched;
+    }
+    size_t used = work.used;
+    assert_int_equal(lrcsi_occlude_all(&contest, &work, NULL, all), LRCS_OK);
+    assert_int_equal(work.used, used);
+    assert_int_equal(lrcsi_occlude_all(&contest, &work, &answer, some), LRCS_OK);
+    for (uint32_t f = 0; f < SECTORS + 3; f++) {
+        double whole = lrcsi_view_projected(&view, f);
+        int undecided = answer[f] == LRCSI_QUERY_UNDECIDED;
+        times[answer[f]]++;
+        if (!undecided) {
+            double area = answer[f] == LRCSI_QUERY_VISIBLE ? whole : 0;
+            assert_memory_equal(&some[f], &untouched, sizeof untouched);
+            assert_true(all[f].area == area && all[f].low == area && all[f].high == area);
+        } else {
+            assert_memory_equal(&some[f], &all[f], sizeof all[f]);
+        }
+    }
+    assert_int_equal(times[LRCSI_QUERY_HIDDEN], 1);
+    assert_int_equal(times[LRCSI_QUERY_VISIBLE], SECTORS + 1); /* and half of the plate */
+    assert_int_equal(times[LRCSI_QUERY_UNDECIDED], 1);
 }
 
 int main(void)
@@ -315,6 +362,7 @@ int main(void)
         cmocka_unit_test(needles_turned_over_by_rounding_hide_nothing),
         cmocka_unit_test(a_needle_shows_its_share_in_pieces),
         cmocka_unit_test(a_fan_costs_pieces_along_its_rim_only),
+        cmocka_unit_test(answers_and_areas_tell_what_areas_alone_tell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

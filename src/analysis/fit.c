@@ -1,0 +1,448 @@
+/* SPDX-License-Identifier: MIT */
+/* A material from readings of its BRDF: readings become vectors about 1, starts are sought and
+   brought down, outliers set aside, limits found. It decides the order of these steps and what an
+   interval says of a parameter; each step has a room of its own (fit_*.c). */
+#include <lrcs/fit.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "base/degrees.h"
+#include "base/range.h"
+#include "base/work.h"
+#include "analysis/fit_presence.h"
+#include "analysis/fit_profile.h"
+#include "analysis/fit_search.h"
+#include "optics/special.h"
+
+/* The vectors of lrcsi_fit_data. */
+#define FIT_VECTORS 12u
+
+/* Where the search ends: beyond what the model means (s > 0.7 peaks off the normal). */
+#define FIT_SLOPE_MOST     2.0
+#define FIT_FALL_MOST      1000.0
+#define FIT_AMPLITUDE_MOST 1e9
+#define FIT_SLOPE_SHARE    6.0 /* at a sixth of the smallest tangent a glint is exp(-36) there */
+
+/* For the first look at readings with relative errors: those below this share of the largest are
+   as uncertain as this share. */
+#define FIT_FIRST_SHARE 0.01
+
+/* Of the largest f_r, and of it in standard errors, of which determinants take the fourth power;
+   and one over that. */
+#define FIT_SIZE_MOST  1e100
+#define FIT_RATIO_MOST 1e70
+
+#define FIT_TRIMS 20 /* rounds of setting outliers aside */
+#define FIT_LOOKS 4  /* fits after a profile that met a better one */
+
+/* Errors that follow the fit stay where the sum of squares does so far. */
+#define FIT_SAME 1e-6
+
+/* The variance that rounding leaves of readings that fit exactly, relative to their squares. */
+#define FIT_ROUNDING 0x1p-100
+
+lrcs_fit_options lrcs_fit_options_default(void)
+{
+    return (lrcs_fit_options){1.0, 0, LRCS_FIT_ABSOLUTE};
+}
+
+size_t lrcs_fit_need(uint32_t count)
+{
+    size_t one = lrcsi_work_bytes(count, sizeof(double));
+    size_t need = 0;
+    for (uint32_t i = 0; i < FIT_VECTORS; i++) {
+        need = lrcsi_work_add(need, one);
+    }
+    return need;
+}
+
+/* ---- readings as vectors ---- */
+
+static int reading_is_good(const lrcs_fit_reading *reading)
+{
+    return fabs(reading->angle_deg) < 90.0 && isfinite(reading->value);
+}
+
+/* A NaN is none. */
+static int size_is_good(double size, double most)
+{
+    return size > 1.0 / most && size < most;
+}
+
+static int sizes_are_good(const lrcs_fit_reading *reading, uint32_t count,
+                          const lrcs_fit_options *options, double largest)
+{
+    int given = options->noise == LRCS_FIT_GIVEN || options->noise == LRCS_FIT_WEIGHTED;
+    int good = size_is_good(options->unit * largest, FIT_SIZE_MOST);
+    for (uint32_t i = 0; i < count && given && good; i++) {
+        good = size_is_good(largest / reading[i].sigma, FIT_RATIO_MOST);
+    }
+    return good;
+}
+
+static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
+                          const lrcs_fit_options *options, double *largest)
+{
+    *largest = 0.0;
+    if (!(options->unit > 0.0 && isfinite(options->unit)) || options->noise < LRCS_FIT_ABSOLUTE ||
+        options->noise > LRCS_FIT_WEIGHTED) {
+        return LRCS_E_ARGUMENT;
+    }
+    double most = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!reading_is_good(&reading[i])) {
+            return LRCS_E_NUMBER;
+        }
+        most = lrcsi_most(most, reading[i].value);
+        *largest = lrcsi_most(*largest, fabs(reading[i].value));
+    }
+    if (count < LRCS_FIT_READINGS || !(most > 0.0)) {
+        return LRCS_E_EMPTY;
+    }
+    return sizes_are_good(reading, count, options, *largest) ? LRCS_OK : LRCS_E_NUMBER;
+}
+
+static int data_take(lrcs_work *work, uint32_t count, lrcsi_fit_data *data)
+{
+    double **vector[FIT_VECTORS] = {&data->u,         &data->log_w,     &data->factor,
+                                    &data->y,         &data->inverse,   &data->weight,
+                                    &data->column[0], &data->column[1], &data->column[2],
+                                    &data->column[3], &data->rest,      &data->spare};
+    data->count = count;
+    for (uint32_t i = 0; i < FIT_VECTORS; i++) {
+        *vector[i] = lrcsi_work_take(work, count, sizeof(double));
+        if (!*vector[i]) {
+            return LRCS_E_MEMORY;
+        }
+    }
+    return LRCS_OK;
+}
+
+/* The end of the search for each coordinate. */
+static void data_limits(lrcsi_fit_data *data)
+{
+    double least = HUGE_VAL; /* the smallest tan^2 above 0 */
+    for (uint32_t i = 0; i < data->count; i++) {
+        least = data->u[i] > 0.0 ? lrcsi_least(least, data->u[i]) : least;
+    }
+    double slope = lrcsi_least(sqrt(least) / FIT_SLOPE_SHARE, 0.1 * FIT_SLOPE_MOST);
+    const double most[] = {FIT_AMPLITUDE_MOST, FIT_AMPLITUDE_MOST, log(FIT_SLOPE_MOST),
+                           log1p(FIT_FALL_MOST)};
+    const double low[] = {0.0, 0.0, log(slope), 0.0};
+    memcpy(data->least, low, sizeof low);
+    memcpy(data->most, most, sizeof most);
+}
+
+/* 1 / (the error expected of a reading) at first sight. */
+static double error_inverse(const lrcs_fit_reading *reading, int noise, double y, double scale)
+{
+    switch (noise) {
+    case LRCS_FIT_ABSOLUTE:
+        return 1.0;
+    case LRCS_FIT_RELATIVE:
+        return 1.0 / lrcsi_most(fabs(y), FIT_FIRST_SHARE);
+    default:
+        return scale / reading->sigma;
+    }
+}
+
+/* Readings by the power of two below the largest: exact, and no square overflows. */
+static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *options,
+                      double scale, lrcsi_fit_data *data)
+{
+    for (uint32_t i = 0; i < data->count; i++) {
+        double sine;
+        double cosine;
+        lrcsi_degrees_sincos(reading[i].angle_deg, &sine, &cosine);
+        data->u[i] = sine / cosine * (sine / cosine);
+        data->log_w[i] = log1p(data->u[i]);
+        data->factor[i] = options->cosine ? cosine : 1.0;
+        data->y[i] = reading[i].value / scale;
+        data->inverse[i] = error_inverse(&reading[i], options->noise, data->y[i], scale);
+    }
+    data_limits(data);
+}
+
+/* ---- the fit ---- */
+
+typedef struct fit_job {
+    lrcsi_fit_data data;
+    int noise;
+    lrcsi_fit_spot start[LRCSI_FIT_STARTS];
+    uint32_t starts;
+    uint32_t kept;
+    lrcsi_fit_spot whole; /* the best fit of all four parameters */
+    lrcsi_fit_spot best;  /* that, or the best without a part that does not stand out */
+    int absent[2];        /* A or B that does not */
+    double error;         /* standard deviation of a weighted residual */
+    double rise;          /* of the sum of squares at the limits of confidence */
+    lrcsi_fit_spread spread;
+    double limit[LRCS_FIT_PARAMETERS][2];
+} fit_job;
+
+/* All starts brought down softly, the best of them first: by the sum of absolute residuals, in
+   which a few outliers do not decide. */
+static void starts_make(fit_job *job)
+{
+    uint32_t best = 0;
+    double least = HUGE_VAL;
+    job->starts = lrcsi_fit_search(&job->data, job->start);
+    for (uint32_t i = 0; i < job->starts; i++) {
+        double sum = lrcsi_fit_soften(&job->data, job->noise, &job->start[i]);
+        best = sum < least ? i : best;
+        least = lrcsi_least(sum, least);
+    }
+    lrcsi_fit_spot first = job->start[best];
+    job->start[best] = job->start[0];
+    job->start[0] = first;
+}
+
+/* The lowest end of all starts and the fit so far, with A or B held at 0 where `without` names it.
+ */
+static lrcsi_fit_spot starts_descend(const fit_job *job, unsigned without)
+{
+    lrcsi_fit_spot best = job->whole;
+    for (uint32_t i = 0; i <= job->starts; i++) {
+        lrcsi_fit_spot spot = i > 0 ? job->start[i - 1] : job->whole;
+        for (int k = 0; k < 2; k++) {
+            spot.at[k] = (without & (1u << k)) ? 0.0 : spot.at[k];
+        }
+        lrcsi_fit_descend(&job->data, without, &spot);
+        best = i == 0 || spot.square < best.square ? spot : best;
+    }
+    return best;
+}
+
+static void kept_count(fit_job *job)
+{
+    job->kept = 0;
+    for (uint32_t i = 0; i < job->data.count; i++) {
+        job->kept += job->data.weight[i] > 0.0;
+    }
+}
+
+/* Least squares over the readings that are kept: outliers and errors follow the fit until they
+   stay. */
+static void whole_settle(fit_job *job)
+{
+    lrcsi_fit_noise(&job->data, job->noise, &job->whole);
+    for (int i = 0; i < FIT_TRIMS; i++) {
+        int changed = lrcsi_fit_trim(&job->data, &job->whole);
+        double before = job->whole.square;
+        job->whole = starts_descend(job, 0);
+        lrcsi_fit_noise(&job->data, job->noise, &job->whole);
+        int moved = fabs(job->whole.square - before) > FIT_SAME * before;
+        if (!changed && (job->noise != LRCS_FIT_RELATIVE || !moved)) {
+            break;
+        }
+    }
+    kept_count(job);
+}
+
+/* The fit that is reported: without the part that the readings miss less, where they do not miss
+   it; or without the other. */
+static void parts_choose(fit_job *job)
+{
+    lrcsi_fit_spot without[2];
+    int known = job->noise == LRCS_FIT_GIVEN &&
+                job->whole.square < (double)(job->kept - LRCS_FIT_PARAMETERS);
+    for (int k = 0; k < 2; k++) {
+        without[k] = starts_descend(job, 1u << k);
+        job->absent[k] = 0;
+    }
+    job->best = job->whole;
+    int less = without[1].square < without[0].square;
+    for (int i = 0; i < 2; i++) {
+        int part = i == 0 ? less : !less;
+        if (!lrcsi_fit_presence(&job->data, part, &without[part], job->whole.square, job->kept,
+                                known)) {
+            job->absent[part] = 1;
+            job->best = without[part];
+            return;
+        }
+    }
+}
+
+/* The sum of the squares of readings, by their weights or, where `all`, in their errors. */
+static double readings_size(const lrcsi_fit_data *data, int all)
+{
+    double size = 0.0;
+    for (uint32_t i = 0; i < data->count; i++) {
+        double y = (all ? data->inverse[i] : data->weight[i]) * data->y[i];
+        size += y * y;
+    }
+    return size;
+}
+
+/* What the residuals say of the errors, each part that is there taking two parameters: no less than
+   rounding, of those set aside too where the squares of all that are kept vanish. */
+static void errors_estimate(fit_job *job)
+{
+    int parts = 2 - job->absent[0] - job->absent[1];
+    uint32_t freedom = job->kept - 2 * (uint32_t)parts;
+    double rounding = FIT_ROUNDING * readings_size(&job->data, 0) / job->kept;
+    double variance = lrcsi_most(job->best.square / freedom, rounding);
+    if (!(variance > 0.0)) {
+        variance = FIT_ROUNDING * readings_size(&job->data, 1) / job->kept;
+    }
+    int known = job->noise == LRCS_FIT_GIVEN && variance < 1.0;
+    double t = lrcsi_special_student(known ? UINT32_MAX : freedom);
+    job->error = sqrt(variance);
+    job->rise = (known ? 1.0 : variance) * t * t;
+}
+
+static void fit_make(fit_job *job)
+{
+    int done = 0;
+    starts_make(job);
+    job->whole = job->start[0];
+    for (int look = 0; look < FIT_LOOKS && !done; look++) {
+        whole_settle(job);
+        parts_choose(job);
+        errors_estimate(job);
+        int known = job->noise == LRCS_FIT_GIVEN && job->error < 1.0;
+        unsigned gone = (job->absent[0] ? 1u << LRCS_FIT_A | 1u << LRCS_FIT_S : 0u) |
+                        (job->absent[1] ? 1u << LRCS_FIT_B | 1u << LRCS_FIT_M : 0u);
+        job->spread = lrcsi_fit_spread_make(&job->data, gone, &job->best, known ? 1.0 : job->error);
+        done = lrcsi_fit_profile(&job->data, &job->spread, job->rise, &job->best, &job->whole,
+                                 job->limit);
+    }
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        if (job->absent[p % 2]) {
+            job->limit[p][0] = p < LRCS_FIT_S ? 0.0 : -HUGE_VAL;
+            job->limit[p][1] = p < LRCS_FIT_S ? job->limit[p][1] : HUGE_VAL;
+        }
+    }
+}
+
+/* ---- the account ---- */
+
+/* The range of the angles that are kept, and how many there are, up to as many as parameters. */
+static void angles_count(const lrcs_fit_reading *reading, const lrcsi_fit_data *data, lrcs_fit *fit)
+{
+    double last = -1.0;
+    fit->least_deg = 90.0;
+    fit->most_deg = 0.0;
+    for (uint32_t i = 0; i < data->count; i++) {
+        double angle = fabs(reading[i].angle_deg);
+        fit->least_deg = data->weight[i] > 0.0 ? fmin(fit->least_deg, angle) : fit->least_deg;
+        fit->most_deg = data->weight[i] > 0.0 ? fmax(fit->most_deg, angle) : fit->most_deg;
+    }
+    fit->angles = 0;
+    while (fit->angles < LRCS_FIT_PARAMETERS && last < fit->most_deg) {
+        double next = fit->most_deg; /* the least above the last */
+        for (uint32_t i = 0; i < data->count; i++) {
+            double angle = fabs(reading[i].angle_deg);
+            next = data->weight[i] > 0.0 && angle > last ? lrcsi_least(next, angle) : next;
+        }
+        last = next;
+        fit->angles++;
+    }
+}
+
+/* From coordinates to the parameters' own units. */
+static double parameter_value(int p, double at, double unit)
+{
+    return p < LRCS_FIT_S ? at * unit : p == LRCS_FIT_S ? exp(at) : expm1(at);
+}
+
+static int parameter_verdict(int p, const double limit[2], int absent)
+{
+    int open = limit[0] == -HUGE_VAL || (limit[0] == 0.0 && p < LRCS_FIT_S);
+    if (p >= LRCS_FIT_S && absent) {
+        return LRCS_FIT_MOOT;
+    }
+    if (limit[1] == HUGE_VAL) {
+        return open || (p == LRCS_FIT_M && limit[0] == 0.0) ? LRCS_FIT_FREE : LRCS_FIT_AT_LEAST;
+    }
+    return !open ? LRCS_FIT_DETERMINED : p < LRCS_FIT_S ? LRCS_FIT_ABSENT : LRCS_FIT_AT_MOST;
+}
+
+static void parameters_fill(const fit_job *job, double unit, lrcs_fit *fit)
+{
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        int part = p % 2;
+        double at = job->best.at[p];
+        int none = job->best.at[part] == 0.0;
+        double by_coordinate = p < LRCS_FIT_S ? unit : exp(at); /* s and 1 + m are exp */
+        fit->parameter[p] = (lrcs_fit_parameter){
+            .value = none ? 0.0 : parameter_value(p, at, unit),
+            .error = job->spread.error[p] * by_coordinate,
+            .low = lrcsi_most(0.0, parameter_value(p, job->limit[p][0], unit)),
+            .high = parameter_value(p, job->limit[p][1], unit),
+            .verdict = parameter_verdict(p, job->limit[p], job->limit[part][0] == 0.0)};
+    }
+    memcpy(fit->correlation, job->spread.correlation, sizeof fit->correlation);
+    fit->brdf = (lrcs_brdf){fit->parameter[LRCS_FIT_A].value, fit->parameter[LRCS_FIT_B].value,
+                            fit->parameter[LRCS_FIT_S].value, fit->parameter[LRCS_FIT_M].value};
+}
+
+/* The residuals, and their root mean square over those kept, in the readings' unit. */
+static double points_fill(const fit_job *job, double scale, lrcs_fit_point *point)
+{
+    const lrcsi_fit_data *data = &job->data;
+    double square = 0.0;
+    lrcsi_fit_rests(data, &job->best);
+    for (uint32_t i = 0; i < data->count; i++) {
+        int keep = data->weight[i] > 0.0;
+        square += keep ? data->rest[i] * data->rest[i] : 0.0;
+        if (point) {
+            point[i] = (lrcs_fit_point){scale * (data->y[i] - data->rest[i]), scale * data->rest[i],
+                                        data->rest[i] * data->inverse[i] / job->error, !keep};
+        }
+    }
+    return scale * sqrt(square / job->kept);
+}
+
+int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit_options *options,
+                 lrcs_work *work, lrcs_fit *fit, lrcs_fit_point *point)
+{
+    double largest = 0.0;
+    size_t mark = work->used;
+    fit_job job;
+    int status = readings_check(reading, count, options, &largest);
+    status = status == LRCS_OK ? data_take(work, count, &job.data) : status;
+    work->used = mark;
+    if (status != LRCS_OK) {
+        return status;
+    }
+    double scale = ldexp(1.0, ilogb(largest));
+    job.noise = options->noise;
+    data_fill(reading, options, scale, &job.data);
+    fit_make(&job);
+    fit->starts = job.starts;
+    fit->kept = job.kept;
+    fit->noise = job.error * (job.noise == LRCS_FIT_ABSOLUTE ? scale * options->unit : 1.0);
+    fit->rms = points_fill(&job, scale, point) * options->unit;
+    angles_count(reading, &job.data, fit);
+    parameters_fill(&job, scale * options->unit, fit);
+    return LRCS_OK;
+}
+
+const char *lrcs_fit_verdict_text(int parameter, int verdict)
+{
+    static const char *const text[][LRCS_FIT_PARAMETERS] = {
+        [LRCS_FIT_DETERMINED] = {"determined", "determined", "determined", "determined"},
+        [LRCS_FIT_ABSENT] = {"may be 0: no glint is needed to explain the readings",
+                             "may be 0: no diffuse part is needed to explain the readings"},
+        [LRCS_FIT_MOOT] = {[LRCS_FIT_S] = "not determined: there may be no glint",
+                           [LRCS_FIT_M] = "not determined: there may be no diffuse part"},
+        [LRCS_FIT_AT_MOST] = {[LRCS_FIT_S] = "not determined, only limited above: the glint may be "
+                                             "narrower, too few readings are on its flank"},
+        [LRCS_FIT_AT_LEAST] = {"not determined, only limited below: the readings begin on the "
+                               "glint's flank",
+                               "not determined, only limited below: the readings begin too far "
+                               "from the normal",
+                               "not determined, only limited below: so wide a glint looks diffuse",
+                               "not determined, only limited below: the diffuse part may be as "
+                               "narrow as a glint"},
+        [LRCS_FIT_FREE] = {"not determined: a glint narrower than the readings reach would not "
+                           "show",
+                           "not determined: the readings begin too far from the normal",
+                           "not determined: the readings do not limit it",
+                           "not determined: the readings do not limit it"}};
+    int known = parameter >= 0 && parameter < LRCS_FIT_PARAMETERS && verdict >= 0 &&
+                verdict <= LRCS_FIT_FREE;
+    return known && text[verdict][parameter] ? text[verdict][parameter] : "unknown verdict";
+}

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT */
+/* Whether a glint, or a diffuse part, stands out of the noise of readings. It decides by how much
+   the sum of squares must fall before a part counts as seen.
+
+   Without the part its shape, s or m, has no meaning, and of all shapes the luckiest is taken: the
+   usual t of one parameter would see a glint in every fifth series of pure noise. H. Hotelling
+   (1939) has the answer, M. Knowles and D. Siegmund (Int. Stat. Rev. 57 (1989) 205) its use here:
+   let v be the part's vector over the readings, freed of what the other part can take up (its
+   vector and the derivative of that), and L the length of the arc that v/|v| draws on the unit
+   sphere as the shape runs over its range. Noise of N dimensions comes as near to that arc as to
+   lower the sum of squares by its share q or more with a probability of at most
+     (1 - q)^((N-2)/2) (sqrt(1 - q)/2 + L/(2 pi)),
+   a tube about the arc and half a cap at its end (a cap of angle a is at most sin(a)^(N-1)/2 of
+   the sphere). With known errors the power becomes exp(-fall/2). Exact for a linear rest, which the
+   derivative makes of the other part's shape. */
+#include "analysis/fit_presence.h"
+
+#include <math.h>
+
+#include "base/range.h"
+
+#define PRESENCE_LEVEL 0.05
+#define PRESENCE_STEPS 240
+#define PRESENCE_PI    3.14159265358979323846
+
+/* What is left of a vector that the other part takes up but for rounding is no direction. */
+#define PRESENCE_ROUNDING 1e-12
+
+/* The part's vector at a shape, of length 1, freed of the other part's, into rest[]; 0 where
+   nothing is left. */
+static int presence_vector(const lrcsi_fit_data *data, int part, const lrcsi_fit_spot *spot)
+{
+    int other = part == LRCS_FIT_A ? LRCS_FIT_B : LRCS_FIT_A;
+    int shape = other + LRCS_FIT_S;
+    lrcsi_fit_spot at = *spot;
+    lrcsi_fit_normal normal;
+    lrcsi_fit_settle(data, 3u, &at, &normal);
+    double a = normal.gram[other][other];
+    double b = normal.gram[shape][shape];
+    double ab = normal.gram[other][shape];
+    double det = a * b - ab * ab;
+    double x = a > 0.0 ? normal.gram[part][other] / a : 0.0;
+    double y = 0.0;
+    if (det > PRESENCE_ROUNDING * a * b) {
+        x = (b * normal.gram[part][other] - ab * normal.gram[part][shape]) / det;
+        y = (a * normal.gram[part][shape] - ab * normal.gram[part][other]) / det;
+    }
+    double square = 0.0;
+    for (uint32_t i = 0; i < data->count; i++) {
+        double v = data->column[part][i] - x * data->column[other][i] - y * data->column[shape][i];
+        data->rest[i] = v;
+        square += v * v;
+    }
+    if (!(square > PRESENCE_ROUNDING * normal.gram[part][part])) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < data->count; i++) {
+        data->rest[i] /= sqrt(square);
+    }
+    return 1;
+}
+
+/* The length of the arc, by chords. */
+static double presence_arc(const lrcsi_fit_data *data, int part, const lrcsi_fit_spot *without)
+{
+    int shape = part + LRCS_FIT_S;
+    int before = 0;
+    double arc = 0.0;
+    lrcsi_fit_spot spot = *without;
+    for (int k = 0; k <= PRESENCE_STEPS; k++) {
+        double chord = 0.0;
+        double share = (double)k / PRESENCE_STEPS;
+        spot.at[shape] = data->least[shape] + share * (data->most[shape] - data->least[shape]);
+        if (!presence_vector(data, part, &spot)) {
+            continue;
+        }
+        for (uint32_t i = 0; i < data->count; i++) {
+            double off = data->rest[i] - data->spare[i];
+            chord += off * off;
+            data->spare[i] = data->rest[i];
+        }
+        arc += before ? 2.0 * asin(lrcsi_least(1.0, 0.5 * sqrt(chord))) : 0.0;
+        before = 1;
+    }
+    return arc;
+}
+
+int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_spot *without,
+                       double square, uint32_t kept, int known)
+{
+    double fall = lrcsi_most(0.0, without->square - square);
+    double left = without->square > 0.0 ? square / without->square : 1.0; /* 1 - q */
+    double freedom = (double)kept - 2.0;
+    double arc = presence_arc(data, part, without) / (2.0 * PRESENCE_PI);
+    left = lrcsi_least(1.0, left);
+    double chance = known ? exp(-0.5 * fall) * (0.5 + arc)
+                          : pow(left, 0.5 * freedom - 1.0) * (0.5 * sqrt(left) + arc);
+    return chance < PRESENCE_LEVEL;
+}

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT */
+/* How far readings determine the parameters of a fit: by the matrix of its derivatives, and by
+   walking away from the fit in one parameter while the others follow, until the readings object.
+   It decides where that is; what an interval without an end means is said elsewhere. */
+#include "analysis/fit_profile.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/range.h"
+
+#define PROFILE_STRIDES 60
+#define PROFILE_CUTS    24
+
+#define PROFILE_SHAPES 12
+
+/* A limit is found where the root of the rise is right to this. */
+#define PROFILE_NEAR 1e-4
+
+/* A sum this much lower than the least is another minimum, not rounding. */
+#define PROFILE_LOWER 1e-6
+
+#define PROFILE_PIVOT 1e-12
+
+/* ---- by derivatives ---- */
+
+/* Inverts a symmetric positive matrix in place, in units of its diagonal; rows that are 0, or those
+   of others but for rounding, are left out and told. */
+static void matrix_invert(double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS],
+                          int in[LRCS_FIT_PARAMETERS])
+{
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) { /* Gauss and Jordan, pivots in order */
+        in[p] = m[p][p] > PROFILE_PIVOT;
+        double pivot = in[p] ? 1.0 / m[p][p] : 0.0;
+        for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
+            double share = m[j][p] * pivot;
+            for (int k = 0; k < LRCS_FIT_PARAMETERS && j != p; k++) {
+                m[j][k] -= k == p ? 0.0 : share * m[p][k];
+            }
+            m[j][p] = j == p ? pivot : -share;
+        }
+        for (int k = 0; k < LRCS_FIT_PARAMETERS; k++) {
+            m[p][k] *= k == p ? 1.0 : pivot;
+        }
+    }
+}
+
+lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixed,
+                                       const lrcsi_fit_spot *best, double noise)
+{
+    const double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, best->at[LRCS_FIT_A],
+                                               best->at[LRCS_FIT_B]};
+    double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
+    double length[LRCS_FIT_PARAMETERS];
+    int in[LRCS_FIT_PARAMETERS];
+    lrcsi_fit_spot spot = *best;
+    lrcsi_fit_normal normal;
+    lrcsi_fit_spread spread;
+    lrcsi_fit_settle(data, 3u, &spot, &normal);
+    for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
+        length[j] = (fixed & (1u << j)) ? 0.0 : scale[j] * sqrt(normal.gram[j][j]);
+    }
+    for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
+        for (int k = 0; k < LRCS_FIT_PARAMETERS; k++) {
+            double both = length[j] * length[k];
+            m[j][k] = both > 0.0 ? scale[j] * scale[k] * normal.gram[j][k] / both : 0.0;
+        }
+    }
+    matrix_invert(m, in);
+    memset(&spread, 0, sizeof spread);
+    for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
+        spread.error[j] = in[j] ? noise * sqrt(m[j][j]) / length[j] : HUGE_VAL;
+        for (int k = 0; k < LRCS_FIT_PARAMETERS; k++) {
+            spread.correlation[j][k] = j == k           ? 1.0
+                                       : in[j] && in[k] ? m[j][k] / sqrt(m[j][j] * m[k][k])
+                                                        : 0.0;
+        }
+    }
+    return spread;
+}
+
+/* ---- by walking ---- */
+
+typedef struct profile_walk {
+    const lrcsi_fit_data *data;
+    int parameter;
+    double rise;
+    const lrcsi_fit_spot *best, *whole;
+    lrcsi_fit_spot last; /* the least at the last place where the readings did not object */
+    lrcsi_fit_spot low;  /* the least of all met */
+} profile_walk;
+
+/* Descends from a spot with the walk's parameter at x; the lower end stays in *least. */
+static void walk_descend(const profile_walk *walk, double x, const lrcsi_fit_spot *from,
+                         lrcsi_fit_spot *least)
+{
+    lrcsi_fit_spot spot = *from;
+    spot.at[walk->parameter] = x;
+    lrcsi_fit_descend(walk->data, 1u << walk->parameter, &spot);
+    *least = spot.square < least->square ? spot : *least;
+}
+
+/* The best of some shapes of a part with the walk's parameter at x: a glint may hide between
+   readings or grow wide, and there may be a hill between. A and m ask for the glint's shape, B and
+   s for that of the diffuse part. */
+static lrcsi_fit_spot walk_shape(const profile_walk *walk, double x)
+{
+    int p = walk->parameter;
+    int shape = p == LRCS_FIT_A || p == LRCS_FIT_M ? LRCS_FIT_S : LRCS_FIT_M;
+    unsigned fixed = 1u << p | 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
+    double least = walk->data->least[shape];
+    double most = walk->data->most[shape];
+    lrcsi_fit_spot best = walk->last;
+    best.square = HUGE_VAL;
+    for (int k = 0; k <= PROFILE_SHAPES; k++) {
+        lrcsi_fit_normal normal;
+        lrcsi_fit_spot spot = walk->last;
+        spot.at[p] = x;
+        spot.at[shape] = least + (most - least) * k / PROFILE_SHAPES;
+        lrcsi_fit_settle(walk->data, fixed, &spot, &normal);
+        best = spot.square < best.square ? spot : best;
+    }
+    return best;
+}
+
+/* The root of the rise at a place, 1 where it is the limit. */
+static double walk_rise(profile_walk *walk, double x, lrcsi_fit_spot *spot)
+{
+    *spot = walk->last;
+    spot->square = HUGE_VAL;
+    walk_descend(walk, x, &walk->last, spot);
+    walk_descend(walk, x, walk->whole, spot);
+    lrcsi_fit_spot from = walk_shape(walk, x);
+    walk_descend(walk, x, &from, spot);
+    if (spot->square < walk->low.square) {
+        walk->low = *spot;
+    }
+    return sqrt(lrcsi_most(0.0, spot->square - walk->best->square) / walk->rise);
+}
+
+/* Where the root of the rise is 1 between a place below and one above it: false position, the end
+   that stays counted half (Illinois). */
+static double walk_cut(profile_walk *walk, double in, double f_in, double out, double f_out)
+{
+    double f_low = f_in - 1.0;
+    double f_high = f_out - 1.0;
+    int side = 0;
+    for (int i = 0; i < PROFILE_CUTS && fabs(f_high) > PROFILE_NEAR; i++) {
+        lrcsi_fit_spot spot;
+        double x = in + (out - in) * (f_low / (f_low - f_high));
+        double f = walk_rise(walk, x, &spot) - 1.0;
+        if (f < 0.0) {
+            in = x;
+            f_low = f;
+            f_high *= side < 0 ? 0.5 : 1.0;
+            walk->last = spot;
+            side = -1;
+        } else {
+            out = x;
+            f_high = f;
+            f_low *= side > 0 ? 0.5 : 1.0;
+            side = 1;
+        }
+        if (fabs(f) <= PROFILE_NEAR) {
+            return x;
+        }
+    }
+    return out;
+}
+
+/* The limit on one side, direction -1 or 1; an infinity where the end of the search is within. */
+static double walk_limit(profile_walk *walk, double stride, int direction)
+{
+    const lrcsi_fit_data *data = walk->data;
+    int p = walk->parameter;
+    double end = direction < 0 ? data->least[p] : data->most[p];
+    double in = walk->best->at[p];
+    double f_in = 0.0;
+    walk->last = *walk->best;
+    for (int i = 0; i < PROFILE_STRIDES && direction * (end - in) > 0.0; i++, stride *= 2.0) {
+        lrcsi_fit_spot spot;
+        double x = in + direction * stride;
+        x = direction < 0 ? lrcsi_most(x, end) : lrcsi_least(x, end);
+        double f = walk_rise(walk, x, &spot);
+        if (f > 1.0) {
+            return walk_cut(walk, in, f_in, x, f);
+        }
+        in = x;
+        f_in = f;
+        walk->last = spot;
+    }
+    return direction < 0 && end == 0.0 ? 0.0 : direction * HUGE_VAL;
+}
+
+int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
+                      const lrcsi_fit_spot *best, lrcsi_fit_spot *whole,
+                      double limit[LRCS_FIT_PARAMETERS][2])
+{
+    lrcsi_fit_spot low = *whole;
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        profile_walk walk = {data, p, rise, best, whole, *best, low};
+        double most = p < LRCS_FIT_S ? HUGE_VAL : 0.5;
+        double stride = lrcsi_least(2.0 * spread->error[p], most);
+        stride = stride > 0.0 && stride < HUGE_VAL ? stride : 0.1;
+        limit[p][0] = walk_limit(&walk, stride, -1);
+        limit[p][1] = walk_limit(&walk, stride, 1);
+        low = walk.low;
+    }
+    int lower = whole->square - low.square > PROFILE_LOWER * rise;
+    *whole = lower ? low : *whole;
+    return !lower;
+}

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT */
+/* Which readings a fit trusts. It decides how large the errors of readings are taken to be, how a
+   descent is kept from following single readings, and which of them are set aside. */
+#include "analysis/fit_search.h"
+
+#include <math.h>
+
+#include "base/range.h"
+
+/* Huber's constant: 95 % of the efficiency of least squares on normal errors. */
+#define ROBUST_HUBER  1.345
+#define ROBUST_ROUNDS 12
+
+/* The median of |x| of a normal distribution is 1/1.4826 of its standard deviation. */
+#define ROBUST_NORMAL 1.4826
+
+/* Set aside beyond so many standard deviations: one in 2000 of normal errors. */
+#define ROBUST_CUT    3.5
+#define ROBUST_FEWEST 8u
+
+/* Of readings whose fitted value is nearly 0 a share of the largest is expected as error. A fit
+   that is nothing to the largest reading says nothing of errors, and squares over it overflow. */
+#define ROBUST_RELATIVE 1e-4
+#define ROBUST_LEAST    0x1p-400
+
+/* Residuals this small against the readings are those of rounding. */
+#define ROBUST_ROUNDING 0x1p-44
+
+/* The value that `rank` of the others do not exceed, 0 the smallest (C. A. R. Hoare 1961); the
+   values change their order. */
+static double value_ranked(double *value, uint32_t count, uint32_t rank)
+{
+    uint32_t low = 0;
+    uint32_t high = count - 1;
+    while (low < high) {
+        double pivot = value[low + (high - low) / 2];
+        uint32_t i = low;
+        uint32_t k = high;
+        for (;;) {
+            while (value[i] < pivot) {
+                i++;
+            }
+            while (value[k] > pivot) {
+                k--;
+            }
+            if (i >= k) {
+                break;
+            }
+            double swap = value[i];
+            value[i++] = value[k];
+            value[k--] = swap;
+        }
+        /* value[low..k] <= pivot <= value[k+1..high] */
+        if (rank <= k) {
+            high = k;
+        } else {
+            low = k + 1;
+        }
+    }
+    return value[rank];
+}
+
+void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_spot *spot)
+{
+    double most = 0.0;
+    if (noise != LRCS_FIT_RELATIVE) {
+        return;
+    }
+    lrcsi_fit_rests(data, spot);
+    for (uint32_t i = 0; i < data->count; i++) {
+        data->spare[i] = data->y[i] - data->rest[i];
+        most = lrcsi_most(most, data->spare[i]);
+    }
+    for (uint32_t i = 0; i < data->count && most > ROBUST_LEAST; i++) {
+        data->inverse[i] = 1.0 / lrcsi_most(data->spare[i], ROBUST_RELATIVE * most);
+    }
+}
+
+/* |y - f| * inverse into spare[]; returns the least of them that are not rounding alone. */
+static double offsets_fill(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot, double *sum)
+{
+    double size = 0.0;
+    *sum = 0.0;
+    lrcsi_fit_rests(data, spot);
+    for (uint32_t i = 0; i < data->count; i++) {
+        data->spare[i] = fabs(data->rest[i]) * data->inverse[i];
+        size = lrcsi_most(size, fabs(data->y[i]) * data->inverse[i]);
+        *sum += data->spare[i];
+    }
+    return ROBUST_ROUNDING * size;
+}
+
+/* The standard deviation that the offsets in spare[] show, from their median: with as many
+   parameters few of them are small for no reason (Rousseeuw and Leroy 1987, ch. 5, Eq. 1.3). */
+static double offsets_scale(const lrcsi_fit_data *data, double rounding)
+{
+    double few = 1.0 + 5.0 / (data->count - LRCS_FIT_PARAMETERS);
+    double median = value_ranked(data->spare, data->count, data->count / 2);
+    return lrcsi_most(ROBUST_NORMAL * few * median, rounding);
+}
+
+double lrcsi_fit_soften(const lrcsi_fit_data *data, int noise, lrcsi_fit_spot *spot)
+{
+    double sum = 0.0;
+    for (int round = 0; round < ROBUST_ROUNDS; round++) {
+        double rounding = offsets_fill(data, spot, &sum);
+        double most = ROBUST_HUBER * offsets_scale(data, rounding);
+        for (uint32_t i = 0; i < data->count; i++) {
+            double off = fabs(data->rest[i]) * data->inverse[i];
+            data->weight[i] = data->inverse[i] * (off > most ? sqrt(most / off) : 1.0);
+        }
+        lrcsi_fit_descend(data, 0, spot);
+        lrcsi_fit_noise(data, noise, spot);
+    }
+    offsets_fill(data, spot, &sum);
+    return sum;
+}
+
+int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot)
+{
+    double sum = 0.0;
+    int changed = 0;
+    double most = HUGE_VAL;
+    double rounding = offsets_fill(data, spot, &sum);
+    if (data->count >= ROBUST_FEWEST) {
+        most = ROBUST_CUT * offsets_scale(data, rounding);
+        /* Where more than half agree to the last digit, the rest may still not be outliers. */
+        uint32_t seven = (uint32_t)((7 * (uint64_t)data->count + 9) / 10) - 1;
+        most = lrcsi_most(most, 2.0 * value_ranked(data->spare, data->count, seven));
+    }
+    for (uint32_t i = 0; i < data->count; i++) {
+        int keep = fabs(data->rest[i]) * data->inverse[i] <= most;
+        changed |= keep != (data->weight[i] > 0.0);
+        data->weight[i] = keep ? data->inverse[i] : 0.0;
+    }
+    return changed;
+}

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT */
+/* Where the fit of readings starts: a grid of s and m, at each of whose nodes A and B have the
+   least sum of absolute residuals, which single readings cannot pull far. It decides the grid and
+   which of its nodes are starts. */
+#include "analysis/fit_search.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/range.h"
+
+#define SEARCH_SLOPES 24
+#define SEARCH_FALLS  10
+
+/* Weighted least squares, the weights the inverse of the residuals before: five passes are near
+   enough to the least absolute sum for a start. */
+#define SEARCH_PASSES 5
+#define SEARCH_FLOOR  0.01
+
+static lrcsi_fit_spot node_spot(const lrcsi_fit_data *data, int slope, int fall)
+{
+    lrcsi_fit_spot spot = {{0.0}, 0.0};
+    const int step[2] = {slope, fall};
+    const int steps[2] = {SEARCH_SLOPES - 1, SEARCH_FALLS - 1};
+    for (int k = 0; k < 2; k++) {
+        int p = LRCS_FIT_S + k;
+        double share = (double)step[k] / steps[k];
+        spot.at[p] = data->least[p] + share * (data->most[p] - data->least[p]);
+    }
+    return spot;
+}
+
+/* The sum of absolute residuals, from weighted ones in rest[]. */
+static double node_sum(const lrcsi_fit_data *data)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < data->count; i++) {
+        sum += fabs(data->rest[i]) * (data->inverse[i] / data->weight[i]);
+    }
+    return sum;
+}
+
+/* Weighs readings and columns by the inverse of the residuals, which are taken for no less than
+   a share of their mean. */
+static void node_weigh(const lrcsi_fit_data *data, double mean)
+{
+    double floor = lrcsi_most(SEARCH_FLOOR * mean, 0x1p-500);
+    for (uint32_t i = 0; i < data->count; i++) {
+        double off = fabs(data->rest[i]) * (data->inverse[i] / data->weight[i]);
+        double weight = data->inverse[i] / sqrt(lrcsi_most(off, floor));
+        data->column[LRCS_FIT_A][i] *= weight / data->weight[i];
+        data->column[LRCS_FIT_B][i] *= weight / data->weight[i];
+        data->weight[i] = weight;
+    }
+}
+
+/* The least sum of absolute residuals for the s and m of a node. */
+static double node_least(const lrcsi_fit_data *data, const lrcsi_fit_spot *node)
+{
+    const unsigned shapes = 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
+    lrcsi_fit_spot spot = *node;
+    lrcsi_fit_normal normal;
+    memcpy(data->weight, data->inverse, data->count * sizeof *data->weight);
+    lrcsi_fit_columns(data, &spot);
+    lrcsi_fit_amplitudes(data, shapes, &spot, &normal);
+    double sum = node_sum(data);
+    for (int pass = 1; pass < SEARCH_PASSES; pass++) {
+        node_weigh(data, sum / data->count);
+        lrcsi_fit_amplitudes(data, shapes, &spot, &normal);
+        sum = node_sum(data);
+    }
+    return sum;
+}
+
+static int is_least(double sum[SEARCH_SLOPES][SEARCH_FALLS], int slope, int fall)
+{
+    for (int i = slope - 1; i <= slope + 1; i++) {
+        for (int k = fall - 1; k <= fall + 1; k++) {
+            int inside = i >= 0 && i < SEARCH_SLOPES && k >= 0 && k < SEARCH_FALLS;
+            int before = i < slope || (i == slope && k < fall); /* of equals the first */
+            if (inside &&
+                (sum[i][k] < sum[slope][fall] || (before && sum[i][k] == sum[slope][fall]))) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* Enters a start in its order, the least first; the last one falls out. */
+static uint32_t start_enter(lrcsi_fit_spot start[LRCSI_FIT_STARTS], uint32_t count,
+                            const lrcsi_fit_spot *spot)
+{
+    uint32_t at = count;
+    while (at > 0 && start[at - 1].square > spot->square) {
+        at--;
+    }
+    if (at == LRCSI_FIT_STARTS) {
+        return count;
+    }
+    count += count < LRCSI_FIT_STARTS;
+    for (uint32_t k = count - 1; k > at; k--) {
+        start[k] = start[k - 1];
+    }
+    start[at] = *spot;
+    return count;
+}
+
+uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_spot start[LRCSI_FIT_STARTS])
+{
+    double sum[SEARCH_SLOPES][SEARCH_FALLS];
+    uint32_t count = 0;
+    for (int i = 0; i < SEARCH_SLOPES; i++) {
+        for (int k = 0; k < SEARCH_FALLS; k++) {
+            lrcsi_fit_spot spot = node_spot(data, i, k);
+            sum[i][k] = node_least(data, &spot);
+        }
+    }
+    for (int i = 0; i < SEARCH_SLOPES; i++) {
+        for (int k = 0; k < SEARCH_FALLS; k++) {
+            lrcsi_fit_spot spot = node_spot(data, i, k);
+            spot.square = sum[i][k];
+            count = is_least(sum, i, k) ? start_enter(start, count, &spot) : count;
+        }
+    }
+    return count;
+}

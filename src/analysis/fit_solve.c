@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT */
+/* Weighted least squares of readings by A g(s) + B d(m), from one start to one local minimum. It
+   decides how the descent steps and when it ends; which readings count, and where to start, its
+   callers say.
+
+   A and B are solved for at every s and m (variable projection, G. Golub and V. Pereyra 1973, in
+   the form of L. Kaufman 1975): the Gauss-Newton matrix of log(s) and log(1 + m) alone is the
+   Schur complement of A and B in that of all four. Steps are damped after Levenberg and Marquardt
+   and clipped to the limits of the search. */
+#include "analysis/fit_solve.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/range.h"
+
+#define SOLVE_STEPS 80
+
+/* A damping beyond which no step lowers the sum: it is at its minimum but for rounding. */
+#define SOLVE_DAMPING_MOST 1e10
+
+/* A longer step in log(s) or log(1 + m) leaves where the linear model means anything. */
+#define SOLVE_STRIDE 1.0
+
+/* A column that is another's multiple but for rounding says nothing new. */
+#define SOLVE_PIVOT 1e-13
+
+/* exp(-x) beyond it is 0 in all that follows. */
+#define SOLVE_FAR 700.0
+
+/* ---- columns, residuals and sums ---- */
+
+void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot)
+{
+    double s = exp(spot->at[LRCS_FIT_S]);
+    double w_m = exp(spot->at[LRCS_FIT_M]);
+    double half_m = 0.5 * expm1(spot->at[LRCS_FIT_M]);
+    for (uint32_t i = 0; i < data->count; i++) {
+        double weight = data->weight[i] * data->factor[i];
+        double x = data->u[i] / s / s;
+        double far = x - 3.0 * data->log_w[i];
+        double glint = far < SOLVE_FAR ? weight * exp(-far) : 0.0;
+        double fall = half_m * data->log_w[i];
+        double diffuse = fall < SOLVE_FAR ? weight * exp(-fall) : 0.0;
+        data->column[LRCS_FIT_A][i] = glint;
+        data->column[LRCS_FIT_B][i] = diffuse;
+        data->column[LRCS_FIT_S][i] = glint > 0.0 ? 2.0 * x * glint : 0.0;
+        data->column[LRCS_FIT_M][i] = -0.5 * w_m * data->log_w[i] * diffuse;
+    }
+}
+
+void lrcsi_fit_rests(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot)
+{
+    double s = exp(spot->at[LRCS_FIT_S]);
+    double half_m = 0.5 * expm1(spot->at[LRCS_FIT_M]);
+    for (uint32_t i = 0; i < data->count; i++) {
+        double far = data->u[i] / s / s - 3.0 * data->log_w[i];
+        double f = far < SOLVE_FAR ? spot->at[LRCS_FIT_A] * exp(-far) : 0.0;
+        f += spot->at[LRCS_FIT_B] * exp(-half_m * data->log_w[i]);
+        data->rest[i] = data->y[i] - data->factor[i] * f;
+    }
+}
+
+/* The sums of the first `order` columns. */
+static void gram_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_normal *normal)
+{
+    memset(normal, 0, sizeof *normal);
+    for (uint32_t i = 0; i < data->count; i++) {
+        for (int j = 0; j < order; j++) {
+            for (int k = 0; k <= j; k++) {
+                normal->gram[j][k] += data->column[j][i] * data->column[k][i];
+            }
+        }
+    }
+    for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
+        for (int k = 0; k < j; k++) {
+            normal->gram[k][j] = normal->gram[j][k];
+        }
+    }
+}
+
+/* The slopes and the sum of squares, from residuals that do not cancel. */
+static void slope_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_spot *spot,
+                       lrcsi_fit_normal *normal)
+{
+    double sum[LRCS_FIT_PARAMETERS] = {0.0};
+    spot->square = 0.0;
+    for (uint32_t i = 0; i < data->count; i++) {
+        double rest = data->weight[i] * data->y[i] -
+                      spot->at[LRCS_FIT_A] * data->column[LRCS_FIT_A][i] -
+                      spot->at[LRCS_FIT_B] * data->column[LRCS_FIT_B][i];
+        data->rest[i] = rest;
+        spot->square += rest * rest;
+        for (int j = 0; j < order; j++) {
+            sum[j] += data->column[j][i] * rest;
+        }
+    }
+    memcpy(normal->slope, sum, sizeof sum);
+}
+
+/* ---- A and B ---- */
+
+/* The changes of A and B, those of `moving` alone, that take their slopes to 0. */
+static void amplitude_step(const lrcsi_fit_normal *normal, unsigned moving, double step[2])
+{
+    double a = normal->gram[0][0];
+    double b = normal->gram[1][1];
+    double ab = normal->gram[0][1];
+    double det = a * b - ab * ab;
+    step[0] = (moving & 1u) && a > 0.0 ? normal->slope[0] / a : 0.0;
+    step[1] = (moving & 2u) && b > 0.0 ? normal->slope[1] / b : 0.0;
+    if (moving == 3u && det > SOLVE_PIVOT * a * b) {
+        step[0] = (b * normal->slope[0] - ab * normal->slope[1]) / det;
+        step[1] = (a * normal->slope[1] - ab * normal->slope[0]) / det;
+    }
+}
+
+/* Which of A and B are above 0 in their best choice, found from slopes at A = B = 0 (or as
+   fixed). */
+static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
+{
+    double step[2];
+    amplitude_step(normal, free, step);
+    double a = normal->gram[0][0];
+    double b = normal->gram[1][1];
+    if (free == 3u && !(a * b - normal->gram[0][1] * normal->gram[0][1] > SOLVE_PIVOT * a * b)) {
+        return a >= b ? 1u : 2u; /* one is the other's multiple */
+    }
+    if (free != 3u || (step[0] >= 0.0 && step[1] >= 0.0)) {
+        return free & ((step[0] > 0.0 ? 1u : 0u) | (step[1] > 0.0 ? 2u : 0u));
+    }
+    const double alone[2] = {a > 0.0 ? lrcsi_most(normal->slope[0], 0.0) / sqrt(a) : 0.0,
+                             b > 0.0 ? lrcsi_most(normal->slope[1], 0.0) / sqrt(b) : 0.0};
+    if (alone[0] == 0.0 && alone[1] == 0.0) {
+        return 0;
+    }
+    return alone[0] > alone[1] ? 1u : 2u;
+}
+
+void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
+                          lrcsi_fit_normal *normal)
+{
+    unsigned free = 3u & ~fixed;
+    int order = fixed >> LRCS_FIT_S == 3u ? 2 : LRCS_FIT_PARAMETERS;
+    double step[2];
+    gram_fill(data, order, normal);
+    for (int k = 0; k < 2; k++) {
+        spot->at[k] = (free & (1u << k)) ? 0.0 : spot->at[k];
+    }
+    slope_fill(data, order, spot, normal);
+    unsigned active = amplitude_active(normal, free);
+    for (int pass = 0; pass < 2 && active; pass++) { /* the second takes away rounding */
+        amplitude_step(normal, active, step);
+        for (int k = 0; k < 2; k++) {
+            spot->at[k] = lrcsi_least(data->most[k], lrcsi_most(0.0, spot->at[k] + step[k]));
+        }
+        slope_fill(data, order, spot, normal);
+    }
+}
+
+void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
+                      lrcsi_fit_normal *normal)
+{
+    lrcsi_fit_columns(data, spot);
+    lrcsi_fit_amplitudes(data, fixed, spot, normal);
+}
+
+/* ---- s and m ---- */
+
+/* The matrix of log(s) and log(1 + m) with A and B eliminated, and the slopes. */
+typedef struct solve_shape {
+    double matrix[2][2], slope[2];
+    int moves[2];
+} solve_shape;
+
+static solve_shape shape_make(const lrcsi_fit_data *data, unsigned fixed,
+                              const lrcsi_fit_spot *spot, const lrcsi_fit_normal *normal)
+{
+    const double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, spot->at[LRCS_FIT_A],
+                                               spot->at[LRCS_FIT_B]};
+    double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
+    double r[LRCS_FIT_PARAMETERS];
+    for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
+        r[j] = scale[j] * normal->slope[j];
+        for (int k = 0; k < LRCS_FIT_PARAMETERS; k++) {
+            m[j][k] = scale[j] * scale[k] * normal->gram[j][k];
+        }
+    }
+    for (int p = 0; p < 2; p++) {
+        int active = !(fixed & (1u << p)) && spot->at[p] > 0.0;
+        if (!active || !(m[p][p] > SOLVE_PIVOT * normal->gram[p][p])) {
+            continue;
+        }
+        for (int j = p + 1; j < LRCS_FIT_PARAMETERS; j++) {
+            double share = m[j][p] / m[p][p];
+            r[j] -= share * r[p];
+            for (int k = p + 1; k < LRCS_FIT_PARAMETERS; k++) {
+                m[j][k] -= share * m[p][k];
+            }
+        }
+    }
+    solve_shape shape;
+    for (int j = 0; j < 2; j++) {
+        int p = LRCS_FIT_S + j;
+        int outward = r[p] > 0.0 ? spot->at[p] >= data->most[p] : spot->at[p] <= data->least[p];
+        double whole = scale[p] * scale[p] * normal->gram[p][p];
+        shape.moves[j] = !(fixed & (1u << p)) && !outward && m[p][p] > SOLVE_PIVOT * whole;
+        shape.slope[j] = r[p];
+        shape.matrix[j][0] = m[p][LRCS_FIT_S];
+        shape.matrix[j][1] = m[p][LRCS_FIT_M];
+    }
+    return shape;
+}
+
+/* The damped step; 0 where nothing moves. */
+static int shape_step(const solve_shape *shape, double damping, double step[2])
+{
+    double a = shape->matrix[0][0] * (1.0 + damping);
+    double b = shape->matrix[1][1] * (1.0 + damping);
+    double ab = shape->matrix[0][1];
+    double det = a * b - ab * ab;
+    step[0] = shape->moves[0] ? shape->slope[0] / a : 0.0;
+    step[1] = shape->moves[1] ? shape->slope[1] / b : 0.0;
+    if (shape->moves[0] && shape->moves[1] && det > SOLVE_PIVOT * a * b) {
+        step[0] = (b * shape->slope[0] - ab * shape->slope[1]) / det;
+        step[1] = (a * shape->slope[1] - ab * shape->slope[0]) / det;
+    }
+    for (int k = 0; k < 2; k++) {
+        step[k] = lrcsi_most(-SOLVE_STRIDE, lrcsi_least(SOLVE_STRIDE, step[k]));
+    }
+    return shape->moves[0] || shape->moves[1];
+}
+
+void lrcsi_fit_descend(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot)
+{
+    lrcsi_fit_normal normal;
+    double damping = 1e-3;
+    double step[2];
+    lrcsi_fit_settle(data, fixed, spot, &normal);
+    for (int i = 0; i < SOLVE_STEPS && damping < SOLVE_DAMPING_MOST; i++) {
+        solve_shape shape = shape_make(data, fixed, spot, &normal);
+        lrcsi_fit_normal there;
+        lrcsi_fit_spot next = *spot;
+        if (!shape_step(&shape, damping, step)) {
+            break;
+        }
+        for (int k = 0; k < 2; k++) {
+            int p = LRCS_FIT_S + k;
+            next.at[p] =
+                lrcsi_most(data->least[p], lrcsi_least(data->most[p], next.at[p] + step[k]));
+        }
+        lrcsi_fit_settle(data, fixed, &next, &there);
+        if (!(next.square < spot->square)) {
+            damping *= 8.0;
+            continue;
+        }
+        int settled = spot->square - next.square <= 1e-14 * spot->square;
+        *spot = next;
+        normal = there;
+        damping *= 0.125;
+        if (settled) {
+            break;
+        }
+    }
+}

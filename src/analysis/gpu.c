@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: MIT */
+/* Drawing as graphics hardware does it. It decides which facet owns which pixel, by that hardware's
+   arithmetic and rules; what the laser truly sees, visibility/raster.c and visibility/occlude.c
+   decide. */
+#include "analysis/gpu.h"
+
+#include <math.h>
+
+#include "base/range.h"
+#include "base/single.h"
+#include "base/work.h"
+
+#define SUBPIXELS 256 /* along a pixel */
+
+/* Corners are held within this many pixels of the window's corner. Then edge functions stay below
+   2^52, whole numbers that doubles hold. */
+#define GUARD_BAND 0x1p15
+
+/* A window is no smaller than this part of the scene's reach, so that its matrix fits a float. */
+#define WINDOW_LEAST 0x1p-100
+
+/* Of the window's side: what the depth range leaves free at its ends, so that neither end of the
+   scene is clipped, nor a scene without depth divided by 0. */
+#define DEPTH_MARGIN 0x1p-7
+
+/* --- vertices --------------------------------------------------------------------------------- */
+
+/* What the host uploads for a pose: body to clip coordinates, which reach from -1 to 1. */
+typedef struct clip_matrix {
+    double turn[3][3], move[3];
+    double unit; /* per scaled unit: a power of two */
+} clip_matrix;
+
+/* How near and how far the live facets reach. */
+static void depth_range(const lrcsi_view *view, double *least, double *most)
+{
+    const lrcs_prepared *p = view->prepared;
+    *least = HUGE_VAL;
+    *most = -HUGE_VAL;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
+            double z = view->point[p->scene->facet[f].corner[corner]].x[2];
+            *least = lrcsi_least(*least, z);
+            *most = lrcsi_most(*most, z);
+        }
+    }
+}
+
+/* Along a view axis, how far the centre of the scene is from the origin of views: nothing, mostly.
+ */
+static double centre_along(const lrcsi_view *view, int axis)
+{
+    const lrcs_prepared *p = view->prepared;
+    double along = 0;
+    for (int k = 0; k < 3; k++) {
+        along += view->R[axis][k] * (p->centre[k] - p->origin[k]);
+    }
+    return along;
+}
+
+static clip_matrix clip_make(const lrcsi_gpu *gpu)
+{
+    const lrcsi_view *view = gpu->view;
+    clip_matrix clip = {.unit = ldexp(1, -ilogb(view->prepared->radius))};
+    double least;
+    double most;
+    depth_range(view, &least, &most);
+    const double middle[3] = {view->low[0] + 0.5 * view->side, view->low[1] + 0.5 * view->side,
+                              0.5 * (least + most)};
+    const double half[3] = {0.5 * view->side, 0.5 * view->side,
+                            -(0.5 * (most - least) + DEPTH_MARGIN * view->side)};
+    for (int k = 0; k < 3; k++) {
+        for (int j = 0; j < 3; j++) {
+            clip.turn[k][j] = lrcsi_single(gpu->single, view->R[k][j] / (half[k] * clip.unit));
+        }
+        clip.move[k] = lrcsi_single(gpu->single, (centre_along(view, k) - middle[k]) / half[k]);
+    }
+    return clip;
+}
+
+/* A clip coordinate as one of the window, from 0 to 2 `half`. */
+static double window_coordinate(int single, const double *turn, double move, const double *p,
+                                double half)
+{
+    double x = lrcsi_single(single, turn[0] * p[0]);
+    x = lrcsi_single(single, x + lrcsi_single(single, turn[1] * p[1]));
+    x = lrcsi_single(single, x + lrcsi_single(single, turn[2] * p[2]));
+    x = lrcsi_single(single, x + move);
+    return lrcsi_single(single, lrcsi_single(single, x * half) + half);
+}
+
+static lrcsi_gpu_vertex gpu_vertex(const lrcsi_gpu *gpu, const clip_matrix *clip, uint32_t i)
+{
+    const lrcs_prepared *prepared = gpu->view->prepared;
+    lrcsi_gpu_vertex vertex;
+    double p[3];
+    for (int k = 0; k < 3; k++) {
+        double about = prepared->vertex[i].x[k] - prepared->centre[k];
+        p[k] = lrcsi_single(gpu->single, about * clip->unit);
+    }
+    for (int k = 0; k < 2; k++) {
+        double x = window_coordinate(gpu->single, clip->turn[k], clip->move[k], p, 0.5 * gpu->size);
+        x = lrcsi_least(lrcsi_most(x, -GUARD_BAND), GUARD_BAND);
+        vertex.at[k] = (int64_t)floor(x * SUBPIXELS + 0.5);
+    }
+    vertex.depth = window_coordinate(gpu->single, clip->turn[2], clip->move[2], p, 0.5);
+    return vertex;
+}
+
+/* --- facets ----------------------------------------------------------------------------------- */
+
+/* Twice the signed area of an edge and a pixel's centre, in sub-pixels: at + along x + up y for
+   pixel (x, y), positive inside; from `least` on the pixel is covered. */
+typedef struct gpu_edge {
+    int64_t at, along, up, least;
+} gpu_edge;
+
+/* A facet being drawn: edge k lies across from corner k. */
+typedef struct gpu_facet {
+    gpu_edge edge[3];
+    double inverse;         /* of the sum of the edge functions */
+    double depth, rise[2];  /* at corner 0; to corners 1 and 2 */
+    int64_t x0, x1, y0, y1; /* pixels x0 <= x < x1 */
+} gpu_facet;
+
+/* The top-left rule: of centres on an edge, those on a left one (going down, the inside to its
+   left) or a top one (level, going left) belong to the facet. */
+static gpu_edge edge_make(const int64_t a[2], const int64_t b[2])
+{
+    int64_t dx = b[0] - a[0];
+    int64_t dy = b[1] - a[1];
+    gpu_edge e = {.along = -dy * SUBPIXELS, .up = dx * SUBPIXELS};
+    e.at = dx * (SUBPIXELS / 2 - a[1]) - dy * (SUBPIXELS / 2 - a[0]);
+    e.least = dy < 0 || (dy == 0 && dx < 0) ? 0 : 1;
+    return e;
+}
+
+/* Floor and ceiling of a quotient, for b > 0. */
+static int64_t whole_below(int64_t a, int64_t b)
+{
+    return a / b - (a % b < 0);
+}
+
+static int64_t whole_above(int64_t a, int64_t b)
+{
+    return -whole_below(-a, b);
+}
+
+/* The pixels of the window whose centres stand between the least and the most of three
+   coordinates. */
+static void facet_extent(const lrcsi_gpu *gpu, int64_t a, int64_t b, int64_t c, int64_t *from,
+                         int64_t *to)
+{
+    int64_t least = a < b ? a : b;
+    int64_t most = a > b ? a : b;
+    least = least < c ? least : c;
+    most = most > c ? most : c;
+    *from = whole_above(least - SUBPIXELS / 2, SUBPIXELS);
+    *to = whole_below(most - SUBPIXELS / 2, SUBPIXELS) + 1;
+    *from = *from > 0 ? *from : 0;
+    *to = *to < gpu->size ? *to : gpu->size;
+}
+
+/* Snaps leave some facets without area: those cover nothing. Returns whether there is any. */
+static int facet_start(const lrcsi_gpu *gpu, uint32_t facet, gpu_facet *out)
+{
+    const uint32_t *corner = gpu->view->prepared->scene->facet[facet].corner;
+    const lrcsi_gpu_vertex *a = &gpu->vertex[corner[0]];
+    const lrcsi_gpu_vertex *b = &gpu->vertex[corner[1]];
+    const lrcsi_gpu_vertex *c = &gpu->vertex[corner[2]];
+    int64_t twice = (b->at[0] - a->at[0]) * (c->at[1] - a->at[1]) -
+                    (b->at[1] - a->at[1]) * (c->at[0] - a->at[0]);
+    if (twice == 0) {
+        return 0;
+    }
+    if (twice < 0) { /* seen from behind */
+        const lrcsi_gpu_vertex *other = b;
+        b = c;
+        c = other;
+        twice = -twice;
+    }
+    out->edge[0] = edge_make(b->at, c->at);
+    out->edge[1] = edge_make(c->at, a->at);
+    out->edge[2] = edge_make(a->at, b->at);
+    out->inverse = lrcsi_single(gpu->single, 1 / lrcsi_single(gpu->single, (double)twice));
+    out->depth = a->depth;
+    out->rise[0] = lrcsi_single(gpu->single, b->depth - a->depth);
+    out->rise[1] = lrcsi_single(gpu->single, c->depth - a->depth);
+    facet_extent(gpu, a->at[0], b->at[0], c->at[0], &out->x0, &out->x1);
+    facet_extent(gpu, a->at[1], b->at[1], c->at[1], &out->y0, &out->y1);
+    return 1;
+}
+
+/* Depth where the edge functions of corners 1 and 2 are e1 and e2, as the buffer keeps it. */
+static double depth_kept(const lrcsi_gpu *gpu, const gpu_facet *f, int64_t e1, int64_t e2)
+{
+    int single = gpu->single;
+    double w1 = lrcsi_single(single, lrcsi_single(single, (double)e1) * f->inverse);
+    double w2 = lrcsi_single(single, lrcsi_single(single, (double)e2) * f->inverse);
+    double rise = lrcsi_single(single, lrcsi_single(single, w1 * f->rise[0]) +
+                                           lrcsi_single(single, w2 * f->rise[1]));
+    double depth = lrcsi_single(single, f->depth + rise);
+    depth = lrcsi_least(lrcsi_most(depth, 0), 1);
+    return gpu->steps > 0 ? floor(depth * gpu->steps + 0.5) : lrcsi_single(gpu->short_depth, depth);
+}
+
+/* The pixels of row y that all three edges have inside. */
+static void row_span(const gpu_facet *f, int64_t y, int64_t *from, int64_t *to)
+{
+    *from = f->x0;
+    *to = f->x1;
+    for (int k = 0; k < 3; k++) {
+        const gpu_edge *e = &f->edge[k];
+        int64_t short_of = e->least - (e->at + e->up * y); /* along x must reach this */
+        if (e->along > 0) {
+            int64_t x = whole_above(short_of, e->along);
+            *from = x > *from ? x : *from;
+        } else if (e->along < 0) {
+            int64_t x = whole_below(-short_of, -e->along) + 1;
+            *to = x < *to ? x : *to;
+        } else if (short_of > 0) {
+            *to = *from;
+        }
+    }
+}
+
+static void facet_draw(lrcsi_gpu *gpu, uint32_t facet)
+{
+    gpu_facet f;
+    if (!facet_start(gpu, facet, &f)) {
+        return;
+    }
+    for (int64_t y = f.y0; y < f.y1; y++) {
+        int64_t from;
+        int64_t to;
+        row_span(&f, y, &from, &to);
+        for (int64_t x = from; x < to; x++) {
+            size_t at = (size_t)y * gpu->size + (size_t)x;
+            double depth =
+                depth_kept(gpu, &f, f.edge[1].at + f.edge[1].along * x + f.edge[1].up * y,
+                           f.edge[2].at + f.edge[2].along * x + f.edge[2].up * y);
+            if (depth < gpu->depth[at]) {
+                gpu->depth[at] = depth;
+                gpu->owner[at] = facet;
+            }
+        }
+    }
+}
+
+/* --- all of it -------------------------------------------------------------------------------- */
+
+size_t lrcsi_gpu_need(const lrcs_prepared *prepared, uint32_t size)
+{
+    size_t pixels = lrcsi_work_square(size);
+    size_t need = lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_gpu_vertex));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
+}
+
+static int gpu_arrays(lrcsi_gpu *gpu, lrcs_work *work)
+{
+    size_t pixels = lrcsi_work_square(gpu->size);
+    gpu->vertex =
+        lrcsi_work_take(work, gpu->view->prepared->scene->vertex_count, sizeof *gpu->vertex);
+    gpu->owner = lrcsi_work_take(work, pixels, sizeof *gpu->owner);
+    gpu->depth = lrcsi_work_take(work, pixels, sizeof *gpu->depth);
+    if (!gpu->vertex || !gpu->owner || !gpu->depth) {
+        return LRCS_E_MEMORY;
+    }
+    for (size_t i = 0; i < pixels; i++) {
+        gpu->owner[i] = LRCS_NONE;
+        gpu->depth[i] = gpu->steps > 0 ? gpu->steps : 1;
+    }
+    return LRCS_OK;
+}
+
+static void gpu_draw(lrcsi_gpu *gpu)
+{
+    const lrcs_prepared *p = gpu->view->prepared;
+    clip_matrix clip = clip_make(gpu);
+    for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
+        gpu->vertex[i] = gpu_vertex(gpu, &clip, i);
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (!p->skip[f]) {
+            facet_draw(gpu, f);
+        }
+    }
+}
+
+/* Makes the window of a needle seen along its axis wide enough, about the same centre. */
+static void window_widen(lrcsi_view *view)
+{
+    double wider = WINDOW_LEAST * view->prepared->radius - view->side;
+    if (wider > 0) {
+        view->low[0] -= 0.5 * wider;
+        view->low[1] -= 0.5 * wider;
+        view->side += wider;
+    }
+}
+
+int lrcsi_gpu_make(lrcsi_view *view, const lrcs_emulation_options *options, lrcs_work *work,
+                   lrcsi_gpu *gpu)
+{
+    size_t mark = work->used;
+    lrcsi_gpu g = {.view = view, .size = options->resolution};
+    g.single = options->precision == LRCS_PRECISION_FLOAT32;
+    g.steps = options->depth_bits < 32 ? ldexp(1, (int)options->depth_bits) - 1 : 0;
+    g.short_depth = options->depth_bits == 32;
+    window_widen(view);
+    int status = gpu_arrays(&g, work);
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    if (view->prepared->live > 0) {
+        gpu_draw(&g);
+    }
+    *gpu = g;
+    return LRCS_OK;
+}

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT */
+/* Memory limits: a function that takes its memory from a work area, called with every size of it
+   from nothing to what its _need says. */
+#ifndef TEST_STARVE_H
+#define TEST_STARVE_H
+
+#include <stdlib.h>
+
+#include "check.h"
+
+#define STARVE_CANARY 64
+
+typedef struct starved {
+    const char *name;
+    size_t need;
+    int (*call)(lrcs_work *work);
+    void *output;
+    size_t output_size;
+    int stays; /* 1: what it made stays in the work area */
+    /* NULL: a call that is served wants no more than it was given. Else: is what it wanted right?
+     */
+    int (*wanted)(size_t wanted, size_t size);
+} starved;
+
+#define STARVED(name, need, call, output, stays)                                                   \
+    (&(const starved){name, need, call, &(output), sizeof(output), stays, NULL})
+
+/* One call in so many bytes, with a canary behind them. */
+static int starve_once(const starved *s, unsigned char *memory, size_t size)
+{
+    unsigned char *before = malloc(s->output_size);
+    assert_non_null(before);
+    memset(s->output, 0x5a, s->output_size);
+    memcpy(before, s->output, s->output_size);
+    memset(memory + size, 0xc3, STARVE_CANARY);
+    lrcs_work work = lrcs_work_make(memory, size);
+    int status = s->call(&work);
+    for (int i = 0; i < STARVE_CANARY; i++) {
+        assert_int_equal(memory[size + (size_t)i], 0xc3);
+    }
+    if (status == LRCS_OK) {
+        assert_true(s->wanted ? s->wanted(work.peak, size) : work.peak <= size);
+        assert_true(s->stays ? work.used > 0 : work.used == 0);
+    } else {
+        assert_int_equal(status, LRCS_E_MEMORY);
+        assert_int_equal(work.used, 0);
+        assert_true(work.peak > size);
+        assert_memory_equal(before, s->output, s->output_size);
+    }
+    free(before);
+    return status;
+}
+
+/* Byte by byte, but for the middle of those that need much: the first and last 1024 sizes, and
+   every 31st between. Once served, it is served by every larger area. */
+static void starve(const starved *s)
+{
+    unsigned char *memory = malloc(s->need + STARVE_CANARY);
+    assert_non_null(memory);
+    int served = 0;
+    for (size_t size = 0; size <= s->need;) {
+        int status = starve_once(s, memory, size);
+        if (status != LRCS_OK && (served || size == s->need)) {
+            fprintf(stderr, "%s: not served by %zu of %zu bytes\n", s->name, size, s->need);
+            fail();
+        }
+        served |= status == LRCS_OK;
+        size += size < 1024 || size + 1024 > s->need ? 1 : 31;
+    }
+    assert_true(served);
+    free(memory);
+}
+
+#endif
