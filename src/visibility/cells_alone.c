@@ -44,11 +44,15 @@
 /* Cells that a facet may be cut into: so many, and so many a segment. */
 #define PARTS_MOST      4096u
 #define PARTS_A_SEGMENT 256u
-/* Room for lists, a facet of the scene and beside that. */
+/* Room for lists: so many items a facet of the scene, and beside that for so many lists of all
+   facets and segments, but no more than for so many items. */
 #define LIST_A_FACET 8u
-#define LIST_LEAST   65536u
+#define LIST_TIMES   32u
+#define LIST_MORE    65536u
 /* Corners above which a cell is halved. */
 #define MANY_CORNERS 20u
+/* A facet that reaches so many times as far as its nearest corner is away and f reaches. */
+#define FAR_FACET 64
 /* A cell without place for a sample whose area is more than so many margins wide is only odd in
    shape: it is halved. */
 #define NARROW 64
@@ -79,8 +83,8 @@ static double needle_off(double off)
     return off < 0.25 ? 192 * U + 2 * off : 4;
 }
 
-/* The record of a facet whose corners are told, counter-clockwise. Where it is so narrow that it
-   may have been turned over, its sides tell nothing. */
+/* The record of a facet whose corners are told, counter-clockwise; `thin` where it may have been
+   turned over. */
 static void record_make(const double (*corner)[2], double off, lrcsi_cells_facet *f)
 {
     *f = (lrcsi_cells_facet){.off = off, .line_off = off};
@@ -100,7 +104,36 @@ static void record_make(const double (*corner)[2], double off, lrcsi_cells_facet
     double twice =
         (f->x[1] - f->x[0]) * (f->y[2] - f->y[0]) - (f->y[1] - f->y[0]) * (f->x[2] - f->x[0]);
     f->thin = !(twice > 16 * off * longest);
-    if (f->thin) {
+}
+
+/* The sides of a facet whose corners are `reach` away, with how near to one a place must be that
+   its side of it is not sure: 20 u of that. Of one that is narrow, or reaches far off, that would
+   not do. There the line of each side is taken from the nearer of its ends, n, of the two p and q.
+   The side T is off by 12 u (r_p + r_q), rounding included, the place G as seen from n by 12 u r_n
+   + 2 u d, d the length of f; so T x G by 12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the
+   1-norm, and by its own rounding, 2 u |T| |G|, below 3 u (r_p + r_q) |G|. */
+static void sides_make(const lrcsi_target *frame, const double (*corner)[2], const double reach[3],
+                       lrcsi_cells_facet *f, lrcsi_alone_side *side)
+{
+    double least = lrcsi_least(reach[0], lrcsi_least(reach[1], reach[2]));
+    double most = lrcsi_most(reach[0], lrcsi_most(reach[1], reach[2]));
+    int odd = f->thin || most > FAR_FACET * (least + frame->reach);
+    for (int k = 0; k < 3; k++) {
+        int next = k == 2 ? 0 : k + 1;
+        int n = reach[k] <= reach[next] ? k : next;
+        double gap = fabs(corner[n][0]) + fabs(corner[n][1]) + 1.5 * frame->diameter;
+        memcpy(side[k].line, f->side[k], sizeof f->side[k]);
+        side[k].clear = f->off;
+        if (odd) {
+            double *line = side[k].line;
+            double length =
+                lrcsi_length_flat(corner[next][0] - corner[k][0], corner[next][1] - corner[k][1]);
+            line[2] = -(line[0] * corner[n][0] + line[1] * corner[n][1]);
+            side[k].clear =
+                16 * U * ((reach[k] + reach[next]) * (gap / length) + reach[n] + frame->diameter);
+        }
+    }
+    if (odd) { /* cells are not told apart from it by them */
         memset(f->side, 0, sizeof f->side);
     }
 }
@@ -111,24 +144,26 @@ static int facet_record(lrcsi_alone *a, uint32_t other, const lrcsi_cells_cell *
     const lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &c->facet[other];
     double corner[3][2];
+    double reach[3];
     double low[2];
     double high[2];
-    double away = 0;
     if (a->frame.needle) { /* it may be anywhere */
         *f = (lrcsi_cells_facet){.off = HUGE_VAL};
         return 1;
     }
     for (int k = 0; k < 3; k++) {
         const double *x = lrcsi_target_corner(c->view, other, k);
-        away = lrcsi_most(away, lrcsi_target_place(&a->frame, x, corner[k]));
+        reach[k] = lrcsi_target_place(&a->frame, x, corner[k]);
     }
-    record_make((const double(*)[2])corner, 20 * U * away, f);
+    double most = lrcsi_most(reach[0], lrcsi_most(reach[1], reach[2]));
+    record_make((const double(*)[2])corner, 20 * U * most, f);
+    sides_make(&a->frame, (const double(*)[2])corner, reach, f, a->side[other]);
     lrcsi_clip_box(&cell->shape, low, high);
     return lrcsi_cells_facet_near(f, &cell->shape, low, high, 16 * U * c->reach);
 }
 
 /* Lists what may be in front of f. 0 where there is no room, or the meter is spent. */
-static int open_facets(lrcsi_alone *a, lrcsi_cells_cell *cell)
+static int alone_facets(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     const lrcsi_grid *grid = &a->grid;
@@ -176,7 +211,7 @@ static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
 }
 
 /* An edge, unless none of its facets is listed. 0 where there is no room. */
-static int open_edge(lrcsi_alone *a, uint32_t edge)
+static int alone_edge(lrcsi_alone *a, uint32_t edge)
 {
     lrcsi_cells_work *c = &a->cells;
     const lrcs_prepared *p = c->view->prepared;
@@ -204,7 +239,7 @@ static int open_edge(lrcsi_alone *a, uint32_t edge)
 }
 
 /* What a facet that touches f brings along. 0 where there is no room. */
-static int open_contact(lrcsi_alone *a, uint32_t other)
+static int alone_contact(lrcsi_alone *a, uint32_t other)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_contact contact;
@@ -221,7 +256,7 @@ static int open_contact(lrcsi_alone *a, uint32_t other)
     if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
         int done = 1;
         for (int k = 0; k < 3 && done; k++) {
-            done = open_edge(a, c->view->prepared->topology.facet_edge[other].corner[k]);
+            done = alone_edge(a, c->view->prepared->topology.facet_edge[other].corner[k]);
         }
         return done;
     }
@@ -239,20 +274,21 @@ static int open_contact(lrcsi_alone *a, uint32_t other)
 }
 
 /* 0 where there is no room, or the meter is spent. */
-static int open_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
+static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     const lrcsi_touches *touches = &c->view->prepared->touches;
     for (uint32_t i = touches->first[a->facet]; i < touches->first[a->facet + 1]; i++) {
         const lrcsi_touch *touch = &touches->touch[i];
         if (c->listed[touch->other] == c->look &&
-            lrcsi_contest_touch_hides(c->view, a->facet, touch) && !open_contact(a, touch->other)) {
+            lrcsi_contest_touch_hides(c->view, a->facet, touch) &&
+            !alone_contact(a, touch->other)) {
             return 0;
         }
     }
     uint32_t crossings = lrcsi_contest_crossings(a->contest, a->facet);
     for (uint32_t i = 0; i < crossings; i++) {
-        if (!open_edge(a, a->contest->crossing[i])) {
+        if (!alone_edge(a, a->contest->crossing[i])) {
             return 0;
         }
     }
@@ -273,7 +309,7 @@ static void facet_leave(lrcsi_alone *a, double area)
 }
 
 /* f's record, its triangle as a cell, and the error of its rim. */
-static void open_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
+static void alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &c->facet[a->facet];
@@ -304,9 +340,9 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     c->open[facet] = 1;
     c->segments = c->top = 0;
     c->look++;
-    open_shape(a, &cell);
-    if (c->facet[facet].thin || !(lrcsi_clip_area(&cell.shape) > 0) || !open_facets(a, &cell) ||
-        !open_segments(a, &cell)) {
+    alone_shape(a, &cell);
+    if (c->facet[facet].thin || !(lrcsi_clip_area(&cell.shape) > 0) || !alone_facets(a, &cell) ||
+        !alone_segments(a, &cell)) {
         facet_leave(a, lrcsi_view_tilt(c->view, facet).projected / a->frame.unit);
         return;
     }
@@ -444,13 +480,18 @@ static int place_covered(const lrcsi_alone *a, const alone_place *place, uint32_
     if (place->way == WAY_EXACT) {
         return lrcsi_sample_covers(a->cells.view, other, place->point) ? 1 : -1;
     }
-    double inside = lrcsi_line_at(f->side[0], at[0], at[1]);
-    inside = lrcsi_least(inside, lrcsi_line_at(f->side[1], at[0], at[1]));
-    inside = lrcsi_least(inside, lrcsi_line_at(f->side[2], at[0], at[1]));
-    if (place->way == WAY_GUESSED) {
-        return inside > 0 ? 1 : -1;
+    int inside = 1;
+    int guess = place->way == WAY_GUESSED;
+    for (int k = 0; k < 3; k++) {
+        const lrcsi_alone_side *side = &a->side[other][k];
+        double left = lrcsi_line_at(side->line, at[0], at[1]);
+        double clear = guess ? 0 : side->clear + g;
+        if (left < -clear) {
+            return -1;
+        }
+        inside &= left > clear;
     }
-    return f->thin ? 0 : inside < -w ? -1 : inside > w;
+    return guess && !inside ? -1 : inside;
 }
 
 /* How a facet stands to f, neither of which lies on one side of the other's plane. */
@@ -683,13 +724,8 @@ lrcsi_visible lrcsi_alone_close(lrcsi_alone *a)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-static size_t list_room(const lrcs_prepared *p)
-{
-    return (size_t)LIST_A_FACET * p->scene->facet_count + LIST_LEAST;
-}
-
 /* Each edge may cross a facet, and each of its contacts may bring three sides along. */
-static size_t segment_room(const lrcs_prepared *p)
+static size_t alone_segments_most(const lrcs_prepared *p)
 {
     size_t most = 0;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -699,15 +735,24 @@ static size_t segment_room(const lrcs_prepared *p)
     return p->topology.edge_count + 3 * most;
 }
 
+static size_t alone_room(const lrcs_prepared *p)
+{
+    uint64_t lists = LIST_TIMES * ((uint64_t)p->scene->facet_count + alone_segments_most(p));
+    return (size_t)LIST_A_FACET * p->scene->facet_count +
+           (size_t)(lists < LIST_MORE ? lists : LIST_MORE);
+}
+
 size_t lrcsi_alone_need(const lrcs_prepared *p)
 {
     size_t facets = p->scene->facet_count;
     size_t need = lrcsi_work_bytes(facets, 1);
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 3 * sizeof(lrcsi_alone_side)));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(list_room(p), sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(segment_room(p), sizeof(lrcsi_cells_segment)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(alone_room(p), sizeof(uint32_t)));
+    need =
+        lrcsi_work_add(need, lrcsi_work_bytes(alone_segments_most(p), sizeof(lrcsi_cells_segment)));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
 }
 
@@ -718,19 +763,20 @@ int lrcsi_alone_make(lrcsi_contest *contest, const lrcsi_grid *grid, lrcs_work *
     uint32_t count = p->scene->facet_count;
     *a = (lrcsi_alone){.contest = contest, .grid = *grid};
     lrcsi_cells_work c = {.view = contest->view};
-    c.room = list_room(p);
-    c.segment_room = (uint32_t)segment_room(p);
+    c.room = alone_room(p);
+    c.segment_room = (uint32_t)alone_segments_most(p);
     c.open = lrcsi_work_take_zero(work, count, 1);
     c.facet = lrcsi_work_take(work, count, sizeof *c.facet);
     c.area = lrcsi_work_take(work, count, sizeof *c.area);
     c.listed = lrcsi_work_take_zero(work, count, sizeof *c.listed);
+    a->side = lrcsi_work_take(work, count, sizeof *a->side);
     a->met = lrcsi_work_take_zero(work, count, sizeof *a->met);
     a->order = lrcsi_work_take(work, count, sizeof *a->order);
     c.list = lrcsi_work_take(work, c.room, sizeof *c.list);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c.stack);
-    if (!c.open || !c.facet || !c.area || !c.listed || !a->met || !a->order || !c.list ||
-        !c.segment || !c.stack) {
+    if (!c.open || !c.facet || !c.area || !c.listed || !a->side || !a->met || !a->order ||
+        !c.list || !c.segment || !c.stack) {
         return LRCS_E_MEMORY;
     }
     a->cells = c;

@@ -8,12 +8,18 @@
 #include "visibility/target.h"
 #include "visibility/visible.h"
 
+/* A line, the distance from it being a x + b y + c, and how far that may be off. */
+typedef struct lrcsi_alone_side {
+    double line[3], clear;
+} lrcsi_alone_side;
+
 typedef struct lrcsi_alone {
     lrcsi_contest *contest;
-    lrcsi_grid grid;        /* of facets */
-    lrcsi_cells_work cells; /* in the frame of the facet at hand */
-    uint32_t *met;          /* facet: the search that last met it */
-    uint32_t *order;        /* facet that may hide it: how they stand to each other */
+    lrcsi_grid grid;             /* of facets */
+    lrcsi_cells_work cells;      /* in the frame of the facet at hand */
+    lrcsi_alone_side (*side)[3]; /* facet: its sides */
+    uint32_t *met;               /* facet: the search that last met it */
+    uint32_t *order;             /* facet that may hide it: how they stand to each other */
     uint32_t facet;
     lrcsi_target target;      /* its frame */
     lrcsi_target frame;       /* the same in which it is divided */
