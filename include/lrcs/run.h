@@ -10,10 +10,12 @@ enum lrcs_method {
     LRCS_METHOD_AUTO = 0,
     LRCS_METHOD_FACET,
     LRCS_METHOD_ZBUFFER,
-    LRCS_METHOD_EXACT
+    LRCS_METHOD_EXACT,
+    LRCS_METHOD_CLOSED /* an answer's alone, from auto: every part is a shape that nothing hides */
 };
 
-/* The method's name ("auto", ...), or NULL. And back: LRCS_E_NAME for none. */
+/* The method's name ("auto", ...), or NULL. And back, of those that may be asked for: LRCS_E_NAME
+   for none. */
 const char *lrcs_method_text(int method);
 int lrcs_method_find(const char *name);
 
@@ -53,10 +55,13 @@ enum lrcs_effect_name {
     LRCS_EFFECT_CURVED_NORMALS,
     LRCS_EFFECT_TWO_SIDED,
     LRCS_EFFECT_ARTICULATION,
+    LRCS_EFFECT_CLOSED_FORMS, /* shapes that nothing hides, by method auto: no facets stand for them
+                               */
     LRCS_EFFECTS
 };
 
-/* Effects that a run may switch: not curved normals and articulation, which its scene decides. */
+/* Effects that a run may switch: not curved normals, articulation and closed forms, which its scene
+   and its method decide. */
 #define LRCS_EFFECTS_SWITCHED                                                                      \
     (1u << LRCS_EFFECT_SELF_SHADOWING | 1u << LRCS_EFFECT_BACK_FACE_CASTERS |                      \
      1u << LRCS_EFFECT_GLINT | 1u << LRCS_EFFECT_DIFFUSE | 1u << LRCS_EFFECT_TWO_SIDED)

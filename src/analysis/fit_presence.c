@@ -17,11 +17,11 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 
 #define PRESENCE_LEVEL 0.05
 #define PRESENCE_STEPS 240
-#define PRESENCE_PI    3.14159265358979323846
 
 /* What is left of a vector that the other part takes up but for rounding is no direction. */
 #define PRESENCE_ROUNDING 1e-12
@@ -91,7 +91,7 @@ int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_spo
     double fall = lrcsi_most(0.0, without->square - square);
     double left = without->square > 0.0 ? square / without->square : 1.0; /* 1 - q */
     double freedom = (double)kept - 2.0;
-    double arc = presence_arc(data, part, without) / (2.0 * PRESENCE_PI);
+    double arc = presence_arc(data, part, without) / (2.0 * LRCSI_PI);
     left = lrcsi_least(1.0, left);
     double chance = known ? exp(-0.5 * fall) * (0.5 + arc)
                           : pow(left, 0.5 * freedom - 1.0) * (0.5 * sqrt(left) + arc);

@@ -6,6 +6,9 @@
 
 #include <lrcs/host.h>
 
+#define CLI_PI      3.14159265358979323846
+#define CLI_DEGREES (180.0 / CLI_PI) /* per radian */
+
 enum cli_exit {
     CLI_DONE = 0,
     CLI_FAILED = 1,

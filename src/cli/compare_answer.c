@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ANSWER_PI 3.14159265358979323846
-
 /* The largest f_r cos. */
 static double view_peak(const mistake_view *view)
 {
@@ -91,7 +89,7 @@ int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_
     int code = view_make(kit, one, mistake, &view, &own);
     if (code == 0) {
         memcpy(view.direction, one->direction, sizeof view.direction);
-        *sigma_m2 = 4.0 * ANSWER_PI * view_sum(&view, mistake, one->peak);
+        *sigma_m2 = 4.0 * CLI_PI * view_sum(&view, mistake, one->peak);
     }
     free(own);
     return code;

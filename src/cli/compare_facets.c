@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FACETS_PI    3.14159265358979323846
 #define SEEN         0.02 /* of a facet's projected area: what may be off */
 #define NONE_SEEN    1e-3 /* less of it is none, and all but that is all of it */
 #define COSINE_WRONG 1e-3
@@ -149,7 +148,7 @@ static void facet_compare(facets_read *facets, const compare_case *one, uint32_t
     if (fabs(theirs - truth) <= allowed) {
         return;
     }
-    off.sigma_m2 = 4.0 * FACETS_PI * lrcs_brdf_eval(brdf, c) * c * fabs(theirs - truth);
+    off.sigma_m2 = 4.0 * CLI_PI * lrcs_brdf_eval(brdf, c) * c * fabs(theirs - truth);
     double sigma_allowed = cli_compare_allowed(one, job->grade, job->pixels);
     off.weight = sigma_allowed > 0.0 ? off.sigma_m2 / sigma_allowed : 0.0;
     off.failed = cli_compare_failed(job, one);

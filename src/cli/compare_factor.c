@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stddef.h>
 
-#define FACTOR_PI   3.14159265358979323846
 #define FACTOR_NEAR 0.02 /* a ratio this near a known number is that number */
 
 typedef struct factor_entry {
@@ -14,11 +13,11 @@ typedef struct factor_entry {
 } factor_entry;
 
 static const factor_entry factors[] = {
-    {0.25 / FACTOR_PI, "missing-4-pi", "4 pi is missing"},
-    {4.0 * FACTOR_PI, "twice-4-pi", "4 pi counts twice"},
+    {0.25 / CLI_PI, "missing-4-pi", "4 pi is missing"},
+    {4.0 * CLI_PI, "twice-4-pi", "4 pi counts twice"},
     {0.25, "missing-4", "4 is missing of 4 pi"},
-    {1.0 / FACTOR_PI, "missing-pi", "pi is missing of 4 pi, or f_r is divided by pi once more"},
-    {FACTOR_PI, "twice-pi", "pi counts twice, or a reflectance in place of f_r"},
+    {1.0 / CLI_PI, "missing-pi", "pi is missing of 4 pi, or f_r is divided by pi once more"},
+    {CLI_PI, "twice-pi", "pi counts twice, or a reflectance in place of f_r"},
     {0.5, "half", "2 pi in place of 4 pi, or half the area"},
     {2.0, "twice", "something counts twice: both triangles, both sides?"},
     {4.0, "four-times", "the side of a pixel or of the window is taken twice as long"},

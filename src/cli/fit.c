@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FIT_PI 3.14159265358979323846
-
 static const char fit_help[] =
     "usage: lrcs fit DATA.csv [options]\n"
     "\n"
@@ -122,7 +120,7 @@ static int fit_read(fit_job *job)
                              "found '%s'",
                              cli_value(args, "panel"));
         }
-        job->options.unit = job->panel / FIT_PI;
+        job->options.unit = job->panel / CLI_PI;
     }
     if (code == 0 && csv && strcmp(csv, "-") == 0 && cli_value(args, "json")) {
         return cli_usage(args->command, "--csv - and --json both want standard output");

@@ -11,7 +11,6 @@
 #define CHART_FLOOR 0.2  /* of the least fitted value: what is read below it stands on the floor */
 #define CHART_DEPTH 1e-6 /* of the largest: the floor is not below it */
 #define CHART_EDGE  6.0  /* standard errors: residuals beyond stand there with their number */
-#define CHART_PI    3.14159265358979323846
 
 typedef struct chart_points {
     double *x, *y;
@@ -64,7 +63,7 @@ static void curve_take(const fit_job *job, int parts, chart_points *points)
     points->count = CHART_CURVE;
     for (uint32_t i = 0; i < CHART_CURVE; i++) {
         double deg = first + (last - first) * i / (CHART_CURVE - 1);
-        double cosine = cos(deg * CHART_PI / 180.0);
+        double cosine = cos(deg * CLI_PI / 180.0);
         points->x[i] = deg;
         points->y[i] = lrcs_brdf_eval(&brdf, cosine) * (job->options.cosine ? cosine : 1.0);
     }

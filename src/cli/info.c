@@ -24,8 +24,6 @@ static const cli_option info_options[] = {{"unit", 1, 0}, {"material", 1, 1},
                                           {"json", 0, 0}, {"keep-transparent", 0, 0},
                                           {"help", 0, 0}, {NULL, 0, 0}};
 
-#define DEGREES (180.0 / 3.14159265358979323846)
-
 /* ---- JSON ---- */
 
 static void json_point(lrcs_host_json *json, const char *key, const double x[3])
@@ -74,7 +72,7 @@ static void json_glint(const cli_info *info, lrcs_host_json *json)
         lrcs_host_json_text(json, "part", scene->part[glint->part].name);
         lrcs_host_json_text(json, "material", scene->material[glint->material].name);
         lrcs_host_json_number(json, "s", glint->s);
-        lrcs_host_json_number(json, "turn_estimate_deg", glint->turn * DEGREES);
+        lrcs_host_json_number(json, "turn_estimate_deg", glint->turn * CLI_DEGREES);
         lrcs_host_json_number(json, "relative_error_estimate", glint->error);
         lrcs_host_json_number(json, "facets_around_for_1e-2", glint->around_1_percent);
         lrcs_host_json_number(json, "facets_around_for_1e-3", glint->around_01_percent);
@@ -170,8 +168,8 @@ static void table_glint(const cli_info *info)
         cli_column(scene->part[glint->part].name, 20);
         printf(" ");
         cli_column(cli_material_name(&scene->material[glint->material]), 20);
-        printf(" %6g %9.3g %8.2g%s %8.0f %8.0f\n", glint->s, glint->turn * DEGREES, glint->error,
-               glint->error > INFO_GLINT_WARN ? "!" : " ", glint->around_1_percent,
+        printf(" %6g %9.3g %8.2g%s %8.0f %8.0f\n", glint->s, glint->turn * CLI_DEGREES,
+               glint->error, glint->error > INFO_GLINT_WARN ? "!" : " ", glint->around_1_percent,
                glint->around_01_percent);
     }
 }

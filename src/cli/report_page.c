@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#define DEGREES (180.0 / 3.14159265358979323846)
-
 static const struct {
     const char *id, *name;
 } page_places[] = {{"model", "Model"},     {"materials", "Materials"},
@@ -80,9 +78,9 @@ static void lead_direction(FILE *out, const report_job *job)
     const double *d = job->pose.direction;
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     fputs(" The laser stands at azimuth ", out);
-    cli_page_number(out, NULL, atan2(d[1], d[0]) * DEGREES, 6);
+    cli_page_number(out, NULL, atan2(d[1], d[0]) * CLI_DEGREES, 6);
     fputs("\xc2\xb0, elevation ", out);
-    cli_page_number(out, NULL, atan2(d[2], hypot(d[0], d[1])) * DEGREES, 6);
+    cli_page_number(out, NULL, atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES, 6);
     fputs("\xc2\xb0 of the body frame, in the direction (", out);
     for (int k = 0; k < 3; k++) {
         fputs(k > 0 ? ", " : "", out);

@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-#define DEGREES (180.0 / 3.14159265358979323846)
-
 /* How many rows a table leaves out. */
 static void more_say(FILE *out, uint32_t more)
 {
@@ -95,7 +93,7 @@ static void model_glint(FILE *out, const cli_info *info)
         cli_page_name_cell(out, scene->part[glint->part].name, "(no name)");
         cli_page_name_cell(out, scene->material[glint->material].name, "(default)");
         cli_page_number_cell(out, glint->s, 4);
-        cli_page_number_cell(out, glint->turn * DEGREES, 3);
+        cli_page_number_cell(out, glint->turn * CLI_DEGREES, 3);
         cli_page_number_cell(out, glint->error, 2);
         cli_page_number_cell(out, glint->around_1_percent, 6);
         cli_page_number_cell(out, glint->around_01_percent, 6);

@@ -79,6 +79,7 @@ static int options_read(run_job *job)
     code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->asked = job->options.tolerance;
+    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
     job->explain = cli_value(args, "explain") != NULL;

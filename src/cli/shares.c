@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DEGREES (180.0 / 3.14159265358979323846)
-
 /* Sums of one row, before it is sorted. */
 typedef struct shares_tally {
     cli_sum sigma, glint, diffuse;
@@ -213,7 +211,7 @@ static void facet_offer(const shares_plan *plan, uint32_t facet, const lrcs_face
         .facet = facet,
         .part = shares->part[part_of_facet(plan, facet)].name,
         .material = shares->material[plan->material_of[plan->scene->facet_material[facet]]].name,
-        .theta_deg = acos(fmin(fabs(record->cos_theta), 1.0)) * DEGREES,
+        .theta_deg = acos(fmin(fabs(record->cos_theta), 1.0)) * CLI_DEGREES,
         .visible_area_m2 = record->visible_area_m2,
         .sigma_m2 = record->sigma_m2,
         .glint_m2 = record->sigma_glint_m2};

@@ -129,6 +129,7 @@ static int job_read(sweep_job *job)
     code = code ? code : cli_plot_read(args, &job->plan, &job->plot);
     code = code ? code : cli_brightest_read(args, &job->plan, &job->file, &job->brightest);
     job->load.build.tolerance = job->options.tolerance;
+    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
     if (code == 0 && job->file.npy && cli_value(args, "shard")) {
         return cli_usage(args->command,
                          "--shard writes .csv or .jsonl; lrcs merge makes the .npy of them");

@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MESH_PI 3.14159265358979323846
-
 /* The item that is being built. */
 typedef struct mesh_build {
     vectors_mesh *mesh;
@@ -139,7 +137,7 @@ static void box_add(mesh_build *build)
 /* A point of a circle; the quarters are exact. */
 static void circle_point(double radius, int i, int count, double z, double p[3])
 {
-    double angle = 2.0 * MESH_PI * i / count;
+    double angle = 2.0 * CLI_PI * i / count;
     p[0] = 4 * i % (2 * count) == count ? 0.0 : radius * cos(angle);
     p[1] = 2 * i % count == 0 ? 0.0 : radius * sin(angle);
     p[2] = z;

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TRUTH_PI     3.14159265358979323846
 #define SINGLE       0x1p-24 /* half the spacing of numbers near 1, single precision */
 #define SINGLE_LEAST 0x1p-96 /* relative to which its least number, 2^-126, is some roundings */
 #define EDGE_ON      (4.0 * SINGLE)
@@ -32,9 +31,9 @@ static double facet_float(const lrcs_facet_record *record, const lrcs_brdf *brdf
     lrcs_brdf glint = *brdf;
     lrcs_brdf diffuse = *brdf;
     double c = fabs(record->cos_theta);
-    double unit = 4.0 * TRUTH_PI * c * record->visible_area_m2 * SINGLE;
+    double unit = 4.0 * CLI_PI * c * record->visible_area_m2 * SINGLE;
     if (c < EDGE_ON) {
-        return 4.0 * TRUTH_PI * lrcs_brdf_eval(brdf, EDGE_ON) * EDGE_ON * EDGE_ON * record->area_m2;
+        return 4.0 * CLI_PI * lrcs_brdf_eval(brdf, EDGE_ON) * EDGE_ON * EDGE_ON * record->area_m2;
     }
     if (record->sigma_m2 <= 0.0) {
         return unit * SINGLE_LEAST;

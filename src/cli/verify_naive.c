@@ -6,8 +6,6 @@
 
 #include <math.h>
 
-#define NAIVE_PI 3.14159265358979323846
-
 /* Eq. 1 as printed. */
 static double naive_brdf(const lrcs_brdf *b, double cosine)
 {
@@ -22,8 +20,8 @@ double cli_naive_sphere(const hard_case *one, const hard_mesh *mesh)
     (void)mesh;
     const lrcs_brdf *b = &one->brdf;
     double s = b->s;
-    double slopes = s * s + 0.5 * sqrt(NAIVE_PI) * s * s * s * exp(1.0 / (s * s)) * erfc(1.0 / s);
-    double square = one->shape.radius * one->shape.radius * NAIVE_PI * NAIVE_PI;
+    double slopes = s * s + 0.5 * sqrt(CLI_PI) * s * s * s * exp(1.0 / (s * s)) * erfc(1.0 / s);
+    double square = one->shape.radius * one->shape.radius * CLI_PI * CLI_PI;
     return 4.0 * square * b->A * slopes + 8.0 * square * b->B / (b->m + 3.0);
 }
 
@@ -32,11 +30,11 @@ double cli_naive_cylinder(const hard_case *one, const hard_mesh *mesh)
 {
     (void)mesh;
     const lrcs_brdf *b = &one->brdf;
-    double g = one->aspect_deg * NAIVE_PI / 180.0;
+    double g = one->aspect_deg * CLI_PI / 180.0;
     double k = sin(g);
     double cot = cos(g) / sin(g);
     double ks = k * b->s;
-    double both = 4.0 * NAIVE_PI * one->shape.radius * one->shape.length * sqrt(NAIVE_PI);
+    double both = 4.0 * CLI_PI * one->shape.radius * one->shape.length * sqrt(CLI_PI);
     double glint =
         b->A * b->s / (k * k * k) * (1.0 + 0.5 * ks * ks) * exp(-cot * cot / (b->s * b->s));
     double diffuse =
@@ -48,10 +46,10 @@ double cli_naive_cylinder(const hard_case *one, const hard_mesh *mesh)
 double cli_naive_cone(const hard_case *one, const hard_mesh *mesh)
 {
     (void)mesh;
-    double half = one->shape.half_angle_deg * NAIVE_PI / 180.0;
+    double half = one->shape.half_angle_deg * CLI_PI / 180.0;
     double radius = one->shape.radius;
-    return 4.0 * NAIVE_PI * NAIVE_PI * radius * radius * sin(half) *
-           naive_brdf(&one->brdf, cos(0.5 * NAIVE_PI - half));
+    return 4.0 * CLI_PI * CLI_PI * radius * radius * sin(half) *
+           naive_brdf(&one->brdf, cos(0.5 * CLI_PI - half));
 }
 
 /* The wall alone, nose-on; P(u) of the glint as a difference, the diffuse part as a power. */
@@ -59,7 +57,7 @@ static double naive_p(double u, double s)
 {
     double root = sqrt(u);
     return pow(u, 2.5) + 2.5 * s * s * pow(u, 1.5) + 3.75 * pow(s, 4.0) * root +
-           1.875 * sqrt(NAIVE_PI) * pow(s, 5.0) * exp(u / (s * s)) * erfc(root / s);
+           1.875 * sqrt(CLI_PI) * pow(s, 5.0) * exp(u / (s * s)) * erfc(root / s);
 }
 
 double cli_naive_paraboloid(const hard_case *one, const hard_mesh *mesh)
@@ -72,7 +70,7 @@ double cli_naive_paraboloid(const hard_case *one, const hard_mesh *mesh)
     double glint = b->A * b->s * b->s *
                    (naive_p(1.0, b->s) - exp(-slope * slope / (b->s * b->s)) * naive_p(u, b->s));
     double diffuse = 2.0 * b->B * (pow(u, 0.5 * (1.0 - b->m)) - 1.0) / (1.0 - b->m);
-    return 4.0 * NAIVE_PI * NAIVE_PI * k * k * (glint + diffuse);
+    return 4.0 * CLI_PI * CLI_PI * k * k * (glint + diffuse);
 }
 
 /* The wall of a cylinder or cone in 360 steps of azimuth. */
@@ -80,20 +78,20 @@ double cli_naive_steps(const hard_case *one, const hard_mesh *mesh)
 {
     (void)mesh;
     const lrcs_shape *shape = &one->shape;
-    double aspect = one->aspect_deg * NAIVE_PI / 180.0;
-    double half = shape->half_angle_deg * NAIVE_PI / 180.0;
+    double aspect = one->aspect_deg * CLI_PI / 180.0;
+    double half = shape->half_angle_deg * CLI_PI / 180.0;
     double area = shape->kind == LRCS_SHAPE_CONE
-                      ? NAIVE_PI * shape->radius * shape->radius / sin(half)
-                      : 2.0 * NAIVE_PI * shape->radius * shape->length;
+                      ? CLI_PI * shape->radius * shape->radius / sin(half)
+                      : 2.0 * CLI_PI * shape->radius * shape->length;
     double sum = 0.0;
     for (int degree = 0; degree < 360; degree++) {
         double cosine =
-            sin(half) * cos(aspect) + cos(half) * sin(aspect) * cos(degree * NAIVE_PI / 180.0);
+            sin(half) * cos(aspect) + cos(half) * sin(aspect) * cos(degree * CLI_PI / 180.0);
         if (cosine > 0.0) {
             sum += naive_brdf(&one->brdf, cosine) * cosine * cosine;
         }
     }
-    return 4.0 * NAIVE_PI * area * sum / 360.0;
+    return 4.0 * CLI_PI * area * sum / 360.0;
 }
 
 /* --- facets ----------------------------------------------------------------------------------- */
@@ -202,7 +200,7 @@ static double naive_sum(const hard_case *one, const hard_mesh *mesh,
         if (cosine <= 0.0 || mesh->material[f] == 1 || centroid_in_shadow(mesh, f, along)) {
             continue;
         }
-        sigma += 4.0 * NAIVE_PI * area(p, q, n) * naive_brdf(&one->brdf, cosine) * cosine * cosine;
+        sigma += 4.0 * CLI_PI * area(p, q, n) * naive_brdf(&one->brdf, cosine) * cosine * cosine;
     }
     return sigma;
 }

@@ -6,14 +6,13 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/constant.h"
 #include "optics/comb.h"
-
-#define GLINT_PI 3.14159265358979323846
 
 /* Neighbours that turn by less are taken for halves of one flat polygon, by more (60 deg) for
    faces of a box that its maker smoothed. */
 #define FLAT_TURN  1e-3
-#define SHARP_TURN (GLINT_PI / 3.0)
+#define SHARP_TURN (LRCSI_PI / 3.0)
 
 /* An edge of a facet, lower vertex first. */
 typedef struct glint_edge {

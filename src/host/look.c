@@ -3,6 +3,7 @@
    never a number of the result, nor where anything stands on the paper. */
 #include "host/look.h"
 
+#include "base/constant.h"
 #include "host/palette.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 #define SCALE_DB    40.0 /* what the scale of sigma spans at most */
 #define SCALE_BINS  800  /* a histogram of -400 .. 400 dB */
 #define SCALE_TEXTS 9.0
-#define LOOK_DEG    (180.0 / 3.14159265358979323846)
+#define LOOK_DEG    (180.0 / LRCSI_PI)
 #define LOOK_PLAIN  0xc8c8c8u /* what has no colour of its own, under a lamp */
 #define LOOK_LEVEL  1e-9      /* a slope that no colour shows */
 #define LOOK_CREASE 0.05      /* cosines that differ by more: an edge to show */

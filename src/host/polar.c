@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A chart about a pole: which rings and spokes there are, and where data stand among them. */
+#include "base/constant.h"
 #include "host/axis.h"
 #include "host/letters.h"
 #include "host/series.h"
@@ -10,7 +11,7 @@
 #define POLAR_RINGS 5.0
 #define POLAR_SPOKE 30   /* deg */
 #define POLAR_ROOM  26.0 /* for the spokes' names */
-#define POLAR_RAD   (3.14159265358979323846 / 180.0)
+#define POLAR_RAD   (LRCSI_PI / 180.0)
 
 typedef struct polar_plan {
     const lrcs_host_chart *chart;

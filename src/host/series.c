@@ -3,6 +3,7 @@
    each kind of chart. */
 #include "host/series.h"
 
+#include "base/constant.h"
 #include "host/letters.h"
 #include "host/palette.h"
 
@@ -82,7 +83,7 @@ static uint32_t marker_corners(int marker, lrcsi_spot corner[24])
                                                             : NULL;
     uint32_t count = !from ? 24 : from == triangle ? 3 : 4;
     for (uint32_t i = 0; i < count; i++) {
-        double turn = 2.0 * 3.14159265358979323846 * i / 24.0;
+        double turn = 2.0 * LRCSI_PI * i / 24.0;
         corner[i] = from ? from[i] : (lrcsi_spot){cos(turn), sin(turn)};
     }
     return count;

@@ -27,6 +27,7 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/elementary.h"
 #include "base/range.h"
 #include "base/work.h"
@@ -47,7 +48,6 @@
 #define PART_STEPS 256
 /* No cell's normals turn by more than this (rad) where a rule is trusted. */
 #define MOST_TURN 0.5
-#define HALF_TURN 3.14159265358979323846
 /* Of the tolerance: what stays below this, relative to what a peak of the most and of the BRDF's
    own width would add over a radian, is nothing. It goes to the estimate all the same. */
 #define NOTHING 0x1p-20
@@ -219,7 +219,7 @@ static double cube_turn(const cube_cell *cell)
                            n[0] * m[1] - n[1] * m[0]};
         most = lrcsi_most(most, dot > 0 ? sqrt(square_of(cross)) / dot : HUGE_VAL);
     }
-    return isfinite(most) ? atan(most) * (1 + 4 * U) + 16 * U : HALF_TURN;
+    return isfinite(most) ? atan(most) * (1 + 4 * U) + 16 * U : LRCSI_PI;
 }
 
 /* An error of f_r cos that nobody looks for. */
@@ -435,7 +435,7 @@ static double cube_shortest(const cube_cell *cell)
 static double cube_peak(const lrcsi_cubature *sum, const cube_cell *cell)
 {
     double off = 2 * sum->slip / cube_shortest(cell);
-    double turn = off <= 1 ? cube_turn(cell) + off : HALF_TURN;
+    double turn = off <= 1 ? cube_turn(cell) + off : LRCSI_PI;
     lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
     return most.glint + most.diffuse;
 }
@@ -576,7 +576,7 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     cube_measure(&cell);
     sum.most = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
     double far = cell.theta + cube_turn(&cell);
-    sum.least = far < HALF_TURN / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(far)), brdf->m + 1) : 0;
+    sum.least = far < LRCSI_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(far)), brdf->m + 1) : 0;
     sum.nothing =
         NOTHING * tolerance *
         (sum.most.glint * lrcsi_least(1, brdf->s * brdf->s) + sum.most.diffuse / (brdf->m + 1));
@@ -599,10 +599,9 @@ static double dark_slip(const lrcsi_cubature *sum, const cube_cell *whole)
         return 0;
     }
     double turn = cube_turn(whole);
-    double length = turn < HALF_TURN / 2 ? cube_shortest(whole) * cos(turn) : 0;
+    double length = turn < LRCSI_PI / 2 ? cube_shortest(whole) * cos(turn) : 0;
     double off = 2 * sum->slip / length;
-    lrcsi_reflection seen =
-        lrcsi_reflect_most(sum->brdf, HALF_TURN / 2, off <= 1 ? off : HALF_TURN);
+    lrcsi_reflection seen = lrcsi_reflect_most(sum->brdf, LRCSI_PI / 2, off <= 1 ? off : LRCSI_PI);
     return seen.glint + seen.diffuse;
 }
 

@@ -25,6 +25,7 @@
 /* What a run passes from stage to stage. */
 typedef struct sigma_run {
     lrcsi_view view;
+    lrcsi_clear clear; /* shapes that count by their closed forms: under auto */
     lrcsi_plan plan;
     lrcsi_contest contest;
     lrcsi_margin margin;
@@ -92,6 +93,9 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
                               prepared->smooth ? lrcsi_work_add(areas, curved) : 0);
     }
     size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_work_add(areas, curved));
+    if (options->method == LRCS_METHOD_AUTO) {
+        need = lrcsi_work_add(need, lrcsi_clear_need(prepared));
+    }
     need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
     need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
     return lrcsi_work_add(need, method_need(prepared, options));
@@ -150,7 +154,8 @@ static int run_image(sigma_run *run)
 static void run_total(sigma_run *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer};
-    run->total = lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->doubt, records);
+    run->total = lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->doubt,
+                                  &run->clear, records);
 }
 
 static lrcsi_curving run_curving(const sigma_run *run)
@@ -208,6 +213,18 @@ static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
     }
 }
 
+/* The fronts of clear shapes are seen whole: for what is reported of their facets. */
+static void shapes_are_known(const sigma_run *run)
+{
+    const lrcsi_view *view = &run->view;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        if (view->facing[f] > 0 && run->clear.part[view->prepared->scene->facet_part[f]]) {
+            double whole = lrcsi_view_projected(view, f);
+            run->visible[f] = (lrcsi_visible){whole, whole, whole, 0, 0};
+        }
+    }
+}
+
 /* Curved facets of which samples know the areas: clipped where they are seen in part, as far as
    there is memory for that. */
 static void sum_curved(sigma_run *run)
@@ -231,6 +248,9 @@ static void run_sum(sigma_run *run, int sampled)
     }
     if (run->view.prepared->solid && run->view.backs_cast) {
         backs_are_known(&run->view, run->visible);
+    }
+    if (run->clear.count > 0) {
+        shapes_are_known(run);
     }
     if (run->curved && sampled) { /* clipping has integrated over its pieces */
         sum_curved(run);
@@ -455,7 +475,7 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
                      .facets_partial = t->partial,
                      .flags = run->flags,
                      .steps = run->meter.taken};
-    lrcsi_plan_effects(&run->view, &run->plan, t->seen, r.effect);
+    lrcsi_plan_effects(&run->view, &run->plan, &run->clear, t->seen, r.effect);
     r.flags |= run_verdict(run, options);
     r.flags |= run->meter.spent ? LRCS_FLAG_STEPS_SPENT : 0u;
     r.notices |= t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
@@ -463,12 +483,18 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
     *result = r;
 }
 
+/* Is nothing searched for that could hide facets? */
+static int run_unshadowed(const sigma_run *run)
+{
+    return run->plan.method == LRCS_METHOD_FACET || run->plan.method == LRCS_METHOD_CLOSED;
+}
+
 /* What the facets' results go to. */
 static int run_take(sigma_run *run)
 {
     const lrcs_prepared *p = run->view.prepared;
     uint32_t facets = p->scene->facet_count;
-    int areas = run->plan.method != LRCS_METHOD_FACET || p->smooth;
+    int areas = !run_unshadowed(run) || p->smooth;
     run->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *run->visible) : NULL;
     run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
     run->waiting = p->smooth ? lrcsi_cubature_cells(run->work) : NULL;
@@ -486,12 +512,16 @@ static int run_stages(sigma_run *run, const lrcs_prepared *prepared, const lrcs_
     if (status == LRCS_OK) {
         run->view.meter = &run->meter;
         lrcsi_plan_backs(options, &run->view);
-        run->plan = lrcsi_plan_make(&run->view, options);
+        status = options->method == LRCS_METHOD_AUTO
+                     ? lrcsi_clear_make(&run->view, run->work, &run->clear)
+                     : LRCS_OK;
+    }
+    if (status == LRCS_OK) {
+        run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
         status = run_take(run);
     }
     if (status == LRCS_OK) {
-        status =
-            run->plan.method == LRCS_METHOD_FACET ? run_facet(run) : run_shadowed(run, options);
+        status = run_unshadowed(run) ? run_facet(run) : run_shadowed(run, options);
     }
     return status;
 }
@@ -499,13 +529,17 @@ static int run_stages(sigma_run *run, const lrcs_prepared *prepared, const lrcs_
 int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
                       const lrcs_run_options *options, int last, lrcs_work *work)
 {
-    int status = options->method == LRCS_METHOD_AUTO ? LRCS_E_ARGUMENT : run_check(options, NULL);
+    lrcs_run_options asked = *options;
+    if (options->method == LRCS_METHOD_CLOSED) { /* auto's choice again, which runs once */
+        asked.method = LRCS_METHOD_AUTO;
+    }
+    int status = options->method == LRCS_METHOD_AUTO ? LRCS_E_ARGUMENT : run_check(&asked, NULL);
     if (status != LRCS_OK) {
         return status;
     }
     size_t mark = work->used;
     sigma_run run = {.work = work, .last = last};
-    status = run_stages(&run, prepared, pose, options);
+    status = run_stages(&run, prepared, pose, &asked);
     work->used = mark;
     return status;
 }

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/where.h"
 
 /* The largest length a mesh may hold, m. */
@@ -67,7 +68,7 @@ static int shape_check_one(double value, int used, const char *item, double most
 /* A cone has its height from just one of two numbers. */
 static int shape_check_cone(const lrcs_shape *shape, lrcs_where *where)
 {
-    const double radian = 3.14159265358979323846 / 180.0;
+    const double radian = LRCSI_PI / 180.0;
     if (shape->half_angle_deg > 0.0 && shape->length > 0.0) {
         return shape_fault(where, LRCS_E_ARGUMENT, "length",
                            "a half-angle or a length for a cone, not both", "both");

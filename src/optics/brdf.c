@@ -6,10 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/elementary.h"
 #include "optics/reflect.h"
-
-#define BRDF_PI 3.14159265358979323846
 
 /* Chosen, not measured. A smooth-walled microfacet surface (Beckmann) of mirror reflectance R has
    A = R / (4 pi s^2) at the mono-station geometry, and a Lambert surface of reflectance rho has
@@ -48,10 +47,10 @@ int lrcs_brdf_check(const lrcs_brdf *brdf)
     if (brdf->A > 0.0 && brdf->s > 0.7) {
         bits |= LRCS_BRDF_SLOPE_LARGE;
     }
-    if (BRDF_PI * brdf->B > 1.0) {
+    if (LRCSI_PI * brdf->B > 1.0) {
         bits |= LRCS_BRDF_DIFFUSE_GAIN;
     }
-    if (4.0 * BRDF_PI * brdf->A * brdf->s * brdf->s > 1.0) {
+    if (4.0 * LRCSI_PI * brdf->A * brdf->s * brdf->s > 1.0) {
         bits |= LRCS_BRDF_GLINT_GAIN;
     }
     if (brdf->A == 0.0 && brdf->B == 0.0) {

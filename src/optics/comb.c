@@ -7,14 +7,13 @@
    integral is 2 sum_k exp(-(pi s k / h)^2) cos(k phase), of which the first term is all that
    matters. Area that chords lose: 1 - sin(h/2)/(h/2), about (h/2)^2 / 6. */
 #include "optics/comb.h"
+#include "base/constant.h"
 
 #include <math.h>
 
-#define COMB_PI 3.14159265358979323846
-
 double lrcsi_comb_error(double turn, double s)
 {
-    double comb = COMB_PI * s / turn;
+    double comb = LRCSI_PI * s / turn;
     return turn * turn / 24.0 + 2.0 * exp(-comb * comb);
 }
 
@@ -22,13 +21,13 @@ double lrcsi_comb_around(double s, double most)
 {
     double low = 2.0;
     double high = 3.0;
-    while (lrcsi_comb_error(2.0 * COMB_PI / high, s) > most && high < 1e15) {
+    while (lrcsi_comb_error(2.0 * LRCSI_PI / high, s) > most && high < 1e15) {
         low = high;
         high *= 2.0;
     }
     while (high - low > 1.0) { /* the error falls with N */
         double middle = floor(0.5 * (low + high));
-        if (lrcsi_comb_error(2.0 * COMB_PI / middle, s) > most) {
+        if (lrcsi_comb_error(2.0 * LRCSI_PI / middle, s) > most) {
             low = middle;
         } else {
             high = middle;

@@ -20,6 +20,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/length.h"
 #include "base/work.h"
 #include "optics/comb.h"
@@ -85,7 +86,7 @@ static double angle_of(const double a[3], const double b[3])
     /* tan of the half; beyond a right angle from the other side, where nothing cancels */
     double t = dot >= 0.0 ? size / (whole + dot) : (whole - dot) / size;
     if (!(t < 0x1p60)) {
-        return 3.14159265358979323846;
+        return LRCSI_PI;
     }
     for (int i = 0; i < 5; i++) {
         t = t / (1.0 + sqrt(1.0 + t * t));

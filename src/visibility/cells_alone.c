@@ -44,11 +44,6 @@
 /* Cells that a facet may be cut into: so many, and so many a segment. */
 #define PARTS_MOST      4096u
 #define PARTS_A_SEGMENT 256u
-/* Room for lists: so many items a facet of the scene, and beside that for so many lists of all
-   facets and segments, but no more than for so many items. */
-#define LIST_A_FACET 8u
-#define LIST_TIMES   32u
-#define LIST_MORE    65536u
 /* Corners above which a cell is halved. */
 #define MANY_CORNERS 20u
 /* A facet that reaches so many times as far as its nearest corner is away and f reaches. */
@@ -169,7 +164,7 @@ static int alone_facets(lrcsi_alone *a, lrcsi_cells_cell *cell)
     const lrcsi_grid *grid = &a->grid;
     lrcsi_view_box box = grid->box[a->facet];
     lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
-    c->list[cell->facets++] = a->facet;
+    c->facets[cell->facets++] = a->facet;
     a->met[a->facet] = c->look;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
@@ -187,12 +182,9 @@ static int alone_facets(lrcsi_alone *a, lrcsi_cells_cell *cell)
             a->met[other] = c->look;
             int side = lrcsi_contact_side(c->view, a->facet, other);
             if (side >= 0 && facet_record(a, other, cell)) {
-                if (cell->facets == c->room) {
-                    return 0;
-                }
                 a->order[other] = side > 0 ? ORDER_FRONT : ORDER_NEW;
                 c->listed[other] = c->look;
-                c->list[cell->facets++] = other;
+                c->facets[cell->facets++] = other;
             }
         }
     }
@@ -221,7 +213,7 @@ static int alone_edge(lrcsi_alone *a, uint32_t edge)
         return 0;
     }
     if (lrcsi_cells_idle(c, e)) {
-        c->segments--;
+        c->segment_count--;
         return 1;
     }
     double end[2][2];
@@ -245,7 +237,7 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
     lrcsi_contact contact;
     int kind = lrcsi_contact_find(&a->frame, other, &contact);
     if (a->order[other] == ORDER_NEW && kind != LRCSI_CONTACT_POINT) {
-        a->order[other] = kind == LRCSI_CONTACT_LINE      ? c->segments
+        a->order[other] = kind == LRCSI_CONTACT_LINE      ? c->segment_count
                           : kind == LRCSI_CONTACT_BEHIND  ? (uint32_t)ORDER_BEHIND
                           : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)ORDER_UNKNOWN
                                                           : (uint32_t)ORDER_FRONT;
@@ -292,12 +284,7 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
             return 0;
         }
     }
-    if (cell->facets + (size_t)c->segments > c->room) {
-        return 0;
-    }
-    for (uint32_t i = 0; i < c->segments; i++) {
-        c->list[cell->facets + cell->segments++] = i;
-    }
+    cell->segments = c->segment_count;
     return lrcsi_meter_take(c->view->meter, (uint64_t)cell->facets + cell->segments);
 }
 
@@ -330,7 +317,7 @@ static void alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
 void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
 {
     lrcsi_cells_work *c = &a->cells;
-    lrcsi_cells_cell cell = {.first = 0};
+    lrcsi_cells_cell cell = {.cuts = 0};
     a->facet = facet;
     a->doubt[0] = a->doubt[1] = a->rim = a->bent = 0;
     a->hidden = 0;
@@ -338,7 +325,7 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
     c->area[facet] = (lrcsi_cells_found){.seen = 0};
     c->open[facet] = 1;
-    c->segments = c->top = 0;
+    c->segment_count = c->top = 0;
     c->look++;
     alone_shape(a, &cell);
     if (c->facet[facet].thin || !(lrcsi_clip_area(&cell.shape) > 0) || !alone_facets(a, &cell) ||
@@ -376,12 +363,11 @@ static int sheet_ends(const lrcsi_alone *a, const lrcsi_cells_segment *e, uint32
 static uint32_t cell_choose(const lrcsi_alone *a, const lrcsi_cells_cell *cell, const double at[2],
                             uint32_t sheet, const lrcsi_cells_segment **best)
 {
-    const uint32_t *list = lrcsi_cells_segments(&a->cells, cell);
     uint32_t count = 0;
     double nearest = HUGE_VAL;
     *best = NULL;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &a->cells.segment[list[i]];
+        const lrcsi_cells_segment *e = &a->cells.segment[a->cells.segments[i]];
         if (sheet == LRCS_NONE || sheet_ends(a, e, sheet)) {
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
             count++;
@@ -524,7 +510,7 @@ static int place_front(lrcsi_alone *a, const alone_place *place, uint32_t other,
         }
         return nearer;
     }
-    if (*order < a->cells.segments) {
+    if (*order < a->cells.segment_count) {
         const lrcsi_cells_segment *e = &a->cells.segment[*order];
         double left = lrcsi_line_at(e->line, place->at[0], place->at[1]);
         double w = place->way == WAY_GUESSED ? 0 : e->off + g + place->off;
@@ -543,7 +529,7 @@ static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
     int answer = 0;
     place->ends = LRCS_NONE;
     for (uint32_t i = 0; i < cell->facets && place->ends > 0; i++) {
-        uint32_t other = c->list[cell->first + i];
+        uint32_t other = c->facets[i];
         if (other == a->facet || a->order[other] == ORDER_BEHIND) {
             continue;
         }
@@ -693,6 +679,9 @@ int lrcsi_alone_next(lrcsi_alone *a)
     lrcsi_cells_work *c = &a->cells;
     while (c->top > 0) {
         lrcsi_cells_cell cell = c->stack[--c->top];
+        if (cell.both[0] > 0 || cell.both[1] > 0) {
+            lrcsi_cells_settle(c, &cell);
+        }
         uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
         if (a->parts == 0 || !lrcsi_meter_take(c->view->meter, steps)) {
             facet_leave(a, lrcsi_clip_area(&cell.shape));
@@ -735,13 +724,6 @@ static size_t alone_segments_most(const lrcs_prepared *p)
     return p->topology.edge_count + 3 * most;
 }
 
-static size_t alone_room(const lrcs_prepared *p)
-{
-    uint64_t lists = LIST_TIMES * ((uint64_t)p->scene->facet_count + alone_segments_most(p));
-    return (size_t)LIST_A_FACET * p->scene->facet_count +
-           (size_t)(lists < LIST_MORE ? lists : LIST_MORE);
-}
-
 size_t lrcsi_alone_need(const lrcs_prepared *p)
 {
     size_t facets = p->scene->facet_count;
@@ -749,8 +731,8 @@ size_t lrcsi_alone_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 3 * sizeof(lrcsi_alone_side)));
-    need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(alone_room(p), sizeof(uint32_t)));
+    need = lrcsi_work_add(need, 4 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(alone_segments_most(p), sizeof(uint32_t)));
     need =
         lrcsi_work_add(need, lrcsi_work_bytes(alone_segments_most(p), sizeof(lrcsi_cells_segment)));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
@@ -763,7 +745,6 @@ int lrcsi_alone_make(lrcsi_contest *contest, const lrcsi_grid *grid, lrcs_work *
     uint32_t count = p->scene->facet_count;
     *a = (lrcsi_alone){.contest = contest, .grid = *grid};
     lrcsi_cells_work c = {.view = contest->view};
-    c.room = alone_room(p);
     c.segment_room = (uint32_t)alone_segments_most(p);
     c.open = lrcsi_work_take_zero(work, count, 1);
     c.facet = lrcsi_work_take(work, count, sizeof *c.facet);
@@ -772,11 +753,12 @@ int lrcsi_alone_make(lrcsi_contest *contest, const lrcsi_grid *grid, lrcs_work *
     a->side = lrcsi_work_take(work, count, sizeof *a->side);
     a->met = lrcsi_work_take_zero(work, count, sizeof *a->met);
     a->order = lrcsi_work_take(work, count, sizeof *a->order);
-    c.list = lrcsi_work_take(work, c.room, sizeof *c.list);
+    c.facets = lrcsi_work_take(work, count, sizeof *c.facets);
+    c.segments = lrcsi_work_take(work, c.segment_room, sizeof *c.segments);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c.stack);
     if (!c.open || !c.facet || !c.area || !c.listed || !a->side || !a->met || !a->order ||
-        !c.list || !c.segment || !c.stack) {
+        !c.facets || !c.segments || !c.segment || !c.stack) {
         return LRCS_E_MEMORY;
     }
     a->cells = c;

@@ -39,7 +39,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     double most = -HUGE_VAL;
     *best = LRCS_NONE;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t index = c->list[cell->first + i];
+        uint32_t index = c->facets[i];
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->off + s->g;
         c->listed[index] = c->look;
@@ -90,14 +90,14 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     return LRCSI_CELLS_FOUND;
 }
 
+/* Corner i weighs 1, 1 + 0.2 i, 1 + 1.5 / (1 + i): no two weigh the same but in the first place, or
+   samples in cells that look alike from two corners would all lie on a line between facets. */
 void lrcsi_cells_spot(const lrcsi_cells_cell *cell, int number, double at[2])
 {
-    static const double weight[LRCSI_CELLS_TRIES][3] = {
-        {1, 1, 1}, {1.3, 0.9, 1.1}, {0.7, 1.2, 1.6}};
     double sum = 0;
     at[0] = at[1] = 0;
     for (uint32_t i = 0; i < cell->shape.count; i++) {
-        double share = weight[number][i % 3];
+        double share = number == 0 ? 1 : number == 1 ? 1 + 0.2 * i : 1 + 1.5 / (1 + i);
         at[0] += share * cell->shape.corner[i][0];
         at[1] += share * cell->shape.corner[i][1];
         sum += share;
@@ -277,11 +277,9 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     for (uint32_t i = 0; i < c->components; i++) {
         low = lrcsi_least(low, lrcsi_cells_facet_limit(&c->facet[c->component[i]], s, -1));
     }
-    uint32_t *list = c->list + cell->first;
-    uint32_t *segments = lrcsi_cells_segments(c, cell);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t f = list[i];
+        uint32_t f = c->facets[i];
         if (c->joined[f] != c->look &&
             (c->met[f] == 2 * c->look + 1 || lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
@@ -289,17 +287,16 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
             facet_charge(c, f, cell->doubt + doubt);
             continue;
         }
-        list[kept++] = f;
+        lrcsi_cells_keep(c->facets, i, kept++);
     }
     cell->facets = kept;
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[segments[i]];
+        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
         if (!lrcsi_cells_idle(c, e) &&
             (e->contact || !segment_behind(c, cell, s, e, e->off + s->g, low))) {
-            segments[kept++] = segments[i];
+            lrcsi_cells_keep(c->segments, i, kept++);
         }
     }
     cell->segments = kept;
-    memmove(list + cell->facets, segments, kept * sizeof *list);
 }

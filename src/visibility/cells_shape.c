@@ -153,11 +153,10 @@ static double corner_drift(double x, double y, double t, const double corner[2])
     return (1 + 8 * U) * (x * off_y + y * off_x) / lrcsi_most(x, y);
 }
 
-lrcsi_cells_shape_cut lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape,
-                                               const double line[3], lrcsi_clip_polygon *left,
-                                               lrcsi_clip_polygon *right)
+double lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape, const double line[3],
+                                lrcsi_clip_polygon *left, lrcsi_clip_polygon *right)
 {
-    lrcsi_cells_shape_cut cut = {{NULL, NULL}, 0, 0};
+    double drift = 0;
     left->count = right->count = 0;
     for (uint32_t i = 0; i < shape->count; i++) {
         const double *here = shape->corner[i];
@@ -176,12 +175,9 @@ lrcsi_cells_shape_cut lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape,
             corner[0] = here[0] + t * (next[0] - here[0]);
             corner[1] = here[1] + t * (next[1] - here[1]);
             memcpy(right->corner[right->count++], corner, 2 * sizeof *corner);
-            cut.drift = lrcsi_most(cut.drift,
-                                   corner_drift(next[0] - here[0], next[1] - here[1], t, corner));
-            if (cut.commons < 2) {
-                cut.common[cut.commons++] = corner;
-            }
+            drift =
+                lrcsi_most(drift, corner_drift(next[0] - here[0], next[1] - here[1], t, corner));
         }
     }
-    return cut;
+    return drift;
 }

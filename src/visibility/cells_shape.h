@@ -60,16 +60,9 @@ double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2]);
 /* Keeps what lies left of a line. */
 void lrcsi_cells_shape_clip(lrcsi_clip_polygon *shape, const double line[3]);
 
-/* A shape divided along a line. */
-typedef struct lrcsi_cells_shape_cut {
-    const double *common[2]; /* corners that both parts share, so many of them */
-    int commons;
-    double drift; /* how far the new corners are from the sides that they cut, at most */
-} lrcsi_cells_shape_cut;
-
-/* Divides a shape along a line, into what lies left of it and what lies right of it. */
-lrcsi_cells_shape_cut lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape,
-                                               const double line[3], lrcsi_clip_polygon *left,
-                                               lrcsi_clip_polygon *right);
+/* Divides a shape along a line, into what lies left of it and what lies right of it. Returned: how
+   far the new corners are from the sides that they cut, at most. */
+double lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape, const double line[3],
+                                lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 
 #endif

@@ -19,7 +19,7 @@ same without_explain_no_further_keys "$(printf '%s\n' "$out" | grep -cE 'sigma_m
 plain=$(printf '%s\n' "$out" | grep -v '"seconds": {')
 run run box.toml --direction 1,1,1 --json --explain
 same explain_exits_0 "$rc" 0
-same explain_adds_three_keys_to_each_effect "$(printf '%s\n' "$out" | grep -cE '"reason": "[^"]+", "seconds": [^,]+, "share": [^,]+, "sigma_m2_flipped": [^,]+\},?$')" 7
+same explain_adds_three_keys_to_each_effect "$(printf '%s\n' "$out" | grep -cE '"reason": "[^"]+", "seconds": [^,]+, "share": [^,]+, "sigma_m2_flipped": [^,]+\},?$')" 8
 same explain_changes_nothing_else "$(printf '%s\n' "$out" | sed 's/, "seconds": [^{]*, "share".*}/}/' | grep -v '"seconds": {')" "$plain"
 seconds=$(printf '%s\n' "$out" | grep '"seconds": {"load"')
 same explain_adds_the_stages_of_preparing "$(printf '%s\n' "$seconds" | grep -cE '"prepare_stages": \{"edges": [^,]+, "neighbours": [^,]+, "normals": [^,]+, "contacts": [^,]+, "proofs": [^,]+\}')" 1
@@ -39,7 +39,7 @@ near without_diffuse_the_glint_is_left "$(effect diffuse | part sigma_m2_flipped
 # ---- the table ----
 run run pair.toml --explain
 table=$(printf '%s\n' "$out" | sed -n '/^explained /,$p')
-same the_table_has_a_row_for_every_effect "$(printf '%s\n' "$table" | grep -cE '^  (self_shadowing|back_face_casters|glint|diffuse|curved_normals|two_sided|articulation) +(on|off) ')" 7
+same the_table_has_a_row_for_every_effect "$(printf '%s\n' "$table" | grep -cE '^  (self_shadowing|back_face_casters|glint|diffuse|curved_normals|two_sided|articulation|closed_forms) +(on|off) ')" 8
 same the_table_fits_100_columns "$(printf '%s\n' "$table" | awk 'length($0) > 100' | wc -l | tr -d ' ')" 0
 same stages_end_the_table "$(printf '%s\n' "$table" | tail -3 | head -1 | grep -cE '^stages +load and joints [0-9.]+ ms \([0-9.]+ %\), prepare [0-9.]+ ms \([0-9.]+ %\), pose [0-9.]+ ms \([0-9.]+ %\)$')" 1
 number='(< )?[0-9.]+'

@@ -128,7 +128,8 @@ static double most_questions(const lrcs_prepared *p)
         most += n * (cuts + own) + (8193 + 512 * cuts) * (2 * cuts + n + 7 * n * (2 + cuts));
     }
     if (n >= 192) { /* cells of all facets together */
-        most += 16 * (65536 * (2 * n + 64) + 256 * (16 * n + 65536 + (2 * n + 64) * (n + 1024)));
+        double lines = p->topology.edge_count + k;
+        most += 32 * (2 * n + 64) * (1 + lines + lines * lines) * (n + lines);
     }
     return most;
 }
