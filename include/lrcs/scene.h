@@ -40,6 +40,7 @@ typedef struct lrcs_recipe_part {
     const char *file; /* model file, or NULL for a shape */
     lrcs_shape shape; /* used where file is NULL */
     lrcs_place place;
+    int unit_given; /* of a model file: its unit was stated; else metres are assumed */
     lrcs_joint joint;
     const char *material;   /* name of a material for the whole part, or NULL: the model's own */
     int wears;              /* the same, as an index into the recipe's materials; -1 for none,

@@ -148,6 +148,57 @@ static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
     return best;
 }
 
+/* What strips beyond the ends of segments may cost in a cell whose sample is near to a side: it is
+   thin. Any facet in it may be off by that. */
+static double thin_doubt(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                         const lrcsi_cells_sides *s, double clear)
+{
+    if (!(clear < LRCSI_CELLS_THIN * s->perimeter)) {
+        return 0;
+    }
+    double strips =
+        2 * ((double)cell->struck + c->borders) * (cell->inset + c->off + s->g) * s->perimeter;
+    return lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s->g * s->perimeter);
+}
+
+/* The nearest facet at the sample, there, and how far inside the cell that is. */
+typedef struct cells_seen {
+    uint32_t best;
+    double at[2];
+    double clear;
+} cells_seen;
+
+/* Drops what is behind surfaces that cover the cell. 1 where the component around the nearest facet
+   does; else the segment of the component at which to cut, if it has one. *doubt: what any facet of
+   a thin cell may be off by. */
+static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                       const cells_seen *seen, double *doubt, const lrcsi_cells_segment **cut)
+{
+    /* 1. A facet that covers the cell alone. */
+    uint32_t screen = lrcsi_cells_screen(c, cell, s, seen->at);
+    if (screen != LRCS_NONE) {
+        lrcsi_cells_component_of(c, screen);
+        *doubt = thin_doubt(c, cell, s, seen->clear);
+        lrcsi_cells_drop(c, cell, s, screen == seen->best ? NULL : seen->at, *doubt);
+        if (screen == seen->best) {
+            return 1;
+        }
+        c->joined[screen] = 0;
+    }
+    /* 2. The component around the nearest facet. */
+    int covers = lrcsi_cells_component(c, cell, s, seen->best);
+    *cut = cells_choose(c, cell, CHOOSE_OWN);
+    if (!covers || *cut) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < c->borders; i++) {
+        lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
+    }
+    *doubt = thin_doubt(c, cell, s, seen->clear);
+    lrcsi_cells_drop(c, cell, s, NULL, *doubt);
+    return 1;
+}
+
 /* Does one cell: it is decided (1), cut, or left. */
 static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
@@ -160,37 +211,20 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     c->components = 0;
 
     /* 1. A sample. */
-    uint32_t best = LRCS_NONE;
-    double clear = 0;
-    int answer = lrcsi_cells_look(c, cell, &s, &best, &clear);
+    cells_seen seen = {.best = LRCS_NONE};
+    int answer = lrcsi_cells_look(c, cell, &s, &seen.best, seen.at, &seen.clear);
     if (answer == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
         return 0;
     }
 
-    /* 2. The component, and what is behind it. */
+    /* 2. What is behind covers. */
     double doubt = 0;
-    int covers = 0;
     const lrcsi_cells_segment *cut = NULL;
-    if (answer == LRCSI_CELLS_FOUND) {
-        covers = lrcsi_cells_component(c, cell, &s, best);
-        cut = cells_choose(c, cell, CHOOSE_OWN);
-        covers = covers && !cut;
-        if (clear < LRCSI_CELLS_THIN * s.perimeter) {
-            double strips = 2 * ((double)cell->struck + c->borders) * (cell->inset + c->off + s.g) *
-                            s.perimeter;
-            doubt = lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s.g * s.perimeter);
-        }
-        for (uint32_t i = 0; i < c->borders && covers; i++) {
-            lrcsi_cells_charge_border(c, cell, &s, &c->border[i]);
-        }
-        if (covers) {
-            lrcsi_cells_drop(c, cell, &s, doubt);
-        }
-    }
+    int told = answer == LRCSI_CELLS_FOUND ? cells_cover(c, cell, &s, &seen, &doubt, &cut)
+                                           : answer == LRCSI_CELLS_NONE;
 
     /* 3. Decided, or cut. */
     if (!cut) {
-        int told = covers || answer == LRCSI_CELLS_NONE;
         cut = cells_choose(c, cell, told ? CHOOSE_EDGES : CHOOSE_ANY);
         if (!cut && told) {
             cells_decide(c, cell, &s, cell->doubt + doubt);

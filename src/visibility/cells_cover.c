@@ -12,11 +12,11 @@
    and let K be nearest at P. The number of surfaces in front of K is 0 at P, and changes on the way
    only at an event edge in front of K: at an edge that joins two facets one ends and one begins. So
    where no event is in front of K, all of K is seen in the cell, and nothing else.
-     (3) Let K be as in (2), but perhaps with events in front of it. What is behind K at one place
-   of the cell is behind it wherever it is in the cell. It may be dropped there: at no point is it
-   nearest. (2) holds for the facets that are left: an edge that joins one of them with a dropped
-   one is behind a cover, and a component that is nearest at P and has no contact with that cover
-   is behind it nowhere.
+     (3) Let K be as in (2), but perhaps not nearest at P, and with events in front of it. What is
+   behind K at one place of the cell is behind it wherever it is in the cell, for the two meet
+   nowhere in it. It may be dropped there: at no point is it nearest. (2) holds for the facets that
+   are left: an edge that joins one of them with a dropped one is behind a cover, and a component
+   that is nearest at P and has no contact with that cover is behind it nowhere.
      (4) Where no facet covers P, and no event crosses the cell, no facet is seen in it.
    A contact is where two facets meet in space other than along a common edge or in a point: across
    segments of the inside of one (mesh/touch.h), along parts of edges of both (the facets are then
@@ -35,8 +35,8 @@
 static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                         const lrcsi_cells_sides *s, const double at[2], uint32_t *best)
 {
-    uint32_t hits = 0;
     double most = -HUGE_VAL;
+    c->hits = 0;
     *best = LRCS_NONE;
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t index = c->facets[i];
@@ -53,7 +53,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         if (inside < -w) {
             continue;
         }
-        c->hit[hits++] = index;
+        c->hit[c->hits++] = index;
         int covers = inside > w && !f->thin;
         c->met[index] = 2 * c->look + (uint32_t)covers;
         double range[2];
@@ -64,10 +64,10 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
     }
     if (*best == LRCS_NONE) {
-        return hits == 0 ? LRCSI_CELLS_NONE : LRCSI_CELLS_UNSURE;
+        return c->hits == 0 ? LRCSI_CELLS_NONE : LRCSI_CELLS_UNSURE;
     }
     uint32_t changes = 0;
-    for (uint32_t i = 0; i < hits; i++) {
+    for (uint32_t i = 0; i < c->hits; i++) {
         uint32_t other = c->hit[i];
         double range[2];
         lrcsi_cells_facet_height(&c->facet[other], at, s->g, range);
@@ -107,11 +107,10 @@ void lrcsi_cells_spot(const lrcsi_cells_cell *cell, int number, double at[2])
 }
 
 int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                     uint32_t *best, double *clear)
+                     uint32_t *best, double at[2], double *clear)
 {
     int answer = LRCSI_CELLS_UNSURE;
     for (int t = 0; t < LRCSI_CELLS_TRIES && answer == LRCSI_CELLS_UNSURE; t++) {
-        double at[2];
         lrcsi_cells_spot(cell, t, at);
         *clear = lrcsi_cells_sides_clear(s, at);
         c->look++;
@@ -120,6 +119,47 @@ int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lr
         }
     }
     return answer;
+}
+
+/* Does a facet cover the cell, and no contact of it cross the cell? */
+static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                        const lrcsi_cells_sides *s, uint32_t index)
+{
+    const lrcsi_cells_facet *f = &c->facet[index];
+    double w = f->off + s->g;
+    for (int k = 0; k < 3; k++) {
+        for (uint32_t i = 0; i < cell->shape.count; i++) {
+            const double *p = cell->shape.corner[i];
+            if (!(lrcsi_line_at(f->side[k], p[0], p[1]) > w)) {
+                return 0;
+            }
+        }
+    }
+    for (uint32_t i = 0; i < cell->segments; i++) {
+        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        if (e->contact && (e->owner[0] == index || e->owner[1] == index)) {
+            return 0;
+        }
+    }
+    return (c->kind[index] & LRCSI_CELLS_VAGUE) == 0;
+}
+
+uint32_t lrcsi_cells_screen(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                            const lrcsi_cells_sides *s, const double at[2])
+{
+    uint32_t screen = LRCS_NONE;
+    double most = -HUGE_VAL;
+    for (uint32_t i = 0; i < c->hits; i++) {
+        uint32_t index = c->hit[i];
+        double range[2];
+        lrcsi_cells_facet_height(&c->facet[index], at, s->g, range);
+        if (c->met[index] == 2 * c->look + 1 && range[0] > most &&
+            covers_alone(c, cell, s, index)) {
+            screen = index;
+            most = range[0];
+        }
+    }
+    return screen;
 }
 
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
@@ -270,8 +310,30 @@ static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double doubt)
     c->area[facet].doubt += c->open[facet] ? doubt : 0;
 }
 
+void lrcsi_cells_component_of(lrcsi_cells_work *c, uint32_t facet)
+{
+    c->borders = 0;
+    c->component[0] = facet;
+    c->components = 1;
+    c->joined[facet] = c->look;
+}
+
+/* Is a facet that surely covers the sample behind the component there? */
+static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, const double *at,
+                     uint32_t facet)
+{
+    double range[2];
+    double of_component[2];
+    if (!at) {
+        return 1;
+    }
+    lrcsi_cells_facet_height(&c->facet[facet], at, s->g, range);
+    lrcsi_cells_facet_height(&c->facet[c->component[0]], at, s->g, of_component);
+    return range[1] < of_component[0];
+}
+
 void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                      double doubt)
+                      const double *at, double doubt)
 {
     double low = HUGE_VAL;
     for (uint32_t i = 0; i < c->components; i++) {
@@ -280,8 +342,8 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = c->facets[i];
-        if (c->joined[f] != c->look &&
-            (c->met[f] == 2 * c->look + 1 || lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
+        if (c->joined[f] != c->look && ((c->met[f] == 2 * c->look + 1 && behind_at(c, s, at, f)) ||
+                                        lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
             c->found[f] |= LRCSI_CELLS_HIDDEN;
             facet_charge(c, f, cell->doubt + doubt);

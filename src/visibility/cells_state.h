@@ -66,9 +66,9 @@ typedef struct lrcsi_cells_work {
     lrcsi_cells_found *area;
     uint32_t *listed; /* facet: the look that found it in the list */
     uint32_t *met; /* facet: 2 look + 1 where it surely covers the sample, 2 look where perhaps */
-    uint32_t *joined; /* facet: the look whose component it is in */
-    uint32_t *component, *hit;
-    uint32_t components, look;
+    uint32_t *joined;          /* facet: the look whose component it is in */
+    uint32_t *component, *hit; /* hit: what may cover the sample */
+    uint32_t components, hits, look;
     lrcsi_cells_border *border; /* of the component, at the border of the cell */
     uint32_t borders;
     uint32_t *facets;   /* the list of facets, */
