@@ -60,7 +60,7 @@ method_line() {
 method_line box.toml
 same facet_says_why "$said" "facet (chosen by auto: proved convex and alone: nothing is hidden)"
 method_line pair.toml
-same exact_says_why "$said" "exact (chosen by auto: not proved convex and alone; clipping costs less than a raster)"
+same exact_says_why "$said" "exact (chosen by auto: not proved convex and alone; clipping has the closest bound)"
 method_line pair.toml --resolution 512 --tolerance 0.5
 same a_raster_that_is_enough_says_so "$said" "zbuffer, 512 x 512 (chosen by auto: the raster asked for meets the tolerance)"
 method_line pair.toml --resolution 16
