@@ -68,7 +68,7 @@ static inline void curved_build(curved_case *c, int normals)
         .name = "model", .file = "model", .place = c->place, .joint = c->joint, .wears = -1};
     binding = (lrcs_binding){.kind = LRCS_BIND_DEFAULT, .brdf = c->brdf, .two_sided = c->two_sided};
     lrcs_recipe recipe = {.part = &part, .part_count = 1, .binding = &binding, .binding_count = 1};
-    lrcs_build_options options = {c->tolerance, 64, normals};
+    lrcs_build_options options = {c->tolerance, 64, normals, 1};
     size_t need = lrcs_scene_need(&recipe, &c->mesh, &options);
     free(c->built);
     free(c->kept);

@@ -26,9 +26,9 @@ def struct(*fields: tuple) -> type:
 
 
 D, I, U, P = C.c_double, C.c_int, C.c_uint32, C.c_void_p
-BUILD = struct(("tolerance", D), ("max_facets", U), ("normals", I))
-HOST_OPTIONS = struct(("unit_m", D), ("keep_transparent", I), ("binding", P), ("binding_count", U),
-                      ("build", BUILD))
+BUILD = struct(("tolerance", D), ("max_facets", U), ("normals", I), ("facets_only", I))
+HOST_OPTIONS = struct(("unit_m", D), ("keep_transparent", I), ("two_sided", C.c_char_p),
+                      ("binding", P), ("binding_count", U), ("build", BUILD))
 RUN_OPTIONS = struct(("tolerance", D), ("method", I), ("resolution", U), ("without", U), ("with_", U),
                      ("steps", C.c_uint64), ("accept", I))
 POSE = struct(("direction", D * 3), ("R", D * 9))
@@ -36,13 +36,13 @@ RESULT = struct(("sigma_m2", D), ("sigma_glint_m2", D), ("sigma_diffuse_m2", D),
                 ("budget", D * 3), ("estimate_m2", D), ("curvature_estimate_m2", D),
                 ("projected_area_m2", D), ("back_side_area_m2", D), ("back_side_facets", U),
                 ("method", I), ("method_reason", C.c_char_p), ("resolution", U), ("facets", U * 4),
-                ("effect", struct(("on", I), ("reason", C.c_char_p)) * 7), ("flags", U), ("notices", U),
+                ("effect", struct(("on", I), ("reason", C.c_char_p)) * 8), ("flags", U), ("notices", U),
                 ("steps", C.c_uint64))
 RECORD = struct(("area_m2", D), ("cos_theta", D), ("visible_area_m2", D), ("sigma_m2", D),
                 ("sigma_glint_m2", D))
 SCENE = struct(("recipe", P * 6), ("model", P), ("vertex_count", U), ("facet_count", U),
                ("scene", P * 11), ("prepared", P), ("notices", P * 2), ("input", P),
-               ("seconds", D * 7), ("blocks", P))
+               ("two_sided", P), ("seconds", D * 7), ("blocks", P))
 ERROR = struct(("text", C.c_char * 1024))
 
 

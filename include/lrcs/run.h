@@ -10,10 +10,12 @@ enum lrcs_method {
     LRCS_METHOD_AUTO = 0,
     LRCS_METHOD_FACET,
     LRCS_METHOD_ZBUFFER,
-    LRCS_METHOD_EXACT
+    LRCS_METHOD_EXACT,
+    LRCS_METHOD_CLOSED /* an answer's alone, from auto: every part is a shape that nothing hides */
 };
 
-/* The method's name ("auto", ...), or NULL. And back: LRCS_E_NAME for none. */
+/* The method's name ("auto", ...), or NULL. And back, of those that may be asked for: LRCS_E_NAME
+   for none. */
 const char *lrcs_method_text(int method);
 int lrcs_method_find(const char *name);
 
@@ -53,10 +55,13 @@ enum lrcs_effect_name {
     LRCS_EFFECT_CURVED_NORMALS,
     LRCS_EFFECT_TWO_SIDED,
     LRCS_EFFECT_ARTICULATION,
+    LRCS_EFFECT_CLOSED_FORMS, /* shapes that nothing hides, by method auto: no facets stand for them
+                               */
     LRCS_EFFECTS
 };
 
-/* Effects that a run may switch: not curved normals and articulation, which its scene decides. */
+/* Effects that a run may switch: not curved normals, articulation and closed forms, which its scene
+   and its method decide. */
 #define LRCS_EFFECTS_SWITCHED                                                                      \
     (1u << LRCS_EFFECT_SELF_SHADOWING | 1u << LRCS_EFFECT_BACK_FACE_CASTERS |                      \
      1u << LRCS_EFFECT_GLINT | 1u << LRCS_EFFECT_DIFFUSE | 1u << LRCS_EFFECT_TWO_SIDED)
@@ -92,16 +97,17 @@ typedef struct lrcs_run_options {
    (over curved normals but for libm's last bits): passes over facets, edges and contacts are not,
    nor are a raster's pixels and searches, by method zbuffer, for an estimate or for want of memory
    (examples/flight/README.md). lrcs_result.steps tells how many a run took.
-   4. For previews: with LRCS_ACCEPT_ESTIMATE auto draws a coarse raster, a finer one where its
-   likely error, estimate_m2, exceeds what the proved parts of the bound (tessellation, rounding)
-   leave of the tolerance, and clips where that costs less, or no raster's estimate suffices. An
-   estimate counts only where all depths were decided, no limit of steps was reached and sigma is
+   4. For previews: with LRCS_ACCEPT_ESTIMATE auto clips where that is likely to cost little more
+   than a raster, and gives it up after as many steps as fit in the time of the raster; else it
+   draws a raster, a finer one where its likely error, estimate_m2, exceeds what the proved parts of
+   the bound (tessellation, rounding) leave of the tolerance, and clips where no raster's suffices.
+   An estimate counts only where all depths were decided, no limit of steps was reached and sigma is
    not 0. Such rasters, of method zbuffer too, cost no more than to draw them: their samples prove
    nothing of areas, so that the bound, proved as ever, holds all that could show of each facet or
    be hidden (of fewer than 1,024 facets, where normals are curved, or where curved shapes stand
    among others, it is closer, and costs more). An answer that the bound admits is none by estimate.
-   With LRCS_ACCEPT_ANY auto draws the first of those rasters and takes what comes: no tolerance is
-   missed. */
+   With LRCS_ACCEPT_ANY auto draws the coarsest of those rasters and takes what comes: no tolerance
+   is missed. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {
@@ -129,7 +135,7 @@ const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 /* Notices: true and worth knowing, not a degradation. */
 enum lrcs_notice {
     LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,  /* open or inverted mesh */
-    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape scaled unevenly, say */
+    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape as small as rounding */
 };
 const char *lrcs_notice_text(int bit);
 

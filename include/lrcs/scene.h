@@ -40,6 +40,7 @@ typedef struct lrcs_recipe_part {
     const char *file; /* model file, or NULL for a shape */
     lrcs_shape shape; /* used where file is NULL */
     lrcs_place place;
+    int unit_given; /* of a model file: its unit was stated; else metres are assumed */
     lrcs_joint joint;
     const char *material;   /* name of a material for the whole part, or NULL: the model's own */
     int wears;              /* the same, as an index into the recipe's materials; -1 for none,
@@ -111,17 +112,27 @@ typedef struct lrcs_part {
     int kind; /* lrcs_shape_kind, or -1 for a model file */
     uint32_t first_facet, facet_count;
     lrcs_curvature curvature; /* of an engine-made shape; zero for a model */
-    int curvature_known; /* 0 where a non-uniform scale spoilt it, or rounding in placing left a
-                            facet without area; 1 for models (nothing to know) */
+    int curvature_known; /* 0 where rounding in placing left a facet without area, or a matrix given
+                            as a rotation is none; 1 for models (nothing to know) */
+    double uneven;       /* 1 + this bounds how much more or less than on average over a facet a
+                            scale that differs between axes stretches areas within its patch */
     int convex_patch;    /* a piece of a convex surface by construction, up to rounding */
     int solid;           /* a closed outward solid by construction, up to rounding */
     double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
     double misplaced;    /* m, bound on the rounding of its placed vertices */
-    double tilted;   /* rad, bound on how placing tilts facets where reach > 0; in curvature too */
-    double reach;    /* m, no point of the true surface is farther from its place on the
-                        facets; 0 where the facets are the truth */
-    int articulated; /* stands on a joint */
-    int smoothed;    /* its model has smoothing groups or vertex normals */
+    double tilted;    /* rad, bound on how placing tilts facets where reach > 0; in curvature too */
+    double reach;     /* m, no point of the true surface is farther from its place on the
+                         facets; 0 where the facets are the truth */
+    int articulated;  /* stands on a joint */
+    int smoothed;     /* its model has smoothing groups or vertex normals */
+    int rigid;        /* an engine-made shape placed by turns, mirrors and one scale for all axes:
+                         what follows holds, and its closed form may serve */
+    lrcs_shape shape; /* in its own units */
+    double unit;      /* metres for each of them */
+    double origin[3]; /* m, where its origin stands, to within `misplaced` */
+    double axis[3][3];     /* unit vectors, body frame: where its x, y and z axes point; rounded, */
+    double axis_low[3][3]; /* and together with these to 2^-97. Truth is the shape turned by the */
+    int axis_exact;        /* rotations nearest to the matrices given; 1: nothing was rounded */
 } lrcs_part;
 
 /* The scene: what the engine sees. Facets keep the order of the recipe's parts and of each
@@ -160,9 +171,13 @@ typedef struct lrcs_build_options {
                             this, at least 1e-4 */
     uint32_t max_facets; /* a shape's most */
     int normals;         /* lrcs_normals */
+    int facets_only;     /* 1: of a shape alone, too, facets are to be good for the tolerance, for
+                            runs by a method that was asked for. 0: where its closed form serves
+                            method auto from every direction, it gets a few hundred facets, for
+                            pictures and records */
 } lrcs_build_options;
 
-lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat */
+lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat, 0 */
 
 /* Builds the scene: vertex = translate + rotate (scale (joint (vertex))), where steps that do
    nothing are exact, and so is a scale by powers of two; mirroring flips the winding.

@@ -17,6 +17,7 @@ enum converge_dial {
     CONVERGE_PREVIEW, /* the tolerance, met by an estimate: --accept estimate */
     CONVERGE_FACET,   /* no self-shadowing */
     CONVERGE_EXACT,
+    CONVERGE_CLOSED, /* no facets: closed forms of shapes that nothing hides */
     CONVERGE_DIALS
 };
 

@@ -30,6 +30,7 @@ static const struct {
                                  [CONVERGE_PREVIEW] = {LRCS_HOST_ORANGE, LRCS_HOST_SQUARE},
                                  [CONVERGE_FACET] = {LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
                                  [CONVERGE_EXACT] = {LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
+                                 [CONVERGE_CLOSED] = {LRCS_HOST_BLACK, LRCS_HOST_CROSS},
                                  [CONVERGE_ZBUFFER] = {LRCS_HOST_BLUE, LRCS_HOST_DISC}};
 
 static double setting_quantity(const converge_setting *setting, int quantity)

@@ -38,6 +38,7 @@ static int mesh_read(converge_job *job, int digits)
     converge_mesh *mesh = &job->mesh[job->meshes];
     mesh->digits = digits;
     job->load.build.tolerance = pow(10.0, -digits);
+    job->load.build.facets_only = 1; /* it is their price that is asked for */
     int code = cli_scene_read(job->args, &job->load, &mesh->scene);
     if (code != 0) {
         lrcs_host_scene_free(&mesh->scene);
@@ -85,7 +86,7 @@ static int setting_run(converge_job *job, converge_setting *setting)
     lrcs_result result = {0};
     lrcs_run_options options = lrcs_run_options_default();
     double *seconds = &setting->seconds[setting->runs];
-    options.method = setting->method;
+    options.method = setting->dial == CONVERGE_CLOSED ? LRCS_METHOD_AUTO : setting->method;
     options.resolution = setting->resolution;
     if (setting->digits > 0) {
         options.method = LRCS_METHOD_AUTO;
@@ -153,7 +154,7 @@ static int previews_add(converge_job *job)
         setting->digits = digits;
         setting->mesh = mesh;
         code = setting_run(job, setting);
-        if (setting->method == LRCS_METHOD_FACET) {
+        if (setting->method == LRCS_METHOD_FACET || setting->method == LRCS_METHOD_CLOSED) {
             job->setting[--job->settings] = (converge_setting){.dial = 0};
             break;
         }
@@ -161,8 +162,9 @@ static int previews_add(converge_job *job)
     return code;
 }
 
-/* What is enough for a mesh in this pose: facet where the planner proves it, else exact. */
-static int method_enough(converge_job *job, uint32_t mesh, int *method)
+/* What is enough for a mesh in this pose: facet where the planner proves it, else exact. Where
+   closed forms need no mesh at all, it says so. */
+static int method_enough(converge_job *job, uint32_t mesh, int *method, int *closed)
 {
     lrcs_host_error error;
     lrcs_run_options options = lrcs_run_options_default();
@@ -171,7 +173,8 @@ static int method_enough(converge_job *job, uint32_t mesh, int *method)
     int status = lrcs_host_scene_run(&job->mesh[mesh].scene, &job->pose, &options, &result, NULL,
                                      NULL, &seconds, &error);
     job->spent += seconds;
-    *method = result.method == LRCS_METHOD_FACET ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
+    *closed = result.method == LRCS_METHOD_CLOSED;
+    *method = result.method == LRCS_METHOD_FACET || *closed ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
@@ -199,9 +202,10 @@ static int settings_add(converge_job *job)
 {
     uint32_t finest = job->meshes - 1;
     int method = LRCS_METHOD_EXACT;
+    int closed = 0;
     int code = 0;
     for (uint32_t i = 0; i <= finest && job->mesh[0].digits > 0 && code == 0; i++) {
-        code = method_enough(job, i, &method);
+        code = method_enough(job, i, &method, &closed);
         code = code ? code : setting_add(job, CONVERGE_MESH, method, 0, i);
     }
     if (code == 0 && method != LRCS_METHOD_FACET) { /* else it is there already */
@@ -209,6 +213,9 @@ static int settings_add(converge_job *job)
     }
     code = code ? code : rasters_add(job, finest);
     code = code ? code : previews_add(job);
+    if (code == 0 && closed) { /* on the coarsest mesh: it is not looked at */
+        code = setting_add(job, CONVERGE_CLOSED, LRCS_METHOD_CLOSED, 0, 0);
+    }
     return code ? code : setting_add(job, CONVERGE_EXACT, LRCS_METHOD_EXACT, 0, finest);
 }
 

@@ -130,6 +130,7 @@ static int image_read(image_job *job)
     code = code ? code : cli_accuracy_read(args, &job->options);
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->options.tolerance;
+    job->load.build.facets_only = 1;
     return code ? code : cli_normals_read(args, &job->load);
 }
 

@@ -97,6 +97,7 @@ static int report_read(report_job *job)
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);
     job->load.build.tolerance = job->options.tolerance;
+    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
     job->sweep_options = job->options;
     job->sweep_load = job->load;
     if (job->options.tolerance < REPORT_TOLERANCE) {

@@ -129,6 +129,7 @@ static int job_read(sweep_job *job)
     code = code ? code : cli_plot_read(args, &job->plan, &job->plot);
     code = code ? code : cli_brightest_read(args, &job->plan, &job->file, &job->brightest);
     job->load.build.tolerance = job->options.tolerance;
+    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
     if (code == 0 && job->file.npy && cli_value(args, "shard")) {
         return cli_usage(args->command,
                          "--shard writes .csv or .jsonl; lrcs merge makes the .npy of them");
@@ -171,7 +172,7 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
                      .bound_m2 = result->bound_m2,
                      .sigma_glint_m2 = result->sigma_glint_m2,
                      .sigma_diffuse_m2 = result->sigma_diffuse_m2,
-                     .flags = result->flags};
+                     .flags = cli_flags_in_force(job->args, &job->options, result->flags)};
     cli_plan_values(&job->plan, index, row.value);
     job->notices |= result->notices;
     int status = cli_file_put(&job->file, &job->plan, &row, error);
@@ -320,8 +321,7 @@ static int job_rows(sweep_job *job)
         return code;
     }
     job_say(job);
-    int missed = job->file.tally.missed > 0 && cli_tolerance_judged(job->args, &job->options);
-    return missed || job->file.tally.starved > 0 ? CLI_DEGRADED : CLI_DONE;
+    return job->file.tally.missed > 0 || job->file.tally.starved > 0 ? CLI_DEGRADED : CLI_DONE;
 }
 
 static int sweep_command(const cli_args *args)
@@ -337,7 +337,7 @@ static int sweep_command(const cli_args *args)
     code = code ? code : job_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
-        code = cli_head_make(args, &job->plan, &job->options, &job->scene.scene, &job->head);
+        code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
         code = code ? code : job_rows(job);
     }
     free(job->row);

@@ -6,9 +6,7 @@
 /* The first raster for the sake of its bound. */
 #define FIRST_SIZE 512u
 
-/* The first raster for the sake of its likely error, coarse enough to cost little more than its
-   passes over facets; and the tolerance below which no raster is tried. */
-#define PREVIEW_SIZE  256u
+/* The tolerance below which no raster is tried for the sake of its likely error. */
 #define PREVIEW_LEAST 1e-4
 
 static int effect_in(uint32_t set, int effect)
@@ -47,26 +45,24 @@ static void plan_choose(lrcsi_plan *plan, int method, const char *reason)
     plan->reason = reason;
 }
 
-int lrcsi_plan_previews(const lrcs_run_options *options)
-{
-    return options->method == LRCS_METHOD_AUTO && options->accept != LRCS_ACCEPT_BOUND;
-}
-
-/* Its estimate tells which size the tolerance takes. */
+/* Does auto look for a raster whose estimate may count? */
 static int preview_tried(const lrcs_run_options *options)
 {
-    return lrcsi_plan_previews(options) &&
+    return options->method == LRCS_METHOD_AUTO && options->accept != LRCS_ACCEPT_BOUND &&
            (options->tolerance >= PREVIEW_LEAST || options->accept == LRCS_ACCEPT_ANY);
 }
 
-/* What auto takes for the rest: clipping the contested facets costs no more than the coarsest
-   raster, for finding them is most of the work of both. */
-static void plan_method(lrcsi_plan *plan, const lrcs_run_options *options)
+/* What auto takes for the rest: clipping, since a raster whose bound is as close as a tolerance
+   asks mostly costs more. */
+static void plan_method(lrcsi_plan *plan, const lrcsi_clear *clear, const lrcs_run_options *options)
 {
     if (shadows_dropped(options)) {
         plan_choose(plan, LRCS_METHOD_FACET,
                     options->method == LRCS_METHOD_FACET ? "as asked"
                                                          : "self-shadowing is left out on request");
+    } else if (clear->all && !plan->searched && plan->backless) {
+        plan_choose(plan, LRCS_METHOD_CLOSED,
+                    "every part is a shape that nothing hides: closed forms");
     } else if (options->method > LRCS_METHOD_FACET) {
         plan_choose(plan, options->method, "as asked");
     } else if (plan->alone && !plan->searched) {
@@ -74,28 +70,29 @@ static void plan_method(lrcsi_plan *plan, const lrcs_run_options *options)
     } else if (options->resolution != 0) {
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "the raster asked for meets the tolerance");
     } else if (preview_tried(options)) {
-        plan_choose(plan, LRCS_METHOD_ZBUFFER, "a raster is tried first: its estimate may count");
+        plan->previews = 1;
+        plan_choose(plan, LRCS_METHOD_ZBUFFER, "any answer counts: the first raster");
     } else {
         plan_choose(plan, LRCS_METHOD_EXACT,
                     plan->alone ? "self-shadowing is asked for"
-                                : "not proved convex and alone; clipping costs less than a raster");
+                                : "not proved convex and alone; clipping has the closest bound");
     }
 }
 
-lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *options)
+lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
+                           const lrcs_run_options *options)
 {
     const lrcs_prepared *p = view->prepared;
     lrcsi_plan plan = {0};
     plan.unshadowed = p->convex;
     plan.graze = p->convex ? p->graze : 1;
-    plan.alone = p->convex && (!view->backs_cast || view->front == 0 || view->back == 0);
+    plan.backless = !view->backs_cast || view->front == 0 || view->back == 0;
+    plan.alone = p->convex && plan.backless;
     plan.searched = effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING);
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
     plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
-    plan.size = options->resolution != 0 ? options->resolution
-                : preview_tried(options) ? PREVIEW_SIZE
-                                         : FIRST_SIZE;
-    plan_method(&plan, options);
+    plan.size = options->resolution != 0 ? options->resolution : FIRST_SIZE;
+    plan_method(&plan, clear, options);
     return plan;
 }
 
@@ -109,6 +106,9 @@ lrcs_brdf lrcsi_plan_brdf(const lrcsi_plan *plan, const lrcs_material *material)
 
 static lrcs_effect shadowing_effect(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
+    if (plan->method == LRCS_METHOD_CLOSED) {
+        return (lrcs_effect){0, "nothing hides any part, proved"};
+    }
     if (plan->method == LRCS_METHOD_FACET && plan->alone) {
         return (lrcs_effect){0, "convex and alone: no front side is ever hidden"};
     }
@@ -133,7 +133,7 @@ static lrcs_effect caster_effect(const lrcsi_view *view, const lrcsi_plan *plan)
     if (view->prepared->solid) {
         return (lrcs_effect){0, "closed and outward, proved: back sides are never seen"};
     }
-    if (plan->method == LRCS_METHOD_FACET) {
+    if (plan->method == LRCS_METHOD_FACET || plan->method == LRCS_METHOD_CLOSED) {
         return (lrcs_effect){0, "no self-shadowing"};
     }
     return view->backs_cast ? (lrcs_effect){1, "not proved closed and outward"}
@@ -192,8 +192,23 @@ static lrcs_effect term_effect(int term, int worn, int seen, const term_text *te
     return seen ? (lrcs_effect){1, text->worn} : (lrcs_effect){0, worn ? text->unseen : text->none};
 }
 
-void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t seen,
-                        lrcs_effect *effect)
+static lrcs_effect closed_effect(const lrcsi_view *view, const lrcsi_clear *clear)
+{
+    const lrcs_prepared *p = view->prepared;
+    if (clear->all) {
+        return (lrcs_effect){1, "nothing hides any part: shapes count without facets"};
+    }
+    if (clear->count > 0) {
+        return (lrcs_effect){1, "nothing hides some curved shapes: these count without facets"};
+    }
+    return clear->part ? (lrcs_effect){0, "every curved shape may be hidden in part"}
+           : p->extent ? (lrcs_effect){0, "facets were asked for"}
+           : p->curved ? (lrcs_effect){0, "no curved shape has one"}
+                       : (lrcs_effect){0, "no part is a curved shape"};
+}
+
+void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_clear *clear,
+                        uint32_t seen, lrcs_effect *effect)
 {
     static const term_text glint = {"a material has A > 0", "A = 0 for every material",
                                     "nothing seen has A > 0",
@@ -213,4 +228,5 @@ void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t
     effect[LRCS_EFFECT_ARTICULATION] = p->articulated
                                            ? (lrcs_effect){1, "a part stands on a joint"}
                                            : (lrcs_effect){0, "no part stands on a joint"};
+    effect[LRCS_EFFECT_CLOSED_FORMS] = closed_effect(view, clear);
 }

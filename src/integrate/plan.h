@@ -4,7 +4,7 @@
 #ifndef LRCSI_PLAN_H
 #define LRCSI_PLAN_H
 
-#include "view/view.h"
+#include "view/clear.h"
 
 /* A term of the BRDF. */
 enum lrcsi_term {
@@ -14,12 +14,15 @@ enum lrcsi_term {
 };
 
 typedef struct lrcsi_plan {
-    int method;         /* FACET, ZBUFFER or EXACT: the first to try */
+    int method;         /* FACET, ZBUFFER, EXACT: the first to try; or CLOSED */
     uint32_t size;      /* of the first raster, if one is drawn */
     const char *reason; /* why that one */
+    int previews;   /* auto, and a raster's estimate may count: then what costs least comes first
+                       (integrate/cost.h) */
     int unshadowed; /* proved: in this view front facets with cos(theta) > graze are not hidden */
     double graze;   /* of the scene where unshadowed, else 1 */
-    int alone;      /* proved: nor does any facet hide a back side */
+    int backless;   /* no facet hides a back side that counts */
+    int alone;      /* proved: unshadowed and backless */
     int searched;   /* what hides them is looked for all the same */
     int glint, diffuse; /* lrcsi_term */
 } lrcsi_plan;
@@ -27,18 +30,16 @@ typedef struct lrcsi_plan {
 /* Decides what back sides do in a view: cast, reflect, or neither. */
 void lrcsi_plan_backs(const lrcs_run_options *options, lrcsi_view *view);
 
-/* Does auto look for a raster whose estimate may count? */
-int lrcsi_plan_previews(const lrcs_run_options *options);
-
-/* Given: such a view and what was asked for. */
-lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcs_run_options *options);
+/* Given: such a view, the shapes that nothing hides in it, and what was asked for. */
+lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
+                           const lrcs_run_options *options);
 
 /* What a material's facets wear, as far as the plan takes it into account. */
 lrcs_brdf lrcsi_plan_brdf(const lrcsi_plan *plan, const lrcs_material *material);
 
 /* Fills effect[LRCS_EFFECTS]: on or off, and why. `seen` holds the bits GLINT and DIFFUSE where
    something that may be seen has such a term. */
-void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t seen,
-                        lrcs_effect *effect);
+void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_clear *clear,
+                        uint32_t seen, lrcs_effect *effect);
 
 #endif

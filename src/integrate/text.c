@@ -6,8 +6,8 @@
 
 const char *lrcs_method_text(int method)
 {
-    static const char *const text[] = {"auto", "facet", "zbuffer", "exact"};
-    return method >= 0 && method <= LRCS_METHOD_EXACT ? text[method] : NULL;
+    static const char *const text[] = {"auto", "facet", "zbuffer", "exact", "closed"};
+    return method >= 0 && method <= LRCS_METHOD_CLOSED ? text[method] : NULL;
 }
 
 int lrcs_method_find(const char *name)
@@ -39,8 +39,8 @@ int lrcs_accept_find(const char *name)
 const char *lrcs_effect_text(int effect)
 {
     static const char *const text[LRCS_EFFECTS] = {
-        "self_shadowing", "back_face_casters", "glint",       "diffuse",
-        "curved_normals", "two_sided",         "articulation"};
+        "self_shadowing", "back_face_casters", "glint",        "diffuse",
+        "curved_normals", "two_sided",         "articulation", "closed_forms"};
     return effect >= 0 && effect < LRCS_EFFECTS ? text[effect] : NULL;
 }
 
@@ -71,8 +71,9 @@ const char *lrcs_notice_text(int bit)
         return "back sides of one-sided facets are visible: the mesh is open or inverted; they "
                "contribute nothing";
     case LRCS_NOTICE_TESSELLATION_UNKNOWN:
-        return "a curved shape whose curvature is not known (scaled unevenly, or as small as "
-               "rounding): the bound refers to its facets, not to the true curve";
+        return "a curved shape whose curvature is not known (as small as the rounding of its "
+               "place, "
+               "or turned by no rotation): the bound refers to its facets, not to the true curve";
     default:
         return "unknown notice";
     }

@@ -51,6 +51,7 @@ typedef struct total_job {
     const unsigned char *answer;  /* lrcsi_areas */
     const lrcsi_curved *curved;   /* NULL: all facets are flat */
     const lrcsi_margin *margin;   /* NULL: none was made */
+    const lrcsi_clear *clear;     /* shapes that count by closed forms; NULL: none */
     lrcs_facet_record *records;   /* NULL: none asked for */
     lrcsi_total total;
     total_sums sums;
@@ -312,12 +313,32 @@ static int facet_shows(const total_job *job, uint32_t facet)
     return job->visible ? area_shows(job, facet) : lrcsi_grid_casts(job->view, facet);
 }
 
+/* Is a facet's reflection part of a closed form? */
+static int is_in_shape(const total_job *job, uint32_t facet)
+{
+    return job->clear && job->clear->part[job->view->prepared->scene->facet_part[facet]];
+}
+
+/* A facet of a clear shape: what it reflects counts in the closed form, and nothing hides its
+   front. The silhouette of a closed one has a formula too. */
+static void sum_in_shape(total_job *job, uint32_t facet)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    int front = job->view->facing[facet] > 0;
+    if (front && !p->scene->part[p->scene->facet_part[facet]].solid) {
+        lrcsi_sum_add(&job->sums.projected, lrcsi_view_projected(job->view, facet));
+    }
+    job->total.hidden += front ? 0 : 1;
+}
+
 /* Any facet, by its exact facing. */
 static void sum_facet(total_job *job, uint32_t facet)
 {
     int reflects = lrcsi_view_reflects(job->view, facet);
     int shows = job->view->facing[facet] != 0 && facet_shows(job, facet);
-    if (reflects && shows) {
+    if (reflects && is_in_shape(job, facet)) {
+        sum_in_shape(job, facet);
+    } else if (reflects && shows) {
         sum_precisely(job, facet);
     } else if (shows) {
         sum_back(job,
@@ -480,6 +501,21 @@ static void batch_add(total_job *job, total_batch *batch, uint32_t place, uint32
     batch_gather(job, batch, place, list, count, side);
 }
 
+/* Those listed that belong to clear shapes leave the list. Returns how many stay. */
+static uint32_t batch_leave_shapes(total_job *job, uint32_t place, uint32_t *list, uint32_t count)
+{
+    const uint32_t *facet = job->view->prepared->batches.facet + place;
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        if (is_in_shape(job, facet[list[k]])) {
+            sum_in_shape(job, facet[list[k]]);
+        } else {
+            list[kept++] = list[k];
+        }
+    }
+    return kept;
+}
+
 /* Adds the areas of back sides that show: by method facet of all among LRCSI_LANES places, else of
    those listed. */
 static void batch_backs(total_job *job, total_batch *batch, uint32_t place, const double *dot,
@@ -529,6 +565,11 @@ static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint3
         fronts += (dot[i] > low) & (dot[i] < batch->lobes.high);
         backs += (dot[i] < -low) & (dot[i] > -far);
     }
+    uint32_t listed = fronts + backs;
+    if (job->clear) {
+        fronts = batch_leave_shapes(job, place, front, fronts);
+        backs = batch->back_reflects ? batch_leave_shapes(job, place, back, backs) : backs;
+    }
     batch_add(job, batch, place, front, fronts, 1);
     if (batch->back_reflects && batch->back_shows) {
         batch_add(job, batch, place, back, backs, -1);
@@ -537,7 +578,7 @@ static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint3
     } else if (batch->back_reflects) {
         job->total.hidden += backs;
     }
-    for (uint32_t i = 0; fronts + backs < count && i < count; i++) {
+    for (uint32_t i = 0; listed < count && i < count; i++) {
         double end = dot[i] > 0 ? batch->lobes.high : far;
         if (!(fabs(dot[i]) > low && fabs(dot[i]) < end)) {
             sum_facet(job, job->view->prepared->batches.facet[place + i]);
@@ -599,6 +640,9 @@ static void sum_material(total_job *job, uint32_t material)
 /* What the facets of tessellated shapes err from their true surfaces. */
 static double facet_tessellation(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)
 {
+    if (is_in_shape(job, facet)) {
+        return 0;
+    }
     if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
         return job->margin ? job->margin->share[facet] * job->curved[facet].most : 0;
     }
@@ -622,6 +666,62 @@ static void sum_tessellation(total_job *job)
     }
 }
 
+/* --- shapes by their closed forms ------------------------------------------------------------- */
+
+/* What flat facets of a clear part would reflect, into their records; returns the sum. */
+static lrcsi_shape_terms shape_records(const total_job *job, const lrcs_part *part)
+{
+    lrcsi_shape_terms all = {0, 0, 0, 0, 0};
+    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
+        lrcsi_tilt tilt = lrcsi_view_tilt(job->view, f);
+        lrcsi_visible whole = {tilt.projected, tilt.projected, tilt.projected, 0, 0};
+        if (job->view->facing[f] > 0) {
+            total_terms terms = facet_terms(job, f, &tilt, &whole);
+            job->records[f].sigma_glint_m2 = terms.glint;
+            job->records[f].sigma_m2 = terms.diffuse;
+            all.glint += terms.glint;
+            all.diffuse += terms.diffuse;
+            all.silhouette += tilt.projected;
+        }
+    }
+    return all;
+}
+
+/* Shares a clear part's sigma out among its facets. */
+static void share_out(const total_job *job, const lrcs_part *part, const lrcsi_shape_terms *terms)
+{
+    lrcsi_shape_terms flat = shape_records(job, part);
+    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
+        if (job->view->facing[f] > 0) {
+            lrcs_facet_record *record = &job->records[f];
+            double share = lrcsi_view_projected(job->view, f) / flat.silhouette;
+            double glint = flat.glint > 0 ? record->sigma_glint_m2 / flat.glint : share;
+            double diffuse = flat.diffuse > 0 ? record->sigma_m2 / flat.diffuse : share;
+            record_sigma(job, f, glint * terms->glint, diffuse * terms->diffuse);
+        }
+    }
+}
+
+/* Adds one. Its compensated sums add what facets' do to the bound. */
+static void sum_shape(total_job *job, uint32_t index, double slab)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const lrcs_part *part = &p->scene->part[index];
+    lrcsi_shape_terms terms = lrcsi_shape_terms_make(job->view, job->plan, index, slab);
+    lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, part->first_facet));
+    lrcsi_sum_add(&job->sums.glint, terms.glint);
+    lrcsi_sum_add(&job->sums.diffuse, terms.diffuse);
+    lrcsi_sum_add(&job->sums.projected, lrcsi_most(0, terms.silhouette));
+    job->sums.rounding += terms.rounding;
+    job->sums.visibility += terms.visibility;
+    if (terms.silhouette != 0) {
+        add_seen(&job->sums, &brdf);
+    }
+    if (job->records) {
+        share_out(job, part, &terms);
+    }
+}
+
 /* Records, all but for sigma. */
 static void records_start(const total_job *job)
 {
@@ -640,7 +740,8 @@ static void records_start(const total_job *job)
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
-                             const lrcsi_margin *margin, lrcs_facet_record *records)
+                             const lrcsi_margin *margin, const lrcsi_clear *clear,
+                             lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
     total_job job = {.view = view,
@@ -649,6 +750,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                      .answer = areas->answer,
                      .curved = curved,
                      .margin = margin,
+                     .clear = clear && clear->count > 0 ? clear : NULL,
                      .records = records};
     if (records) {
         records_start(&job);
@@ -656,7 +758,14 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
         sum_material(&job, i);
     }
-    if (p->curved && tessellation_known(&job)) {
+    for (uint32_t i = 0; job.clear && i < p->scene->part_count; i++) {
+        if (job.clear->part[i]) {
+            sum_shape(&job, i, job.clear->slab[i]);
+        }
+    }
+    if (plan->method == LRCS_METHOD_CLOSED) {
+        job.sums.tessellation = 0;
+    } else if (p->curved && tessellation_known(&job)) {
         sum_tessellation(&job);
     } else if (p->curved) {
         job.sums.tessellation = -HUGE_VAL;

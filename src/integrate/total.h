@@ -4,6 +4,7 @@
 #define LRCSI_TOTAL_H
 
 #include "integrate/curve.h"
+#include "integrate/shapes.h"
 #include "visibility/margin.h"
 
 /* All in square metres. */
@@ -28,10 +29,14 @@ typedef struct lrcsi_areas {
    plan does not know every front facet to be wholly visible, on the true shapes as on their meshes,
    the margin of doubt about the true shapes (NULL: none was made).
    Facets with curved normals come with their own sums in curved[facet_count]; NULL: all are flat.
-   Returned: the total, summed material by material, each in facet order; records[facet_count]
-   unless NULL. */
+   Shapes that are clear (NULL: none is looked for) count by their closed forms in place of their
+   facets.
+   Returned: the total, summed material by material, each in facet order, then clear shapes in the
+   scene's order; records[facet_count] unless NULL: a clear shape's sigma is shared out among its
+   facets as these would reflect, or where none of them would, by their projected areas. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
-                             const lrcsi_margin *margin, lrcs_facet_record *records);
+                             const lrcsi_margin *margin, const lrcsi_clear *clear,
+                             lrcs_facet_record *records);
 
 #endif

@@ -30,14 +30,14 @@ static int light_by_degrees(double deg, lrcsi_light *light)
 
 /* The length is taken of components scaled to about 1; one that is 2^-500 of the largest or less
    counts as 0 in squares. */
-static int light_by_direction(const double direction[3], lrcsi_light *light)
+static int light_by_direction(const lrcsi_dd direction[3], lrcsi_light *light)
 {
     double most = 0.0;
     for (int i = 0; i < 3; i++) {
-        if (!isfinite(direction[i])) {
+        if (!isfinite(direction[i].hi)) {
             return LRCS_E_NUMBER;
         }
-        most = fmax(most, fabs(direction[i]));
+        most = fmax(most, fabs(direction[i].hi));
     }
     if (!(most > 0.0)) {
         return LRCS_E_ARGUMENT;
@@ -45,7 +45,7 @@ static int light_by_direction(const double direction[3], lrcsi_light *light)
     int shift = -ilogb(most);
     lrcsi_dd d[3];
     for (int i = 0; i < 3; i++) {
-        d[i] = (lrcsi_dd){scalbn(direction[i], shift), 0.0};
+        d[i] = (lrcsi_dd){scalbn(direction[i].hi, shift), scalbn(direction[i].lo, shift)};
     }
     lrcsi_dd side = lrcsi_closed_hypot(d[0], d[1]);
     lrcsi_dd length = lrcsi_closed_hypot(side, d[2]);
@@ -152,7 +152,7 @@ static void closed_add_wall(const lrcs_shape *shape, const lrcs_brdf *brdf,
     lrcsi_closed_add(sum, &wall);
 }
 
-static int closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf)
+int lrcsi_closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf)
 {
     const double length[] = {shape->size[0], shape->size[1], shape->size[2],
                              shape->radius,  shape->radius2, shape->length};
@@ -173,22 +173,46 @@ static int closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf)
     return brdf->A > 0.0 && !slope_fits ? LRCS_E_NUMBER : LRCS_OK;
 }
 
+/* The integral of F over all that is lit. */
+static lrcsi_amount closed_sum(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                               const lrcsi_light *light)
+{
+    lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
+    closed_add_planes(shape, brdf, light, &sum);
+    closed_add_wall(shape, brdf, light, &sum);
+    return sum;
+}
+
+int lrcsi_closed_shape(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcsi_dd direction[3],
+                       lrcsi_amount *sum, double *silhouette)
+{
+    lrcsi_light light;
+    int status = light_by_direction(direction, &light);
+    if (status == LRCS_OK) {
+        *sum = closed_sum(shape, brdf, &light);
+        *silhouette = lrcsi_closed_silhouette(shape, light.aspect.sine.hi, light.aspect.cosine.hi);
+    }
+    return status;
+}
+
 int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_aspect *aspect,
                      lrcs_closed *closed)
 {
-    int status = closed_check(shape, brdf);
+    int status = lrcsi_closed_check(shape, brdf);
     if (status != LRCS_OK) {
         return status;
     }
     lrcsi_light light;
-    status = aspect->by_direction ? light_by_direction(aspect->direction, &light)
+    lrcsi_dd direction[3];
+    for (int i = 0; i < 3; i++) {
+        direction[i] = (lrcsi_dd){aspect->direction[i], 0.0};
+    }
+    status = aspect->by_direction ? light_by_direction(direction, &light)
                                   : light_by_degrees(aspect->deg, &light);
     if (status != LRCS_OK) {
         return status;
     }
-    lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
-    closed_add_planes(shape, brdf, &light, &sum);
-    closed_add_wall(shape, brdf, &light, &sum);
+    lrcsi_amount sum = closed_sum(shape, brdf, &light);
     lrcsi_closed_scale(&sum, 4.0 * LRCSI_PI, 1.0);
     lrcs_closed out = {0.0, sum.value[LRCSI_GLINT], sum.value[LRCSI_DIFFUSE], 0.0};
     out.sigma_m2 = out.sigma_glint_m2 + out.sigma_diffuse_m2;

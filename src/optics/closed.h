@@ -64,6 +64,23 @@ void lrcsi_closed_scale(lrcsi_amount *amount, double factor, double units);
 /* sum += amount. */
 void lrcsi_closed_add(lrcsi_amount *sum, const lrcsi_amount *amount);
 
+/* LRCS_OK where a closed form holds for shape and material; else as lrcs_closed_eval. */
+int lrcsi_closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf);
+
+/* For such a shape, not a plate or box: the integral of F over its lit surface, without the 4 pi,
+   and its projected area, rounded.
+   Given: the direction to the laser in the shape's frame, of any length, taken as exact.
+   Status: LRCS_OK; LRCS_E_ARGUMENT (no length); LRCS_E_NUMBER (not finite). */
+int lrcsi_closed_shape(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcsi_dd direction[3],
+                       lrcsi_amount *sum, double *silhouette);
+
+/* The projected area of a closed body of revolution, or of an open one's outside that faces the
+   laser, from the aspect's sine and cosine: to some 20 u of the largest. */
+double lrcsi_closed_silhouette(const lrcs_shape *shape, double sine, double cosine);
+
+/* The length of a cone, or of another shape of revolution. */
+double lrcsi_closed_length(const lrcs_shape *shape);
+
 /* The families: integral of F over the lit wall, without the 4 pi, caps or base. Lengths are at
    most 1 or so in magnitude. */
 lrcsi_amount lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brdf,

@@ -12,6 +12,11 @@
    is the size that the panels on the axis carry. The last panel at an end is one over which F
    changes by less than a factor e and the rest is smooth, or one that holds less than 2^-40 of the
    integral, in which an algebraic end is still summed to 1e-4.
+   A left end with a square root (`left_root`): the last panel [0, h] is summed in x, x^2 = d. There
+   the integrand is analytic in x inside the ellipse that reaches to rho = 5.8, |d| < 4 h, since no
+   other singularity stands nearer than h / 0.15 (`left_clear`); from 0 to h F falls by a factor e
+   at most, so inside the ellipse, as tan^2 and -log(cos) have positive Taylor coefficients and grow
+   by less than 40 times from h to 4 h, by exp(40), which rho^(-48) makes 1e-19.
 
    Rounding. Values are positive, their sums compensated: q to 4 units, which the exponent E of
    exp(-E) multiplies by at most 4 E, and E averages below 3 where F counts; with the powers, 40
@@ -40,84 +45,133 @@ lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int part, double cos_ref
     return law;
 }
 
-lrcsi_arc_sample lrcsi_arc_law_sample(const lrcsi_arc_law *law, double y, double q)
+/* F of one part at a point: its value; the exponent by which it has fallen from its reference
+   (infinity where it is 0); and whether it falls for good with q from here on. */
+typedef struct arc_sample {
+    double value, decay;
+    int falling;
+} arc_sample;
+
+static arc_sample law_sample(const lrcsi_arc_law *law, const lrcsi_arc_point *at)
 {
-    lrcsi_arc_sample sample = {0.0, q, HUGE_VAL, 1};
+    arc_sample sample = {0.0, HUGE_VAL, 1};
+    double q = at->q;
     if (!(q > 0.0)) {
         return sample;
     }
     if (law->part == LRCSI_GLINT) {
-        double decay = y * (2.0 - y) * law->gain / q / q;
+        double decay = at->y * (2.0 - at->y) * law->gain / q / q;
         sample.falling = q * q <= 0.5 * law->gain; /* the peak of c^-4 exp(-1/(s c)^2) */
         if (decay < ARC_DARK) {
             double q2 = q * q;
             sample.decay = decay;
-            sample.value = exp(-decay) / (q2 * q2);
+            sample.value = exp(-decay) / (q2 * q2) * at->weight;
         }
     } else {
-        double decay = law->nu * (y < 0.5 ? -log1p(-y) : -log(q));
+        double decay = law->nu * (at->y < 0.5 ? -log1p(-at->y) : -log(q));
         if (decay < ARC_DARK) {
             sample.decay = decay;
-            sample.value = exp(-decay);
+            sample.value = exp(-decay) * at->weight;
         }
     }
     return sample;
 }
 
-static lrcsi_arc_sample arc_sample(const lrcsi_arc *arc, int right, double d)
+static lrcsi_arc_point arc_point(const lrcsi_arc *arc, int right, double d)
 {
-    return arc->is_cap ? lrcsi_cap_sample(arc, right, d) : lrcsi_ring_sample(arc, right, d);
+    return arc->is_cap ? lrcsi_cap_point(arc, right, d) : lrcsi_ring_point(arc, right, d);
 }
 
-/* sum += the integral over distances [low, high] from an end. */
+/* sum[part] += width times F at that distance from an end. */
+static void arc_add_point(const lrcsi_arc *arc, int right, double d, double width, lrcsi_dd *sum)
+{
+    lrcsi_arc_point at = arc_point(arc, right, d);
+    for (int part = 0; part < LRCSI_PARTS; part++) {
+        if (arc->wanted[part]) {
+            double value = width * law_sample(&arc->law[part], &at).value;
+            lrcsi_dd next = lrcsi_dd_two_sum(sum[part].hi, value);
+            sum[part] = (lrcsi_dd){next.hi, sum[part].lo + next.lo};
+        }
+    }
+}
+
+/* sum += the integrals over distances [low, high] from an end. */
 static void arc_add_panel(const lrcsi_arc *arc, int right, double low, double high, lrcsi_dd *sum)
 {
     double half = 0.5 * (high - low);
     double middle = low + half;
-    for (int i = 0; i < LRCSI_GAUSS_PAIRS; i++) {
-        double step = half * lrcsi_gauss_rule[i][0];
-        double pair = arc_sample(arc, right, middle - step).value +
-                      arc_sample(arc, right, middle + step).value;
-        lrcsi_dd next = lrcsi_dd_two_sum(sum->hi, lrcsi_gauss_rule[i][1] * half * pair);
-        *sum = (lrcsi_dd){next.hi, sum->lo + next.lo};
+    for (int i = 0; i < 2 * LRCSI_GAUSS_PAIRS; i++) {
+        const double *rule = lrcsi_gauss_rule[i / 2];
+        double step = i % 2 ? half : -half;
+        arc_add_point(arc, right, middle + step * rule[0], rule[1] * half, sum);
     }
 }
 
-/* Is [0, h] at an end fit to be the last panel, `sum` having been gathered outside it? Towards the
-   left end F grows, so it must have come within a factor e; towards the right it may fall for good,
-   or hardly change. */
-static int arc_ends(const lrcsi_arc *arc, int right, double h, double sum)
+/* The same over [0, h] at a left end where the integrand is analytic in the root of the distance.
+ */
+static void arc_add_root(const lrcsi_arc *arc, double h, lrcsi_dd *sum)
+{
+    double half = 0.5 * sqrt(h);
+    for (int i = 0; i < 2 * LRCSI_GAUSS_PAIRS; i++) {
+        const double *rule = lrcsi_gauss_rule[i / 2];
+        double x = half + (i % 2 ? half : -half) * rule[0];
+        arc_add_point(arc, 0, x * x, rule[1] * half * 2.0 * x, sum);
+    }
+}
+
+/* Is [0, h] at an end fit to be the last panel of a part, `sum` having been gathered outside it?
+   Towards the left end F grows, so it must have come within a factor e; towards the right it may
+   fall for good, or hardly change. */
+static int part_ends(const lrcsi_arc *arc, int part, int right, double h, double sum)
 {
     double clear = right ? arc->right_clear : arc->left_clear;
-    lrcsi_arc_sample at = arc_sample(arc, right, h);
+    lrcsi_arc_point point = arc_point(arc, right, h);
+    arc_sample at = law_sample(&arc->law[part], &point);
     if (!right) {
         return at.decay <= 1.0 &&
                (h <= clear || (h <= arc->grain && h * at.value <= ARC_SMALL * sum));
     }
-    lrcsi_arc_sample end = arc_sample(arc, right, 0.0);
-    int level = end.decay - at.decay <= 1.0 && end.q >= 0.5 * at.q;
+    lrcsi_arc_point last = arc_point(arc, right, 0.0);
+    arc_sample end = law_sample(&arc->law[part], &last);
+    int level = end.decay - at.decay <= 1.0 && last.q >= 0.5 * point.q;
     if (h <= clear) {
         return level || (at.falling && h * at.value <= 0x1p-60 * sum);
     }
     return h <= arc->grain && (level || at.falling) && h * at.value <= ARC_SMALL * sum;
 }
 
+static int arc_ends(const lrcsi_arc *arc, int right, double h, const lrcsi_dd *sum)
+{
+    for (int part = 0; part < LRCSI_PARTS; part++) {
+        if (arc->wanted[part] && !part_ends(arc, part, right, h, sum[part].hi)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 static void arc_add_half(const lrcsi_arc *arc, int right, lrcsi_dd *sum)
 {
     double h = 0.5 * arc->length;
-    for (int i = 0; i < ARC_PANELS && !arc_ends(arc, right, h, sum->hi); i++) {
+    for (int i = 0; i < ARC_PANELS && !arc_ends(arc, right, h, sum); i++) {
         arc_add_panel(arc, right, 0.5 * h, h, sum);
         h *= 0.5;
     }
-    arc_add_panel(arc, right, 0.0, h, sum);
+    if (arc->left_root && !right) {
+        arc_add_root(arc, h, sum);
+    } else {
+        arc_add_panel(arc, right, 0.0, h, sum);
+    }
 }
 
-double lrcsi_arc_integral(const lrcsi_arc *arc)
+void lrcsi_arc_integral(const lrcsi_arc *arc, double integral[LRCSI_PARTS])
 {
-    lrcsi_dd sum = {0.0, 0.0};
+    lrcsi_dd sum[LRCSI_PARTS] = {{0.0, 0.0}, {0.0, 0.0}};
     if (arc->length > 0.0) {
-        arc_add_half(arc, 0, &sum);
-        arc_add_half(arc, 1, &sum);
+        arc_add_half(arc, 0, sum);
+        arc_add_half(arc, 1, sum);
     }
-    return lrcsi_dd_value(sum);
+    for (int part = 0; part < LRCSI_PARTS; part++) {
+        integral[part] = lrcsi_dd_value(sum[part]);
+    }
 }

@@ -19,15 +19,12 @@ typedef struct lrcsi_arc_law {
     double gain, nu;
 } lrcsi_arc_law;
 
-/* What an integrand is at a point: its value; q, and the exponent by which F has fallen from its
-   reference (infinity where F is 0); and whether F falls for good with q from here on. */
-typedef struct lrcsi_arc_sample {
-    double value, q, decay;
-    int falling;
-} lrcsi_arc_sample;
+/* A point of an arc: y and q, and what F counts with there; 0 where q is not positive. */
+typedef struct lrcsi_arc_point {
+    double y, q, weight;
+} lrcsi_arc_point;
 
 lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int part, double cos_reference);
-lrcsi_arc_sample lrcsi_arc_law_sample(const lrcsi_arc_law *law, double y, double q);
 
 /* A ring of normals, azimuth phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). Where rest = 1 - k >= 0 it
    is wholly lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi - phi_1. */
@@ -48,7 +45,8 @@ typedef struct lrcsi_cap {
 } lrcsi_cap;
 
 typedef struct lrcsi_arc {
-    lrcsi_arc_law law;
+    lrcsi_arc_law law[LRCSI_PARTS];
+    int wanted[LRCSI_PARTS]; /* 0: that part is not integrated */
     double length;
     int is_cap;
     lrcsi_ring ring;
@@ -56,15 +54,17 @@ typedef struct lrcsi_arc {
     /* Within this distance of an end the integrand, but for F, is smooth; 0: an algebraic zero or
        root stands at the end itself. */
     double left_clear, right_clear;
-    double grain; /* beyond this distance of an end the rest may still vary by a power */
+    int left_root; /* but for a square root at the left end itself, that is */
+    double grain;  /* beyond this distance of an end the rest may still vary by a power */
 } lrcsi_arc;
 
 /* At distance d from the left or the right end, 0 < d <= length/2 or so. */
-lrcsi_arc_sample lrcsi_ring_sample(const lrcsi_arc *arc, int right, double d);
-lrcsi_arc_sample lrcsi_cap_sample(const lrcsi_arc *arc, int right, double d);
+lrcsi_arc_point lrcsi_ring_point(const lrcsi_arc *arc, int right, double d);
+lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d);
 
-/* The integral over the arc. Relative error at most LRCSI_ARC_UNITS of 2^-53. */
+/* The integrals of the parts that are wanted over the arc, 0 of others. Relative error at most
+   LRCSI_ARC_UNITS of 2^-53. */
 #define LRCSI_ARC_UNITS 64.0
-double lrcsi_arc_integral(const lrcsi_arc *arc);
+void lrcsi_arc_integral(const lrcsi_arc *arc, double integral[LRCSI_PARTS]);
 
 #endif

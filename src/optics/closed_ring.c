@@ -61,7 +61,7 @@ static void ring_extremes(const ring_wall *wall, const lrcsi_light *light, lrcsi
 
 /* sin^2(phi/2) counts from the left end, and its complement from phi = pi or from phi_1:
    1 - k sin^2(phi/2) = k sin(d/2) sin(phi_1 - d/2) at phi = phi_1 - d, phi_1 = pi - psi_1. */
-lrcsi_arc_sample lrcsi_ring_sample(const lrcsi_arc *arc, int right, double d)
+lrcsi_arc_point lrcsi_ring_point(const lrcsi_arc *arc, int right, double d)
 {
     const lrcsi_ring *ring = &arc->ring;
     double sine = sin(0.5 * d);
@@ -77,13 +77,15 @@ lrcsi_arc_sample lrcsi_ring_sample(const lrcsi_arc *arc, int right, double d)
         q = ring->k * sine * sin(far);
         y = 1.0 - q;
     }
-    return lrcsi_arc_law_sample(&arc->law, y, q);
+    return (lrcsi_arc_point){y, q, 1.0};
 }
 
-static lrcsi_arc ring_arc(const lrcs_brdf *brdf, int part, double c_max, double c_min, double b)
+static lrcsi_arc ring_arc(const lrcs_brdf *brdf, double c_max, double c_min, double b)
 {
     lrcsi_arc arc = {0};
-    arc.law = lrcsi_arc_law_make(brdf, part, c_max);
+    for (int part = 0; part < LRCSI_PARTS; part++) {
+        arc.law[part] = lrcsi_arc_law_make(brdf, part, c_max);
+    }
     arc.ring.k = 2.0 * b / c_max;
     arc.ring.rest = c_min / c_max;
     arc.length = LRCSI_PI;
@@ -109,10 +111,15 @@ static lrcsi_amount ring_integral(const ring_wall *wall, const lrcs_brdf *brdf,
     lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta);
     double b = wall->beta.cosine.hi * light->aspect.sine.hi;
     double factor[LRCSI_PARTS] = {1.0, 1.0};
-    for (int part = 0; part < LRCSI_PARTS && b > 0.0; part++) {
-        if (amount.value[part] > 0.0) {
-            lrcsi_arc arc = ring_arc(brdf, part, most.sine.hi, least.sine.hi, b);
-            factor[part] = lrcsi_arc_integral(&arc) / LRCSI_PI;
+    if (b > 0.0 && (amount.value[LRCSI_GLINT] > 0.0 || amount.value[LRCSI_DIFFUSE] > 0.0)) {
+        double integral[LRCSI_PARTS];
+        lrcsi_arc arc = ring_arc(brdf, most.sine.hi, least.sine.hi, b);
+        for (int part = 0; part < LRCSI_PARTS; part++) {
+            arc.wanted[part] = amount.value[part] > 0.0;
+        }
+        lrcsi_arc_integral(&arc, integral);
+        for (int part = 0; part < LRCSI_PARTS; part++) {
+            factor[part] = arc.wanted[part] ? integral[part] / LRCSI_PI : 1.0;
         }
     }
     lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 12.0);

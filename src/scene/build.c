@@ -41,7 +41,7 @@ typedef struct scene_piece {
 
 lrcs_build_options lrcs_build_options_default(void)
 {
-    lrcs_build_options options = {1e-4, UINT32_C(1) << 21, LRCS_NORMALS_FLAT};
+    lrcs_build_options options = {1e-4, UINT32_C(1) << 21, LRCS_NORMALS_FLAT, 0};
     return options;
 }
 
@@ -89,7 +89,7 @@ static int count_shape(const scene_builder *builder, const lrcs_recipe_part *par
         return status;
     }
     lrcs_material material = lrcsi_binder_bare(&builder->binder, worn);
-    status = lrcsi_fineness_divide(&builder->fineness, part, &material.brdf, divisions, counts);
+    status = lrcsi_fineness_divide(&builder->fineness, part, &material, divisions, counts);
     return status == LRCS_OK ? LRCS_OK
                              : refuse_part(builder, status, part,
                                            "a shape, material and "
@@ -130,7 +130,7 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
 {
     const lrcs_recipe *recipe = builder->recipe;
     builder->fineness = (lrcsi_fineness){builder->options->tolerance, builder->options->max_facets,
-                                         recipe->part_count, 0.0};
+                                         recipe->part_count, 0.0, builder->options->facets_only};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         builder->fineness.area += lrcsi_fineness_area(
             &recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);

@@ -7,11 +7,20 @@
 #include <math.h>
 
 #include "mesh/tessellate.h"
+#include "scene/shaped.h"
 
 /* How many shares a scene's tolerance is cut into at least, and how much coarser than asked a small
    part may be at most. */
 #define SHARES_LEAST 16.0
 #define LEAVE_MOST   100.0
+
+/* Divisions of a shape of which only pictures and records show the facets: they turn by 7.5 and 9
+   degrees, which is smooth enough to look at. */
+#define BASE_AROUND 48
+#define BASE_ALONG  10
+
+/* Beyond this ratio of a scale's components no number of facets serves. */
+#define RATIO_MOST 1e3
 
 /* 0 where a corner is out of range. */
 static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
@@ -93,11 +102,46 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
     }
 }
 
+/* How much a scale differs between axes: it turns normals by as many times as much, and the error
+   of a facet grows with the square, and a little more (mesh/profile.c). */
+static double scale_ratio(const lrcs_recipe_part *part)
+{
+    const double *scale = part->place.scale;
+    double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    return small > 0.0 && large / small < RATIO_MOST ? large / small : 1.0;
+}
+
+/* Does the closed form serve a shape from every direction? Nothing hides it, and it is placed
+   without a change of shape. */
+static int is_closed_form(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
+                          const lrcs_material *material)
+{
+    lrcsi_placer placer;
+    lrcsi_axes axes;
+    return fineness->parts == 1 && !fineness->facets_only &&
+           lrcsi_shaped_closed_form(&part->shape, material->two_sided) &&
+           lrcsi_placer_make(&part->place, &part->joint, &placer) == LRCS_OK &&
+           lrcsi_placer_axes(&placer, &axes);
+}
+
 int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
-                          const lrcs_brdf *brdf, lrcs_divisions *divisions,
+                          const lrcs_material *material, lrcs_divisions *divisions,
                           lrcs_mesh_counts *counts)
 {
-    const lrcs_fineness wanted = {shape_tolerance(fineness, part), *brdf, fineness->max_facets};
+    double ratio = scale_ratio(part);
+    double spread = ratio > 1.0 ? 1.5 * ratio * ratio : 1.0;
+    const lrcs_fineness wanted = {shape_tolerance(fineness, part) / spread, material->brdf,
+                                  fineness->max_facets};
+    if (is_closed_form(fineness, part, material)) {
+        int rings = part->shape.kind == LRCS_SHAPE_SPHERE || part->shape.kind == LRCS_SHAPE_DOME ||
+                    part->shape.kind == LRCS_SHAPE_PARABOLOID;
+        *divisions = (lrcs_divisions){BASE_AROUND, rings ? BASE_ALONG : 1};
+        *counts = lrcsi_tessellate_counts(&part->shape, divisions);
+        if (counts->facets <= fineness->max_facets) {
+            return LRCS_OK;
+        }
+    }
     int status = lrcs_shape_count(&part->shape, &wanted, divisions, counts);
     if (status == LRCS_OK) {
         refine_rim(fineness, part, divisions, counts);

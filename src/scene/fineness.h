@@ -8,7 +8,8 @@
 typedef struct lrcsi_fineness {
     double tolerance;
     uint32_t max_facets, parts;
-    double area; /* of all parts, by lrcsi_fineness_area */
+    double area;     /* of all parts, by lrcsi_fineness_area */
+    int facets_only; /* lrcs_build_options.facets_only */
 } lrcsi_fineness;
 
 /* Roughly the surface of a part, to weigh parts with; of a model, its facets'. */
@@ -16,7 +17,7 @@ double lrcsi_fineness_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh);
 
 /* Status: LRCS_OK; as lrcs_shape_count. */
 int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
-                          const lrcs_brdf *brdf, lrcs_divisions *divisions,
+                          const lrcs_material *material, lrcs_divisions *divisions,
                           lrcs_mesh_counts *counts);
 
 #endif

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/dd.h"
 #include "base/rotate.h"
 
 /* A unit of rounding, u = 2^-53. */
@@ -129,6 +130,108 @@ void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3])
     }
 }
 
+/* --- the nearest rotation --------------------------------------------------------------------- */
+
+/* Matrices that are farther from a rotation than this are taken as they are. */
+#define ROTATION_NEAR 0x1p-40
+
+/* D = R^T R - I in double-double: every entry is off by at most 2^-101. Returns its Frobenius norm,
+   rounded up, or 0 where D is 0 exactly. */
+static double rotation_defect(const double R[3][3], lrcsi_dd D[3][3])
+{
+    double square = 0.0;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            lrcsi_dd sum = {i == j ? -1.0 : 0.0, 0.0};
+            for (int k = 0; k < 3; k++) {
+                sum = lrcsi_dd_add(sum, lrcsi_dd_two_product(R[k][i], R[k][j]));
+            }
+            D[i][j] = sum;
+            square += sum.hi * sum.hi;
+        }
+    }
+    return square > 0.0 ? 1.000001 * sqrt(square) + 0x1p-98 : 0.0;
+}
+
+/* The rotation or reflection nearest to R, the polar factor R (I + D)^(-1/2) = R (I - D/2 +
+   (3/8) D^2 - ...): for |D| <= 2^-40 the next term is below 2^-121. Returns 0 where D is larger. */
+static int nearest_rotation(const double R[3][3], lrcsi_dd out[3][3])
+{
+    lrcsi_dd D[3][3];
+    lrcsi_dd root[3][3];
+    if (!(rotation_defect(R, D) <= ROTATION_NEAR)) {
+        return 0;
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            lrcsi_dd square = {0.0, 0.0};
+            for (int k = 0; k < 3; k++) {
+                square = lrcsi_dd_add(square, lrcsi_dd_mul(D[i][k], D[k][j]));
+            }
+            root[i][j] = lrcsi_dd_sub(lrcsi_dd_scale(square, 0.375), lrcsi_dd_scale(D[i][j], 0.5));
+            root[i][j] = lrcsi_dd_add((lrcsi_dd){i == j ? 1.0 : 0.0, 0.0}, root[i][j]);
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            out[i][j] = (lrcsi_dd){0.0, 0.0};
+            for (int k = 0; k < 3; k++) {
+                out[i][j] = lrcsi_dd_add(out[i][j], lrcsi_dd_scale(root[k][j], R[i][k]));
+            }
+        }
+    }
+    return 1;
+}
+
+int lrcsi_placer_axes(const lrcsi_placer *placer, lrcsi_axes *axes)
+{
+    static const double identity[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    const double *scale = placer->place.scale;
+    lrcsi_dd joint[3][3];
+    lrcsi_dd place[3][3];
+    if (fabs(scale[0]) != fabs(scale[1]) || fabs(scale[1]) != fabs(scale[2]) ||
+        !nearest_rotation(placer->turns ? placer->joint : identity, joint) ||
+        !nearest_rotation(placer->rotates ? placer->place.rotate : identity, place)) {
+        return 0;
+    }
+    axes->exact = 1;
+    for (int j = 0; j < 3; j++) {
+        for (int i = 0; i < 3; i++) {
+            lrcsi_dd sum = {0.0, 0.0};
+            for (int k = 0; k < 3; k++) {
+                lrcsi_dd term = lrcsi_dd_mul(place[i][k], joint[k][j]);
+                sum = lrcsi_dd_add(sum, scale[k] < 0.0 ? lrcsi_dd_negate(term) : term);
+            }
+            axes->high[j][i] = sum.hi;
+            axes->low[j][i] = sum.lo;
+            axes->exact &= sum.lo == 0.0 && (sum.hi == 0.0 || fabs(sum.hi) == 1.0);
+        }
+    }
+    return 1;
+}
+
+/* Singular values of a matrix with |R^T R - I| <= d lie between the roots of 1 - d and 1 + d. */
+void lrcsi_placer_stretch(const lrcsi_placer *placer, double *most, double *ratio)
+{
+    const double *scale = placer->place.scale;
+    double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    lrcsi_dd D[3][3];
+    double joint = placer->turns ? rotation_defect(placer->joint, D) : 0.0;
+    double place = placer->rotates ? rotation_defect(placer->place.rotate, D) : 0.0;
+    *most = HUGE_VAL;
+    *ratio = HUGE_VAL;
+    if (joint < 0.5 && place < 0.5) {
+        *most = large * sqrt((1.0 + joint) * (1.0 + place));
+        *ratio = large / small;
+        *ratio *= sqrt((1.0 + joint) / (1.0 - joint) * (1.0 + place) / (1.0 - place));
+    }
+    if (joint > 0.0 || place > 0.0 || large != small) {
+        *most *= 1.000001;
+        *ratio *= 1.000001;
+    }
+}
+
 /* A bound on magnitudes, and on how far they are off. */
 typedef struct placed_bound {
     double most, error;
@@ -152,15 +255,18 @@ static placed_bound bound_scale(placed_bound x, const double s[3])
 }
 
 /* Three products and two sums: at most 3 u (1 + 3 u) times the sum of their magnitudes, which is
-   at most the largest sum of |R_ij| over a row times |x|. */
+   at most the largest sum of |R_ij| over a row times |x|. The nearest rotation is within half of
+   |R^T R - I| (1 + 2^-40) of R, and moves x, of a length of at most sqrt(3) most, by that. */
 static placed_bound bound_turn(placed_bound x, const double R[3][3])
 {
+    lrcsi_dd D[3][3];
+    double defect = rotation_defect(R, D);
     double row = 0.0;
     for (int i = 0; i < 3; i++) {
         row = fmax(row, fabs(R[i][0]) + fabs(R[i][1]) + fabs(R[i][2]));
     }
     double most = row * x.most;
-    double error = row * x.error;
+    double error = row * x.error + (defect <= ROTATION_NEAR ? 0.87 * defect * x.most : 0.0);
     return (placed_bound){most, error + 4.0 * PLACE_UNIT * (most + error) + 0x1p-1072};
 }
 

@@ -20,13 +20,28 @@ int lrcsi_placer_make(const lrcs_place *place, const lrcs_joint *joint, lrcsi_pl
 /* translate + rotate (scale (joint (given))), rounded. */
 void lrcsi_placer_run(const lrcsi_placer *placer, const double given[3], double placed[3]);
 
+/* Where a shape's axes point, in double-double: column by column of the rotations nearest to the
+   joint's matrix and the place's, mirrors between them. Absolute error 2^-97; none where every
+   entry is 0, 1 or -1 (`exact`).
+   Returns 0 where a matrix is no rotation or reflection to 2^-40, or the scale is not the same for
+   all axes but for its sign; then nothing is filled in. */
+typedef struct lrcsi_axes {
+    double high[3][3], low[3][3]; /* axis, component */
+    int exact;
+} lrcsi_axes;
+int lrcsi_placer_axes(const lrcsi_placer *placer, lrcsi_axes *axes);
+
+/* The largest singular value of the linear map, and the ratio of that to the least: bounds on both;
+   infinite where a matrix is far from a rotation. */
+void lrcsi_placer_stretch(const lrcsi_placer *placer, double *most, double *ratio);
+
 /* A normal under the same: by the inverse transpose of the linear map, so that what was outward
    stays so, but for length. */
 void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3]);
 
-/* How far a placed point may lie from the exact image of the true one under the same matrices: a
-   bound on the distance, where the true point's coordinates are at most `most` and those given are
-   within `error` of them. */
+/* How far a placed point may lie from the exact image of the true one under the same matrices, or
+   under the rotations nearest to them (lrcsi_placer_axes): a bound on the distance, where the true
+   point's coordinates are at most `most` and those given are within `error` of them. */
 double lrcsi_placer_error(const lrcsi_placer *placer, double most, double error);
 
 #endif

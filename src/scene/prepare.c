@@ -325,6 +325,9 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     if (status == LRCS_OK && p->curved && !p->convex) {
         status = lrcsi_nears_make(p, work);
     }
+    if (status == LRCS_OK && p->curved) {
+        status = lrcsi_extents_make(p, work);
+    }
     return status;
 }
 
@@ -355,6 +358,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     size_t convex = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
     proof = convex > proof ? convex : proof;
     size_t nears = lrcsi_work_add(lrcsi_nears_need(scene), lrcsi_tree_need(scene->facet_count));
+    nears = lrcsi_work_add(nears, lrcsi_extents_need(scene));
     proof = nears > proof ? nears : proof;
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets + 1, sizeof(uint32_t)));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 1));

@@ -12,6 +12,7 @@
 #include "mesh/touch.h"
 #include "scene/across.h"
 #include "scene/batch.h"
+#include "scene/extent.h"
 #include "scene/near.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
@@ -62,8 +63,9 @@ struct lrcs_prepared {
     int glint, diffuse; /* some live facet's A, B is not 0 */
     int curved;         /* some live part was tessellated from a curved shape */
     lrcsi_nears nears;  /* where curved shapes stand among others; else nears.reach is NULL */
-    int articulated;    /* some part stands on a joint */
-    int smooth;         /* some live facet has curved normals */
+    const lrcsi_extent *extent; /* part: where it stands; NULL where no shape has a closed form */
+    int articulated;            /* some part stands on a joint */
+    int smooth;                 /* some live facet has curved normals */
 };
 
 /* The stages of lrcs_prepare_run, which are run in this order: one by one, so that a host can time

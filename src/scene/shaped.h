@@ -5,6 +5,10 @@
 
 #include "scene/place.h"
 
+/* 1 where optics/closed.h knows what such a shape reflects, but for the inside of an open one, that
+   a two-sided material shows. */
+int lrcsi_shaped_closed_form(const lrcs_shape *shape, int two_sided);
+
 /* The largest coordinate of a mesh. */
 double lrcsi_shaped_extent(const lrcs_mesh *mesh);
 

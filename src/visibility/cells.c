@@ -19,7 +19,7 @@
       (visibility/cells_charge.h). A facet's area is told where its error is small enough.
 
    The area of a facet in a cell is off by the error of its sides times their length there, and by
-   8 u b and the cell's drift times the perimeter of what it has there (visibility/cells_charge.c).
+   4 u b and the cell's drift times the perimeter of what it has there (visibility/cells_charge.c).
  */
 #include "visibility/cells.h"
 
@@ -37,15 +37,17 @@
 
 /* Corners above which a cell is halved. */
 #define MANY_CORNERS 20u
-/* Steps that a block may take, and for each facet and segment in it. */
-#define STEPS_LEAST 65536u
-#define STEPS_EACH  256u
-/* Room for lists, a facet and beside that. */
-#define LIST_A_FACET 8u
-#define LIST_LEAST   65536u
+/* Steps that a block may take: so many, for each facet and segment in it, and for each cell that is
+   decided. Ordinary scenes take a tenth of this, or less. */
+#define STEPS_LEAST   65536u
+#define STEPS_EACH    4096u
+#define STEPS_DECIDED 4096u
 /* An area may be off by so much of itself, and of the square of the scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
+/* So many facets to be clipped, times those that might hide them, are many: clipping each asks
+   about all of them. */
+#define MANY_LEFT 65536u
 /* A facet with less of its diameter's square is a needle. */
 #define NEEDLE 0x1p-18
 
@@ -55,7 +57,7 @@
 static void cells_leave(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
-        c->found[c->list[cell->first + i]] |= LRCSI_CELLS_OPEN;
+        c->found[c->facets[i]] |= LRCSI_CELLS_OPEN;
     }
 }
 
@@ -63,7 +65,7 @@ static void cells_leave(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 static int cells_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t f = c->list[cell->first + i];
+        uint32_t f = c->facets[i];
         if (c->open[f] && (c->found[f] & LRCSI_CELLS_OPEN) == 0) {
             return 1;
         }
@@ -87,7 +89,7 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             4 * w;
     }
     double around = wide[0] + wide[1];
-    area->off += 2 * (cell->drift + 8 * U * c->reach) * around +
+    area->off += 2 * (cell->drift + 4 * U * c->reach) * around +
                  5 * U * (piece.count + 3) * wide[0] * wide[1];
     for (int k = 0; k < 3 && piece.count > 0; k++) {
         double range[2];
@@ -97,7 +99,7 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
         if (range[0] < w) {
             area->off +=
-                (f->line_off + 16 * U * c->reach) * lrcsi_least(f->length[k] + 4 * w, around);
+                (f->line_off + 12 * U * c->reach) * lrcsi_least(f->length[k] + 4 * w, around);
             lrcsi_cells_shape_clip(&piece, f->side[k]);
         }
     }
@@ -109,7 +111,7 @@ static void cells_decide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                          const lrcsi_cells_sides *s, double doubt)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t f = c->list[cell->first + i];
+        uint32_t f = c->facets[i];
         if (!c->open[f]) {
             continue;
         }
@@ -124,70 +126,109 @@ static void cells_decide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 
 enum { CHOOSE_OWN, CHOOSE_EDGES, CHOOSE_ANY };
 
-/* The longest of the segments of a kind, or NULL. */
+/* Of the segments of a kind, the one whose line divides the cell most evenly, or NULL: the one with
+   the most of the cell's width on that side of its line where less of it is. So cells shrink fast,
+   and few are as long as narrow strips of facets are. */
 static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
                                                const lrcsi_cells_cell *cell, int which)
 {
-    const uint32_t *list = lrcsi_cells_segments(c, cell);
     const lrcsi_cells_segment *best = NULL;
+    double most = -HUGE_VAL;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[list[i]];
-        if ((which == CHOOSE_ANY || (which == CHOOSE_EDGES && !e->contact) ||
-             (which == CHOOSE_OWN && lrcsi_cells_owned(c, e))) &&
-            (!best || e->length > best->length)) {
-            best = e;
+        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        if (which == CHOOSE_ANY || (which == CHOOSE_EDGES && !e->contact) ||
+            (which == CHOOSE_OWN && lrcsi_cells_owned(c, e))) {
+            double range[2];
+            lrcsi_line_range(&cell->shape, e->line, range);
+            double less = lrcsi_least(-range[0], range[1]);
+            best = less > most ? e : best;
+            most = lrcsi_most(most, less);
         }
     }
     return best;
 }
 
-/* Does one cell: it is decided, cut, or left. */
-static void cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+/* What strips beyond the ends of segments may cost in a cell whose sample is near to a side: it is
+   thin. Any facet in it may be off by that. */
+static double thin_doubt(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                         const lrcsi_cells_sides *s, double clear)
+{
+    if (!(clear < LRCSI_CELLS_THIN * s->perimeter)) {
+        return 0;
+    }
+    double strips =
+        2 * ((double)cell->struck + c->borders) * (cell->inset + c->off + s->g) * s->perimeter;
+    return lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s->g * s->perimeter);
+}
+
+/* The nearest facet at the sample, there, and how far inside the cell that is. */
+typedef struct cells_seen {
+    uint32_t best;
+    double at[2];
+    double clear;
+} cells_seen;
+
+/* Drops what is behind surfaces that cover the cell. 1 where the component around the nearest facet
+   does; else the segment of the component at which to cut, if it has one. *doubt: what any facet of
+   a thin cell may be off by. */
+static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                       const cells_seen *seen, double *doubt, const lrcsi_cells_segment **cut)
+{
+    /* 1. A facet that covers the cell alone. */
+    uint32_t screen = lrcsi_cells_screen(c, cell, s, seen->at);
+    if (screen != LRCS_NONE) {
+        lrcsi_cells_component_of(c, screen);
+        *doubt = thin_doubt(c, cell, s, seen->clear);
+        lrcsi_cells_drop(c, cell, s, screen == seen->best ? NULL : seen->at, *doubt);
+        if (screen == seen->best) {
+            return 1;
+        }
+        c->joined[screen] = 0;
+    }
+    /* 2. The component around the nearest facet. */
+    int covers = lrcsi_cells_component(c, cell, s, seen->best);
+    *cut = cells_choose(c, cell, CHOOSE_OWN);
+    if (!covers || *cut) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < c->borders; i++) {
+        lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
+    }
+    *doubt = thin_doubt(c, cell, s, seen->clear);
+    lrcsi_cells_drop(c, cell, s, NULL, *doubt);
+    return 1;
+}
+
+/* Does one cell: it is decided (1), cut, or left. */
+static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_sides s;
     if (!cells_wanted(c, cell)) {
-        return;
+        return 0;
     }
     lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_reach(c, cell), &s);
     lrcsi_cells_strike(c, cell, &s);
     c->components = 0;
 
     /* 1. A sample. */
-    uint32_t best = LRCS_NONE;
-    double clear = 0;
-    int answer = lrcsi_cells_look(c, cell, &s, &best, &clear);
+    cells_seen seen = {.best = LRCS_NONE};
+    int answer = lrcsi_cells_look(c, cell, &s, &seen.best, seen.at, &seen.clear);
     if (answer == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
-        return;
+        return 0;
     }
 
-    /* 2. The component, and what is behind it. */
+    /* 2. What is behind covers. */
     double doubt = 0;
-    int covers = 0;
     const lrcsi_cells_segment *cut = NULL;
-    if (answer == LRCSI_CELLS_FOUND) {
-        covers = lrcsi_cells_component(c, cell, &s, best);
-        cut = cells_choose(c, cell, CHOOSE_OWN);
-        covers = covers && !cut;
-        if (clear < LRCSI_CELLS_THIN * s.perimeter) {
-            double strips = 2 * ((double)cell->struck + c->borders) * (cell->inset + c->off + s.g) *
-                            s.perimeter;
-            doubt = lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s.g * s.perimeter);
-        }
-        for (uint32_t i = 0; i < c->borders && covers; i++) {
-            lrcsi_cells_charge_border(c, cell, &s, &c->border[i]);
-        }
-        if (covers) {
-            lrcsi_cells_drop(c, cell, &s, doubt);
-        }
-    }
+    int told = answer == LRCSI_CELLS_FOUND ? cells_cover(c, cell, &s, &seen, &doubt, &cut)
+                                           : answer == LRCSI_CELLS_NONE;
 
     /* 3. Decided, or cut. */
     if (!cut) {
-        int told = covers || answer == LRCSI_CELLS_NONE;
         cut = cells_choose(c, cell, told ? CHOOSE_EDGES : CHOOSE_ANY);
         if (!cut && told) {
             cells_decide(c, cell, &s, cell->doubt + doubt);
-            return;
+            return 1;
         }
     }
     int done = 0;
@@ -198,6 +239,7 @@ static void cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     if (!done) {
         cells_leave(c, cell);
     }
+    return 0;
 }
 
 /* --- one block -------------------------------------------------------------------------------- */
@@ -227,7 +269,7 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
     if (!block_wanted(c, block)) {
         return;
     }
-    lrcsi_cells_cell cell = {.first = 0};
+    lrcsi_cells_cell cell = {.cuts = 0};
     c->reach = lrcsi_cells_grid_square(&c->grid, x, y, &cell.shape, c->frame.middle);
     c->frame.block = (uint32_t)block + 1;
     c->look++;
@@ -235,19 +277,22 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
         block_leave(c, block);
         return;
     }
-    /* Where cells become too many, clipping is left to itself. */
+    /* Where that takes long and decides little, the rest is clipped facet by facet. */
     uint64_t most = STEPS_LEAST + STEPS_EACH * (uint64_t)(cell.facets + cell.segments);
     c->stack[0] = cell;
     c->top = 1;
     while (c->top > 0) {
         cell = c->stack[--c->top];
+        if (cell.both[0] > 0 || cell.both[1] > 0) {
+            lrcsi_cells_settle(c, &cell);
+        }
         uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
         if (steps > most || !lrcsi_meter_take(meter, steps)) {
             block_leave(c, block);
             return;
         }
         most -= steps;
-        cells_do(c, &cell);
+        most += cells_do(c, &cell) ? STEPS_DECIDED : 0;
     }
 }
 
@@ -266,9 +311,17 @@ static lrcsi_visible facet_told(const lrcsi_cells_work *c, uint32_t facet, doubl
     return (lrcsi_visible){seen, lrcsi_most(0, seen - *off), lrcsi_least(whole, seen + *off), 0, 0};
 }
 
-/* What a facet's area may be off by, so that it is told. Clipping finds needles and what is larger
-   than the bulk of the scene better than to a share of the extent. */
-static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet)
+/* That of the bulk of a scene. */
+static double extent_of(const lrcs_prepared *p)
+{
+    return 2 * lrcsi_most(p->bulk[0], lrcsi_most(p->bulk[1], p->bulk[2]));
+}
+
+/* What a facet's area may be off by, so that it is told: what DESIGN.md promises, or what clipping
+   the facet alone would charge at least (visibility/occlude.c): 52 u of its diameter times its
+   perimeter, and for each cut a strip 128 u of the diameter wide. Clipping finds needles and what
+   is larger than the bulk of the scene better than that. */
+static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, int as_clipping)
 {
     const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
     double projected = lrcsi_view_projected(c->view, facet);
@@ -278,88 +331,113 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet)
         const double *q = c->view->point[corner[(k + 1) % 3]].x;
         diameter = lrcsi_most(diameter, lrcsi_most(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
     }
-    const double *bulk = c->view->prepared->bulk;
-    double extent = 2 * lrcsi_most(bulk[0], lrcsi_most(bulk[1], bulk[2]));
+    double extent = extent_of(c->view->prepared);
     int ordinary = projected > NEEDLE * diameter * diameter && diameter < 2 * extent;
-    return ACCURACY_OF_FACET * projected + (ordinary ? ACCURACY_OF_SCENE * extent * extent : 0);
+    double alone = as_clipping ? U * diameter * (104 * diameter + 128 * c->area[facet].cut) : 0;
+    return ACCURACY_OF_FACET * projected +
+           (ordinary ? lrcsi_most(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
 }
 
-static void areas_tell(const lrcsi_cells_work *c, lrcsi_visible *visible)
+/* Tells the areas that are accurate enough. Returns how many are not, though cells decided them. */
+static uint32_t areas_tell(const lrcsi_cells_work *c, int as_clipping, lrcsi_visible *visible)
 {
+    uint32_t left = 0;
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
         if (!c->open[f] || (c->found[f] & LRCSI_CELLS_OPEN) != 0 || c->found[f] == 0) {
             continue;
         }
         double off;
         lrcsi_visible area = facet_told(c, f, &off);
-        if (off <= facet_accuracy(c, f)) {
+        if (off <= facet_accuracy(c, f, as_clipping)) {
             visible[f] = area;
             c->open[f] = 0;
+        } else {
+            left++;
         }
     }
+    return left;
 }
 
-static size_t list_room(const lrcs_prepared *p)
+/* Segments for which lrcsi_cells_need has room: all edges and contacts may stand in one block.
+   Where coplanar facets and rims add more than find room, facets are clipped one by one. */
+static size_t segments_need(const lrcs_prepared *p)
 {
-    return (size_t)LIST_A_FACET * p->scene->facet_count + LIST_LEAST;
+    return (size_t)p->topology.edge_count + p->touches.count;
 }
 
 size_t lrcsi_cells_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
+    size_t segments = segments_need(prepared);
     size_t need = 2 * lrcsi_work_bytes(facets, 1);
     need = lrcsi_work_add(need, lrcsi_cells_grid_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
     need = lrcsi_work_add(
         need, lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_cells_point)));
-    need = lrcsi_work_add(need, 5 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(list_room(prepared), sizeof(uint32_t)));
-    need = lrcsi_work_add(
-        need, lrcsi_work_bytes(lrcsi_cells_segments_most(prepared), sizeof(lrcsi_cells_segment)));
+    need = lrcsi_work_add(need, 6 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_BORDERS, sizeof(lrcsi_cells_border)));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
+}
+
+/* Takes what the view needs, and files its facets and events in blocks. 0 where there is not enough
+   memory. */
+static int cells_make(const lrcsi_contest *contest, lrcs_work *work, lrcsi_cells_work *c)
+{
+    const lrcs_prepared *p = c->view->prepared;
+    uint32_t count = p->scene->facet_count;
+    c->found = lrcsi_work_take_zero(work, count, 1);
+    c->kind = lrcsi_work_take_zero(work, count, 1);
+    c->facet = lrcsi_work_take(work, count, sizeof *c->facet);
+    c->area = lrcsi_work_take_zero(work, count, sizeof *c->area);
+    c->listed = lrcsi_work_take_zero(work, count, sizeof *c->listed);
+    c->met = lrcsi_work_take_zero(work, count, sizeof *c->met);
+    c->joined = lrcsi_work_take_zero(work, count, sizeof *c->joined);
+    c->frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *c->frame.point);
+    c->component = lrcsi_work_take(work, count, sizeof *c->component);
+    c->hit = lrcsi_work_take(work, count, sizeof *c->hit);
+    c->facets = lrcsi_work_take(work, count, sizeof *c->facets);
+    c->border = lrcsi_work_take(work, LRCSI_CELLS_BORDERS, sizeof *c->border);
+    c->stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c->stack);
+    if (!c->found || !c->kind || !c->facet || !c->area || !c->listed || !c->met || !c->joined ||
+        !c->frame.point || !c->component || !c->hit || !c->facets || !c->border || !c->stack ||
+        !lrcsi_cells_grid_make(contest, work, &c->grid)) {
+        return 0;
+    }
+    for (uint32_t f = 0; f < count; f++) {
+        c->kind[f] =
+            lrcsi_grid_casts(c->view, f) && lrcsi_cells_apart(c->view, f) ? LRCSI_CELLS_APART : 0;
+    }
+    size_t segments = lrcsi_cells_segments_most(c);
+    c->segment_room = (uint32_t)segments;
+    c->segments = lrcsi_work_take(work, segments, sizeof *c->segments);
+    c->segment = lrcsi_work_take(work, segments, sizeof *c->segment);
+    lrcsi_cells_frame_make(&c->frame);
+    return segments < LRCS_NONE && c->segments && c->segment;
 }
 
 void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned char *open,
                        lrcsi_visible *visible)
 {
     const lrcsi_view *view = contest->view;
-    const lrcs_prepared *p = view->prepared;
-    uint32_t count = p->scene->facet_count;
     size_t mark = work->used;
     size_t peak = work->peak; /* nothing is missing where this finds no memory */
     lrcsi_cells_work c = {.view = view, .frame = {.view = view}, .open = open};
-    c.room = list_room(p);
-    c.segment_room = (uint32_t)lrcsi_cells_segments_most(p);
-    c.found = lrcsi_work_take_zero(work, count, 1);
-    c.kind = lrcsi_work_take_zero(work, count, 1);
-    c.facet = lrcsi_work_take(work, count, sizeof *c.facet);
-    c.area = lrcsi_work_take_zero(work, count, sizeof *c.area);
-    c.listed = lrcsi_work_take_zero(work, count, sizeof *c.listed);
-    c.met = lrcsi_work_take_zero(work, count, sizeof *c.met);
-    c.joined = lrcsi_work_take_zero(work, count, sizeof *c.joined);
-    c.frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *c.frame.point);
-    c.component = lrcsi_work_take(work, count, sizeof *c.component);
-    c.hit = lrcsi_work_take(work, count, sizeof *c.hit);
-    c.list = lrcsi_work_take(work, c.room, sizeof *c.list);
-    c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
-    c.border = lrcsi_work_take(work, LRCSI_CELLS_BORDERS, sizeof *c.border);
-    c.stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c.stack);
-    if (!p->convex && c.frame.point && c.found && c.kind && c.facet && c.area && c.listed &&
-        c.met && c.joined && c.component && c.hit && c.list && c.segment && c.border && c.stack &&
-        lrcsi_cells_grid_make(contest, work, &c.grid)) {
-        lrcsi_cells_frame_make(&c.frame);
-        for (uint32_t f = 0; f < count; f++) {
-            c.kind[f] =
-                lrcsi_grid_casts(view, f) && lrcsi_cells_apart(view, f) ? LRCSI_CELLS_APART : 0;
-        }
+    c.trifle = 0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
+    if (!view->prepared->convex && cells_make(contest, work, &c)) {
         for (uint32_t y = 0; y < c.grid.side; y++) {
             for (uint32_t x = 0; x < c.grid.side; x++) {
                 block_do(&c, x, y);
             }
         }
-        areas_tell(&c, visible);
+        /* A few facets that are less accurate than is promised are clipped; of many, those of which
+           clipping would tell no more. */
+        uint64_t left = areas_tell(&c, 0, visible);
+        if (left * view->prepared->scene->facet_count > MANY_LEFT) {
+            areas_tell(&c, 1, visible);
+        }
     } else {
         work->peak = peak;
     }

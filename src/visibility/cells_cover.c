@@ -12,11 +12,11 @@
    and let K be nearest at P. The number of surfaces in front of K is 0 at P, and changes on the way
    only at an event edge in front of K: at an edge that joins two facets one ends and one begins. So
    where no event is in front of K, all of K is seen in the cell, and nothing else.
-     (3) Let K be as in (2), but perhaps with events in front of it. What is behind K at one place
-   of the cell is behind it wherever it is in the cell. It may be dropped there: at no point is it
-   nearest. (2) holds for the facets that are left: an edge that joins one of them with a dropped
-   one is behind a cover, and a component that is nearest at P and has no contact with that cover
-   is behind it nowhere.
+     (3) Let K be as in (2), but perhaps not nearest at P, and with events in front of it. What is
+   behind K at one place of the cell is behind it wherever it is in the cell, for the two meet
+   nowhere in it. It may be dropped there: at no point is it nearest. (2) holds for the facets that
+   are left: an edge that joins one of them with a dropped one is behind a cover, and a component
+   that is nearest at P and has no contact with that cover is behind it nowhere.
      (4) Where no facet covers P, and no event crosses the cell, no facet is seen in it.
    A contact is where two facets meet in space other than along a common edge or in a point: across
    segments of the inside of one (mesh/touch.h), along parts of edges of both (the facets are then
@@ -38,16 +38,17 @@
 static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                         const lrcsi_cells_sides *s, const double at[2], uint32_t *best)
 {
-    uint32_t hits = 0;
     double most = -HUGE_VAL;
+    c->hits = 0;
     *best = LRCS_NONE;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t index = c->list[cell->first + i];
+        uint32_t index = c->facets[i];
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->off + s->g;
         c->listed[index] = c->look;
-        if (at[0] < f->low[0] - w || at[0] > f->high[0] + w || at[1] < f->low[1] - w ||
-            at[1] > f->high[1] + w) {
+        double outside = lrcsi_most(lrcsi_most(f->low[0] - at[0], at[0] - f->high[0]),
+                                    lrcsi_most(f->low[1] - at[1], at[1] - f->high[1]));
+        if (outside > w) {
             continue;
         }
         double inside = lrcsi_line_at(f->side[0], at[0], at[1]);
@@ -56,7 +57,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         if (inside < -w) {
             continue;
         }
-        c->hit[hits++] = index;
+        c->hit[c->hits++] = index;
         int covers = inside > w && !f->thin;
         c->met[index] = 2 * c->look + (uint32_t)covers;
         double range[2];
@@ -67,10 +68,10 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
     }
     if (*best == LRCS_NONE) {
-        return hits == 0 ? LRCSI_CELLS_NONE : LRCSI_CELLS_UNSURE;
+        return c->hits == 0 ? LRCSI_CELLS_NONE : LRCSI_CELLS_UNSURE;
     }
     uint32_t changes = 0;
-    for (uint32_t i = 0; i < hits; i++) {
+    for (uint32_t i = 0; i < c->hits; i++) {
         uint32_t other = c->hit[i];
         double range[2];
         lrcsi_cells_facet_height(&c->facet[other], at, s->g, range);
@@ -94,15 +95,17 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 }
 
 int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                     uint32_t *best, double *clear)
+                     uint32_t *best, double at[2], double *clear)
 {
-    static const double weight[TRIES][3] = {{1, 1, 1}, {1.3, 0.9, 1.1}, {0.7, 1.2, 1.6}};
+    /* Corner i weighs 1, 1 + 0.2 i, 1 + 1.5 / (1 + i): no two weigh the same but in the first
+       place, or samples in cells that look alike from two corners would all lie on a line between
+       facets. */
     int answer = LRCSI_CELLS_UNSURE;
     for (int t = 0; t < TRIES && answer == LRCSI_CELLS_UNSURE; t++) {
-        double at[2] = {0, 0};
         double sum = 0;
+        at[0] = at[1] = 0;
         for (uint32_t i = 0; i < cell->shape.count; i++) {
-            double share = weight[t][i % 3];
+            double share = t == 0 ? 1 : t == 1 ? 1 + 0.2 * i : 1 + 1.5 / (1 + i);
             at[0] += share * cell->shape.corner[i][0];
             at[1] += share * cell->shape.corner[i][1];
             sum += share;
@@ -118,6 +121,47 @@ int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lr
     return answer;
 }
 
+/* Does a facet cover the cell, and no contact of it cross the cell? */
+static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                        const lrcsi_cells_sides *s, uint32_t index)
+{
+    const lrcsi_cells_facet *f = &c->facet[index];
+    double w = f->off + s->g;
+    for (int k = 0; k < 3; k++) {
+        for (uint32_t i = 0; i < cell->shape.count; i++) {
+            const double *p = cell->shape.corner[i];
+            if (!(lrcsi_line_at(f->side[k], p[0], p[1]) > w)) {
+                return 0;
+            }
+        }
+    }
+    for (uint32_t i = 0; i < cell->segments; i++) {
+        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        if (e->contact && (e->owner[0] == index || e->owner[1] == index)) {
+            return 0;
+        }
+    }
+    return (c->kind[index] & LRCSI_CELLS_VAGUE) == 0;
+}
+
+uint32_t lrcsi_cells_screen(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                            const lrcsi_cells_sides *s, const double at[2])
+{
+    uint32_t screen = LRCS_NONE;
+    double most = -HUGE_VAL;
+    for (uint32_t i = 0; i < c->hits; i++) {
+        uint32_t index = c->hit[i];
+        double range[2];
+        lrcsi_cells_facet_height(&c->facet[index], at, s->g, range);
+        if (c->met[index] == 2 * c->look + 1 && range[0] > most &&
+            covers_alone(c, cell, s, index)) {
+            screen = index;
+            most = range[0];
+        }
+    }
+    return screen;
+}
+
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, uint32_t best)
 {
@@ -130,19 +174,22 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         uint32_t facet = c->component[i];
         const lrcsi_cells_facet *f = &c->facet[facet];
         double w = f->off + s->g;
+        double line_w = (f->thin ? f->off : f->line_off) + s->g;
         whole &= (c->kind[facet] & LRCSI_CELLS_VAGUE) == 0 &&
                  (facet == best || (c->met[facet] >> 1) != c->look);
         for (int k = 0; k < 3; k++) {
             double range[2];
             lrcsi_cells_part part;
-            uint32_t next = lrcsi_cells_next(c->view, c->kind, facet,
-                                             lrcsi_cells_side_number(c->view, facet, k));
+            uint32_t next = f->next[k];
             if (next != LRCS_NONE && c->joined[next] == c->look) {
                 continue;
             }
             int n = k == 2 ? 0 : k + 1;
             const double p[2] = {f->x[k], f->y[k]};
             const double q[2] = {f->x[n], f->y[n]};
+            if (lrcsi_cells_box_away(s, p, q, w)) {
+                continue;
+            }
             double line[3];
             memcpy(line, f->side[k], sizeof line);
             if (f->thin) {
@@ -152,7 +199,7 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             if (range[0] > w || range[1] < -w) {
                 continue;
             }
-            int place = lrcsi_cells_place_of(&cell->shape, s, p, q, line, w, &part);
+            int place = lrcsi_cells_place_of(&cell->shape, s, p, q, line, w, line_w, &part);
             if (place == LRCSI_CELLS_AWAY) {
                 continue;
             }
@@ -160,12 +207,12 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                 whole &= c->borders < LRCSI_CELLS_BORDERS;
                 if (whole) {
                     c->border[c->borders++] = (lrcsi_cells_border){
-                        {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], w, part};
+                        {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], part};
                 }
             } else if (place == LRCSI_CELLS_BORDER) {
                 continue;
             } else if (next == LRCS_NONE || c->listed[next] != c->look) {
-                whole = 0;
+                return 0;
             } else {
                 c->joined[next] = c->look;
                 c->component[c->components++] = next;
@@ -222,7 +269,7 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
         return 1;
     }
     lrcsi_cells_part part = {0, 1, 0};
-    lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w, &part);
+    lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &part);
     double at[2][3];
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++) {
@@ -267,36 +314,55 @@ static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double doubt)
     c->area[facet].doubt += c->open[facet] ? doubt : 0;
 }
 
+void lrcsi_cells_component_of(lrcsi_cells_work *c, uint32_t facet)
+{
+    c->borders = 0;
+    c->component[0] = facet;
+    c->components = 1;
+    c->joined[facet] = c->look;
+}
+
+/* Is a facet that surely covers the sample behind the component there? */
+static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, const double *at,
+                     uint32_t facet)
+{
+    double range[2];
+    double of_component[2];
+    if (!at) {
+        return 1;
+    }
+    lrcsi_cells_facet_height(&c->facet[facet], at, s->g, range);
+    lrcsi_cells_facet_height(&c->facet[c->component[0]], at, s->g, of_component);
+    return range[1] < of_component[0];
+}
+
 void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                      double doubt)
+                      const double *at, double doubt)
 {
     double low = HUGE_VAL;
     for (uint32_t i = 0; i < c->components; i++) {
         low = lrcsi_least(low, lrcsi_cells_facet_limit(&c->facet[c->component[i]], s, -1));
     }
-    uint32_t *list = c->list + cell->first;
-    uint32_t *segments = lrcsi_cells_segments(c, cell);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t f = list[i];
-        if (c->joined[f] != c->look &&
-            (c->met[f] == 2 * c->look + 1 || lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
+        uint32_t f = c->facets[i];
+        if (c->joined[f] != c->look && ((c->met[f] == 2 * c->look + 1 && behind_at(c, s, at, f)) ||
+                                        lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
             c->found[f] |= LRCSI_CELLS_HIDDEN;
             facet_charge(c, f, cell->doubt + doubt);
             continue;
         }
-        list[kept++] = f;
+        lrcsi_cells_keep(c->facets, i, kept++);
     }
     cell->facets = kept;
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[segments[i]];
+        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
         if (!segment_idle(c, e) &&
             (e->contact || !segment_behind(c, cell, s, e, e->off + s->g, low))) {
-            segments[kept++] = segments[i];
+            lrcsi_cells_keep(c->segments, i, kept++);
         }
     }
     cell->segments = kept;
-    memmove(list + cell->facets, segments, kept * sizeof *list);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Cells are cut: their lists go with the parts that they may come near, the left part in place, the
-   right one behind it. Which line to cut along is decided elsewhere. */
+/* Cells are cut: their lists are divided in place, what may come near the left part first, what can
+   come near the right part alone last. Which line to cut along is decided elsewhere. */
 #include "visibility/cells_cut.h"
 
 #include <math.h>
@@ -26,112 +26,142 @@ static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment
 
 void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
 {
-    uint32_t *list = lrcsi_cells_segments(c, cell);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[list[i]];
+        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
         double w = e->off + s->g;
         if (cell->cuts > 0 && segment_stays(cell, e, w)) {
-            list[kept++] = list[i];
+            lrcsi_cells_keep(c->segments, i, kept++);
             continue;
         }
         lrcsi_cells_part part;
-        int place = lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w, &part);
+        int place = lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w,
+                                         e->line_off + s->g, &part);
         if (place == LRCSI_CELLS_MEETS) {
-            list[kept++] = list[i];
+            lrcsi_cells_keep(c->segments, i, kept++);
         } else if (place == LRCSI_CELLS_BORDER) {
             cell->struck++;
-            cell->inset = lrcsi_most(cell->inset, w + lrcsi_most(0, part.deep));
+            cell->inset = lrcsi_most(cell->inset, part.strip);
             lrcsi_cells_charge_border(c, cell, s,
                                       &(lrcsi_cells_border){{e->line[0], e->line[1], e->line[2]},
                                                             {e->end[0][0], e->end[0][1]},
                                                             e->length,
-                                                            w,
                                                             part});
         }
     }
     cell->segments = kept;
 }
 
-/* Whether a facet on both sides of a cut comes near the parts: one side of it may have all of a
-   part beyond it, which then has the corners that both parts share. */
-static void part_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *left,
-                      const lrcsi_clip_polygon *right, const double *const common[2], int commons,
-                      double g, int *on_left, int *on_right)
+/* How far the corners of a facet lie from a line: the least and the most. */
+static void facet_range(const lrcsi_cells_facet *f, const double line[3], double range[2])
 {
-    double w = f->off + g;
-    for (int k = 0; k < 3; k++) {
-        int beyond = 1;
-        for (int i = 0; i < commons && beyond; i++) {
-            beyond = lrcsi_line_at(f->side[k], common[i][0], common[i][1]) < -w;
-        }
-        if (beyond) {
-            double range[2];
-            lrcsi_line_range(left, f->side[k], range);
-            *on_left &= !(range[1] < -w);
-            lrcsi_line_range(right, f->side[k], range);
-            *on_right &= !(range[1] < -w);
-        }
-    }
+    double a = lrcsi_line_at(line, f->x[0], f->y[0]);
+    double b = lrcsi_line_at(line, f->x[1], f->y[1]);
+    double d = lrcsi_line_at(line, f->x[2], f->y[2]);
+    range[0] = lrcsi_least(a, lrcsi_least(b, d));
+    range[1] = lrcsi_most(a, lrcsi_most(b, d));
 }
 
-/* Lists the facets of a cell with the parts that they may come near. */
-static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const double line[3],
-                       const lrcsi_cells_shape_cut *cut, const lrcsi_cells_strip *strip, double g,
-                       lrcsi_cells_cell *left, lrcsi_cells_cell *right)
+/* Does one side of a facet have all of a cell beyond it? Without branches but for the loop, as it
+   is asked so often and answered either way. */
+static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape, double w)
 {
-    uint32_t *in = c->list + cell->first;
-    uint32_t *to_right = c->list + right->first;
-    for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t index = in[i];
+    double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (uint32_t i = 0; i < shape->count; i++) {
+        double x = shape->corner[i][0];
+        double y = shape->corner[i][1];
+        most[0] = lrcsi_most(most[0], lrcsi_line_at(f->side[0], x, y));
+        most[1] = lrcsi_most(most[1], lrcsi_line_at(f->side[1], x, y));
+        most[2] = lrcsi_most(most[2], lrcsi_line_at(f->side[2], x, y));
+    }
+    return lrcsi_least(most[0], lrcsi_least(most[1], most[2])) < -w;
+}
+
+/* Divides the facets of a cell: those that may come near the left part first, those that come near
+   the right part alone last. */
+static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                       const lrcsi_cells_strip *strip, lrcsi_cells_cell *left,
+                       lrcsi_cells_cell *right)
+{
+    double g = lrcsi_cells_reach(c, left);
+    uint32_t i = 0;
+    uint32_t end = cell->facets;
+    while (i < end) {
+        uint32_t index = c->facets[i];
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->off + g + strip->width;
-        double a = lrcsi_line_at(line, f->x[0], f->y[0]);
-        double b = lrcsi_line_at(line, f->x[1], f->y[1]);
-        double d = lrcsi_line_at(line, f->x[2], f->y[2]);
-        double low = lrcsi_least(a, lrcsi_least(b, d));
-        double high = lrcsi_most(a, lrcsi_most(b, d));
-        int on_left = high > -w;
-        int on_right = low < w;
+        double range[2];
+        facet_range(f, left->cut, range);
+        int on_left = range[1] > -w;
+        int on_right = range[0] < w;
         if (on_left && on_right) {
             if (strip->along && c->open[index]) {
-                lrcsi_cells_charge_cut(c, index, low, high, strip);
+                lrcsi_cells_charge_cut(c, index, range[0], range[1], strip);
             }
-            part_near(f, &left->shape, &right->shape, cut->common, cut->commons, g, &on_left,
-                      &on_right);
+            on_left = !facet_beyond(f, &left->shape, f->off + g);
         }
         if (on_left) {
-            in[left->facets++] = index;
-        }
-        if (on_right) {
-            to_right[right->facets++] = index;
+            lrcsi_cells_keep(c->facets, i++, left->facets++);
+        } else if (on_right) {
+            lrcsi_cells_keep(c->facets, i, --end);
+        } else {
+            i++;
         }
     }
+    right->both[0] = end;
 }
 
-/* Lists its segments likewise, after the facets, but the one at which it is cut. */
-static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const double line[3],
-                         uint32_t struck, double g, lrcsi_cells_cell *left, lrcsi_cells_cell *right)
+/* Divides its segments likewise, but for the one at which it is cut. */
+static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, uint32_t struck,
+                         lrcsi_cells_cell *left, lrcsi_cells_cell *right)
 {
-    const uint32_t *in = lrcsi_cells_segments(c, cell);
-    uint32_t *to_left = c->list + left->first + left->facets;
-    uint32_t *to_right = c->list + right->first + right->facets;
-    for (uint32_t i = 0; i < cell->segments; i++) {
-        uint32_t index = in[i];
+    double g = lrcsi_cells_reach(c, left);
+    uint32_t i = 0;
+    uint32_t end = cell->segments;
+    while (i < end) {
+        uint32_t index = c->segments[i];
         const lrcsi_cells_segment *e = &c->segment[index];
-        if (index == struck) {
-            continue;
-        }
         double w = e->off + g;
-        double a = lrcsi_line_at(line, e->end[0][0], e->end[0][1]);
-        double b = lrcsi_line_at(line, e->end[1][0], e->end[1][1]);
-        if (a > -w || b > -w) {
-            to_left[left->segments++] = index;
-        }
-        if (a < w || b < w) {
-            to_right[right->segments++] = index;
+        if (index == struck) { /* it goes to the very end */
+            end--;
+            right->segments--;
+            lrcsi_cells_keep(c->segments, i, end);
+            lrcsi_cells_keep(c->segments, end, right->segments);
+        } else if (lrcsi_line_at(left->cut, e->end[0][0], e->end[0][1]) > -w ||
+                   lrcsi_line_at(left->cut, e->end[1][0], e->end[1][1]) > -w) {
+            lrcsi_cells_keep(c->segments, i++, left->segments++);
+        } else {
+            lrcsi_cells_keep(c->segments, i, --end);
         }
     }
+    right->both[1] = end;
+}
+
+void lrcsi_cells_settle(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+{
+    double g = lrcsi_cells_reach(c, cell);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < cell->facets; i++) {
+        const lrcsi_cells_facet *f = &c->facet[c->facets[i]];
+        double range[2];
+        facet_range(f, cell->cut, range);
+        if (i >= cell->both[0] ||
+            (range[0] < f->off + g + cell->strip && !facet_beyond(f, &cell->shape, f->off + g))) {
+            lrcsi_cells_keep(c->facets, i, kept++);
+        }
+    }
+    cell->facets = kept;
+    kept = 0;
+    for (uint32_t i = 0; i < cell->segments; i++) {
+        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        double w = e->off + g;
+        if (i >= cell->both[1] || lrcsi_line_at(cell->cut, e->end[0][0], e->end[0][1]) < w ||
+            lrcsi_line_at(cell->cut, e->end[1][0], e->end[1][1]) < w) {
+            lrcsi_cells_keep(c->segments, i, kept++);
+        }
+    }
+    cell->segments = kept;
+    cell->both[0] = cell->both[1] = 0;
 }
 
 int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
@@ -141,27 +171,21 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     lrcsi_cells_strip strip = {along, 0, 0, 0, s->g};
     if (along) {
         lrcsi_cells_part part = {0, 1, 0};
-        strip.width = along->line_off + s->g + 4 * U * c->reach + U * s->perimeter;
+        strip.width = along->line_off + cell->drift + 12 * U * c->reach;
         lrcsi_cells_place_of(&cell->shape, s, along->end[0], along->end[1], along->line,
-                             lrcsi_most(strip.width, along->off + s->g), &part);
+                             along->off + s->g, along->off + s->g, &part);
         strip.from = part.from * along->length;
         strip.to = part.to * along->length;
     }
-    uint32_t total = cell->facets + cell->segments;
-    size_t end = cell->first + total;
-    if (cell->shape.count + 2 > LRCSI_CLIP_SIDES || c->top + 2 > LRCSI_CELLS_WAITING ||
-        end + total > c->room) {
+    if (cell->shape.count + 2 > LRCSI_CLIP_SIDES || c->top + 2 > LRCSI_CELLS_WAITING) {
         return 0;
     }
     lrcsi_cells_cell left = *cell;
     lrcsi_cells_cell right = *cell;
-    lrcsi_cells_shape_cut cut =
-        lrcsi_cells_shape_divide(&cell->shape, line, &left.shape, &right.shape);
+    double drift = lrcsi_cells_shape_divide(&cell->shape, line, &left.shape, &right.shape);
     if (left.shape.count < 3 || right.shape.count < 3) {
         return 0;
     }
-    double drift = cell->drift + cut.drift;
-    double g = 16 * U * c->reach + drift;
     memcpy(left.cut, line, sizeof left.cut);
     memcpy(right.cut, line, sizeof right.cut);
     left.sign = 1;
@@ -169,13 +193,13 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     left.cuts = right.cuts = cell->cuts + 1;
     left.struck = right.struck = cell->struck + (along != NULL);
     left.inset = right.inset = lrcsi_most(cell->inset, 2 * strip.width);
-    left.drift = right.drift = drift;
-    left.facets = right.facets = left.segments = right.segments = 0;
-    right.first = end;
-    cut_facets(c, cell, line, &cut, &strip, g, &left, &right);
-    cut_segments(c, cell, line, struck, g, &left, &right);
-    c->stack[c->top++] = left;
+    left.drift = right.drift = cell->drift + drift;
+    left.strip = right.strip = strip.width;
+    left.facets = left.segments = 0;
+    cut_facets(c, cell, &strip, &left, &right);
+    cut_segments(c, cell, struck, &left, &right);
     c->stack[c->top++] = right;
+    c->stack[c->top++] = left;
     return 1;
 }
 

@@ -10,15 +10,13 @@
 
 #define U 0x1p-53
 
-/* Room for segments of a block, beside one a facet. */
-#define SEGMENT_LEAST 1024u
-
 static lrcsi_cells_segment *segment_new(lrcsi_cells_work *c)
 {
-    if (c->segments == c->segment_room) {
+    if (c->segment_count == c->segment_room) {
         return NULL;
     }
-    lrcsi_cells_segment *e = &c->segment[c->segments++];
+    c->segments[c->segment_count] = c->segment_count;
+    lrcsi_cells_segment *e = &c->segment[c->segment_count++];
     *e = (lrcsi_cells_segment){.owner = {LRCS_NONE, LRCS_NONE}, .edge = LRCS_NONE};
     return e;
 }
@@ -57,11 +55,17 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
     return 1;
 }
 
+/* Does the surface go on across all sides of a facet that are no events of the view? */
+static int goes_on(const lrcsi_cells_work *c, uint32_t facet)
+{
+    return (c->kind[facet] & LRCSI_CELLS_APART) == 0 && c->view->prepared->touches.rim[facet] <= 1;
+}
+
 /* Edges across which two facets continue each other are events nevertheless where one of these
    meets others in its plane, or along parts of the edge. */
 static int open_joins(lrcsi_cells_work *c, uint32_t facet)
 {
-    if ((c->kind[facet] & LRCSI_CELLS_APART) == 0 && c->view->prepared->touches.rim[facet] <= 1) {
+    if (goes_on(c, facet)) {
         return 1;
     }
     for (int k = 0; k < 3; k++) {
@@ -134,14 +138,11 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
     return 1;
 }
 
-/* Lists the facets near a cell. 0 where they find no room. */
-static int open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
+/* Lists the facets near a cell. Who continues a facet is the same in all blocks. */
+static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.facets;
     double g = 16 * U * c->reach;
-    if (b->first[block + 1] - b->first[block] > c->room) {
-        return 0;
-    }
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
         uint32_t index = b->item[i];
         lrcsi_cells_facet *f = &c->facet[index];
@@ -149,20 +150,26 @@ static int open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell
         c->found[index] |= f->thin ? LRCSI_CELLS_OPEN : 0;
         if (lrcsi_cells_facet_near(f, &cell->shape, cell->shape.corner[0], cell->shape.corner[2],
                                    g)) {
-            c->list[cell->facets++] = index;
+            if ((c->kind[index] & LRCSI_CELLS_LINKED) == 0) {
+                for (int k = 0; k < 3; k++) {
+                    f->next[k] = lrcsi_cells_next(c->view, c->kind, index,
+                                                  lrcsi_cells_side_number(c->view, index, k));
+                }
+                c->kind[index] |= LRCSI_CELLS_LINKED;
+            }
+            c->facets[cell->facets++] = index;
             c->listed[index] = c->look;
             c->off = lrcsi_most(c->off, f->off);
         }
     }
-    return 1;
 }
 
-/* Its segments likewise. */
+/* Its segments likewise. 0 where they find no room. */
 static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.events;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        if (!open_contacts(c, c->list[i]) || !open_joins(c, c->list[i])) {
+        if (!open_contacts(c, c->facets[i]) || !open_joins(c, c->facets[i])) {
             return 0;
         }
     }
@@ -171,23 +178,32 @@ static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
             return 0;
         }
     }
-    if (cell->facets + (size_t)c->segments > c->room) {
-        return 0;
-    }
-    for (uint32_t i = 0; i < c->segments; i++) {
-        c->list[cell->facets + cell->segments++] = i;
-    }
+    cell->segments = c->segment_count;
     return 1;
 }
 
-size_t lrcsi_cells_segments_most(const lrcs_prepared *prepared)
+size_t lrcsi_cells_segments_most(const lrcsi_cells_work *c)
 {
-    return (size_t)prepared->scene->facet_count + SEGMENT_LEAST;
+    const lrcsi_touches *touches = &c->view->prepared->touches;
+    const lrcsi_cells_lists *facets = &c->grid.facets;
+    const lrcsi_cells_lists *events = &c->grid.events;
+    size_t most = 0;
+    for (size_t b = 0; b < (size_t)c->grid.side * c->grid.side; b++) {
+        size_t count = events->first[b + 1] - events->first[b];
+        for (uint32_t i = facets->first[b]; i < facets->first[b + 1]; i++) {
+            uint32_t f = facets->item[i];
+            count += touches->first[f + 1] - touches->first[f];
+            count += goes_on(c, f) ? 0 : 3;
+        }
+        most = count > most ? count : most;
+    }
+    return most;
 }
 
 int lrcsi_cells_open(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
-    c->segments = 0;
+    c->segment_count = 0;
     c->off = 0;
-    return open_facets(c, block, cell) && open_segments(c, block, cell);
+    open_facets(c, block, cell);
+    return open_segments(c, block, cell);
 }

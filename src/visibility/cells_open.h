@@ -5,8 +5,8 @@
 
 #include "visibility/cells_state.h"
 
-/* Segments that a block may have at most. */
-size_t lrcsi_cells_segments_most(const lrcs_prepared *prepared);
+/* Segments that the fullest block may have at most. Given: c->view, grid, kind. */
+size_t lrcsi_cells_segments_most(const lrcsi_cells_work *c);
 
 /* Lists what a block has, and makes the records. 0 where there is no room. */
 int lrcsi_cells_open(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell);

@@ -11,6 +11,9 @@ import sys
 
 # What is mentioned on the way but never leaves the function.
 NEVER = {
+    # the recipe's shapes and materials are checked as the scene is built
+    "lrcs_prepare_run": {"LRCS_E_ARGUMENT"},
+    "lrcs_host_scene_prepare": {"LRCS_E_ARGUMENT"},
     # a direction made of a sine and a cosine, or a rotation, is never zero
     "lrcs_pose_from_azel": {"LRCS_E_ARGUMENT"},
     "lrcs_pose_from_euler": {"LRCS_E_ARGUMENT"},

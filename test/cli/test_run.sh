@@ -11,12 +11,12 @@ pair=$scratch/pair.toml
 run run demo --tolerance 0.01 --json
 same demo_runs "$((rc == 0 || rc == 3))" 1
 same json_leaves_stderr_empty "$err" ""
-same json_keys_in_order "$(keys)" "schema version scene_hash sigma_m2 sigma_dbsm tolerance resolution normals estimate_m2 curvature_estimate_m2 notices sigma_glint_m2 sigma_diffuse_m2 bound_m2 budget_m2 projected_area_m2 method method_reason effects flags facets direction seconds "
+same json_keys_in_order "$(keys)" "schema version scene_hash files unit sigma_m2 sigma_dbsm tolerance resolution normals estimate_m2 curvature_estimate_m2 notices sigma_glint_m2 sigma_diffuse_m2 bound_m2 budget_m2 projected_area_m2 method method_reason effects flags facets direction seconds box_min_m box_max_m back_sides coarse_glint title materials options "
 same budget_keys "$(value budget_m2 | grep -cE '^\{"visibility": [^,]+, "tessellation": [^,]+, "rounding": [^,]+\}$')" 1
 same tolerance_keys "$(value tolerance | grep -cE '^\{"asked": 0\.01, "met": (true, "accepted_by": "bound"|false, "accepted_by": null)\}$')" 1
 same facets_keys "$(value facets | grep -cE '^\{"total": [0-9]+, "front": [0-9]+, "hidden": [0-9]+, "partial": [0-9]+\}$')" 1
 same seconds_keys "$(value seconds | grep -cE '^\{"load": [^,]+, "prepare": [^,]+, "pose": [^,]+\}$')" 1
-same effects_are_seven "$(printf '%s\n' "$out" | grep -cE '^    \{"name": "[a-z_]+", "on": (true|false), "reason": ".+"\},?$')" 7
+same effects_are_eight "$(printf '%s\n' "$out" | grep -cE '^    \{"name": "[a-z_]+", "on": (true|false), "reason": ".+"\},?$')" 8
 same hash_is_a_string_of_16_digits "$(value scene_hash | grep -cE '^"[0-9a-f]{16}"$')" 1
 same default_direction_is_z "$(value direction)" "[0, 0, 1]"
 
@@ -126,7 +126,7 @@ same unit_scales_the_model "$(value area_m2)" 4.9999999999999998e-07
 
 # ---- patience ----
 printf '[[part]]\nname = "ball"\nshape = "sphere"\nradius = 1\n' >ball.toml
-run run ball.toml --tolerance 5e-4
+run run ball.toml --tolerance 5e-4 --method facet
 same many_facets_are_announced "$(printf '%s\n' "$err" | grep -c '^lrcs: [0-9]* facets for a tolerance of 0.0005: .* takes a while$')" 1
 run run ball.toml --tolerance 1e-1
 same few_are_not "$(printf '%s\n' "$err" | grep -c 'takes a while')" 0

@@ -19,7 +19,7 @@ rows = png.rows
 check("corner_is_background", rows[0][:3] == rows[199][597:])
 check("something_is_seen", len({r[k:k + 3] for r in rows for k in range(0, 600, 3)}) > 10)
 run = json.load(open(at + "/o.json"))
-check("run_is_json", run["schema"] == 1 and len(run["effects"]) == 7)
+check("run_is_json", run["schema"] == 1 and len(run["effects"]) == 8)
 json.load(open(at + "/info.json"))
 check("dbsm_matches_sigma", abs(run["sigma_dbsm"] - 10 * math.log10(run["sigma_m2"])) < 1e-9)
 check("parts_of_sigma_add_up", math.isclose(run["sigma_glint_m2"] + run["sigma_diffuse_m2"], run["sigma_m2"], rel_tol=1e-12))

@@ -66,7 +66,7 @@ static lrcs_recipe_part shape_part(int kind, double a, double b, double c)
 static int build_scene(const lrcs_recipe *recipe, const lrcs_mesh *models, void **area,
                        lrcs_scene *scene, lrcs_where *where)
 {
-    const lrcs_build_options options = {1e-2, 4096, LRCS_NORMALS_FLAT};
+    const lrcs_build_options options = {1e-2, 4096, LRCS_NORMALS_FLAT, 1};
     size_t need = lrcs_scene_need(recipe, models, &options);
     *area = malloc(need);
     assert_non_null(*area);
@@ -239,11 +239,12 @@ static void shapes_say_what_they_are(void **state)
         check_same(scene.part[0].thinnest, 0.5 * want[i].thinnest);
         check_most(scene.part[0].misplaced, 1e-12);
         free(area);
-        part.place.scale[1] = 0.25; /* not uniform: curvature is spoilt, convexity is not */
+        part.place.scale[1] = 0.25; /* not uniform: patches are stretched unevenly */
         part.shape.parts =
             part.shape.kind == LRCS_SHAPE_CYLINDER ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
         assert_int_equal(build_scene(&recipe, NULL, &area, &scene, NULL), LRCS_OK);
-        assert_int_equal(scene.part[0].curvature_known, !want[i].curved);
+        assert_int_equal(scene.part[0].curvature_known, 1);
+        assert_int_equal(scene.part[0].uneven > 0.0, want[i].curved);
         assert_int_equal(scene.part[0].convex_patch, 1);
         check_same(scene.part[0].thinnest, 0.25 * want[i].thinnest);
         assert_int_equal(scene.part[0].solid,
@@ -390,11 +391,11 @@ static void unfit_shapes_materials_and_options_are_refused(void **state)
     assert_int_equal(refused(&recipe, NULL, &where), LRCS_E_NAME);
     assert_string_equal(where.found, "none such");
     part = model_part("m");
-    static const lrcs_build_options options[5] = {{0.0, 64, 0},
-                                                  {(double)NAN, 64, 0},
-                                                  {HUGE_VAL, 64, 0},
-                                                  {1e-3, 63, 0},
-                                                  {1e-3, 64, LRCS_NORMALS_SMOOTH + 1}};
+    static const lrcs_build_options options[5] = {{0.0, 64, 0, 0},
+                                                  {(double)NAN, 64, 0, 0},
+                                                  {HUGE_VAL, 64, 0, 0},
+                                                  {1e-3, 63, 0, 0},
+                                                  {1e-3, 64, LRCS_NORMALS_SMOOTH + 1, 0}};
     recipe.binding_count = 0;
     for (size_t i = 0; i < ROWS(options); i++) {
         lrcs_work work = lrcs_work_make(NULL, 0);
@@ -410,7 +411,7 @@ static void too_small_an_area_is_refused_until_it_suffices(void **state)
     lrcs_mesh meshes[2] = {tetra(), {0}};
     lrcs_recipe_part parts[2] = {model_part("a"), shape_part(LRCS_SHAPE_CYLINDER, 1.0, 2.0, 0.0)};
     lrcs_recipe recipe = {.part = parts, .part_count = 2};
-    const lrcs_build_options options = {1e-1, 64, LRCS_NORMALS_FLAT};
+    const lrcs_build_options options = {1e-1, 64, LRCS_NORMALS_FLAT, 1};
     size_t need = lrcs_scene_need(&recipe, meshes, &options);
     int status = LRCS_E_MEMORY;
     for (size_t size = 0; status == LRCS_E_MEMORY && size <= need; size += 13) {
@@ -504,7 +505,7 @@ static void more_than_indices_reach_is_refused(void **state)
     enum { N = 70 };
     static lrcs_recipe_part parts[N];
     static const char *const found[] = {"b", "a", "shape"};
-    const lrcs_build_options options = {1e-300, UINT32_MAX, LRCS_NORMALS_FLAT};
+    const lrcs_build_options options = {1e-300, UINT32_MAX, LRCS_NORMALS_FLAT, 1};
     for (int i = 0; i < 3; i++) {
         lrcs_mesh meshes[2] = {tetra(), tetra()};
         lrcs_recipe recipe = {.part = parts, .part_count = i < 2 ? 2 : N};
@@ -531,7 +532,7 @@ static void a_rim_no_count_can_refine_stays_as_its_disc_has_it(void **state)
     lrcs_recipe_part parts[2] = {shape_part(LRCS_SHAPE_DISC, 1, 0, 0),
                                  shape_part(LRCS_SHAPE_DISC, 1, 0, 0)};
     lrcs_recipe recipe = {.part = parts, .part_count = 2};
-    const lrcs_build_options options = {1e-12, 256, LRCS_NORMALS_FLAT};
+    const lrcs_build_options options = {1e-12, 256, LRCS_NORMALS_FLAT, 1};
     static unsigned char area[1 << 17];
     lrcs_work work = lrcs_work_make(area, sizeof area);
     lrcs_scene scene;

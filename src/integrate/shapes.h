@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/* What shapes that nothing hides reflect, from their closed forms: in place of their facets. */
+#ifndef LRCSI_SHAPES_H
+#define LRCSI_SHAPES_H
+
+#include "integrate/plan.h"
+#include "view/clear.h"
+
+/* What one of them adds, scaled, with the 4 pi. */
+typedef struct lrcsi_shape_terms {
+    double glint, diffuse;
+    double rounding;   /* a bound: of the closed form, and of where the laser stands to the shape */
+    double visibility; /* a bound: on what the slab of lrcsi_clear may hide */
+    double silhouette; /* projected area of a closed one; negative for an open one: its facets' */
+} lrcsi_shape_terms;
+
+/* Given: a part that is clear in this view, and its slab. */
+lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
+                                         uint32_t part, double slab);
+
+#endif

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT */
+/* Boxes around parts, and which shapes have closed forms here: it decides neither what hides what
+   nor what a shape reflects. */
+#include "scene/extent.h"
+
+#include <math.h>
+
+#include "base/range.h"
+#include "base/work.h"
+#include "optics/closed.h"
+#include "scene/prepare.h"
+#include "scene/shaped.h"
+
+/* Parts smaller than this, scaled, have coordinates near those that count as 0. */
+#define EXTENT_LEAST 0x1p-200
+
+/* Of all parts with facets: could any have a closed form? */
+static int some_closed_form(const lrcs_scene *scene)
+{
+    int some = 0;
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        some |= scene->part[i].rigid && lrcsi_shaped_closed_form(&scene->part[i].shape, 0);
+    }
+    return some;
+}
+
+/* All its facets are live, and its numbers lie where the closed forms hold. */
+static int has_closed_form(const lrcs_prepared *p, uint32_t index)
+{
+    const lrcs_part *part = &p->scene->part[index];
+    if (part->kind < 0 || !part->rigid || !part->curvature_known ||
+        !lrcsi_shaped_closed_form(&part->shape, 0) || part->facet_count == 0) {
+        return 0;
+    }
+    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
+        if (p->skip[f]) {
+            return 0;
+        }
+    }
+    const lrcs_material *material = lrcsi_prepared_material(p, part->first_facet);
+    return ldexp(part->thinnest, -p->exponent) >= EXTENT_LEAST &&
+           lrcsi_closed_check(&part->shape, &material->brdf) == LRCS_OK;
+}
+
+size_t lrcsi_extents_need(const lrcs_scene *scene)
+{
+    return some_closed_form(scene) ? lrcsi_work_bytes(scene->part_count, sizeof(lrcsi_extent)) : 0;
+}
+
+/* The true surface is within `reach` of the facets. Rounding: 1e-15 covers that of the sums. */
+int lrcsi_extents_make(lrcs_prepared *p, lrcs_work *work)
+{
+    const lrcs_scene *scene = p->scene;
+    if (!some_closed_form(scene)) {
+        return LRCS_OK;
+    }
+    lrcsi_extent *extent = lrcsi_work_take(work, scene->part_count, sizeof *extent);
+    if (!extent) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        extent[i] = (lrcsi_extent){{HUGE_VAL, HUGE_VAL, HUGE_VAL},
+                                   {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
+                                   has_closed_form(p, i)};
+    }
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        uint32_t part = scene->facet_part[f];
+        double reach = ldexp(scene->part[part].reach, -p->exponent) + 1e-15;
+        for (int i = 0; i < 9 && !p->skip[f]; i++) {
+            double x = lrcsi_prepared_corner(p, f, i / 3)[i % 3];
+            extent[part].low[i % 3] = lrcsi_least(extent[part].low[i % 3], x - reach);
+            extent[part].high[i % 3] = lrcsi_most(extent[part].high[i % 3], x + reach);
+        }
+    }
+    p->extent = extent;
+    return LRCS_OK;
+}

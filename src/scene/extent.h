@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* Where each part of a scene stands, and which parts have closed forms: what a view needs to prove
+   that nothing hides a part (view/clear.h). It does not depend on direction. */
+#ifndef LRCSI_EXTENT_H
+#define LRCSI_EXTENT_H
+
+#include <lrcs/run.h>
+
+#include <stddef.h>
+
+typedef struct lrcsi_extent {
+    double low[3], high[3]; /* of its live facets and of the true surface; low > high: none live */
+    int closed_form; /* its sigma is known where nothing hides it, its inside (open, two-sided) left
+                        aside */
+} lrcsi_extent;
+
+/* Bytes; 0 where no shape has a closed form. */
+size_t lrcsi_extents_need(const lrcs_scene *scene);
+
+/* Fills prepared->extent[part_count], in the work area, or leaves NULL where no shape has a closed
+   form. Status: LRCS_OK; LRCS_E_MEMORY. */
+int lrcsi_extents_make(lrcs_prepared *prepared, lrcs_work *work);
+
+#endif

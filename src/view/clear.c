@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: MIT */
+/* Proofs that nothing hides a curved shape in a view. It refuses where it is not sure, and decides
+   nothing about what a shape then reflects.
+
+   Claim. Let the true surface P of a part lie on the boundary of a convex body, d the direction to
+   the laser, and n a vector with n . d >= 0. If n . x >= c on P and n . x <= c on another part Q,
+   then Q hides no part of P that has a projected area.
+   Proof. A point q of Q that hides p of P is q = p + t d, t > 0. Then c >= n . q = n . p + t n . d
+   >= c + t n . d: so n . d = 0, and p lies in the plane n . x = c. That plane holds d, so what P
+   has in it is seen edge-on. [] P itself hides none of its front, being on a convex body. So P is
+   clear where each other part has such a plane. One that holds d separates the silhouettes; n = d
+   says that Q is behind P; those in between serve parts that stand on one another.
+
+   Rounding. With supports (the most of n . x over a body) off by e_P and e_Q, n . d by 8 u, and all
+   within LENGTH of each other, the gap between P and Q along n must exceed e_P + e_Q + LENGTH
+   max(0, 8 u - n . d). Where it is zero but for that error, P may be hidden in a slab of twice the
+   error's height at its lowest end. How much of P's lit surface that holds is known where n is P's
+   own axis (rings of the wall; the end there is a plane with the normal -n, which faces away from
+   the laser or is within 16 u of edge-on) or P a sphere (a zone, whatever n is): its `slab`. */
+#include "view/clear.h"
+
+#include <math.h>
+
+#include "base/work.h"
+#include "optics/closed.h"
+
+#define U                0x1p-53
+#define GLINT_SLOPE_MOST 0x1p20
+#define LENGTH           5.0 /* coordinates are below 1, and true shapes not much larger than facets */
+
+/* Parts with fewer facets are supported by their corners, others by the box around them. */
+#define CORNERS_MOST 32u
+
+/* A part as a body with supports. */
+typedef struct clear_body {
+    const lrcs_prepared *prepared;
+    const lrcs_part *part;
+    const lrcsi_extent *extent;
+    int curved; /* by its closed form, in these scaled numbers; else its facets are the truth
+                   or its box holds it */
+    double radius, radius2, length, origin[3];
+    double centre[3]; /* of its box */
+    double off;       /* of a support along a unit vector */
+} clear_body;
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        out[k] = a[i] * b[j] - a[j] * b[i];
+    }
+}
+
+/* Support off: 64 u covers some 30 operations on magnitudes below the sum of its numbers; the
+   length of a cone from its half-angle, 4 u more. */
+static clear_body body_make(const lrcs_prepared *p, uint32_t index)
+{
+    const lrcs_part *part = &p->scene->part[index];
+    clear_body body = {.prepared = p, .part = part, .extent = &p->extent[index], .off = 64 * U};
+    body.curved = body.extent->closed_form;
+    for (int k = 0; k < 3; k++) {
+        body.centre[k] = 0.5 * body.extent->low[k] + 0.5 * body.extent->high[k];
+    }
+    if (body.curved) {
+        double size = 0;
+        double unit = ldexp(part->unit, -p->exponent);
+        body.radius = unit * part->shape.radius;
+        body.radius2 = unit * part->shape.radius2;
+        body.length = unit * lrcsi_closed_length(&part->shape);
+        for (int k = 0; k < 3; k++) {
+            body.origin[k] = ldexp(part->origin[k], -p->exponent);
+            size += fabs(body.origin[k]);
+        }
+        size += body.radius + body.radius2 + body.length;
+        body.off = 64 * U * size + ldexp(part->misplaced, -p->exponent);
+    }
+    return body;
+}
+
+/* The most of n . x over the true shape: with r the part of n across the axis and z along it. */
+static double support_curved(const clear_body *body, const double n[3])
+{
+    double x = dot(body->part->axis[0], n);
+    double y = dot(body->part->axis[1], n);
+    double z = dot(body->part->axis[2], n);
+    double r = sqrt(x * x + y * y);
+    double at = dot(body->origin, n);
+    double rim = body->radius * r;
+    double rise = body->length * z;
+    switch (body->part->kind) {
+    case LRCS_SHAPE_SPHERE:
+        return at + body->radius * sqrt(r * r + z * z);
+    case LRCS_SHAPE_DOME:
+        return at + (z > 0 ? body->radius * sqrt(r * r + z * z) : rim);
+    case LRCS_SHAPE_CYLINDER:
+        return at + rim + lrcsi_most(0, rise);
+    case LRCS_SHAPE_CONE:
+        return at + lrcsi_most(rim, rise);
+    case LRCS_SHAPE_FRUSTUM:
+        return at + lrcsi_most(body->radius2 * r, rim + rise);
+    default: /* paraboloid: the most of rho r + z H (1 - rho^2/R^2) over rho, at R r / (2 H z) R */
+        return at + (2 * rise > rim ? rise + 0.25 * rim * (rim / rise) : rim);
+    }
+}
+
+/* Of the facets, or of the box around them and the true shape. */
+static double support_facets(const clear_body *body, const double n[3])
+{
+    const lrcs_prepared *p = body->prepared;
+    const lrcs_part *part = body->part;
+    double most = -HUGE_VAL;
+    if (part->reach > 0 || part->facet_count > CORNERS_MOST) {
+        most = 0;
+        for (int k = 0; k < 3; k++) {
+            most += n[k] * (n[k] > 0 ? body->extent->high[k] : body->extent->low[k]);
+        }
+        return most;
+    }
+    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
+        for (int k = 0; k < 3 && !p->skip[f]; k++) {
+            most = lrcsi_most(most, dot(lrcsi_prepared_corner(p, f, k), n));
+        }
+    }
+    return most;
+}
+
+static double support(const clear_body *body, const double n[3])
+{
+    return body->curved ? support_curved(body, n) : support_facets(body, n);
+}
+
+/* The lit surface of a closed form within `height` of its end along its axis, or of a sphere's
+   anywhere: rings of the wall no wider than the widest; and for the end itself, where F is below B
+   (20 u)^2 as long as the glint has a slope below GLINT_SLOPE_MOST, a surface that makes up for
+   that. */
+static double slab_surface(const clear_body *body, double height)
+{
+    const double turn = 6.2832;
+    double wide = lrcsi_most(body->radius, body->radius2);
+    double slant = 1;
+    if (body->part->kind == LRCS_SHAPE_CONE || body->part->kind == LRCS_SHAPE_FRUSTUM) {
+        double rise = (body->part->kind == LRCS_SHAPE_CONE ? 0 : body->radius2) - body->radius;
+        slant += fabs(rise) / body->length;
+    } else if (body->part->kind == LRCS_SHAPE_PARABOLOID) {
+        slant += 0.5 * wide / body->length;
+    }
+    return 1.001 * turn * wide * slant * height + 32 * U * wide * wide;
+}
+
+/* One direction n for a pair, a unit vector to 8 u: 1 where it separates them, `slab` then being
+   what may be hidden all the same. `knows` says that slabs of P across n are known. */
+static int is_separating(const clear_body *P, const clear_body *Q, const double d[3],
+                         const double n[3], int knows, double *slab)
+{
+    double error = P->off + Q->off + LENGTH * lrcsi_most(0, 8 * U - dot(n, d));
+    const double down[3] = {-n[0], -n[1], -n[2]};
+    double gap = -support(P, down) - support(Q, n);
+    if (gap > error) {
+        *slab = 0;
+        return 1;
+    }
+    *slab = slab_surface(P, 2 * error);
+    return knows && gap >= -error && support(P, n) + support(P, down) > 8 * error;
+}
+
+/* Either sense of n, as far as it looks to the laser; n need not be of unit length. */
+static int is_separated_along(const clear_body *P, const clear_body *Q, const double d[3],
+                              const double n[3], int knows, double *slab)
+{
+    double length = sqrt(dot(n, n));
+    if (!(length > 0x1p-30)) {
+        return 0;
+    }
+    const double up[3] = {n[0] / length, n[1] / length, n[2] / length};
+    const double down[3] = {-up[0], -up[1], -up[2]};
+    double toward = dot(up, d);
+    return (toward >= -8 * U && is_separating(P, Q, d, up, knows, slab)) ||
+           (toward <= 8 * U && is_separating(P, Q, d, down, knows, slab));
+}
+
+/* The directions that are tried: P's axis; that to the laser; from centre to centre, as it is and
+   in projection; the axes of Q, and all axes turned into the view plane across themselves: those
+   that separate long bodies and boxes. */
+static int is_separated(const clear_body *P, const clear_body *Q, const double d[3], double *slab)
+{
+    static const double body_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const lrcs_brdf *brdf = &lrcsi_prepared_material(P->prepared, P->part->first_facet)->brdf;
+    int knows = brdf->A == 0 || brdf->s <= GLINT_SLOPE_MOST;
+    int round = knows && P->part->kind == LRCS_SHAPE_SPHERE;
+    double between[3];
+    double flat[3];
+    double across[3];
+    for (int k = 0; k < 3; k++) {
+        between[k] = P->centre[k] - Q->centre[k];
+    }
+    double along = dot(between, d);
+    for (int k = 0; k < 3; k++) {
+        flat[k] = between[k] - along * d[k];
+    }
+    cross(P->part->axis[2], d, across);
+    if (is_separated_along(P, Q, d, flat, round, slab) ||
+        is_separated_along(P, Q, d, P->part->axis[2], knows, slab) ||
+        is_separated_along(P, Q, d, d, round, slab) ||
+        is_separated_along(P, Q, d, between, round, slab) ||
+        is_separated_along(P, Q, d, across, round, slab)) {
+        return 1;
+    }
+    const double(*axis)[3] = Q->part->rigid ? (const double(*)[3])Q->part->axis : body_axis;
+    for (int k = Q->curved ? 2 : 0; k < 3; k++) {
+        cross(axis[k], d, across);
+        if (is_separated_along(P, Q, d, axis[k], round, slab) ||
+            is_separated_along(P, Q, d, across, round, slab)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The inside of an open shape with a two-sided material is lit through its opening, and has no
+   closed form here: shapes with one opening, at z = 0, show none of it from above. */
+static int shows_no_inside(const lrcsi_view *view, const lrcs_part *part)
+{
+    const lrcs_material *material = lrcsi_prepared_material(view->prepared, part->first_facet);
+    int one = part->kind != LRCS_SHAPE_CYLINDER && part->kind != LRCS_SHAPE_FRUSTUM;
+    return part->solid || !material->two_sided || !view->backs_reflect ||
+           (one && dot(part->axis[2], view->unit) > 16 * U);
+}
+
+size_t lrcsi_clear_need(const lrcs_prepared *p)
+{
+    size_t parts = p->extent ? p->scene->part_count : 0;
+    return lrcsi_work_add(lrcsi_work_bytes(parts, 1),
+                          lrcsi_work_add(lrcsi_work_bytes(parts, sizeof(double)),
+                                         lrcsi_work_bytes(parts, sizeof(clear_body))));
+}
+
+int lrcsi_clear_make(const lrcsi_view *view, lrcs_work *work, lrcsi_clear *clear)
+{
+    const lrcs_prepared *p = view->prepared;
+    uint32_t parts = p->scene->part_count;
+    *clear = (lrcsi_clear){NULL, NULL, 0, 0};
+    if (!p->extent) {
+        return LRCS_OK;
+    }
+    clear->part = lrcsi_work_take_zero(work, parts, 1);
+    clear->slab = lrcsi_work_take_zero(work, parts, sizeof *clear->slab);
+    size_t mark = work->used;
+    clear_body *body = lrcsi_work_take(work, parts, sizeof *body);
+    if (!clear->part || !clear->slab || !body) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < parts; i++) {
+        body[i] = body_make(p, i);
+    }
+    clear->all = 1;
+    for (uint32_t i = 0; i < parts; i++) {
+        int is_clear = body[i].curved && shows_no_inside(view, body[i].part);
+        for (uint32_t j = 0; j < parts && is_clear; j++) {
+            double slab = 0;
+            int live = p->extent[j].low[0] <= p->extent[j].high[0];
+            is_clear = j == i || !live || is_separated(&body[i], &body[j], view->unit, &slab);
+            clear->slab[i] += slab;
+        }
+        clear->part[i] = (unsigned char)is_clear;
+        clear->count += (uint32_t)is_clear;
+        clear->all &= is_clear || !(p->extent[i].low[0] <= p->extent[i].high[0]);
+    }
+    work->used = mark;
+    return LRCS_OK;
+}

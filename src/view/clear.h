@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* Which curved shapes nothing hides, in a view: proved by planes that separate them from every
+   other part. Their sigma then has a closed form, whatever else the scene holds. */
+#ifndef LRCSI_CLEAR_H
+#define LRCSI_CLEAR_H
+
+#include "view/view.h"
+
+typedef struct lrcsi_clear {
+    unsigned char *part; /* part: 1 where no other part hides any of its true surface that faces the
+                            laser, nor shows any inside of it that reflects; NULL: none */
+    double *slab;        /* part: where it touches a plane that rounding places no better, so much
+                            of that surface at most may be hidden all the same, scaled */
+    uint32_t count;
+    int all; /* every part with live facets is clear */
+} lrcsi_clear;
+
+/* Bytes; 0 where no shape has a closed form. */
+size_t lrcsi_clear_need(const lrcs_prepared *prepared);
+
+/* For a view that knows what back sides do (backs_reflect). Status: LRCS_OK; LRCS_E_MEMORY. What it
+   finds stays in the work area. Work: O(parts * clear ones). */
+int lrcsi_clear_make(const lrcsi_view *view, lrcs_work *work, lrcsi_clear *clear);
+
+#endif

@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: MIT */
+/* Shapes by their closed forms inside the engine: alone from any direction and however placed,
+   and among other parts where nothing hides them. References: lrcs_closed_eval, which is held to
+   high-precision values of its own (test/optics/test_closed.c); the intervals of fine meshes. */
+#include <lrcs/lrcs.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/rotate.h"
+#include "check.h"
+
+#define ROWS(a) (sizeof(a) / sizeof(a)[0])
+
+static unsigned char scene_area[1u << 25];
+static unsigned char run_area[1u << 27];
+
+static uint64_t seed = 1;
+
+/* splitmix64, in 0 .. 1. */
+static double chance(void)
+{
+    seed += UINT64_C(0x9e3779b97f4a7c15);
+    uint64_t z = seed;
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static const lrcs_shape bodies[] = {
+    {.kind = LRCS_SHAPE_SPHERE, .radius = 0.5},
+    {.kind = LRCS_SHAPE_DOME, .radius = 0.75},
+    {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.25, .length = 1.5},
+    {.kind = LRCS_SHAPE_CONE, .radius = 0.5, .half_angle_deg = 15},
+    {.kind = LRCS_SHAPE_FRUSTUM, .radius = 0.25, .radius2 = 0.5, .length = 0.75},
+    {.kind = LRCS_SHAPE_FRUSTUM, .radius = 0.5, .radius2 = 0.25, .length = 0.75},
+    {.kind = LRCS_SHAPE_PARABOLOID, .radius = 0.5, .length = 0.375},
+};
+
+static const lrcs_brdf glossy = {1, 0.25, 0.2, 0.5};
+
+typedef struct shapes_scene {
+    lrcs_recipe_part part[6];
+    lrcs_recipe_material material;
+    uint32_t parts;
+} shapes_scene;
+
+static lrcs_recipe_part *add(shapes_scene *s, lrcs_shape shape)
+{
+    lrcs_recipe_part *part = &s->part[s->parts++];
+    *part = (lrcs_recipe_part){
+        .name = "", .shape = shape, .place = lrcs_place_default(), .material = "skin", .wears = 0};
+    return part;
+}
+
+static shapes_scene scene_of(lrcs_brdf brdf, int two_sided)
+{
+    shapes_scene s = {.parts = 0};
+    s.material = (lrcs_recipe_material){.name = "skin", .brdf = brdf, .two_sided = two_sided};
+    return s;
+}
+
+/* Runs by a method; by auto closed forms may serve. Records, if wanted, into a static array. */
+static lrcs_facet_record records[1u << 16];
+static lrcs_scene scene;
+
+static lrcs_result shapes_run(shapes_scene *s, const lrcs_build_options *build, const double d[3],
+                              int method)
+{
+    lrcs_recipe recipe = {
+        .part = s->part, .part_count = s->parts, .material = &s->material, .material_count = 1};
+    lrcs_run_options run = lrcs_run_options_default();
+    run.method = method;
+    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+    const lrcs_prepared *prepared;
+    lrcs_pose pose;
+    lrcs_result result;
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, build, &work, &scene, NULL), LRCS_OK);
+    assert_true(scene.facet_count <= ROWS(records));
+    work = lrcs_work_make(run_area, sizeof run_area);
+    assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
+    assert_true(lrcs_prepare_need(&scene) >= work.peak);
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    size_t need = lrcs_sigma_need(prepared, &run);
+    size_t before = work.used;
+    work.peak = work.used;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &result, records, NULL), LRCS_OK);
+    assert_true(work.peak - before <= need);
+    return result;
+}
+
+static lrcs_result run_auto(shapes_scene *s, const double d[3])
+{
+    const lrcs_build_options build = {1e-4, 1u << 12, LRCS_NORMALS_FLAT, 0};
+    return shapes_run(s, &build, d, LRCS_METHOD_AUTO);
+}
+
+static int closed_forms(const lrcs_result *r)
+{
+    return r->effect[LRCS_EFFECT_CLOSED_FORMS].on;
+}
+
+/* --- alone ------------------------------------------------------------------------------------ */
+
+/* In the xz plane, exactly as given: along the axes and in between. */
+static void a_shape_alone_is_its_closed_form_to_rounding(void **state)
+{
+    (void)state;
+    static const double slope[] = {1e-3, 0.02, 0.2, 1.5};
+    static const double d[][3] = {{0, 0, 1},  {1, 0, 0},       {0, 0, -1},       {3, 0, 4},
+                                  {4, 0, -3}, {1, 0, 0x1p-40}, {0x1p-40, 0, -1}, {-1, 0, 1e-3}};
+    for (size_t b = 0; b < ROWS(bodies); b++) {
+        for (size_t i = 0; i < ROWS(slope) * ROWS(d); i++) {
+            shapes_scene s = scene_of((lrcs_brdf){1, 0.25, slope[i / ROWS(d)], 0.5}, 0);
+            lrcs_aspect aspect = {.by_direction = 1};
+            memcpy(aspect.direction, d[i % ROWS(d)], sizeof aspect.direction);
+            lrcs_closed truth;
+            add(&s, bodies[b]);
+            assert_int_equal(lrcs_closed_eval(&bodies[b], &s.material.brdf, &aspect, &truth),
+                             LRCS_OK);
+            lrcs_result r = run_auto(&s, d[i % ROWS(d)]);
+            assert_int_equal(r.method, LRCS_METHOD_CLOSED);
+            assert_true(closed_forms(&r));
+            check_same(r.budget.tessellation_m2, 0);
+            check_abs(r.sigma_m2, truth.sigma_m2, r.bound_m2 + truth.bound_m2);
+            check_abs(r.sigma_glint_m2, truth.sigma_glint_m2, r.bound_m2 + truth.bound_m2);
+            check_most(r.bound_m2, 1e-13 * truth.sigma_m2);
+            assert_true(scene.facet_count < 2000);
+        }
+    }
+}
+
+/* Turned, mirrored and scaled: the laser is turned with it, in long doubles. */
+static void a_shape_placed_is_its_closed_form_seen_from_its_frame(void **state)
+{
+    (void)state;
+    need_wide_long_double();
+    for (int i = 0; i < 300; i++) {
+        const lrcs_shape *body = &bodies[(size_t)i % ROWS(bodies)];
+        shapes_scene s = scene_of((lrcs_brdf){1, 0.25, i % 2 ? 0.2 : 0.01, 0.5}, 0);
+        lrcs_recipe_part *part = add(&s, *body);
+        const double deg[3] = {360 * chance(), 360 * chance(), 360 * chance()};
+        double factor = i % 3 ? 1 : 1.7;
+        double d[3];
+        lrcs_aspect aspect = {.by_direction = 1};
+        lrcs_closed truth;
+        assert_int_equal(lrcsi_rotate_euler("XYZ", deg, part->place.rotate), LRCS_OK);
+        for (int k = 0; k < 3; k++) {
+            d[k] = 2 * chance() - 1;
+            part->place.scale[k] = chance() < 0.5 ? -factor : factor;
+            part->place.translate[k] = 3 * chance();
+        }
+        if (i % 5 == 0) {
+            part->joint = (lrcs_joint){1, {1, 0, 0}, {0.5, 0.25, 1}, 90};
+        }
+        for (int k = 0; k < 3; k++) {
+            long double sum = 0;
+            for (int j = 0; j < 3; j++) {
+                sum += (long double)part->place.rotate[j][k] * d[j];
+            }
+            aspect.direction[k] = (double)(part->place.scale[k] < 0 ? -sum : sum);
+        }
+        if (part->joint.used) { /* its quarter turn takes y to z: back again */
+            double y = aspect.direction[1];
+            aspect.direction[1] = aspect.direction[2];
+            aspect.direction[2] = -y;
+        }
+        assert_int_equal(lrcs_closed_eval(body, &s.material.brdf, &aspect, &truth), LRCS_OK);
+        double want = factor * factor * truth.sigma_m2;
+        lrcs_result r = run_auto(&s, d);
+        assert_int_equal(r.method, LRCS_METHOD_CLOSED);
+        /* the direction rounded to doubles moves sigma by a few 1e-16 / s of it */
+        check_abs(r.sigma_m2, want, r.bound_m2 + 1e-13 * want);
+        check_most(r.bound_m2, 1e-13 * want);
+    }
+}
+
+/* Neither interval knows of the other. */
+static void closed_forms_lie_within_the_bounds_of_fine_meshes(void **state)
+{
+    (void)state;
+    const lrcs_build_options fine = {1e-3, 1u << 15, LRCS_NORMALS_FLAT, 1};
+    for (int i = 0; i < 60; i++) {
+        shapes_scene s = scene_of(glossy, i & 1);
+        lrcs_recipe_part *part = add(&s, bodies[(size_t)i % ROWS(bodies)]);
+        const double deg[3] = {90 * chance(), 90 * chance(), 90 * chance()};
+        const double d[3] = {2 * chance() - 1, 2 * chance() - 1, 2 * chance() - 1};
+        assert_int_equal(lrcsi_rotate_euler("zyx", deg, part->place.rotate), LRCS_OK);
+        lrcs_result facets = shapes_run(&s, &fine, d, LRCS_METHOD_AUTO);
+        /* the mesh asked for serves auto's closed form as well as any */
+        assert_int_equal(facets.method, LRCS_METHOD_CLOSED);
+        facets = shapes_run(&s, &fine, d, LRCS_METHOD_FACET);
+        assert_false(closed_forms(&facets));
+        assert_true(facets.budget.tessellation_m2 > 0);
+        lrcs_result r = run_auto(&s, d);
+        assert_int_equal(r.method, LRCS_METHOD_CLOSED);
+        check_abs(r.sigma_m2, facets.sigma_m2, r.bound_m2 + facets.bound_m2);
+        check_rel(r.projected_area_m2, facets.projected_area_m2, 2e-3);
+    }
+}
+
+static void records_share_out_the_closed_form(void **state)
+{
+    (void)state;
+    for (size_t b = 0; b < ROWS(bodies); b++) {
+        for (int narrow = 0; narrow < 2; narrow++) { /* so that no flat facet glints */
+            shapes_scene s = scene_of((lrcs_brdf){1, 0.25, narrow ? 1e-4 : 0.2, 0.5}, 0);
+            const double d[3] = {0.48, 0.64, 0.6};
+            double sigma = 0;
+            double glint = 0;
+            double area = 0;
+            add(&s, bodies[b]);
+            lrcs_result r = run_auto(&s, d);
+            for (uint32_t f = 0; f < scene.facet_count; f++) {
+                assert_true(records[f].cos_theta > 0 || records[f].sigma_m2 == 0);
+                sigma += records[f].sigma_m2;
+                glint += records[f].sigma_glint_m2;
+                area += records[f].visible_area_m2;
+            }
+            check_rel(sigma, r.sigma_m2, 1e-12);
+            check_abs(glint, r.sigma_glint_m2, 1e-12 * r.sigma_m2);
+            check_rel(area, r.projected_area_m2, 2e-2);
+        }
+    }
+}
+
+/* What is seen through the opening of a shell has no closed form here; from the other side nothing
+   is seen through it. */
+static void a_two_sided_shell_needs_facets_where_its_inside_shows(void **state)
+{
+    (void)state;
+    lrcs_shape bowl = {.kind = LRCS_SHAPE_DOME, .parts = LRCS_SHAPE_WALL, .radius = 0.5};
+    for (int two_sided = 0; two_sided < 2; two_sided++) {
+        for (int below = 0; below < 2; below++) {
+            shapes_scene s = scene_of(glossy, two_sided);
+            const double d[3] = {0.6, 0, below ? -0.8 : 0.8};
+            const lrcs_aspect aspect = {.by_direction = 1, .direction = {0.6, 0, d[2]}};
+            lrcs_closed outside;
+            add(&s, bowl);
+            assert_int_equal(lrcs_closed_eval(&bowl, &glossy, &aspect, &outside), LRCS_OK);
+            lrcs_result r = run_auto(&s, d);
+            assert_int_equal(closed_forms(&r), !two_sided || !below);
+            if (two_sided && below) {
+                assert_true(r.sigma_m2 > 1.5 * outside.sigma_m2);
+            } else {
+                check_abs(r.sigma_m2, outside.sigma_m2, r.bound_m2 + outside.bound_m2);
+                check_most(r.bound_m2, 1e-13 * r.sigma_m2);
+            }
+            assert_int_equal((r.notices & LRCS_NOTICE_BACK_SIDES_VISIBLE) != 0,
+                             !two_sided && below);
+        }
+    }
+}
+
+static void an_unevenly_scaled_shape_keeps_its_facets(void **state)
+{
+    (void)state;
+    shapes_scene s = scene_of(glossy, 0);
+    const double d[3] = {0.48, 0.64, 0.6};
+    lrcs_recipe_part *part = add(&s, bodies[0]);
+    part->place.scale[1] = 2;
+    lrcs_result r = run_auto(&s, d);
+    assert_false(closed_forms(&r));
+    part->place.scale[1] = 1;
+    part->place.rotate[0][1] = 1e-6; /* no rotation */
+    r = run_auto(&s, d);
+    assert_false(closed_forms(&r));
+}
+
+static void switched_terms_are_left_out_of_closed_forms_too(void **state)
+{
+    (void)state;
+    shapes_scene s = scene_of(glossy, 0);
+    const double d[3] = {0.48, 0.64, 0.6};
+    add(&s, bodies[3]);
+    lrcs_result all = run_auto(&s, d);
+    lrcs_recipe recipe = {
+        .part = s.part, .part_count = 1, .material = &s.material, .material_count = 1};
+    const lrcs_build_options build = lrcs_build_options_default();
+    for (int i = 0; i < 2; i++) {
+        lrcs_run_options run = lrcs_run_options_default();
+        lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+        const lrcs_prepared *prepared;
+        lrcs_pose pose;
+        lrcs_result r;
+        run.without = 1u << (i ? LRCS_EFFECT_GLINT : LRCS_EFFECT_DIFFUSE);
+        assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &work, &scene, NULL), LRCS_OK);
+        assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
+        assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &r, NULL, NULL), LRCS_OK);
+        check_same(r.sigma_glint_m2, i ? 0 : all.sigma_glint_m2);
+        check_same(r.sigma_diffuse_m2, i ? all.sigma_diffuse_m2 : 0);
+    }
+}
+
+/* --- among others ----------------------------------------------------------------------------- */
+
+static void shapes_far_apart_are_all_closed_forms(void **state)
+{
+    (void)state;
+    shapes_scene s = scene_of(glossy, 0);
+    const double d[3] = {0.1, 0.05, 1};
+    double want = 0;
+    for (int i = 0; i < 5; i++) {
+        const lrcs_aspect aspect = {.by_direction = 1, .direction = {0.1, 0.05, 1}};
+        lrcs_closed one;
+        lrcs_recipe_part *part = add(&s, bodies[i]);
+        part->place.translate[0] = 4 * i;
+        assert_int_equal(lrcs_closed_eval(&bodies[i], &glossy, &aspect, &one), LRCS_OK);
+        want += one.sigma_m2;
+    }
+    lrcs_result r = run_auto(&s, d);
+    assert_int_equal(r.method, LRCS_METHOD_CLOSED);
+    check_rel(r.sigma_m2, want, 1e-13);
+    check_most(r.bound_m2, 1e-13 * want);
+    const double line[3] = {1, 0, 0.01}; /* all behind the last */
+    r = run_auto(&s, line);
+    assert_int_equal(r.method, LRCS_METHOD_EXACT);
+    assert_true(closed_forms(&r)); /* that one */
+}
+
+/* Random scenes of two to five parts, near one another, against the intervals of clipped meshes:
+   some shapes clear, some not. */
+static void random_scenes_agree_with_clipped_meshes(void **state)
+{
+    (void)state;
+    uint32_t all = 0;
+    uint32_t some = 0;
+    uint32_t none = 0;
+    lrcs_build_options coarse = {1e-9, 300, LRCS_NORMALS_FLAT, 1};
+    for (int i = 0; i < 400; i++) {
+        shapes_scene s = scene_of((lrcs_brdf){1, 0.25, i % 4 ? 0.4 : 0.1, 0.5}, i % 3 == 0);
+        uint32_t parts = 2 + (uint32_t)(4 * chance());
+        for (uint32_t k = 0; k < parts; k++) {
+            lrcs_shape shape = bodies[(size_t)(ROWS(bodies) * chance())];
+            if (chance() < 0.3) {
+                shape = (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {1, 0.5, 0.25}};
+            } else if (chance() < 0.3 && shape.kind != LRCS_SHAPE_SPHERE) {
+                shape.parts = LRCS_SHAPE_WALL;
+            }
+            lrcs_recipe_part *part = add(&s, shape);
+            const double deg[3] = {360 * chance(), 360 * chance(), 360 * chance()};
+            if (chance() < 0.5) {
+                assert_int_equal(lrcsi_rotate_euler("XYZ", deg, part->place.rotate), LRCS_OK);
+            }
+            for (int j = 0; j < 3; j++) {
+                part->place.translate[j] = (i % 2 ? 3 : 1.5) * (2 * chance() - 1);
+            }
+        }
+        const double d[3] = {2 * chance() - 1, 2 * chance() - 1, 2 * chance() - 1};
+        lrcs_result clipped = shapes_run(&s, &coarse, d, LRCS_METHOD_EXACT);
+        lrcs_result r = shapes_run(&s, &coarse, d, LRCS_METHOD_AUTO);
+        check_abs(r.sigma_m2, clipped.sigma_m2, r.bound_m2 + clipped.bound_m2);
+        check_most(r.bound_m2, clipped.bound_m2 * (1 + 1e-9) + 1e-12 * r.sigma_m2);
+        all += r.method == LRCS_METHOD_CLOSED;
+        some += closed_forms(&r) && r.method != LRCS_METHOD_CLOSED;
+        none += !closed_forms(&r);
+        double sigma = 0;
+        for (uint32_t f = 0; f < scene.facet_count; f++) {
+            sigma += records[f].sigma_m2;
+        }
+        check_rel(sigma, r.sigma_m2, 1e-11);
+    }
+    assert_true(all > 20 && some > 100 && none > 20);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_shape_alone_is_its_closed_form_to_rounding),
+        cmocka_unit_test(a_shape_placed_is_its_closed_form_seen_from_its_frame),
+        cmocka_unit_test(closed_forms_lie_within_the_bounds_of_fine_meshes),
+        cmocka_unit_test(records_share_out_the_closed_form),
+        cmocka_unit_test(a_two_sided_shell_needs_facets_where_its_inside_shows),
+        cmocka_unit_test(an_unevenly_scaled_shape_keeps_its_facets),
+        cmocka_unit_test(switched_terms_are_left_out_of_closed_forms_too),
+        cmocka_unit_test(shapes_far_apart_are_all_closed_forms),
+        cmocka_unit_test(random_scenes_agree_with_clipped_meshes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
