@@ -108,9 +108,9 @@ typedef struct lrcs_run_options {
    0. Such rasters, also with method zbuffer, cost no more than drawing them: their samples prove
    nothing about areas, so that the bound, still proved, includes all of each facet that could be
    visible or hidden (for fewer than 1,024 facets, with curved normals, or if there are curved
-   shapes among other parts, it is tighter, and costs more). An answer whose bound meets the
-   tolerance does not count as accepted by estimate. With LRCS_ACCEPT_ANY auto draws the coarsest of
-   those rasters and accepts the result: no tolerance is missed. */
+   shapes among other parts, it is tighter, and costs more: there auto clips). An answer whose bound
+   meets the tolerance does not count as accepted by estimate. With LRCS_ACCEPT_ANY auto draws the
+   coarsest of those rasters and accepts the result: no tolerance is missed. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {

@@ -261,6 +261,7 @@ typedef struct plot_axis {
 /* --plot: curves along x, one for each value of y, or a map. */
 typedef struct sweep_plot {
     int asked, dbsm, polar, map;
+    int open;         /* materials are illustrative or assumed: no bound holds what that costs */
     plot_axis x, y;   /* y: one value where only one thing varies */
     int swapped;      /* x is the faster of two */
     double (*row)[2]; /* sigma and bound, m2 */
@@ -295,6 +296,11 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
                         lrcs_host_scene *base, const lrcs_run_options *options,
                         const lrcs_build_options *build, const lrcs_host_glint *coarse,
                         uint32_t coarse_count);
+
+/* ---- statistics ---- */
+
+/* --stats: mean, percentiles, least and most of sigma over all rows. 0 or CLI_FAILED. */
+int cli_stats_print(FILE *out, const sweep_plan *plan, const double (*row)[2]);
 
 /* ---- progress ---- */
 
