@@ -18,11 +18,13 @@ static const char run_help[] =
     "\n"
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
     "\n" CLI_POSE_HELP "\n"
-    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best bound that "
+    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best answer that "
     "MS milliseconds buy, loading and\n"
-    "                        preparing included; tries rasters and tolerances, and says which\n"
-    "                        options give the same answer again. Ends early where nothing is left\n"
-    "                        to gain, or a --tolerance is met; exit 3 where it took longer\n"
+    "                        preparing included: by its bound, or by its likely error where "
+    "bounds\n"
+    "                        say little; names the options that give it again. Exit 3 where it "
+    "took\n"
+    "                        longer, misses a --tolerance, or the bound exceeds sigma\n"
     "  --steps N             at most N steps of finding what is seen, counted the same on every\n"
     "                        machine; what they leave open is in the bound. A raster's pixels are\n"
     "                        not counted\n" CLI_SCENE_HELP
@@ -120,10 +122,12 @@ static int run_pose(run_job *job)
     lrcs_host_error error;
     if (!job->scene.prepared) {
         run_patience(job);
+        cli_watch_stage("preparing", &job->scene);
     }
     if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
+    cli_watch_stage("pose", NULL);
     if (job->emulation.asked) {
         return cli_run_emulate(job);
     }
@@ -144,6 +148,7 @@ static int run_scene(run_job *job)
 {
     int searched = job->budget.asked_ms > 0.0;
     int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
+    cli_watch_begin();
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
     code = code == 0 && searched ? cli_run_budget(job) : code;
@@ -191,7 +196,10 @@ static int run_outputs(run_job *job)
         }
     }
     int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
-    return late ? CLI_DEGRADED : cli_accuracy_code(job->args, &job->options, job->result.flags);
+    /* a bound that tells nothing of sigma is no answer that a time bought */
+    int empty = job->budget.asked_ms > 0.0 && job->result.bound_m2 > job->result.sigma_m2;
+    return late || empty ? CLI_DEGRADED
+                         : cli_accuracy_code(job->args, &job->options, job->result.flags);
 }
 
 static int run_command(const cli_args *args)
@@ -201,6 +209,7 @@ static int run_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job);
     code = code ? code : run_scene(&job);
+    cli_watch_end();
     if (code == 0) {
         run_judge(&job);
         code = run_outputs(&job);
