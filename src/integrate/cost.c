@@ -26,8 +26,6 @@
 #define CLIP_CROSSING  900.0
 /* A step of clipping, at least. */
 #define CLIP_STEP 25.0
-/* Of a raster that proves its bound: this part of clipping, which it spares no search. */
-#define PROOF_SHARE 0.5
 
 /* An event edge leaves so many facets undecided, and a facet with a contact is undecided unless the
    other one is behind it. */
@@ -139,11 +137,6 @@ double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided)
     double crossings = cost->borders * cost->borders / LRCSI_PI / layers(cost);
     return CLIP_FACET * cost->facets + CLIP_CASTING * cost->casting + CLIP_UNDECIDED * undecided +
            CLIP_CROSSING * crossings;
-}
-
-double lrcsi_cost_prove(const lrcsi_cost *cost, uint32_t size, double undecided)
-{
-    return lrcsi_cost_draw(cost, size) + PROOF_SHARE * lrcsi_cost_clip(cost, undecided);
 }
 
 uint64_t lrcsi_cost_steps(double ns)
