@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "visibility/grid.h"
@@ -118,10 +119,12 @@ double lrcsi_cost_undecided(const lrcsi_cost *cost)
     return lrcsi_least(cost->casting, EVENT_CROSSES * cost->events + TOUCH_HIDES * cost->contacts);
 }
 
-/* Of facets thrown at random, whose areas are D in all, this part of the window is covered, */
+/* Of facets thrown at random, whose areas are D in all, this part of the window is covered,
+   1 - exp(-D): by functions that are the same everywhere, so that choices are; */
 static double covered(const lrcsi_cost *cost)
 {
-    return -expm1(-cost->overdraw);
+    double d = cost->overdraw;
+    return d < 1e-4 ? d : 1 - lrcsi_exp(-lrcsi_least(d, 100));
 }
 
 /* by so many on average: one of so many borders is seen. */
@@ -151,14 +154,14 @@ uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t most
 {
     double borders = cost->borders / layers(cost);
     double error = 0.5 * ESTIMATE_SAFETY * sqrt(borders) / covered(cost) / tolerance;
-    double size = borders > 0 ? cbrt(error * error) : 0;
-    if (borders > size) {
-        size = 0;
+    uint32_t n = RASTER_LEAST;
+    while (n + 64 <= most && (double)n * n * n < error * error) {
+        n += 64;
     }
-    if (!(size < most)) {
+    n = borders > n && n < most ? RASTER_LEAST : n;
+    if (n == most) {
         return most;
     }
-    uint32_t n = size > RASTER_LEAST ? 64 * ((uint32_t)size / 64 + 1) : RASTER_LEAST;
     double dear = (1 + RASTER_MARGIN) * lrcsi_cost_draw(cost, n);
     while (n + 64 <= most && lrcsi_cost_draw(cost, n + 64) <= dear) {
         n += 64;
