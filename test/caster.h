@@ -184,16 +184,19 @@ static inline void cast_quadric(const cast_surface *f, const double o[3], const 
 static inline int cast_meets(const cast_surface *f, const double from[3], const double d[3],
                              double least)
 {
-    double scale = f->part->place.scale[0];
     double moved[3];
     double o[3];
     double v[3];
     double root[2] = {-1, -1};
     for (int k = 0; k < 3; k++) {
-        moved[k] = (from[k] - f->part->place.translate[k]) / scale;
+        moved[k] = from[k] - f->part->place.translate[k];
     }
     cast_into(f, moved, o);
     cast_into(f, d, v);
+    for (int k = 0; k < 3; k++) {
+        o[k] /= f->part->place.scale[k];
+        v[k] /= f->part->place.scale[k];
+    }
     if (f->kind == CAST_RECT || f->kind == CAST_DISC) {
         int axis = f->kind == CAST_DISC ? 2 : f->axis;
         root[0] = v[axis] != 0 ? (f->at - o[axis]) / v[axis] : -1;
@@ -288,8 +291,18 @@ static inline double cast_sample(cast_scene *s, const cast_surface *f, double u,
     double n[3];
     double from[3];
     double normal[3];
-    double scale = f->part->place.scale[0];
-    double area = cast_point(f, u, v, x, n) * scale * scale;
+    const double *scale = f->part->place.scale;
+    double area = cast_point(f, u, v, x, n) * fabs(scale[0] * scale[1] * scale[2]);
+    double length = 0; /* normals go by the inverse transpose, areas with them */
+    for (int k = 0; k < 3; k++) {
+        x[k] *= scale[k];
+        n[k] /= scale[k];
+        length += n[k] * n[k];
+    }
+    area *= sqrt(length);
+    for (int k = 0; k < 3; k++) {
+        n[k] /= sqrt(length);
+    }
     cast_out_of(f, x, from);
     cast_out_of(f, n, normal);
     double cosine = normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2];
@@ -298,7 +311,7 @@ static inline double cast_sample(cast_scene *s, const cast_surface *f, double u,
     }
     cosine = fabs(cosine);
     for (int k = 0; k < 3; k++) {
-        from[k] = scale * from[k] + f->part->place.translate[k];
+        from[k] += f->part->place.translate[k];
     }
     if (!(cosine > 1e-9)) {
         return 0;

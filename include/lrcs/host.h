@@ -70,6 +70,9 @@ typedef struct lrcs_host_notices {
 typedef struct lrcs_host_options {
     double unit_m;               /* metres per unit of a model file; 0: not given, 1 m */
     int keep_transparent;        /* do not leave out fully transparent facets */
+    const char *two_sided;       /* what reflects from both sides beside what files say: "all";
+                                    "open": what is no closed surface; a part's, object's or
+                                    material's name; NULL: nothing */
     const lrcs_binding *binding; /* from the command line: kinds NAME, COLOUR, DEFAULT */
     uint32_t binding_count;
     lrcs_build_options build;
@@ -77,10 +80,11 @@ typedef struct lrcs_host_options {
 
 lrcs_host_options lrcs_host_options_default(void);
 
-/* A regular file that a scene was read from: its name, and which file that was. */
+/* A regular file that a scene was read from: its name, FNV-1a of its bytes, and which file that
+   was. */
 typedef struct lrcs_host_input {
     const char *path;
-    uint64_t device, node;
+    uint64_t hash, device, node;
     struct lrcs_host_input *next;
 } lrcs_host_input;
 
@@ -109,6 +113,7 @@ typedef struct lrcs_host_scene {
     const lrcs_prepared *prepared; /* NULL until prepared */
     lrcs_host_notices notices;
     lrcs_host_input *input; /* every file read, the last one first; NULL: none */
+    const char *two_sided;  /* as in lrcs_host_options, which must outlive the scene */
     double seconds_load, seconds_prepare;
     double seconds_stage[LRCS_HOST_PREPARE_STAGES]; /* of seconds_prepare, in the work area that
                                                        sufficed */
@@ -121,7 +126,8 @@ typedef struct lrcs_host_scene {
    Returned: scene->scene, and notices about what was met. scene.unmatched is for the caller to
    judge: it indexes scene->recipe.binding.
    Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_ARGUMENT (a unit for a scene file, which states its
-   own); as lrcs_3ds_read, lrcs_recipe_read and lrcs_scene_build. */
+   own); LRCS_E_NAME (two_sided: no such part or material); as lrcs_3ds_read, lrcs_recipe_read and
+   lrcs_scene_build. */
 int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrcs_host_scene *scene,
                          lrcs_host_error *error);
 
@@ -131,9 +137,9 @@ int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *bu
                          lrcs_host_scene *scene, lrcs_host_error *error);
 
 /* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with
-   their models, and may differ in all else: places, joints, shapes, materials. `base` and the
-   recipe's texts must outlive the scene; scene->recipe stays empty. Status: as
-   lrcs_host_scene_make. */
+   their models, two-sided where base is, and may differ in all else: places, joints, shapes,
+   materials. `base` and the recipe's texts must outlive the scene; scene->recipe stays empty.
+   Status: as lrcs_host_scene_make. */
 int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          const lrcs_build_options *build, lrcs_host_scene *scene,
                          lrcs_host_error *error);
@@ -144,6 +150,9 @@ int lrcs_host_output_check(const char *path, const lrcs_host_scene *scene, lrcs_
 
 /* Are two output paths one file, there already or yet to be written? 1 or 0. */
 int lrcs_host_output_same(const char *path, const char *other);
+
+/* The box of all facets that are not left out, m, body frame; all zero without any. */
+void lrcs_host_scene_box(const lrcs_scene *scene, double least[3], double most[3]);
 
 /* Does what is done once a scene. Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_prepare_run. */
 int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error);

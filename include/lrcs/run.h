@@ -97,16 +97,17 @@ typedef struct lrcs_run_options {
    (over curved normals but for libm's last bits): passes over facets, edges and contacts are not,
    nor are a raster's pixels and searches, by method zbuffer, for an estimate or for want of memory
    (examples/flight/README.md). lrcs_result.steps tells how many a run took.
-   4. For previews: with LRCS_ACCEPT_ESTIMATE auto draws a coarse raster, a finer one where its
-   likely error, estimate_m2, exceeds what the proved parts of the bound (tessellation, rounding)
-   leave of the tolerance, and clips where that costs less, or no raster's estimate suffices. An
-   estimate counts only where all depths were decided, no limit of steps was reached and sigma is
+   4. For previews: with LRCS_ACCEPT_ESTIMATE auto clips where that is likely to cost little more
+   than a raster, and gives it up after as many steps as fit in the time of the raster; else it
+   draws a raster, a finer one where its likely error, estimate_m2, exceeds what the proved parts of
+   the bound (tessellation, rounding) leave of the tolerance, and clips where no raster's suffices.
+   An estimate counts only where all depths were decided, no limit of steps was reached and sigma is
    not 0. Such rasters, of method zbuffer too, cost no more than to draw them: their samples prove
    nothing of areas, so that the bound, proved as ever, holds all that could show of each facet or
    be hidden (of fewer than 1,024 facets, where normals are curved, or where curved shapes stand
    among others, it is closer, and costs more). An answer that the bound admits is none by estimate.
-   With LRCS_ACCEPT_ANY auto draws the first of those rasters and takes what comes: no tolerance is
-   missed. */
+   With LRCS_ACCEPT_ANY auto draws the coarsest of those rasters and takes what comes: no tolerance
+   is missed. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {
@@ -134,7 +135,7 @@ const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 /* Notices: true and worth knowing, not a degradation. */
 enum lrcs_notice {
     LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,  /* open or inverted mesh */
-    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape scaled unevenly, say */
+    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape as small as rounding */
 };
 const char *lrcs_notice_text(int bit);
 

@@ -40,6 +40,7 @@ typedef struct lrcs_recipe_part {
     const char *file; /* model file, or NULL for a shape */
     lrcs_shape shape; /* used where file is NULL */
     lrcs_place place;
+    int unit_given; /* of a model file: its unit was stated; else metres are assumed */
     lrcs_joint joint;
     const char *material;   /* name of a material for the whole part, or NULL: the model's own */
     int wears;              /* the same, as an index into the recipe's materials; -1 for none,
@@ -111,8 +112,10 @@ typedef struct lrcs_part {
     int kind; /* lrcs_shape_kind, or -1 for a model file */
     uint32_t first_facet, facet_count;
     lrcs_curvature curvature; /* of an engine-made shape; zero for a model */
-    int curvature_known; /* 0 where a non-uniform scale spoilt it, or rounding in placing left a
-                            facet without area; 1 for models (nothing to know) */
+    int curvature_known; /* 0 where rounding in placing left a facet without area, or a matrix given
+                            as a rotation is none; 1 for models (nothing to know) */
+    double uneven;       /* 1 + this bounds how much more or less than on average over a facet a
+                            scale that differs between axes stretches areas within its patch */
     int convex_patch;    /* a piece of a convex surface by construction, up to rounding */
     int solid;           /* a closed outward solid by construction, up to rounding */
     double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */

@@ -68,8 +68,14 @@ void cli_accepted_print(FILE *out, uint32_t flags)
     }
 }
 
+uint32_t cli_flags_in_force(const cli_args *args, const lrcs_run_options *options, uint32_t flags)
+{
+    return cli_tolerance_judged(args, options) ? flags
+                                               : flags & ~(uint32_t)LRCS_FLAG_TOLERANCE_NOT_MET;
+}
+
 int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags)
 {
-    int missed = (flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0 && cli_tolerance_judged(args, options);
-    return missed || (flags & LRCS_FLAG_MEMORY_FALLBACK) != 0 ? CLI_DEGRADED : CLI_DONE;
+    uint32_t degraded = LRCS_FLAG_TOLERANCE_NOT_MET | LRCS_FLAG_MEMORY_FALLBACK;
+    return (cli_flags_in_force(args, options, flags) & degraded) != 0 ? CLI_DEGRADED : CLI_DONE;
 }

@@ -36,9 +36,10 @@ enum cli_exit {
 /* What a run's accuracy is asked with (cli_accuracy_read, cli_normals_read), and what a scene is
    read with (cli_scene_options_read), likewise. */
 #define CLI_ACCURACY_HELP                                                                          \
-    "  --tolerance REL       relative error asked for (1e-4); exit 3 where the bound, or the "     \
-    "estimate\n"                                                                                   \
-    "                        that curved normals add, exceeds it\n"                                \
+    "  --tolerance REL       relative error asked for (1e-4; with a --method, none unless "        \
+    "given); "                                                                                     \
+    "exit 3\n"                                                                                     \
+    "                        where the bound, or what curved normals may add, exceeds it\n"        \
     "  --accept WHAT         what must meet it: bound (default); estimate: a raster's likely "     \
     "error, a\n"                                                                                   \
     "                        guess, serves too; any: the first answer, no tolerance is missed\n"   \
@@ -58,9 +59,12 @@ enum cli_exit {
     "                        missing; BRDF is A,B,s,m (1/sr, 1/sr, slope, exponent) or a "         \
     "library\n"                                                                                    \
     "                        material\n"                                                           \
+    "  --two-sided WHAT      reflects from both sides: all, open (what is no closed surface), a "  \
+    "part\n"                                                                                       \
+    "                        or a material\n"                                                      \
     "  --keep-transparent    keep facets that the file calls fully transparent\n"
 #define CLI_SCENE_OPTIONS                                                                          \
-    {"unit", 1, 0}, {"material", 1, 1},                                                            \
+    {"unit", 1, 0}, {"material", 1, 1}, {"two-sided", 1, 0},                                       \
     {                                                                                              \
         "keep-transparent", 0, 0                                                                   \
     }
@@ -137,7 +141,7 @@ int cli_pose_read(const cli_args *args, lrcs_pose *pose);
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options);
 int cli_normals_read(const cli_args *args, lrcs_host_options *load);
 
-/* Does a tolerance that is not met count? Not where a method was forced and none was asked for. */
+/* Is a tolerance in force: under auto, and wherever one is given? Elsewhere none is missed. */
 int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options);
 
 /* What let an answer count: "bound", "estimate", "any"; NULL where it missed its tolerance. */
@@ -146,7 +150,9 @@ const char *cli_accepted_by(uint32_t flags);
 /* Says so where an answer counts without a proof; else nothing. */
 void cli_accepted_print(FILE *out, uint32_t flags);
 
-/* The exit code of a run with these flags: CLI_DONE or CLI_DEGRADED. */
+/* The flags of a result but for a missed tolerance where none is in force; and the exit code that
+   they mean, CLI_DONE or CLI_DEGRADED. */
+uint32_t cli_flags_in_force(const cli_args *args, const lrcs_run_options *options, uint32_t flags);
 int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags);
 
 /* Four numbers A,B,s,m or a library material's name; 0 or CLI_USAGE. `option` is for messages. */
@@ -164,6 +170,15 @@ int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_
 
 /* Do shapes that the engine meshes stand in the scene, so that a tolerance changes it? */
 int cli_has_curved_shapes(const lrcs_scene *scene);
+
+/* What a result was made from: the scene's title, or the operand; where a material's numbers come
+   from, "given", "illustrative" (the library) or "default"; a path's last name; and as keys of an
+   open object: the files; title, materials worn and options given. */
+const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
+const char *cli_material_source(const lrcs_material *material);
+const char *cli_base_name(const char *path);
+void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
+void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
 
 /* The name of a scene's material for people: "(default)" where it has none. */
 const char *cli_material_name(const lrcs_material *material);

@@ -5,7 +5,8 @@
 #include <string.h>
 
 static const char info_help[] =
-    "usage: lrcs info SCENE [--unit U] [--material [WHAT=]BRDF] [--keep-transparent] [--json]\n"
+    "usage: lrcs info SCENE [--unit U] [--material [WHAT=]BRDF] [--two-sided WHAT]\n"
+    "                 [--keep-transparent] [--json]\n"
     "\n"
     "What SCENE holds: parts, materials, area (m2), volume (m3), box (m), defects of the mesh,\n"
     "and whether its facets are fine enough for the glint of what they wear. Counts are of what\n"
@@ -13,6 +14,7 @@ static const char info_help[] =
     "\n"
     "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
     "  --material [WHAT=]BRDF  as in lrcs run: shows what would wear what\n"
+    "  --two-sided WHAT      likewise: all, open, a part or a material\n"
     "  --keep-transparent    keep facets that the file calls fully transparent\n"
     "  --json                the same as JSON\n"
     "\n"
@@ -20,9 +22,10 @@ static const char info_help[] =
     "  lrcs info demo\n"
     "  lrcs info aura.3ds --unit in --json\n";
 
-static const cli_option info_options[] = {{"unit", 1, 0}, {"material", 1, 1},
-                                          {"json", 0, 0}, {"keep-transparent", 0, 0},
-                                          {"help", 0, 0}, {NULL, 0, 0}};
+static const cli_option info_options[] = {
+    {"unit", 1, 0}, {"material", 1, 1},         {"two-sided", 1, 0},
+    {"json", 0, 0}, {"keep-transparent", 0, 0}, {"help", 0, 0},
+    {NULL, 0, 0}};
 
 /* ---- JSON ---- */
 
@@ -104,6 +107,7 @@ static void info_json(const cli_info *info)
     const lrcs_mesh_report *report = &info->report;
     lrcs_host_json json = lrcs_host_json_make(stdout);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
     lrcs_host_json_count(&json, "parts", info->parts);
     lrcs_host_json_count(&json, "vertices", scene->vertex_count);
     lrcs_host_json_count(&json, "facets", scene->facet_count);

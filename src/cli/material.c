@@ -118,6 +118,7 @@ int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
 {
     *options = lrcs_host_options_default();
     options->keep_transparent = cli_value(args, "keep-transparent") != NULL;
+    options->two_sided = cli_value(args, "two-sided");
     int code = unit_read(args, &options->unit_m);
     lrcs_binding *all = calloc((size_t)args->given_count + 1, sizeof *all);
     options->binding = all;
@@ -179,6 +180,9 @@ int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_
     int status = lrcs_host_scene_read(args->operand, options, scene, &error);
     if (status == LRCS_E_ARGUMENT && options->unit_m > 0.0) {
         return cli_usage(args->command, "--unit: %s", error.text);
+    }
+    if (status == LRCS_E_NAME && strncmp(error.text, "two-sided:", 10) == 0) {
+        return cli_usage(args->command, "--%s", error.text);
     }
     if (status != LRCS_OK) {
         return cli_failed(&error);

@@ -45,7 +45,8 @@ static void given_add(FILE *out, const cli_args *args, const char *const *list)
 }
 
 static const char *const again_pose[] = {"direction", "azel", "euler", "quaternion", NULL};
-static const char *const again_scene[] = {"unit", "material", "keep-transparent", NULL};
+static const char *const again_scene[] = {"unit", "material", "two-sided", "keep-transparent",
+                                          NULL};
 static const char *const again_accuracy[] = {"tolerance",  "accept",  "method",
                                              "resolution", "normals", NULL};
 static const char *const again_sweep[] = {"accept", "method", "resolution", "normals", NULL};

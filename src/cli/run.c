@@ -47,9 +47,7 @@ static const char run_help[] =
     "\n"
     "examples\n"
     "  lrcs run demo --image demo.png\n"
-    "  lrcs run demo --azel 30,-20 --json\n"
-    "  lrcs run demo --azel 30,-20 --explain\n"
-    "  lrcs run demo --azel 30,-20 --shares\n"
+    "  lrcs run demo --azel 30,-20 --explain --shares\n"
     "  lrcs run demo --azel 30,-20 --time-budget 200\n"
     "  lrcs run demo --azel 30,-20 --steps 20000\n"
     "  lrcs run demo --azel 30,-20 --tolerance 1e-2 --accept estimate\n"
@@ -82,6 +80,7 @@ static int options_read(run_job *job)
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
+    job->asked = cli_tolerance_judged(args, &job->options) ? job->asked : 0.0;
     job->explain = cli_value(args, "explain") != NULL;
     job->shares_asked = cli_value(args, "shares") != NULL;
     return code ? code : cli_normals_read(args, &job->load);
@@ -92,16 +91,13 @@ static int options_read(run_job *job)
 /* Room for what the outputs show. */
 static int run_room(run_job *job)
 {
-    int records = job->facets || job->image_path || job->shares_asked;
-    if (records) {
-        job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
-    }
+    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
     if (job->image_path) {
         lrcs_host_picture picture = cli_run_picture(job);
         job->image.size = lrcs_host_picture_need(&picture, job->image_size);
         job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
     }
-    if ((!job->records && records) || (!job->image.facet && job->image_path)) {
+    if (!job->records || (!job->image.facet && job->image_path)) {
         return cli_out_of_memory();
     }
     return 0;
@@ -161,7 +157,8 @@ static int run_scene(run_job *job)
                : code;
 }
 
-/* The flag of a result that was searched for speaks of a tolerance that was tried. */
+/* The flag of a result that was searched for speaks of a tolerance that was tried; where no
+   tolerance is in force none is missed. */
 static void run_judge(run_job *job)
 {
     uint32_t *flags = &job->result.flags;
@@ -170,6 +167,7 @@ static void run_judge(run_job *job)
         *flags &= ~(uint32_t)LRCS_FLAG_TOLERANCE_NOT_MET;
         *flags |= missed ? LRCS_FLAG_TOLERANCE_NOT_MET : 0u;
     }
+    *flags = job->asked > 0.0 ? *flags : *flags & ~(uint32_t)LRCS_FLAG_TOLERANCE_NOT_MET;
     job->met = !(*flags & LRCS_FLAG_TOLERANCE_NOT_MET);
 }
 
@@ -178,7 +176,8 @@ static void run_judge(run_job *job)
 /* Files first: a table on stdout that says "picture" must be true. */
 static int run_outputs(run_job *job)
 {
-    int code = cli_run_outputs_write(job);
+    int code = cli_run_open(job);
+    code = code ? code : cli_run_outputs_write(job);
     code = code == 0 && job->explain ? cli_run_explain(job) : code;
     if (code != 0) {
         return code;

@@ -43,6 +43,16 @@ typedef struct run_emulation {
     int reference_method;
 } run_emulation;
 
+/* What the bound does not hold, and how much that is. */
+typedef struct run_open {
+    double back_area_m2, back_share; /* one-sided backs that show; of the silhouette */
+    double back_sigma_m2;            /* sigma if they reflected; NAN: not known */
+    uint32_t coarse;                 /* curved parts whose facets are too coarse for their glint */
+    double glint_m2, glint_error_m2; /* their part of sigma, and an estimate of its error */
+    double glint_most_m2;            /* of one facet */
+    uint32_t glint_facet;
+} run_open;
+
 /* All that a run is made of, and all that it makes. */
 typedef struct run_job {
     const cli_args *args;
@@ -65,6 +75,7 @@ typedef struct run_job {
     run_emulation emulation;
     int shares_asked;
     cli_shares shares;
+    run_open open;
 } run_job;
 
 /* The options of output files, as 0 or CLI_USAGE; once the scene is read, that none of them would
@@ -104,6 +115,12 @@ int cli_run_emulation_read(run_job *job);
 int cli_run_emulate(run_job *job);
 void cli_run_emulation_json(const run_job *job, lrcs_host_json *json);
 void cli_run_emulation_table(const run_job *job);
+
+/* Finds what the bound does not hold, 0 or CLI_FAILED; as keys of an open object; and the verdict
+   in words, the last lines of a table. */
+int cli_run_open(run_job *job);
+void cli_run_open_json(const run_job *job, lrcs_host_json *json);
+void cli_run_verdict(const run_job *job);
 
 /* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
    for people. */

@@ -166,6 +166,9 @@ int cli_run_explain(run_job *job)
         if (is_switched(i)) {
             explain_effect(job, &times, rounds, i, &job->explained.effect[i]);
         }
+        if (i == LRCS_EFFECT_TWO_SIDED && job->open.back_area_m2 > 0.0) {
+            job->explained.effect[i].sigma_m2 = job->open.back_sigma_m2;
+        }
     }
     if (code == 0) {
         explain_stages(&times, rounds, &job->explained);

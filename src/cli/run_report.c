@@ -55,6 +55,8 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_count(json, "schema", CLI_SCHEMA);
     lrcs_host_json_text(json, "version", lrcs_version());
     lrcs_host_json_text(json, "scene_hash", hash);
+    cli_files_json(&job->scene, json);
+    lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
     lrcs_host_json_number(json, "sigma_m2", result->sigma_m2);
     lrcs_host_json_number(json, "sigma_dbsm",
                           result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN);
@@ -152,6 +154,19 @@ static void json_tail(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
+static void json_box(const run_job *job, lrcs_host_json *json)
+{
+    double box[2][3];
+    lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
+    for (int i = 0; i < 2; i++) {
+        lrcs_host_json_begin(json, i == 0 ? "box_min_m" : "box_max_m", LRCS_HOST_ROW_ARRAY);
+        for (int k = 0; k < 3; k++) {
+            lrcs_host_json_number(json, NULL, box[i][k]);
+        }
+        lrcs_host_json_end(json);
+    }
+}
+
 static void table_bound(const char *label, double bound)
 {
     char text[CLI_BOUND_SIZE];
@@ -227,6 +242,9 @@ void cli_run_json(const run_job *job)
     lrcs_host_json_text(&json, "method_reason", result->method_reason);
     json_effects(job, &json);
     json_tail(job, &json);
+    json_box(job, &json);
+    cli_run_open_json(job, &json);
+    cli_provenance_json(job->args, &job->scene, &json);
     if (job->shares_asked) {
         cli_shares_json(&job->shares, &json);
     }
@@ -238,8 +256,13 @@ void cli_run_table(const run_job *job)
     const lrcs_result *r = &job->result;
     double s_hat[3];
     unit_direction(&job->pose, s_hat);
-    printf("scene        %s, hash %016llx\n", job->args->operand,
-           (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+    double box[2][3];
+    lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
+    printf("scene        ");
+    cli_column(cli_scene_title(job->args, &job->scene), 0);
+    printf(", hash %016llx\nbox          %.5g, %.5g, %.5g .. %.5g, %.5g, %.5g m\n",
+           (unsigned long long)lrcs_scene_hash(&job->scene.scene), box[0][0], box[0][1], box[0][2],
+           box[1][0], box[1][1], box[1][2]);
     printf("direction    %.10g, %.10g, %.10g   to the laser, body frame\n", s_hat[0], s_hat[1],
            s_hat[2]);
     table_sigma(job);
@@ -281,6 +304,7 @@ void cli_run_table(const run_job *job)
     if (job->explain) {
         cli_run_explain_table(job);
     }
+    cli_run_verdict(job);
 }
 
 void cli_run_notices(const run_job *job)

@@ -172,7 +172,7 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
                      .bound_m2 = result->bound_m2,
                      .sigma_glint_m2 = result->sigma_glint_m2,
                      .sigma_diffuse_m2 = result->sigma_diffuse_m2,
-                     .flags = result->flags};
+                     .flags = cli_flags_in_force(job->args, &job->options, result->flags)};
     cli_plan_values(&job->plan, index, row.value);
     job->notices |= result->notices;
     int status = cli_file_put(&job->file, &job->plan, &row, error);
@@ -321,8 +321,7 @@ static int job_rows(sweep_job *job)
         return code;
     }
     job_say(job);
-    int missed = job->file.tally.missed > 0 && cli_tolerance_judged(job->args, &job->options);
-    return missed || job->file.tally.starved > 0 ? CLI_DEGRADED : CLI_DONE;
+    return job->file.tally.missed > 0 || job->file.tally.starved > 0 ? CLI_DEGRADED : CLI_DONE;
 }
 
 static int sweep_command(const cli_args *args)
@@ -338,7 +337,7 @@ static int sweep_command(const cli_args *args)
     code = code ? code : job_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
-        code = cli_head_make(args, &job->plan, &job->options, &job->scene.scene, &job->head);
+        code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
         code = code ? code : job_rows(job);
     }
     free(job->row);

@@ -133,7 +133,7 @@ typedef struct sweep_head {
 
 /* 0 or CLI_USAGE. */
 int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
-                  const lrcs_scene *scene, sweep_head *head);
+                  const lrcs_host_scene *scene, sweep_head *head);
 
 /* What all rows say together. */
 typedef struct sweep_tally {

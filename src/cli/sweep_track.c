@@ -56,6 +56,10 @@ static int names_read(track_reader *reader, sweep_track *track)
         const track_name *name = name_find(&table->field[i]);
         int shift = name && name->quaternion == 0 && track->quaternions;
         reader->place[i] = name ? name->place + shift : -1;
+        if (!name) {
+            fprintf(stderr, "notice: %s: column '%.*s' is not used\n", table->path,
+                    (int)table->field[i].size, table->field[i].text);
+        }
         if (name && seen[reader->place[i]]++) {
             return track_fault(reader, "two columns are the same");
         }

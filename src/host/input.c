@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fnv.h"
 #include "host/file.h"
 #include "host/model.h"
 
@@ -29,7 +30,11 @@ int lrcsi_host_input_read(lrcs_host_scene *scene, const char *path, lrcs_host_fi
         lrcs_host_file_free(file);
         return lrcsi_host_fail_memory(error, sizeof *input);
     }
-    *input = (lrcs_host_input){name, about.st_dev, about.st_ino, scene->input};
+    uint64_t hash = LRCSI_FNV_START;
+    for (size_t i = 0; i < file->size; i++) {
+        hash = lrcsi_fnv_byte(hash, file->bytes[i]);
+    }
+    *input = (lrcs_host_input){name, hash, about.st_dev, about.st_ino, scene->input};
     scene->input = input;
     return LRCS_OK;
 }

@@ -4,6 +4,8 @@
 #include "host/demo.h"
 #include "host/input.h"
 #include "host/model.h"
+#include "host/notes.h"
+#include "host/sides.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -77,6 +79,7 @@ static int recipe_from_model(lrcs_host_scene *scene, const char *path, double un
     for (int k = 0; k < 3; k++) {
         part->place.scale[k] = unit_m > 0.0 ? unit_m : 1.0;
     }
+    part->unit_given = unit_m > 0.0;
     scene->recipe.part = part;
     scene->recipe.part_count = 1;
     return LRCS_OK;
@@ -149,6 +152,9 @@ static int scene_from_recipe(lrcs_host_scene *scene, const char *path,
     build_step step = {.scene = scene, .options = options};
     size_t need = lrcs_scene_need(&scene->recipe, scene->model, options);
     int status = lrcsi_host_step_run(&scene->blocks, need, scene_build, &step, error);
+    if (status == LRCS_OK && scene->two_sided) {
+        return lrcsi_host_sides(scene, scene->two_sided, error);
+    }
     return status == LRCS_OK || status == LRCS_E_SYSTEM
                ? status
                : lrcsi_host_fail_where(error, status, path, &step.where);
@@ -291,6 +297,7 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
     }
     if (status == LRCS_OK) {
         scene->recipe.keep_transparent |= options->keep_transparent;
+        scene->two_sided = options->two_sided;
         status = bindings_add(scene, options, error);
     }
     if (status == LRCS_OK) {
@@ -305,17 +312,20 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
         return status;
     }
     worn_notes(scene);
+    lrcsi_host_scene_notes(scene);
     scene->seconds_load = lrcsi_host_seconds() - start;
     return LRCS_OK;
 }
 
 /* A scene of a recipe that is the caller's, and of models that are (or NULL). */
-static int scene_from(const lrcs_recipe *recipe, lrcs_mesh *model, const lrcs_build_options *build,
-                      lrcs_host_scene *scene, lrcs_host_error *error)
+static int scene_from(const lrcs_recipe *recipe, lrcs_mesh *model, const char *two_sided,
+                      const lrcs_build_options *build, lrcs_host_scene *scene,
+                      lrcs_host_error *error)
 {
     double start = lrcsi_host_seconds();
     memset(scene, 0, sizeof *scene);
     scene->recipe = *recipe;
+    scene->two_sided = two_sided;
     scene->model =
         model ? model : lrcsi_host_take(scene, (size_t)recipe->part_count + 1, sizeof *model);
     int status = scene->model ? scene_from_recipe(scene, "scene", build, error)
@@ -332,12 +342,12 @@ static int scene_from(const lrcs_recipe *recipe, lrcs_mesh *model, const lrcs_bu
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error)
 {
-    return scene_from(recipe, NULL, build, scene, error);
+    return scene_from(recipe, NULL, NULL, build, scene, error);
 }
 
 int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          const lrcs_build_options *build, lrcs_host_scene *scene,
                          lrcs_host_error *error)
 {
-    return scene_from(recipe, base->model, build, scene, error);
+    return scene_from(recipe, base->model, base->two_sided, build, scene, error);
 }

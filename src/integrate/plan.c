@@ -6,9 +6,7 @@
 /* The first raster for the sake of its bound. */
 #define FIRST_SIZE 512u
 
-/* The first raster for the sake of its likely error, coarse enough to cost little more than its
-   passes over facets; and the tolerance below which no raster is tried. */
-#define PREVIEW_SIZE  256u
+/* The tolerance below which no raster is tried for the sake of its likely error. */
 #define PREVIEW_LEAST 1e-4
 
 static int effect_in(uint32_t set, int effect)
@@ -47,20 +45,15 @@ static void plan_choose(lrcsi_plan *plan, int method, const char *reason)
     plan->reason = reason;
 }
 
-int lrcsi_plan_previews(const lrcs_run_options *options)
-{
-    return options->method == LRCS_METHOD_AUTO && options->accept != LRCS_ACCEPT_BOUND;
-}
-
-/* Its estimate tells which size the tolerance takes. */
+/* Does auto look for a raster whose estimate may count? */
 static int preview_tried(const lrcs_run_options *options)
 {
-    return lrcsi_plan_previews(options) &&
+    return options->method == LRCS_METHOD_AUTO && options->accept != LRCS_ACCEPT_BOUND &&
            (options->tolerance >= PREVIEW_LEAST || options->accept == LRCS_ACCEPT_ANY);
 }
 
-/* What auto takes for the rest: clipping the contested facets costs no more than the coarsest
-   raster, for finding them is most of the work of both. */
+/* What auto takes for the rest: clipping, since a raster whose bound is as close as a tolerance
+   asks mostly costs more. */
 static void plan_method(lrcsi_plan *plan, const lrcsi_clear *clear, const lrcs_run_options *options)
 {
     if (shadows_dropped(options)) {
@@ -77,11 +70,12 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_clear *clear, const lrcs_r
     } else if (options->resolution != 0) {
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "the raster asked for meets the tolerance");
     } else if (preview_tried(options)) {
-        plan_choose(plan, LRCS_METHOD_ZBUFFER, "a raster is tried first: its estimate may count");
+        plan->previews = 1;
+        plan_choose(plan, LRCS_METHOD_ZBUFFER, "any answer counts: the first raster");
     } else {
         plan_choose(plan, LRCS_METHOD_EXACT,
                     plan->alone ? "self-shadowing is asked for"
-                                : "not proved convex and alone; clipping costs less than a raster");
+                                : "not proved convex and alone; clipping has the closest bound");
     }
 }
 
@@ -97,9 +91,7 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
     plan.searched = effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING);
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
     plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
-    plan.size = options->resolution != 0 ? options->resolution
-                : preview_tried(options) ? PREVIEW_SIZE
-                                         : FIRST_SIZE;
+    plan.size = options->resolution != 0 ? options->resolution : FIRST_SIZE;
     plan_method(&plan, clear, options);
     return plan;
 }

@@ -17,6 +17,8 @@ typedef struct lrcsi_plan {
     int method;         /* FACET, ZBUFFER, EXACT: the first to try; or CLOSED */
     uint32_t size;      /* of the first raster, if one is drawn */
     const char *reason; /* why that one */
+    int previews;   /* auto, and a raster's estimate may count: then what costs least comes first
+                       (integrate/cost.h) */
     int unshadowed; /* proved: in this view front facets with cos(theta) > graze are not hidden */
     double graze;   /* of the scene where unshadowed, else 1 */
     int backless;   /* no facet hides a back side that counts */
@@ -27,9 +29,6 @@ typedef struct lrcsi_plan {
 
 /* Decides what back sides do in a view: cast, reflect, or neither. */
 void lrcsi_plan_backs(const lrcs_run_options *options, lrcsi_view *view);
-
-/* Does auto look for a raster whose estimate may count? */
-int lrcsi_plan_previews(const lrcs_run_options *options);
 
 /* Given: such a view, the shapes that nothing hides in it, and what was asked for. */
 lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,

@@ -7,6 +7,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "integrate/cost.h"
 #include "integrate/image.h"
 #include "integrate/plan.h"
 #include "integrate/total.h"
@@ -16,11 +17,11 @@
 /* The finest raster: beyond it the bound gains less than it costs. */
 #define LAST_SIZE 4096u
 
-/* For the sake of an estimate: the finest raster, and the pixels that cost as much as clipping a
-   contested facet (make bench: 10 us and 15 ns on most models). */
-#define PREVIEW_LAST   2048u
-#define PREVIEW_FACETS 1024u /* fewer are never judged by samples alone */
-#define CLIP_PIXELS    650.0
+/* For the sake of an estimate a raster must be likely to cost so many times less than clipping. */
+#define CLIP_PREFERRED 1.5
+
+/* Fewer facets are never judged by samples alone. */
+#define PREVIEW_FACETS 1024u
 
 /* What a run passes from stage to stage. */
 typedef struct sigma_run {
@@ -270,6 +271,7 @@ static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
     size_t mark = run->work->used;
     int status = LRCS_E_MEMORY;
     run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
+    run->answer = NULL;
     run->view.meter = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
         status = lrcsi_visible_sampled(known, size, run->work, &raster, run->visible);
@@ -322,6 +324,7 @@ static int run_preview_at(sigma_run *run, uint32_t size)
     int undecided = 0;
     int status = LRCS_E_MEMORY;
     run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
+    run->answer = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
         status = lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
         run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
@@ -335,11 +338,13 @@ static int run_preview_at(sigma_run *run, uint32_t size)
 }
 
 /* Is the sum all that reads visible areas? It takes those of facets that are seen whole or not at
-   all from their answers; tessellation, and what is known of fronts and backs, need them all. */
+   all from their answers; tessellation, clear shapes, and what is known of fronts and backs, need
+   them all. */
 static int run_sums_alone(const sigma_run *run)
 {
     const lrcs_prepared *p = run->view.prepared;
-    return !p->curved && !run->plan.unshadowed && !(p->solid && run->view.backs_cast);
+    return !p->curved && !run->plan.unshadowed && run->clear.count == 0 &&
+           !(p->solid && run->view.backs_cast);
 }
 
 /* Facets that find no memory to be clipped in widen the bound; under auto a raster does better. */
@@ -384,56 +389,148 @@ static uint32_t next_size(const sigma_run *run, const lrcs_run_options *options)
     return 64 * ((uint32_t)size / 64 + 1);
 }
 
-/* For the sake of an estimate: is a raster of the given size worth drawing? Not where clipping the
-   contested facets costs less (where they were not searched for, all facets count: samples alone
-   cost a fraction), nor where depths stay undecided. */
-static int preview_refines(const sigma_run *run, uint32_t size)
+/* Is nothing to be gained by a finer raster than the last one? */
+static int raster_ends(const sigma_run *run, const lrcs_run_options *options, int samples_only)
 {
-    return size <= PREVIEW_LAST && !(run->flags & LRCS_FLAG_DEPTH_UNDECIDED) &&
-           (double)size * size < CLIP_PIXELS * (run->contested ? run->contest.contested_count
-                                                               : run->view.front + run->view.back);
+    return options->resolution != 0 || run->size >= LAST_SIZE || run->meter.spent ||
+           (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
+           (!samples_only && run->contest.contested_count == 0) ||
+           !(run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET);
 }
 
-/* Rasters, from the first to one that is accepted, or to the finest that is worth it. */
+/* What exact queries tell of facets, which takes no steps. */
+static int run_known(sigma_run *run, lrcsi_known *known)
+{
+    int status = run_contest(run);
+    if (status == LRCS_OK) {
+        run->view.meter = NULL;
+        status = lrcsi_visible_known(&run->contest, run->work, known);
+        run->view.meter = &run->meter;
+    }
+    return status;
+}
+
+/* Rasters, from the first to one that is accepted, or to the finest. */
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
     lrcsi_known known;
-    run->answer = NULL;
     size_t mark = run->work->used;
     int samples_only = run_samples_only(run, options);
     uint32_t size = run->plan.size;
-    int status = samples_only ? LRCS_OK : run_contest(run);
-    if (status == LRCS_OK && !samples_only) {
-        run->view.meter = NULL;
-        status = lrcsi_visible_known(&run->contest, run->work, &known);
-        run->view.meter = &run->meter;
-    }
+    int status = samples_only ? LRCS_OK : run_known(run, &known);
     while (status == LRCS_OK) {
         status = samples_only ? run_preview_at(run, size) : run_raster(run, &known, size);
-        if (status != LRCS_OK || options->resolution != 0 || run->size >= LAST_SIZE ||
-            run->meter.spent || (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
-            (!samples_only && run->contest.contested_count == 0) ||
-            !(run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
+        if (status != LRCS_OK || raster_ends(run, options, samples_only)) {
             break;
         }
         size = next_size(run, options);
-        if (lrcsi_plan_previews(options) && !preview_refines(run, size)) {
-            break;
-        }
     }
     run->work->used = mark;
+    return status;
+}
+
+/* What came of an attempt to clip. */
+enum { CLIP_DONE, CLIP_GIVEN_UP, CLIP_NOT_BEGUN };
+
+/* Clipping in no more steps than fit in the time that a raster takes. Where it does not come to an
+   end, or is not begun since too many facets turn out to be undecided, nothing is left of it but
+   which ones are, where that was found. */
+static int run_clip_within(sigma_run *run, const lrcs_run_options *options, const lrcsi_cost *cost,
+                           double ns)
+{
+    const sigma_run before = *run;
+    uint64_t steps = lrcsi_cost_steps(ns);
+    uint64_t left = run->meter.most - run->meter.taken;
+    size_t mark = run->work->used;
+    int result = CLIP_GIVEN_UP;
+    run->meter.most = run->meter.taken + (steps < left ? steps : left);
+    if (run_contest(run) != LRCS_OK || run->meter.spent) {
+        run->contested = before.contested;
+        run->doubt = before.doubt;
+    } else if (lrcsi_cost_clip(cost, run->contest.contested_count) > ns) {
+        mark = run->work->used;
+        result = CLIP_NOT_BEGUN;
+    } else {
+        mark = run->work->used;
+        run->plan.method = LRCS_METHOD_EXACT;
+        int status = run_exact(run, options->method);
+        result = status == LRCS_OK && !run->meter.spent ? CLIP_DONE : CLIP_GIVEN_UP;
+    }
+    run->meter.most = before.meter.most;
+    if (result != CLIP_DONE) {
+        run->work->used = mark;
+        run->meter.spent = 0;
+        run->plan = before.plan;
+        run->flags = before.flags;
+        run->size = before.size;
+        run->total = before.total;
+    }
+    return result;
+}
+
+/* For the sake of an estimate, until an answer is accepted:
+   1. run_clip_within, where that is likely to take not much longer than the next raster, whose
+      estimate may not suffice; again only once a raster takes four times as long as the last
+      attempt might;
+   2. run_preview_at, or where samples alone are no judges run_raster (once run_known is there, what
+      clipping needs is not): a coarse one first.
+   Where no raster is accepted the caller clips. Any answer being good, the first raster is. */
+static int run_previews(sigma_run *run, const lrcs_run_options *options)
+{
+    const lrcsi_cost cost = lrcsi_cost_count(&run->view);
+    const int samples_only = run_samples_only(run, options);
+    const size_t mark = run->work->used;
+    uint32_t size = lrcsi_cost_size(
+        &cost, options->accept == LRCS_ACCEPT_ESTIMATE ? options->tolerance : 1, LAST_SIZE);
+    double tried = 0;
+    lrcsi_known known;
+    int status = LRCS_OK;
+    for (int rasters = 0; status == LRCS_OK; rasters++) {
+        double undecided =
+            run->contested ? run->contest.contested_count : lrcsi_cost_undecided(&cost);
+        double draw = CLIP_PREFERRED * (samples_only ? lrcsi_cost_draw(&cost, size)
+                                                     : lrcsi_cost_prove(&cost, size, undecided));
+        if (options->accept == LRCS_ACCEPT_ESTIMATE && (samples_only || rasters == 0) &&
+            draw >= 4 * tried && lrcsi_cost_clip(&cost, undecided) <= draw) {
+            int result = run_clip_within(run, options, &cost, draw);
+            if (result == CLIP_DONE) {
+                run->plan.reason = "clipping is reckoned to cost less than a raster";
+                return LRCS_OK;
+            }
+            tried = result == CLIP_GIVEN_UP ? draw : tried;
+        }
+        if (!samples_only && rasters == 0) {
+            status = run_known(run, &known);
+        }
+        if (status == LRCS_OK) {
+            status = samples_only ? run_preview_at(run, size) : run_raster(run, &known, size);
+        }
+        if (status != LRCS_OK || raster_ends(run, options, samples_only) ||
+            (run->flags & LRCS_FLAG_DEPTH_UNDECIDED)) {
+            break;
+        }
+        size = next_size(run, options);
+    }
+    if (options->accept == LRCS_ACCEPT_ESTIMATE) {
+        run->plan.reason = tried > 0 ? "clipping was begun, and took longer than a raster"
+                                     : "a raster is reckoned to cost less than clipping";
+    }
+    if (!samples_only) { /* the contested facets, found before, stay */
+        run->work->used = mark;
+    }
     return status;
 }
 
 static int run_method(sigma_run *run, const lrcs_run_options *options)
 {
     return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run, options->method)
+           : run->plan.previews                  ? run_previews(run, options)
                                                  : run_zbuffer(run, options);
 }
 
-/* Under auto a raster goes first where its size was asked for or an estimate may count; where it is
-   not accepted, clipping follows. Clipping that finds no memory yields to a raster, which needs
-   less, whether it was asked for or not. */
+/* Under auto a raster goes first where its size was asked for, or where it costs less than clipping
+   and its estimate may count; where it is not accepted, clipping follows. Clipping that finds no
+   memory yields to a raster, which needs less, whether it was asked for or not. */
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_view_project(run->work, &run->view);

@@ -11,9 +11,11 @@
                   <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b), and <= (1 + a) S sup F;
          where neither facet of the sector is hidden or dark, the first term together is at most
    what (F - F_i) integrates to over any part of both. Patches of facets that face away from the
-   laser may see it in part: T is at most their stray. On flat facets a = 0 and F = F_i. Without a
-   margin the facets count as seen: what of it may be hidden is then in the visible area's bounds,
-   for truth and facets alike. */
+   laser may see it in part: T is at most their stray. Where a scale that differs between axes
+   stretches areas within a patch unevenly, parts of it err by more than the whole: then a is
+   patch_area_error, and the whole's stray has the whole's. On flat facets a = 0 and F = F_i.
+   Without a margin the facets count as seen: what of it may be hidden is then in the visible area's
+   bounds, for truth and facets alike. */
 #include "integrate/tessellation.h"
 
 #include <math.h>
@@ -114,6 +116,14 @@ static double share_lost(const lrcsi_view *view, uint32_t facet, const lrcsi_vis
     return hidden >= 0 ? fmin(1, margin->share[facet] + hidden) : 1;
 }
 
+/* The share by which a part of a patch may be larger or smaller than the facet's own part: on top
+   of the whole patch's, that of a stretch that differs from place to place. */
+static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrcs_curvature *c)
+{
+    double uneven = patch_part(p, facet)->uneven;
+    return c->area_error + uneven + c->area_error * uneven;
+}
+
 /* For a facet of a sector none of which is hidden or dark: what it loses of its whole patch, where
    that is the better way, else 2. Numbers of the sector's first facet decide for both. */
 static double sector_lost(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
@@ -126,7 +136,8 @@ static double sector_lost(const lrcsi_view *view, uint32_t facet, const lrcs_brd
     lrcsi_stray stray = lrcsi_stray_make(brdf, fabs(tilt.cos_theta), tilt.tan2, c);
     double lost = fmax(share_lost(view, first, visible, margin),
                        share_lost(view, first + 1, visible, margin));
-    return stray.whole + (1 + c->area_error) * lost * stray.most < stray.part
+    double a = patch_area_error(view->prepared, facet, c);
+    return stray.whole + (1 + a) * lost * stray.most < stray.part
                ? share_lost(view, facet, visible, margin)
                : 2;
 }
@@ -200,7 +211,7 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
         int mixed =
             is_lit(state) && is_lit(partner) && (state == PATCH_MIXED || partner == PATCH_MIXED);
         double lost = mixed ? sector_lost(view, facet, brdf, &c, visible, margin) : 2;
-        error = wall_error(&stray, c.area_error, share, state, partner, lost);
+        error = wall_error(&stray, patch_area_error(p, facet, &c), share, state, partner, lost);
     }
     if (state == PATCH_DARK) {
         error += inside_shown(view, facet, brdf, tilt, visible, margin);

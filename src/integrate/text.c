@@ -71,8 +71,9 @@ const char *lrcs_notice_text(int bit)
         return "back sides of one-sided facets are visible: the mesh is open or inverted; they "
                "contribute nothing";
     case LRCS_NOTICE_TESSELLATION_UNKNOWN:
-        return "a curved shape whose curvature is not known (scaled unevenly, or as small as "
-               "rounding): the bound refers to its facets, not to the true curve";
+        return "a curved shape whose curvature is not known (as small as the rounding of its "
+               "place, "
+               "or turned by no rotation): the bound refers to its facets, not to the true curve";
     default:
         return "unknown notice";
     }

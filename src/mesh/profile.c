@@ -320,6 +320,39 @@ lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
                             c->lean + 2.0 * blur, c->spread + 2.0 * blur};
 }
 
+/* A linear map takes normals n to N n / |N n|, N being its inverse transpose, and areas dA to
+   |N n| dA times a constant; with facet normal f and k the ratio of N's singular values, as of the
+   map's. Along the great circle from f to n, turned by t, N n = w(t) = u cos t + v sin t moves on
+   an ellipse in one plane: the image is a great circle too. With C = |u x v| = |w x w'|:
+     its angle psi has psi' = C / |w|^2 in 1/k .. k, and psi'' = -2 psi' (w.w')/|w|^2;
+     (log|w|)' = (w.w')/|w|^2, at most g = (k - 1/k)/2 in size, so |psi''| <= 2 k g;
+     (log|w|)'' = psi'^2 - 1 - ((w.w')/|w|^2)^2, at most 2 h = k^2 - 1 in size.
+   So the turn vector tau, of length t, becomes D tau + r, |D| <= k, |r| <= k g t^2; and |N n| /
+   |N f| = exp(x), |x - q.tau| <= h t^2, |q| <= g, |x| <= G t with G = g + h turn: with E =
+   exp(G turn), |exp(x) - 1 - q.tau| <= (h + G^2 E / 2) t^2 and |exp(x) - 1| <= G E t. Integrated
+   over the patch, per unit of facet, tau gives `lean` and t^2 spread^2. Where G turn exceeds 1,
+   |N n| / |N f| within 1/k .. k serves. */
+lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, double *uneven)
+{
+    double k = fmax(1.0, ratio);
+    double g = 0.5 * (k - 1.0 / k);
+    double h = 0.5 * (k - 1.0) * (k + 1.0);
+    double G = g + h * c->turn;
+    double square = c->spread * c->spread;
+    double turn = fmin(k * c->turn, 2.0 * HALF_PI);
+    double outward = 1.0 + SLACK;
+    if (!(G * c->turn <= 1.0)) {
+        double area = (1.0 + c->area_error) * k * outward;
+        *uneven = k - 1.0;
+        return (lrcs_curvature){turn, area, turn * area, turn * sqrt(area)};
+    }
+    double E = exp(G * c->turn);
+    *uneven = (E - 1.0) * outward;
+    return (lrcs_curvature){
+        turn * outward, (c->area_error + g * c->lean + (h + 0.5 * G * G * E) * square) * outward,
+        (k * c->lean + k * (g + G * E) * square) * outward, k * c->spread * sqrt(E) * outward};
+}
+
 /* How far a point of the unit circle goes when its sector becomes a triangle of the N-gon. */
 static double sector_reach(const lrcsi_profile *profile)
 {

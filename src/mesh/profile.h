@@ -32,8 +32,15 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile);
 /* The numbers for facets that rounding tilts by at most `blur` rad, and resizes by that part. */
 lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *curvature, double blur);
 
+/* The numbers after a linear map whose largest singular value is `ratio` times its least, which
+   patches and facets go through alike. Returned also: 1 + uneven bounds by how much more it
+   stretches areas at one place of a patch than on average over the facet, or less. */
+lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *curvature, double ratio,
+                                       double *uneven);
+
 /* A map of the true surface, caps included, onto the facets carries every facet's patch to it,
-   stretches area evenly over a facet, and moves no point farther than this, m. */
+   stretches area evenly over a facet (before any
+   lrcsi_profile_stretched), and moves no point farther than this, m. */
 double lrcsi_profile_reach(const lrcsi_profile *profile);
 
 #endif

@@ -19,6 +19,9 @@
 #define BASE_AROUND 48
 #define BASE_ALONG  10
 
+/* Beyond this ratio of a scale's components no number of facets serves. */
+#define RATIO_MOST 1e3
+
 /* 0 where a corner is out of range. */
 static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
 {
@@ -99,6 +102,16 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
     }
 }
 
+/* How much a scale differs between axes: it turns normals by as many times as much, and the error
+   of a facet grows with the square, and a little more (mesh/profile.c). */
+static double scale_ratio(const lrcs_recipe_part *part)
+{
+    const double *scale = part->place.scale;
+    double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    return small > 0.0 && large / small < RATIO_MOST ? large / small : 1.0;
+}
+
 /* Does the closed form serve a shape from every direction? Nothing hides it, and it is placed
    without a change of shape. */
 static int is_closed_form(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
@@ -116,7 +129,9 @@ int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part
                           const lrcs_material *material, lrcs_divisions *divisions,
                           lrcs_mesh_counts *counts)
 {
-    const lrcs_fineness wanted = {shape_tolerance(fineness, part), material->brdf,
+    double ratio = scale_ratio(part);
+    double spread = ratio > 1.0 ? 1.5 * ratio * ratio : 1.0;
+    const lrcs_fineness wanted = {shape_tolerance(fineness, part) / spread, material->brdf,
                                   fineness->max_facets};
     if (is_closed_form(fineness, part, material)) {
         int rings = part->shape.kind == LRCS_SHAPE_SPHERE || part->shape.kind == LRCS_SHAPE_DOME ||

@@ -210,6 +210,28 @@ int lrcsi_placer_axes(const lrcsi_placer *placer, lrcsi_axes *axes)
     return 1;
 }
 
+/* Singular values of a matrix with |R^T R - I| <= d lie between the roots of 1 - d and 1 + d. */
+void lrcsi_placer_stretch(const lrcsi_placer *placer, double *most, double *ratio)
+{
+    const double *scale = placer->place.scale;
+    double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    lrcsi_dd D[3][3];
+    double joint = placer->turns ? rotation_defect(placer->joint, D) : 0.0;
+    double place = placer->rotates ? rotation_defect(placer->place.rotate, D) : 0.0;
+    *most = HUGE_VAL;
+    *ratio = HUGE_VAL;
+    if (joint < 0.5 && place < 0.5) {
+        *most = large * sqrt((1.0 + joint) * (1.0 + place));
+        *ratio = large / small;
+        *ratio *= sqrt((1.0 + joint) / (1.0 - joint) * (1.0 + place) / (1.0 - place));
+    }
+    if (joint > 0.0 || place > 0.0 || large != small) {
+        *most *= 1.000001;
+        *ratio *= 1.000001;
+    }
+}
+
 /* A bound on magnitudes, and on how far they are off. */
 typedef struct placed_bound {
     double most, error;

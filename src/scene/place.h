@@ -31,6 +31,10 @@ typedef struct lrcsi_axes {
 } lrcsi_axes;
 int lrcsi_placer_axes(const lrcsi_placer *placer, lrcsi_axes *axes);
 
+/* The largest singular value of the linear map, and the ratio of that to the least: bounds on both;
+   infinite where a matrix is far from a rotation. */
+void lrcsi_placer_stretch(const lrcsi_placer *placer, double *most, double *ratio);
+
 /* A normal under the same: by the inverse transpose of the linear map, so that what was outward
    stays so, but for length. */
 void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3]);

@@ -19,7 +19,7 @@ enum recipe_tag { TAG_PART, TAG_MATERIAL, TAG_MAP_NAME, TAG_MAP_COLOUR };
 typedef struct recipe_reader {
     lrcsi_toml toml;
     lrcsi_draft draft;
-    double unit; /* of model files, m */
+    double unit; /* of model files, m; 0: not stated */
     lrcs_recipe recipe;
 } recipe_reader;
 
@@ -90,7 +90,7 @@ static int finish_top(recipe_reader *reader)
         binding->material = material->text;
         binding->line = material->line;
     }
-    return lrcsi_recipe_unit(draft, 1.0, &reader->unit);
+    return lrcsi_recipe_unit(draft, 0.0, &reader->unit);
 }
 
 /* Four numbers, or a name of the library. */

@@ -113,8 +113,9 @@ void lrcsi_shaped_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, doub
     }
 }
 
-/* What holds of a placed shape by construction. Curvature outlives uniform scaling only; convexity
-   any affine map, and with the winding flipped the outside stays outside under a mirror. */
+/* What holds of a placed shape by construction. Curvature outlives one scale for all axes as it is,
+   others as mesh/profile.h has it; convexity any affine map, and with the winding flipped the
+   outside stays outside under a mirror. */
 void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
                            const lrcs_curvature *curvature, const lrcsi_placer *placer,
                            double extent, lrcs_part *part)
@@ -126,7 +127,10 @@ void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisi
     int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->lean == 0.0 &&
                 curvature->spread == 0.0;
     const double zero[3] = {0.0, 0.0, 0.0};
+    double stretch;
+    double ratio;
     lrcsi_axes axes;
+    lrcsi_placer_stretch(placer, &stretch, &ratio);
     part->misplaced = misplacement(extent, divisions, placer);
     part->kind = shape->kind;
     part->rigid = lrcsi_placer_axes(placer, &axes);
@@ -139,8 +143,11 @@ void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisi
     part->unit = most;
     lrcsi_placer_run(placer, zero, part->origin);
     part->curvature = *curvature;
-    part->curvature_known = plane || part->rigid;
-    part->reach = reach > 0.0 ? 1.000001 * most * reach + 2.0 * part->misplaced : 0.0;
+    part->curvature_known = plane || ratio < HUGE_VAL;
+    if (!plane && !part->rigid && part->curvature_known) {
+        part->curvature = lrcsi_profile_stretched(curvature, ratio, &part->uneven);
+    }
+    part->reach = reach > 0.0 ? 1.000001 * stretch * reach + 2.0 * part->misplaced : 0.0;
     part->convex_patch = 1;
     part->thinnest = least * least_extent(shape);
     part->solid = is_closed(shape) && part->thinnest > 0.0;

@@ -19,7 +19,7 @@
       (visibility/cells_charge.h). A facet's area is told where its error is small enough.
 
    The area of a facet in a cell is off by the error of its sides times their length there, and by
-   8 u b and the cell's drift times the perimeter of what it has there (visibility/cells_charge.c).
+   4 u b and the cell's drift times the perimeter of what it has there (visibility/cells_charge.c).
  */
 #include "visibility/cells.h"
 
@@ -89,7 +89,7 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             4 * w;
     }
     double around = wide[0] + wide[1];
-    area->off += 2 * (cell->drift + 8 * U * c->reach) * around +
+    area->off += 2 * (cell->drift + 4 * U * c->reach) * around +
                  5 * U * (piece.count + 3) * wide[0] * wide[1];
     for (int k = 0; k < 3 && piece.count > 0; k++) {
         double range[2];
@@ -99,7 +99,7 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
         if (range[0] < w) {
             area->off +=
-                (f->line_off + 16 * U * c->reach) * lrcsi_least(f->length[k] + 4 * w, around);
+                (f->line_off + 12 * U * c->reach) * lrcsi_least(f->length[k] + 4 * w, around);
             lrcsi_cells_shape_clip(&piece, f->side[k]);
         }
     }
@@ -311,6 +311,12 @@ static lrcsi_visible facet_told(const lrcsi_cells_work *c, uint32_t facet, doubl
     return (lrcsi_visible){seen, lrcsi_most(0, seen - *off), lrcsi_least(whole, seen + *off), 0, 0};
 }
 
+/* That of the bulk of a scene. */
+static double extent_of(const lrcs_prepared *p)
+{
+    return 2 * lrcsi_most(p->bulk[0], lrcsi_most(p->bulk[1], p->bulk[2]));
+}
+
 /* What a facet's area may be off by, so that it is told: what DESIGN.md promises, or what clipping
    the facet alone would charge at least (visibility/occlude.c): 52 u of its diameter times its
    perimeter, and for each cut a strip 128 u of the diameter wide. Clipping finds needles and what
@@ -325,8 +331,7 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, int as_c
         const double *q = c->view->point[corner[(k + 1) % 3]].x;
         diameter = lrcsi_most(diameter, lrcsi_most(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
     }
-    const double *bulk = c->view->prepared->bulk;
-    double extent = 2 * lrcsi_most(bulk[0], lrcsi_most(bulk[1], bulk[2]));
+    double extent = extent_of(c->view->prepared);
     int ordinary = projected > NEEDLE * diameter * diameter && diameter < 2 * extent;
     double alone = as_clipping ? U * diameter * (104 * diameter + 128 * c->area[facet].cut) : 0;
     return ACCURACY_OF_FACET * projected +
@@ -420,6 +425,7 @@ void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned c
     size_t mark = work->used;
     size_t peak = work->peak; /* nothing is missing where this finds no memory */
     lrcsi_cells_work c = {.view = view, .frame = {.view = view}, .open = open};
+    c.trifle = 0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
     if (!view->prepared->convex && cells_make(contest, work, &c)) {
         for (uint32_t y = 0; y < c.grid.side; y++) {
             for (uint32_t x = 0; x < c.grid.side; x++) {

@@ -22,7 +22,7 @@ static uint64_t block_entries(const lrcs_prepared *p)
 
 /* Blocks are squares of the window of the scene's bulk, twice as large as the cells of the
    contest's grid, in a ring of blocks that hold what stands outside. */
-#define BLOCK 2u
+#define BLOCK 3u
 
 static void blocks_place(lrcsi_cells_grid *c)
 {

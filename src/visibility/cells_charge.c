@@ -26,10 +26,13 @@
    and leaves that is off by less than 4 u of its length, for it counts as a whole where it rises by
    less than the strip's width; CELLS_FAR w on either end is far more.
 
-   A cell is cut along the line of a segment as computed. Then P is on one side of the true line,
-   and x may be on the other only within w of it. A facet F lies on one side of its own edge. So
-   where the cell is cut along that, F is in no doubt on its own side: neither P nor any point of F
-   is beyond the edge. What F has on the other side is nearer to the line than w. */
+   A cell is cut along the line of a segment as computed. The true line is within `line_off` and 6 u
+   b of it, b the largest coordinate of the block. The new corners are within 6 u b of it, and what
+   belongs to one of the parts is as near to that as its drift is, which is the cell's and at most 4
+   u b. So P is on one side of the true line, and x is on the other only within `line_off`, 12 u b
+   and the cell's drift of it: w, here. A facet F lies on one side of its own edge. So where the
+   cell is cut along that, F is in no doubt on its own side: neither P nor any point of F is beyond
+   the edge. What F has on the other side is nearer to the line than w. */
 #include "visibility/cells_charge.h"
 
 #include <math.h>
@@ -41,7 +44,19 @@
 /* A cell that is no wider than so many strips may be charged whole. */
 #define SLIVER 8
 
-/* How far a facet goes along a line, from `start`, where it is within `near` of it; along[0] >
+/* How far a facet goes along a line, from `start`. */
+static inline void corners_along(const lrcsi_cells_facet *f, const double line[3],
+                                 const double start[2], double along[2])
+{
+    double from = line[1] * start[0] - line[0] * start[1];
+    double a = line[1] * f->x[0] - line[0] * f->y[0];
+    double b = line[1] * f->x[1] - line[0] * f->y[1];
+    double d = line[1] * f->x[2] - line[0] * f->y[2];
+    along[0] = lrcsi_least(a, lrcsi_least(b, d)) - from;
+    along[1] = lrcsi_most(a, lrcsi_most(b, d)) - from;
+}
+
+/* The same where it is within `near` of it; along[0] >
    along[1] where it is nowhere. Sides that are almost parallel count as a whole. */
 static void facet_along(const lrcsi_cells_facet *f, const double line[3], const double start[2],
                         double near, double along[2])
@@ -78,8 +93,8 @@ static void facet_along(const lrcsi_cells_facet *f, const double line[3], const 
 void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e)
 {
-    double strip = e->w + lrcsi_most(0, e->part.deep);
-    double doubt = strip * ((e->part.to - e->part.from) * e->length + CELLS_FAR * e->w);
+    double strip = e->part.strip;
+    double doubt = strip * ((e->part.to - e->part.from) * e->length + CELLS_FAR * strip);
     if (doubt < 0x1p-58 * c->reach * c->reach) {
         cell->doubt += doubt;
         return;
@@ -97,7 +112,7 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             continue;
         }
         double far = 4 * strip + f->off + s->g;
-        double beyond = CELLS_FAR * e->w + far;
+        double beyond = CELLS_FAR * strip + far;
         if (f->low[0] > box[1][0] + beyond || f->high[0] < box[0][0] - beyond ||
             f->low[1] > box[1][1] + beyond || f->high[1] < box[0][1] - beyond) {
             continue;
@@ -119,19 +134,21 @@ void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, dou
     const lrcsi_cells_segment *e = strip->along;
     const lrcsi_cells_facet *f = &c->facet[index];
     double far = f->off + strip->g;
-    double along[2];
-    facet_along(f, e->line, e->end[0], strip->width + 2 * far, along);
     double beyond = CELLS_FAR * strip->width + far;
-    double length =
-        lrcsi_least(along[1], strip->to) - lrcsi_most(along[0], strip->from) + 2 * beyond;
+    double along[2];
     double wide = lrcsi_least(high + far, strip->width) - lrcsi_most(low - far, -strip->width);
     if (!e->contact && (e->owner[0] == index || e->owner[1] == index)) {
         wide = lrcsi_least(wide, strip->width);
     }
-    if (length > 0 && wide > 0) {
-        c->area[index].doubt += wide * length;
-        c->area[index].cut += length;
+    corners_along(f, e->line, e->end[0], along);
+    double length =
+        lrcsi_least(along[1], strip->to) - lrcsi_most(along[0], strip->from) + 2 * beyond;
+    if (wide * length > c->trifle) {
+        facet_along(f, e->line, e->end[0], strip->width + 2 * far, along);
+        length = lrcsi_least(along[1], strip->to) - lrcsi_most(along[0], strip->from) + 2 * beyond;
+        c->area[index].cut += lrcsi_most(0, length);
     }
+    c->area[index].doubt += lrcsi_most(0, wide) * lrcsi_most(0, length);
 }
 
 int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,

@@ -46,8 +46,9 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->off + s->g;
         c->listed[index] = c->look;
-        if (at[0] < f->low[0] - w || at[0] > f->high[0] + w || at[1] < f->low[1] - w ||
-            at[1] > f->high[1] + w) {
+        double outside = lrcsi_most(lrcsi_most(f->low[0] - at[0], at[0] - f->high[0]),
+                                    lrcsi_most(f->low[1] - at[1], at[1] - f->high[1]));
+        if (outside > w) {
             continue;
         }
         double inside = lrcsi_line_at(f->side[0], at[0], at[1]);
@@ -173,19 +174,22 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         uint32_t facet = c->component[i];
         const lrcsi_cells_facet *f = &c->facet[facet];
         double w = f->off + s->g;
+        double line_w = (f->thin ? f->off : f->line_off) + s->g;
         whole &= (c->kind[facet] & LRCSI_CELLS_VAGUE) == 0 &&
                  (facet == best || (c->met[facet] >> 1) != c->look);
         for (int k = 0; k < 3; k++) {
             double range[2];
             lrcsi_cells_part part;
-            uint32_t next = lrcsi_cells_next(c->view, c->kind, facet,
-                                             lrcsi_cells_side_number(c->view, facet, k));
+            uint32_t next = f->next[k];
             if (next != LRCS_NONE && c->joined[next] == c->look) {
                 continue;
             }
             int n = k == 2 ? 0 : k + 1;
             const double p[2] = {f->x[k], f->y[k]};
             const double q[2] = {f->x[n], f->y[n]};
+            if (lrcsi_cells_box_away(s, p, q, w)) {
+                continue;
+            }
             double line[3];
             memcpy(line, f->side[k], sizeof line);
             if (f->thin) {
@@ -195,7 +199,7 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             if (range[0] > w || range[1] < -w) {
                 continue;
             }
-            int place = lrcsi_cells_place_of(&cell->shape, s, p, q, line, w, &part);
+            int place = lrcsi_cells_place_of(&cell->shape, s, p, q, line, w, line_w, &part);
             if (place == LRCSI_CELLS_AWAY) {
                 continue;
             }
@@ -203,12 +207,12 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                 whole &= c->borders < LRCSI_CELLS_BORDERS;
                 if (whole) {
                     c->border[c->borders++] = (lrcsi_cells_border){
-                        {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], w, part};
+                        {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], part};
                 }
             } else if (place == LRCSI_CELLS_BORDER) {
                 continue;
             } else if (next == LRCS_NONE || c->listed[next] != c->look) {
-                whole = 0;
+                return 0;
             } else {
                 c->joined[next] = c->look;
                 c->component[c->components++] = next;
@@ -265,7 +269,7 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
         return 1;
     }
     lrcsi_cells_part part = {0, 1, 0};
-    lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w, &part);
+    lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &part);
     double at[2][3];
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++) {

@@ -35,17 +35,17 @@ void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi
             continue;
         }
         lrcsi_cells_part part;
-        int place = lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w, &part);
+        int place = lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w,
+                                         e->line_off + s->g, &part);
         if (place == LRCSI_CELLS_MEETS) {
             lrcsi_cells_keep(c->segments, i, kept++);
         } else if (place == LRCSI_CELLS_BORDER) {
             cell->struck++;
-            cell->inset = lrcsi_most(cell->inset, w + lrcsi_most(0, part.deep));
+            cell->inset = lrcsi_most(cell->inset, part.strip);
             lrcsi_cells_charge_border(c, cell, s,
                                       &(lrcsi_cells_border){{e->line[0], e->line[1], e->line[2]},
                                                             {e->end[0][0], e->end[0][1]},
                                                             e->length,
-                                                            w,
                                                             part});
         }
     }
@@ -62,20 +62,19 @@ static void facet_range(const lrcsi_cells_facet *f, const double line[3], double
     range[1] = lrcsi_most(a, lrcsi_most(b, d));
 }
 
-/* Does one side of a facet have all of a cell beyond it? */
+/* Does one side of a facet have all of a cell beyond it? Without branches but for the loop, as it
+   is asked so often and answered either way. */
 static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape, double w)
 {
-    for (int k = 0; k < 3; k++) {
-        uint32_t i = 0;
-        while (i < shape->count &&
-               lrcsi_line_at(f->side[k], shape->corner[i][0], shape->corner[i][1]) < -w) {
-            i++;
-        }
-        if (i == shape->count) {
-            return 1;
-        }
+    double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (uint32_t i = 0; i < shape->count; i++) {
+        double x = shape->corner[i][0];
+        double y = shape->corner[i][1];
+        most[0] = lrcsi_most(most[0], lrcsi_line_at(f->side[0], x, y));
+        most[1] = lrcsi_most(most[1], lrcsi_line_at(f->side[1], x, y));
+        most[2] = lrcsi_most(most[2], lrcsi_line_at(f->side[2], x, y));
     }
-    return 0;
+    return lrcsi_least(most[0], lrcsi_least(most[1], most[2])) < -w;
 }
 
 /* Divides the facets of a cell: those that may come near the left part first, those that come near
@@ -172,9 +171,9 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     lrcsi_cells_strip strip = {along, 0, 0, 0, s->g};
     if (along) {
         lrcsi_cells_part part = {0, 1, 0};
-        strip.width = along->line_off + s->g + 4 * U * c->reach + U * s->perimeter;
+        strip.width = along->line_off + cell->drift + 12 * U * c->reach;
         lrcsi_cells_place_of(&cell->shape, s, along->end[0], along->end[1], along->line,
-                             lrcsi_most(strip.width, along->off + s->g), &part);
+                             along->off + s->g, along->off + s->g, &part);
         strip.from = part.from * along->length;
         strip.to = part.to * along->length;
     }

@@ -104,9 +104,10 @@ double lrcsi_cells_line(const lrcsi_cells_point *p, const lrcsi_cells_point *q, 
                  (along[0].hi * at[1].lo + along[0].lo * at[1].hi);
     lrcsi_dd cross = lrcsi_dd_two_sum(one.hi, -two.hi);
     double length = sqrt(along[0].hi * along[0].hi + along[1].hi * along[1].hi);
-    line[0] = length > 0 ? -along[1].hi / length : 1;
-    line[1] = length > 0 ? along[0].hi / length : 0;
-    line[2] = length > 0 ? (cross.hi + (cross.lo + (one.lo - two.lo + low))) / length : -at[0].hi;
+    double inverse = length > 0 ? 1 / length : 0;
+    line[0] = length > 0 ? -along[1].hi * inverse : 1;
+    line[1] = along[0].hi * inverse;
+    line[2] = length > 0 ? (cross.hi + (cross.lo + (one.lo - two.lo + low))) * inverse : -at[0].hi;
     return length;
 }
 

@@ -20,6 +20,7 @@ typedef struct lrcsi_cells_facet {
     double off;             /* of its vertices, and of how far they are from a line */
     double line_off;        /* of its sides within the block, but for 16 u b */
     double z_err;           /* of their z */
+    uint32_t next[3];       /* who continues it across each side (visibility/cells_join.h) */
     int thin;               /* its sides are those of a band */
 } lrcsi_cells_facet;
 

@@ -17,21 +17,23 @@ int lrcsi_cells_apart(const lrcsi_view *view, uint32_t facet)
     return 0;
 }
 
+/* Across an irregular edge: the other of two facets on opposite sides of it (as edge_kind_of in
+   visibility/event.c). */
 static uint32_t odd_neighbour(const lrcsi_view *view, uint32_t facet, uint32_t edge)
 {
     const lrcsi_topology *t = &view->prepared->topology;
     const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
     uint32_t other = LRCS_NONE;
     uint32_t count = 0;
-    uint32_t forward = 0;
+    int left = 0;
     for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
         if (lrcsi_grid_casts(view, use[i].facet)) {
             other = use[i].facet != facet ? use[i].facet : other;
             count++;
-            forward += use[i].forward;
+            left += use[i].forward ? view->facing[use[i].facet] : -view->facing[use[i].facet];
         }
     }
-    return count == 2 && forward == 1 ? other : LRCS_NONE;
+    return count == 2 && left == 0 ? other : LRCS_NONE;
 }
 
 uint32_t lrcsi_cells_joined(const lrcsi_view *view, uint32_t facet, int k)
@@ -39,7 +41,7 @@ uint32_t lrcsi_cells_joined(const lrcsi_view *view, uint32_t facet, int k)
     const lrcs_prepared *p = view->prepared;
     uint32_t other = p->across.facet[facet].corner[k];
     if (other == facet) {
-        other = odd_neighbour(view, facet, p->topology.facet_edge[facet].corner[k]);
+        return odd_neighbour(view, facet, p->topology.facet_edge[facet].corner[k]);
     }
     return other < p->scene->facet_count && lrcsi_grid_casts(view, other) &&
                    view->facing[other] == view->facing[facet]

@@ -7,7 +7,8 @@
 
 enum {
     LRCSI_CELLS_APART = 1, /* the facet goes on nowhere: it meets others in its plane */
-    LRCSI_CELLS_VAGUE = 2  /* a contact of it is not known */
+    LRCSI_CELLS_VAGUE = 2, /* a contact of it is not known */
+    LRCSI_CELLS_LINKED = 4 /* who continues it is known */
 };
 
 /* Whether a facet goes on nowhere: it meets others in its plane. */

@@ -138,7 +138,7 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
     return 1;
 }
 
-/* Lists the facets near a cell. */
+/* Lists the facets near a cell. Who continues a facet is the same in all blocks. */
 static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.facets;
@@ -150,6 +150,13 @@ static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cel
         c->found[index] |= f->thin ? LRCSI_CELLS_OPEN : 0;
         if (lrcsi_cells_facet_near(f, &cell->shape, cell->shape.corner[0], cell->shape.corner[2],
                                    g)) {
+            if ((c->kind[index] & LRCSI_CELLS_LINKED) == 0) {
+                for (int k = 0; k < 3; k++) {
+                    f->next[k] = lrcsi_cells_next(c->view, c->kind, index,
+                                                  lrcsi_cells_side_number(c->view, index, k));
+                }
+                c->kind[index] |= LRCSI_CELLS_LINKED;
+            }
             c->facets[cell->facets++] = index;
             c->listed[index] = c->look;
             c->off = lrcsi_most(c->off, f->off);

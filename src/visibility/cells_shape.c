@@ -64,28 +64,25 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
 
 int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
                          const double p[2], const double q[2], const double line[3], double w,
-                         lrcsi_cells_part *part)
+                         double line_w, lrcsi_cells_part *part)
 {
-    int place = LRCSI_CELLS_MEETS;
-    if (lrcsi_most(p[0], q[0]) < s->low[0] - w || lrcsi_least(p[0], q[0]) > s->high[0] + w ||
-        lrcsi_most(p[1], q[1]) < s->low[1] - w || lrcsi_least(p[1], q[1]) > s->high[1] + w) {
+    if (lrcsi_cells_box_away(s, p, q, w)) {
         return LRCSI_CELLS_AWAY;
     }
     double range[2];
     lrcsi_line_range(shape, line, range);
     double deep = lrcsi_least(range[1], -range[0]);
-    if (deep < -w) {
+    if (deep < -line_w) {
         return LRCSI_CELLS_AWAY;
     }
-    part->deep = w;
+    double strip = deep <= line_w ? line_w + lrcsi_most(0, deep) : HUGE_VAL;
     part->from = 0;
     part->to = 1;
     for (uint32_t i = 0; i < s->count; i++) {
         double a = lrcsi_line_at(s->line[i], p[0], p[1]);
         double b = lrcsi_line_at(s->line[i], q[0], q[1]);
         if (a < w && b < w) {
-            place = LRCSI_CELLS_BORDER;
-            part->deep = lrcsi_least(part->deep, lrcsi_most(a, b));
+            strip = lrcsi_least(strip, w + lrcsi_most(0, lrcsi_most(a, b)));
             if (a < -w && b < -w) {
                 return LRCSI_CELLS_AWAY;
             }
@@ -99,11 +96,8 @@ int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_side
     if (part->from > part->to) {
         return LRCSI_CELLS_AWAY;
     }
-    if (deep <= w) {
-        place = LRCSI_CELLS_BORDER;
-        part->deep = lrcsi_least(part->deep, deep);
-    }
-    return place;
+    part->strip = strip;
+    return strip < HUGE_VAL ? LRCSI_CELLS_BORDER : LRCSI_CELLS_MEETS;
 }
 
 double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2])
@@ -123,12 +117,15 @@ double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2])
 
 void lrcsi_cells_shape_clip(lrcsi_clip_polygon *shape, const double line[3])
 {
-    lrcsi_clip_polygon out = {.count = 0};
+    lrcsi_clip_polygon out;
+    out.count = 0;
+    const double *p = shape->corner[0];
+    double a = shape->count > 0 ? lrcsi_line_at(line, p[0], p[1]) : 0;
+    double first = a;
     for (uint32_t i = 0; i < shape->count; i++) {
-        const double *p = shape->corner[i];
-        const double *q = shape->corner[i + 1 < shape->count ? i + 1 : 0];
-        double a = lrcsi_line_at(line, p[0], p[1]);
-        double b = lrcsi_line_at(line, q[0], q[1]);
+        int last = i + 1 == shape->count;
+        const double *q = shape->corner[last ? 0 : i + 1];
+        double b = last ? first : lrcsi_line_at(line, q[0], q[1]);
         if (a >= 0) {
             memcpy(out.corner[out.count++], p, sizeof out.corner[0]);
         }
@@ -137,8 +134,11 @@ void lrcsi_cells_shape_clip(lrcsi_clip_polygon *shape, const double line[3])
             out.corner[out.count][0] = p[0] + t * (q[0] - p[0]);
             out.corner[out.count++][1] = p[1] + t * (q[1] - p[1]);
         }
+        p = q;
+        a = b;
     }
-    *shape = out;
+    shape->count = out.count;
+    memcpy(shape->corner, out.corner, out.count * sizeof out.corner[0]);
 }
 
 /* How far a corner, computed at a share t of a side that goes by (x, y), is from the line of the

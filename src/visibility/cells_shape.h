@@ -4,6 +4,7 @@
 #ifndef LRCSI_CELLS_SHAPE_H
 #define LRCSI_CELLS_SHAPE_H
 
+#include "base/range.h"
 #include "visibility/clip.h"
 
 /* The line through two points: a x + b y + c is the distance from it, positive on the left. Returns
@@ -36,23 +37,32 @@ void lrcsi_line_range(const lrcsi_clip_polygon *shape, const double line[3], dou
 void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
                      double range[2]);
 
-/* What of a segment is in a cell, or within w of it: between two shares of its length; at the
-   border, how deep. */
+/* What of a segment is in a cell, or near it: between two shares of its length; at the border, how
+   far from there places are in doubt. */
 typedef struct lrcsi_cells_part {
-    double from, to, deep;
+    double from, to, strip;
 } lrcsi_cells_part;
 
+/* Is the box of a segment from p to q farther than w from that of the cell? */
+static inline int lrcsi_cells_box_away(const lrcsi_cells_sides *s, const double p[2],
+                                       const double q[2], double w)
+{
+    double x = lrcsi_most(s->low[0] - lrcsi_most(p[0], q[0]), lrcsi_least(p[0], q[0]) - s->high[0]);
+    double y = lrcsi_most(s->low[1] - lrcsi_most(p[1], q[1]), lrcsi_least(p[1], q[1]) - s->high[1]);
+    return lrcsi_most(x, y) > w;
+}
+
 enum lrcsi_cells_place {
-    LRCSI_CELLS_AWAY,   /* no point of the segment within w of the cell */
-    LRCSI_CELLS_BORDER, /* nowhere deeper than w within the cell */
+    LRCSI_CELLS_AWAY,   /* no point of the segment within its error of the cell */
+    LRCSI_CELLS_BORDER, /* nowhere deeper than its error within the cell */
     LRCSI_CELLS_MEETS   /* neither is sure */
 };
 
-/* How a segment from p to q stands to a cell: a lrcsi_cells_place; the part is told where it is not
-   apart. */
+/* How a segment from p to q, known to w, on a line that is known to line_w, stands to a cell: a
+   lrcsi_cells_place; the part is told where it is not away. */
 int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
                          const double p[2], const double q[2], const double line[3], double w,
-                         lrcsi_cells_part *part);
+                         double line_w, lrcsi_cells_part *part);
 
 /* A lower bound of how far inside the cell a point lies (as lrcsi_clip_clear). */
 double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2]);

@@ -43,7 +43,7 @@ typedef struct lrcsi_cells_found {
 /* A segment at the border of a cell. */
 typedef struct lrcsi_cells_border {
     double line[3], start[2]; /* of it, and where it starts */
-    double length, w;
+    double length;
     lrcsi_cells_part part;
 } lrcsi_cells_border;
 
@@ -77,8 +77,9 @@ typedef struct lrcsi_cells_work {
     uint32_t segment_count, segment_room;
     lrcsi_cells_cell *stack;
     uint32_t top;
-    double reach; /* the largest coordinate in the block at hand, from its middle */
-    double off;   /* the largest of what is listed there */
+    double reach;  /* the largest coordinate in the block at hand, from its middle */
+    double off;    /* the largest of what is listed there */
+    double trifle; /* area in doubt that is charged without a closer look */
 } lrcsi_cells_work;
 
 /* Keeps item i of a list as one of the first: puts it in place `kept`, and that one in its own. */

@@ -11,25 +11,24 @@
 
 enum edge_kind { EDGE_IDLE, EDGE_JOINS, EDGE_EVENT };
 
-/* What an edge is; where it joins two facets, they are in pair. */
+/* What an edge is; where it joins two facets, they are in pair. In projection a facet lies to the
+   left of its side where it faces the laser, else to the right: two lie on opposite sides of an
+   edge if and only if they run it in opposite directions and face the same way, or in the same
+   direction and face opposite ways, as where the winding of a surface changes. */
 static int edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
 {
     const lrcsi_topology *t = &view->prepared->topology;
     const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
     uint32_t count = 0;
-    uint32_t forward = 0;
-    int facing = 0;
+    int left = 0; /* facets on the left of the edge, less those on the right */
     for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
         if (lrcsi_grid_casts(view, use[i].facet)) {
             pair[count < 2 ? count : 1] = use[i].facet;
             count++;
-            forward += use[i].forward;
-            facing += view->facing[use[i].facet];
+            left += use[i].forward ? view->facing[use[i].facet] : -view->facing[use[i].facet];
         }
     }
-    return count == 0                                  ? EDGE_IDLE
-           : count == 2 && forward == 1 && facing != 0 ? EDGE_JOINS
-                                                       : EDGE_EVENT;
+    return count == 0 ? EDGE_IDLE : count == 2 && left == 0 ? EDGE_JOINS : EDGE_EVENT;
 }
 
 /* --- all edges -------------------------------------------------------------------------------- */

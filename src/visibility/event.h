@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Event edges: those whose facets do not continue each other in a view, that is, not exactly two,
-   in opposite directions, both facing the same way (contours, rims, and edges of three or more
-   facets). Facets that cannot hide anything do not count. */
+/* Event edges: those whose facets do not continue each other in a view, that is, not exactly two, one
+   on each side of the edge in projection (contours, rims, and edges of three or more facets).
+   Facets that cannot hide anything do not count. */
 #ifndef LRCSI_EVENT_H
 #define LRCSI_EVENT_H
 

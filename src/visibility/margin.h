@@ -41,7 +41,7 @@
 
    So the shares of a facet within such bands, rectangles about edges and prisms about facets, add
    up to an upper bound of its share where truth and facets may differ. Its area carries over to its
-   patch: the map stretches area evenly (mesh/profile.c). */
+   patch: the map stretches area evenly (mesh/profile.c), but for what lrcs_part.uneven bounds. */
 #ifndef LRCSI_MARGIN_H
 #define LRCSI_MARGIN_H
 

@@ -18,11 +18,11 @@ at="--azel 40,60 --material red=1,0.3,0.4,1 --material blue=0.2,0,0.3,0"
 
 run run scene.toml $at --json
 same shares_come_only_when_asked "$(printf '%s\n' "$out" | grep -c '"shares"')" 0
-plain=$(printf '%s\n' "$out" | grep -v '"seconds"')
+plain=$(printf '%s\n' "$out" | grep -v '"seconds"\|"options"')
 run run scene.toml $at --json --shares --facets f.csv
 printf '%s\n' "$out" >shares.json
-same shares_are_the_last_key "$(keys | sed 's/.*direction //')" "seconds shares "
-same the_other_keys_stay "$(printf '%s\n' "$out" | sed '/^  "shares"/,$d' | grep -v '"seconds"')" "$(printf '%s\n' "$plain" | sed '$d')"
+same shares_are_the_last_key "$(keys | sed 's/.*direction //')" "seconds box_min_m box_max_m back_sides coarse_glint title materials options shares "
+same the_other_keys_stay "$(printf '%s\n' "$out" | sed '/^  "shares"/,$d' | grep -v '"seconds"\|"options"')" "$(printf '%s\n' "$plain" | sed '$d')"
 run run scene.toml $at --shares
 printf '%s\n' "$out" >table.txt
 run run scene.toml --azel 40,60 --material 0,0,0.1,0 --material red=0,0,0.1,0 --material paint-white=0,0,0.1,0 \

@@ -22,7 +22,7 @@ alike() {
 run sweep pair.toml --az 0:30:10 --el 0
 same a_cut_exits_0 "$rc" 0
 same the_first_line_says_what_it_is "$(printf '%s\n' "$out" | head -1)" \
-    "# lrcs $("$tool" --version | cut -d' ' -f2) sweep; scene_hash=$("$tool" run pair.toml --json 2>/dev/null | sed -n 's/.*"scene_hash": "\(.*\)",/\1/p'); rows=4; shape=4; az=0:30:10; el=0; tolerance=0.0001; method=auto; resolution=auto; normals=flat"
+    "# lrcs $("$tool" --version | cut -d' ' -f2) sweep; scene_hash=$("$tool" run pair.toml --json 2>/dev/null | sed -n 's/.*"scene_hash": "\(.*\)",/\1/p'); rows=4; shape=4; az=0:30:10; el=0; tolerance=0.0001; method=auto; resolution=auto; normals=flat; title=pair.toml; files=pair.toml $("$tool" run pair.toml --json 2>/dev/null | sed -n 's/.*"hash": "\(.*\)".*/\1/p')"
 same the_second_line_names_columns "$(printf '%s\n' "$out" | sed -n 2p)" "index,az_deg,el_deg,sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2,flags"
 same both_ends_are_in "$(printf '%s\n' "$out" | sed '1,2d;$d' | column 2 | tr '\n' ' ')" "0 10 20 30 "
 
@@ -78,6 +78,8 @@ printf '# a track\ntime,w,x,y,z\n0,1,0,0,0\n0.5,2,0,0,0\n\n1,0.70710678118654752
 printf 't,qx,qy,qz,qw,mode\n0,0,0,0,1,nadir\n0.5,0,0,0,2,nadir\n1,0.70710678118654752,0,0,0.70710678118654752,sun\n' >last.csv
 printf '0,0,0,1\n0.5,0,0,4\n1,0,1,0\n' >d.csv
 same a_track_has_times "$(sweep pair.toml --poses q.csv | column 2 | tr '\n' ' ')" "0 0.5 1 "
+run sweep pair.toml --poses last.csv
+same a_column_of_a_track_that_is_not_used_is_told "$(printf '%s\n' "$err" | grep -c "^notice: last.csv: column 'mode' is not used")" 1
 alike quaternions_by_name 'sweep pair.toml --poses q.csv' 'sweep pair.toml --poses last.csv'
 same a_quarter_turn_about_x_shows_y "$(sweep pair.toml --poses q.csv | column 3,4,5 | sed -n 1p) $(sweep pair.toml --poses q.csv | column 4 | sed -n 3p | cut -c1-6)" "0,0,1 1"
 run run pair.toml --quaternion 0.70710678118654752,0.70710678118654752,0,0 --json
@@ -137,6 +139,7 @@ same and_says_how_often "$(printf '%s\n' "$err" | grep -c 'of 3 rows miss the to
 same and_so_do_the_rows "$(printf '%s\n' "$out" | grep -c ',tolerance_not_met$' | awk '{ print ($1 > 0) }')" 1
 run sweep pair.toml --az 0:20:10 --el 75 --method zbuffer --resolution 16
 same a_forced_method_without_a_tolerance_exits_0 "$rc" 0
+same and_nothing_speaks_of_one_missed "$(printf '%s\n' "$out$err" | grep -c 'tolerance_not_met\|miss')" 0
 
 # ---- usage ----
 usage_error nothing_varies "nothing varies" sweep demo

@@ -7,17 +7,22 @@ static test_scene scene;
 
 /* A bus, a panel beside it, a ball in front of both and a louvre around them: shadows with straight
    and with curved borders, many of them. */
-static void shadows(void)
+static void shadows_about(uint32_t meridians)
 {
     scene_start(&scene);
     scene_box(&scene, (const double[3]){-1, -1, -1}, (const double[3]){1, 1, 1});
     scene_plate(&scene, (const double[3]){1.3, -0.7, 0.1}, (const double[3]){2, 0.1, 0},
                 (const double[3]){0.1, 1.5, 0.2});
-    scene_sphere(&scene, (const double[3]){0.9, 0.3, 2.2}, 0.7, 24);
+    scene_sphere(&scene, (const double[3]){0.9, 0.3, 2.2}, 0.7, meridians);
     for (int i = 0; i < 40; i++) {
         scene_plate(&scene, (const double[3]){-2 + 0.13 * i, -2 + 0.01 * i, 3 - 0.02 * i},
                     (const double[3]){0.06, 0.01, 0.02}, (const double[3]){0.1, 4, -0.1});
     }
+}
+
+static void shadows(void)
+{
+    shadows_about(24);
 }
 
 static lrcs_result answer(const lrcs_prepared *prepared, lrcs_work *work, const double d[3],
@@ -49,7 +54,7 @@ static void estimates_are_flagged_and_are_those_of_the_raster_they_name(void **s
     int flagged = 0;
     int clipped = 0;
     lrcs_work work;
-    shadows();
+    shadows_about(44);
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     for (int i = 0; i < 60; i++) {
         const double d[3] = {cos(i), sin(i), 0.9 * sin(0.7 * i)};

@@ -232,6 +232,110 @@ static void a_tube_pierced_by_a_box(void **state)
     check_rays(&s, 0.1);
 }
 
+/* --- unevenly scaled -------------------------------------------------------------------------- */
+
+/* 4 pi times the integral of F over an ellipsoid with these semi-axes: over the unit sphere's
+   normals, whose half that faces the laser is the one around e = M^-1 d; Gauss-Legendre would do
+   with fewer points than this midpoint rule. */
+static double ellipsoid_truth(const lrcs_brdf *brdf, const double axis[3], const double d[3])
+{
+    double e[3];
+    double a[3];
+    double b[3];
+    double length = 0;
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        e[k] = d[k] / axis[k];
+        length += e[k] * e[k];
+    }
+    length = sqrt(length);
+    int least = fabs(e[0]) < fabs(e[1]) ? 0 : 1;
+    double root = sqrt(length * length - e[least] * e[least]);
+    for (int k = 0; k < 3; k++) {
+        e[k] /= length;
+    }
+    for (int k = 0; k < 3; k++) {
+        a[k] = ((k == least) - e[least] * e[k]) / (root / length);
+    }
+    for (int k = 0; k < 3; k++) {
+        b[k] = e[(k + 1) % 3] * a[(k + 2) % 3] - e[(k + 2) % 3] * a[(k + 1) % 3];
+    }
+    for (int i = 0; i < 2000; i++) { /* z = cos of the angle from e, as 1 - x^2 */
+        double x = (i + 0.5) / 2000;
+        double z = 1 - x * x;
+        double r = x * sqrt(2 - x * x);
+        for (int j = 0; j < 256; j++) {
+            double phi = 2 * PI * (j + 0.5) / 256;
+            double square = 0;
+            for (int k = 0; k < 3; k++) {
+                double n = z * e[k] + r * (cos(phi) * a[k] + sin(phi) * b[k]);
+                square += n * n / axis[k] / axis[k];
+            }
+            double cosine = fmin(1, z * length / sqrt(square));
+            sum += cast_reflect(brdf, cosine) * sqrt(square) * 2 * x;
+        }
+    }
+    return 4 * PI * axis[0] * axis[1] * axis[2] * sum * 2 * PI / 256 / 2000;
+}
+
+/* The quadrature is good to 1e-7, as halving its steps shows. */
+static void ellipsoids_alone_and_over_a_plate(void **state)
+{
+    (void)state;
+    static const double scale[][3] = {{1, 2, 1}, {1, 1, 0.5}, {0.5, 1, 1.5}, {3, 1, 1}};
+    for (int i = 0; i < 12; i++) {
+        const double *axes = scale[i % 4];
+        double theta = (i / 4) * 25 * PI / 180;
+        const double d[3] = {0.6 * sin(theta), 0.8 * sin(theta), cos(theta)};
+        double round = 0;
+        double half[3];
+        shadow_scene s = scene_of(glossy, 0);
+        lrcs_recipe_part *part =
+            add(&s, (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5}, 0.125, 0.25, 2);
+        for (int k = 0; k < 3; k++) {
+            part->place.scale[k] = axes[k];
+            half[k] = 0.5 * axes[k];
+            round += d[k] / half[k] * (d[k] / half[k]);
+        }
+        double truth = ellipsoid_truth(&glossy, half, d);
+        check_truth(&s, d, truth, 1e-7 * truth, i == 1 ? 1.5 : 0);
+        add(&s, (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {12, 12}}, 0, 0, 0);
+        double shadow = PI * half[0] * half[1] * half[2] * sqrt(round) / cos(theta);
+        truth += lambertian(&glossy, theta) * (144 - shadow);
+        check_truth(&s, d, truth, 1e-7 * truth, i == 1 ? 0.6 : 0);
+    }
+}
+
+/* Elliptic tubes, cones and bowls that shade one another. */
+static void unevenly_scaled_shapes_among_others(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        shadow_scene s = scene_of(glossy, i == 1);
+        lrcs_shape shape = {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.375, .length = 0.75};
+        lrcs_shape other = {
+            .kind = LRCS_SHAPE_FRUSTUM, .radius = 0.25, .radius2 = 0.5, .length = 1};
+        if (i == 1) {
+            shape = (lrcs_shape){.kind = LRCS_SHAPE_PARABOLOID,
+                                 .parts = LRCS_SHAPE_WALL,
+                                 .radius = 0.5,
+                                 .length = 0.375};
+            other.parts = LRCS_SHAPE_WALL;
+        } else if (i == 2) {
+            shape.kind = LRCS_SHAPE_CONE;
+            other = (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 0.5};
+        }
+        lrcs_recipe_part *part = add(&s, shape, 0, 0, 0);
+        part->place.scale[0] = 1.5;
+        part->place.scale[2] = 2;
+        part = add(&s, other, 0.5, 0.5, 0.75);
+        part->place.scale[1] = 0.625;
+        part = add(&s, (lrcs_shape){.kind = LRCS_SHAPE_DISC, .radius = 0.5}, -0.5, 0.25, -0.5);
+        part->place.scale[1] = 2;
+        check_rays(&s, 0.9);
+    }
+}
+
 static void scenes_of_flat_parts_have_no_tessellation_error(void **state)
 {
     (void)state;
@@ -297,6 +401,8 @@ int main(void)
         cmocka_unit_test(tube_in_tube),
         cmocka_unit_test(eclipsed_and_nested_spheres),
         cmocka_unit_test(a_tube_pierced_by_a_box),
+        cmocka_unit_test(ellipsoids_alone_and_over_a_plate),
+        cmocka_unit_test(unevenly_scaled_shapes_among_others),
         cmocka_unit_test(scenes_of_flat_parts_have_no_tessellation_error),
         cmocka_unit_test(what_is_wholly_hidden_is_exactly_nothing),
         cmocka_unit_test(parts_far_from_the_origin_count_how_placing_rounds_them),

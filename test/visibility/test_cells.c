@@ -197,6 +197,52 @@ static void ramp_that_passes_behind_itself(void **state)
     }
 }
 
+/* A strip that is turned over once on its way around: somewhere its winding changes. Any other of
+   its facets may be wound the other way as well, and shows as much. */
+static void moebius_strip_wound_at_random(void **state)
+{
+    (void)state;
+    enum { PARTS = 40 };
+    static const double direction[][3] = {{0.3, 0.2, 1}, {1, 0.2, 0.3}, {-0.5, 1, 0.7}};
+    double seen[sizeof direction / sizeof *direction][2 * PARTS];
+    uint32_t events[sizeof direction / sizeof *direction];
+    for (uint32_t winding = 0; winding < 8; winding++) {
+        scene_start(&scene);
+        scene.material[0].two_sided = 1;
+        for (int i = 0; i < PARTS; i++) {
+            double t = 2 * (double)SCENE_PI * i / PARTS;
+            for (int side = -1; side <= 1; side += 2) {
+                double r = 1 + side * 0.4 * cos(t / 2);
+                point(r * cos(t), r * sin(t), side * 0.4 * sin(t / 2));
+            }
+        }
+        for (uint32_t i = 0; i < PARTS; i++) {
+            uint32_t next = 2 * (i + 1) % (2 * PARTS);
+            uint32_t turn = i + 1 == PARTS; /* its sides change places */
+            scene_facet(&scene, 2 * i, 2 * i + 1, next + 1 - turn);
+            scene_facet(&scene, 2 * i, next + 1 - turn, next + turn);
+        }
+        uint32_t dice = winding * 2654435761u;
+        for (uint32_t f = 0; f < 2 * PARTS; f++) {
+            dice = dice * 1664525u + 1013904223u;
+            if (winding > 0 && dice >> 31) {
+                uint32_t corner = scene.facet[f].corner[1];
+                scene.facet[f].corner[1] = scene.facet[f].corner[2];
+                scene.facet[f].corner[2] = corner;
+            }
+        }
+        for (size_t i = 0; i < sizeof direction / sizeof *direction; i++) {
+            assert_true(agree(direction[i]) >= 2 * PARTS - 8);
+            events[i] = winding == 0 ? contest.events.count : events[i];
+            assert_int_equal(contest.events.count, events[i]);
+            for (uint32_t f = 0; f < 2 * PARTS; f++) {
+                seen[i][f] = winding == 0 ? found[f].area : seen[i][f];
+                check_abs(found[f].area, seen[i][f], 1e-12);
+            }
+        }
+    }
+}
+
 /* --- at random -------------------------------------------------------------------------------- */
 
 static uint32_t dice_state;
@@ -322,6 +368,7 @@ int main(void)
         cmocka_unit_test(square_stored_twice_with_both_diagonals),
         cmocka_unit_test(plates_that_pierce_each_other),
         cmocka_unit_test(ramp_that_passes_behind_itself),
+        cmocka_unit_test(moebius_strip_wound_at_random),
         cmocka_unit_test(soups_on_few_points_agree_with_clipping),
         cmocka_unit_test(hatch_takes_steps_like_the_pieces_that_are_seen),
         cmocka_unit_test(steps_that_run_out_leave_facets_open),

@@ -44,6 +44,33 @@ static void body_alone_is_uncontested(void **state)
     }
 }
 
+/* A box some of whose facets are wound the other way: back sides cast then, and the contour, where
+   both facets of an edge lie on one side of it, is the same hexagon. */
+static void winding_that_changes_makes_no_events(void **state)
+{
+    (void)state;
+    for (uint32_t flipped = 0; flipped < 1u << 12; flipped += 37) {
+        scene_start(&scene);
+        scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+        for (uint32_t f = 0; f < 12; f++) {
+            if (flipped >> f & 1) {
+                uint32_t corner = scene.facet[f].corner[1];
+                scene.facet[f].corner[1] = scene.facet[f].corner[2];
+                scene.facet[f].corner[2] = corner;
+            }
+        }
+        look_from(1, 2, 3);
+        assert_int_equal(contest.events.count, 6);
+        assert_int_equal(contest.contested_count, 0);
+        uint32_t seen = 0;
+        for (uint32_t f = 0; f < 12; f++) {
+            seen +=
+                lrcsi_grid_casts(&view, f) && lrcsi_query_facet(&facets, f) == LRCSI_QUERY_VISIBLE;
+        }
+        assert_int_equal(seen, 6);
+    }
+}
+
 /* A square of side 1 over the lower right half of a square of side 4, whose diagonal runs from
    (0, 0) to (4, 4): its four rims cross facet 0 and none crosses facet 1. */
 static void rims_in_front_contest_what_they_cross(void **state)
@@ -399,6 +426,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(body_alone_is_uncontested),
+        cmocka_unit_test(winding_that_changes_makes_no_events),
         cmocka_unit_test(rims_in_front_contest_what_they_cross),
         cmocka_unit_test(crossings_are_searched_for_once),
         cmocka_unit_test(rims_behind_all_of_a_facet_do_not_contest_it),

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+/* What a result was made from, as outputs tell it: the scene's title, its files with their hashes,
+   the unit, the materials worn and where their numbers come from, the options given. */
+#include "cli/cli.h"
+
+#include <string.h>
+
+const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene)
+{
+    return scene->recipe.name && scene->recipe.name[0] ? scene->recipe.name : args->operand;
+}
+
+const char *cli_material_source(const lrcs_material *material)
+{
+    const lrcs_brdf_entry *entry;
+    if (!material->bound) {
+        return "default";
+    }
+    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
+        const lrcs_brdf *brdf = &material->brdf;
+        if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
+            entry->brdf.m == brdf->m) {
+            return "illustrative";
+        }
+    }
+    return "given";
+}
+
+const char *cli_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash && slash[1] ? slash + 1 : path;
+}
+
+void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)
+{
+    char hash[32];
+    lrcs_host_json_begin(json, "files", LRCS_HOST_ARRAY);
+    for (const lrcs_host_input *input = scene->input; input; input = input->next) {
+        snprintf(hash, sizeof hash, "fnv1a:%016llx", (unsigned long long)input->hash);
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_text(json, "name", input->path);
+        lrcs_host_json_text(json, "hash", hash);
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+}
+
+static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_material *material = &scene->material[i];
+        uint32_t facets = 0;
+        for (uint32_t f = 0; f < scene->facet_count; f++) {
+            facets += scene->facet_material[f] == i;
+        }
+        if (facets == 0 || material->omitted) {
+            continue;
+        }
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_text(json, "name", material->name);
+        lrcs_host_json_number(json, "A", material->brdf.A);
+        lrcs_host_json_number(json, "B", material->brdf.B);
+        lrcs_host_json_number(json, "s", material->brdf.s);
+        lrcs_host_json_number(json, "m", material->brdf.m);
+        lrcs_host_json_bool(json, "two_sided", material->two_sided);
+        lrcs_host_json_text(json, "source", cli_material_source(material));
+        lrcs_host_json_count(json, "facets", facets);
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+}
+
+void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json)
+{
+    char word[1200];
+    lrcs_host_json_text(json, "title", cli_scene_title(args, scene));
+    materials_json(&scene->scene, json);
+    lrcs_host_json_begin(json, "options", LRCS_HOST_ROW_ARRAY);
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        snprintf(word, sizeof word, "%s%s%s%s", cli_dashes(given->name), given->name,
+                 given->value ? "=" : "", given->value ? given->value : "");
+        lrcs_host_json_text(json, NULL, word);
+    }
+    lrcs_host_json_end(json);
+}

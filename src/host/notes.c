@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT */
+/* What a scene's reader should be told of before any result: sizes that rest on an assumed unit,
+   and maps of a scene file that no material answers to. It decides what is remarkable, and changes
+   nothing. */
+#include "host/notes.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Spacecraft and their parts are of these sizes, m. */
+#define SIZE_LEAST 0.1
+#define SIZE_MOST  200.0
+
+/* ---- sizes ---- */
+
+/* The box of facets first .. first + count - 1 but for those left out. 0 where there are none. */
+static int facets_box(const lrcs_scene *scene, uint32_t first, uint32_t count, double least[3],
+                      double most[3])
+{
+    int any = 0;
+    for (uint32_t i = first; i < first + count; i++) {
+        for (int k = 0; k < 3 && !scene->material[scene->facet_material[i]].omitted; k++) {
+            const double *x = scene->vertex[scene->facet[i].corner[k]].x;
+            for (int axis = 0; axis < 3; axis++) {
+                least[axis] = any ? fmin(least[axis], x[axis]) : x[axis];
+                most[axis] = any ? fmax(most[axis], x[axis]) : x[axis];
+            }
+            any = 1;
+        }
+    }
+    return any;
+}
+
+void lrcs_host_scene_box(const lrcs_scene *scene, double least[3], double most[3])
+{
+    if (!facets_box(scene, 0, scene->facet_count, least, most)) {
+        memset(least, 0, 3 * sizeof *least);
+        memset(most, 0, 3 * sizeof *most);
+    }
+}
+
+static double part_size(const lrcs_scene *scene, const lrcs_part *part)
+{
+    double least[3];
+    double most[3];
+    double size = 0.0;
+    if (facets_box(scene, part->first_facet, part->facet_count, least, most)) {
+        for (int axis = 0; axis < 3; axis++) {
+            size = fmax(size, most[axis] - least[axis]);
+        }
+    }
+    return size;
+}
+
+/* A model whose unit nobody stated: what was assumed, and where that is unlikely what else it may
+   be. */
+static void unit_note(lrcs_host_scene *host, uint32_t part)
+{
+    static const struct {
+        const char *name;
+        double metres;
+    } unit[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"in", 0.0254}, {"ft", 0.3048}};
+    const lrcs_recipe_part *given = &host->recipe.part[part];
+    double size = part_size(&host->scene, &host->scene.part[part]);
+    char others[200] = "";
+    size_t used = 0;
+    if (!given->file || given->unit_given || !(size > 0.0)) {
+        return;
+    }
+    if (size >= SIZE_LEAST && size <= SIZE_MOST) {
+        lrcsi_host_note(&host->notices,
+                        "%s: no unit is stated: metres are assumed, it is %.4g m across",
+                        given->name, size);
+        return;
+    }
+    for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++) {
+        double other = size * unit[i].metres;
+        if (other >= SIZE_LEAST && other <= SIZE_MOST) {
+            used += (size_t)snprintf(others + used, sizeof others - used, "%s%.4g m in %s",
+                                     used ? ", " : ": it would be ", other, unit[i].name);
+        }
+    }
+    lrcsi_host_note(&host->notices,
+                    "%s: no unit is stated: metres are assumed, but it is %.4g m across, which is "
+                    "unlikely for a spacecraft%s (state its unit)",
+                    given->name, size, others);
+}
+
+/* ---- maps ---- */
+
+static int surface_answers(const lrcs_surface *surface, const lrcs_binding *binding)
+{
+    return binding->kind == LRCS_BIND_MAP_NAME
+               ? strcmp(surface->name, binding->name) == 0
+               : surface->has_colour &&
+                     memcmp(surface->rgb, binding->rgb, sizeof surface->rgb) == 0;
+}
+
+static int models_answer(const lrcs_host_scene *host, const lrcs_binding *binding)
+{
+    for (uint32_t i = 0; i < host->recipe.part_count; i++) {
+        const lrcs_mesh *model = &host->model[i];
+        for (uint32_t k = 0; host->recipe.part[i].file && k < model->material_count; k++) {
+            if (surface_answers(&model->material[k], binding)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+static void map_note(lrcs_host_scene *host, const lrcs_binding *binding)
+{
+    char colour[8];
+    int named = binding->kind == LRCS_BIND_MAP_NAME;
+    if ((!named && binding->kind != LRCS_BIND_MAP_COLOUR) || models_answer(host, binding)) {
+        return;
+    }
+    snprintf(colour, sizeof colour, "#%02X%02X%02X", binding->rgb[0], binding->rgb[1],
+             binding->rgb[2]);
+    lrcsi_host_note(&host->notices, "[[map]] %s = \"%s\": no material of a model has that %s",
+                    named ? "name" : "colour", named ? binding->name : colour,
+                    named ? "name" : "colour");
+}
+
+void lrcsi_host_scene_notes(lrcs_host_scene *host)
+{
+    for (uint32_t i = 0; i < host->recipe.part_count; i++) {
+        unit_note(host, i);
+    }
+    for (uint32_t i = 0; i < host->recipe.binding_count; i++) {
+        map_note(host, &host->recipe.binding[i]);
+    }
+}

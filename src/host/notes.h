@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT */
+/* Notices about a scene as a whole. */
+#ifndef LRCSI_HOST_NOTES_H
+#define LRCSI_HOST_NOTES_H
+
+#include "host/fail.h"
+
+/* Adds what should be said of a scene that was just read and built. */
+void lrcsi_host_scene_notes(lrcs_host_scene *host);
+
+#endif

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+/* A model of what methods cost: a sum of what is counted, each item at a price. Prices are those of
+   one machine (make bench; 3 GHz); only their ratios matter. It decides nothing that is proved. */
+#include "integrate/cost.h"
+
+#include <math.h>
+
+#include "base/length.h"
+#include "base/range.h"
+#include "visibility/grid.h"
+
+/* Facets that are looked at to count: all of so many, else about as many, spread at random. */
+#define COST_SAMPLE 4096u
+
+/* Prices in ns. Drawing: of a facet, of a pixel on the rim of one, of a pixel, of one covered once.
+   Clipping: of a facet (it is classified and summed) and of an undecided one. */
+#define DRAW_FACET     250.0
+#define DRAW_RIM       40.0
+#define DRAW_PIXEL     2.5
+#define DRAW_COVERED   3.0
+#define CLIP_FACET     15.0
+#define CLIP_CASTING   150.0
+#define CLIP_UNDECIDED 6500.0
+/* A step of clipping, at least. */
+#define CLIP_STEP 15.0
+/* Of a raster that proves its bound: this part of clipping, which it spares no search. */
+#define PROOF_SHARE 0.5
+
+/* An event edge leaves so many facets undecided, and a facet with a contact is undecided unless the
+   other one is behind it. */
+#define EVENT_CROSSES 1.0
+#define TOUCH_HIDES   0.7
+
+/* The coarsest raster; and the part of what one costs that a finer one may cost more, for safety.
+ */
+#define RASTER_LEAST  256u
+#define RASTER_MARGIN 0.15
+/* What an estimate is above the error that borders cause by chance: it errs on the safe side. */
+#define ESTIMATE_SAFETY 3.5
+
+/* Twice the projected area of a facet, from view coordinates. */
+static double area_twice(const lrcsi_view *view, const uint32_t *corner)
+{
+    const double *a = view->point[corner[0]].x;
+    const double *b = view->point[corner[1]].x;
+    const double *c = view->point[corner[2]].x;
+    return fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+}
+
+/* Adds the sides of a facet that are event edges. Where back sides cast too, a contour is a side of
+   two facets; irregular edges count as events. */
+static void count_events(const lrcsi_view *view, uint32_t facet, double times, lrcsi_cost *cost)
+{
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t *across = p->across.facet[facet].corner;
+    const uint32_t *corner = p->scene->facet[facet].corner;
+    for (int k = 0; k < 3; k++) {
+        double events = 0;
+        if (across[k] == p->scene->facet_count || !lrcsi_grid_casts(view, across[k])) {
+            events = times;
+        } else if (across[k] == facet || view->facing[across[k]] != view->facing[facet]) {
+            events = 0.5 * times;
+        }
+        if (events > 0) {
+            const double *a = view->point[corner[k]].x;
+            const double *b = view->point[corner[k < 2 ? k + 1 : 0]].x;
+            cost->events += events;
+            cost->borders += events * lrcsi_length_flat(b[0] - a[0], b[1] - a[1]);
+        }
+    }
+}
+
+/* Of so many facets that follow each other one is looked at, by chance: meshes repeat themselves.
+ */
+lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
+{
+    const lrcs_prepared *p = view->prepared;
+    uint32_t count = p->scene->facet_count;
+    uint32_t stride = count / COST_SAMPLE + 1;
+    lrcsi_cost cost = {.facets = count};
+    uint32_t random = 1;
+    for (uint32_t first = 0; first < count; first += stride) {
+        random = random * 1664525u + 1013904223u;
+        uint32_t left = count - first < stride ? count - first : stride;
+        uint32_t f = first + (random >> 8) % left;
+        if (lrcsi_grid_casts(view, f)) {
+            cost.casting += left;
+            cost.contacts += lrcsi_touches_of(&p->touches, f) != 0 ? left : 0;
+            count_events(view, f, left, &cost);
+            cost.overdraw += left * area_twice(view, p->scene->facet[f].corner);
+        }
+        if (count - first <= stride) {
+            break;
+        }
+    }
+    if (view->side > 0) {
+        cost.overdraw /= 2 * view->side * view->side;
+        cost.borders /= view->side;
+    }
+    return cost;
+}
+
+/* The rims of facets are about as long as the roots of their areas: together, over the window's
+   side, the root of their number and of the area that they cover in it. */
+double lrcsi_cost_draw(const lrcsi_cost *cost, uint32_t size)
+{
+    double rims = sqrt(cost->casting * cost->overdraw);
+    double pixels = (double)size * size;
+    return DRAW_FACET * cost->casting + DRAW_RIM * rims * size +
+           (DRAW_PIXEL + DRAW_COVERED * cost->overdraw) * pixels;
+}
+
+double lrcsi_cost_undecided(const lrcsi_cost *cost)
+{
+    return lrcsi_least(cost->casting, EVENT_CROSSES * cost->events + TOUCH_HIDES * cost->contacts);
+}
+
+double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided)
+{
+    return CLIP_FACET * cost->facets + CLIP_CASTING * cost->casting + CLIP_UNDECIDED * undecided;
+}
+
+double lrcsi_cost_prove(const lrcsi_cost *cost, uint32_t size, double undecided)
+{
+    return lrcsi_cost_draw(cost, size) + PROOF_SHARE * lrcsi_cost_clip(cost, undecided);
+}
+
+uint64_t lrcsi_cost_steps(double ns)
+{
+    return (uint64_t)lrcsi_least(ns / CLIP_STEP, 0x1p62);
+}
+
+/* Borders of length L, in sides of the window, pass L N pixels of area 1 / N^2, each of which errs
+   by half of itself and by chance: sqrt(L N) / 2 N^2 in all, of an area A that is seen. Of facets
+   thrown at random, whose areas are D in all, 1 - exp(-D) is covered. */
+uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t most)
+{
+    double seen = -expm1(-cost->overdraw);
+    double error = 0.5 * ESTIMATE_SAFETY * sqrt(cost->borders) / seen / tolerance;
+    double size = cost->borders > 0 ? cbrt(error * error) : 0;
+    if (!(size < most)) {
+        return most;
+    }
+    uint32_t n = size > RASTER_LEAST ? 64 * ((uint32_t)size / 64 + 1) : RASTER_LEAST;
+    double dear = (1 + RASTER_MARGIN) * lrcsi_cost_draw(cost, n);
+    while (n + 64 <= most && lrcsi_cost_draw(cost, n + 64) <= dear) {
+        n += 64;
+    }
+    return n;
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT */
+/* What auto counts before it chooses, and that what it chooses is bounded by what it counted. */
+#include "integrate/cost.h"
+
+#include "scenes.h"
+
+static test_scene scene;
+static lrcs_work work;
+static lrcsi_view view;
+
+static lrcsi_cost counted(const double direction[3])
+{
+    lrcs_pose pose;
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    return lrcsi_cost_count(&view);
+}
+
+/* A cube of side 2 along the diagonal: 6 sides of its outline, each of length sqrt(8/3); 3 faces in
+   front. Two plates of side 1 and 2 in one plane, apart: 8 borders, no contour. */
+static void few_facets_are_all_counted(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_box(&scene, (const double[3]){-1, -1, -1}, (const double[3]){1, 1, 1});
+    lrcsi_cost cost = counted((const double[3]){1, 1, 1});
+    check_abs(cost.facets, 12, 0);
+    check_abs(cost.casting, 6, 0);
+    check_abs(cost.events, 6, 0);
+    check_abs(cost.contacts, 0, 0);
+    double side = view.side;
+    check_abs(cost.borders * side, 6 * sqrt(8 / 3.0) / 2, 1e-12); /* coordinates are halved */
+    check_abs(cost.overdraw * side * side, 12 / sqrt(3.0) / 4, 1e-12);
+
+    scene_start(&scene);
+    scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                (const double[3]){0, 1, 0});
+    scene_plate(&scene, (const double[3]){2, 0, 0}, (const double[3]){2, 0, 0},
+                (const double[3]){0, 2, 0});
+    cost = counted((const double[3]){0, 0, 1});
+    check_abs(cost.events, 8, 0);
+    check_abs(cost.borders, 12 / 4.0, 1e-12);
+    check_abs(cost.overdraw, 5 / 16.0, 1e-12);
+    check_abs(lrcsi_cost_undecided(&cost), 4, 4);
+}
+
+/* A strut that stands on a plate: the plate's facet that it touches is likely to be undecided. */
+static void facets_with_contacts_are_counted(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
+                (const double[3]){0, 4, 0});
+    scene_plate(&scene, (const double[3]){3, 1, -0.5}, (const double[3]){0.2, 0.1, 0},
+                (const double[3]){0, 0, 1});
+    assert_true(counted((const double[3]){0.1, 0.2, 1}).contacts >= 3);
+}
+
+/* Of many facets some are looked at: what they stand for is all, and their borders are found to
+   within chance. */
+static void many_facets_are_counted_by_a_sample(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 88);
+    lrcsi_cost cost = counted((const double[3]){0.3, 0.5, 0.7});
+    assert_true(cost.facets > 4096);
+    check_abs(cost.casting, 0.5 * cost.facets, 0.05 * cost.facets);
+    check_abs(cost.borders, (double)SCENE_PI, 1.5);
+    check_abs(cost.overdraw, (double)SCENE_PI / 4, 0.05);
+}
+
+/* Finer tolerances take finer rasters, up to the finest; without a border the coarsest serves. */
+static void finer_tolerances_take_finer_rasters(void **state)
+{
+    (void)state;
+    const lrcsi_cost cost = {.facets = 1000, .casting = 500, .borders = 20, .overdraw = 0.5};
+    const lrcsi_cost plain = {.facets = 1000, .casting = 500, .overdraw = 0.5};
+    uint32_t last = 0;
+    for (double tolerance = 1; tolerance > 1e-7; tolerance /= 3) {
+        uint32_t size = lrcsi_cost_size(&cost, tolerance, 4096);
+        assert_true(size >= last && size >= 256 && size <= 4096);
+        assert_true(lrcsi_cost_draw(&cost, size) >= lrcsi_cost_draw(&cost, last));
+        last = size;
+    }
+    assert_int_equal(last, 4096);
+    assert_true(lrcsi_cost_size(&plain, 1e-9, 4096) < 512);
+}
+
+/* Grates one above the other, their bars across: clipping seems cheap, for there are few facets,
+   but each is cut by the bars of all above. It is given up after as many steps as a raster is
+   likely to take the time of, and leaves nothing: the answer is that of the raster. */
+static void clipping_that_takes_too_long_gives_way_to_a_raster(void **state)
+{
+    (void)state;
+    enum { GRATES = 26, BARS = 24 };
+    static const double direction[3] = {0.3, 0.2, 0.9};
+    lrcs_pose pose;
+    lrcs_result r;
+    lrcs_result again;
+    scene_start(&scene);
+    for (int i = 0; i < GRATES * BARS; i++) {
+        int grate = i / BARS;
+        double at = (i % BARS + 0.03 * grate) / BARS;
+        const double along[3] = {grate % 2, 1 - grate % 2, 0};
+        const double across[3] = {0.5 * (1 - grate % 2) / BARS, 0.5 * (grate % 2) / BARS, 0};
+        const double corner[3] = {grate % 2 ? 0 : at, grate % 2 ? at : 0, 0.01 * grate};
+        scene_plate(&scene, corner, along, across);
+    }
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    lrcsi_cost cost = lrcsi_cost_count(&view);
+    lrcs_run_options options = lrcs_run_options_default();
+    options.accept = LRCS_ACCEPT_ESTIMATE;
+    options.tolerance = 0.01;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
+    assert_int_equal(r.method, LRCS_METHOD_ZBUFFER);
+    assert_int_equal(r.flags, LRCS_FLAG_ACCEPTED_BY_ESTIMATE);
+    assert_true(r.steps > 0);
+    assert_true(r.steps <= 2 * lrcsi_cost_steps(lrcsi_cost_draw(&cost, r.resolution)));
+    options.method = LRCS_METHOD_ZBUFFER;
+    options.resolution = r.resolution;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &again, NULL, NULL), LRCS_OK);
+    assert_true(again.sigma_m2 == r.sigma_m2 && again.bound_m2 == r.bound_m2 &&
+                again.estimate_m2 == r.estimate_m2);
+    assert_string_equal(r.method_reason, "clipping was begun, and took longer than a raster");
+}
+
+/* A satellite-like body, all smooth: hardly a facet is undecided, and clipping it costs less than
+   any raster. */
+static void clipping_goes_first_where_few_facets_are_undecided(void **state)
+{
+    (void)state;
+    lrcs_pose pose;
+    lrcs_result r;
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 60);
+    scene_sphere(&scene, (const double[3]){0.5, 0.2, 3}, 0.4, 20);
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){0.1, 0.2, 1}, &pose), LRCS_OK);
+    lrcs_run_options options = lrcs_run_options_default();
+    options.accept = LRCS_ACCEPT_ESTIMATE;
+    options.tolerance = 1e-3;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
+    assert_int_equal(r.method, LRCS_METHOD_EXACT);
+    assert_int_equal(r.flags, 0);
+    assert_string_equal(r.method_reason, "clipping is reckoned to cost less than a raster");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(few_facets_are_all_counted),
+        cmocka_unit_test(facets_with_contacts_are_counted),
+        cmocka_unit_test(many_facets_are_counted_by_a_sample),
+        cmocka_unit_test(finer_tolerances_take_finer_rasters),
+        cmocka_unit_test(clipping_that_takes_too_long_gives_way_to_a_raster),
+        cmocka_unit_test(clipping_goes_first_where_few_facets_are_undecided),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
