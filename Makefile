@@ -190,10 +190,12 @@ bounds: $(LIB)
 	    python3 test/hostile/bounds.py $(BOUNDS_SCENES) $(BOUNDS_SEED) $$kind >$(BUILD)/test/hostile/$$kind && \
 	    $(BUILD)/test/hostile/bounds $(BUILD)/test/hostile/$$kind || exit 1; \
 	done
-# Areas by cells of the view plane against facets one by one, on MODELS from AGREE directions each.
+# Areas by cells of the view plane against the clipping that they replaced, on MODELS from AGREE
+# directions each.
 agree: $(LIB)
 	@mkdir -p $(BUILD)/test/visibility
-	$(CC) $(STD) $(OPT) $(WARN) -Iinclude -Isrc -o $(BUILD)/test/visibility/agree test/visibility/agree.c $(LIB) $(LDLIBS)
+	$(CC) $(STD) $(OPT) $(WARN) -Iinclude -Isrc -Itest -o $(BUILD)/test/visibility/agree \
+	    test/visibility/agree.c test/visibility/reference/*.c $(LIB) $(LDLIBS)
 	$(BUILD)/test/visibility/agree $(AGREE) $(MODELS)
 AGREE  = 100
 MODELS = $(sort $(wildcard ../shared/models/*.3ds ../shared/models/*.obj ../shared/models/*.stl))

@@ -35,6 +35,11 @@ int cli_info_make(const cli_args *args, const lrcs_host_scene *base,
                   const lrcs_build_options *build, cli_info *info);
 void cli_info_free(cli_info *info);
 
+/* Curved parts of models whose flat facets are too coarse for their glint, as info finds them:
+   none where normals are curved. The list is the caller's to free. 0 or CLI_FAILED. */
+int cli_coarse_glint(const lrcs_host_scene *base, const lrcs_build_options *build,
+                     lrcs_host_glint **list, uint32_t *count);
+
 /* Whether a material is worth a line: the default is not when nothing wears it. */
 int cli_info_shows(const cli_info *info, uint32_t material);
 

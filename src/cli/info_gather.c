@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static double facet_area(const lrcs_scene *scene, uint32_t facet)
 {
@@ -95,6 +96,42 @@ int cli_info_make(const cli_args *args, const lrcs_host_scene *base,
     return lrcs_host_scene_vary(base, &base->recipe, &smooth, &info->scene, &error) == LRCS_OK
                ? info_look(args->operand, base, info)
                : cli_failed(&error);
+}
+
+int cli_coarse_glint(const lrcs_host_scene *base, const lrcs_build_options *build,
+                     lrcs_host_glint **list, uint32_t *count)
+{
+    lrcs_host_error error;
+    lrcs_host_scene smooth;
+    lrcs_host_glint *all = NULL;
+    lrcs_build_options options = *build;
+    uint32_t found = 0;
+    uint32_t used = 0;
+    *list = NULL;
+    *count = 0;
+    if (base->scene.normals != LRCS_NORMALS_FLAT) {
+        return 0;
+    }
+    memset(&smooth, 0, sizeof smooth);
+    options.normals = LRCS_NORMALS_SMOOTH;
+    int status = lrcs_host_scene_vary(base, &base->recipe, &options, &smooth, &error);
+    if (status == LRCS_OK) {
+        status = lrcs_host_glint_check(&smooth.scene, &all, &found, &error);
+    }
+    for (uint32_t i = 0; status == LRCS_OK && i < found; i++) {
+        int model = base->scene.part[all[i].part].kind < 0; /* shapes meet the tolerance */
+        if (model && all[i].error > INFO_GLINT_WARN) {
+            all[used++] = all[i];
+        }
+    }
+    lrcs_host_scene_free(&smooth);
+    if (status != LRCS_OK) {
+        free(all);
+        return cli_failed(&error);
+    }
+    *list = all;
+    *count = used;
+    return 0;
 }
 
 void cli_info_free(cli_info *info)

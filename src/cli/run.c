@@ -18,11 +18,13 @@ static const char run_help[] =
     "\n"
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
     "\n" CLI_POSE_HELP "\n"
-    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best bound that "
+    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best answer that "
     "MS milliseconds buy, loading and\n"
-    "                        preparing included; tries rasters and tolerances, and says which\n"
-    "                        options give the same answer again. Ends early where nothing is left\n"
-    "                        to gain, or a --tolerance is met; exit 3 where it took longer\n"
+    "                        preparing included: by its bound, or by its likely error where "
+    "bounds\n"
+    "                        say little; names the options that give it again. Exit 3 where it "
+    "took\n"
+    "                        longer, misses a --tolerance, or the bound exceeds sigma\n"
     "  --steps N             at most N steps of finding what is seen, counted the same on every\n"
     "                        machine; what they leave open is in the bound. A raster's pixels are\n"
     "                        not counted\n" CLI_SCENE_HELP
@@ -191,7 +193,10 @@ static int run_outputs(run_job *job)
         }
     }
     int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
-    return late ? CLI_DEGRADED : cli_accuracy_code(job->args, &job->options, job->result.flags);
+    /* a bound that tells nothing of sigma is no answer that a time bought */
+    int empty = job->budget.asked_ms > 0.0 && job->result.bound_m2 > job->result.sigma_m2;
+    return late || empty ? CLI_DEGRADED
+                         : cli_accuracy_code(job->args, &job->options, job->result.flags);
 }
 
 static int run_command(const cli_args *args)

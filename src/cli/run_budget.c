@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --time-budget: the best bound that a time buys. How long a setting takes is not known
+/* lrcs run --time-budget: the best answer that a time buys. How long a setting takes is not known
    before it has been tried, so two processes try settings from cheap to dear, one of them rasters,
    the other tolerances, and report every answer; when the time is up the best one counts, and what
    still runs is stopped. It decides which settings are tried; each is an ordinary run, which the
@@ -17,6 +17,13 @@
 #define RASTER_LEAST 64u
 #define RASTER_MOST  4096u
 
+/* Rasters of which only an estimate is expected. */
+#define PREVIEW_LEAST 256u
+#define PREVIEW_MOST  1024u
+
+/* A bound above this share of sigma says little: there a likely error decides. */
+#define BOUND_TELLS 0.1
+
 /* Tolerances tried, two to a decade: rungs 0 .. 22 are 1e-1, 3e-2, 1e-2, ... 1e-12. */
 #define RUNGS     23
 #define RUNG_NONE (-1) /* for scenes that no tolerance changes */
@@ -26,8 +33,9 @@
 typedef struct budget_answer {
     lrcs_result result;
     int rung;
-    int named; /* the method was chosen, not found by auto */
-    int racer; /* whose answer it is, in the parent */
+    int named;  /* the method was chosen, not found by auto */
+    int accept; /* LRCS_ACCEPT_ESTIMATE: a raster as cheap as drawing it */
+    int racer;  /* whose answer it is, in the parent */
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
@@ -67,6 +75,7 @@ static int race_run(run_job *job, int rung, int answers)
                                      NULL, &answer.seconds_pose, &error);
     answer.rung = rung;
     answer.named = job->options.method != LRCS_METHOD_AUTO;
+    answer.accept = job->options.accept;
     answer.seconds_load = job->scene.seconds_load;
     answer.seconds_prepare = job->scene.seconds_prepare;
     return status == LRCS_OK && write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
@@ -74,12 +83,19 @@ static int race_run(run_job *job, int rung, int answers)
                : -1;
 }
 
-/* Rasters, ever finer, on the mesh at hand. */
+/* What is cheapest first, on the mesh at hand: no shadows; rasters whose samples are all that is
+   looked at; then rasters with bounds, ever finer. */
 static void race_rasters(run_job *job, int rung, int answers)
 {
     job->options.method = LRCS_METHOD_FACET;
     int over = race_run(job, rung, answers);
     job->options.method = LRCS_METHOD_ZBUFFER;
+    job->options.accept = LRCS_ACCEPT_ESTIMATE;
+    for (uint32_t n = PREVIEW_LEAST; n <= PREVIEW_MOST && over == 0; n *= 4) {
+        job->options.resolution = n;
+        over = race_run(job, rung, answers);
+    }
+    job->options.accept = LRCS_ACCEPT_BOUND;
     for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && over == 0; n *= 2) {
         job->options.resolution = n;
         over = race_run(job, rung, answers);
@@ -155,10 +171,15 @@ static void racer_stop(budget_racer *racer)
     }
 }
 
-/* What an answer may be off by: its bound, and what curved normals add to it. */
+/* What an answer may be off by: its bound, and what curved normals add to it. Where that says
+   little, the likely error of a raster in its place: ranked after every bound that tells, before
+   those that do not. */
 static double answer_error(const budget_answer *answer)
 {
-    return answer->result.bound_m2 + fmax(0.0, answer->result.curvature_estimate_m2);
+    const lrcs_result *r = &answer->result;
+    double bound = r->bound_m2 + fmax(0.0, r->curvature_estimate_m2);
+    double tells = BOUND_TELLS * r->sigma_m2;
+    return bound > tells && r->estimate_m2 >= 0.0 ? fmin(bound, tells + r->estimate_m2) : bound;
 }
 
 /* Of equal answers the first racer's counts, whichever came first. */
@@ -266,6 +287,10 @@ static int budget_settle(run_job *job, const budget_answer *best)
     if (best->named) {
         used += snprintf(same + used, room - (size_t)used, "%s--method %s", used ? " " : "",
                          lrcs_method_text(best->result.method));
+        if (best->accept == LRCS_ACCEPT_ESTIMATE) {
+            used += snprintf(same + used, room - (size_t)used, " --accept estimate");
+        }
+        job->options.accept = best->accept;
         job->options.method = best->result.method;
         job->options.resolution = best->result.resolution;
     }
@@ -299,6 +324,7 @@ int cli_run_budget(run_job *job)
     int rung = scales ? 0 : RUNG_NONE;
     memset(&best, 0, sizeof best);
     best.result.bound_m2 = HUGE_VAL; /* before the first answer */
+    best.result.estimate_m2 = -1.0;
     best.racer = RACERS;
     if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);

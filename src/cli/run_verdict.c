@@ -43,9 +43,6 @@ static void glint_sum(const run_job *job, const lrcs_host_glint *list, uint32_t 
 {
     const lrcs_scene *scene = &job->scene.scene;
     for (uint32_t k = 0; k < count; k++) {
-        if (!(list[k].error > INFO_GLINT_WARN)) {
-            continue;
-        }
         open->coarse++;
         for (uint32_t i = 0; job->records && i < scene->facet_count; i++) {
             double glint = job->records[i].sigma_glint_m2;
@@ -63,36 +60,16 @@ static void glint_sum(const run_job *job, const lrcs_host_glint *list, uint32_t 
     }
 }
 
-static int glint_find(const run_job *job, run_open *open)
-{
-    lrcs_host_error error;
-    lrcs_host_scene smooth;
-    lrcs_host_glint *list = NULL;
-    lrcs_build_options build = job->load.build;
-    uint32_t count = 0;
-    if (job->scene.scene.normals != LRCS_NORMALS_FLAT || cli_has_curved_shapes(&job->scene.scene)) {
-        return 0; /* curved where it matters, or tessellated for the tolerance */
-    }
-    /* as info looks: with what files say of normals */
-    memset(&smooth, 0, sizeof smooth);
-    build.normals = LRCS_NORMALS_SMOOTH;
-    int status = lrcs_host_scene_vary(&job->scene, &job->scene.recipe, &build, &smooth, &error);
-    if (status == LRCS_OK) {
-        status = lrcs_host_glint_check(&smooth.scene, &list, &count, &error);
-    }
-    if (status == LRCS_OK) {
-        glint_sum(job, list, count, open);
-    }
-    free(list);
-    lrcs_host_scene_free(&smooth);
-    return status == LRCS_OK ? 0 : cli_failed(&error);
-}
-
 int cli_run_open(run_job *job)
 {
+    lrcs_host_glint *list = NULL;
+    uint32_t count = 0;
     memset(&job->open, 0, sizeof job->open);
     backs_find(job, &job->open);
-    return glint_find(job, &job->open);
+    int code = cli_coarse_glint(&job->scene, &job->load.build, &list, &count);
+    glint_sum(job, list, count, &job->open);
+    free(list);
+    return code;
 }
 
 static int glint_dominates(const run_job *job)
@@ -212,7 +189,10 @@ void cli_run_verdict(const run_job *job)
         cli_bound_text(r->bound_m2, 2, bound);
         printf("verdict      geometry and shadows are proved: sigma is at most %s m2", bound);
     }
-    printf(". Left open by the model:\n");
+    if (r->estimate_m2 >= 0.0 && r->bound_m2 > 0.1 * r->sigma_m2) {
+        printf("; likely error\n             %.2g m2, an estimate", r->estimate_m2);
+    }
+    printf(".\n             Left open by the model:\n");
     unit_say(job);
     backs_say(job);
     glint_say(job);

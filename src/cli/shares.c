@@ -209,6 +209,8 @@ static void facet_offer(const shares_plan *plan, uint32_t facet, const lrcs_face
     memmove(&shares->facet[at + 1], &shares->facet[at], (last - at) * sizeof shares->facet[0]);
     shares->facet[at] = (shares_facet){
         .facet = facet,
+        .scene_part = plan->scene->facet_part[facet],
+        .scene_material = plan->scene->facet_material[facet],
         .part = shares->part[part_of_facet(plan, facet)].name,
         .material = shares->material[plan->material_of[plan->scene->facet_material[facet]]].name,
         .theta_deg = acos(fmin(fabs(record->cos_theta), 1.0)) * CLI_DEGREES,

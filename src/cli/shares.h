@@ -17,6 +17,7 @@ typedef struct shares_row {
 
 typedef struct shares_facet {
     uint32_t facet;
+    uint32_t scene_part, scene_material; /* of the scene */
     const char *part, *material;
     double theta_deg; /* between the laser and the side of the facet that it sees */
     double visible_area_m2, sigma_m2, glint_m2;

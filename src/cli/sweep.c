@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs sweep: sigma over attitudes and over what can change in a scene. */
 #include "cli/sweep.h"
+#include "cli/info.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -77,7 +78,9 @@ typedef struct sweep_job {
     lrcs_host_options load;
     lrcs_host_scene scene;
     uint32_t threads;
-    uint32_t notices; /* of all results, bits */
+    uint32_t notices;        /* of all results, bits */
+    lrcs_host_glint *coarse; /* curved parts whose facets are too coarse for their glint */
+    uint32_t coarse_count;
 } sweep_job;
 
 /* Set by a signal: the sweep ends after the poses that are running. */
@@ -296,7 +299,8 @@ static int job_show(sweep_job *job)
     int code = job->plot.asked ? cli_plot_write(job->args, &job->plot, &job->plan) : 0;
     return code == 0 && job->brightest > 0
                ? cli_brightest_print(&job->plan, (const double(*)[2])job->row, job->brightest,
-                                     &job->scene, &job->options, &job->load.build)
+                                     &job->scene, &job->options, &job->load.build, job->coarse,
+                                     job->coarse_count)
                : code;
 }
 
@@ -324,6 +328,24 @@ static int job_rows(sweep_job *job)
     return job->file.tally.missed > 0 || job->file.tally.starved > 0 ? CLI_DEGRADED : CLI_DONE;
 }
 
+/* Where the glint is off by more than any bound says. */
+static void coarse_say(const sweep_job *job)
+{
+    double worst = 0.0;
+    for (uint32_t i = 0; i < job->coarse_count; i++) {
+        worst = job->coarse[i].error > worst ? job->coarse[i].error : worst;
+    }
+    if (job->coarse_count > 0) {
+        fprintf(
+            stderr,
+            "notice: glint: %lu curved part%s too coarse for the slope of their material: near the "
+            "normals of facets sigma may be off by %.2g %% of its glint, an estimate (--normals "
+            "auto)\n",
+            (unsigned long)job->coarse_count, job->coarse_count == 1 ? " is" : "s are",
+            100.0 * worst);
+    }
+}
+
 static int sweep_command(const cli_args *args)
 {
     sweep_job *job = calloc(1, sizeof *job);
@@ -337,10 +359,15 @@ static int sweep_command(const cli_args *args)
     code = code ? code : job_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
+        code = cli_coarse_glint(&job->scene, &job->load.build, &job->coarse, &job->coarse_count);
+    }
+    if (code == 0) {
+        coarse_say(job);
         code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
         code = code ? code : job_rows(job);
     }
     free(job->row);
+    free(job->coarse);
     cli_file_free(&job->file);
     cli_plan_free(&job->plan);
     lrcs_host_scene_free(&job->scene);

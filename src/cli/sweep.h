@@ -287,12 +287,14 @@ int cli_row_shares(const sweep_plan *plan, uint64_t row, lrcs_host_scene *base,
                    cli_shares *shares);
 
 /* --brightest: how many, 0 where it was not given, as 0 or CLI_USAGE; then their table on stdout,
-   as 0 or CLI_FAILED. */
+   as 0 or CLI_FAILED. Peaks that are the normal of a facet of a coarse curved part are marked:
+   there flat facets glint where the body need not. */
 int cli_brightest_read(const cli_args *args, const sweep_plan *plan, const sweep_file *file,
                        uint32_t *most);
 int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t most,
                         lrcs_host_scene *base, const lrcs_run_options *options,
-                        const lrcs_build_options *build);
+                        const lrcs_build_options *build, const lrcs_host_glint *coarse,
+                        uint32_t coarse_count);
 
 /* ---- progress ---- */
 

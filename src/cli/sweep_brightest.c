@@ -3,6 +3,7 @@
    sweep_peaks'; here they are run once more, with what each facet returns, and told. */
 #include "cli/sweep.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -149,6 +150,20 @@ static void rows_print(const cli_shares *shares, const char *what, const shares_
     putchar('\n');
 }
 
+/* Does a facet of a coarse curved part glint along its own normal, and make most of sigma? */
+static int is_facet_normal(const cli_shares *shares, const lrcs_host_glint *coarse, uint32_t count)
+{
+    const shares_facet *facet = &shares->facet[0];
+    for (uint32_t i = 0; i < count && shares->facets > 0; i++) {
+        if (facet->scene_part == coarse[i].part && facet->scene_material == coarse[i].material &&
+            tan(facet->theta_deg / CLI_DEGREES) < coarse[i].s &&
+            2.0 * facet->glint_m2 > facet->sigma_m2) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 static void facets_print(const cli_shares *shares)
 {
     printf("     %-10s", "facets");
@@ -164,7 +179,8 @@ static void facets_print(const cli_shares *shares)
 
 int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t most,
                         lrcs_host_scene *base, const lrcs_run_options *options,
-                        const lrcs_build_options *build)
+                        const lrcs_build_options *build, const lrcs_host_glint *coarse,
+                        uint32_t coarse_count)
 {
     uint64_t *peak = calloc(most, sizeof *peak);
     if (!peak) {
@@ -181,6 +197,11 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
             rows_print(&shares, "parts", shares.part, shares.parts, "(no name)");
             rows_print(&shares, "materials", shares.material, shares.materials, "(default)");
             facets_print(&shares);
+            if (is_facet_normal(&shares, coarse, coarse_count)) {
+                printf("     note      the normal of a facet of a curved part: flat facets glint "
+                       "here, "
+                       "the body may not\n");
+            }
         }
         cli_shares_free(&shares);
     }

@@ -219,13 +219,14 @@ static lrcsi_visible facet_known(const lrcsi_view *view, uint32_t facet, lrcsi_v
 /* All pieces of the facet that is open, which is closed then. */
 static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visible *visible)
 {
-    const lrcsi_target *target = &o->target;
+    const lrcsi_target *target = &o->alone.target;
     double off = 20 * U * target->reach * target->perimeter;
     job->sum.slip = pieces_slip(job, target);
     while (lrcsi_occlude_next(o)) {
-        off += piece_add(job, target, (const double(*)[2])o->piece.corner, o->piece.count);
+        off +=
+            piece_add(job, target, (const double(*)[2])o->alone.piece.corner, o->alone.piece.count);
     }
-    off += o->bent;
+    off += o->alone.bent;
     *visible = facet_known(job->view, job->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = job_part(job, 1);
     part.visibility =
@@ -233,31 +234,23 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
     return part;
 }
 
-/* One facet, integrated where there is a job for it. Returns 1 where it could not be opened: then
-   what samples know of it stands. */
-static uint32_t facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet, int sampled,
-                             lrcsi_visible *visible, lrcsi_curved *curved)
+/* One facet, integrated where there is a job for it. */
+static void facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet, lrcsi_visible *visible,
+                         lrcsi_curved *curved)
 {
-    const lrcsi_view *view = o->contest->view;
-    uint32_t starved = 0;
-    if (lrcsi_occlude_open(o, facet) != LRCS_OK) {
-        *visible = sampled ? *visible : lrcsi_occlude_unknown(view, facet);
-        starved = 1;
-    } else if (job && o->contested) {
+    lrcsi_occlude_open(o, facet);
+    if (job && o->contested) {
         *curved = curve_pieces(job, o, visible);
-        return 0;
-    } else {
-        *visible = facet_known(view, facet, lrcsi_occlude_area(o));
+        return;
     }
+    *visible = facet_known(o->contest->view, facet, lrcsi_occlude_area(o));
     if (job) {
         *curved = curve_share(job, visible);
     }
-    return starved;
 }
 
 int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_curving *how, int sampled,
-                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved,
-                       uint32_t *starved)
+                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved)
 {
     const lrcsi_view *view = contest->view;
     size_t mark = work->used;
@@ -265,7 +258,6 @@ int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_curving *how, int sam
     curve_job job;
     curve_all all = all_make(view, how);
     int status = lrcsi_occlude_make(contest, work, &o);
-    *starved = 0;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         int wanted = lrcsi_curve_wanted(view, f);
         int parted = sampled && contest->contested[f] && visible[f].low < visible[f].high;
@@ -274,8 +266,7 @@ int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_curving *how, int sam
             job_start(&job, &all, f);
         }
         if (!sampled || (parted && wanted)) {
-            curve_job *integrated = wanted ? &job : NULL;
-            *starved += facet_pieces(integrated, &o, f, sampled, &visible[f], &curved[f]);
+            facet_pieces(wanted ? &job : NULL, &o, f, &visible[f], &curved[f]);
         } else if (wanted) {
             curved[f] = curve_share(&job, &visible[f]);
         }

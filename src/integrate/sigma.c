@@ -17,8 +17,10 @@
 /* The finest raster: beyond it the bound gains less than it costs. */
 #define LAST_SIZE 4096u
 
-/* For the sake of an estimate a raster must be likely to cost so many times less than clipping. */
-#define CLIP_PREFERRED 1.5
+/* For the sake of an estimate a raster must be likely to cost so many times less than clipping: the
+   first, and another one once an estimate did not suffice. */
+#define CLIP_PREFERRED      1.5
+#define CLIP_PREFERRED_NEXT 2.5
 
 /* Fewer facets are never judged by samples alone. */
 #define PREVIEW_FACETS 1024u
@@ -230,14 +232,12 @@ static void shapes_are_known(const sigma_run *run)
    there is memory for that. */
 static void sum_curved(sigma_run *run)
 {
-    uint32_t starved;
     lrcsi_curving how = run_curving(run);
-    int status =
-        lrcsi_curve_pieces(&run->contest, &how, 1, run->work, run->visible, run->curved, &starved);
+    int status = lrcsi_curve_pieces(&run->contest, &how, 1, run->work, run->visible, run->curved);
     if (status != LRCS_OK) {
         lrcsi_curve_shares(&run->view, &how, run->visible, run->curved);
     }
-    run->flags |= status != LRCS_OK || starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
+    run->flags |= status != LRCS_OK ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
 }
 
 /* The sum over visible areas found by sampling or clipping. */
@@ -347,25 +347,19 @@ static int run_sums_alone(const sigma_run *run)
            !(p->solid && run->view.backs_cast);
 }
 
-/* Facets that find no memory to be clipped in widen the bound; under auto a raster does better. */
-static int run_exact(sigma_run *run, int method)
+static int run_exact(sigma_run *run)
 {
-    uint32_t starved = 0;
     lrcsi_curving how = run_curving(run);
     int status = run_contest(run);
     if (status == LRCS_OK) {
-        status = run->curved ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible,
-                                                  run->curved, &starved)
-                             : lrcsi_occlude_all(&run->contest, run->work,
-                                                 run_sums_alone(run) ? &run->answer : NULL,
-                                                 run->visible, &starved);
-    }
-    if (status == LRCS_OK && starved != 0 && method == LRCS_METHOD_AUTO) {
-        return LRCS_E_MEMORY;
+        status =
+            run->curved
+                ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible, run->curved)
+                : lrcsi_occlude_all(&run->contest, run->work,
+                                    run_sums_alone(run) ? &run->answer : NULL, run->visible);
     }
     if (status == LRCS_OK) {
         run->size = 0;
-        run->flags |= starved != 0 ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         run_sum(run, 0);
     }
     return status;
@@ -435,8 +429,7 @@ enum { CLIP_DONE, CLIP_GIVEN_UP, CLIP_NOT_BEGUN };
 /* Clipping in no more steps than fit in the time that a raster takes. Where it does not come to an
    end, or is not begun since too many facets turn out to be undecided, nothing is left of it but
    which ones are, where that was found. */
-static int run_clip_within(sigma_run *run, const lrcs_run_options *options, const lrcsi_cost *cost,
-                           double ns)
+static int run_clip_within(sigma_run *run, const lrcsi_cost *cost, double ns)
 {
     const sigma_run before = *run;
     uint64_t steps = lrcsi_cost_steps(ns);
@@ -453,7 +446,7 @@ static int run_clip_within(sigma_run *run, const lrcs_run_options *options, cons
     } else {
         mark = run->work->used;
         run->plan.method = LRCS_METHOD_EXACT;
-        int status = run_exact(run, options->method);
+        int status = run_exact(run);
         result = status == LRCS_OK && !run->meter.spent ? CLIP_DONE : CLIP_GIVEN_UP;
     }
     run->meter.most = before.meter.most;
@@ -488,19 +481,21 @@ static int run_previews(sigma_run *run, const lrcs_run_options *options)
     for (int rasters = 0; status == LRCS_OK; rasters++) {
         double undecided =
             run->contested ? run->contest.contested_count : lrcsi_cost_undecided(&cost);
-        double draw = CLIP_PREFERRED * (samples_only ? lrcsi_cost_draw(&cost, size)
-                                                     : lrcsi_cost_prove(&cost, size, undecided));
+        double draw =
+            samples_only ? lrcsi_cost_draw(&cost, size) : lrcsi_cost_prove(&cost, size, undecided);
+        draw *= rasters == 0 ? CLIP_PREFERRED : CLIP_PREFERRED_NEXT;
         if (options->accept == LRCS_ACCEPT_ESTIMATE && (samples_only || rasters == 0) &&
             draw >= 4 * tried && lrcsi_cost_clip(&cost, undecided) <= draw) {
-            int result = run_clip_within(run, options, &cost, draw);
+            int result = run_clip_within(run, &cost, draw);
             if (result == CLIP_DONE) {
                 run->plan.reason = "clipping is reckoned to cost less than a raster";
                 return LRCS_OK;
             }
             tried = result == CLIP_GIVEN_UP ? draw : tried;
         }
-        if (!samples_only && rasters == 0) {
-            status = run_known(run, &known);
+        if (rasters == 0) {
+            size = lrcsi_cost_first(&cost, size);
+            status = samples_only ? LRCS_OK : run_known(run, &known);
         }
         if (status == LRCS_OK) {
             status = samples_only ? run_preview_at(run, size) : run_raster(run, &known, size);
@@ -523,7 +518,7 @@ static int run_previews(sigma_run *run, const lrcs_run_options *options)
 
 static int run_method(sigma_run *run, const lrcs_run_options *options)
 {
-    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run, options->method)
+    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run)
            : run->plan.previews                  ? run_previews(run, options)
                                                  : run_zbuffer(run, options);
 }
@@ -548,7 +543,7 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
         run->plan.reason = options->resolution != 0 ? "the raster asked for misses the tolerance"
                                                     : "no raster's estimate meets the tolerance";
         run->flags = 0;
-        status = run_exact(run, options->method);
+        status = run_exact(run);
     }
     if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
         run->plan.method = LRCS_METHOD_ZBUFFER;

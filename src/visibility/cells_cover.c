@@ -30,9 +30,6 @@
 
 #include "base/range.h"
 
-/* Samples that may be tried in a cell. */
-#define TRIES 3
-
 /* The facet nearest to the laser at a place; all others that may cover it are then surely behind.
  */
 static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
@@ -94,24 +91,28 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     return LRCSI_CELLS_FOUND;
 }
 
+/* Corner i weighs 1, 1 + 0.2 i, 1 + 1.5 / (1 + i): no two weigh the same but in the first place, or
+   samples in cells that look alike from two corners would all lie on a line between facets. */
+void lrcsi_cells_spot(const lrcsi_cells_cell *cell, int number, double at[2])
+{
+    double sum = 0;
+    at[0] = at[1] = 0;
+    for (uint32_t i = 0; i < cell->shape.count; i++) {
+        double share = number == 0 ? 1 : number == 1 ? 1 + 0.2 * i : 1 + 1.5 / (1 + i);
+        at[0] += share * cell->shape.corner[i][0];
+        at[1] += share * cell->shape.corner[i][1];
+        sum += share;
+    }
+    at[0] /= sum;
+    at[1] /= sum;
+}
+
 int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                      uint32_t *best, double at[2], double *clear)
 {
-    /* Corner i weighs 1, 1 + 0.2 i, 1 + 1.5 / (1 + i): no two weigh the same but in the first
-       place, or samples in cells that look alike from two corners would all lie on a line between
-       facets. */
     int answer = LRCSI_CELLS_UNSURE;
-    for (int t = 0; t < TRIES && answer == LRCSI_CELLS_UNSURE; t++) {
-        double sum = 0;
-        at[0] = at[1] = 0;
-        for (uint32_t i = 0; i < cell->shape.count; i++) {
-            double share = t == 0 ? 1 : t == 1 ? 1 + 0.2 * i : 1 + 1.5 / (1 + i);
-            at[0] += share * cell->shape.corner[i][0];
-            at[1] += share * cell->shape.corner[i][1];
-            sum += share;
-        }
-        at[0] /= sum;
-        at[1] /= sum;
+    for (int t = 0; t < LRCSI_CELLS_TRIES && answer == LRCSI_CELLS_UNSURE; t++) {
+        lrcsi_cells_spot(cell, t, at);
         *clear = lrcsi_cells_sides_clear(s, at);
         c->look++;
         if (*clear > 4 * (cell->inset + c->off + s->g)) {
@@ -248,8 +249,7 @@ int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
     return segment_marked(c, e, c->joined);
 }
 
-/* Whether all facets of an edge have been dropped as hidden, or one of a contact. */
-static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
+int lrcsi_cells_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
 {
     if (e->contact) {
         return c->listed[e->owner[0]] != c->look || e->owner[1] == LRCS_NONE ||
@@ -359,7 +359,7 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
-        if (!segment_idle(c, e) &&
+        if (!lrcsi_cells_idle(c, e) &&
             (e->contact || !segment_behind(c, cell, s, e, e->off + s->g, low))) {
             lrcsi_cells_keep(c->segments, i, kept++);
         }

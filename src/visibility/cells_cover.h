@@ -9,6 +9,10 @@
 /* The clearance of a sample in a cell that is not thin, of the perimeter. */
 #define LRCSI_CELLS_THIN 0x1p-32
 
+/* Samples that may be tried in a cell, and where. */
+#define LRCSI_CELLS_TRIES 3
+void lrcsi_cells_spot(const lrcsi_cells_cell *cell, int number, double at[2]);
+
 enum { LRCSI_CELLS_UNSURE, LRCSI_CELLS_NONE, LRCSI_CELLS_FOUND };
 
 /* Asks a sample well inside of a cell; where it cannot be told, another. Returns its answer, the
@@ -29,6 +33,9 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 
 /* Is any facet of a segment in the component? */
 int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
+
+/* Whether none of the facets of an edge is in the list any more, or one of a contact. */
+int lrcsi_cells_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
 
 /* The component is one facet, that covers the cell. */
 void lrcsi_cells_component_of(lrcsi_cells_work *c, uint32_t facet);

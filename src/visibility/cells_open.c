@@ -10,7 +10,7 @@
 
 #define U 0x1p-53
 
-static lrcsi_cells_segment *segment_new(lrcsi_cells_work *c)
+lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c)
 {
     if (c->segment_count == c->segment_room) {
         return NULL;
@@ -21,26 +21,33 @@ static lrcsi_cells_segment *segment_new(lrcsi_cells_work *c)
     return e;
 }
 
-static int open_edge(lrcsi_cells_work *c, uint32_t edge)
+lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge)
 {
-    const lrcsi_view *view = c->view;
-    const lrcsi_topology *t = &view->prepared->topology;
-    const lrcsi_edge *of = &t->edge[edge];
-    lrcsi_cells_segment *e = segment_new(c);
-    if (!e) {
-        return 0;
-    }
+    const lrcsi_topology *t = &c->view->prepared->topology;
+    lrcsi_cells_segment *e = lrcsi_cells_segment_new(c);
     uint32_t owners = 0;
-    for (uint32_t i = 0; i < of->uses; i++) {
-        uint32_t facet = t->use[of->first_use + i].facet;
-        if (lrcsi_grid_casts(view, facet)) {
+    for (uint32_t i = 0; e && i < t->edge[edge].uses; i++) {
+        uint32_t facet = t->use[t->edge[edge].first_use + i].facet;
+        if (lrcsi_grid_casts(c->view, facet)) {
             if (owners < 2) {
                 e->owner[owners] = facet;
             }
             owners++;
         }
     }
-    e->edge = owners > 2 ? edge : LRCS_NONE;
+    if (owners > 2) {
+        e->edge = edge;
+    }
+    return e;
+}
+
+static int open_edge(lrcsi_cells_work *c, uint32_t edge)
+{
+    const lrcsi_edge *of = &c->view->prepared->topology.edge[edge];
+    lrcsi_cells_segment *e = lrcsi_cells_edge(c, edge);
+    if (!e) {
+        return 0;
+    }
     const lrcsi_cells_point *end[2] = {lrcsi_cells_vertex(&c->frame, of->low),
                                        lrcsi_cells_vertex(&c->frame, of->high)};
     for (int i = 0; i < 2; i++) {
@@ -113,7 +120,7 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
             c->kind[other] |= LRCSI_CELLS_VAGUE;
             continue;
         }
-        lrcsi_cells_segment *e = segment_new(c);
+        lrcsi_cells_segment *e = lrcsi_cells_segment_new(c);
         if (!e) {
             return 0;
         }

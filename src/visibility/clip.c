@@ -12,19 +12,6 @@ double lrcsi_clip_side(const lrcsi_clip_line *line, const double p[2])
     return line->to[0] * (p[1] - line->at[1]) - line->to[1] * (p[0] - line->at[0]);
 }
 
-/* At least the length of a line's direction, and at most 1.42 times that. */
-static double line_length(const lrcsi_clip_line *line)
-{
-    return fabs(line->to[0]) + fabs(line->to[1]);
-}
-
-static lrcsi_clip_line polygon_side(const lrcsi_clip_polygon *polygon, uint32_t i)
-{
-    const double *p = polygon->corner[i];
-    const double *q = polygon->corner[i + 1 < polygon->count ? i + 1 : 0];
-    return (lrcsi_clip_line){{p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}};
-}
-
 static void polygon_add(lrcsi_clip_polygon *polygon, double x, double y)
 {
     if (polygon->count < LRCSI_CLIP_SIDES) {
@@ -86,107 +73,6 @@ double lrcsi_clip_perimeter(const lrcsi_clip_polygon *polygon)
     double high[2];
     lrcsi_clip_box(polygon, low, high);
     return 2 * ((high[0] - low[0]) + (high[1] - low[1]));
-}
-
-lrcsi_clip_line lrcsi_clip_halving(const lrcsi_clip_polygon *polygon)
-{
-    double low[2];
-    double high[2];
-    lrcsi_clip_box(polygon, low, high);
-    int wide = high[0] - low[0] > high[1] - low[1];
-    return (lrcsi_clip_line){{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])},
-                             {wide ? 0 : 1, wide ? 1 : 0}};
-}
-
-/* Every direction in which all corners lie beyond the segment parts them; tried are the two across
-   it, and the two along it. */
-int lrcsi_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
-                     double width)
-{
-    const double *to = segment->to;
-    double clear = width * line_length(segment);
-    double end = to[0] * to[0] + to[1] * to[1] + clear;
-    double least = HUGE_VAL;
-    double most = -HUGE_VAL;
-    int before = 1;
-    int behind = 1;
-    for (uint32_t i = 0; i < polygon->count; i++) {
-        const double *p = polygon->corner[i];
-        double side = lrcsi_clip_side(segment, p);
-        double along = to[0] * (p[0] - segment->at[0]) + to[1] * (p[1] - segment->at[1]);
-        least = lrcsi_least(least, side);
-        most = lrcsi_most(most, side);
-        before &= along < -clear;
-        behind &= along > end;
-    }
-    return before || behind || least > clear || most < -clear ? LRCSI_CLIP_APART
-           : least < 0 && most > 0                            ? LRCSI_CLIP_CROSSES
-                                                              : LRCSI_CLIP_BESIDE;
-}
-
-static void range_grow(double range[2], double x)
-{
-    range[0] = lrcsi_least(range[0], x);
-    range[1] = lrcsi_most(range[1], x);
-}
-
-double lrcsi_clip_within(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
-                         double width)
-{
-    const double *to = segment->to;
-    double square = to[0] * to[0] + to[1] * to[1];
-    double strip = width * line_length(segment);
-    double range[2] = {HUGE_VAL, -HUGE_VAL};
-    for (uint32_t i = 0; i < polygon->count; i++) {
-        lrcsi_clip_line edge = polygon_side(polygon, i);
-        double from = lrcsi_clip_side(segment, edge.at);
-        double along =
-            to[0] * (edge.at[0] - segment->at[0]) + to[1] * (edge.at[1] - segment->at[1]);
-        double rise = to[0] * edge.to[1] - to[1] * edge.to[0];
-        double run = to[0] * edge.to[0] + to[1] * edge.to[1];
-        if (fabs(from) <= strip) {
-            range_grow(range, along);
-        }
-        for (int k = -1; k <= 1 && rise != 0; k += 2) {
-            double t = (k * strip - from) / rise;
-            if (t > 0 && t < 1) {
-                range_grow(range, along + t * run);
-            }
-        }
-    }
-    double within = lrcsi_least(range[1], square) - lrcsi_most(range[0], 0);
-    return within > 0 ? within / sqrt(square) : 0;
-}
-
-void lrcsi_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2])
-{
-    middle[0] = middle[1] = 0;
-    for (uint32_t i = 0; i < polygon->count; i++) {
-        middle[0] += polygon->corner[i][0];
-        middle[1] += polygon->corner[i][1];
-    }
-    middle[0] /= polygon->count;
-    middle[1] /= polygon->count;
-}
-
-/* Corners that rounding has put next to each other have sides between them that point anywhere. The
-   nearest point of the rim may lie on such a side; then it is as near, but for their lengths, to
-   the end of one that counts: one so long that rounding turns it by 1 % at most. */
-double lrcsi_clip_clear(const lrcsi_clip_polygon *polygon, const double at[2])
-{
-    double counts = 0x1p-44 * lrcsi_clip_perimeter(polygon);
-    double short_ones = 0;
-    double clear = HUGE_VAL;
-    for (uint32_t i = 0; i < polygon->count; i++) {
-        lrcsi_clip_line side = polygon_side(polygon, i);
-        double length = line_length(&side);
-        if (length > counts) {
-            clear = lrcsi_least(clear, lrcsi_clip_side(&side, at) / length);
-        } else {
-            short_ones += length;
-        }
-    }
-    return 0.98 * clear - short_ones;
 }
 
 double lrcsi_clip_area(const lrcsi_clip_polygon *polygon)

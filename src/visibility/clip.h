@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Convex pieces of a facet, in plain doubles of its own frame of the view plane: split, measured,
-   held against lines. visibility/occlude.c accounts for their error. */
+/* Convex pieces of a facet, in plain doubles of its own frame of the view plane: split and
+ * measured. */
 #ifndef LRCSI_CLIP_H
 #define LRCSI_CLIP_H
 
@@ -33,31 +33,7 @@ double lrcsi_clip_perimeter(const lrcsi_clip_polygon *polygon);
 int lrcsi_clip_split(const lrcsi_clip_polygon *from, const lrcsi_clip_line *line,
                      lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 
-/* The line that halves a piece across the longer side of its box. */
-lrcsi_clip_line lrcsi_clip_halving(const lrcsi_clip_polygon *polygon);
-
 /* The area that a counter-clockwise triangle has in the unit square at `low`. */
 double lrcsi_clip_box_area(const double corner[3][2], const double low[2]);
-
-enum lrcsi_clip_place {
-    LRCSI_CLIP_APART,  /* no point of the segment within the width of the piece */
-    LRCSI_CLIP_BESIDE, /* all of the piece on one side of the segment's line, as computed */
-    LRCSI_CLIP_CROSSES /* neither is sure */
-};
-
-/* How a segment stands to a piece: a lrcsi_clip_place. */
-int lrcsi_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
-                     double width);
-
-/* The length of that part of a segment along which the piece comes within `width` of its line, as
-   computed. */
-double lrcsi_clip_within(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
-                         double width);
-
-/* The mean of a piece's corners. */
-void lrcsi_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2]);
-
-/* How far inside a piece a point lies, lower bound: at least so far from every side. */
-double lrcsi_clip_clear(const lrcsi_clip_polygon *polygon, const double at[2]);
 
 #endif

@@ -1,419 +1,75 @@
 /* SPDX-License-Identifier: MIT */
-/* Analytic visibility of contested facets. The facet is cut into cells along what may divide it
-   (visibility/cut.c) until nothing divides a cell: then one exact sample tells all of it
-   (visibility/cover.c). A sample taken on the way may tell that one sheet hides all of a cell,
-   whatever else divides it, and where not, along which sheet's edges to cut. So the work grows
-   with what is visible, not with what is hidden behind it. A cell that many divide is halved first:
-   they meet few of the small ones.
-
-   Error. In the facet's frame (visibility/target.c) corners are off by at most e = 10 u r, r the
-   facet's reach: R's rows are orthonormal to 4 u; a rounded difference, three products and two
-   sums. Let p be the perimeter of the facet's projection, d its diameter. Its own corners move its
-   rim by e: 2 e p, charged once.
-
-   A cell is cut along the line of a segment, or lies on one side of it; then the segment lies
-   within its width w of the line, and the cell, and all that come of it, on one side but for w
-   (visibility/cut.c). Let P be the place of a sample, clear of the cell's sides by c > 2 w and what
-   it may be off itself, and x any point of the cell. The way straight from x to P crosses the
-   segment only if x lies in its strip, within w of the line: P does not. Then it is out of the
-   strip after 2 w / c of its length, so that x lies no farther along the line beyond the segment
-   than 2 w / c of the cell's diameter: 2^20 w, where the cell is not thin. So what the segment may
-   change is in a strip 2 w wide and as long as the segment's part there and FAR w; that, or the
-   cell's area if less, is charged as the segment is struck from the cell's list, and serves all
-   cells that come of it. In a thin cell the whole strip of each is charged. Everything else of a
-   cell is seen as P is: what still divides the cell where one sheet hides it does not divide that
-   sheet.
-
-   A cell of which the sample is a guess, or that could not be divided further, counts as in doubt:
-   the bounds let all of it be visible, or hidden. So does one that is left when the view's meter is
-   spent, as half visible.
-
-   A split puts two corners on the sides of a piece to within 5 u d. Both parts share them, so that
-   only the two sides bend, by 5 u d d' of area in a cell of diameter d'; and there are two more
-   triangles to sum areas from, 7 u d'^2: together below 8 u d q, q the cell's perimeter. Adding up
-   the cells costs u d p each.
-
-   A needle in the view may be no wider than all this. It is done in the frame of its shares
-   (visibility/needle.h), where it is as wide as long, and all of the above holds as it stands: its
-   corners are exact but for the frame's slip, segments come clipped to a box around it, and are off
-   as visibility/cut.c tells; samples are taken at points that are not rounded. Areas are counted in
-   units of twice the facet's projection, which is off by its own error. */
+/* Who is asked how: uniform facets once a region, contested ones that one sheet hides at once, all
+   others in cells of the view plane, together or one by one. */
 #include "visibility/occlude.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "base/range.h"
 #include "base/work.h"
 #include "visibility/cells.h"
 #include "visibility/query.h"
 
-#define U 0x1p-53
-
-/* Cells that more cuts divide are halved, until that does not relieve one of a quarter of them. */
-#define LEAF_CUTS 12u
-/* Halvings at most: a cell is then below 2^-48 of its facet. */
-#define MOST_DEPTH 48u
-/* A cell is thin whose sample stands nearer to a side than this of its perimeter; in others strips
-   reach FAR widths beyond the ends of segments. */
-#define THIN 0x1p-20
-#define FAR  0x1p22
-/* A cell without place for a sample whose area is more than so many margins wide is only odd in
-   shape: it is halved, but half of all cells are for those that cuts divide. */
-#define NARROW 64.0
-/* A cell no larger than so many margins is left in doubt. */
-#define TINY_MARGINS 64.0
-/* Cells that wait at most. Of two, that with the sample comes first: the other has all the room. */
-#define MOST_WAITING 256u
 /* So many undecided facets, or more, are done together (visibility/cells.h), if they are one of so
    many facets at least: all facets are sorted into the blocks for that, which costs more than to
-   clip a few of them. */
+   do a few of them. */
 #define CELLS_LEAST 192u
 #define CELLS_SHARE 32u
-/* Cells that a facet may be cut into: so many, and so many a cut. */
-#define PARTS_MOST  4096u
-#define PARTS_A_CUT 256u
-
-/* --- cells ------------------------------------------------------------------------------------ */
-
-/* How far a place must lie within a cell of such an inset to stand for it. */
-static double cell_margin(const lrcsi_occluding *o, double inset)
-{
-    return 2 * inset + 16 * U * o->frame.diameter + 2 * o->frame.slip;
-}
-
-/* How far the point of a sample may be from its place. */
-static double cell_off(const lrcsi_occluding *o)
-{
-    return lrcsi_target_lift_off(&o->frame) + o->frame.slip;
-}
-
-/* Is the cell known to be visible at a place that stands clear within it? */
-static int cell_lit(const lrcsi_occluding *o, const lrcsi_occlude_cell *cell)
-{
-    return cell->lit &&
-           lrcsi_clip_clear(&cell->shape, cell->at) > cell_margin(o, cell->inset) + cell_off(o);
-}
-
-/* What is known of a cell at a place in it, a lrcsi_cover_answer; where that is a guess, it is not
-   sure. */
-static int cell_look(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t *sheet)
-{
-    if (cell_lit(o, cell)) {
-        return LRCSI_COVER_NONE;
-    }
-    lrcsi_cover_place place;
-    lrcsi_clip_middle(&cell->shape, place.at);
-    place.clear = lrcsi_clip_clear(&cell->shape, place.at) - cell_margin(o, cell->inset);
-    int answer = lrcsi_cover_sample(&o->cover, &o->cuts, cell->count, &place, sheet);
-    cell->at[0] = place.at[0];
-    cell->at[1] = place.at[1];
-    cell->sure = !place.guess;
-    cell->lit = answer == LRCSI_COVER_NONE && cell->sure;
-    return answer;
-}
-
-/* Charges a cell that is told by a sample with what the strips beyond the ends of segments may
-   cost, if it is thin. */
-static void cell_charge(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
-{
-    double perimeter = lrcsi_clip_perimeter(&cell->shape);
-    double clear = lrcsi_clip_clear(&cell->shape, cell->at) - cell_off(o);
-    if (!(clear > THIN * perimeter)) {
-        o->off += lrcsi_least(area, cell->cuts * cell->inset * perimeter);
-    }
-}
-
-/* The cell as a piece. In a needle its corners are rounded to the frame of the view axes. */
-static void cell_piece(lrcsi_occluding *o, const lrcsi_clip_polygon *shape)
-{
-    o->piece = *shape;
-    if (o->frame.needle) {
-        for (uint32_t i = 0; i < shape->count; i++) {
-            lrcsi_target_unrefine(&o->frame, shape->corner[i], o->piece.corner[i]);
-        }
-        o->bent += 4 * U * o->target.reach * lrcsi_clip_perimeter(&o->piece);
-    }
-}
-
-/* All of the cell is visible: a piece, unless that is a guess: 1 or 0. */
-static int cell_show(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, double area)
-{
-    cell_piece(o, &cell->shape);
-    o->off += U * o->frame.diameter * o->frame.perimeter;
-    o->area += area;
-    o->doubt[1] += cell->sure ? 0 : area;
-    return cell->sure;
-}
-
-/* No steps are left for the cell. */
-static void cell_leave(lrcsi_occluding *o, double area)
-{
-    o->off += U * o->frame.diameter * o->frame.perimeter;
-    o->area += 0.5 * area;
-    o->doubt[0] += 0.5 * area;
-    o->doubt[1] += 0.5 * area;
-}
-
-/* Strikes a cut from the cell's list, and charges its strip. */
-static void cell_drop(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t which, double area)
-{
-    uint32_t *list = o->cuts.list;
-    uint32_t index = list[which];
-    const lrcsi_cut *cut = &o->cuts.cut[index];
-    double length = lrcsi_clip_within(&cell->shape, &cut->line, 2 * cut->width);
-    o->off += lrcsi_least(area, 2 * cut->width * (length + FAR * cut->width));
-    cell->count--;
-    list[which] = list[cell->count];
-    list[cell->count] = index;
-    cell->cuts++;
-    cell->inset = lrcsi_most(cell->inset, cut->width);
-}
-
-/* Puts a part of a cell on the stack. */
-static void cell_push(lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
-                      const lrcsi_clip_polygon *shape, int lit)
-{
-    if (shape->count >= 3) {
-        lrcsi_occlude_cell *part = &o->stack[o->top++];
-        *part = *cell;
-        part->shape = *shape;
-        part->lit = lit;
-    }
-}
-
-/* Puts both sides of a line through a cell on the stack in its stead, that with the sample on top.
-   0 where there is no room. */
-static int cell_split(lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
-                      const lrcsi_clip_line *line)
-{
-    lrcsi_clip_polygon left;
-    lrcsi_clip_polygon right;
-    if (o->cells == 0 || o->top + 2 > MOST_WAITING ||
-        !lrcsi_clip_split(&cell->shape, line, &left, &right)) {
-        return 0;
-    }
-    int on_left = lrcsi_clip_side(line, cell->at) > 0;
-    o->cells--;
-    o->off += 8 * U * o->frame.diameter * lrcsi_clip_perimeter(&cell->shape);
-    cell_push(o, cell, on_left ? &right : &left, 0);
-    cell_push(o, cell, on_left ? &left : &right, cell->lit);
-    return 1;
-}
-
-static int cell_halve(lrcsi_occluding *o, lrcsi_occlude_cell *cell)
-{
-    lrcsi_clip_line line = lrcsi_clip_halving(&cell->shape);
-    cell->depth++;
-    return cell->depth <= MOST_DEPTH && cell_split(o, cell, &line);
-}
-
-/* Where in the list the cut stands that passes nearest to the cell's place, of those at which a
-   sheet ends; of all where there is no sheet, or none is its own. */
-static uint32_t cell_choose(const lrcsi_occluding *o, const lrcsi_occlude_cell *cell,
-                            uint32_t sheet)
-{
-    uint32_t best = 0;
-    double nearest = HUGE_VAL;
-    for (uint32_t i = 0; i < cell->count; i++) {
-        const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[i]];
-        if (sheet == LRCS_NONE || lrcsi_cut_ends(cut, sheet)) {
-            double far = fabs(lrcsi_clip_side(&cut->line, cell->at)) /
-                         (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
-            best = far < nearest ? i : best;
-            nearest = lrcsi_least(far, nearest);
-        }
-    }
-    return best;
-}
-
-/* Cuts a cell along one of its cuts, which its parts are rid of. */
-static int cell_cut(lrcsi_occluding *o, const lrcsi_occlude_cell *cell, uint32_t which, double area)
-{
-    lrcsi_occlude_cell rest = *cell;
-    const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[which]];
-    cell_drop(o, &rest, which, area);
-    return cell_split(o, &rest, &cut->line);
-}
-
-/* Divides a cell that a sheet hides in part (LRCS_NONE: of which some is visible). 0 where that is
-   not possible, or the cell is too small to be worth it. */
-static int cell_divide(lrcsi_occluding *o, lrcsi_occlude_cell *cell, uint32_t sheet, double area)
-{
-    int halves = cell->count > LEAF_CUTS && !cell->slice;
-    if (lrcsi_clip_perimeter(&cell->shape) < TINY_MARGINS * cell_margin(o, cell->inset)) {
-        return 0;
-    }
-    return (halves && cell_halve(o, cell)) ||
-           cell_cut(o, cell, cell_choose(o, cell, sheet), area) || cell_halve(o, cell);
-}
-
-/* Narrows the list to what may divide the cell; what passes beside it is charged and dropped. */
-static void cell_keep(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
-{
-    uint32_t before = cell->count;
-    cell->count = lrcsi_cuts_keep(&o->cuts, &cell->shape, cell->count);
-    for (uint32_t i = cell->count; i-- > 0;) {
-        const lrcsi_cut *cut = &o->cuts.cut[o->cuts.list[i]];
-        if (lrcsi_clip_meets(&cell->shape, &cut->line, cut->width) == LRCSI_CLIP_BESIDE) {
-            cell_drop(o, cell, i, area);
-        }
-    }
-    cell->slice ^= cell->depth > 0 && 4 * (size_t)cell->count > 3 * (size_t)before;
-}
-
-/* Does one cell: 1 where it has shown a piece. Else it is hidden, divided, or in doubt. */
-static int cell_do(lrcsi_occluding *o, lrcsi_occlude_cell *cell, double area)
-{
-    uint32_t sheet = LRCS_NONE;
-    cell_keep(o, cell, area);
-    int answer = cell_look(o, cell, &sheet);
-    if (answer == LRCSI_COVER_ALL && cell->sure) {
-        cell_charge(o, cell, area);
-        return 0;
-    }
-    if (cell->count > 0 && answer != LRCSI_COVER_ALL) {
-        if (cell_divide(o, cell, sheet, area)) {
-            return 0;
-        }
-        cell->sure = 0;
-    } else if (!cell->sure && o->cells > o->spare &&
-               area > NARROW * cell_margin(o, cell->inset) * lrcsi_clip_perimeter(&cell->shape) &&
-               cell_halve(o, cell)) {
-        return 0;
-    }
-    if (answer == LRCSI_COVER_NONE) {
-        cell_charge(o, cell, area);
-        return cell_show(o, cell, area);
-    }
-    o->doubt[0] += area;
-    return 0;
-}
-
-/* Does one cell after the other until one has shown a piece: 1; 0 where no cell is left. Cells
-   reorder only what is theirs of the list, so that a sibling done later finds its cuts. A cell's
-   cuts are gone through four times. */
-static int occlude_cells(lrcsi_occluding *o)
-{
-    lrcsi_meter *meter = o->contest->view->meter;
-    while (o->top > 0) {
-        lrcsi_occlude_cell cell = o->stack[--o->top];
-        double area = lrcsi_clip_area(&cell.shape);
-        if (!(area > 0)) {
-            continue; /* no area, or less than the splits' error already holds: nothing */
-        }
-        if (!lrcsi_meter_take(meter, 1 + 4 * (uint64_t)cell.count)) {
-            cell_leave(o, area);
-        } else if (cell_do(o, &cell, area)) {
-            return 1;
-        }
-    }
-    return 0;
-}
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* Readies a contested facet: all of it as the first cell. Candidates and cuts may be missing where
-   the meter is spent: then none of it is done. */
-static int cells_open(lrcsi_occluding *o, uint32_t facet)
-{
-    lrcsi_target_make(o->contest->view, facet, &o->target);
-    lrcsi_target_refine(&o->target, &o->needle, &o->frame);
-    o->area = o->doubt[0] = o->doubt[1] = o->off = 0;
-    int status = lrcsi_cuts_make(o->contest, &o->frame, o->work, &o->cuts);
-    if (status == LRCS_OK) {
-        lrcsi_cover_start(&o->cover, &o->target);
-        o->cells = PARTS_MOST + (uint64_t)PARTS_A_CUT * o->cuts.count;
-        o->spare = o->cells / 2;
-        o->stack[0] = (lrcsi_occlude_cell){.count = o->cuts.count};
-        lrcsi_clip_triangle((const double(*)[2])o->frame.corner, &o->stack[0].shape);
-        o->top = 1;
-    }
-    return status;
-}
-
-static lrcsi_visible cells_area(const lrcsi_occluding *o)
-{
-    lrcsi_tilt tilt = lrcsi_view_tilt(o->contest->view, o->frame.facet);
-    double unit = o->frame.unit;
-    double own = 20 * U * o->frame.reach + 32 * U * o->frame.diameter + 4 * o->frame.slip;
-    double error = unit * (own * o->frame.perimeter + o->off);
-    double left = lrcsi_most(0, lrcsi_least(tilt.projected, unit * o->area));
-    error += o->frame.needle ? tilt.error * tilt.projected : 0;
-    return (lrcsi_visible){left, lrcsi_most(0, left - unit * o->doubt[1] - error),
-                           lrcsi_least(tilt.projected, left + unit * o->doubt[0] + error), 0, 0};
-}
-
-lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet)
-{
-    double whole = lrcsi_view_tilt(view, facet).projected;
-    return (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
-}
-
 static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
 {
-    if (o->uniform[facet] == LRCSI_QUERY_HIDDEN) {
-        return (lrcsi_visible){0, 0, 0, 0, 0};
-    }
-    if (o->uniform[facet] == LRCSI_QUERY_UNDECIDED) {
-        return lrcsi_occlude_unknown(o->contest->view, facet);
-    }
     double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
-    return (lrcsi_visible){whole, whole, whole, 0, 0};
+    int answer = o->uniform[facet];
+    double low = answer == LRCSI_QUERY_VISIBLE ? whole : 0;
+    double high = answer == LRCSI_QUERY_HIDDEN ? 0 : whole;
+    return (lrcsi_visible){0.5 * (low + high), low, high, 0, 0};
 }
 
-int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
+void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
 {
     lrcsi_contest *contest = o->contest;
-    o->mark = o->work->used;
     o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
-    o->target.facet = facet;
+    o->alone.facet = o->alone.target.facet = facet;
     o->contested = o->whole = 0;
-    o->top = 0;
-    o->bent = 0;
     if (!lrcsi_grid_casts(contest->view, facet)) {
-        return LRCS_OK;
+        return;
     }
     if (!contest->contested[facet]) {
         o->answer = answered_area(o, facet);
         o->whole = o->answer.low > 0;
-        return LRCS_OK;
+    } else if (!lrcsi_query_screened(contest, &o->facets, facet)) {
+        o->contested = 1;
+        lrcsi_alone_open(&o->alone, facet);
     }
-    o->contested = !lrcsi_query_screened(contest, &o->cover.facets, facet);
-    int status = o->contested ? cells_open(o, facet) : LRCS_OK;
-    if (status != LRCS_OK) {
-        o->work->used = o->mark;
-    }
-    return status;
 }
 
 int lrcsi_occlude_next(lrcsi_occluding *o)
 {
     if (!o->whole) {
-        return occlude_cells(o);
+        return o->contested && lrcsi_alone_next(&o->alone);
     }
     o->whole = 0;
-    lrcsi_target_make(o->contest->view, o->target.facet, &o->target);
-    lrcsi_clip_triangle((const double(*)[2])o->target.corner, &o->piece);
+    lrcsi_target_make(o->contest->view, o->alone.facet, &o->alone.target);
+    lrcsi_clip_triangle((const double(*)[2])o->alone.target.corner, &o->alone.piece);
     return 1;
 }
 
 lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o)
 {
-    o->work->used = o->mark;
-    return o->contested ? cells_area(o) : o->answer;
+    return o->contested ? lrcsi_alone_close(&o->alone) : o->answer;
 }
 
 lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
 {
-    while (occlude_cells(o)) {
+    while (o->contested && lrcsi_alone_next(&o->alone)) {
     }
     return lrcsi_occlude_close(o);
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* May undecided facets be done together? There must be many. */
+/* May undecided facets be done together? */
 static int cells_serve(const lrcs_prepared *prepared)
 {
     return prepared->scene->facet_count >= CELLS_LEAST && !prepared->convex;
@@ -421,75 +77,84 @@ static int cells_serve(const lrcs_prepared *prepared)
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
-    size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_work_add(lrcsi_cover_need(prepared), lrcsi_work_bytes(facets, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(MOST_WAITING, sizeof(lrcsi_occlude_cell)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
-    size_t cuts = lrcsi_cuts_need(prepared);
+    size_t need = 2 * lrcsi_work_bytes(prepared->scene->facet_count, 1);
+    size_t alone = lrcsi_alone_need(prepared);
     size_t cells = cells_serve(prepared) ? lrcsi_cells_need(prepared) : 0;
-    return lrcsi_work_add(need, cuts > cells ? cuts : cells);
+    need = lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
+    return lrcsi_work_add(need, alone > cells ? alone : cells);
+}
+
+/* All but what single facets take. */
+static int occlude_begin(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)
+{
+    *o = (lrcsi_occluding){.contest = contest};
+    o->uniform = lrcsi_work_take(work, contest->view->prepared->scene->facet_count, 1);
+    return o->uniform ? lrcsi_query_uniform(contest, work, &o->facets, o->uniform) : LRCS_E_MEMORY;
 }
 
 int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)
 {
     size_t mark = work->used;
-    *o = (lrcsi_occluding){.contest = contest, .work = work};
-    o->uniform = lrcsi_work_take(work, contest->view->prepared->scene->facet_count, 1);
-    o->stack = lrcsi_work_take(work, MOST_WAITING, sizeof *o->stack);
-    int status =
-        o->uniform && o->stack ? lrcsi_cover_make(contest, work, &o->cover) : LRCS_E_MEMORY;
-    if (status == LRCS_OK) {
-        status = lrcsi_query_uniform(contest, work, &o->cover.facets, o->uniform);
-    }
+    int status = occlude_begin(contest, work, o);
+    status = status == LRCS_OK ? lrcsi_alone_make(contest, &o->facets, work, &o->alone) : status;
     if (status != LRCS_OK) {
         work->used = mark;
     }
     return status;
 }
 
+/* Contested facets: many all together, then one by one what that left open. */
+static int occlude_contested(lrcsi_occluding *o, lrcs_work *work, unsigned char *open,
+                             lrcsi_visible *visible)
+{
+    lrcsi_contest *contest = o->contest;
+    const lrcs_prepared *p = contest->view->prepared;
+    uint32_t count = p->scene->facet_count;
+    if (contest->contested_count >= CELLS_LEAST &&
+        contest->contested_count >= count / CELLS_SHARE && cells_serve(p)) {
+        lrcsi_cells_areas(contest, work, open, visible);
+    }
+    if (!memchr(open, 1, count)) {
+        return LRCS_OK;
+    }
+    int status = lrcsi_alone_make(contest, &o->facets, work, &o->alone);
+    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
+        if (open[f]) {
+            lrcsi_occlude_open(o, f);
+            visible[f] = lrcsi_occlude_area(o);
+            if (visible[f].high == 0) {
+                o->uniform[f] = LRCSI_QUERY_HIDDEN;
+            }
+        }
+    }
+    return status;
+}
+
 int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, const unsigned char **answer,
-                      lrcsi_visible *visible, uint32_t *starved)
+                      lrcsi_visible *visible)
 {
     const lrcsi_view *view = contest->view;
     uint32_t count = view->prepared->scene->facet_count;
     size_t mark = work->used;
     lrcsi_occluding o;
-    int status = lrcsi_occlude_make(contest, work, &o);
+    int status = occlude_begin(contest, work, &o);
     unsigned char *open = lrcsi_work_take(work, count, 1);
-    *starved = 0;
-    if (status != LRCS_OK || !open) {
-        work->used = mark;
-        return status == LRCS_OK ? LRCS_E_MEMORY : status;
-    }
-    /* 1. Many undecided facets all together, by cells of the view plane. */
-    for (uint32_t f = 0; f < count; f++) {
+    status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
+    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
         open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
-        o.uniform[f] = open[f] ? LRCSI_QUERY_UNDECIDED : o.uniform[f];
-    }
-    if (contest->contested_count >= CELLS_LEAST &&
-        contest->contested_count >= count / CELLS_SHARE && cells_serve(view->prepared)) {
-        lrcsi_cells_areas(contest, work, open, visible);
-    }
-    /* 2. One by one what that left open, and uniform facets that no sample told of. */
-    for (uint32_t f = 0; f < count; f++) {
-        if (open[f] && lrcsi_occlude_open(&o, f) == LRCS_OK) {
-            lrcsi_visible area = lrcsi_occlude_area(&o);
-            if (area.high == 0) { /* where it is known to be hidden, visible[] is not touched */
-                o.uniform[f] = LRCSI_QUERY_HIDDEN;
-            } else {
-                visible[f] = area;
-            }
-        } else if (open[f] || (o.uniform[f] == LRCSI_QUERY_UNDECIDED && !contest->contested[f])) {
-            visible[f] = lrcsi_occlude_unknown(view, f);
-            *starved += open[f];
+        if (open[f]) {
+            o.uniform[f] = LRCSI_QUERY_UNDECIDED;
+        } else if (o.uniform[f] == LRCSI_QUERY_UNDECIDED) {
+            visible[f] = answered_area(&o, f);
         }
     }
-    /* 3. What the answers tell. They move down to where the work area was, if not there yet. */
+    status = status == LRCS_OK ? occlude_contested(&o, work, open, visible) : status;
+    /* What the answers tell. They move down to where the work area was, if not there yet. */
     work->used = mark;
-    if (answer) {
+    if (status == LRCS_OK && answer) {
         *answer = memmove(lrcsi_work_take(work, count, 1), o.uniform, count);
-    } else {
+    } else if (status == LRCS_OK) {
         lrcsi_visible_answered(view, o.uniform, visible);
     }
-    return LRCS_OK;
+    return status;
 }

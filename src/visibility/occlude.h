@@ -1,51 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* What the laser sees of a facet, analytically: contested facets fall into cells that nothing
-   divides. As an area with bounds, and as disjoint convex pieces. */
+/* What the laser sees of every facet, analytically: as areas with bounds, and facet by facet as
+   disjoint convex pieces. */
 #ifndef LRCSI_OCCLUDE_H
 #define LRCSI_OCCLUDE_H
 
-#include "visibility/clip.h"
-#include "visibility/cover.h"
-#include "visibility/cut.h"
-#include "visibility/visible.h"
-
-/* A part of the facet that is yet to be done. */
-typedef struct lrcsi_occlude_cell {
-    lrcsi_clip_polygon shape;
-    uint32_t count; /* the cuts that may divide it are among the first so many of the list */
-    int slice;      /* it was last relieved by a cut, not by halving, or should be */
-    uint32_t depth; /* halvings in all */
-    uint32_t cuts;  /* so many were made, or passed it by */
-    double inset;   /* the widest of those */
-    double at[2];   /* a place in it, */
-    int lit;        /* where that is known to be visible */
-    int sure;       /* all samples so far stood clear of what they tell of */
-} lrcsi_occlude_cell;
+#include "visibility/cells_alone.h"
 
 /* What serves all facets of a view, and the facet at hand. */
 typedef struct lrcsi_occluding {
     lrcsi_contest *contest;
-    lrcs_work *work;
-    lrcsi_cover cover;
-    unsigned char *uniform;    /* facet: what a uniform one shows, a lrcsi_query_answer */
-    lrcsi_occlude_cell *stack; /* of `top` cells yet to be done */
-    uint32_t top;
-
-    size_t mark;              /* of the work area, before the facet */
-    lrcsi_target target;      /* of a contested facet; of others once a piece has been asked for */
-    lrcsi_target frame;       /* the same in the frame in which it is divided */
-    lrcsi_needle needle;      /* that of a needle */
-    lrcsi_cuts cuts;          /* what may divide it */
-    lrcsi_clip_polygon piece; /* the piece last found */
-    lrcsi_visible answer;     /* of a facet that is not contested */
+    lrcsi_grid facets;
+    unsigned char *uniform; /* facet: what a uniform one shows, a lrcsi_query_answer */
+    lrcsi_alone alone;      /* target and piece of the facet at hand */
+    lrcsi_visible answer;   /* of a facet that is not contested */
     int contested;
-    int whole;       /* all of it is visible, and no piece has been asked for yet */
-    uint64_t cells;  /* that may yet be divided */
-    uint64_t spare;  /* of these, for cells that cuts divide */
-    double area;     /* visible so far */
-    double doubt[2]; /* area of cells that could not be told: hidden, visible by a guess */
-    double off;      /* by which the area may be wrong */
-    double bent;     /* by which the pieces' area may be wrong beside */
+    int whole; /* all of it is visible, and no piece has been asked for yet */
 } lrcsi_occluding;
 
 /* Bytes at most. */
@@ -56,31 +25,26 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o);
 
 /* One facet piece by piece: open it, ask for more until there are none, close it. Each `next` that
-   returns 1 leaves one more of the disjoint convex pieces of what is visible in o->piece, in the
-   frame of o->target (lrcsi_target_weights leads back to the facet). A facet that is visible whole
-   comes as its own triangle; one of which nothing is known to be visible has no pieces. The pieces
-   together differ from what is visible, both ways, by an area of at most high - low of the answer,
-   and by the rounding of their corners: 20 u reach perimeter and o->bent.
-   Status: LRCS_OK; LRCS_E_MEMORY. What is open takes some of the work area until it is closed; a
-   facet that failed to open is closed. */
-int lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet);
+   returns 1 leaves one more of the disjoint convex pieces of what is visible in o->alone.piece, in
+   the frame of o->alone.target (lrcsi_target_weights leads back to the facet). A facet that is
+   visible whole comes as its own triangle; one of which nothing is known to be visible has no
+   pieces. The pieces together differ from what is visible, both ways, by an area of at most high -
+   low of the answer, and by the rounding of their corners: 20 u reach perimeter. */
+void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet);
 int lrcsi_occlude_next(lrcsi_occluding *o);
 lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o);
 
 /* Closes a facet of which only the area is wanted, and no piece has been asked for. */
 lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o);
 
-/* What a facet shows of which nothing is known. */
-lrcsi_visible lrcsi_occlude_unknown(const lrcsi_view *view, uint32_t facet);
-
-/* Every facet: uniform ones by one exact sample, contested ones cell by cell unless one sheet hides
-   all of them. A facet whose cuts find no memory may show anything: *starved counts those. One
-   that falls into more cells than the limit is bounded by what was reached.
+/* Every facet: uniform ones by one exact sample; contested ones all together where they are many
+   (visibility/cells.h), else one by one. One that falls into more cells than the limit is bounded
+   by what was reached.
    Returned: *answer, unless answer is NULL: facet -> LRCSI_QUERY_HIDDEN or _VISIBLE where it shows
    nothing or all of itself, which is exact then; else LRCSI_QUERY_UNDECIDED, and visible[facet] is
    its area. So most of visible[] is never touched. With answer NULL visible[] has the areas of all.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */
 int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, const unsigned char **answer,
-                      lrcsi_visible *visible, uint32_t *starved);
+                      lrcsi_visible *visible);
 
 #endif

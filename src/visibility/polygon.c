@@ -105,15 +105,13 @@ static void ring_add_piece(ring_list *list, const lrcsi_target *t, const lrcsi_c
 static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
 {
     ring_list before = *list;
-    int status = lrcsi_occlude_open(o, facet);
-    if (status != LRCS_OK) {
-        return status;
-    }
+    const lrcsi_target *target = &o->alone.target;
+    lrcsi_occlude_open(o, facet);
     while (lrcsi_occlude_next(o)) {
         if (o->contested) {
-            ring_add_piece(list, &o->target, &o->piece);
+            ring_add_piece(list, target, &o->alone.piece);
         } else {
-            ring_add_facet(list, &o->target, (const double(*)[2])o->piece.corner);
+            ring_add_facet(list, target, (const double(*)[2])o->alone.piece.corner);
         }
     }
     lrcsi_visible visible = lrcsi_occlude_close(o);
@@ -121,14 +119,14 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
     if (!o->contested) {
         return LRCS_OK;
     }
-    list->bound += o->bent;
+    list->bound += o->alone.bent;
     int all = visible.high >= lrcsi_view_tilt(o->contest->view, facet).projected;
     int none = visible.low <= 0;
     if (all != none) {
         list->rings = before.rings;
         list->points = before.points;
         if (all) {
-            ring_add_facet(list, &o->target, (const double(*)[2])o->target.corner);
+            ring_add_facet(list, target, (const double(*)[2])target->corner);
         }
     }
     return list->points < LRCS_NONE ? LRCS_OK : LRCS_E_LIMIT;
@@ -158,11 +156,11 @@ size_t lrcs_polygon_need(const lrcs_prepared *prepared)
 }
 
 /* Takes room for the rings that were counted, and fills it. */
-static int list_fill(ring_list *list, lrcsi_occluding *o)
+static int list_fill(ring_list *list, lrcsi_occluding *o, lrcs_work *work)
 {
     ring_list full = {.ring_room = list->rings, .point_room = list->points};
-    full.ring = lrcsi_work_take(o->work, full.ring_room, sizeof *full.ring);
-    full.point = lrcsi_work_take(o->work, full.point_room, sizeof *full.point);
+    full.ring = lrcsi_work_take(work, full.ring_room, sizeof *full.ring);
+    full.point = lrcsi_work_take(work, full.point_room, sizeof *full.point);
     *list = full;
     return full.ring && full.point ? facets_add(list, o) : LRCS_E_MEMORY;
 }
@@ -177,7 +175,7 @@ static int polygon_list(const lrcs_prepared *prepared, const lrcs_pose *pose, lr
     status = status == LRCS_OK ? lrcsi_contest_make(&view, work, &contest) : status;
     status = status == LRCS_OK ? lrcsi_occlude_make(&contest, work, &o) : status;
     status = status == LRCS_OK ? facets_add(list, &o) : status;
-    return status == LRCS_OK ? list_fill(list, &o) : status;
+    return status == LRCS_OK ? list_fill(list, &o, work) : status;
 }
 
 /* The rings stand above what was needed to find them; they sink to the bottom, rings first. */

@@ -31,6 +31,7 @@ again() {
 for scene in box pair round; do
     for budget in 0.001 1000; do
         run run $scene.toml --direction 1,1,1 --time-budget $budget --json
+        same "a_bound_above_sigma_exits_3_of_${scene}_in_$budget" "$rc" "$(awk -v b="$(value bound_m2)" -v s="$(value sigma_m2)" -v t="$(value time_budget | sed 's/.*"spent_ms": //; s/,.*//')" -v a=$budget 'BEGIN { print (b > s || t > a + 20) ? 3 : 0 }')"
         again "a_budget_of_${budget}_on_${scene}_gives_what_it_names" $scene.toml
     done
 done

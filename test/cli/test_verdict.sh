@@ -103,6 +103,16 @@ same and_told_in_words "$(printf '%s\n' "$out" | grep -c '^  glint      [0-9.]* 
 run run $tube --azel 60,0 --normals auto
 same not_where_normals_are_curved "$(printf '%s\n' "$out" | grep -c 'too coarse')" 0
 
+# In a sweep: told before it, and peaks along a facet's own normal are marked. Its normals are at
+# 0, 30, .. deg.
+# shellcheck disable=SC2086
+run sweep $tube --az 0:355:5 --el 0 -o tube.csv --brightest 3
+same a_sweep_tells_of_coarse_glints "$(printf '%s\n' "$err" | grep -c '^notice: glint: 1 curved part is too coarse for')" 1
+same peaks_of_facet_normals_are_marked "$(printf '%s\n' "$out" | grep -c 'the normal of a facet of a curved part')" 3
+# shellcheck disable=SC2086
+run sweep $tube --az 0:355:5 --el 0 -o curved.csv --brightest 3 --normals smooth
+same curved_normals_have_no_such_peaks "$(printf '%s\n' "$out$err" | grep -c 'facet of a curved part\|too coarse')" 0
+
 # ---- materials and files ----
 run run demo
 same materials_are_told_by_origin "$(printf '%s\n' "$out" | grep -c '^  materials  [0-9]* facets: \(illustrative, of the library: not measured\|as given\)$')" 2

@@ -125,7 +125,11 @@ static double most_questions(const lrcs_prepared *p)
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         double own = lrcsi_touches_of(&p->touches, f);
         double cuts = most_cuts(p, f);
-        most += n * (cuts + own) + (8193 + 512 * cuts) * (4 * cuts + 2 * n * (1 + cuts));
+        most += n * (cuts + own) + (8193 + 512 * cuts) * (2 * cuts + n + 7 * n * (2 + cuts));
+    }
+    if (n >= 192) { /* cells of all facets together */
+        double lines = p->topology.edge_count + k;
+        most += 32 * (2 * n + 64) * (1 + lines + lines * lines) * (n + lines);
     }
     return most;
 }

@@ -7,8 +7,8 @@ folder=$1/operations
 mkdir -p "$folder" || exit 1
 # A facet or edge against an event, a line, a cut or a cell, each in bounded time.
 questions='boxes_apart edge_crosses touch_contests box_misses lrcsi_sample_covers_towards line_nearer
-touched_by cover_add order_of line_misses line_hidden lrcsi_clip_meets lrcsi_cut_ends lrcsi_clip_within
-event_slack grid_put'
+touched_by facet_record order_of place_covered place_front sheet_ends lrcsi_cells_place_of
+lrcsi_cells_facet_order event_slack grid_put'
 # A curved facet, a triangle of it, a part of that.
 parts='lrcsi_cubature_make lrcsi_cubature_add cube_step'
 flags='-std=c11 -ffp-contract=off -O0'

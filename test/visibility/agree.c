@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Cells of the view plane (visibility/cells.h) against facets one by one (visibility/query.h,
-   visibility/occlude.h): on each model given, from so many directions, whether the bounds of all
-   facets overlap, and what both cost. Ends with 1 where some do not.
+/* Cells of the view plane, of all facets together (visibility/cells.h) and of each alone
+   (visibility/cells_alone.h), against the clipping that they replaced (visibility/reference): on
+   each model or scene given, from so many directions, whether the bounds of all facets overlap, and
+   what all three cost. Ends with 1 where some do not.
    Given: agree DIRECTIONS FILE... */
 #include <lrcs/host.h>
 
@@ -13,16 +14,24 @@
 
 #include "base/work.h"
 #include "visibility/cells.h"
-#include "visibility/occlude.h"
+#include "visibility/cells_alone.h"
+#include "visibility/reference/occlude.h"
 
 #define MEMORY ((size_t)1 << 30)
 #define PI     3.14159265358979323846
 
-typedef struct agree_sums {
+/* One way to find areas, held against the reference. */
+typedef struct agree_way {
+    const char *name;
     uint64_t asked, left, apart;
-    double worst;        /* gap between bounds */
-    double ours, theirs; /* widths of bounds, of facets that cells decide */
-    double cells_ms, facets_ms;
+    double worst;         /* gap between bounds */
+    double width, theirs; /* widths of bounds */
+    double ms;
+} agree_way;
+
+typedef struct agree_sums {
+    agree_way together, alone;
+    double ms; /* of the reference */
 } agree_sums;
 
 static double now_ms(void)
@@ -60,13 +69,29 @@ static void must(int status)
     }
 }
 
-/* One direction: all facets that can be seen, by cells and one by one. */
+static void agree_facet(agree_way *way, int number, uint32_t facet, double projected,
+                        const lrcsi_visible *found, const lrcsi_visible *clipped)
+{
+    double gap = fmax(found->low - clipped->high, clipped->low - found->high);
+    way->asked++;
+    way->width += found->high - found->low;
+    way->theirs += clipped->high - clipped->low;
+    way->worst = fmax(way->worst, gap);
+    if (!(gap <= 1e-16 * projected)) {
+        printf("apart: direction %d facet %u %s %.17g .. %.17g clipped %.17g .. %.17g\n", number,
+               facet, way->name, found->low, found->high, clipped->low, clipped->high);
+        way->apart++;
+    }
+}
+
+/* One direction: all facets that can be seen by cells together, contested ones each alone. */
 static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *work,
                        unsigned char *open, lrcsi_visible *found, agree_sums *sums)
 {
     lrcsi_view view;
     lrcsi_contest contest;
-    lrcsi_occluding o;
+    ref_occluding o;
+    lrcsi_alone a;
     uint32_t count = prepared->scene->facet_count;
     lrcs_pose pose = pose_of(number);
     work->used = 0;
@@ -74,31 +99,45 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     must(lrcsi_contest_make(&view, work, &contest));
     for (uint32_t f = 0; f < count; f++) {
         open[f] = lrcsi_grid_casts(&view, f) != 0;
-        sums->asked += open[f];
     }
     double start = now_ms();
     lrcsi_cells_areas(&contest, work, open, found);
-    double middle = now_ms();
-    must(lrcsi_occlude_make(&contest, work, &o));
+    sums->together.ms += now_ms() - start;
+    must(ref_occlude_make(&contest, work, &o));
+    must(lrcsi_alone_make(&contest, &o.cover.facets, work, &a));
     for (uint32_t f = 0; f < count; f++) {
-        must(lrcsi_occlude_open(&o, f));
-        lrcsi_visible one = lrcsi_occlude_area(&o);
-        sums->left += open[f];
-        if (!lrcsi_grid_casts(&view, f) || open[f]) {
+        if (!lrcsi_grid_casts(&view, f)) {
             continue;
         }
-        double gap = fmax(found[f].low - one.high, one.low - found[f].high);
-        sums->ours += found[f].high - found[f].low;
-        sums->theirs += one.high - one.low;
-        sums->worst = fmax(sums->worst, gap);
-        if (!(gap <= 1e-16 * lrcsi_view_projected(&view, f))) {
-            printf("apart: direction %d facet %u cells %.17g .. %.17g alone %.17g .. %.17g\n",
-                   number, f, found[f].low, found[f].high, one.low, one.high);
-            sums->apart++;
+        double projected = lrcsi_view_projected(&view, f);
+        start = now_ms();
+        must(ref_occlude_open(&o, f));
+        lrcsi_visible clipped = ref_occlude_area(&o);
+        sums->ms += now_ms() - start;
+        sums->together.left += open[f];
+        if (!open[f]) {
+            agree_facet(&sums->together, number, f, projected, &found[f], &clipped);
+        }
+        if (contest.contested[f]) {
+            start = now_ms();
+            lrcsi_alone_open(&a, f);
+            while (lrcsi_alone_next(&a)) {
+            }
+            lrcsi_visible one = lrcsi_alone_close(&a);
+            sums->alone.ms += now_ms() - start;
+            sums->alone.left += a.doubt[0] + a.doubt[1] > 0;
+            agree_facet(&sums->alone, number, f, projected, &one, &clipped);
         }
     }
-    sums->cells_ms += middle - start;
-    sums->facets_ms += now_ms() - middle;
+}
+
+static void agree_print(const agree_way *way, int directions)
+{
+    printf("    %-8s %llu facets, %llu in doubt, %llu apart (worst gap %.3g); widths %.3g, clipped "
+           "%.3g; %.2f ms a pose\n",
+           way->name, (unsigned long long)way->asked, (unsigned long long)way->left,
+           (unsigned long long)way->apart, way->worst, way->width, way->theirs,
+           way->ms / directions);
 }
 
 int main(int argc, char **argv)
@@ -110,7 +149,7 @@ int main(int argc, char **argv)
     for (int i = 2; i < argc && status != 2; i++) {
         lrcs_host_scene scene;
         lrcs_host_error error;
-        agree_sums sums = {0};
+        agree_sums sums = {{.name = "together"}, {.name = "alone"}, 0};
         memset(&scene, 0, sizeof scene);
         if (lrcs_host_scene_read(argv[i], &options, &scene, &error) != LRCS_OK ||
             lrcs_host_scene_prepare(&scene, &error) != LRCS_OK) {
@@ -126,14 +165,11 @@ int main(int argc, char **argv)
         for (int n = 0; n < directions; n++) {
             agree_pose(scene.prepared, n, &work, open, found, &sums);
         }
-        printf(
-            "%s: %llu facets, %llu left, %llu apart (worst gap %.3g); widths %.3g, alone %.3g; ms "
-            "a pose %.2f, alone %.2f\n",
-            argv[i], (unsigned long long)sums.asked, (unsigned long long)sums.left,
-            (unsigned long long)sums.apart, sums.worst, sums.ours, sums.theirs,
-            sums.cells_ms / directions, sums.facets_ms / directions);
+        printf("%s: clipped in %.2f ms a pose\n", argv[i], sums.ms / directions);
+        agree_print(&sums.together, directions);
+        agree_print(&sums.alone, directions);
         fflush(stdout);
-        status |= sums.apart != 0;
+        status |= sums.together.apart + sums.alone.apart != 0;
         free(open);
         free(found);
         lrcs_host_scene_free(&scene);

@@ -36,20 +36,6 @@ static void a_line_splits_what_it_crosses(void **state)
     check_split(8, 0, -1, 1, 32, 0); /* along the hypotenuse */
 }
 
-static void halves_share_the_area(void **state)
-{
-    (void)state;
-    lrcsi_clip_polygon p = triangle(8, 4);
-    lrcsi_clip_polygon left;
-    lrcsi_clip_polygon right;
-    lrcsi_clip_line line = lrcsi_clip_halving(&p);
-    assert_true(lrcsi_clip_split(&p, &line, &left, &right));
-    double a = lrcsi_clip_area(&left);
-    double b = lrcsi_clip_area(&right);
-    check_same(fmin(a, b), 4); /* beyond x = 4: half of 4 times 2 */
-    check_same(fmax(a, b), 12);
-}
-
 /* A square whose corners are cut off again and again, by ever less. */
 static void a_piece_of_too_many_corners_is_not_split(void **state)
 {
@@ -69,53 +55,6 @@ static void a_piece_of_too_many_corners_is_not_split(void **state)
     assert_true(left.count + right.count == LRCSI_CLIP_SIDES + 4);
 }
 
-static int meets(double x0, double y0, double x1, double y1, double width)
-{
-    lrcsi_clip_polygon p = triangle(8, 8);
-    const lrcsi_clip_line segment = {{x0, y0}, {x1 - x0, y1 - y0}};
-    return lrcsi_clip_meets(&p, &segment, width);
-}
-
-static void a_segment_beside_a_piece_or_short_of_it_does_not_meet_it(void **state)
-{
-    (void)state;
-    assert_true(meets(1, 1, 2, 2, 0));
-    assert_true(meets(-1, 4, 9, 4, 0));
-    assert_false(meets(-1, -1, 9, 0, 0));
-    assert_false(meets(9, 0, 0, 9, 0.25));
-    assert_true(meets(9, 0, 0, 9, 0.75)); /* the distance is 1 / sqrt(2) */
-    assert_false(meets(-3, 2, -1, 2, 0.5));
-    assert_true(meets(-3, 2, -1, 2, 1));
-    assert_false(meets(5, 9, 5, 12, 0.5));
-}
-
-static void the_middle_knows_how_far_inside_it_lies(void **state)
-{
-    (void)state;
-    double middle[2];
-    lrcsi_clip_polygon p = triangle(9, 9);
-    lrcsi_clip_middle(&p, middle);
-    double clear = lrcsi_clip_clear(&p, middle);
-    check_rel(middle[0], 3.0, 1e-15);
-    check_rel(middle[1], 3.0, 1e-15);
-    assert_true(clear > 1.4 && clear <= 3 / sqrt(2)); /* nearest is the hypotenuse */
-    p = triangle(9, 0x1p-40);
-    lrcsi_clip_middle(&p, middle);
-    assert_true(lrcsi_clip_clear(&p, middle) < 0x1p-40 / 3);
-    assert_true(lrcsi_clip_clear(&p, (const double[2]){1, 1}) < 0);
-}
-
-/* Two corners that are one but for rounding: the side between them points away from all. */
-static void a_side_made_by_rounding_does_not_count(void **state)
-{
-    (void)state;
-    double middle[2];
-    lrcsi_clip_polygon p = {.count = 4,
-                            .corner = {{0, 0}, {8, 0}, {8 - 0x1p-50, -0x1p-50}, {0, 8}}};
-    lrcsi_clip_middle(&p, middle);
-    assert_true(lrcsi_clip_clear(&p, middle) > 0.5);
-}
-
 static void a_box_shows_its_part_of_a_triangle(void **state)
 {
     (void)state;
@@ -129,11 +68,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_line_splits_what_it_crosses),
-        cmocka_unit_test(halves_share_the_area),
         cmocka_unit_test(a_piece_of_too_many_corners_is_not_split),
-        cmocka_unit_test(a_segment_beside_a_piece_or_short_of_it_does_not_meet_it),
-        cmocka_unit_test(the_middle_knows_how_far_inside_it_lies),
-        cmocka_unit_test(a_side_made_by_rounding_does_not_count),
         cmocka_unit_test(a_box_shows_its_part_of_a_triangle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,7 +9,7 @@
    A line is held against candidates in the frame first, in doubles: away from their sides that is
    sure, and good to the target's own size. Where it passes too near a side, all of them are asked
    again, exactly, at a point in space nearby: so that of two that share the side it meets one. */
-#include "visibility/cover.h"
+#include "visibility/reference/cover.h"
 
 #include <math.h>
 
@@ -29,28 +29,28 @@ enum cover_order {
     ORDER_UNKNOWN           /* touches, in a line that is not known */
 };
 
-size_t lrcsi_cover_need(const lrcs_prepared *prepared)
+size_t ref_cover_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_grid_facets_need(prepared),
                                  lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_COVER_KEPT, sizeof(lrcsi_cover_sides)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cover_facet)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(REF_COVER_KEPT, sizeof(ref_cover_sides)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(ref_cover_facet)));
 }
 
-int lrcsi_cover_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_cover *cover)
+int ref_cover_make(lrcsi_contest *contest, lrcs_work *work, ref_cover *cover)
 {
     uint32_t count = contest->view->prepared->scene->facet_count;
-    *cover = (lrcsi_cover){.contest = contest};
+    *cover = (ref_cover){.contest = contest};
     cover->asked = lrcsi_work_take_zero(work, count, sizeof *cover->asked);
     cover->candidate = lrcsi_work_take(work, count, sizeof *cover->candidate);
-    cover->sides = lrcsi_work_take_zero(work, LRCSI_COVER_KEPT, sizeof *cover->sides);
+    cover->sides = lrcsi_work_take_zero(work, REF_COVER_KEPT, sizeof *cover->sides);
     return cover->asked && cover->candidate && cover->sides ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 /* --- candidates ------------------------------------------------------------------------------- */
 
-void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
+void ref_cover_start(ref_cover *cover, const lrcsi_target *target)
 {
     const lrcsi_grid *facets = &cover->facets;
     lrcsi_view_box box = facets->box[target->facet];
@@ -73,7 +73,7 @@ void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
             const lrcsi_view_box *its = &facets->box[other];
             if (!lrcsi_view_box_beside(its, &box) && !lrcsi_view_box_behind(its, &box)) {
                 cover->candidate[cover->count++] =
-                    (lrcsi_cover_facet){.box = *its, .facet = other, .order = ORDER_NEW};
+                    (ref_cover_facet){.box = *its, .facet = other, .order = ORDER_NEW};
             }
         }
     }
@@ -82,7 +82,7 @@ void lrcsi_cover_start(lrcsi_cover *cover, const lrcsi_target *target)
 /* The order of two facets neither of which lies on one side of the other's plane. Of those that
    touch, the cut tells; in one plane the rules of precedence decide, and one that is beaten has no
    cut. */
-static uint32_t order_mixed(const lrcsi_cuts *cuts, uint32_t other)
+static uint32_t order_mixed(const ref_cuts *cuts, uint32_t other)
 {
     const lrcsi_target *t = cuts->target;
     const lrcsi_touches *touches = &t->view->prepared->touches;
@@ -108,7 +108,7 @@ static uint32_t order_mixed(const lrcsi_cuts *cuts, uint32_t other)
 }
 
 /* ORDER_NEW where the meter is spent. */
-static uint32_t order_of(const lrcsi_cuts *cuts, uint32_t other)
+static uint32_t order_of(const ref_cuts *cuts, uint32_t other)
 {
     const lrcsi_target *t = cuts->target;
     uint32_t touches = lrcsi_touches_of(&t->view->prepared->touches, t->facet);
@@ -129,8 +129,8 @@ enum line_way {
 };
 
 typedef struct cover_line {
-    const lrcsi_cover *cover;
-    const lrcsi_cuts *cuts;
+    const ref_cover *cover;
+    const ref_cuts *cuts;
     uint32_t count; /* of their list, that may divide what the line stands for */
     int way;
     double at[2];       /* in the target's frame */
@@ -155,7 +155,7 @@ typedef struct cover_line {
    seen from n. T is off by 12 u (r_p + r_q), rounding included, G by 12 u r_n + 2 u d, so T x G by
    12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the 1-norm, and by its own rounding, 2 u |T|
    |G|, below 3 u (r_p + r_q) |G|. */
-static void sides_place(const lrcsi_target *t, uint32_t facet, lrcsi_cover_sides *c)
+static void sides_place(const lrcsi_target *t, uint32_t facet, ref_cover_sides *c)
 {
     double corner[3][2];
     double reach[3];
@@ -170,7 +170,7 @@ static void sides_place(const lrcsi_target *t, uint32_t facet, lrcsi_cover_sides
     for (int k = 0; k < 3; k++) {
         int next = k == 2 ? 0 : k + 1;
         int near = reach[k] <= reach[next] ? k : next;
-        lrcsi_clip_line *side = &c->side[k];
+        ref_clip_line *side = &c->side[k];
         for (int i = 0; i < 2; i++) {
             side->at[i] = corner[near][i];
             side->to[i] = corner[next][i] - corner[k][i];
@@ -183,9 +183,9 @@ static void sides_place(const lrcsi_target *t, uint32_t facet, lrcsi_cover_sides
     }
 }
 
-static const lrcsi_cover_sides *sides_of(const cover_line *line, uint32_t facet)
+static const ref_cover_sides *sides_of(const cover_line *line, uint32_t facet)
 {
-    lrcsi_cover_sides *sides = &line->cover->sides[facet % LRCSI_COVER_KEPT];
+    ref_cover_sides *sides = &line->cover->sides[facet % REF_COVER_KEPT];
     if (sides->facet != facet || sides->ask != line->cover->asks) {
         sides_place(line->cuts->target, facet, sides);
         sides->facet = facet;
@@ -195,12 +195,12 @@ static const lrcsi_cover_sides *sides_of(const cover_line *line, uint32_t facet)
 }
 
 /* 1 the line surely meets the candidate, -1 surely not, 0 it passes too near a side. */
-static int line_meets_about(const cover_line *line, const lrcsi_cover_facet *c)
+static int line_meets_about(const cover_line *line, const ref_cover_facet *c)
 {
-    const lrcsi_cover_sides *sides = sides_of(line, c->facet);
+    const ref_cover_sides *sides = sides_of(line, c->facet);
     int inside = 1;
     for (int k = 0; k < 3; k++) {
-        double left = lrcsi_clip_side(&sides->side[k], line->at);
+        double left = ref_clip_side(&sides->side[k], line->at);
         double clear = line->way == LINE_GUESSED ? 0 : sides->clear[k];
         if (left < -clear) {
             return -1;
@@ -212,7 +212,7 @@ static int line_meets_about(const cover_line *line, const lrcsi_cover_facet *c)
 
 /* The same in a needle, at the point that has these shares: it is off its place by the frame's
    slip, and sides are told in double-double. */
-static int line_meets_finely(const cover_line *line, const lrcsi_cover_facet *c)
+static int line_meets_finely(const cover_line *line, const ref_cover_facet *c)
 {
     const lrcsi_target *t = line->cuts->target;
     int inside = 1;
@@ -229,13 +229,13 @@ static int line_meets_finely(const cover_line *line, const lrcsi_cover_facet *c)
 }
 
 /* Does the line pass the candidate by, or is that one behind? Most are told so. */
-static int line_misses(const cover_line *line, const lrcsi_cover_facet *c)
+static int line_misses(const cover_line *line, const ref_cover_facet *c)
 {
     return lrcsi_view_box_beside(&line->box, &c->box) || c->order == ORDER_BEHIND;
 }
 
 /* 1 the line meets the candidate, -1 not, 0 it must be asked another way. */
-static int line_meets(const cover_line *line, lrcsi_cover_facet *c)
+static int line_meets(const cover_line *line, ref_cover_facet *c)
 {
     if (line->way == LINE_EXACT) {
         return lrcsi_sample_covers(line->cuts->target->view, c->facet, line->point) ? 1 : -1;
@@ -246,7 +246,7 @@ static int line_meets(const cover_line *line, lrcsi_cover_facet *c)
 
 /* Is the target hidden where the line meets the candidate? 1 yes, -1 no, 0 unknown. Two facets that
    do not touch keep their order wherever they overlap. */
-static int line_hidden(const cover_line *line, lrcsi_cover_facet *c)
+static int line_hidden(const cover_line *line, ref_cover_facet *c)
 {
     const lrcsi_target *t = line->cuts->target;
     if (c->order == ORDER_NEW) {
@@ -260,8 +260,8 @@ static int line_hidden(const cover_line *line, lrcsi_cover_facet *c)
         return nearer;
     }
     if (c->order < line->cuts->count) {
-        const lrcsi_cut *cut = &line->cuts->cut[c->order];
-        double left = lrcsi_clip_side(&cut->line, line->at);
+        const ref_cut *cut = &line->cuts->cut[c->order];
+        double left = ref_clip_side(&cut->line, line->at);
         double off = line->way == LINE_GUESSED ? 0 : cut->width + line->off;
         double clear = off * (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
         return left > clear ? 1 : left < -clear ? -1 : 0;
@@ -310,9 +310,9 @@ typedef struct cover_found {
 
 #define LINE_AGAIN (-1)
 
-/* One candidate more: what is known then, a lrcsi_cover_answer, or LINE_AGAIN where the line must
+/* One candidate more: what is known then, a ref_cover_answer, or LINE_AGAIN where the line must
    be asked another way. One that hides all of a cell comes to stand first. */
-static int line_ask(const cover_line *line, lrcsi_cover *cover, lrcsi_cover_facet *c, int answer,
+static int line_ask(const cover_line *line, ref_cover *cover, ref_cover_facet *c, int answer,
                     cover_found *found)
 {
     int meets = line_meets(line, c);
@@ -321,41 +321,41 @@ static int line_ask(const cover_line *line, lrcsi_cover *cover, lrcsi_cover_face
         return LINE_AGAIN;
     }
     if (hidden <= 0) {
-        return hidden == 0 && answer == LRCSI_COVER_NONE ? LRCSI_COVER_UNKNOWN : answer;
+        return hidden == 0 && answer == REF_COVER_NONE ? REF_COVER_UNKNOWN : answer;
     }
     if (!lrcsi_meter_take(cover->facets.view->meter, line->count)) {
-        return LRCSI_COVER_UNKNOWN;
+        return REF_COVER_UNKNOWN;
     }
     uint32_t sheet = cover->contest->sheet[c->facet];
-    uint32_t ends = lrcsi_cuts_of(line->cuts, line->count, sheet);
+    uint32_t ends = ref_cuts_of(line->cuts, line->count, sheet);
     if (ends == 0) {
-        lrcsi_cover_facet first = cover->candidate[0];
+        ref_cover_facet first = cover->candidate[0];
         cover->candidate[0] = *c;
         *c = first;
-        return LRCSI_COVER_ALL;
+        return REF_COVER_ALL;
     }
     if (ends < found->ends) {
         *found = (cover_found){sheet, ends};
     }
-    return LRCSI_COVER_SOME;
+    return REF_COVER_SOME;
 }
 
 /* What hides the target on a line, likewise. Candidates are counted once they have been asked. */
-static int line_tells(const cover_line *line, lrcsi_cover *cover, uint32_t *sheet)
+static int line_tells(const cover_line *line, ref_cover *cover, uint32_t *sheet)
 {
     cover_found found = {*sheet, LRCS_NONE};
-    int answer = LRCSI_COVER_NONE;
+    int answer = REF_COVER_NONE;
     uint32_t asked = 0;
-    while (asked < cover->count && answer != LINE_AGAIN && answer != LRCSI_COVER_ALL) {
-        lrcsi_cover_facet *c = &cover->candidate[asked++];
+    while (asked < cover->count && answer != LINE_AGAIN && answer != REF_COVER_ALL) {
+        ref_cover_facet *c = &cover->candidate[asked++];
         answer = line_misses(line, c) ? answer : line_ask(line, cover, c, answer, &found);
     }
     *sheet = found.sheet;
-    return lrcsi_meter_take(cover->facets.view->meter, asked) ? answer : LRCSI_COVER_UNKNOWN;
+    return lrcsi_meter_take(cover->facets.view->meter, asked) ? answer : REF_COVER_UNKNOWN;
 }
 
-int lrcsi_cover_sample(lrcsi_cover *cover, const lrcsi_cuts *cuts, uint32_t count,
-                       lrcsi_cover_place *place, uint32_t *sheet)
+int ref_cover_sample(ref_cover *cover, const ref_cuts *cuts, uint32_t count, ref_cover_place *place,
+                     uint32_t *sheet)
 {
     cover_line line = {.cover = cover,
                        .cuts = cuts,

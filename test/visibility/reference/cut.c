@@ -20,7 +20,7 @@
    either side of it the facet hides all or nothing. So it is taken where the line of a contact is
    not known; what is inside the outline is then not decided by samples (visibility/cover.c). A
    contact in a point divides nothing: paths pass beside it. */
-#include "visibility/cut.h"
+#include "visibility/reference/cut.h"
 
 #include <string.h>
 
@@ -35,9 +35,9 @@
 
 /* --- lists ------------------------------------------------------------------------------------ */
 
-static lrcsi_cut *cut_new(lrcsi_cuts *cuts, const double from[2], const double to[2], double width)
+static ref_cut *cut_new(ref_cuts *cuts, const double from[2], const double to[2], double width)
 {
-    lrcsi_cut *e = &cuts->cut[cuts->count++];
+    ref_cut *e = &cuts->cut[cuts->count++];
     for (int k = 0; k < 2; k++) {
         e->line.at[k] = from[k];
         e->line.to[k] = to[k] - from[k];
@@ -53,7 +53,7 @@ static lrcsi_cut *cut_new(lrcsi_cuts *cuts, const double from[2], const double t
     return e;
 }
 
-static double width_of(const lrcsi_cuts *cuts, double reach)
+static double width_of(const ref_cuts *cuts, double reach)
 {
     return WIDTH * (lrcsi_most(reach, cuts->target->reach) + cuts->target->diameter);
 }
@@ -66,20 +66,20 @@ static double width_in_needle(double off)
     return off < 0.25 ? WIDTH * 6 + 2 * off : BEYOND;
 }
 
-static void cut_sheet(lrcsi_cut *e, uint32_t sheet)
+static void cut_sheet(ref_cut *e, uint32_t sheet)
 {
-    for (uint32_t i = 0; i < e->sheets && i < LRCSI_CUT_SHEETS; i++) {
+    for (uint32_t i = 0; i < e->sheets && i < REF_CUT_SHEETS; i++) {
         if (e->sheet[i] == sheet) {
             return;
         }
     }
-    if (e->sheets < LRCSI_CUT_SHEETS) {
+    if (e->sheets < REF_CUT_SHEETS) {
         e->sheet[e->sheets] = sheet;
     }
     e->sheets++;
 }
 
-static void cuts_edge(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t edge)
+static void cuts_edge(ref_cuts *cuts, const lrcsi_contest *contest, uint32_t edge)
 {
     const lrcs_prepared *p = contest->view->prepared;
     const lrcsi_edge *e = &p->topology.edge[edge];
@@ -94,7 +94,7 @@ static void cuts_edge(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t e
                                 lrcsi_target_place(cuts->target, to, end[1])};
         width = width_of(cuts, lrcsi_target_segment(cuts->target, end, away));
     }
-    lrcsi_cut *cut = cut_new(cuts, end[0], end[1], width);
+    ref_cut *cut = cut_new(cuts, end[0], end[1], width);
     for (uint32_t i = 0; i < e->uses; i++) {
         uint32_t facet = p->topology.use[e->first_use + i].facet;
         if (lrcsi_grid_casts(contest->view, facet)) {
@@ -104,7 +104,7 @@ static void cuts_edge(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t e
 }
 
 /* Those that cross it: not all of them where the view's meter is spent. */
-static void cuts_crossing(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t crossings)
+static void cuts_crossing(ref_cuts *cuts, const lrcsi_contest *contest, uint32_t crossings)
 {
     const lrcsi_edge *edge = contest->view->prepared->topology.edge;
     for (uint32_t i = 0; i < crossings; i++) {
@@ -116,7 +116,7 @@ static void cuts_crossing(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32
 }
 
 /* The sides of a facet that touches the target. */
-static void cuts_outline(lrcsi_cuts *cuts, uint32_t other, const lrcsi_contact *c)
+static void cuts_outline(ref_cuts *cuts, uint32_t other, const lrcsi_contact *c)
 {
     const lrcsi_target *t = cuts->target;
     for (int k = 0; k < 3; k++) {
@@ -137,7 +137,7 @@ static void cuts_outline(lrcsi_cuts *cuts, uint32_t other, const lrcsi_contact *
     }
 }
 
-static void cuts_contact(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_t other)
+static void cuts_contact(ref_cuts *cuts, const lrcsi_contest *contest, uint32_t other)
 {
     lrcsi_contact c;
     int kind = lrcsi_contact_find(cuts->target, other, &c);
@@ -157,7 +157,7 @@ static void cuts_contact(lrcsi_cuts *cuts, const lrcsi_contest *contest, uint32_
 }
 
 /* Each edge may cross a facet, and each of its contacts may divide it along three sides. */
-size_t lrcsi_cuts_need(const lrcs_prepared *prepared)
+size_t ref_cuts_need(const lrcs_prepared *prepared)
 {
     const lrcsi_touches *touches = &prepared->touches;
     size_t most = 0;
@@ -166,19 +166,19 @@ size_t lrcsi_cuts_need(const lrcs_prepared *prepared)
         most = count > most ? count : most;
     }
     size_t room = prepared->topology.edge_count + 3 * most;
-    return lrcsi_work_add(lrcsi_work_bytes(room, sizeof(lrcsi_cut)),
+    return lrcsi_work_add(lrcsi_work_bytes(room, sizeof(ref_cut)),
                           lrcsi_work_bytes(room, sizeof(uint32_t)));
 }
 
-int lrcsi_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_work *work,
-                    lrcsi_cuts *cuts)
+int ref_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_work *work,
+                  ref_cuts *cuts)
 {
     const lrcsi_touches *touches = &target->view->prepared->touches;
     uint32_t first = touches->first[target->facet];
     uint32_t end = touches->first[target->facet + 1];
     uint32_t crossings = lrcsi_contest_crossings(contest, target->facet);
     size_t room = crossings + 3 * (size_t)(end - first);
-    *cuts = (lrcsi_cuts){.target = target};
+    *cuts = (ref_cuts){.target = target};
     cuts->cut = lrcsi_work_take(work, room, sizeof *cuts->cut);
     cuts->list = lrcsi_work_take(work, room, sizeof *cuts->list);
     if (!cuts->cut || !cuts->list) {
@@ -198,23 +198,23 @@ int lrcsi_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_wor
 
 /* --- cells ------------------------------------------------------------------------------------ */
 
-int lrcsi_cut_ends(const lrcsi_cut *e, uint32_t sheet)
+int ref_cut_ends(const ref_cut *e, uint32_t sheet)
 {
-    return e->sheets > LRCSI_CUT_SHEETS || (e->sheets > 0 && e->sheet[0] == sheet) ||
+    return e->sheets > REF_CUT_SHEETS || (e->sheets > 0 && e->sheet[0] == sheet) ||
            (e->sheets > 1 && e->sheet[1] == sheet);
 }
 
-uint32_t lrcsi_cuts_keep(lrcsi_cuts *cuts, const lrcsi_clip_polygon *shape, uint32_t count)
+uint32_t ref_cuts_keep(ref_cuts *cuts, const ref_clip_polygon *shape, uint32_t count)
 {
     double low[2];
     double high[2];
     uint32_t kept = 0;
-    lrcsi_clip_box(shape, low, high);
+    ref_clip_box(shape, low, high);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t index = cuts->list[i];
-        const lrcsi_cut *e = &cuts->cut[index];
+        const ref_cut *e = &cuts->cut[index];
         if (e->low[0] <= high[0] && e->high[0] >= low[0] && e->low[1] <= high[1] &&
-            e->high[1] >= low[1] && lrcsi_clip_meets(shape, &e->line, e->width)) {
+            e->high[1] >= low[1] && ref_clip_meets(shape, &e->line, e->width)) {
             cuts->list[i] = cuts->list[kept];
             cuts->list[kept++] = index;
         }
@@ -222,11 +222,11 @@ uint32_t lrcsi_cuts_keep(lrcsi_cuts *cuts, const lrcsi_clip_polygon *shape, uint
     return kept;
 }
 
-uint32_t lrcsi_cuts_of(const lrcsi_cuts *cuts, uint32_t count, uint32_t sheet)
+uint32_t ref_cuts_of(const ref_cuts *cuts, uint32_t count, uint32_t sheet)
 {
     uint32_t of = 0;
     for (uint32_t i = 0; i < count; i++) {
-        of += (uint32_t)lrcsi_cut_ends(&cuts->cut[cuts->list[i]], sheet);
+        of += (uint32_t)ref_cut_ends(&cuts->cut[cuts->list[i]], sheet);
     }
     return of;
 }

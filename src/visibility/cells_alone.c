@@ -1,0 +1,766 @@
+/* SPDX-License-Identifier: MIT */
+/* One facet, f, in cells that begin as its triangle. Here only f is asked about, so that less must
+   be known than of the cells of a block (visibility/cells.c).
+
+   Listed are the facets that may be in front of f. The segments are what may change whether f is
+   seen: the event edges that cross its inside nearer than it, found exactly (visibility/contest.h),
+   its contacts, and the sides of facets in its plane that hide it. A sample tells which facets are
+   in front of f at a place P of a cell; x is any point of the cell.
+     (1) Nothing is in front of f at P, and no segment is left in the cell: then f is seen in all of
+   it, since on the way from P to x nothing changes.
+     (2) A facet is in front of f at P, and no segment is left at which its sheet ends (all facets
+   joined by edges that are no events, visibility/contest.h) or meets f: then the sheet goes on
+   along the way from P to x, and stays in front of f, since to pass behind it would have to touch
+   it. So f is hidden in all of the cell, whatever else the cell may show.
+   Else the cell is cut along a segment: of the sheet that has the fewest left.
+
+   Error. Lines, strips and cells are those of visibility/cells_charge.c, in coordinates from a
+   corner of f. The ends of segments are off by 10 u of their distance R from there, or what matters
+   of it (visibility/target.h), those of contacts by 16 u R and a slip; lines through them by 9 u R
+   more: 32 u R holds both. What is said holds in f's triangle as it is computed: that differs from
+   f's by its sides' length times their error.
+
+   A needle in the view may be no wider than all this. It is done in the frame of its shares
+   (visibility/needle.h), where it is as wide as long: its corners are exact but for the frame's
+   slip, segments come clipped to a box that reaches 3 at most, and sides of other facets are told
+   in double-double. Areas are counted in units of twice its projection. */
+#include "visibility/cells_alone.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/length.h"
+#include "base/range.h"
+#include "base/work.h"
+#include "visibility/cells_charge.h"
+#include "visibility/cells_cover.h"
+#include "visibility/cells_cut.h"
+#include "visibility/cells_open.h"
+#include "visibility/contact.h"
+#include "visibility/sample.h"
+
+#define U 0x1p-53
+
+/* Cells that a facet may be cut into: so many, and so many a segment. */
+#define PARTS_MOST      4096u
+#define PARTS_A_SEGMENT 256u
+/* Corners above which a cell is halved. */
+#define MANY_CORNERS 20u
+/* A facet that reaches so many times as far as its nearest corner is away and f reaches. */
+#define FAR_FACET 64
+/* A cell without place for a sample whose area is more than so many margins wide is only odd in
+   shape: it is halved. */
+#define NARROW 64
+
+/* A facet against f: one of these, or the number of the segment in which they meet. */
+enum alone_order {
+    ORDER_NEW = 0x7ffffff0, /* not looked at yet */
+    ORDER_FRONT,            /* nearer, wherever a line meets both */
+    ORDER_BEHIND,           /* farther */
+    ORDER_ASKED,            /* it cannot be told but on a line that meets both */
+    ORDER_UNKNOWN           /* they touch, in a line that is not known */
+};
+
+/* --- what a facet begins with ----------------------------------------------------------------- */
+
+/* The error of f's corners and sides. */
+static double alone_off(const lrcsi_alone *a)
+{
+    return a->cells.facet[a->facet].off;
+}
+
+/* How far a segment of a needle's frame may be off whose ends are off by so much: the box reaches
+   3, so that 24 u of 4.5 hold the rounding of its ends and its line, and of the side of that on
+   which a point of the needle lies. Where that is a good part of what the box is wider than the
+   needle, it may be anywhere. */
+static double needle_off(double off)
+{
+    return off < 0.25 ? 192 * U + 2 * off : 4;
+}
+
+/* The record of a facet whose corners are told, counter-clockwise; `thin` where it may have been
+   turned over. */
+static void record_make(const double (*corner)[2], double off, lrcsi_cells_facet *f)
+{
+    *f = (lrcsi_cells_facet){.off = off, .line_off = off};
+    double longest = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *next = corner[k == 2 ? 0 : k + 1];
+        f->x[k] = corner[k][0];
+        f->y[k] = corner[k][1];
+        lrcsi_line_through(corner[k], next, f->side[k]);
+        f->length[k] = lrcsi_length_flat(next[0] - corner[k][0], next[1] - corner[k][1]) + 4 * off;
+        longest = lrcsi_most(longest, f->length[k]);
+    }
+    for (int i = 0; i < 2; i++) {
+        f->low[i] = lrcsi_least(corner[0][i], lrcsi_least(corner[1][i], corner[2][i]));
+        f->high[i] = lrcsi_most(corner[0][i], lrcsi_most(corner[1][i], corner[2][i]));
+    }
+    double twice =
+        (f->x[1] - f->x[0]) * (f->y[2] - f->y[0]) - (f->y[1] - f->y[0]) * (f->x[2] - f->x[0]);
+    f->thin = !(twice > 16 * off * longest);
+}
+
+/* The sides of a facet whose corners are `reach` away, with how near to one a place must be that
+   its side of it is not sure: 20 u of that. Of one that is narrow, or reaches far off, that would
+   not do. There the line of each side is taken from the nearer of its ends, n, of the two p and q.
+   The side T is off by 12 u (r_p + r_q), rounding included, the place G as seen from n by 12 u r_n
+   + 2 u d, d the length of f; so T x G by 12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the
+   1-norm, and by its own rounding, 2 u |T| |G|, below 3 u (r_p + r_q) |G|. */
+static void sides_make(const lrcsi_target *frame, const double (*corner)[2], const double reach[3],
+                       lrcsi_cells_facet *f, lrcsi_alone_side *side)
+{
+    double least = lrcsi_least(reach[0], lrcsi_least(reach[1], reach[2]));
+    double most = lrcsi_most(reach[0], lrcsi_most(reach[1], reach[2]));
+    int odd = f->thin || most > FAR_FACET * (least + frame->reach);
+    for (int k = 0; k < 3; k++) {
+        int next = k == 2 ? 0 : k + 1;
+        int n = reach[k] <= reach[next] ? k : next;
+        double gap = fabs(corner[n][0]) + fabs(corner[n][1]) + 1.5 * frame->diameter;
+        memcpy(side[k].line, f->side[k], sizeof f->side[k]);
+        side[k].clear = f->off;
+        if (odd) {
+            double *line = side[k].line;
+            double length =
+                lrcsi_length_flat(corner[next][0] - corner[k][0], corner[next][1] - corner[k][1]);
+            line[2] = -(line[0] * corner[n][0] + line[1] * corner[n][1]);
+            side[k].clear =
+                16 * U * ((reach[k] + reach[next]) * (gap / length) + reach[n] + frame->diameter);
+        }
+    }
+    if (odd) { /* cells are not told apart from it by them */
+        memset(f->side, 0, sizeof f->side);
+    }
+}
+
+/* Makes the record of a facet that may be in front of f. 0 where it does not come near. */
+static int facet_record(lrcsi_alone *a, uint32_t other, const lrcsi_cells_cell *cell)
+{
+    const lrcsi_cells_work *c = &a->cells;
+    lrcsi_cells_facet *f = &c->facet[other];
+    double corner[3][2];
+    double reach[3];
+    double low[2];
+    double high[2];
+    if (a->frame.needle) { /* it may be anywhere */
+        *f = (lrcsi_cells_facet){.off = HUGE_VAL};
+        return 1;
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *x = lrcsi_target_corner(c->view, other, k);
+        reach[k] = lrcsi_target_place(&a->frame, x, corner[k]);
+    }
+    double most = lrcsi_most(reach[0], lrcsi_most(reach[1], reach[2]));
+    record_make((const double(*)[2])corner, 20 * U * most, f);
+    sides_make(&a->frame, (const double(*)[2])corner, reach, f, a->side[other]);
+    lrcsi_clip_box(&cell->shape, low, high);
+    return lrcsi_cells_facet_near(f, &cell->shape, low, high, 16 * U * c->reach);
+}
+
+/* Lists what may be in front of f. 0 where there is no room, or the meter is spent. */
+static int alone_facets(lrcsi_alone *a, lrcsi_cells_cell *cell)
+{
+    lrcsi_cells_work *c = &a->cells;
+    const lrcsi_grid *grid = &a->grid;
+    lrcsi_view_box box = grid->box[a->facet];
+    lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+    c->facets[cell->facets++] = a->facet;
+    a->met[a->facet] = c->look;
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
+        uint32_t end = grid->first[(size_t)y * grid->size + cells.x1];
+        if (!lrcsi_meter_take(c->view->meter, end - i)) {
+            return 0;
+        }
+        for (; i < end; i++) {
+            uint32_t other = grid->item[i];
+            const lrcsi_view_box *its = &grid->box[other];
+            if (a->met[other] == c->look || lrcsi_view_box_beside(its, &box) ||
+                lrcsi_view_box_behind(its, &box)) {
+                continue;
+            }
+            a->met[other] = c->look;
+            int side = lrcsi_contact_side(c->view, a->facet, other);
+            if (side >= 0 && facet_record(a, other, cell)) {
+                a->order[other] = side > 0 ? ORDER_FRONT : ORDER_NEW;
+                c->listed[other] = c->look;
+                c->facets[cell->facets++] = other;
+            }
+        }
+    }
+    return 1;
+}
+
+static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
+{
+    for (int n = 0; n < 2; n++) {
+        e->end[n][0] = end[n][0];
+        e->end[n][1] = end[n][1];
+    }
+    lrcsi_line_through(end[0], end[1], e->line);
+    e->length = lrcsi_length_flat(end[1][0] - end[0][0], end[1][1] - end[0][1]);
+    e->line_off = e->off;
+}
+
+/* An edge, unless none of its facets is listed. 0 where there is no room. */
+static int alone_edge(lrcsi_alone *a, uint32_t edge)
+{
+    lrcsi_cells_work *c = &a->cells;
+    const lrcs_prepared *p = c->view->prepared;
+    const lrcsi_edge *of = &p->topology.edge[edge];
+    lrcsi_cells_segment *e = lrcsi_cells_edge(c, edge);
+    if (!e) {
+        return 0;
+    }
+    if (lrcsi_cells_idle(c, e)) {
+        c->segment_count--;
+        return 1;
+    }
+    double end[2][2];
+    const double *from = p->vertex[of->low].x;
+    const double *to = p->vertex[of->high].x;
+    if (a->frame.needle) {
+        e->off = needle_off(lrcsi_needle_segment(a->frame.needle, from, to, end));
+    } else {
+        const double away[2] = {lrcsi_target_place(&a->frame, from, end[0]),
+                                lrcsi_target_place(&a->frame, to, end[1])};
+        e->off = 32 * U * lrcsi_target_segment(&a->frame, end, away);
+    }
+    segment_ends(e, (const double(*)[2])end);
+    return 1;
+}
+
+/* What a facet that touches f brings along. 0 where there is no room. */
+static int alone_contact(lrcsi_alone *a, uint32_t other)
+{
+    lrcsi_cells_work *c = &a->cells;
+    lrcsi_contact contact;
+    int kind = lrcsi_contact_find(&a->frame, other, &contact);
+    if (a->order[other] == ORDER_NEW && kind != LRCSI_CONTACT_POINT) {
+        a->order[other] = kind == LRCSI_CONTACT_LINE      ? c->segment_count
+                          : kind == LRCSI_CONTACT_BEHIND  ? (uint32_t)ORDER_BEHIND
+                          : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)ORDER_UNKNOWN
+                                                          : (uint32_t)ORDER_FRONT;
+    }
+    if (kind == LRCSI_CONTACT_POINT) {
+        return 1;
+    }
+    if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
+        int done = 1;
+        for (int k = 0; k < 3 && done; k++) {
+            done = alone_edge(a, c->view->prepared->topology.facet_edge[other].corner[k]);
+        }
+        return done;
+    }
+    lrcsi_cells_segment *e = lrcsi_cells_segment_new(c);
+    if (!e) {
+        return 0;
+    }
+    e->off = a->frame.needle ? needle_off(contact.off + contact.slip)
+                             : 32 * U * contact.reach + contact.slip;
+    e->owner[0] = a->facet;
+    e->owner[1] = other;
+    e->contact = 1;
+    segment_ends(e, (const double(*)[2])contact.end);
+    return 1;
+}
+
+/* 0 where there is no room, or the meter is spent. */
+static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
+{
+    lrcsi_cells_work *c = &a->cells;
+    const lrcsi_touches *touches = &c->view->prepared->touches;
+    for (uint32_t i = touches->first[a->facet]; i < touches->first[a->facet + 1]; i++) {
+        const lrcsi_touch *touch = &touches->touch[i];
+        if (c->listed[touch->other] == c->look &&
+            lrcsi_contest_touch_hides(c->view, a->facet, touch) &&
+            !alone_contact(a, touch->other)) {
+            return 0;
+        }
+    }
+    uint32_t crossings = lrcsi_contest_crossings(a->contest, a->facet);
+    for (uint32_t i = 0; i < crossings; i++) {
+        if (!alone_edge(a, a->contest->crossing[i])) {
+            return 0;
+        }
+    }
+    cell->segments = c->segment_count;
+    return lrcsi_meter_take(c->view->meter, (uint64_t)cell->facets + cell->segments);
+}
+
+/* Nothing is known of so much of it: it counts as half visible. */
+static void facet_leave(lrcsi_alone *a, double area)
+{
+    a->doubt[0] += 0.5 * area;
+    a->doubt[1] += 0.5 * area;
+}
+
+/* f's record, its triangle as a cell, and the error of its rim. */
+static void alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
+{
+    lrcsi_cells_work *c = &a->cells;
+    lrcsi_cells_facet *f = &c->facet[a->facet];
+    const lrcsi_target *frame = &a->frame;
+    record_make((const double(*)[2])frame->corner,
+                frame->needle ? frame->slip + 8 * U : 20 * U * frame->reach, f);
+    c->reach = 0;
+    cell->shape.count = 3;
+    for (int k = 0; k < 3; k++) {
+        cell->shape.corner[k][0] = f->x[k];
+        cell->shape.corner[k][1] = f->y[k];
+        c->reach = lrcsi_most(c->reach, lrcsi_most(fabs(f->x[k]), fabs(f->y[k])));
+        a->rim += f->length[k];
+    }
+    a->rim *= f->off + 16 * U * c->reach;
+}
+
+void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
+{
+    lrcsi_cells_work *c = &a->cells;
+    lrcsi_cells_cell cell = {.cuts = 0};
+    a->facet = facet;
+    a->doubt[0] = a->doubt[1] = a->rim = a->bent = 0;
+    a->hidden = 0;
+    lrcsi_target_make(c->view, facet, &a->target);
+    lrcsi_target_refine(&a->target, &a->needle, &a->frame);
+    c->area[facet] = (lrcsi_cells_found){.seen = 0};
+    c->open[facet] = 1;
+    c->segment_count = c->top = 0;
+    c->look++;
+    alone_shape(a, &cell);
+    if (c->facet[facet].thin || !(lrcsi_clip_area(&cell.shape) > 0) || !alone_facets(a, &cell) ||
+        !alone_segments(a, &cell)) {
+        facet_leave(a, lrcsi_view_tilt(c->view, facet).projected / a->frame.unit);
+        return;
+    }
+    a->parts = PARTS_MOST + (uint64_t)PARTS_A_SEGMENT * cell.segments;
+    c->stack[0] = cell;
+    c->top = 1;
+}
+
+/* --- sheets -----------------------------------------------------------------------------------
+ */
+
+/* Does a sheet end at a segment, or meet f there? */
+static int sheet_ends(const lrcsi_alone *a, const lrcsi_cells_segment *e, uint32_t sheet)
+{
+    const uint32_t *of = a->contest->sheet;
+    const lrcsi_topology *t = &a->cells.view->prepared->topology;
+    if ((!e->contact && of[e->owner[0]] == sheet) ||
+        (e->owner[1] != LRCS_NONE && of[e->owner[1]] == sheet)) {
+        return 1;
+    }
+    for (uint32_t i = 0; e->edge != LRCS_NONE && i < t->edge[e->edge].uses; i++) {
+        if (of[t->use[t->edge[e->edge].first_use + i].facet] == sheet) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Of a cell's segments, or of those at which a sheet ends where one is told, that whose line passes
+   nearest to a place: what is on its sides is then about as much. Returns how many there are. */
+static uint32_t cell_choose(const lrcsi_alone *a, const lrcsi_cells_cell *cell, const double at[2],
+                            uint32_t sheet, const lrcsi_cells_segment **best)
+{
+    uint32_t count = 0;
+    double nearest = HUGE_VAL;
+    *best = NULL;
+    for (uint32_t i = 0; i < cell->segments; i++) {
+        const lrcsi_cells_segment *e = &a->cells.segment[a->cells.segments[i]];
+        if (sheet == LRCS_NONE || sheet_ends(a, e, sheet)) {
+            double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
+            count++;
+            *best = far < nearest ? e : *best;
+            nearest = lrcsi_least(far, nearest);
+        }
+    }
+    return count;
+}
+
+/* --- samples ---------------------------------------------------------------------------------- */
+
+/* A place is asked as it stands in the frame, where it is clear of all sides; or as a point in
+   space nearby, exactly; or as it stands, rounded. */
+enum alone_way { WAY_PLACED, WAY_EXACT, WAY_GUESSED };
+
+/* A place in a cell at which to ask. */
+typedef struct alone_place {
+    double at[2], clear;
+    int way; /* how it is asked, as below */
+    double point[3];
+    double off;                     /* by which the point may be elsewhere in the frame */
+    lrcsi_view_box box;             /* of a needle's place, in the view; its depth does not count */
+    const lrcsi_cells_segment *cut; /* found: a segment of the sheet that ends at the */
+    uint32_t ends;                  /* fewest, and how many these are */
+} alone_place;
+
+/* The point is put there by f's corners' shares, its coordinates rounded. */
+static void place_lift(const lrcsi_alone *a, alone_place *place)
+{
+    const lrcs_prepared *p = a->cells.view->prepared;
+    double weight[3];
+    lrcsi_target_weights(&a->frame, place->at, weight);
+    for (int k = 0; k < 3; k++) {
+        place->point[k] = 0;
+        for (int i = 0; i < 3; i++) {
+            place->point[k] += weight[i] * lrcsi_prepared_corner(p, a->facet, i)[k];
+        }
+    }
+    place->way = WAY_EXACT;
+}
+
+/* The place in the view: f's first corner and the way from there, which is off by f's own corners,
+   10 u of their reach, by rounding, 3 u, and by the frame's slip. */
+static lrcsi_view_box needle_box(const lrcsi_alone *a, const double at[2])
+{
+    const lrcsi_target *frame = &a->frame;
+    double first[3];
+    double x[3];
+    lrcsi_view_place(a->cells.view, frame->origin, first);
+    lrcsi_target_unrefine(frame, at, x);
+    x[0] += first[0];
+    x[1] += first[1];
+    x[2] = first[2];
+    return lrcsi_view_box_about(a->cells.view, x,
+                                lrcsi_view_off(first) +
+                                    (16 * U + 2 * frame->slip) * frame->needle->reach);
+}
+
+/* 1 a facet surely covers the point of a needle that has these shares, -1 surely not, 0 it passes
+   too near a side. The point is off its place by the frame's slip. */
+static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32_t other)
+{
+    const lrcsi_view *view = a->cells.view;
+    const double *at = place->at;
+    int guess = place->way == WAY_GUESSED;
+    int inside = 1;
+    if (lrcsi_view_box_beside(&place->box, &a->grid.box[other])) {
+        return -1;
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *p = lrcsi_target_corner(view, other, k);
+        const double *q = lrcsi_target_corner(view, other, (k + 1) % 3);
+        double left = lrcsi_needle_side(a->frame.needle, p, q, at, guess);
+        if (left < 0) {
+            return -1;
+        }
+        inside &= left > 0;
+    }
+    return inside || !guess ? inside : -1;
+}
+
+/* 1 a facet surely covers the place, -1 surely not, 0 it passes too near a side. */
+static int place_covered(const lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
+{
+    const lrcsi_cells_facet *f = &a->cells.facet[other];
+    const double *at = place->at;
+    double w = f->off + g + place->off;
+    if (a->frame.needle) {
+        return needle_covered(a, place, other);
+    }
+    if (at[0] < f->low[0] - w || at[0] > f->high[0] + w || at[1] < f->low[1] - w ||
+        at[1] > f->high[1] + w) {
+        return -1;
+    }
+    if (place->way == WAY_EXACT) {
+        return lrcsi_sample_covers(a->cells.view, other, place->point) ? 1 : -1;
+    }
+    int inside = 1;
+    int guess = place->way == WAY_GUESSED;
+    for (int k = 0; k < 3; k++) {
+        const lrcsi_alone_side *side = &a->side[other][k];
+        double left = lrcsi_line_at(side->line, at[0], at[1]);
+        double clear = guess ? 0 : side->clear + g;
+        if (left < -clear) {
+            return -1;
+        }
+        inside &= left > clear;
+    }
+    return guess && !inside ? -1 : inside;
+}
+
+/* How a facet stands to f, neither of which lies on one side of the other's plane. */
+static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
+{
+    const lrcsi_view *view = a->cells.view;
+    const lrcsi_touches *touches = &view->prepared->touches;
+    for (uint32_t i = touches->first[a->facet]; i < touches->first[a->facet + 1]; i++) {
+        if (touches->touch[i].other == other &&
+            !lrcsi_contest_touch_hides(view, a->facet, &touches->touch[i])) {
+            return ORDER_BEHIND;
+        }
+    }
+    int order = lrcsi_contact_order(view, a->facet, other);
+    order = order == 0 ? lrcsi_contact_within(view, a->facet, other) : order;
+    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
+}
+
+/* Is a facet that covers the place in front of f there? 1 yes, -1 no, 0 it cannot be told so. */
+static int place_front(lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
+{
+    uint32_t *order = &a->order[other];
+    if (*order == ORDER_NEW) {
+        *order = order_of(a, other);
+    }
+    if (*order == ORDER_ASKED && place->way != WAY_PLACED) {
+        int nearer = lrcsi_sample_nearer(a->cells.view, other, a->facet, place->point, 1);
+        if (place->way == WAY_EXACT && nearer != 0) {
+            *order = nearer > 0 ? ORDER_FRONT : ORDER_BEHIND;
+        }
+        return nearer;
+    }
+    if (*order < a->cells.segment_count) {
+        const lrcsi_cells_segment *e = &a->cells.segment[*order];
+        double left = lrcsi_line_at(e->line, place->at[0], place->at[1]);
+        double w = place->way == WAY_GUESSED ? 0 : e->off + g + place->off;
+        return left > w ? 1 : left < -w ? -1 : 0;
+    }
+    return *order == ORDER_FRONT ? 1 : *order == ORDER_BEHIND ? -1 : 0;
+}
+
+/* Is f hidden at a place? 1 by the sheet told in the place, 0 no, -1 it cannot be told so. Of a
+   sheet that ends nowhere in the cell no more need be known. */
+static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                     alone_place *place)
+{
+    const lrcsi_cells_work *c = &a->cells;
+    uint32_t last = LRCS_NONE;
+    int answer = 0;
+    place->ends = LRCS_NONE;
+    for (uint32_t i = 0; i < cell->facets && place->ends > 0; i++) {
+        uint32_t other = c->facets[i];
+        if (other == a->facet || a->order[other] == ORDER_BEHIND) {
+            continue;
+        }
+        int covered = place_covered(a, place, other, s->g);
+        int front = covered >= 0 ? place_front(a, place, other, s->g) : -1;
+        uint32_t sheet = a->contest->sheet[other];
+        if (front < 0 || (answer > 0 && sheet == last)) {
+            continue;
+        }
+        if (front == 0 || covered == 0) {
+            answer = answer > 0 ? answer : -1;
+            continue;
+        }
+        const lrcsi_cells_segment *cut;
+        uint32_t ends = cell_choose(a, cell, place->at, sheet, &cut);
+        if (ends < place->ends) {
+            place->ends = ends;
+            place->cut = cut;
+        }
+        last = sheet;
+        answer = 1;
+    }
+    return answer;
+}
+
+/* Asks at a place in the cell, or at another; 1, 0, or -1 as above. Where that is not told, a guess
+   of it goes to *guess. */
+static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                     alone_place *place, int *guess)
+{
+    double margin = 4 * (cell->inset + alone_off(a) + s->g);
+    double lift = lrcsi_target_lift_off(&a->target);
+    int answer = -1;
+    for (int t = 0; t < LRCSI_CELLS_TRIES && answer < 0; t++) {
+        *place = (alone_place){.way = WAY_PLACED};
+        lrcsi_cells_spot(cell, t, place->at);
+        place->clear = lrcsi_cells_sides_clear(s, place->at);
+        if (!(place->clear > margin)) {
+            continue;
+        }
+        if (a->frame.needle) {
+            place->box = needle_box(a, place->at);
+        }
+        answer = place_ask(a, cell, s, place);
+        if (answer < 0 && !a->frame.needle && place->clear > margin + lift) {
+            place_lift(a, place);
+            place->off = lift;
+            place->clear -= lift;
+            answer = place_ask(a, cell, s, place);
+        }
+    }
+    if (answer < 0) {
+        *place = (alone_place){.way = WAY_GUESSED};
+        lrcsi_cells_spot(cell, 0, place->at);
+        place_lift(a, place);
+        place->way = WAY_GUESSED;
+        place->box = a->frame.needle ? needle_box(a, place->at) : place->box;
+        *guess = place_ask(a, cell, s, place) > 0;
+    }
+    return answer;
+}
+
+/* --- one cell --------------------------------------------------------------------------------- */
+
+/* Charges what a cell that is told may be wrong by beside: in a thin one, along all that was
+   struck. */
+static void cell_charge(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                        double clear)
+{
+    double strips = 0;
+    if (clear < LRCSI_CELLS_THIN * s->perimeter) {
+        double most = lrcsi_clip_area(&cell->shape) + s->g * s->perimeter;
+        double wide = cell->inset + alone_off(a) + s->g;
+        strips = lrcsi_least(most, 2.0 * cell->struck * wide * s->perimeter);
+    }
+    a->cells.area[a->facet].doubt += cell->doubt + strips;
+}
+
+/* The cell as a piece. In a needle its corners are rounded to the frame of the view axes. */
+static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
+{
+    lrcsi_cells_found *area = &a->cells.area[a->facet];
+    a->piece = cell->shape;
+    if (a->frame.needle) {
+        for (uint32_t i = 0; i < cell->shape.count; i++) {
+            lrcsi_target_unrefine(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
+        }
+        a->bent += 4 * U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
+    }
+    area->seen += lrcsi_most(0, lrcsi_clip_area(&cell->shape));
+    area->off += 4 * s->g * s->perimeter + 5 * U * (cell->shape.count + 3) *
+                                               (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
+}
+
+/* Cuts a cell along a segment, or halves it. 0 where that is not possible. */
+static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                       const lrcsi_cells_segment *cut)
+{
+    double margin = cell->inset + alone_off(a) + s->g;
+    if (cell->cuts >= LRCSI_CELLS_CUTS) {
+        return 0;
+    }
+    return cut && cell->shape.count <= MANY_CORNERS
+               ? lrcsi_cells_cut(&a->cells, cell, s, cut->line, cut)
+               : (cut || lrcsi_clip_area(&cell->shape) > NARROW * margin * s->perimeter) &&
+                     lrcsi_cells_halve(&a->cells, cell, s);
+}
+
+/* Does one cell: 1 where it has shown a piece. Else it is hidden, cut, or cannot be told. */
+static int cell_do(lrcsi_alone *a, lrcsi_cells_cell *cell)
+{
+    lrcsi_cells_work *c = &a->cells;
+    lrcsi_cells_sides s;
+    alone_place place;
+    lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_reach(c, cell), &s);
+    lrcsi_cells_strike(c, cell, &s);
+
+    /* 1. A sample. */
+    int guess = 0;
+    int hidden = cell_look(a, cell, &s, &place, &guess);
+    if (hidden <= 0) {
+        place.ends = cell_choose(a, cell, place.at, LRCS_NONE, &place.cut);
+    }
+
+    /* 2. Where no segment is left that matters, all of the cell is as it is there. */
+    if (hidden >= 0 && place.ends == 0) {
+        cell_charge(a, cell, &s, place.clear);
+        a->hidden |= hidden;
+        if (!hidden) {
+            cell_show(a, cell, &s);
+        }
+        return !hidden;
+    }
+
+    /* 3. Else it is cut. */
+    if (!cell_divide(a, cell, &s, place.cut)) {
+        int seen = hidden < 0 ? !guess : !hidden;
+        a->doubt[seen] += lrcsi_clip_area(&cell->shape);
+    }
+    return 0;
+}
+
+/* --- one facet -------------------------------------------------------------------------------- */
+
+int lrcsi_alone_next(lrcsi_alone *a)
+{
+    lrcsi_cells_work *c = &a->cells;
+    while (c->top > 0) {
+        lrcsi_cells_cell cell = c->stack[--c->top];
+        if (cell.both[0] > 0 || cell.both[1] > 0) {
+            lrcsi_cells_settle(c, &cell);
+        }
+        uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
+        if (a->parts == 0 || !lrcsi_meter_take(c->view->meter, steps)) {
+            facet_leave(a, lrcsi_clip_area(&cell.shape));
+            continue;
+        }
+        a->parts--;
+        if (cell_do(a, &cell)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+lrcsi_visible lrcsi_alone_close(lrcsi_alone *a)
+{
+    const lrcsi_cells_found *found = &a->cells.area[a->facet];
+    lrcsi_tilt tilt = lrcsi_view_tilt(a->cells.view, a->facet);
+    double whole = tilt.projected;
+    double unit = a->frame.unit;
+    double off = unit * (a->rim + found->doubt + found->off + 64 * U * (found->seen + a->doubt[1]));
+    double seen = a->hidden || a->doubt[0] > 0
+                      ? lrcsi_least(whole, unit * (found->seen + a->doubt[1]))
+                      : whole;
+    off += a->frame.needle ? tilt.error * whole : 0;
+    a->cells.open[a->facet] = 0;
+    return (lrcsi_visible){seen, lrcsi_most(0, seen - unit * a->doubt[1] - off),
+                           lrcsi_least(whole, seen + unit * a->doubt[0] + off), 0, 0};
+}
+
+/* --- all facets ------------------------------------------------------------------------------- */
+
+/* Each edge may cross a facet, and each of its contacts may bring three sides along. */
+static size_t alone_segments_most(const lrcs_prepared *p)
+{
+    size_t most = 0;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        size_t count = lrcsi_touches_of(&p->touches, f);
+        most = count > most ? count : most;
+    }
+    return p->topology.edge_count + 3 * most;
+}
+
+size_t lrcsi_alone_need(const lrcs_prepared *p)
+{
+    size_t facets = p->scene->facet_count;
+    size_t need = lrcsi_work_bytes(facets, 1);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 3 * sizeof(lrcsi_alone_side)));
+    need = lrcsi_work_add(need, 4 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(alone_segments_most(p), sizeof(uint32_t)));
+    need =
+        lrcsi_work_add(need, lrcsi_work_bytes(alone_segments_most(p), sizeof(lrcsi_cells_segment)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
+}
+
+int lrcsi_alone_make(lrcsi_contest *contest, const lrcsi_grid *grid, lrcs_work *work,
+                     lrcsi_alone *a)
+{
+    const lrcs_prepared *p = contest->view->prepared;
+    uint32_t count = p->scene->facet_count;
+    *a = (lrcsi_alone){.contest = contest, .grid = *grid};
+    lrcsi_cells_work c = {.view = contest->view};
+    c.segment_room = (uint32_t)alone_segments_most(p);
+    c.open = lrcsi_work_take_zero(work, count, 1);
+    c.facet = lrcsi_work_take(work, count, sizeof *c.facet);
+    c.area = lrcsi_work_take(work, count, sizeof *c.area);
+    c.listed = lrcsi_work_take_zero(work, count, sizeof *c.listed);
+    a->side = lrcsi_work_take(work, count, sizeof *a->side);
+    a->met = lrcsi_work_take_zero(work, count, sizeof *a->met);
+    a->order = lrcsi_work_take(work, count, sizeof *a->order);
+    c.facets = lrcsi_work_take(work, count, sizeof *c.facets);
+    c.segments = lrcsi_work_take(work, c.segment_room, sizeof *c.segments);
+    c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
+    c.stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c.stack);
+    if (!c.open || !c.facet || !c.area || !c.listed || !a->side || !a->met || !a->order ||
+        !c.facets || !c.segments || !c.segment || !c.stack) {
+        return LRCS_E_MEMORY;
+    }
+    a->cells = c;
+    return LRCS_OK;
+}
