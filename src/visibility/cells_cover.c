@@ -213,7 +213,10 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             } else if (place == LRCSI_CELLS_BORDER) {
                 continue;
             } else if (next == LRCS_NONE || c->listed[next] != c->look) {
-                return 0;
+                if (c->components > FEW) {
+                    return 0;
+                }
+                whole = 0;
             } else {
                 c->joined[next] = c->look;
                 c->component[c->components++] = next;
