@@ -32,7 +32,7 @@
 
 /* A component of more facets is left at the first event that crosses the cell. In one of so few all
    are found, so that the cell may be cut at that which divides it best. */
-#define FEW 8u
+#define COMPONENT_FEW 8u
 
 /* The facet nearest to the laser at a place; all others that may cover it are then surely behind.
  */
@@ -217,7 +217,7 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             } else if (place == LRCSI_CELLS_BORDER) {
                 continue;
             } else if (next == LRCS_NONE || c->listed[next] != c->look) {
-                if (c->components > FEW) {
+                if (c->components > COMPONENT_FEW) {
                     return 0;
                 }
                 whole = 0;
