@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "visibility/grid.h"
@@ -123,7 +124,8 @@ double lrcsi_cost_undecided(const lrcsi_cost *cost)
 /* Of facets thrown at random, whose areas are D in all, this part of the window is covered, */
 static double covered(const lrcsi_cost *cost)
 {
-    return -expm1(-cost->overdraw);
+    double x = lrcsi_least(cost->overdraw, 40); /* beyond that all of it */
+    return x > 0x1p-20 ? 1 - lrcsi_exp(-x) : x;
 }
 
 /* by so many on average: one of so many borders is seen. */
@@ -158,7 +160,10 @@ uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t most
 {
     double borders = cost->borders / layers(cost);
     double error = 0.5 * ESTIMATE_SAFETY * sqrt(borders) / covered(cost) / tolerance;
-    double size = borders > 0 ? cbrt(error * error) : 0;
+    double size = 0;
+    if (borders > 0) {
+        size = error < 0x1p1000 ? lrcsi_power(lrcsi_log(error), 2.0 / 3) : most;
+    }
     if (borders > size) {
         size = 0;
     }
