@@ -145,7 +145,9 @@ typedef struct lrcs_budget {
     double rounding_m2;
 } lrcs_budget;
 
-/* What happened to one facet. */
+/* What happened to one facet. A shape that counts by its closed form shares its sigma out among its
+   facets in proportion to what they would reflect; of one of which a sliver is lit, but no facet
+   faces the laser, no record has it. */
 typedef struct lrcs_facet_record {
     double area_m2;         /* of the facet itself; 0 for degenerate and omitted ones */
     double cos_theta;       /* signed */

@@ -177,6 +177,7 @@ int cli_has_curved_shapes(const lrcs_scene *scene);
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);
+int cli_materials_open(const lrcs_scene *scene); /* illustrative or default ones are worn */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
 
@@ -202,6 +203,13 @@ void cli_column(const char *text, int width);
 
 /* Seconds on a clock that only goes forward. */
 double cli_seconds(void);
+
+/* Shows the stage of a command that takes more than two seconds, on stderr where that is a
+   terminal, and says what a Ctrl-C leaves. Begin, stages (constant texts; with a scene that is
+   being prepared, how many of its stages are done), end before anything is printed. */
+void cli_watch_begin(void);
+void cli_watch_stage(const char *stage, const lrcs_host_scene *scene);
+void cli_watch_end(void);
 
 /* "notice: ..." for each, on `out`. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);

@@ -167,7 +167,9 @@ static int image_run(image_job *job)
     if (code != 0) {
         return code;
     }
+    cli_watch_stage("preparing", &job->scene);
     int status = lrcs_host_scene_prepare(&job->scene, &error);
+    cli_watch_stage("pose", NULL);
     if (status == LRCS_OK) {
         status =
             lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
@@ -226,10 +228,12 @@ static int image_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     int code = image_read(&job);
+    cli_watch_begin();
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
     code = code ? code : cli_outputs_spare(args->command, job.file, IMAGE_FILES, &job.scene);
     code = code ? code : image_run(&job);
     code = code ? code : image_write(&job);
+    cli_watch_end();
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);
         cli_accepted_print(stderr, job.result.flags);

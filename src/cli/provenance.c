@@ -26,6 +26,17 @@ const char *cli_material_source(const lrcs_material *material)
     return "given";
 }
 
+int cli_materials_open(const lrcs_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        const lrcs_material *material = &scene->material[scene->facet_material[i]];
+        if (!material->omitted && strcmp(cli_material_source(material), "given") != 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 const char *cli_base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');

@@ -49,7 +49,8 @@ static void extremes_say(FILE *out, const report_sweep *sweep)
     }
     fputs(" \xcf\x83 is proved to within ", out);
     cli_page_bound(out, NULL, bound, 2);
-    fputs(" m\xc2\xb2 or better.", out);
+    fprintf(out, " m\xc2\xb2 or better%s.",
+            sweep->plot.open ? " for its materials, which are illustrative" : "");
 }
 
 static void cut_figure(FILE *out, const report_sweep *sweep, const char *plane, const char *angle)

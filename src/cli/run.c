@@ -122,10 +122,12 @@ static int run_pose(run_job *job)
     lrcs_host_error error;
     if (!job->scene.prepared) {
         run_patience(job);
+        cli_watch_stage("preparing", &job->scene);
     }
     if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
+    cli_watch_stage("pose", NULL);
     if (job->emulation.asked) {
         return cli_run_emulate(job);
     }
@@ -146,6 +148,7 @@ static int run_scene(run_job *job)
 {
     int searched = job->budget.asked_ms > 0.0;
     int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
+    cli_watch_begin();
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
     code = code == 0 && searched ? cli_run_budget(job) : code;
@@ -206,6 +209,7 @@ static int run_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job);
     code = code ? code : run_scene(&job);
+    cli_watch_end();
     if (code == 0) {
         run_judge(&job);
         code = run_outputs(&job);

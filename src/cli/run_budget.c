@@ -147,6 +147,7 @@ static void racer_start(run_job *job, int rung, budget_racer *racer,
     }
     racer->process = fork();
     if (racer->process == 0) {
+        signal(SIGINT, SIG_DFL); /* the parent says what a Ctrl-C leaves */
         close(end[0]);
         race(job, rung, end[1]);
         _exit(0);
@@ -329,7 +330,8 @@ int cli_run_budget(run_job *job)
     if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    fflush(NULL); /* or both would write what is buffered */
+    cli_watch_end(); /* it would wake the race */
+    fflush(NULL);    /* or both would write what is buffered */
     racer_start(job, rung, &racer[0], race_tolerances);
     racer_start(job, rung, &racer[1], race_rasters);
     race_watch(job, racer, &best);

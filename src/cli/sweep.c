@@ -363,6 +363,7 @@ static int sweep_command(const cli_args *args)
     }
     if (code == 0) {
         coarse_say(job);
+        job->plot.open = cli_materials_open(&job->scene.scene);
         code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
         code = code ? code : job_rows(job);
     }

@@ -261,6 +261,7 @@ typedef struct plot_axis {
 /* --plot: curves along x, one for each value of y, or a map. */
 typedef struct sweep_plot {
     int asked, dbsm, polar, map;
+    int open;         /* materials are illustrative or assumed: no bound holds what that costs */
     plot_axis x, y;   /* y: one value where only one thing varies */
     int swapped;      /* x is the faster of two */
     double (*row)[2]; /* sigma and bound, m2 */

@@ -228,7 +228,8 @@ static void plot_note(const cli_args *args, const sweep_plot *plot, const sweep_
     }
     cli_bound_text(worst, 2, bound);
     snprintf(note + used, 512 - (size_t)used,
-             "each sigma is proved to within %s m2 or better%s%s%s", bound,
+             "each sigma is proved to within %s m2 or better%s%s%s%s", bound,
+             plot->open ? " for its materials, which are illustrative" : "",
              accept && strcmp(accept, "bound") != 0 ? "; accepted by " : "",
              accept && strcmp(accept, "bound") != 0 ? accept : "",
              !dark       ? ""

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "visibility/grid.h"
@@ -13,30 +14,34 @@
 #define COST_SAMPLE 4096u
 
 /* Prices in ns. Drawing: of a facet, of a pixel on the rim of one, of a pixel, of one covered once.
-   Clipping: of a facet (it is classified and summed) and of an undecided one. */
+   Clipping: of a facet, of one that casts (it is classified and summed), of an undecided one, of a
+   place where two borders cross. */
 #define DRAW_FACET     250.0
 #define DRAW_RIM       40.0
 #define DRAW_PIXEL     2.5
 #define DRAW_COVERED   3.0
 #define CLIP_FACET     15.0
-#define CLIP_CASTING   150.0
+#define CLIP_CASTING   120.0
 #define CLIP_UNDECIDED 6500.0
+#define CLIP_CROSSING  900.0
 /* A step of clipping, at least. */
-#define CLIP_STEP 15.0
+#define CLIP_STEP 25.0
 /* Of a raster that proves its bound: this part of clipping, which it spares no search. */
 #define PROOF_SHARE 0.5
 
 /* An event edge leaves so many facets undecided, and a facet with a contact is undecided unless the
    other one is behind it. */
-#define EVENT_CROSSES 1.0
+#define EVENT_CROSSES 1.3
 #define TOUCH_HIDES   0.7
 
 /* The coarsest raster; and the part of what one costs that a finer one may cost more, for safety.
  */
 #define RASTER_LEAST  256u
 #define RASTER_MARGIN 0.15
+/* No first raster costs more than so many of the coarsest, which tells of finer ones. */
+#define FIRST_TIMES 4.0
 /* What an estimate is above the error that borders cause by chance: it errs on the safe side. */
-#define ESTIMATE_SAFETY 3.5
+#define ESTIMATE_SAFETY 4.0
 
 /* Twice the projected area of a facet, from view coordinates. */
 static double area_twice(const lrcsi_view *view, const uint32_t *corner)
@@ -115,9 +120,25 @@ double lrcsi_cost_undecided(const lrcsi_cost *cost)
     return lrcsi_least(cost->casting, EVENT_CROSSES * cost->events + TOUCH_HIDES * cost->contacts);
 }
 
+/* Of facets thrown at random, whose areas are D in all, this part of the window is covered, */
+static double covered(const lrcsi_cost *cost)
+{
+    return -expm1(-cost->overdraw);
+}
+
+/* by so many on average: one of so many borders is seen. */
+static double layers(const lrcsi_cost *cost)
+{
+    return cost->overdraw > 0 ? cost->overdraw / covered(cost) : 1;
+}
+
+/* Segments thrown at random, of length L together, cross in L^2 / pi places of a square of side 1
+   (Crofton). */
 double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided)
 {
-    return CLIP_FACET * cost->facets + CLIP_CASTING * cost->casting + CLIP_UNDECIDED * undecided;
+    double crossings = cost->borders * cost->borders / LRCSI_PI / layers(cost);
+    return CLIP_FACET * cost->facets + CLIP_CASTING * cost->casting + CLIP_UNDECIDED * undecided +
+           CLIP_CROSSING * crossings;
 }
 
 double lrcsi_cost_prove(const lrcsi_cost *cost, uint32_t size, double undecided)
@@ -130,14 +151,17 @@ uint64_t lrcsi_cost_steps(double ns)
     return (uint64_t)lrcsi_least(ns / CLIP_STEP, 0x1p62);
 }
 
-/* Borders of length L, in sides of the window, pass L N pixels of area 1 / N^2, each of which errs
-   by half of itself and by chance: sqrt(L N) / 2 N^2 in all, of an area A that is seen. Of facets
-   thrown at random, whose areas are D in all, 1 - exp(-D) is covered. */
+/* Borders of length L that are seen, in sides of the window, pass L N pixels of area 1 / N^2, each
+   of which errs by half of itself and by chance: sqrt(L N) / 2 N^2 in all, of an area A that is
+   seen. Where they pass more pixels than there are this tells nothing: a coarse raster will. */
 uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t most)
 {
-    double seen = -expm1(-cost->overdraw);
-    double error = 0.5 * ESTIMATE_SAFETY * sqrt(cost->borders) / seen / tolerance;
-    double size = cost->borders > 0 ? cbrt(error * error) : 0;
+    double borders = cost->borders / layers(cost);
+    double error = 0.5 * ESTIMATE_SAFETY * sqrt(borders) / covered(cost) / tolerance;
+    double size = borders > 0 ? cbrt(error * error) : 0;
+    if (borders > size) {
+        size = 0;
+    }
     if (!(size < most)) {
         return most;
     }
@@ -147,4 +171,13 @@ uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t most
         n += 64;
     }
     return n;
+}
+
+uint32_t lrcsi_cost_first(const lrcsi_cost *cost, uint32_t size)
+{
+    double most = FIRST_TIMES * lrcsi_cost_draw(cost, RASTER_LEAST);
+    while (size >= RASTER_LEAST + 64 && lrcsi_cost_draw(cost, size) > most) {
+        size -= 64;
+    }
+    return size;
 }

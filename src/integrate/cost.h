@@ -31,8 +31,10 @@ double lrcsi_cost_prove(const lrcsi_cost *cost, uint32_t size, double undecided)
 /* The steps (lrcs_run_options.steps) that clipping makes in so many nanoseconds, at most. */
 uint64_t lrcsi_cost_steps(double ns);
 
-/* The size of the raster, at most `most`, whose estimate is likely to meet a tolerance: for a first
-   one, or a finer one that costs little more. The finer the tolerance the finer it is. */
+/* The size of the raster, at most `most`, whose estimate is likely to meet a tolerance, or of a
+   finer one that costs little more. The finer the tolerance the finer it is. And the size to begin
+   with: not much dearer than the coarsest, for what is likely may be far off. */
 uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t most);
+uint32_t lrcsi_cost_first(const lrcsi_cost *cost, uint32_t size);
 
 #endif

@@ -72,5 +72,5 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
                                .diffuse = sum.value[LRCSI_DIFFUSE],
                                .rounding = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE],
                                .visibility = FOUR_PI * 1.000001 * slab * most,
-                               .silhouette = placed->solid ? silhouette * unit * unit : -1};
+                               .silhouette = silhouette * unit * unit};
 }

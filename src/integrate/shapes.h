@@ -11,7 +11,7 @@ typedef struct lrcsi_shape_terms {
     double glint, diffuse;
     double rounding;   /* a bound: of the closed form, and of where the laser stands to the shape */
     double visibility; /* a bound: on what the slab of lrcsi_clear may hide */
-    double silhouette; /* projected area of a closed one; negative for an open one: its facets' */
+    double silhouette; /* projected area of what faces the laser, rounded */
 } lrcsi_shape_terms;
 
 /* Given: a part that is clear in this view, and its slab. */

@@ -17,8 +17,10 @@
 /* The finest raster: beyond it the bound gains less than it costs. */
 #define LAST_SIZE 4096u
 
-/* For the sake of an estimate a raster must be likely to cost so many times less than clipping. */
-#define CLIP_PREFERRED 1.5
+/* For the sake of an estimate a raster must be likely to cost so many times less than clipping: the
+   first, and another one once an estimate did not suffice. */
+#define CLIP_PREFERRED      1.5
+#define CLIP_PREFERRED_NEXT 2.5
 
 /* Fewer facets are never judged by samples alone. */
 #define PREVIEW_FACETS 1024u
@@ -479,8 +481,9 @@ static int run_previews(sigma_run *run, const lrcs_run_options *options)
     for (int rasters = 0; status == LRCS_OK; rasters++) {
         double undecided =
             run->contested ? run->contest.contested_count : lrcsi_cost_undecided(&cost);
-        double draw = CLIP_PREFERRED * (samples_only ? lrcsi_cost_draw(&cost, size)
-                                                     : lrcsi_cost_prove(&cost, size, undecided));
+        double draw =
+            samples_only ? lrcsi_cost_draw(&cost, size) : lrcsi_cost_prove(&cost, size, undecided);
+        draw *= rasters == 0 ? CLIP_PREFERRED : CLIP_PREFERRED_NEXT;
         if (options->accept == LRCS_ACCEPT_ESTIMATE && (samples_only || rasters == 0) &&
             draw >= 4 * tried && lrcsi_cost_clip(&cost, undecided) <= draw) {
             int result = run_clip_within(run, &cost, draw);
@@ -490,8 +493,9 @@ static int run_previews(sigma_run *run, const lrcs_run_options *options)
             }
             tried = result == CLIP_GIVEN_UP ? draw : tried;
         }
-        if (!samples_only && rasters == 0) {
-            status = run_known(run, &known);
+        if (rasters == 0) {
+            size = lrcsi_cost_first(&cost, size);
+            status = samples_only ? LRCS_OK : run_known(run, &known);
         }
         if (status == LRCS_OK) {
             status = samples_only ? run_preview_at(run, size) : run_raster(run, &known, size);

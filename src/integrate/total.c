@@ -711,10 +711,10 @@ static void sum_shape(total_job *job, uint32_t index, double slab)
     lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, part->first_facet));
     lrcsi_sum_add(&job->sums.glint, terms.glint);
     lrcsi_sum_add(&job->sums.diffuse, terms.diffuse);
-    lrcsi_sum_add(&job->sums.projected, lrcsi_most(0, terms.silhouette));
+    lrcsi_sum_add(&job->sums.projected, part->solid ? terms.silhouette : 0);
     job->sums.rounding += terms.rounding;
     job->sums.visibility += terms.visibility;
-    if (terms.silhouette != 0) {
+    if (terms.silhouette > 0) {
         add_seen(&job->sums, &brdf);
     }
     if (job->records) {

@@ -33,7 +33,8 @@ typedef struct lrcsi_areas {
    facets.
    Returned: the total, summed material by material, each in facet order, then clear shapes in the
    scene's order; records[facet_count] unless NULL: a clear shape's sigma is shared out among its
-   facets as these would reflect, or where none of them would, by their projected areas. */
+   facets as these would reflect, or where none of them would, by their projected areas; of a shape
+   of which a sliver is lit but no facet faces the laser, no record has it. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
                              const lrcsi_margin *margin, const lrcsi_clear *clear,

@@ -4,6 +4,7 @@
 #include <lrcs/shape.h>
 
 #include "check.h"
+#include "optics/closed.h"
 
 static const struct vector {
     int kind, parts;
@@ -299,6 +300,36 @@ static void a_matt_sphere_needs_no_slope(void **state)
     }
 }
 
+/* Cauchy: a convex body's projected area, averaged over all directions, is a quarter of its
+   surface. */
+static void silhouettes_average_a_quarter_of_the_surface(void **state)
+{
+    (void)state;
+    const double pi = 3.14159265358979323846;
+    const struct {
+        lrcs_shape shape;
+        double surface;
+    } body[] = {
+        {{.kind = LRCS_SHAPE_SPHERE, .radius = 2}, 16 * pi},
+        {{.kind = LRCS_SHAPE_DOME, .radius = 2}, 12 * pi},
+        {{.kind = LRCS_SHAPE_CYLINDER, .radius = 2, .length = 3}, 20 * pi},
+        {{.kind = LRCS_SHAPE_CONE, .radius = 3, .length = 4}, 24 * pi},
+        {{.kind = LRCS_SHAPE_CONE, .radius = 1, .half_angle_deg = 30}, 3 * pi},
+        {{.kind = LRCS_SHAPE_FRUSTUM, .radius = 1, .radius2 = 4, .length = 4}, 42 * pi},
+        {{.kind = LRCS_SHAPE_FRUSTUM, .radius = 4, .radius2 = 1, .length = 4}, 42 * pi},
+        {{.kind = LRCS_SHAPE_PARABOLOID, .radius = 2, .length = 2},
+         pi * (4 + (pow(20, 1.5) - 8) / 12)},
+    };
+    for (size_t i = 0; i < sizeof body / sizeof *body; i++) {
+        double sum = 0;
+        for (int k = 0; k < 20000; k++) {
+            double aspect = pi * (k + 0.5) / 20000;
+            sum += lrcsi_closed_silhouette(&body[i].shape, sin(aspect), cos(aspect)) * sin(aspect);
+        }
+        check_rel(0.5 * sum * pi / 20000, 0.25 * body[i].surface, 1e-7);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -314,6 +345,7 @@ int main(void)
         cmocka_unit_test(no_corner_of_the_domain_gives_a_nan),
         cmocka_unit_test(what_is_outside_the_domain_is_refused),
         cmocka_unit_test(a_matt_sphere_needs_no_slope),
+        cmocka_unit_test(silhouettes_average_a_quarter_of_the_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

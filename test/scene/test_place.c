@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/rotate.h"
 #include "check.h"
 
 static const lrcs_joint no_joint = {0, {0}, {0}, 0.0};
@@ -150,6 +151,88 @@ static void unfit_places_are_refused(void **state)
     assert_int_equal(lrcsi_placer_make(&good, &joint, &placer), LRCS_E_NUMBER);
 }
 
+/* Against long doubles: to 1e-18 where the matrix itself is off by 1e-16. */
+static void axes_are_those_of_the_nearest_rotation(void **state)
+{
+    (void)state;
+    need_wide_long_double();
+    for (int run = 0; run < 200; run++) {
+        lrcs_place place = lrcs_place_default();
+        const double deg[3] = {37.3 * run, 11.1 * run, 50.7 * run};
+        const lrcs_joint joint = {1, {1.0, run % 7, 0.5}, {0.1, 0.2, 0.3}, 3.7 * run};
+        lrcsi_placer placer;
+        lrcsi_axes axes;
+        double placed[3];
+        double origin[3];
+        const double zero[3] = {0.0, 0.0, 0.0};
+        assert_int_equal(lrcsi_rotate_euler("XYZ", deg, place.rotate), LRCS_OK);
+        place.scale[1] = run % 2 ? -1.0 : 1.0;
+        assert_int_equal(lrcsi_placer_make(&place, &joint, &placer), LRCS_OK);
+        assert_int_equal(lrcsi_placer_axes(&placer, &axes), 1);
+        lrcsi_placer_run(&placer, zero, origin);
+        for (int i = 0; i < 3; i++) {
+            const double along[3] = {i == 0, i == 1, i == 2};
+            lrcsi_placer_run(&placer, along, placed);
+            for (int k = 0; k < 3; k++) {
+                check_abs(axes.high[i][k], placed[k] - origin[k], 4e-15);
+            }
+            for (int j = 0; j <= i; j++) {
+                long double product = 0;
+                for (int k = 0; k < 3; k++) {
+                    product += ((long double)axes.high[i][k] + axes.low[i][k]) *
+                               ((long double)axes.high[j][k] + axes.low[j][k]);
+                }
+                check_abs((double)(product - (i == j)), 0.0, 1e-18);
+            }
+        }
+        assert_int_equal(axes.exact, 0);
+    }
+}
+
+static void axes_of_quarter_turns_and_mirrors_are_exact(void **state)
+{
+    (void)state;
+    for (int run = 0; run < 64; run++) {
+        lrcs_place place = lrcs_place_default();
+        const double deg[3] = {90.0 * (run % 4), 90.0 * (run / 4 % 4), 90.0 * (run / 16)};
+        lrcsi_placer placer;
+        lrcsi_axes axes;
+        assert_int_equal(lrcsi_rotate_euler("zyx", deg, place.rotate), LRCS_OK);
+        place.scale[0] = place.scale[1] = 0.3;
+        place.scale[2] = -0.3;
+        assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+        assert_int_equal(lrcsi_placer_axes(&placer, &axes), 1);
+        assert_int_equal(axes.exact, 1);
+    }
+}
+
+static void a_shape_that_is_changed_has_no_axes(void **state)
+{
+    (void)state;
+    lrcs_place place = lrcs_place_default();
+    lrcsi_placer placer;
+    lrcsi_axes axes;
+    double most;
+    double ratio;
+    place.scale[2] = -4.0;
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+    assert_int_equal(lrcsi_placer_axes(&placer, &axes), 0);
+    lrcsi_placer_stretch(&placer, &most, &ratio);
+    check_rel(most, 4.0, 1e-5);
+    check_rel(ratio, 4.0, 1e-5);
+    place = lrcs_place_default();
+    place.rotate[0][1] = 0.1; /* singular values 1.0512, 1 and 0.9512 */
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+    assert_int_equal(lrcsi_placer_axes(&placer, &axes), 0);
+    lrcsi_placer_stretch(&placer, &most, &ratio);
+    assert_true(most >= 1.0512 && most < 1.1);
+    assert_true(ratio >= 1.1051 && ratio < 1.2);
+    place.rotate[0][1] = 2.0; /* far from any */
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+    lrcsi_placer_stretch(&placer, &most, &ratio);
+    assert_true(isinf(ratio));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -159,6 +242,9 @@ int main(void)
         cmocka_unit_test(an_odd_number_of_mirrors_flips),
         cmocka_unit_test(rounding_stays_within_its_bound),
         cmocka_unit_test(unfit_places_are_refused),
+        cmocka_unit_test(axes_are_those_of_the_nearest_rotation),
+        cmocka_unit_test(axes_of_quarter_turns_and_mirrors_are_exact),
+        cmocka_unit_test(a_shape_that_is_changed_has_no_axes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
