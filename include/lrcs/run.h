@@ -105,9 +105,9 @@ typedef struct lrcs_run_options {
    not 0. Such rasters, of method zbuffer too, cost no more than to draw them: their samples prove
    nothing of areas, so that the bound, proved as ever, holds all that could show of each facet or
    be hidden (of fewer than 1,024 facets, where normals are curved, or where curved shapes stand
-   among others, it is closer, and costs more). An answer that the bound admits is none by estimate.
-   With LRCS_ACCEPT_ANY auto draws the coarsest of those rasters and takes what comes: no tolerance
-   is missed. */
+   among others, it is closer, and costs more: there auto clips). An answer that the bound admits is
+   none by estimate. With LRCS_ACCEPT_ANY auto draws the coarsest of those rasters and takes what
+   comes: no tolerance is missed. */
 lrcs_run_options lrcs_run_options_default(void);
 
 typedef struct lrcs_effect {

@@ -38,6 +38,7 @@ static const char sweep_help[] =
     "  --plot FILE           FILE.svg or FILE.png, repeatable: up to 7 curves, or a map\n"
     "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
     "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
+    "  --stats               mean by solid angle, percentiles, least and most\n"
     "  --brightest N         with -o FILE: the N brightest peaks, who makes each, on stdout; a\n"
     "                        peak outshines the rows one step away (--sphere: those around)\n"
     "\n"
@@ -49,9 +50,8 @@ static const char sweep_help[] =
     "\n"
     "examples\n"
     "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
-    "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy --brightest 10\n"
-    "  lrcs sweep demo --sphere 1000 --tolerance 1e-2 --accept estimate\n"
-    "  lrcs sweep demo --vary foil.s:0.02:0.5:0.02 --az 0:90:1\n"
+    "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy --brightest 10 --stats\n"
+    "  lrcs sweep demo --sphere 1000 --accept estimate\n"
     "  lrcs sweep demo --poses track.csv -o track.jsonl --resume\n"
     "  lrcs sweep demo --az 0:360:1 --el -90:90:1 --shard 3/16 -o map.3.csv\n";
 
@@ -60,8 +60,8 @@ static const cli_option sweep_options[] = {
     {"el", 1, 0},     {"joint", 1, 1},      {"vary", 1, 1},      {"rotate", 1, 0},
     {"sphere", 1, 0}, {"poses", 1, 0},      {"o", CLI_FILE, 0},  {"json", 0, 0},
     {"resume", 0, 0}, {"shard", 1, 0},      {"jobs", 1, 0},      {"plot", CLI_FILE, 1},
-    {"dbsm", 0, 0},   {"polar", 0, 0},      {"brightest", 1, 0}, {"help", 0, 0},
-    {NULL, 0, 0}};
+    {"dbsm", 0, 0},   {"polar", 0, 0},      {"brightest", 1, 0}, {"stats", 0, 0},
+    {"help", 0, 0},   {NULL, 0, 0}};
 
 #define JOBS_MOST 1024.0
 
@@ -73,6 +73,7 @@ typedef struct sweep_job {
     sweep_progress progress;
     sweep_plot plot;
     uint32_t brightest;
+    int stats;
     double (*row)[2]; /* sigma and bound of every row, for these two */
     lrcs_run_options options;
     lrcs_host_options load;
@@ -131,6 +132,10 @@ static int job_read(sweep_job *job)
     code = code ? code : cli_plan_read(args, &job->plan);
     code = code ? code : cli_plot_read(args, &job->plan, &job->plot);
     code = code ? code : cli_brightest_read(args, &job->plan, &job->file, &job->brightest);
+    job->stats = cli_value(args, "stats") != NULL;
+    if (code == 0 && job->stats && cli_value(args, "shard")) {
+        return cli_usage(args->command, "--stats is of whole sweeps: not with --shard");
+    }
     job->load.build.tolerance = job->options.tolerance;
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
     if (code == 0 && job->file.npy && cli_value(args, "shard")) {
@@ -284,7 +289,7 @@ static void job_say(const sweep_job *job)
 /* Room for what is told of all rows together. */
 static int job_room(sweep_job *job)
 {
-    if (job->plot.asked || job->brightest > 0) {
+    if (job->plot.asked || job->brightest > 0 || job->stats) {
         job->row = calloc(job->plan.rows, sizeof *job->row);
         if (!job->row) {
             return cli_out_of_memory();
@@ -297,6 +302,10 @@ static int job_room(sweep_job *job)
 static int job_show(sweep_job *job)
 {
     int code = job->plot.asked ? cli_plot_write(job->args, &job->plot, &job->plan) : 0;
+    if (code == 0 && job->stats) { /* stdout is for rows where no file is */
+        code = cli_stats_print(job->file.path ? stdout : stderr, &job->plan,
+                               (const double(*)[2])job->row);
+    }
     return code == 0 && job->brightest > 0
                ? cli_brightest_print(&job->plan, (const double(*)[2])job->row, job->brightest,
                                      &job->scene, &job->options, &job->load.build, job->coarse,

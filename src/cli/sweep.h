@@ -297,6 +297,11 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
                         const lrcs_build_options *build, const lrcs_host_glint *coarse,
                         uint32_t coarse_count);
 
+/* ---- statistics ---- */
+
+/* --stats: mean, percentiles, least and most of sigma over all rows. 0 or CLI_FAILED. */
+int cli_stats_print(FILE *out, const sweep_plan *plan, const double (*row)[2]);
+
 /* ---- progress ---- */
 
 /* A bar with the time left, on stderr where that is a terminal. */

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "visibility/grid.h"
@@ -26,8 +27,6 @@
 #define CLIP_CROSSING  900.0
 /* A step of clipping, at least. */
 #define CLIP_STEP 25.0
-/* Of a raster that proves its bound: this part of clipping, which it spares no search. */
-#define PROOF_SHARE 0.5
 
 /* An event edge leaves so many facets undecided, and a facet with a contact is undecided unless the
    other one is behind it. */
@@ -120,10 +119,12 @@ double lrcsi_cost_undecided(const lrcsi_cost *cost)
     return lrcsi_least(cost->casting, EVENT_CROSSES * cost->events + TOUCH_HIDES * cost->contacts);
 }
 
-/* Of facets thrown at random, whose areas are D in all, this part of the window is covered, */
+/* Of facets thrown at random, whose areas are D in all, this part of the window is covered,
+   1 - exp(-D): by functions that are the same everywhere, so that choices are; */
 static double covered(const lrcsi_cost *cost)
 {
-    return -expm1(-cost->overdraw);
+    double d = cost->overdraw;
+    return d < 1e-4 ? d : 1 - lrcsi_exp(-lrcsi_least(d, 100));
 }
 
 /* by so many on average: one of so many borders is seen. */
@@ -141,11 +142,6 @@ double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided)
            CLIP_CROSSING * crossings;
 }
 
-double lrcsi_cost_prove(const lrcsi_cost *cost, uint32_t size, double undecided)
-{
-    return lrcsi_cost_draw(cost, size) + PROOF_SHARE * lrcsi_cost_clip(cost, undecided);
-}
-
 uint64_t lrcsi_cost_steps(double ns)
 {
     return (uint64_t)lrcsi_least(ns / CLIP_STEP, 0x1p62);
@@ -158,14 +154,14 @@ uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t most
 {
     double borders = cost->borders / layers(cost);
     double error = 0.5 * ESTIMATE_SAFETY * sqrt(borders) / covered(cost) / tolerance;
-    double size = borders > 0 ? cbrt(error * error) : 0;
-    if (borders > size) {
-        size = 0;
+    uint32_t n = RASTER_LEAST;
+    while (n + 64 <= most && (double)n * n * n < error * error) {
+        n += 64;
     }
-    if (!(size < most)) {
+    n = borders > n && n < most ? RASTER_LEAST : n;
+    if (n == most) {
         return most;
     }
-    uint32_t n = size > RASTER_LEAST ? 64 * ((uint32_t)size / 64 + 1) : RASTER_LEAST;
     double dear = (1 + RASTER_MARGIN) * lrcsi_cost_draw(cost, n);
     while (n + 64 <= most && lrcsi_cost_draw(cost, n + 64) <= dear) {
         n += 64;

@@ -22,11 +22,10 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view);
 /* How many facets are likely to be undecided. */
 double lrcsi_cost_undecided(const lrcsi_cost *cost);
 
-/* Nanoseconds, roughly, of samples of all facets, size x size (visibility/preview.h); of clipping;
-   of a raster that proves its bound (visibility/visible.h). */
+/* Nanoseconds, roughly, of samples of all facets, size x size (visibility/preview.h); of clipping.
+ */
 double lrcsi_cost_draw(const lrcsi_cost *cost, uint32_t size);
 double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided);
-double lrcsi_cost_prove(const lrcsi_cost *cost, uint32_t size, double undecided);
 
 /* The steps (lrcs_run_options.steps) that clipping makes in so many nanoseconds, at most. */
 uint64_t lrcsi_cost_steps(double ns);

@@ -461,31 +461,25 @@ static int run_clip_within(sigma_run *run, const lrcsi_cost *cost, double ns)
     return result;
 }
 
-/* For the sake of an estimate, until an answer is accepted:
+/* For the sake of an estimate, where samples alone are judges, until an answer is accepted:
    1. run_clip_within, where that is likely to take not much longer than the next raster, whose
       estimate may not suffice; again only once a raster takes four times as long as the last
       attempt might;
-   2. run_preview_at, or where samples alone are no judges run_raster (once run_known is there, what
-      clipping needs is not): a coarse one first.
+   2. run_preview_at, a cheap one first.
    Where no raster is accepted the caller clips. Any answer being good, the first raster is. */
 static int run_previews(sigma_run *run, const lrcs_run_options *options)
 {
     const lrcsi_cost cost = lrcsi_cost_count(&run->view);
-    const int samples_only = run_samples_only(run, options);
-    const size_t mark = run->work->used;
-    uint32_t size = lrcsi_cost_size(
-        &cost, options->accept == LRCS_ACCEPT_ESTIMATE ? options->tolerance : 1, LAST_SIZE);
+    const int any = options->accept == LRCS_ACCEPT_ANY;
+    uint32_t size = lrcsi_cost_size(&cost, any ? 1 : options->tolerance, LAST_SIZE);
     double tried = 0;
-    lrcsi_known known;
     int status = LRCS_OK;
     for (int rasters = 0; status == LRCS_OK; rasters++) {
         double undecided =
             run->contested ? run->contest.contested_count : lrcsi_cost_undecided(&cost);
-        double draw =
-            samples_only ? lrcsi_cost_draw(&cost, size) : lrcsi_cost_prove(&cost, size, undecided);
+        double draw = lrcsi_cost_draw(&cost, size);
         draw *= rasters == 0 ? CLIP_PREFERRED : CLIP_PREFERRED_NEXT;
-        if (options->accept == LRCS_ACCEPT_ESTIMATE && (samples_only || rasters == 0) &&
-            draw >= 4 * tried && lrcsi_cost_clip(&cost, undecided) <= draw) {
+        if (!any && draw >= 4 * tried && lrcsi_cost_clip(&cost, undecided) <= draw) {
             int result = run_clip_within(run, &cost, draw);
             if (result == CLIP_DONE) {
                 run->plan.reason = "clipping is reckoned to cost less than a raster";
@@ -493,25 +487,17 @@ static int run_previews(sigma_run *run, const lrcs_run_options *options)
             }
             tried = result == CLIP_GIVEN_UP ? draw : tried;
         }
-        if (rasters == 0) {
-            size = lrcsi_cost_first(&cost, size);
-            status = samples_only ? LRCS_OK : run_known(run, &known);
-        }
-        if (status == LRCS_OK) {
-            status = samples_only ? run_preview_at(run, size) : run_raster(run, &known, size);
-        }
-        if (status != LRCS_OK || raster_ends(run, options, samples_only) ||
+        size = rasters == 0 ? lrcsi_cost_first(&cost, size) : size;
+        status = run_preview_at(run, size);
+        if (status != LRCS_OK || raster_ends(run, options, 1) ||
             (run->flags & LRCS_FLAG_DEPTH_UNDECIDED)) {
             break;
         }
         size = next_size(run, options);
     }
-    if (options->accept == LRCS_ACCEPT_ESTIMATE) {
+    if (!any) {
         run->plan.reason = tried > 0 ? "clipping was begun, and took longer than a raster"
                                      : "a raster is reckoned to cost less than clipping";
-    }
-    if (!samples_only) { /* the contested facets, found before, stay */
-        run->work->used = mark;
     }
     return status;
 }
@@ -529,6 +515,13 @@ static int run_method(sigma_run *run, const lrcs_run_options *options)
 static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
 {
     int status = lrcsi_view_project(run->work, &run->view);
+    if (run->plan.previews && !run_samples_only(run, options)) {
+        run->plan.previews = 0;
+        if (options->accept == LRCS_ACCEPT_ESTIMATE) {
+            run->plan.method = LRCS_METHOD_EXACT;
+            run->plan.reason = "few facets, or curved ones: a raster saves little of clipping";
+        }
+    }
     if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run_samples_only(run, options)) {
         status = run_contest(run);
     }

@@ -20,9 +20,9 @@ static uint64_t block_entries(const lrcs_prepared *p)
     return ENTRIES_LEAST + (uint64_t)ENTRIES_A_FACET * p->scene->facet_count;
 }
 
-/* Blocks are squares of the window of the scene's bulk, twice as large as the cells of the
+/* Blocks are squares of the window of the scene's bulk, four times as large as the cells of the
    contest's grid, in a ring of blocks that hold what stands outside. */
-#define BLOCK 3u
+#define BLOCK 4u
 
 static void blocks_place(lrcsi_cells_grid *c)
 {
@@ -187,7 +187,7 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
 size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared)
 {
     size_t blocks = 2 * (size_t)prepared->scene->facet_count +
-                    64; /* half as many along a side as the grid has, and 2 */
+                    64; /* at most half as many along a side as the grid has, and 2 */
     size_t need = 2 * lrcsi_work_bytes(blocks, sizeof(uint32_t));
     return lrcsi_work_add(need,
                           2 * lrcsi_work_bytes((size_t)block_entries(prepared), sizeof(uint32_t)));

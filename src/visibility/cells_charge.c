@@ -117,13 +117,23 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             f->low[1] > box[1][1] + beyond || f->high[1] < box[0][1] - beyond) {
             continue;
         }
+        double d[3];
         double along[2];
-        facet_along(f, e->line, e->start, 2 * far, along);
+        for (int k = 0; k < 3; k++) {
+            d[k] = lrcsi_line_at(e->line, f->x[k], f->y[k]);
+        }
+        if (lrcsi_most(d[0], lrcsi_most(d[1], d[2])) < -far ||
+            lrcsi_least(d[0], lrcsi_least(d[1], d[2])) > far) {
+            continue;
+        }
+        corners_along(f, e->line, e->start, along);
+        if (lrcsi_least(doubt, strip * (along[1] - along[0])) > c->trifle) {
+            facet_along(f, e->line, e->start, 2 * far, along);
+            c->area[facet].cut += lrcsi_least(doubt / strip, lrcsi_most(0, along[1] - along[0]));
+        }
         if (along[1] > e->part.from * e->length - beyond &&
             along[0] < e->part.to * e->length + beyond) {
-            double length = along[1] - along[0] + 2 * far;
-            c->area[facet].doubt += lrcsi_least(doubt, strip * length);
-            c->area[facet].cut += lrcsi_least(doubt / strip, length);
+            c->area[facet].doubt += lrcsi_least(doubt, strip * (along[1] - along[0] + 2 * far));
         }
     }
 }

@@ -19,12 +19,24 @@
 
 /* --- crossings -------------------------------------------------------------------------------- */
 
+/* A segment of the view: where it starts, where it leads, and how far either may be off. */
+typedef struct contest_side {
+    double at[2], to[2];
+    double length; /* of `to`, in the 1-norm */
+    double at_err; /* of `at`, in each coordinate, */
+    double to_err; /* and of `to` */
+} contest_side;
+
 /* A facet that asks which event edges cross it. */
 typedef struct contest_ask {
     uint32_t facet;
     int facing;
     const uint32_t *corner;
+    contest_side side[3]; /* from corner k to k + 1 */
 } contest_ask;
+
+/* A sign that plain doubles do not tell. */
+enum { TURN_UNSURE = 2 };
 
 /* Which way vertices a, b, c turn: from view coordinates where their error allows, else exactly. Of
    three vertices that far away is not taken as the one from which both others are seen: it would
@@ -62,26 +74,59 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
     return lrcsi_exact_turn(v[a].x, v[b].x, v[c].x, view->direction);
 }
 
+static contest_side contest_side_of(const lrcsi_view *view, uint32_t a, uint32_t b)
+{
+    const double *p = view->point[a].x;
+    const double *q = view->point[b].x;
+    double err = lrcsi_view_off(p);
+    contest_side side = {{p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}, 0, err, err + lrcsi_view_off(q)};
+    side.length = fabs(side.to[0]) + fabs(side.to[1]);
+    return side;
+}
+
+/* Which way a side and a point x, which is off by err, turn; TURN_UNSURE where vertex_turn is to
+   tell. The same bound. */
+static inline int contest_side_turn(const contest_side *side, const double *x, double err)
+{
+    const double q[2] = {x[0] - side->at[0], x[1] - side->at[1]};
+    double turn = side->to[0] * q[1] - side->to[1] * q[0];
+    double f = side->at_err + err;
+    double off = 1.5 * (side->to_err * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * side->length);
+    return turn > off ? 1 : turn < -off ? -1 : TURN_UNSURE;
+}
+
 /* Does the segment p q cross the open inside of the facet, in projection? Two convex figures of
    the plane are apart just if some line along a side of either parts them. *along: it lies on the
    line of a side that parts them. */
 static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t p, uint32_t q,
                            int *along)
 {
+    const double *x = view->point[p].x;
+    const double *y = view->point[q].x;
+    double x_err = lrcsi_view_off(x);
+    double y_err = lrcsi_view_off(y);
     for (int k = 0; k < 3; k++) {
         uint32_t a = ask->corner[k];
         uint32_t b = ask->corner[(k + 1) % 3];
-        int of_p = ask->facing * vertex_turn(view, a, b, p);
-        int of_q = ask->facing * vertex_turn(view, a, b, q);
+        int of_p = ask->facing * contest_side_turn(&ask->side[k], x, x_err);
+        int of_q = ask->facing * contest_side_turn(&ask->side[k], y, y_err);
+        if (of_p == 1 || of_q == 1) {
+            continue;
+        }
+        of_p = of_p == -1 ? -1 : ask->facing * vertex_turn(view, a, b, p);
+        of_q = of_q == -1 ? -1 : ask->facing * vertex_turn(view, a, b, q);
         if (of_p <= 0 && of_q <= 0) {
             *along |= of_p == 0 && of_q == 0;
             return 0;
         }
     }
+    const contest_side line = contest_side_of(view, p, q);
     int left = 0;
     int right = 0;
     for (int k = 0; k < 3; k++) {
-        int side = vertex_turn(view, p, q, ask->corner[k]);
+        const double *corner = view->point[ask->corner[k]].x;
+        int side = contest_side_turn(&line, corner, ask->side[k].at_err);
+        side = side != TURN_UNSURE ? side : vertex_turn(view, p, q, ask->corner[k]);
         left |= side > 0;
         right |= side < 0;
     }
@@ -107,6 +152,16 @@ static int edge_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t
            segment_crosses(view, ask, e->low, e->high, along);
 }
 
+static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
+{
+    contest_ask ask = {.facet = facet, .facing = view->facing[facet]};
+    ask.corner = view->prepared->scene->facet[facet].corner;
+    for (int k = 0; k < 3; k++) {
+        ask.side[k] = contest_side_of(view, ask.corner[k], ask.corner[(k + 1) % 3]);
+    }
+    return ask;
+}
+
 /* Finds at most `most` of them: one suffices to know that there are any. Examines at most *steps
    listed events, and leaves in *steps how many more it might have examined. Finds fewer also where
    the meter is spent. Events whose box lies beside the facet's do not cross it. A cell lists events
@@ -116,8 +171,7 @@ static uint32_t contest_find(lrcsi_contest *contest, uint32_t facet, uint32_t mo
 {
     const lrcsi_view *view = contest->view;
     const lrcsi_grid *grid = &contest->grid;
-    const contest_ask ask = {facet, view->facing[facet],
-                             view->prepared->scene->facet[facet].corner};
+    const contest_ask ask = contest_ask_of(view, facet);
     lrcsi_view_box box = contest->box[facet];
     lrcsi_cells cells = contest->cells[facet];
     uint32_t count = 0;

@@ -53,6 +53,7 @@ typedef struct preview_job {
     preview_counts *counts; /* facet */
     preview_border *column; /* column of pixels */
     double ordinary_err;    /* bound on the error of an ordinary facet's depth */
+    double outline;         /* pairs of adjacent samples of which just one shows what reflects */
     int undecided;
 } preview_job;
 
@@ -280,10 +281,16 @@ typedef struct preview_owned {
     uint32_t facet, x, y;
 } preview_owned;
 
+static int preview_reflects(const preview_job *job, uint32_t owner)
+{
+    return owner != LRCS_NONE && lrcsi_view_reflects(job->view, owner);
+}
+
 /* Two samples side by side; `at` is the step along the border between them. */
 static void preview_step(preview_job *job, preview_border *border, uint32_t at, preview_owned a,
                          preview_owned b)
 {
+    job->outline += preview_reflects(job, a.facet) != preview_reflects(job, b.facet);
     if (!preview_parts(job->view->prepared, a.facet, b.facet)) {
         return;
     }
@@ -410,45 +417,74 @@ static void preview_shares(preview_job *job)
    one counts again, as one. */
 #define LIKELY_SQUARE 0.25
 
-static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, double lean)
+/* What facets with few samples show in all can be computed in two ways: from their shares, and from
+   all samples whose owners reflect, less the shares of facets with many. The second has no bias: it
+   errs by chance only, along the outline of what reflects. So the shares are corrected towards it,
+   by d^3 / (d^2 + chance^2) where the two differ by d: by all of d where that is far more than
+   chance, by hardly any of it where it is not. What may be left of the bias is twice the standard
+   deviation that chance leaves, since one correction serves facets that reflect differently, and
+   what no facet has room for. */
+typedef struct preview_lean {
+    double less; /* the part of what a facet shows that is taken off */
+    double more; /* the part of what it does not show, of one that shows some, that is added */
+    double left; /* the part of what it shows that may still be too much, or too little */
+} preview_lean;
+
+static int preview_few(const preview_job *job, uint32_t facet)
+{
+    return job->counts[facet].covered < FEW_SAMPLES && job->counts[facet].share > 0 &&
+           lrcsi_view_reflects(job->view, facet);
+}
+
+static preview_lean preview_lean_of(const preview_job *job)
+{
+    double pixel = job->raster.pixel * job->raster.pixel;
+    double over = 0;   /* shares less samples */
+    double shares = 0; /* of facets with few samples, */
+    double room = 0;   /* and what else these could show */
+    for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
+        const preview_counts *c = &job->counts[f];
+        if (lrcsi_grid_casts(job->view, f) && c->share > 0 && lrcsi_view_reflects(job->view, f)) {
+            double area = lrcsi_view_projected(job->view, f);
+            double shown = area * (double)c->share;
+            over += shown - pixel * c->owned;
+            shares += c->covered < FEW_SAMPLES ? shown : 0;
+            room += c->covered < FEW_SAMPLES ? area - shown : 0;
+        }
+    }
+    double chance = sqrt(LIKELY_SQUARE * job->outline) * pixel;
+    double both = sqrt(over * over + chance * chance);
+    preview_lean lean = {0, 0, 0};
+    if (both > 0 && shares > 0) {
+        double wanted = over * (over / both) * (over / both);
+        double taken = lrcsi_least(shares, lrcsi_most(-room, wanted));
+        lean.less = taken > 0 ? taken / shares : 0;
+        lean.more = taken < 0 ? -taken / room : 0;
+        lean.left = (2 * fabs(over) * (chance / both) + fabs(wanted - taken)) / shares;
+    }
+    return lean;
+}
+
+static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const preview_lean *lean)
 {
     const preview_counts *c = &job->counts[facet];
     double area = lrcsi_view_projected(job->view, facet);
     double pixel = job->raster.pixel * job->raster.pixel;
     lrcsi_visible v = {0, 0, area, 0, 0};
     v.area = area * (double)c->share;
-    v.lean = c->covered < FEW_SAMPLES ? lean * v.area : 0;
+    if (preview_few(job, facet)) {
+        v.lean = lean->left * v.area;
+        v.area += lean->more * (area - v.area) - lean->less * v.area;
+        v.area = lrcsi_least(area, lrcsi_most(0, v.area));
+    }
     if (c->covered == 0) {
         v.likely = sqrt(LIKELY_SQUARE) * area;
-    } else if (c->owned !=
-               0) { /* of one that owns all, a strip may be hidden where a border passes */
+    } else if (c->owned != 0) { /* of one that owns all, a strip may be hidden at a border */
         double square = c->borders + (double)c->longest * c->longest;
         square = c->owned != c->covered ? square : c->met;
         v.likely = lrcsi_least(area, sqrt(LIKELY_SQUARE * square) * pixel);
     }
     return v;
-}
-
-/* How far the shares of facets with few samples lean one way, as a part of what they show: their
-   samples count what shows of them all together without leaning, but by chance, told from it at
-   four standard deviations. Thin parts that show, or hide, no more than their borders lean. */
-static double preview_lean(const preview_job *job)
-{
-    double pixel = job->raster.pixel * job->raster.pixel;
-    double counted = 0;
-    double shared = 0;
-    double borders = 0;
-    for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
-        const preview_counts *c = &job->counts[f];
-        if (c->covered < FEW_SAMPLES && c->share > 0) {
-            counted += pixel * c->owned;
-            shared += lrcsi_view_projected(job->view, f) * (double)c->share;
-            borders += c->borders;
-        }
-    }
-    double chance = sqrt(LIKELY_SQUARE * borders) * pixel;
-    double over = shared - counted;
-    return fabs(over) > 2 * chance ? over / shared : 0;
 }
 
 /* --- all of it -------------------------------------------------------------------------------- */
@@ -498,9 +534,9 @@ int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
         preview_facets(&job);
         preview_count(&job);
         preview_shares(&job);
-        double lean = preview_lean(&job);
+        preview_lean lean = preview_lean_of(&job);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-            visible[f] = lrcsi_grid_casts(view, f) ? preview_area(&job, f, lean)
+            visible[f] = lrcsi_grid_casts(view, f) ? preview_area(&job, f, &lean)
                                                    : (lrcsi_visible){0, 0, 0, 0, 0};
         }
         *undecided = job.undecided;

@@ -3,11 +3,11 @@
 # --accept: what must meet the tolerance, and that every output says what was accepted unproved.
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
-# 40 slanting slats over a plate: many borders of shadows
+# 14 layers of 40 slanting slats over a plate: many borders of shadows
 awk 'BEGIN {
     print "v -3 -3 0\nv 3 -3 0\nv 3 3 0\nv -3 3 0\nf 1 2 3 4"
-    for (i = 0; i < 40; i++) {
-        x = -2.6 + 0.13 * i; z = 1 + 0.02 * i; k = 5 + 4 * i
+    for (i = 0; i < 560; i++) {
+        l = int(i / 40); x = -2.6 + 0.13 * (i % 40) + 0.05 * l; z = 1 + 0.02 * (i % 40) + 0.2 * l; k = 5 + 4 * i
         printf "v %g -2 %g\nv %g -1.98 %g\nv %g 2.1 %g\nv %g 2 %g\nf %d %d %d %d\n", x, z, x + 0.07, z + 0.03, x + 0.2, z, x + 0.12, z - 0.02, k, k + 1, k + 2, k + 3
     }
 }' >slats.obj

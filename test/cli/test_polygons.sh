@@ -17,7 +17,7 @@ same a_whole_facet_has_three_points "$(grep -c '^2,' rings.csv) $(grep -c '^3,' 
 
 # areas FILE: each facet's area by its rings (fans about each ring's first point).
 areas() {
-    awk -F, 'NR > 1 {
+    awk -F, 'BEGIN { ring = -1 } NR > 1 {
         if ($2 != ring) { ring = $2; n = 0; x0 = $6; y0 = $7 }
         if (n++ > 1) area[$1] += ((x - x0) * ($7 - y0) - (y - y0) * ($6 - x0)) / 2
         x = $6; y = $7

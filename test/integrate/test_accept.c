@@ -110,7 +110,7 @@ static void coarser_tolerances_are_met_by_coarser_rasters(void **state)
     static const double d[3] = {0.5, 0.3, 0.8};
     uint32_t last = 0;
     lrcs_work work;
-    shadows();
+    shadows_about(44);
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     for (double tolerance = 0.1; tolerance > 0.5e-3; tolerance /= 2) {
         lrcs_run_options options = lrcs_run_options_default();
