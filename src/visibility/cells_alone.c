@@ -141,6 +141,34 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
     return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
 }
 
+/* Does one side of f have all of another facet beyond it? In view coordinates: differences are off
+   by e and g at most, rounding included, so p x q by e |q| + g |p| + 2 e g in the 1-norm, and by 2
+   u |p| |q| more, below a fifth of that (visibility/contest.c). */
+static int facet_apart(const lrcsi_alone *a, uint32_t other)
+{
+    const lrcsi_view *view = a->cells.view;
+    const uint32_t *own = view->prepared->scene->facet[a->facet].corner;
+    const uint32_t *its = view->prepared->scene->facet[other].corner;
+    int apart = 0;
+    for (int k = 0; k < 3 && !apart; k++) {
+        const double *at = view->point[own[k]].x;
+        const double *to = view->point[own[k == 2 ? 0 : k + 1]].x;
+        const double p[2] = {to[0] - at[0], to[1] - at[1]};
+        double off = lrcsi_view_off(at);
+        double e = off + lrcsi_view_off(to);
+        apart = 1;
+        for (int i = 0; i < 3 && apart; i++) {
+            const double *x = view->point[its[i]].x;
+            const double q[2] = {x[0] - at[0], x[1] - at[1]};
+            double g = off + lrcsi_view_off(x);
+            double turn = view->facing[a->facet] * (p[0] * q[1] - p[1] * q[0]);
+            apart = turn <
+                    -1.5 * (e * (fabs(q[0]) + fabs(q[1]) + 2 * g) + g * (fabs(p[0]) + fabs(p[1])));
+        }
+    }
+    return apart;
+}
+
 /* Lists what may be in front of f. 0 where the meter is spent. */
 static int alone_facets(lrcsi_alone *a)
 {
@@ -164,6 +192,9 @@ static int alone_facets(lrcsi_alone *a)
                 continue;
             }
             a->met[other] = c->look;
+            if (facet_apart(a, other)) {
+                continue;
+            }
             a->order[other] = ORDER_NEW;
             a->side[other][0].clear = -1; /* not made yet */
             c->listed[other] = c->look;
