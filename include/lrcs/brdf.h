@@ -15,14 +15,15 @@ typedef struct lrcs_brdf {
     double m; /* diffusivity coefficient, >= 0 */
 } lrcs_brdf;
 
-/* What an unbound facet gets: A=1, B=0.25, s=0.2, m=0.5. */
+/* The material of facets to which no binding applies: A=1, B=0.25, s=0.2, m=0.5. */
 lrcs_brdf lrcs_brdf_default(void);
 
-/* Values that the formula accepts but the model does not mean: bits of lrcs_brdf_check. */
+/* Values that the formula accepts but that lie outside the physical meaning of the model: bits
+   returned by lrcs_brdf_check. */
 enum lrcs_brdf_warning {
     LRCS_BRDF_SLOPE_LARGE = 1 << 0,  /* s > 0.7: a plate's glint peaks off its normal */
     LRCS_BRDF_DIFFUSE_GAIN = 1 << 1, /* pi B > 1: reflects more than it receives when m = 0 */
-    LRCS_BRDF_GLINT_GAIN = 1 << 2,   /* 4 pi A s^2 > 1: mirrors that reflect more than they receive
+    LRCS_BRDF_GLINT_GAIN = 1 << 2,   /* 4 pi A s^2 > 1: the glint reflects more than it receives
                                         (A = R / (4 pi s^2) on a Beckmann surface) */
     LRCS_BRDF_DARK = 1 << 3          /* A = 0 and B = 0 */
 };
@@ -36,8 +37,8 @@ const char *lrcs_brdf_warning_text(int bit);
 
 /* f_r at an incidence angle.
    Given: brdf in its domain; cos_theta in [-1, 1].
-   Returned: f_r, 1/sr; 0 where cos_theta <= 0. From the cosine alone tan^2 is known to
-   a relative 2^-52 / theta^2: the engine itself works from tan^2.
+   Returned: f_r, 1/sr; 0 where cos_theta <= 0. The cosine alone determines tan^2 only to a
+   relative 2^-52 / theta^2; the engine itself therefore works from tan^2.
    Notes: 1. May overflow to infinity only where f_r itself exceeds the largest double. */
 double lrcs_brdf_eval(const lrcs_brdf *brdf, double cos_theta);
 
@@ -45,7 +46,7 @@ double lrcs_brdf_eval(const lrcs_brdf *brdf, double cos_theta);
    satellite materials could be found; they are chosen for typical behaviour only. */
 typedef struct lrcs_brdf_entry {
     const char *name; /* "solar-cell", "mli-gold", ... lower case with hyphens */
-    const char *text; /* what it stands for */
+    const char *text; /* what it represents */
     lrcs_brdf brdf;
 } lrcs_brdf_entry;
 

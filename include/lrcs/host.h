@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The host layer: files, memory, notices, pictures and writers around the core. It may use the
-   heap and stdio, never prints by itself and never exits: what went wrong is a status and a
-   sentence. None of it is needed to fly: the core works without. */
+   heap and stdio. It never prints on its own and never exits: an error is reported as a status and
+   a sentence. Flight software does not need it: the core works without it. */
 #ifndef LRCS_HOST_H
 #define LRCS_HOST_H
 
@@ -25,10 +25,11 @@ typedef struct lrcs_host_error {
 /* Room for any double as text. */
 #define LRCS_HOST_NUMBER_SIZE 32
 
-/* A double as decimal text with 17 significant digits ("%.17g"), a point whatever the locale. */
+/* A double as decimal text with 17 significant digits ("%.17g"), with a decimal point in every
+   locale. */
 void lrcs_host_number_text(double value, char text[LRCS_HOST_NUMBER_SIZE]);
 
-/* Reads decimal text that is a finite number from end to end, blanks around it allowed.
+/* Reads decimal text that consists of one finite number; blanks around it are allowed.
    Status: LRCS_OK; LRCS_E_SYNTAX; LRCS_E_NUMBER (beyond double range). */
 int lrcs_host_number_read(const char *text, size_t size, double *value);
 
@@ -55,7 +56,7 @@ typedef struct lrcs_host_output {
 /* Status: LRCS_OK; LRCS_E_SYSTEM. */
 int lrcs_host_output_open(const char *path, lrcs_host_output *output, lrcs_host_error *error);
 
-/* Ends the writing: keeps the file, or removes it where keep is 0 or a write failed.
+/* Closes the output: keeps the file, or removes it if keep is 0 or a write failed.
    Status: LRCS_OK; LRCS_E_SYSTEM. */
 int lrcs_host_output_close(lrcs_host_output *output, int keep, lrcs_host_error *error);
 
@@ -70,9 +71,9 @@ typedef struct lrcs_host_notices {
 typedef struct lrcs_host_options {
     double unit_m;               /* metres per unit of a model file; 0: not given, 1 m */
     int keep_transparent;        /* do not leave out fully transparent facets */
-    const char *two_sided;       /* what reflects from both sides beside what files say: "all";
-                                    "open": what is no closed surface; a part's, object's or
-                                    material's name; NULL: nothing */
+    const char *two_sided;       /* what reflects from both sides in addition to what files state:
+                                    "all"; "open": surfaces that are not closed; the name of a
+                                    part, object or material; NULL: nothing */
     const lrcs_binding *binding; /* from the command line: kinds NAME, COLOUR, DEFAULT */
     uint32_t binding_count;
     lrcs_build_options build;
@@ -80,8 +81,8 @@ typedef struct lrcs_host_options {
 
 lrcs_host_options lrcs_host_options_default(void);
 
-/* A regular file that a scene was read from: its name, FNV-1a of its bytes, and which file that
-   was. */
+/* A regular file that a scene was read from: its name, the FNV-1a hash of its bytes, and its device
+   and inode number. */
 typedef struct lrcs_host_input {
     const char *path;
     uint64_t hash, device, node;
@@ -105,7 +106,7 @@ enum lrcs_host_pose_stage {
     LRCS_HOST_POSE_STAGES
 };
 
-/* A scene with all that it stands on. Zero it before the first read; free it in any case. */
+/* A scene with everything that it owns. Set it to zero before the first read; always free it. */
 typedef struct lrcs_host_scene {
     lrcs_recipe recipe;
     lrcs_mesh *model; /* one for each part of the recipe; all zero for shapes */
@@ -115,50 +116,53 @@ typedef struct lrcs_host_scene {
     lrcs_host_input *input; /* every file read, the last one first; NULL: none */
     const char *two_sided;  /* as in lrcs_host_options, which must outlive the scene */
     double seconds_load, seconds_prepare;
-    double seconds_stage[LRCS_HOST_PREPARE_STAGES]; /* of seconds_prepare, in the work area that
-                                                       sufficed */
+    double seconds_stage[LRCS_HOST_PREPARE_STAGES]; /* of seconds_prepare, in the last attempt,
+                                                       whose work area sufficed */
     void *blocks;                                   /* memory owned */
 } lrcs_host_scene;
 
 /* Loads a scene: a model file (3DS, OBJ with its MTL, STL), a scene file, or "demo", which is
-   built in. Model files of a scene file are sought from the scene file's folder, a material file
-   beside its OBJ.
-   Returned: scene->scene, and notices about what was met. scene.unmatched is for the caller to
-   judge: it indexes scene->recipe.binding.
+   built in. Paths of model files in a scene file are relative to the scene file's folder; a
+   material file is read from the folder of its OBJ file.
+   Returned: scene->scene, and notices about what was found. The caller decides whether
+   scene.unmatched is an error: it indexes scene->recipe.binding.
    Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_ARGUMENT (a unit for a scene file, which states its
    own); LRCS_E_NAME (two_sided: no such part or material); as lrcs_3ds_read, lrcs_recipe_read and
    lrcs_scene_build. */
 int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrcs_host_scene *scene,
                          lrcs_host_error *error);
 
-/* Builds a scene from a recipe of shapes alone. Of the recipe, only its texts must outlive the
+/* Builds a scene from a recipe that has only shapes. Only the recipe's strings must outlive the
    scene; scene->recipe stays empty. Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_scene_build. */
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
 
-/* Builds a scene anew from a recipe that has the parts of base->recipe, in their order and with
-   their models, two-sided where base is, and may differ in all else: places, joints, shapes,
-   materials. `base` and the recipe's texts must outlive the scene; scene->recipe stays empty.
+/* Builds a variant of a scene. The recipe has the parts of base->recipe, in their order and with
+   their models; parts are two-sided where those of base are. Everything else may differ: places,
+   joints, shapes, materials. `base` and the recipe's strings must outlive the scene; scene->recipe
+   stays empty.
    Status: as lrcs_host_scene_make. */
 int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          const lrcs_build_options *build, lrcs_host_scene *scene,
                          lrcs_host_error *error);
 
-/* Would writing `path` replace a file that the scene was read from, under whatever name or link?
-   Status: LRCS_OK; LRCS_E_ARGUMENT: it would, and the sentence names both. */
+/* Checks that writing `path` would not replace a file that the scene was read from, under any name
+   or link. Status: LRCS_OK; LRCS_E_ARGUMENT: it would; the sentence names both files. */
 int lrcs_host_output_check(const char *path, const lrcs_host_scene *scene, lrcs_host_error *error);
 
-/* Are two output paths one file, there already or yet to be written? 1 or 0. */
+/* 1 if two output paths refer to the same file, whether it exists or not; else 0. */
 int lrcs_host_output_same(const char *path, const char *other);
 
-/* The box of all facets that are not left out, m, body frame; all zero without any. */
+/* The bounding box of all facets that are not omitted, m, body frame; all zero if there are none.
+ */
 void lrcs_host_scene_box(const lrcs_scene *scene, double least[3], double most[3]);
 
-/* Does what is done once a scene. Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_prepare_run. */
+/* Prepares a scene, once for all poses: lrcs_prepare_run with memory from the heap.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_prepare_run. */
 int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error);
 
-/* sigma from a pose of a prepared scene: lrcs_sigma_run with memory from the heap. Where that is
-   short, less is tried, and result->flags says so.
+/* sigma of a prepared scene for a pose: lrcs_sigma_run with memory from the heap. If the heap
+   cannot provide enough, a smaller work area is tried, and result->flags says so.
    Returned: result; records and image unless NULL; seconds unless NULL.
    Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_sigma_run. */
 int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
@@ -166,8 +170,8 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error);
 
-/* Runs a pose up to a stage (lrcs_host_pose_stage) and drops what it found: to time what stages
-   take, one by one. options->method is not AUTO, which may go through stages more than once.
+/* Runs a pose up to a stage (lrcs_host_pose_stage) and discards the results, to measure the time of
+   single stages. options->method must not be AUTO, which may run stages more than once.
    Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_ARGUMENT (the method or the stage); as lrcs_sigma_run. */
 int lrcs_host_scene_run_until(const lrcs_host_scene *scene, const lrcs_pose *pose,
                               const lrcs_run_options *options, int stage, lrcs_host_error *error);
@@ -181,7 +185,7 @@ int lrcs_host_scene_emulate(const lrcs_host_scene *scene, const lrcs_pose *pose,
 
 void lrcs_host_scene_free(lrcs_host_scene *scene);
 
-/* The visible polygons of a pose, in memory of their own: lrcs_polygon_run, and what gives it back.
+/* The visible polygons of a pose, in memory of their own: lrcs_polygon_run, and its release.
    Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_polygon_run. */
 typedef struct lrcs_host_polygons {
     lrcs_polygons list;
@@ -191,17 +195,18 @@ int lrcs_host_polygons_make(const lrcs_host_scene *scene, const lrcs_pose *pose,
                             lrcs_host_polygons *polygons, lrcs_host_error *error);
 void lrcs_host_polygons_free(lrcs_host_polygons *polygons);
 
-/* How a mesh of a curved body serves the glint of what it wears. An ESTIMATE: the turn is the
-   median angle between neighbours that share a smoothing group, or in a scene built with curved
-   normals between those at the corners of facets in no group (engine shapes: twice the proved
-   turn), the error that of a cylinder of such facets at broadside: (dphi/2)^2 / 6 for the chords
-   and 2 exp(-(pi s / dphi)^2) for the comb. */
+/* Whether the mesh of a curved body is fine enough for the glint of its material. An ESTIMATE. The
+   turn is the median angle between neighbouring facets that share a smoothing group; in a scene
+   built with curved normals, for facets in no group, between the normals at their corners; for
+   engine shapes, twice the proved turn. The error is that of a cylinder of such facets at
+   broadside: (dphi/2)^2 / 6 for the chords and 2 exp(-(pi s / dphi)^2) for the comb (the ripple
+   of the sum over discrete normals). */
 typedef struct lrcs_host_glint {
     uint32_t part, material; /* of the scene */
     double s;                /* the material's slope */
     double turn;             /* dphi, rad */
     double error;            /* relative, at the worst aspect, an estimate */
-    double around_1_percent; /* facets around a full turn that 1 % and 0.1 % need */
+    double around_1_percent; /* facets per full turn needed for an error of 1 % and of 0.1 % */
     double around_01_percent;
 } lrcs_host_glint;
 
@@ -224,33 +229,34 @@ typedef struct lrcs_host_readings {
     uint32_t count;
     char **name; /* in the order of their first reading; one "" where the file names none */
     uint32_t name_count;
-    int noise; /* LRCS_FIT_GIVEN: there are sigmas; _WEIGHTED: weights, sigma is their -1/2nd
-                  power; else LRCS_FIT_ABSOLUTE */
-    lrcs_host_notices notices; /* columns not used, lines left out */
+    int noise; /* LRCS_FIT_GIVEN: the file has sigmas; _WEIGHTED: it has weights, and sigma is
+                  weight^(-1/2); else LRCS_FIT_ABSOLUTE */
+    lrcs_host_notices notices; /* unused columns, skipped lines */
 } lrcs_host_readings;
 
-/* Reads a table (lrcs/table.h) with a line for each reading. A first line whose first field is no
-   number names the columns, in any order: angle or theta (deg), brdf, reading or value, and where
-   there are any sigma (or error, std), weight (in proportion to 1/sigma^2; 0 leaves the line out),
-   material (or sample); other columns are not used. Without it they are angle, brdf and, where
-   there is a third, sigma. A line whose value is empty, "nan" or "NA" is left out. Status: LRCS_OK;
+/* Reads a table (lrcs/table.h) with one line per reading. If the first field of the first line is
+   not a number, that line names the columns, in any order: angle or theta (deg); brdf, reading or
+   value; optionally sigma (or error, std), weight (proportional to 1/sigma^2; a line with 0 is
+   skipped), material (or sample); other columns are not used. Without such a line the columns are
+   angle, brdf and, if there is a third, sigma. A line whose value is empty, "nan" or "NA" is
+   skipped. Status: LRCS_OK;
    LRCS_E_SYSTEM; LRCS_E_SYNTAX, _NUMBER, _NAME, _EMPTY, _LIMIT: the sentence names the line, what
    was found there and what was expected. On failure there is nothing to free. */
 int lrcs_host_readings_read(const char *path, lrcs_host_readings *readings, lrcs_host_error *error);
 void lrcs_host_readings_free(lrcs_host_readings *readings);
 
-/* ---- writers: none looks at write errors, lrcs_host_output_close does ---- */
+/* ---- writers: none checks for write errors; lrcs_host_output_close does ---- */
 
-/* The per-facet table of a run: header and one row for every facet. */
+/* The per-facet table of a run: a header and one row per facet. */
 void lrcs_host_facets_write(FILE *out, const lrcs_scene *scene, const lrcs_facet_record *records);
-/* That of visible polygons: header and one row for every point, rings counted from 0. */
+/* The table of visible polygons: a header and one row per point; rings are counted from 0. */
 void lrcs_host_polygons_write(FILE *out, const lrcs_polygons *polygons);
 
-/* JSON as it is written: one container inside another, commas and escapes by themselves. */
+/* A JSON writer: containers nest; commas and escapes are written automatically. */
 enum lrcs_host_json_kind {
-    LRCS_HOST_OBJECT, /* one item a line */
+    LRCS_HOST_OBJECT, /* one item per line */
     LRCS_HOST_ARRAY,
-    LRCS_HOST_ROW_OBJECT, /* all in one line, and so is what it holds */
+    LRCS_HOST_ROW_OBJECT, /* all in one line, including nested containers */
     LRCS_HOST_ROW_ARRAY
 };
 typedef struct lrcs_host_json {
@@ -263,7 +269,7 @@ typedef struct lrcs_host_json {
 } lrcs_host_json;
 
 lrcs_host_json lrcs_host_json_make(FILE *out);
-/* key: NULL inside arrays and at the top. At most 16 levels deep. */
+/* key: NULL inside arrays and at the top level. At most 16 levels. */
 void lrcs_host_json_begin(lrcs_host_json *json, const char *key, int kind);
 void lrcs_host_json_end(lrcs_host_json *json);
 void lrcs_host_json_text(lrcs_host_json *json, const char *key, const char *text); /* NULL: null */
@@ -272,28 +278,29 @@ void lrcs_host_json_number(lrcs_host_json *json, const char *key,
 void lrcs_host_json_count(lrcs_host_json *json, const char *key, uint64_t value);
 void lrcs_host_json_bool(lrcs_host_json *json, const char *key, int value);
 
-/* PNG, 8 bits a channel; channels 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha.
+/* Writes a PNG, 8 bits per channel; channels: 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha.
    Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_LIMIT (2 GiB); LRCS_E_SYSTEM (memory). */
 int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, uint32_t height,
                         uint32_t channels, lrcs_host_error *error);
 
-/* Text in an HTML page, between tags or in quotes; what is not UTF-8, or no character of a page,
-   becomes U+FFFD. And bytes as base64 (RFC 4648), for data: addresses. */
+/* Writes text into an HTML page, between tags or in quotes; bytes that are not UTF-8 and characters
+   that HTML does not allow become U+FFFD. lrcs_host_html_base64 writes bytes as base64 (RFC 4648),
+   for data: URLs. */
 void lrcs_host_html_text(FILE *out, const char *text);
 void lrcs_host_html_base64(FILE *out, const unsigned char *bytes, size_t size);
 
 /* ---- charts ---- */
 
-/* Where things stand on a chart's or map's paper: below its title and note; and the square that one
-   about a pole is drawn in, its numbers included. A page that has words of its own shows no more.
- */
+/* The layout of charts and maps: the size of the drawing, the height of title and note, and the
+   square that a polar chart occupies with its numbers. A page that has its own title and text can
+   crop a chart to its plot by these. */
 #define LRCS_HOST_CHART_WIDTH      860.0
 #define LRCS_HOST_CHART_HEIGHT     520.0
 #define LRCS_HOST_CHART_TITLE      50.0
 #define LRCS_HOST_CHART_POLAR_LEFT 72.0
 #define LRCS_HOST_CHART_POLAR_SIDE 464.0
 
-/* Colours that eyes of every kind tell apart (M. Okabe and K. Ito, 2008). */
+/* Colours that remain distinguishable with colour vision deficiency (M. Okabe and K. Ito, 2008). */
 enum lrcs_host_colour {
     LRCS_HOST_BLACK,
     LRCS_HOST_ORANGE,
@@ -314,13 +321,14 @@ enum lrcs_host_marker {
 };
 enum lrcs_host_dash { LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED, LRCS_HOST_NO_LINE };
 
-/* Points joined in their order, but for LRCS_HOST_NO_LINE. Those that an axis cannot show (not
-   finite, beyond 1e288; log: not above 1e-288) are left out, and leave a gap. */
+/* Points, joined in their order unless dash is LRCS_HOST_NO_LINE. Points that an axis cannot show
+   (not finite, beyond 1e288; log: not above 1e-288) are omitted, and leave a gap in the line. */
 typedef struct lrcs_host_series {
     const char *name; /* in the legend, or NULL: not listed */
     uint32_t count;
     const double *x, *y;
-    const char *const *label; /* beside its point where there is room, NULL for none; or NULL */
+    const char *const *label; /* one per point, drawn where there is room; NULL: no labels, or no
+                                 label for that point */
     int colour, marker, dash; /* lrcs_host_colour, ... */
     int hollow;               /* markers are outlines */
 } lrcs_host_series;
@@ -330,12 +338,12 @@ typedef struct lrcs_host_chart {
     const char *x_name, *y_name;
     int x_log, y_log;
     int x_deg;    /* x is an angle, deg: ticks every 30, 45, .. */
-    int y_from_0; /* the y axis begins at 0, whatever is shown; not with y_log */
-    int polar;    /* about a pole: x is an angle, deg, counter-clockwise from the right, y grows
-                     away from the pole, where all is that lies 40 or more below the largest, or 0
-                     where y begins there */
-    double floor; /* log y: what lies below it, 0 as well, is drawn on it with an arrow down;
-                     0: none */
+    int y_from_0; /* the y axis begins at 0 regardless of the data; not with y_log */
+    int polar;    /* polar chart: x is an angle, deg, counter-clockwise from the right; y is the
+                     distance from the pole. The pole is 0 with y_from_0; otherwise it is 40 below
+                     the largest y, and smaller values are drawn there */
+    double floor; /* log y: smaller values, including 0, are drawn at this value with a downward
+                     arrow; 0: none */
     const char *floor_name; /* in the legend */
     const lrcs_host_series *series;
     uint32_t series_count;
@@ -345,18 +353,18 @@ typedef struct lrcs_host_chart {
 void lrcs_host_chart_svg(FILE *out, const lrcs_host_chart *chart);
 int lrcs_host_chart_png(FILE *out, const lrcs_host_chart *chart, lrcs_host_error *error);
 
-/* A quantity over two others as colours with contours, drawn between its points. */
+/* A quantity as a function of two others, as colours with contours, interpolated between points. */
 typedef struct lrcs_host_map {
     const char *title, *note;             /* as a chart's */
     const char *x_name, *y_name, *z_name; /* z: beside the scale of colours */
-    uint32_t columns, rows;               /* 2 of each at least */
+    uint32_t columns, rows;               /* at least 2 of each */
     const double *x, *y;                  /* ascending: columns of x, rows of y */
     const double *z;                      /* z[row * columns + column]; not finite: grey */
-    double deep;      /* the scale reaches no further below the largest; 0: all */
+    double deep;      /* the colour scale covers at most this range below the largest; 0: all */
     int x_deg, y_deg; /* these are angles, deg */
 } lrcs_host_map;
 
-/* As charts; where there are more points than can be told apart, several share a mean.
+/* As for charts. If there are more points than can be resolved, several are averaged.
    Status: LRCS_OK; LRCS_E_SYSTEM. */
 void lrcs_host_map_svg(FILE *out, const lrcs_host_map *map);
 int lrcs_host_map_png(FILE *out, const lrcs_host_map *map, lrcs_host_error *error);

@@ -15,7 +15,7 @@ typedef struct lrcs_facet {
     uint32_t corner[3];
 } lrcs_facet;
 
-/* A material as the file names it. It says nothing of reflection: binding does that. */
+/* A material as the file names it. It has no reflection parameters: bindings assign them. */
 typedef struct lrcs_surface {
     const char *name;     /* UTF-8, never NULL; bytes that are not UTF-8 were read as Latin-1 */
     unsigned char rgb[3]; /* diffuse colour, 0..255 */
@@ -24,7 +24,7 @@ typedef struct lrcs_surface {
     double transparency; /* 0 opaque .. 1 invisible */
 } lrcs_surface;
 
-/* What the reader met and the user should know: bits of lrcs_mesh.notices. */
+/* What the reader found and the user should know: bits of lrcs_mesh.notices. */
 enum lrcs_mesh_notice {
     LRCS_MESH_KEYFRAMER = 1 << 0,          /* animation nodes present, ignored */
     LRCS_MESH_LOCAL_MATRIX = 1 << 1,       /* mesh matrices other than the identity, ignored */
@@ -32,10 +32,10 @@ enum lrcs_mesh_notice {
     LRCS_MESH_TRAILING_BYTES = 1 << 3,     /* bytes after the end, or a length that disagrees */
     LRCS_MESH_OVERLAPPING_GROUPS = 1 << 4, /* a facet in two material groups: the last won */
     LRCS_MESH_LATIN1_NAMES = 1 << 5,       /* names that were not UTF-8 */
-    LRCS_MESH_NORMALS_DISAGREE = 1 << 6    /* STL: stored normals against the winding */
+    LRCS_MESH_NORMALS_DISAGREE = 1 << 6    /* STL: stored normals opposite to the winding */
 };
 
-/* Counts of stored items. STL vertices are to be welded: their count is an upper bound. */
+/* Counts of stored items. STL vertices are welded on reading, so their count is an upper bound. */
 typedef struct lrcs_mesh_counts {
     uint32_t vertices, facets, materials, parts;
     size_t text_bytes; /* names, with their terminators */
@@ -61,22 +61,22 @@ typedef struct lrcs_mesh {
     lrcs_facet *facet_normal; /* at each corner an index into normal, or LRCS_NONE */
 } lrcs_mesh;
 
-/* What is wrong or remarkable in a mesh. Edges match by bitwise equal positions (-0 equals 0).
-   Facets that are degenerate (zero area in exact arithmetic) take part in no other count. */
+/* Defects and properties of a mesh. Edges match by bitwise equal positions (-0 equals 0).
+   Degenerate facets (zero area in exact arithmetic) are excluded from all other counts. */
 typedef struct lrcs_mesh_report {
     uint32_t vertices;             /* distinct positions that facets use */
-    uint32_t edges;                /* distinct edges between those */
-    uint32_t degenerate;           /* facets of exactly no area */
-    uint32_t duplicate;            /* facets on the same three points as an earlier one */
-    uint32_t opposite_pairs;       /* of those, the ones that face the other way */
+    uint32_t edges;                /* distinct edges between them */
+    uint32_t degenerate;           /* facets of exactly zero area */
+    uint32_t duplicate;            /* facets with the same three points as an earlier one */
+    uint32_t opposite_pairs;       /* duplicates with the opposite winding */
     uint32_t boundary_edges;       /* used by one facet */
     uint32_t nonmanifold_edges;    /* used by three or more */
     uint32_t misoriented_edges;    /* used by two facets in the same direction */
-    int closed;                    /* directed edges balance (as many one way as the other) */
+    int closed;                    /* every edge is used equally often in both directions */
     int convex;                    /* closed, one piece, and exactly convex: no self-shadowing */
     double box_min[3], box_max[3]; /* of the vertices that facets use */
     double area;
-    double volume; /* signed, about the box centre; a volume only where closed */
+    double volume; /* signed, about the box centre; meaningful only if closed */
 } lrcs_mesh_report;
 
 /* Bytes of work area that lrcs_mesh_check takes for a mesh of these counts (upper bound). */
@@ -88,10 +88,11 @@ size_t lrcs_mesh_check_need(uint32_t vertex_count, uint32_t facet_count);
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 1.4e9 facets).
    Work: O(n); lrcs_mesh_check_need bytes.
    Notes: 1. A mesh without facets gives zeros, an empty box at the origin, not closed.
-   2. Degenerate facets count for the box.
-   3. Exact decisions (degenerate, convex) hold for coordinates that are zero or above 2^-300;
-   below, underflow may take a facet for degenerate or a mesh for not convex.
-   4. Area is relative to a few ulp for each facet, volume to 1e-30 of the box's for each. */
+   2. The box includes degenerate facets.
+   3. Decisions are exact (degenerate, convex) if coordinates are zero or exceed 2^-300 in
+   magnitude; below that, underflow may make a facet count as degenerate or a mesh as not convex.
+   4. Errors, per facet: a few ulp relative for the area, 1e-30 of the box's volume for the volume.
+   */
 int lrcs_mesh_check(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                     uint32_t facet_count, lrcs_work *work, lrcs_mesh_report *report);
 

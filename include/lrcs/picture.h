@@ -5,44 +5,46 @@
 
 #include <lrcs/host.h>
 
-/* What colours stand for. What returns nothing is grey by its slant where a scale is. */
+/* The quantity that colours show. Where there is a colour scale, surfaces that return nothing are
+   grey, shaded by their incidence angle. */
 enum lrcs_host_look {
     LRCS_HOST_BY_SIGMA = 0, /* sigma per visible projected area, dB */
     LRCS_HOST_BY_THETA,     /* incidence angle, deg */
     LRCS_HOST_BY_RANGE,     /* m towards the laser, from the centre of the scene's box */
-    LRCS_HOST_BY_FACET,     /* none is like its neighbours */
+    LRCS_HOST_BY_FACET,     /* neighbouring facets have different colours */
     LRCS_HOST_BY_MATERIAL,  /* the model's own colour where it has one */
-    LRCS_HOST_BY_SHADE      /* the same under a lamp beside the laser, on a matt surface */
+    LRCS_HOST_BY_SHADE      /* as BY_MATERIAL, a matt surface lit by a lamp beside the laser */
 };
 
-/* The look's name ("sigma", "theta", "range", "facet", "material", "shaded"), or NULL. And back:
-   LRCS_E_NAME for none. */
+/* The name of a colour mapping ("sigma", "theta", "range", "facet", "material", "shaded"), or
+   NULL. lrcs_host_look_find is the inverse: LRCS_E_NAME for an unknown name. */
 const char *lrcs_host_look_text(int look);
 int lrcs_host_look_find(const char *name);
 
 typedef struct lrcs_host_picture {
     const lrcs_scene *scene;
     const lrcs_pose *pose;
-    const lrcs_facet_record *records; /* of a run from that pose */
-    const char *title;                /* what a drawing calls itself */
+    const lrcs_facet_record *records; /* of a run for that pose */
+    const char *title;                /* title element of an SVG drawing */
     int look;                         /* lrcs_host_look */
-    int white;                        /* on white paper; 0: on a dark ground */
+    int white;                        /* 1: white background; 0: dark background */
 } lrcs_host_picture;
 
-/* A picture of `size` x `size` pixels (16 .. 16384) as PNG, with its legend and a bar of some
-   metres. The image is the run's, of the side that lrcs_host_picture_need gives, for which a
-   picture needs no records yet. Status: LRCS_OK; LRCS_E_SYSTEM (memory); LRCS_E_LIMIT. */
+/* Writes a picture of `size` x `size` pixels (16 .. 16384) as PNG, with a legend and a scale bar in
+   metres. `image` comes from the run and has the size that lrcs_host_picture_need returns;
+   lrcs_host_picture_need does not use picture->records. Status: LRCS_OK; LRCS_E_SYSTEM (memory);
+   LRCS_E_LIMIT. */
 uint32_t lrcs_host_picture_need(const lrcs_host_picture *picture, uint32_t size);
 int lrcs_host_picture_png(FILE *out, const lrcs_host_picture *picture, const lrcs_image *image,
                           uint32_t size, lrcs_host_error *error);
 
-/* The same from visible polygons, as SVG 1.1: for each facet a path "f12", in metres of the
-   observation frame, to the last digit. */
+/* The same from visible polygons, as SVG 1.1: one path per facet ("f12"), in metres of the
+   observation frame, with all 17 significant digits. */
 void lrcs_host_picture_svg(FILE *out, const lrcs_host_picture *picture,
                            const lrcs_polygons *polygons);
 
-/* The scene's facets in the body frame (m) with what the laser sees of each, as ParaView and VTK
-   read it: XML PolyData (.vtp, text) or the legacy format (.vtk, binary).
+/* Writes the scene's facets in the body frame (m) with the visible part of each, for ParaView and
+   VTK: XML PolyData (.vtp, text) or the legacy format (.vtk, binary).
    Cell data: cos_theta, area_m2, visible_area_m2 (projected), visible_fraction (of the projected
    area; 0 where that is 0), sigma_m2, material, part. Field data: direction (to the laser, body
    frame, unit length). */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Where the laser stands and how the body is turned.
+/* The direction to the laser and the attitude of the body.
    Observation frame o-xyz: z points to the laser. R maps body to observation coordinates,
    v_obs = R v_body, so the direction to the laser in the body frame is R^T (0, 0, 1). */
 #ifndef LRCS_POSE_H
@@ -7,15 +7,15 @@
 
 #include <lrcs/status.h>
 
-/* The certificate takes `direction` as exact: s_hat = direction / |direction|. Of R only the roll
-   about it counts, which places pictures and samples: runs take R's first row and make the axes
-   anew, so that rounding in R does no harm. A pose that is none is refused, wherever it comes from:
-   LRCS_E_NUMBER where a number is not finite; LRCS_E_ARGUMENT where the direction's largest
-   component is not in [0.5, 1], or R differs by more than 2^-20 from a rotation that takes s_hat to
-   z (single precision is near enough). */
+/* The proved bound takes `direction` as exact: s_hat = direction / |direction|. Only the roll about
+   s_hat is taken from R; it orients pictures and samples. Runs use the first row of R and recompute
+   the axes, so that rounding errors in R have no effect. Every function that takes a pose rejects
+   an invalid one: LRCS_E_NUMBER if a number is not finite; LRCS_E_ARGUMENT if the largest component
+   of the direction is not in [0.5, 1], or if R differs by more than 2^-20 from a rotation that
+   takes s_hat to z (a rotation in single precision is accurate enough). */
 typedef struct lrcs_pose {
-    double direction[3]; /* body frame, to the laser; |largest| in [0.5, 1]; what is below 2^-300
-                            counts as 0 */
+    double direction[3]; /* body frame, to the laser; |largest| in [0.5, 1]; components below
+                            2^-300 in magnitude count as 0 */
     double R[3][3];      /* rows: observation x, y, z axes in the body frame */
 } lrcs_pose;
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* From parts to a placed scene. A recipe lists parts (a model file or a shape), where each
-   stands, how its joint is turned and which material it wears; building it makes one facet
-   list in metres in the body frame. */
+/* From parts to a placed scene. A recipe lists parts (a model file or a shape) with their
+   placement, joint angle and material; building it makes one facet list in metres in the body
+   frame. */
 #ifndef LRCS_SCENE_H
 #define LRCS_SCENE_H
 
 #include <lrcs/shape.h>
 
-/* A material of the scene: what facets refer to. */
+/* A material of the scene; facets refer to it by index. */
 typedef struct lrcs_material {
     const char *name; /* the file's or the recipe's name; "" for the default */
     lrcs_brdf brdf;
@@ -15,7 +15,7 @@ typedef struct lrcs_material {
     unsigned char has_colour;
     unsigned char two_sided;
     unsigned char omitted; /* fully transparent: its facets are left out of the scene */
-    unsigned char bound;   /* 0: wears lrcs_brdf_default for want of a binding */
+    unsigned char bound;   /* 0: no binding applies, brdf is lrcs_brdf_default */
 } lrcs_material;
 
 /* place = translate * rotate * scale, applied after the joint. */
@@ -25,7 +25,8 @@ typedef struct lrcs_place {
     double scale[3];     /* metres per model unit along the part's axes; negative mirrors */
 } lrcs_place;
 
-/* A turn about an axis through an origin, in the part's own frame and units, before its place. */
+/* A rotation about an axis through an origin, in the part's own frame and units, applied before its
+   place. */
 typedef struct lrcs_joint {
     int used;
     double axis[3];
@@ -40,7 +41,7 @@ typedef struct lrcs_recipe_part {
     const char *file; /* model file, or NULL for a shape */
     lrcs_shape shape; /* used where file is NULL */
     lrcs_place place;
-    int unit_given; /* of a model file: its unit was stated; else metres are assumed */
+    int unit_given; /* model file: 1 if its unit was stated; else metres are assumed */
     lrcs_joint joint;
     const char *material;   /* name of a material for the whole part, or NULL: the model's own */
     int wears;              /* the same, as an index into the recipe's materials; -1 for none,
@@ -57,15 +58,15 @@ typedef struct lrcs_recipe_material {
     uint32_t line;
 } lrcs_recipe_material;
 
-/* Which material a model's facets get. The first of these that answers:
+/* Which material a model's facets get: the first of these that applies:
      1. NAME, then COLOUR, of the facet's material as the model gives it (the command line);
      2. the part's own material, on every facet of the part;
      3. MAP_NAME, then MAP_COLOUR (the scene file);
-     4. a material of the library that has the name of the model's material;
+     4. a material of the library with the same name as the model's material;
      5. DEFAULT;
      6. lrcs_brdf_default, unbound.
-   A shape's facets have only 2, 5 and 6. A NAME also replaces the material of that name wherever
-   2, 3 or 5 put it, so that the command line can change a scene file's materials. */
+   For the facets of a shape only 2, 5 and 6 apply. A NAME also replaces the material of that name
+   wherever 2, 3 or 5 assigned it, so that the command line can change a scene file's materials. */
 enum lrcs_binding_kind {
     LRCS_BIND_NAME,
     LRCS_BIND_COLOUR,
@@ -94,12 +95,12 @@ typedef struct lrcs_recipe {
 } lrcs_recipe;
 
 /* Reads a scene file: a strict subset of TOML 1.0 (examples/satellite.toml shows all of it).
-   Unknown keys, wrong types, missing or doubled names are errors with a line. Model files are
-   named, not opened.
+   Unknown keys, wrong types, and missing or duplicate names are errors with a line number. Model
+   files are not opened; the recipe has their names.
    Given: text, size bytes, not terminated.
    Returned: recipe, in the work area, with its strings: it does not refer to the text.
    Status: LRCS_OK; _SYNTAX; _UNSUPPORTED (TOML outside the subset, another schema); _NAME
-   (unknown, missing, doubled); _ARGUMENT (wrong type or form); _NUMBER (out of range); _MEMORY;
+   (unknown, missing, duplicate); _ARGUMENT (wrong type or form); _NUMBER (out of range); _MEMORY;
    _LIMIT; _EMPTY (no part).
    Work: lrcs_recipe_need(size), an upper bound that grows linearly with size; O(size). */
 size_t lrcs_recipe_need(size_t size);
@@ -112,31 +113,34 @@ typedef struct lrcs_part {
     int kind; /* lrcs_shape_kind, or -1 for a model file */
     uint32_t first_facet, facet_count;
     lrcs_curvature curvature; /* of an engine-made shape; zero for a model */
-    int curvature_known; /* 0 where rounding in placing left a facet without area, or a matrix given
-                            as a rotation is none; 1 for models (nothing to know) */
-    double uneven;       /* 1 + this bounds how much more or less than on average over a facet a
-                            scale that differs between axes stretches areas within its patch */
+    int curvature_known; /* 0 if rounding in placing left a facet with zero area, or a matrix given
+                            as a rotation is not one; 1 for models (where it does not apply) */
+    double uneven;       /* a scale that differs between axes stretches areas unevenly: 1 + this
+                            bounds the ratio, either way, of the stretch at a point of a patch to
+                            its mean over the facet */
     int convex_patch;    /* a piece of a convex surface by construction, up to rounding */
     int solid;           /* a closed outward solid by construction, up to rounding */
     double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
-    double misplaced;    /* m, bound on the rounding of its placed vertices */
-    double tilted;    /* rad, bound on how placing tilts facets where reach > 0; in curvature too */
-    double reach;     /* m, no point of the true surface is farther from its place on the
-                         facets; 0 where the facets are the truth */
-    int articulated;  /* stands on a joint */
+    double misplaced;    /* m, bound on the rounding error of its placed vertices */
+    double tilted;    /* rad, bound on the rotation of facet normals by rounding in placing, where
+                         reach > 0; included in curvature */
+    double reach;     /* m, bound on the distance of a point of the true surface from its place on
+                         the facets; 0 where the facets are the truth */
+    int articulated;  /* has a joint */
     int smoothed;     /* its model has smoothing groups or vertex normals */
-    int rigid;        /* an engine-made shape placed by turns, mirrors and one scale for all axes:
-                         what follows holds, and its closed form may serve */
+    int rigid;        /* an engine-made shape placed by rotations, reflections and one scale for all
+                         axes: the fields below are valid, and its closed form may be used */
     lrcs_shape shape; /* in its own units */
-    double unit;      /* metres for each of them */
-    double origin[3]; /* m, where its origin stands, to within `misplaced` */
-    double axis[3][3];     /* unit vectors, body frame: where its x, y and z axes point; rounded, */
-    double axis_low[3][3]; /* and together with these to 2^-97. Truth is the shape turned by the */
-    int axis_exact;        /* rotations nearest to the matrices given; 1: nothing was rounded */
+    double unit;      /* metres per unit */
+    double origin[3]; /* m, position of its origin, to within `misplaced` */
+    double axis[3][3]; /* unit vectors, body frame: its x, y and z axes, rounded; axis + */
+    double axis_low[3]
+                   [3]; /* axis_low is accurate to 2^-97. The truth is the shape rotated by the */
+    int axis_exact;     /* rotations nearest to the matrices given; 1: nothing was rounded */
 } lrcs_part;
 
-/* The scene: what the engine sees. Facets keep the order of the recipe's parts and of each
-   file, degenerate and omitted ones included. */
+/* The scene, the engine's input. Facets keep the order of the recipe's parts and of each file,
+   including degenerate and omitted facets. */
 typedef struct lrcs_scene {
     uint32_t vertex_count, facet_count, material_count, part_count;
     lrcs_point *vertex; /* m, body frame */
@@ -146,56 +150,59 @@ typedef struct lrcs_scene {
     uint32_t *facet_smooth;   /* smoothing groups, as in lrcs_mesh */
     lrcs_material *material;
     lrcs_part *part;
-    int normals;               /* lrcs_normals asked for */
-    lrcs_point *corner_normal; /* unit normals at corner k of facet f: [3 f + k]; three zeros for a
-                                 flat facet; NULL where all are flat */
+    int normals;               /* lrcs_normals, as requested */
+    lrcs_point *corner_normal; /* unit normal at corner k of facet f: [3 f + k]; three zeros for a
+                                 flat facet; NULL if all facets are flat */
     uint32_t unmatched; /* the first NAME or COLOUR binding that matched nothing, or LRCS_NONE */
 } lrcs_scene;
 
-/* Which facets of models get curved normals, interpolated from those at their corners. */
+/* Which facets of models get curved normals, interpolated from the normals at their corners. */
 enum lrcs_normals {
     LRCS_NORMALS_FLAT = 0, /* none: Eq. 2 over facets */
-    LRCS_NORMALS_AUTO,     /* where the glint of the material calls for them: where the estimated
+    LRCS_NORMALS_AUTO,     /* where the glint of the material requires them: where the estimated
                               error of flat facets exceeds the tolerance */
     LRCS_NORMALS_SMOOTH    /* wherever a file gives vertex normals or smoothing groups */
 };
 
-/* The name ("flat", ...), or NULL. And back: LRCS_E_NAME for none. */
+/* The name ("flat", ...), or NULL. lrcs_normals_find is the inverse: LRCS_E_NAME for an unknown
+   name. */
 const char *lrcs_normals_text(int normals);
 int lrcs_normals_find(const char *name);
 
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
-    double tolerance;    /* relative, > 0, of a shape alone; among other parts small ones may be
-                            coarser, and a sphere, dome or paraboloid is divided for ten times
+    double tolerance;    /* relative, > 0, for a shape alone; among other parts, small shapes may be
+                            coarser, and a sphere, dome or paraboloid is tessellated for ten times
                             this, at least 1e-4 */
-    uint32_t max_facets; /* a shape's most */
+    uint32_t max_facets; /* limit for one shape */
     int normals;         /* lrcs_normals */
-    int facets_only;     /* 1: of a shape alone, too, facets are to be good for the tolerance, for
-                            runs by a method that was asked for. 0: where its closed form serves
-                            method auto from every direction, it gets a few hundred facets, for
-                            pictures and records */
+    int facets_only;     /* 1: the facets of a shape alone meet the tolerance too, for runs that
+                            request a method. 0: where method auto can use its closed form from
+                            every direction, it gets only a few hundred facets, for pictures and
+                            records */
 } lrcs_build_options;
 
 lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat, 0 */
 
-/* Builds the scene: vertex = translate + rotate (scale (joint (vertex))), where steps that do
-   nothing are exact, and so is a scale by powers of two; mirroring flips the winding.
+/* Builds the scene: vertex = translate + rotate (scale (joint (vertex))). Identity steps are exact,
+   and so is scaling by powers of two; mirroring reverses the winding.
    Given: recipe; models[i] the mesh of part i (ignored for shapes; models may be NULL where all
    are shapes); options.
    Returned: scene, in the work area. Its names point into the recipe, the models and the library.
-   Materials: for each model part one for each of the model's, in the model's order and whether
-   used or not; one for each recipe material that parts wear; one named "" for facets without.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_NAME (a material that nothing defines);
+   Materials: for each model part, one for each material of the model, used or not, in the model's
+   order; one for each recipe material that is assigned to a part; one named "" for facets without
+   a material.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_NAME (an undefined material);
    LRCS_E_ARGUMENT (a scale of zero, a joint without axis, options outside their range);
    LRCS_E_NUMBER (a place that is not finite, coordinates above 1e100 m after placing);
    LRCS_E_INDEX (a mesh with an index out of range); LRCS_E_LIMIT; as lrcs_shape_check.
-   `where` has the part's line, and what is at fault in `found`.
-   Curved normals: a corner's vertex normal, placed by the inverse transpose; else, in a smoothing
-   group, the mean of the normals of the facets that share the vertex (by index) and a group, by
-   their angles there; else the facet's own. Vertex normals that all point behind their facet are
-   turned round, others that do not point in front give way to the facet's own: the winding decides.
-   Shapes stay flat: they are tessellated to the tolerance.
+   `where` has the part's line; `found` says what is wrong.
+   Curved normals: a corner's normal is its vertex normal, transformed by the inverse transpose;
+   otherwise, in a smoothing group, the mean of the normals of the facets that share the vertex (by
+   index) and a group, weighted by their angles there; otherwise the facet's own normal. The winding
+   determines the front: vertex normals that all point behind their facet are reversed; a single one
+   that does not point to the front is replaced by the facet's own. Shapes stay flat: they are
+   tessellated to the tolerance.
    Work: at most lrcs_scene_need bytes; O(vertices + facets + bindings). */
 size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
                        const lrcs_build_options *options);

@@ -15,8 +15,8 @@
 #define LRCS_NONE UINT32_MAX
 
 /* Pointers are not NULL unless a comment says so.
-   Every fallible function returns one of these; on failure its outputs are untouched
-   (but for `where`, which then tells the place). */
+   Every function that can fail returns one of these; on failure its outputs are unchanged
+   (except `where`, which then states the place). */
 enum lrcs_status {
     LRCS_OK = 0,
     LRCS_E_ARGUMENT = -1,    /* an argument outside the documented domain */
@@ -25,26 +25,26 @@ enum lrcs_status {
     LRCS_E_TRUNCATED = -4,   /* the bytes end inside an item */
     LRCS_E_INDEX = -5,       /* an index outside its list */
     LRCS_E_NUMBER = -6,      /* a number that is not finite, or outside its range */
-    LRCS_E_NAME = -7,        /* a name that nothing answers to, or given twice */
+    LRCS_E_NAME = -7,        /* an unknown name, or a name given twice */
     LRCS_E_LIMIT = -8,       /* more items than the library holds (2^32 - 2) */
-    LRCS_E_UNSUPPORTED = -9, /* well formed, but not something this version does */
+    LRCS_E_UNSUPPORTED = -9, /* well formed, but not supported by this version */
     LRCS_E_EMPTY = -10       /* nothing to read: no bytes, no facets */
 };
 
-/* One sentence for a status; total: an unknown code has its own sentence. Never NULL. */
+/* One sentence for a status, also for unknown codes. Never NULL. */
 const char *lrcs_status_text(int status);
 
 /* The version as text, "MAJOR.MINOR.PATCH". */
 const char *lrcs_version(void);
 
 /* Where a reader stopped. `item` and `expected` point to constant text, never NULL after a
-   failure; `found` holds a printable UTF-8 excerpt or a number, cut to fit. */
+   failure; `found` holds a printable UTF-8 excerpt or a number, truncated to fit. */
 typedef struct lrcs_where {
     uint64_t offset;      /* byte offset in the input */
     uint32_t line;        /* line, counted from 1; 0 where the format has no lines */
     const char *item;     /* what was being read: "face index", "chunk 0x4110" */
-    const char *expected; /* what would have been right */
-    char found[64];       /* what stood there */
+    const char *expected; /* what the format requires there */
+    char found[64];       /* what was found instead */
 } lrcs_where;
 
 #endif

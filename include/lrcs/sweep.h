@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Many poses over one prepared scene, or each over its own, in POSIX threads (link with -pthread).
-   What comes out does not depend on the number of threads: it is what a loop over
-   lrcs_host_scene_run gives, to the bit wherever memory suffices, and comes in the same order. */
+/* Runs many poses of one prepared scene, or of one scene per pose, in POSIX threads (link with
+   -pthread). The results do not depend on the number of threads: they are those of a loop over
+   lrcs_host_scene_run, to the bit wherever memory suffices, in the same order. */
 #ifndef LRCS_SWEEP_H
 #define LRCS_SWEEP_H
 
@@ -9,49 +9,51 @@
 
 #include <signal.h>
 
-/* Stopped because it was asked to. Beside the codes of lrcs/status.h and LRCS_E_SYSTEM. */
+/* Stopped on request. In addition to the codes of lrcs/status.h and LRCS_E_SYSTEM. */
 #define LRCS_E_CANCELLED (-65)
 
-/* Says where pose number `index` is. Called from every thread: it may only read what it shares.
-   Status: LRCS_OK; any other one fails that pose. */
+/* Callback: makes pose number `index`. Called from every thread: it must not modify shared data.
+   Status: LRCS_OK; any other status fails that pose. */
 typedef int lrcs_host_sweep_pose(void *context, uint64_t index, lrcs_pose *pose);
 
-/* Makes the scene of pose `index`, prepared, where each has its own. Called from every thread, as
-   above; the sweep frees what it makes. Status: LRCS_OK; any other one, with its sentence, fails
-   that pose, and leaves nothing to be freed. */
+/* Callback: makes and prepares the scene of pose `index`, if each pose has its own. Called from
+   every thread, as above; the sweep frees the scene. Status: LRCS_OK; any other status, with its
+   sentence, fails that pose; then there must be nothing to free. */
 typedef int lrcs_host_sweep_scene(void *context, uint64_t index, lrcs_host_scene *scene,
                                   lrcs_host_error *error);
 
-/* Takes one result. Called on the thread that called lrcs_host_sweep_run, in order of index, each
-   index once. Status: LRCS_OK; any other one ends the sweep with that status and its error. */
+/* Callback: takes one result. Called on the thread that called lrcs_host_sweep_run, in order of
+   index, once per index. Status: LRCS_OK; any other status ends the sweep with it and its error. */
 typedef int lrcs_host_sweep_take(void *context, uint64_t index, const lrcs_pose *pose,
                                  const lrcs_result *result, lrcs_host_error *error);
 
 typedef struct lrcs_host_sweep {
     uint64_t first, count; /* poses first .. first + count - 1 */
-    uint32_t threads;      /* at most 1024, the caller's own among them; 0: one a processor */
+    uint32_t threads;      /* at most 1024, including the caller's own; 0: one per processor */
     lrcs_host_sweep_pose *pose;
-    lrcs_host_sweep_scene *scene; /* NULL: all poses are over the scene that is given */
+    lrcs_host_sweep_scene *scene; /* NULL: all poses use the scene passed to the sweep */
     lrcs_host_sweep_take *take;
-    void *context;                       /* handed to all of them */
-    const volatile sig_atomic_t *cancel; /* set by a signal handler or by `take`, say: not 0 stops
-                                            the sweep after the poses that are running; or NULL */
+    void *context;                       /* passed to all callbacks */
+    const volatile sig_atomic_t *cancel; /* set by a signal handler or by `take`, for example: if
+                                            not 0, the sweep stops after the running poses; or NULL
+                                          */
 } lrcs_host_sweep;
 
-/* Runs them.
-   Given: a prepared scene (NULL where sweep->scene makes them); options of each run; sweep.
+/* Runs the poses of a sweep.
+   Given: a prepared scene (NULL if sweep->scene makes the scenes); options of each run; sweep.
    Returned: done unless NULL, also on failure: the first `done` poses were taken.
    Status: LRCS_OK; LRCS_E_CANCELLED; LRCS_E_ARGUMENT; LRCS_E_SYSTEM (memory); as
-   lrcs_host_scene_run or `pose` for the first pose that fails, whose number the sentence says: all
-   before it were taken, whatever the number of threads; as `take`.
-   Work: for each thread a work area that grows as the poses need it; a bounded queue of results,
-   however many poses there are. Threads that the system refuses are done without, and where a pose
-   runs short of memory the rest, itself included, is run by half as many. */
+   lrcs_host_scene_run or `pose` for the first pose that fails, whose number the sentence states:
+   all poses before it were taken, for any number of threads; as `take`.
+   Work: one work area per thread, which grows as the poses need it; a queue of results whose length
+   does not depend on the number of poses. If the system refuses threads, the sweep runs with fewer;
+   if a pose runs out of memory, that pose and the remaining ones are run by half as many threads.
+   */
 int lrcs_host_sweep_run(const lrcs_host_scene *scene, const lrcs_run_options *options,
                         const lrcs_host_sweep *sweep, uint64_t *done, lrcs_host_error *error);
 
-/* The pose after the body has turned by an angle about one of its own axes: R = R_pose R(axis,
-   deg), and the direction accordingly. Multiples of 90 deg about a coordinate axis are exact.
+/* The pose after rotating the body by an angle about one of its own axes: R = R_pose R(axis, deg),
+   and the direction accordingly. Multiples of 90 deg about a coordinate axis are exact.
    Status: LRCS_OK; LRCS_E_NUMBER (not finite); LRCS_E_ARGUMENT (an axis of zero). */
 int lrcs_host_pose_turn(const lrcs_pose *pose, const double axis[3], double deg, lrcs_pose *turned);
 

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* The work area: the caller's memory, from which the library takes in order and never frees.
-   The library holds no heap of its own. What a function leaves in the work area (a mesh, a
-   scene) lives as long as those bytes do. */
+/* The work area: memory provided by the caller, from which the library allocates in order and never
+   frees. The library has no heap of its own. What a function leaves in the work area (a mesh, a
+   scene) is valid as long as those bytes are. */
 #ifndef LRCS_WORK_H
 #define LRCS_WORK_H
 
 #include <stddef.h>
 
-/* Every block taken starts on a multiple of this many bytes. */
+/* Every allocated block starts at a multiple of this many bytes. */
 #define LRCS_WORK_ALIGN 16u
 
 typedef struct lrcs_work {
     unsigned char *bytes; /* start of the area, any alignment */
     size_t size;          /* bytes in it */
     size_t used;          /* bytes taken so far, padding included */
-    size_t peak;          /* the largest `used` ever was, also when a block was refused:
-                             then what would have been needed up to that block */
+    size_t peak;          /* the maximum of `used`; if a block was refused, it includes the bytes
+                             needed up to and including that block */
 } lrcs_work;
 
 /* A work area over `size` bytes at `bytes` (which may be NULL when size is 0). */

@@ -30,6 +30,10 @@
 
 #include "base/range.h"
 
+/* A component of more facets is left at the first event that crosses the cell. In one of so few all
+   are found, so that the cell may be cut at that which divides it best. */
+#define COMPONENT_FEW 8u
+
 /* The facet nearest to the laser at a place; all others that may cover it are then surely behind.
  */
 static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
@@ -213,7 +217,10 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             } else if (place == LRCSI_CELLS_BORDER) {
                 continue;
             } else if (next == LRCS_NONE || c->listed[next] != c->look) {
-                return 0;
+                if (c->components > COMPONENT_FEW) {
+                    return 0;
+                }
+                whole = 0;
             } else {
                 c->joined[next] = c->look;
                 c->component[c->components++] = next;

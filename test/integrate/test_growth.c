@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+/* How many steps exact visibility takes where many facets overlap. Clipping facet by facet took the
+   third power of n: each test says how many for 1,000, or 300. Limits are 1.5 times what cells of
+   the view plane take, and how much more that is for twice the facets. (A vertex far away:
+   test_far.c.) */
+#include "scenes.h"
+
+static test_scene scene;
+
+static void triangle(double ax, double ay, double az, double bx, double by, double bz, double cx,
+                     double cy, double cz)
+{
+    scene_triangle(&scene, (const double[3]){ax, ay, az}, (const double[3]){bx, by, bz},
+                   (const double[3]){cx, cy, cz});
+}
+
+/* n level strips over n level strips across. */
+static void make_hatch(int n)
+{
+    double wide = 0.5 / n;
+    for (int i = 0; i < n; i++) {
+        double at = (double)i / n;
+        scene_plate(&scene, (const double[3]){0, at, 0}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, wide, 0});
+        scene_plate(&scene, (const double[3]){at, 0, -1}, (const double[3]){wide, 0, 0},
+                    (const double[3]){0, 1, 0});
+    }
+}
+
+/* n triangles in a stack, so close that each shows a strip of the last bits of its width. */
+static void make_stack(int n)
+{
+    double z = 0;
+    for (int i = 0; i < n; i++) {
+        triangle(0, 0, z, 1, 0, z, 0, 1, z);
+        z += 1e-6;
+    }
+}
+
+/* n pages about one spine. */
+static void make_book(int n)
+{
+    uint32_t spine = scene_vertex(&scene, 0, 0, 0);
+    scene_vertex(&scene, 0, 0, 1);
+    for (int i = 0; i < n; i++) {
+        double angle = 2 * (double)SCENE_PI * i / n;
+        uint32_t v = scene_vertex(&scene, cos(angle), sin(angle), 1);
+        scene_vertex(&scene, cos(angle), sin(angle), 0);
+        scene_facet(&scene, spine, spine + 1, v);
+        scene_facet(&scene, spine, v, v + 1);
+    }
+}
+
+/* The wall of a cylinder over a star of n points. */
+static void make_star(int n)
+{
+    uint32_t first = scene.scene.vertex_count;
+    uint32_t count = 2 * (uint32_t)n;
+    for (int z = 0; z < 2; z++) {
+        for (uint32_t i = 0; i < count; i++) {
+            double r = i % 2 == 1 ? 1 : 0.9;
+            double angle = (double)SCENE_PI * i / n;
+            scene_vertex(&scene, r * cos(angle), r * sin(angle), z);
+        }
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t j = (i + 1) % count;
+        scene_facet(&scene, first + i, first + j, first + j + count);
+        scene_facet(&scene, first + i, first + j + count, first + i + count);
+    }
+}
+
+/* A wall in n folds. */
+static void make_zigzag(int n)
+{
+    uint32_t first = scene.scene.vertex_count;
+    for (int i = 0; i <= n; i++) {
+        for (int z = 0; z < 2; z++) {
+            scene_vertex(&scene, (double)i / n, 0.5 * (i % 2), z);
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        uint32_t v = first + 2 * (uint32_t)i;
+        scene_facet(&scene, v, v + 2, v + 3);
+        scene_facet(&scene, v, v + 3, v + 1);
+    }
+}
+
+/* Triangles turned against each other, one above the other. */
+static void make_turned(int n)
+{
+    for (int i = 0; i < n; i++) {
+        double corner[3][3];
+        for (int k = 0; k < 3; k++) {
+            double angle = 2 * (double)SCENE_PI * (0.381966 * i + k / 3.0);
+            corner[k][0] = cos(angle);
+            corner[k][1] = sin(angle);
+            corner[k][2] = 1e-3 * i;
+        }
+        scene_triangle(&scene, corner[0], corner[1], corner[2]);
+    }
+}
+
+enum { HATCH, STACK, BOOK, STAR, ZIGZAG, TURNED };
+
+static uint64_t steps_of(int kind, int n, const double direction[3])
+{
+    scene_start(&scene);
+    scene.material[0].two_sided = 1;
+    switch (kind) {
+    case HATCH:
+        make_hatch(n);
+        break;
+    case STACK:
+        make_stack(n);
+        break;
+    case BOOK:
+        make_book(n);
+        break;
+    case STAR:
+        make_star(n);
+        break;
+    case ZIGZAG:
+        make_zigzag(n);
+        break;
+    default:
+        make_turned(n);
+        break;
+    }
+    lrcs_result r = scene_run(&scene, direction, LRCS_METHOD_EXACT, 0);
+    assert_int_equal(r.flags, 0);
+    check_most(r.bound_m2, 1e-8 * r.sigma_m2);
+    return r.steps;
+}
+
+/* n of a kind take at most so many steps, and so many times those of half of them. */
+static void check_growth(int kind, int n, const double direction[3], uint64_t most, double times)
+{
+    double half = (double)steps_of(kind, n / 2, direction);
+    uint64_t all = steps_of(kind, n, direction);
+    assert_true(all <= most);
+    check_most((double)all, times * half);
+}
+
+static const double oblique[3] = {0.3, 0.2, 0.9};
+
+/* Where strips cross, there are n^2 pieces to be seen. Clipping took 1.2e9 steps for 300. */
+static void hatch_takes_steps_like_its_pieces(void **state)
+{
+    (void)state;
+    check_growth(HATCH, 200, (const double[3]){0, 0, 1}, 3800000, 4.6);
+    check_growth(HATCH, 400, oblique, 8300000, 4.6);
+}
+
+/* 1.7e9 for 1,000. */
+static void stack_hides_all_but_slivers_once(void **state)
+{
+    (void)state;
+    check_growth(STACK, 1000, oblique, 3600000, 3.4);
+}
+
+/* 2.5e8; pages share the spine, so that all stand in each cell along it. */
+static void book_hides_its_pages_once(void **state)
+{
+    (void)state;
+    check_growth(BOOK, 1000, oblique, 5800000, 4.6);
+}
+
+static void star_hides_its_folds_once(void **state)
+{
+    (void)state;
+    check_growth(STAR, 1000, oblique, 1600000, 3.2);
+}
+
+/* 3.4e9. */
+static void zigzag_hides_its_folds_once(void **state)
+{
+    (void)state;
+    check_growth(ZIGZAG, 1000, oblique, 1900000, 3.8);
+    check_growth(ZIGZAG, 1000, (const double[3]){0.9, 0.3, 0.2}, 2000000, 4.2);
+}
+
+static void turned_stack_takes_linear_steps(void **state)
+{
+    (void)state;
+    check_growth(TURNED, 1000, oblique, 610000, 2.6);
+    check_growth(TURNED, 1000, (const double[3]){0, 0, 1}, 670000, 2.6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hatch_takes_steps_like_its_pieces),
+        cmocka_unit_test(stack_hides_all_but_slivers_once),
+        cmocka_unit_test(book_hides_its_pages_once),
+        cmocka_unit_test(star_hides_its_folds_once),
+        cmocka_unit_test(zigzag_hides_its_folds_once),
+        cmocka_unit_test(turned_stack_takes_linear_steps),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
