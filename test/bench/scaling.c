@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* How time and memory grow: with facets on the generated satellite, with pixels, with layers one
-   above the other, and in the worst cases, where every facet overlaps every other. An exponent is
-   the slope of a least-squares line through the logarithms. It decides which series are measured;
-   usage: scaling [--quick | --tiny] */
+   above the other, in the worst cases, where every facet overlaps every other, and in scenes of
+   which most is hidden. An exponent is the slope of a least-squares line through the logarithms. It
+   decides which series are measured; usage: scaling [--quick | --tiny] */
 #include <lrcs/host.h>
 
 #include <math.h>
@@ -27,7 +27,8 @@ typedef struct scaling_point {
 typedef struct scaling_series {
     scaling_point point[KINDS][POINTS];
     int count[KINDS];
-    int steep; /* seen from near +z */
+    int steep;      /* seen from near +z */
+    int exact_only; /* but for prepare */
     uint32_t resolution;
     double most_ms; /* a method that took longer is left out of what is larger */
 } scaling_series;
@@ -146,7 +147,8 @@ static void series_add(scaling_series *series, const lrcs_scene *scene, double s
     void *bytes = prepare_measure(scene, &prepared, &point);
     for (int kind = 0; kind < KINDS; kind++) {
         int count = series->count[kind];
-        if (count > 0 && series->point[kind][count - 1].ms > series->most_ms) {
+        if ((count > 0 && series->point[kind][count - 1].ms > series->most_ms) ||
+            (series->exact_only && (kind == KIND_FACET || kind == KIND_ZBUFFER))) {
             continue;
         }
         if (kind != KIND_PREPARE) {
@@ -301,6 +303,26 @@ static void worst_series(int which, int extent, scaling_series *series)
     series_print(series, name[which], "facets");
 }
 
+/* Scenes in which much is hidden by what is near in depth. Of hatched strips, seen from near +z,
+   n^2 pieces are visible for n strips; of the others some a facet. */
+static void hidden_series(int extent)
+{
+    static void (*const make[])(bench_scene *, uint32_t) = {bench_hatch, bench_book, bench_zigzag};
+    static const char *const name[] = {"hatched strips", "pages of a book", "zigzag wall"};
+    static const uint32_t least[EXTENTS] = {8, 128, 128};
+    static const uint32_t most[EXTENTS] = {16, 512, 1024};
+    for (int i = 0; i < 3; i++) {
+        scaling_series series = {.steep = i < 2, .exact_only = 1, .most_ms = 10e3};
+        for (uint32_t n = least[extent]; n <= most[extent]; n *= 2) {
+            bench_scene made;
+            make[i](&made, n);
+            series_add(&series, &made.scene, made.scene.facet_count);
+            bench_scene_free(&made);
+        }
+        series_print(&series, name[i], "facets");
+    }
+}
+
 int main(int count, char **argument)
 {
     static scaling_series worst[WORST_CASES];
@@ -317,6 +339,7 @@ int main(int count, char **argument)
     for (int i = 0; i < WORST_CASES; i++) {
         worst_series(i, extent, &worst[i]);
     }
+    hidden_series(extent);
     answers_print(&worst[WORST_STACKED], "Stacked triangles");
     answers_print(&worst[WORST_PIERCING], "Piercing triangles");
     answers_print(&worst[WORST_STAR], "Star of needles");

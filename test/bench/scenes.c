@@ -310,3 +310,51 @@ void bench_star(bench_scene *s, uint32_t needles)
         facet_add(s, a, c, b, 1);
     }
 }
+
+/* ---- strips, pages, folds ---- */
+
+static void strip_add(bench_scene *s, double x, double y, double z, double wide, double high)
+{
+    uint32_t v = vertex_add(s, x, y, z);
+    vertex_add(s, x + wide, y, z);
+    vertex_add(s, x + wide, y + high, z);
+    vertex_add(s, x, y + high, z);
+    facet_add(s, v, v + 1, v + 2, 0);
+    facet_add(s, v, v + 2, v + 3, 0);
+}
+
+void bench_hatch(bench_scene *s, uint32_t n)
+{
+    scene_start(s, 8 * (size_t)n);
+    for (uint32_t i = 0; i < n; i++) {
+        strip_add(s, 0, (double)i / n, 0, 1, 0.5 / n);
+        strip_add(s, (double)i / n, 0, -1, 0.5 / n, 1);
+    }
+}
+
+void bench_book(bench_scene *s, uint32_t n)
+{
+    scene_start(s, 2 * (size_t)n + 2);
+    uint32_t spine = vertex_add(s, 0, 0, 0);
+    vertex_add(s, 0, 0, 1);
+    for (uint32_t i = 0; i < n; i++) {
+        double angle = 2 * PI * i / n;
+        uint32_t v = vertex_add(s, cos(angle), sin(angle), 1);
+        vertex_add(s, cos(angle), sin(angle), 0);
+        facet_add(s, spine, spine + 1, v, 0);
+        facet_add(s, spine, v, v + 1, 0);
+    }
+}
+
+void bench_zigzag(bench_scene *s, uint32_t n)
+{
+    scene_start(s, 2 * (size_t)n + 2);
+    for (uint32_t i = 0; i <= n; i++) {
+        vertex_add(s, (double)i / n, 0.5 * (i % 2), 0);
+        vertex_add(s, (double)i / n, 0.5 * (i % 2), 1);
+    }
+    for (uint32_t v = 0; v < 2 * n; v += 2) {
+        facet_add(s, v, v + 2, v + 3, 0);
+        facet_add(s, v, v + 3, v + 1, 0);
+    }
+}

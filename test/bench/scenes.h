@@ -41,6 +41,15 @@ void bench_shards(bench_scene *s, uint32_t count, int kind);
    whatever the scale, so that halving a part of the plate about the axis relieves it of few. */
 void bench_star(bench_scene *s, uint32_t needles);
 
+/* n level strips over n others across them: 4 n facets, of which n^2 pieces are seen from +z. */
+void bench_hatch(bench_scene *s, uint32_t n);
+
+/* n pages about one spine along z: 2 n facets. */
+void bench_book(bench_scene *s, uint32_t n);
+
+/* A wall along z in n folds: 2 n facets. */
+void bench_zigzag(bench_scene *s, uint32_t n);
+
 void bench_scene_free(bench_scene *s);
 
 #endif
