@@ -19,8 +19,8 @@
 #define ROBUST_FEWEST 8u
 
 /* For readings whose fitted value is nearly 0, the expected error is a fraction of the
-   largest fitted value. A fit that is negligible compared with the largest reading carries no information
-   about errors, and squares divided by it overflow. */
+   largest fitted value. A fit that is negligible compared with the largest reading carries no
+   information about errors, and squares divided by it overflow. */
 #define ROBUST_RELATIVE 1e-4
 #define ROBUST_LEAST    0x1p-400
 
