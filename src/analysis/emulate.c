@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "analysis/gpu.h"
 #include "base/single.h"
 #include "base/work.h"
 #include "integrate/image.h"
-#include "analysis/gpu.h"
 
 #define FOUR_PI 12.566370614359172954
 

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* A material from readings of its BRDF: readings become vectors about 1, starts are sought and
-   brought down, outliers set aside, limits found. It decides the order of these steps and what an
-   interval says of a parameter; each step has a room of its own (fit_*.c). */
+/* Fits a material to readings of its BRDF: the readings are scaled to about 1, starting points are
+   found and minimized, outliers excluded, and limits computed. This file decides the order of these
+   steps and the verdict that an interval gives on a parameter; each step has a file of its own
+   (fit_*.c). */
 #include <lrcs/fit.h>
 
 #include <math.h>
 #include <string.h>
 
-#include "base/degrees.h"
-#include "base/range.h"
-#include "base/work.h"
 #include "analysis/fit_presence.h"
 #include "analysis/fit_profile.h"
 #include "analysis/fit_search.h"
+#include "base/degrees.h"
+#include "base/range.h"
+#include "base/work.h"
 #include "optics/special.h"
 
 /* The vectors of lrcsi_fit_data. */

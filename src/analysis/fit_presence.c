@@ -23,11 +23,11 @@
 #define PRESENCE_LEVEL 0.05
 #define PRESENCE_STEPS 240
 
-/* What is left of a vector that the other part takes up but for rounding is no direction. */
+/* If the other part explains a vector to within rounding, its remainder has no usable direction. */
 #define PRESENCE_ROUNDING 1e-12
 
-/* The part's vector at a shape, of length 1, freed of the other part's, into rest[]; 0 where
-   nothing is left. */
+/* The part's vector at given s and m, made orthogonal to the other part's and normalised, into
+   rest[]. Returns 0 if nothing is left. */
 static int presence_vector(const lrcsi_fit_data *data, int part, const lrcsi_fit_spot *spot)
 {
     int other = part == LRCS_FIT_A ? LRCS_FIT_B : LRCS_FIT_A;

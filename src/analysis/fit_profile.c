@@ -24,8 +24,8 @@
 
 /* ---- by derivatives ---- */
 
-/* Inverts a symmetric positive matrix in place, in units of its diagonal; rows that are 0, or those
-   of others but for rounding, are left out and told. */
+/* Inverts a symmetric positive matrix in place, in units of its diagonal. Rows that are zero, or
+   linearly dependent on others to within rounding, are left out: in[] is 0 for them. */
 static void matrix_invert(double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS],
                           int in[LRCS_FIT_PARAMETERS])
 {

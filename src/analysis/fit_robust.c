@@ -11,19 +11,20 @@
 #define ROBUST_HUBER  1.345
 #define ROBUST_ROUNDS 12
 
-/* The median of |x| of a normal distribution is 1/1.4826 of its standard deviation. */
+/* For a normal distribution the median of |x| is its standard deviation divided by 1.4826. */
 #define ROBUST_NORMAL 1.4826
 
-/* Set aside beyond so many standard deviations: one in 2000 of normal errors. */
+/* Readings are excluded beyond this many standard deviations: one in 2000 of normal errors. */
 #define ROBUST_CUT    3.5
 #define ROBUST_FEWEST 8u
 
-/* Of readings whose fitted value is nearly 0 a share of the largest is expected as error. A fit
-   that is nothing to the largest reading says nothing of errors, and squares over it overflow. */
+/* For readings whose fitted value is nearly 0, the expected error is a fraction of the largest
+   fitted value's. A fit that is negligible compared with the largest reading carries no information
+   about errors, and squares divided by it overflow. */
 #define ROBUST_RELATIVE 1e-4
 #define ROBUST_LEAST    0x1p-400
 
-/* Residuals this small against the readings are those of rounding. */
+/* Residuals this small relative to the readings are rounding errors. */
 #define ROBUST_ROUNDING 0x1p-44
 
 /* The value that `rank` of the others do not exceed, 0 the smallest (C. A. R. Hoare 1961); the

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Where a fit starts, and which readings it stands on. */
+/* The starting points of a fit, and the readings that it uses. */
 #ifndef LRCSI_FIT_SEARCH_H
 #define LRCSI_FIT_SEARCH_H
 
@@ -8,19 +8,20 @@
 #define LRCSI_FIT_STARTS 8u
 
 /* Starting points: the local minima of the sum of |y - f| * inverse over a grid of s and m, the
-   least first. Uses weight[], column[] and rest[]. Returns how many, 1 .. LRCSI_FIT_STARTS. */
+   smallest first. Uses weight[], column[] and rest[]. Returns their number, 1 .. LRCSI_FIT_STARTS.
+ */
 uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_spot start[LRCSI_FIT_STARTS]);
 
-/* The errors that readings are expected to have at a spot, into inverse[]; nothing where they do
-   not depend on it, or the spot is nothing to the readings. */
+/* Computes the expected errors of readings at a parameter vector into inverse[]. Does nothing if
+   they do not depend on it, or if the fit there is negligible compared with the readings. */
 void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_spot *spot);
 
-/* Descends from a start with Huber's weights, so that single readings pull with a bounded force.
-   Returns the sum of |y - f| * inverse there. */
+/* Minimizes from a starting point with Huber's weights, which bound the influence of single
+   readings. Returns the sum of |y - f| * inverse at the minimum. */
 double lrcsi_fit_soften(const lrcsi_fit_data *data, int noise, lrcsi_fit_spot *spot);
 
-/* Gives the readings that lie too far from the fit at a spot no weight, and all others theirs.
-   Returns whether that changed which are kept. */
+/* Sets the weight of readings that are too far from the fit to 0, and restores that of all others.
+   Returns 1 if this changed which readings are kept, else 0. */
 int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot);
 
 #endif

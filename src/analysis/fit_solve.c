@@ -16,13 +16,14 @@
 
 #define SOLVE_STEPS 80
 
-/* A damping beyond which no step lowers the sum: it is at its minimum but for rounding. */
+/* If no step up to this damping lowers the sum, it is at its minimum to within rounding. */
 #define SOLVE_DAMPING_MOST 1e10
 
-/* A longer step in log(s) or log(1 + m) leaves where the linear model means anything. */
+/* A longer step in log(s) or log(1 + m) would leave the range in which the linear model is valid.
+ */
 #define SOLVE_STRIDE 1.0
 
-/* A column that is another's multiple but for rounding says nothing new. */
+/* A column that is a multiple of another one to within rounding is redundant. */
 #define SOLVE_PIVOT 1e-13
 
 /* exp(-x) beyond it is 0 in all that follows. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The item buffer of graphics hardware: vertices at a chosen precision, snapped to 1/256 pixel,
    facets drawn in order with a depth buffer of given bits. Emulated operation by operation
-   (lrcs/emulate.h says which); nothing here is exact or bounded, and nothing else rests on it. */
+   as described in lrcs/emulate.h. Nothing here is exact or bounded, and no proof depends on it. */
 #ifndef LRCSI_GPU_H
 #define LRCSI_GPU_H
 
@@ -18,7 +18,7 @@ typedef struct lrcsi_gpu_vertex {
 typedef struct lrcsi_gpu {
     const lrcsi_view *view;
     uint32_t size;
-    int single;      /* arithmetic is float's */
+    int single;      /* 1: arithmetic is in float */
     double steps;    /* of fixed-point depth, 2^bits - 1; 0: floating point */
     int short_depth; /* floating-point depth is kept as float */
     lrcsi_gpu_vertex *vertex;
@@ -28,7 +28,7 @@ typedef struct lrcsi_gpu {
 
 size_t lrcsi_gpu_need(const lrcs_prepared *prepared, uint32_t size);
 
-/* Draws a view, whose window grows where it is narrower than 2^-100 of the scene's reach. Status:
+/* Draws a view; its window is enlarged if it is narrower than 2^-100 of the scene's reach. Status:
    LRCS_OK; LRCS_E_MEMORY. The buffers stay in the work area. */
 int lrcsi_gpu_make(lrcsi_view *view, const lrcs_emulation_options *options, lrcs_work *work,
                    lrcsi_gpu *gpu);

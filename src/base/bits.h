@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The bits of doubles: selections without comparisons of doubles, which would keep gcc from
-   handling several numbers at once. */
+/* Bit patterns of doubles: branch-free selections. Comparisons of doubles would prevent gcc from
+   vectorizing the loops that use them. */
 #ifndef LRCSI_BITS_H
 #define LRCSI_BITS_H
 
@@ -21,13 +21,13 @@ static inline double lrcsi_bits_double(uint64_t bits)
     return x;
 }
 
-/* All ones where the sign of x is minus, else zero. */
+/* All ones if the sign bit of x is set, else zero. */
 static inline uint64_t lrcsi_bits_negative(double x)
 {
     return ~((lrcsi_bits_of(x) >> 63) - 1);
 }
 
-/* x, or 0 where the mask is zero. */
+/* x if the mask is all ones, 0 if it is zero. */
 static inline double lrcsi_bits_masked(double x, uint64_t mask)
 {
     return lrcsi_bits_double(lrcsi_bits_of(x) & mask);

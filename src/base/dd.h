@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Double-double arithmetic (Dekker 1971, Knuth TAOCP 2): an unevaluated sum hi + lo with
-   |lo| <= ulp(hi)/2. Error bounds beside each operation, u = 2^-53. No fma: the same bits on
-   every machine. Inline, because visibility and normals are made of it. */
+   |lo| <= ulp(hi)/2. The error bound of each operation is stated beside it, u = 2^-53. No fma is
+   used, so results have the same bits on every machine. The functions are inline because visibility
+   and normals consist mostly of them. */
 #ifndef LRCSI_DD_H
 #define LRCSI_DD_H
 

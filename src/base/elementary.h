@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Exponential and logarithm from + - * / alone: the same bits on every machine and at every level
-   of optimisation, with proved errors. u = 2^-53. The forms for lanes are free of branches, so that
-   compilers handle several at once; their trip count is a constant for that. */
+/* Exponential and logarithm, computed with + - * / only: the same bits on every machine and at
+   every optimisation level, with proved error bounds. u = 2^-53. The functions for several lanes
+   have no branches and a constant trip count, so that compilers can vectorize them. */
 #ifndef LRCSI_ELEMENTARY_H
 #define LRCSI_ELEMENTARY_H
 
@@ -11,11 +11,11 @@
 #define LRCSI_EXP_ERROR       2.0 /* lrcsi_exp down to 2^-1000, lrcsi_exp_lanes */
 #define LRCSI_EXP_DD_ERROR    3.0 /* lrcsi_exp_dd down to 2^-1000 */
 #define LRCSI_LOG_ERROR       0.15
-#define LRCSI_LOG1P_ERROR     1.15 /* and at most LRCSI_LOG_ERROR beside u^2, absolute */
+#define LRCSI_LOG1P_ERROR     1.15 /* and at most LRCSI_LOG_ERROR plus an absolute u^2 */
 #define LRCSI_LOG_LANES_ERROR 6.0
 
-/* e^x for any x but a NaN: 0 below -746, infinity from 709.79 on. Below 2^-1000 it is good to 5 u
-   and 2^-1073. */
+/* e^x for every x except NaN: 0 below -746, infinity from 709.79 on. Results below 2^-1000 are
+   accurate to 5 u relative plus 2^-1073 absolute. */
 double lrcsi_exp(double x);
 
 /* e^(x.hi + x.lo). */
@@ -27,11 +27,11 @@ lrcsi_dd lrcsi_log(double x);
 /* log(1 + u) for u >= 0, finite. */
 lrcsi_dd lrcsi_log1p(double u);
 
-/* e^(y log) for y >= 0 or below: 0 and infinity where it leaves the doubles. Relative error, in
-   units of u: LRCSI_EXP_DD_ERROR, and that of the logarithm times |y log|. */
+/* e^(y log) for y of either sign; 0 on underflow, infinity on overflow. Relative error, in units of
+   u: LRCSI_EXP_DD_ERROR, plus that of the logarithm times |y log|. */
 double lrcsi_power(lrcsi_dd log, double y);
 
-/* How many numbers the forms for lanes take. */
+/* The number of lanes: the array length of the functions below. */
 #define LRCSI_LANES 32
 
 /* out = e^x for |x| <= 700. */

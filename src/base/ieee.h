@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The arithmetic that every proof takes for granted: IEEE 754 doubles, each operation rounded once,
-   to nearest. What options break it is refused by the compiler as far as they can be seen, the rest
-   as the program runs. */
+/* The arithmetic that every proof assumes: IEEE 754 doubles, each operation rounded once, to
+   nearest. Compiler options that violate it are rejected at compile time if they can be detected
+   there, the others at run time. */
 #ifndef LRCSI_IEEE_H
 #define LRCSI_IEEE_H
 
@@ -17,8 +17,8 @@ _Static_assert(sizeof 1.0 == sizeof(double),
 _Static_assert(FLT_RADIX == 2 && DBL_MANT_DIG == 53 && DBL_MAX_EXP == 1024, "doubles are IEEE 754");
 _Static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1, "double operations round to double");
 
-/* Do doubles round to nearest, product and sum apart, and keep what is below DBL_MIN? The rounding
-   mode and what flushes to zero belong to the thread. */
+/* 1 if doubles round to nearest, products and sums are rounded separately, and subnormal numbers
+   are kept; else 0. The rounding mode and flushing to zero are properties of the thread. */
 int lrcsi_ieee_kept(void);
 
 #endif

@@ -6,7 +6,7 @@
 #include <lrcs/status.h>
 #include <lrcs/work.h>
 
-/* A name is some bytes and a tag, which keeps names of different kinds apart. */
+/* A name is a byte string and a tag, which distinguishes names of different kinds. */
 typedef struct lrcsi_indexed {
     const void *bytes;
     size_t size;
@@ -15,7 +15,7 @@ typedef struct lrcsi_indexed {
 
 typedef struct lrcsi_index {
     lrcsi_indexed *name;
-    uint32_t *slot; /* mask + 1 of them: 0, or a name's index + 1 */
+    uint32_t *slot; /* mask + 1 slots: 0 if empty, else a name's index + 1 */
     size_t mask;
     uint32_t count;
 } lrcsi_index;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Joining items into groups (union-find): parent[i] = i at first; the root, the
-   first item of its group, names it. */
+/* Disjoint sets (union-find): initially parent[i] = i. A set is identified by its root, which is
+   its first item. */
 #ifndef LRCSI_JOIN_H
 #define LRCSI_JOIN_H
 
@@ -8,7 +8,7 @@
 
 static inline uint32_t lrcsi_join_root(uint32_t *parent, uint32_t i)
 {
-    while (parent[i] != i) { /* halving the path: every step shortens it */
+    while (parent[i] != i) { /* path halving: every step shortens the path */
         parent[i] = parent[parent[i]];
         i = parent[i];
     }
@@ -22,7 +22,7 @@ static inline void lrcsi_join(uint32_t *parent, uint32_t i, uint32_t j)
     parent[i > j ? i : j] = i > j ? j : i;
 }
 
-/* Names every item by its root: parents come before their children, so one pass does. */
+/* Sets every parent to the root. Parents precede their children, so that one pass suffices. */
 static inline void lrcsi_join_settle(uint32_t *parent, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {

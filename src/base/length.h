@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The length of a vector, also where its square underflows. Not hypot, which rounds as each libm
-   likes: these are the same bits on every machine. */
+/* The length of a vector, also where its square underflows. hypot is not used because its rounding
+   depends on libm: these functions return the same bits on every machine. */
 #ifndef LRCSI_LENGTH_H
 #define LRCSI_LENGTH_H
 
@@ -8,8 +8,8 @@
 
 #include "base/dd.h"
 
-/* Relative error at most 3 u, u = 2^-53, for components at most 2^500 whose largest is above
-   2^-950. Below 2^-450, where squares lose bits, it works on them times 2^500. */
+/* Relative error at most 3 u, u = 2^-53, for components of at most 2^500 whose largest exceeds
+   2^-950. Below 2^-450, where squares lose bits, the components are scaled by 2^500. */
 static inline double lrcsi_length(const double v[3])
 {
     double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
@@ -20,7 +20,7 @@ static inline double lrcsi_length(const double v[3])
     return sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * 0x1p-500;
 }
 
-/* The same of a vector in the plane. */
+/* The same for a vector in the plane. */
 static inline double lrcsi_length_flat(double x, double y)
 {
     const double v[3] = {x, y, 0};
@@ -32,10 +32,11 @@ typedef struct lrcsi_inverse {
     double y, half, length;
 } lrcsi_inverse;
 
-/* Given: v = high + low, |v| in 2^-450 .. 2^100, and |v| in plain doubles, good to 4 u. |v|^2 comes
-   out to 12 u^2: what products and sums lose is added up in plain doubles. y = 1/|v| is good to 5
-   u; r = 1 - y^2 |v|^2, below 11 u, to 30 u^2; y (1 + r/2) leaves 3/8 r^2, and |v| = y |v|^2 (1 +
-   r/2). No root and no branch: compilers handle many at once. */
+/* Given: v = high + low, |v| in 2^-450 .. 2^100, and `plain`, |v| in plain doubles, accurate to 4
+   u. |v|^2 is computed to 12 u^2: the rounding errors of products and sums are themselves summed in
+   plain doubles. y = 1/|v| is accurate to 5 u; r = 1 - y^2 |v|^2, below 11 u, to 30 u^2;
+   y (1 + r/2) has a remainder of 3/8 r^2, and |v| = y |v|^2 (1 + r/2). There is no square root and
+   no branch, so that compilers can vectorize it. */
 static inline lrcsi_inverse lrcsi_length_inverse(const double high[3], const double low[3],
                                                  double plain)
 {
@@ -54,7 +55,7 @@ static inline lrcsi_inverse lrcsi_length_inverse(const double high[3], const dou
     return (lrcsi_inverse){y, half, length.hi + (length.lo + length.hi * half)};
 }
 
-/* high + low times that, as a sum good to 2^-97. */
+/* (high + low) / |v| as an unevaluated sum, accurate to 2^-97. */
 static inline lrcsi_dd lrcsi_inverse_times(const lrcsi_inverse *inverse, double high, double low)
 {
     lrcsi_dd p = lrcsi_dd_two_product(high, inverse->y);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Work that may still be done: steps, each of bounded time, taken before they are made. Once one is
-   refused all are, so that whoever asks at the end of a piece of work learns whether all of it was
-   done. NULL: no limit. */
+/* A limit on work: steps of bounded time each, which are reserved before they are executed. Once a
+   request is refused, all later ones are refused too, so that a caller who checks at the end of a
+   piece of work knows whether all of it was done. NULL: no limit. */
 #ifndef LRCSI_METER_H
 #define LRCSI_METER_H
 
@@ -13,7 +13,7 @@ typedef struct lrcsi_meter {
     int spent;
 } lrcsi_meter;
 
-/* 1 where so many steps may be made, which are taken; 0 where not. */
+/* Reserves `steps` steps. Returns 1, or 0 if the limit does not allow them. */
 static inline int lrcsi_meter_take(lrcsi_meter *meter, uint64_t steps)
 {
     if (!meter) {

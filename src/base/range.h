@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The smaller and the larger of two numbers, neither a NaN: what fmin and fmax are without a call
+/* The smaller and the larger of two numbers, neither of them a NaN: fmin and fmax without calls
    into libm in the innermost loops. */
 #ifndef LRCSI_RANGE_H
 #define LRCSI_RANGE_H

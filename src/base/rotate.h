@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Rotation matrices from angles, axes and quaternions, for poses and for placing parts alike.
+/* Rotation matrices from angles, axes and quaternions, for poses and for placing parts.
    Each entry of R has an absolute error of at most 8 u (u = 2^-53) given the inputs as exact;
    multiples of 90 deg about a coordinate axis are exact; no entry is a negative zero. */
 #ifndef LRCSI_ROTATE_H
 #define LRCSI_ROTATE_H
 
 /* Scales `count` numbers by one power of two so that the largest magnitude lies in (1/2, 1];
-   exact but for what falls below the least double beside it.
+   exact except for numbers that underflow relative to the largest one.
    Status: LRCS_OK; LRCS_E_NUMBER (not finite); LRCS_E_ARGUMENT (all zero). */
 int lrcsi_rotate_scale(const double *given, int count, double *scaled);
 

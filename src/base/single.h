@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Arithmetic in float or double, chosen as it runs. The sum, difference, product, quotient or root
-   of floats, computed in double and then rounded to float, is the float operation's own result: a
-   double has twice the bits of a float and two more, so that rounding twice rounds once (S. A.
-   Figueroa, ACM SIGNUM Newsletter 30, 1995). So it is where the result is subnormal: sums and
-   products are exact in double, and a quotient of floats that is no midpoint of two of them is
-   farther from it than a double's rounding. */
+/* Arithmetic in float or double, chosen at run time. The sum, difference, product, quotient or
+   square root of floats, computed in double and then rounded to float, equals the result of the
+   float operation: a double has at least twice the bits of a float plus two, so that double
+   rounding is innocuous (S. A. Figueroa, ACM SIGNUM Newsletter 30, 1995). This also holds for
+   subnormal results: sums and products are exact in double, and a quotient of floats that is not
+   the midpoint of two floats is farther from every midpoint than the rounding error of a double. */
 #ifndef LRCSI_SINGLE_H
 #define LRCSI_SINGLE_H
 
@@ -12,7 +12,7 @@
 
 _Static_assert(FLT_RADIX == 2 && FLT_MANT_DIG == 24 && DBL_MANT_DIG == 53, "IEC 60559");
 
-/* The result of one operation, rounded to float where `single`. */
+/* The result of one operation, rounded to float if `single`. */
 static inline double lrcsi_single(int single, double x)
 {
     return single ? (double)(float)x : x;

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 /* Sorts `count` pairs by key, ascending; pairs of equal keys keep their order. The spare arrays
-   are scratch of the same length. Radix sort, eight passes at most. */
+   are scratch memory of the same length. Radix sort with at most eight passes. */
 void lrcsi_sort_pairs(uint64_t *key, uint32_t *value, uint64_t *key_spare, uint32_t *value_spare,
                       uint32_t count);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* f_r cos^2, the integrand of Eq. 2 per unit of surface, glint and diffuse part apart, from
-   tan^2(theta); and how far it strays over a cone of normals. */
+/* f_r cos^2, the integrand of Eq. 2 per unit of surface, with separate glint and diffuse parts,
+   from tan^2(theta); and bounds of its deviation over a cone of normals. */
 #ifndef LRCSI_REFLECT_H
 #define LRCSI_REFLECT_H
 
@@ -9,15 +9,15 @@
 
 typedef struct lrcsi_reflection {
     double glint, diffuse; /* f_r cos^2, 1/sr */
-    double error;          /* absolute bound on glint + diffuse: from rounding here, and from the
-                              relative error that tan2 came with */
+    double error;          /* bound on the absolute error of glint + diffuse, from rounding here and
+                              from the relative error of the given tan2 */
 } lrcsi_reflection;
 
 /* Given: tan2 = tan^2(theta) >= 0 (infinity allowed: edge-on, both parts 0) with relative error
    at most tan2_error. Parts are finite and not NaN for every brdf in its domain; where the glint
    exceeds the largest double it is that double, and error is infinite.
-   Notes: 1. Calls nothing of libm but the square root: the same bits on every machine.
-   2. Costs one exponential, and a power except for m = 0, 1/2, 1 and 2; a part whose amplitude is 0
+   Notes: 1. The only libm function called is sqrt: the same bits on every machine.
+   2. Cost: one exponential, and one power except for m = 0, 1/2, 1 and 2; a part of amplitude 0
    costs nothing. */
 lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error);
 
@@ -29,7 +29,8 @@ lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_e
 double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
                            const lrcs_curvature *curvature);
 
-/* How F varies over a patch, for patches that are seen in part only. All are upper bounds. */
+/* The variation of F over a patch, for patches that are only partly visible. All fields except
+   `here` are upper bounds. */
 typedef struct lrcsi_stray {
     double whole; /* lrcsi_reflect_stray; also where F counts on both sides, by |cos(theta)| */
     double apart; /* |F - F(facet normal)| at any point of the patch */
@@ -38,14 +39,14 @@ typedef struct lrcsi_stray {
     double most;  /* F at any point of the patch */
 } lrcsi_stray;
 
-/* The same bounds for any curvature; of a flat one all but `here` and `most` may be of the size
-   of rounding. */
+/* The same bounds for any curvature. For a flat patch all fields except `here` and `most` may be of
+   the size of rounding errors instead of 0. */
 lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
                              const lrcs_curvature *curvature);
 
-/* The most that the parts of f_r cos (not cos^2) reach over the normals within `turn` of one at
-   angle theta to s_hat, both in rad, theta <= pi: proved upper bounds. `error` is 0.
-   Notes: 1. Infinite only where f_r itself nears the largest double. */
+/* Proved upper bounds of the parts of f_r cos (not cos^2) over all normals within `turn` of a
+   normal at angle theta to s_hat, both in rad, theta <= pi. `error` is 0.
+   Notes: 1. Infinite only where f_r itself is near the largest double. */
 lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn);
 
 #endif

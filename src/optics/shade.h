@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* f_r cos(theta) of a block of facets of one material, in plain doubles, with an a priori bound on
-   its error: what nearly every facet of a view takes. Facets near grazing incidence, and in the
-   bright lobe of a narrow glint, are not for it: they need tan^2 to more digits than unit vectors
-   of doubles hold (reflect.h). */
+   its error. It serves nearly every facet of a view, except facets near grazing incidence and
+   facets in the bright lobe of a narrow glint: these need tan^2 to more digits than unit vectors
+   of doubles provide (reflect.h). */
 #ifndef LRCSI_SHADE_H
 #define LRCSI_SHADE_H
 
@@ -10,13 +10,13 @@
 
 #include "base/elementary.h"
 
-/* A material as its blocks need it. */
+/* The constants of a material for its blocks. */
 typedef struct lrcsi_lobes {
     double A, B; /* 4 pi times those of the material */
     double inverse_s2;
     double m;
-    double nothing;   /* bounds a part that is taken for 0, in units of u */
-    double low, high; /* cosines between which blocks serve; none where low >= high */
+    double nothing;   /* bound of a part that is set to 0, in units of u */
+    double low, high; /* the range of cosines for which blocks may be used; empty if low >= high */
     int glint, diffuse;
 } lrcsi_lobes;
 
@@ -24,18 +24,19 @@ typedef struct lrcsi_lobes {
 lrcsi_lobes lrcsi_lobes_make(const lrcs_brdf *brdf, int glint, int diffuse);
 
 typedef struct lrcsi_shades {
-    double normal[3][LRCSI_LANES];                   /* given: unit, turned to the laser */
+    double normal[3][LRCSI_LANES];                   /* given: unit normals towards the laser */
     double cosine[LRCSI_LANES];                      /* cos(theta) */
     double glint[LRCSI_LANES], diffuse[LRCSI_LANES]; /* 4 pi f_r cos(theta) */
     double error[LRCSI_LANES];
 } lrcsi_shades;
 
-/* Given: unit vectors d + d_low to 2^-100, and normals n whose components are off by at most 1.01 u
-   of themselves, u = 2^-53, with n . d in [lobes->low, lobes->high] but for 2^-50.
-   Returned: the rest of `shades`. Times a visible projected area, or S cos(theta) with an S good to
-   3 u and the cosine as returned, glint + diffuse is 4 pi f_r cos(theta) area to within error times
-   LRCSI_SHADE_UNIT times that area; the area's own error comes on top, that of S and S cos(theta)
-   is included. */
+/* Given: the unit vector d + d_low, accurate to 2^-100, and unit normals n whose components have
+   relative errors of at most 1.01 u, u = 2^-53, with n . d in [lobes->low, lobes->high] to within
+   2^-50.
+   Returned: the other fields of `shades`. The product of glint + diffuse and an area is
+   4 pi f_r cos(theta) area to within error times LRCSI_SHADE_UNIT times that area. The area is
+   either a visible projected area, whose own error is to be added, or S cos(theta) with an S
+   accurate to 3 u and the cosine as returned, whose errors are included. */
 #define LRCSI_SHADE_UNIT (0x1p-53 * (1 + 0x1p-10))
 void lrcsi_shade(const lrcsi_lobes *lobes, const double d[3], const double d_low[3],
                  lrcsi_shades *shades);

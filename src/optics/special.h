@@ -13,9 +13,9 @@ double lrcsi_special_erfcx(double x);
    relative error at most 48 * 2^-53. */
 double lrcsi_special_cosine_power(double nu);
 
-/* The t that Student's distribution with `freedom` degrees of freedom exceeds either way in 1 of 20
-   cases: relative error at most 1e-5; infinite for 0. The normal distribution's: that of
-   UINT32_MAX. */
+/* The two-sided 95 % quantile t of Student's distribution with `freedom` degrees of freedom
+   (|t| is exceeded in 1 of 20 cases): relative error at most 1e-5; infinite for 0. UINT32_MAX gives
+   that of the normal distribution. */
 double lrcsi_special_student(uint32_t freedom);
 
 #endif

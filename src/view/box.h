@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes of what stands in a view, in floats: so many of them are passed over that their size
-   matters. They are bounds in doubles (lrcsi_view_bounds), rounded and kept within what a float
-   holds: neither changes the order of two numbers, unless to make them equal. So two boxes that lie
-   apart prove that their bounds do, and no margin is called for. */
+/* Bounding boxes in a view, in floats: loops pass over so many of them that their size matters. A
+   box has the bounds in doubles (lrcsi_view_bounds), rounded to float and clamped to its range.
+   Both are monotonic: they never reverse the order of two numbers, though they can make them equal.
+   So if two boxes are disjoint, their bounds in doubles are disjoint, and no margin is needed. */
 #ifndef LRCSI_VIEW_BOX_H
 #define LRCSI_VIEW_BOX_H
 
@@ -10,8 +10,8 @@
 #include "view/view.h"
 #include <float.h>
 
-/* In units of 1 / view->scale, so that the bulk of the scene fills [-1, 1] whatever stands far
-   away: x right, y up, z to the laser. */
+/* In units of 1 / view->scale, so that the bulk of the scene fills [-1, 1] even if some parts are
+   far away: x right, y up, z to the laser. */
 typedef struct lrcsi_view_box {
     float low[3], high[3];
 } lrcsi_view_box;
@@ -43,7 +43,7 @@ static inline lrcsi_view_box lrcsi_view_box_of(const lrcsi_view *view, const uin
     return lrcsi_view_box_round(view, low, high);
 }
 
-/* The box of a point of view coordinates x, each off by at most `off`. */
+/* The box of a point with view coordinates x, each with an error of at most `off`. */
 static inline lrcsi_view_box lrcsi_view_box_about(const lrcsi_view *view, const double x[3],
                                                   double off)
 {
@@ -52,14 +52,14 @@ static inline lrcsi_view_box lrcsi_view_box_about(const lrcsi_view *view, const 
     return lrcsi_view_box_round(view, low, high);
 }
 
-/* Do they lie beside each other in the view? */
+/* 1 if the two boxes are disjoint in the view plane, else 0. */
 static inline int lrcsi_view_box_beside(const lrcsi_view_box *a, const lrcsi_view_box *b)
 {
     return a->high[0] < b->low[0] || a->low[0] > b->high[0] || a->high[1] < b->low[1] ||
            a->low[1] > b->high[1];
 }
 
-/* Is all of a farther from the laser than all of b? */
+/* 1 if all of a is farther from the laser than all of b, else 0. */
 static inline int lrcsi_view_box_behind(const lrcsi_view_box *a, const lrcsi_view_box *b)
 {
     return a->high[2] < b->low[2];

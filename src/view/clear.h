@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which curved shapes nothing hides, in a view: proved by planes that separate them from every
-   other part. Their sigma then has a closed form, whatever else the scene holds. */
+/* Which curved shapes nothing hides in a view, proved by planes that separate them from every
+   other part. Their sigma then has a closed form, whatever else the scene contains. */
 #ifndef LRCSI_CLEAR_H
 #define LRCSI_CLEAR_H
 
@@ -9,8 +9,8 @@
 typedef struct lrcsi_clear {
     unsigned char *part; /* part: 1 where no other part hides any of its true surface that faces the
                             laser, nor shows any inside of it that reflects; NULL: none */
-    double *slab;        /* part: where it touches a plane that rounding places no better, so much
-                            of that surface at most may be hidden all the same, scaled */
+    double *slab;        /* part: if it touches a separating plane to within rounding, the largest
+                            area of that surface that can still be hidden, scaled */
     uint32_t count;
     int all; /* every part with live facets is clear */
 } lrcsi_clear;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A prepared scene seen from a pose: which way each facet faces (exact), its incidence angle with
-   its error, and view coordinates. View coordinates carry areas and choose candidates; every
-   decision that they leave open is taken on the scene's own coordinates. */
+/* The view of a prepared scene for a pose: the facing of each facet (exact), its incidence angle
+   with an error bound, and view coordinates. Areas and candidates are computed from view
+   coordinates; every decision that their error leaves open is made on the scene's own coordinates.
+   */
 #ifndef LRCSI_VIEW_H
 #define LRCSI_VIEW_H
 
@@ -16,8 +17,8 @@
 typedef struct lrcsi_tilt {
     double cos_theta; /* signed; its sign agrees with facing */
     double tan2;      /* tan^2(theta), infinity where edge-on */
-    double stretch;   /* relative error of tan2; 1: it lies in 0 .. tan2; infinity: it is at
-                         least tan2, the facet being edge-on to 2^-500 rad */
+    double stretch;   /* relative error of tan2; 1: the true value is in 0 .. tan2; infinity: it is
+                         at least tan2, and the facet is edge-on to within 2^-500 rad */
     double projected; /* projected area, >= 0 */
     double error;     /* relative error of projected and of the area */
 } lrcsi_tilt;
@@ -32,18 +33,19 @@ typedef struct lrcsi_view {
     signed char *facing; /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
     lrcs_point *point;   /* vertex, view coordinates about prepared->origin: x right, y up, z to the
                             laser; how far each may be off, lrcsi_view_off tells */
-    double scale;        /* a power of two: the bulk of the scene, times that, is below 1 */
+    double scale;        /* a power of two; coordinates of the bulk of the scene times scale are
+                            below 1 */
     double low[2], side; /* the square window around the projection of the live facets */
     uint32_t front, back; /* live facets facing either way */
-    int backs_cast;       /* facets facing away hide others and may be seen: not where the scene is
-                             proved to show none, unless the planner was told otherwise */
-    int backs_reflect;    /* they reflect, where their material is two-sided */
-    lrcsi_meter *meter;   /* steps that may be made to tell what is seen; NULL: no limit */
+    int backs_cast;       /* 1: facets facing away hide others and can be visible; 0 if the scene is
+                             proved to show none, unless the options request them */
+    int backs_reflect;    /* 1: they reflect if their material is two-sided */
+    lrcsi_meter *meter;   /* limit on the steps of the visibility computation; NULL: none */
 } lrcsi_view;
 
-/* A view without coordinates (point, scale and the window), which method facet does without: they
-   follow by lrcsi_view_project. Status: LRCS_OK; LRCS_E_MEMORY; those of lrcsi_frame_make;
-   LRCS_E_UNSUPPORTED (this thread rounds otherwise: base/ieee.h). It stays in the work area. */
+/* A view without coordinates (point, scale and the window), which method facet does not need;
+   lrcsi_view_project adds them. Status: LRCS_OK; LRCS_E_MEMORY; those of lrcsi_frame_make;
+   LRCS_E_UNSUPPORTED (this thread's arithmetic: base/ieee.h). It stays in the work area. */
 size_t lrcsi_view_face_need(const lrcs_prepared *prepared);
 int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view);
@@ -82,7 +84,7 @@ static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *ver
     }
 }
 
-/* Does a facet send light back, if seen? */
+/* 1 if a facet reflects towards the laser where it is visible, else 0. */
 static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 {
     return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_reflect &&
@@ -92,7 +94,7 @@ static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 /* The incidence of a facet that is not skipped. */
 lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet);
 
-/* Its projected area alone, the same to the last bit, in a fourth of the time. */
+/* Only its projected area, the same to the last bit, in a quarter of the time. */
 double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 
 /* The incidence of up to LRCSI_TILTS facets, the same to the last bit, in half the time.
@@ -114,7 +116,7 @@ void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3]
    rounded: the sample line through it along the direction is exact by definition. */
 void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]);
 
-/* How far, in each view coordinate, a lifted point may be from (x, y). */
+/* Bound on the distance, in each view coordinate, of a lifted point from (x, y). */
 double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y);
 
 #endif

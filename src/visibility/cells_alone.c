@@ -78,93 +78,105 @@ static double needle_off(double off)
     return off < 0.25 ? 192 * U + 2 * off : 4;
 }
 
-/* The record of a facet whose corners are told, counter-clockwise; `thin` where it may have been
-   turned over. */
-static void record_make(const double (*corner)[2], double off, lrcsi_cells_facet *f)
+/* The sides of a facet in f's frame, with how near to one a place must be that its side of it is
+   not sure: where its corners are R away at most, 20 u R. Of one that is narrow, or reaches far
+   off, that would not do. There the line of each side is taken from the nearer of its ends, n, of
+   the two p and q. The side T is off by 12 u (r_p + r_q), rounding included, the place G as seen
+   from n by 12 u r_n + 2 u d, d the length of f; so T x G by 12 u (r_p + r_q) |G| + (12 u r_n + 2 u
+   d) |T| in the 1-norm, and by its own rounding, 2 u |T| |G|, below 3 u (r_p + r_q) |G|. */
+static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side side[3])
 {
-    *f = (lrcsi_cells_facet){.off = off, .line_off = off};
-    double longest = 0;
+    const lrcsi_target *frame = &a->frame;
+    double corner[3][2];
+    double reach[3];
+    double length[3];
     for (int k = 0; k < 3; k++) {
-        const double *next = corner[k == 2 ? 0 : k + 1];
-        f->x[k] = corner[k][0];
-        f->y[k] = corner[k][1];
-        lrcsi_line_through(corner[k], next, f->side[k]);
-        f->length[k] = lrcsi_length_flat(next[0] - corner[k][0], next[1] - corner[k][1]) + 4 * off;
-        longest = lrcsi_most(longest, f->length[k]);
+        const double *x = lrcsi_target_corner(a->cells.view, other, k);
+        reach[k] = lrcsi_target_place(frame, x, corner[k]);
     }
-    for (int i = 0; i < 2; i++) {
-        f->low[i] = lrcsi_least(corner[0][i], lrcsi_least(corner[1][i], corner[2][i]));
-        f->high[i] = lrcsi_most(corner[0][i], lrcsi_most(corner[1][i], corner[2][i]));
+    for (int k = 0; k < 3; k++) {
+        const double *to = corner[k == 2 ? 0 : k + 1];
+        lrcsi_line_through(corner[k], to, side[k].line);
+        length[k] = lrcsi_length_flat(to[0] - corner[k][0], to[1] - corner[k][1]);
     }
-    double twice =
-        (f->x[1] - f->x[0]) * (f->y[2] - f->y[0]) - (f->y[1] - f->y[0]) * (f->x[2] - f->x[0]);
-    f->thin = !(twice > 16 * off * longest);
-}
-
-/* The sides of a facet whose corners are `reach` away, with how near to one a place must be that
-   its side of it is not sure: 20 u of that. Of one that is narrow, or reaches far off, that would
-   not do. There the line of each side is taken from the nearer of its ends, n, of the two p and q.
-   The side T is off by 12 u (r_p + r_q), rounding included, the place G as seen from n by 12 u r_n
-   + 2 u d, d the length of f; so T x G by 12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the
-   1-norm, and by its own rounding, 2 u |T| |G|, below 3 u (r_p + r_q) |G|. */
-static void sides_make(const lrcsi_target *frame, const double (*corner)[2], const double reach[3],
-                       lrcsi_cells_facet *f, lrcsi_alone_side *side)
-{
     double least = lrcsi_least(reach[0], lrcsi_least(reach[1], reach[2]));
     double most = lrcsi_most(reach[0], lrcsi_most(reach[1], reach[2]));
-    int odd = f->thin || most > FAR_FACET * (least + frame->reach);
+    double longest = lrcsi_most(length[0], lrcsi_most(length[1], length[2]));
+    double off = 20 * U * most;
+    double twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
+                   (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
+    int odd =
+        !(twice > 16 * off * (longest + 4 * off)) || most > FAR_FACET * (least + frame->reach);
     for (int k = 0; k < 3; k++) {
         int next = k == 2 ? 0 : k + 1;
         int n = reach[k] <= reach[next] ? k : next;
         double gap = fabs(corner[n][0]) + fabs(corner[n][1]) + 1.5 * frame->diameter;
-        memcpy(side[k].line, f->side[k], sizeof f->side[k]);
-        side[k].clear = f->off;
+        side[k].clear = off;
         if (odd) {
             double *line = side[k].line;
-            double length =
-                lrcsi_length_flat(corner[next][0] - corner[k][0], corner[next][1] - corner[k][1]);
             line[2] = -(line[0] * corner[n][0] + line[1] * corner[n][1]);
             side[k].clear =
-                16 * U * ((reach[k] + reach[next]) * (gap / length) + reach[n] + frame->diameter);
+                16 * U *
+                ((reach[k] + reach[next]) * (gap / length[k]) + reach[n] + frame->diameter);
         }
     }
-    if (odd) { /* cells are not told apart from it by them */
-        memset(f->side, 0, sizeof f->side);
-    }
 }
 
-/* Makes the record of a facet that may be in front of f. 0 where it does not come near. */
-static int facet_record(lrcsi_alone *a, uint32_t other, const lrcsi_cells_cell *cell)
+/* How a facet stands to f: by their planes; in one plane by the rules of precedence; else by where
+   sides cross. */
+static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
 {
-    const lrcsi_cells_work *c = &a->cells;
-    lrcsi_cells_facet *f = &c->facet[other];
-    double corner[3][2];
-    double reach[3];
-    double low[2];
-    double high[2];
-    if (a->frame.needle) { /* it may be anywhere */
-        *f = (lrcsi_cells_facet){.off = HUGE_VAL};
-        return 1;
+    const lrcsi_view *view = a->cells.view;
+    const lrcsi_touches *touches = &view->prepared->touches;
+    int order = lrcsi_contact_side(view, a->facet, other);
+    for (uint32_t i = touches->first[a->facet]; order == 0 && i < touches->first[a->facet + 1];
+         i++) {
+        if (touches->touch[i].other == other &&
+            !lrcsi_contest_touch_hides(view, a->facet, &touches->touch[i])) {
+            order = -1;
+        }
     }
-    for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_corner(c->view, other, k);
-        reach[k] = lrcsi_target_place(&a->frame, x, corner[k]);
-    }
-    double most = lrcsi_most(reach[0], lrcsi_most(reach[1], reach[2]));
-    record_make((const double(*)[2])corner, 20 * U * most, f);
-    sides_make(&a->frame, (const double(*)[2])corner, reach, f, a->side[other]);
-    lrcsi_clip_box(&cell->shape, low, high);
-    return lrcsi_cells_facet_near(f, &cell->shape, low, high, 16 * U * c->reach);
+    order = order == 0 ? lrcsi_contact_order(view, a->facet, other) : order;
+    order = order == 0 ? lrcsi_contact_within(view, a->facet, other) : order;
+    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
 }
 
-/* Lists what may be in front of f. 0 where there is no room, or the meter is spent. */
-static int alone_facets(lrcsi_alone *a, lrcsi_cells_cell *cell)
+/* Does one side of f have all of another facet beyond it? In view coordinates: differences are off
+   by e and g at most, rounding included, so p x q by e |q| + g |p| + 2 e g in the 1-norm, and by 2
+   u |p| |q| more, below a fifth of that (visibility/contest.c). */
+static int facet_apart(const lrcsi_alone *a, uint32_t other)
 {
-    lrcsi_cells_work *c = &a->cells;
+    const lrcsi_view *view = a->cells.view;
+    const uint32_t *own = view->prepared->scene->facet[a->facet].corner;
+    const uint32_t *its = view->prepared->scene->facet[other].corner;
+    int apart = 0;
+    for (int k = 0; k < 3 && !apart; k++) {
+        const double *at = view->point[own[k]].x;
+        const double *to = view->point[own[k == 2 ? 0 : k + 1]].x;
+        const double p[2] = {to[0] - at[0], to[1] - at[1]};
+        double off = lrcsi_view_off(at);
+        double e = off + lrcsi_view_off(to);
+        apart = 1;
+        for (int i = 0; i < 3 && apart; i++) {
+            const double *x = view->point[its[i]].x;
+            const double q[2] = {x[0] - at[0], x[1] - at[1]};
+            double g = off + lrcsi_view_off(x);
+            double turn = view->facing[a->facet] * (p[0] * q[1] - p[1] * q[0]);
+            apart = turn <
+                    -1.5 * (e * (fabs(q[0]) + fabs(q[1]) + 2 * g) + g * (fabs(p[0]) + fabs(p[1])));
+        }
+    }
+    return apart;
+}
+
+/* Lists what may be in front of f. 0 where the meter is spent. */
+static int alone_facets(lrcsi_alone *a)
+{
     const lrcsi_grid *grid = &a->grid;
+    lrcsi_cells_work *c = &a->cells;
     lrcsi_view_box box = grid->box[a->facet];
     lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
-    c->facets[cell->facets++] = a->facet;
+    a->count = 0;
     a->met[a->facet] = c->look;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
@@ -180,12 +192,13 @@ static int alone_facets(lrcsi_alone *a, lrcsi_cells_cell *cell)
                 continue;
             }
             a->met[other] = c->look;
-            int side = lrcsi_contact_side(c->view, a->facet, other);
-            if (side >= 0 && facet_record(a, other, cell)) {
-                a->order[other] = side > 0 ? ORDER_FRONT : ORDER_NEW;
-                c->listed[other] = c->look;
-                c->facets[cell->facets++] = other;
+            if (facet_apart(a, other)) {
+                continue;
             }
+            a->order[other] = ORDER_NEW;
+            a->side[other][0].clear = -1; /* not made yet */
+            c->listed[other] = c->look;
+            a->candidate[a->count++] = other;
         }
     }
     return 1;
@@ -202,7 +215,21 @@ static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
     e->line_off = e->off;
 }
 
-/* An edge, unless none of its facets is listed. 0 where there is no room. */
+/* Is neither of an edge's facets in front of f, wherever that is? */
+static int edge_idle(lrcsi_alone *a, const uint32_t owner[2])
+{
+    int idle = 1;
+    for (int i = 0; i < 2 && idle; i++) {
+        if (owner[i] != LRCS_NONE && a->cells.listed[owner[i]] == a->cells.look) {
+            uint32_t *order = &a->order[owner[i]];
+            *order = *order == ORDER_NEW ? order_of(a, owner[i]) : *order;
+            idle = *order == ORDER_BEHIND;
+        }
+    }
+    return idle;
+}
+
+/* An edge, unless its facets are behind f. 0 where there is no room. */
 static int alone_edge(lrcsi_alone *a, uint32_t edge)
 {
     lrcsi_cells_work *c = &a->cells;
@@ -212,7 +239,7 @@ static int alone_edge(lrcsi_alone *a, uint32_t edge)
     if (!e) {
         return 0;
     }
-    if (lrcsi_cells_idle(c, e)) {
+    if (e->edge == LRCS_NONE && edge_idle(a, e->owner)) {
         c->segment_count--;
         return 1;
     }
@@ -235,8 +262,10 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_contact contact;
-    int kind = lrcsi_contact_find(&a->frame, other, &contact);
-    if (a->order[other] == ORDER_NEW && kind != LRCSI_CONTACT_POINT) {
+    int side = lrcsi_contact_side(c->view, a->facet, other);
+    int kind = side < 0 ? LRCSI_CONTACT_POINT : lrcsi_contact_find(&a->frame, other, &contact);
+    a->order[other] = side > 0 ? ORDER_FRONT : side < 0 ? ORDER_BEHIND : ORDER_NEW;
+    if (side == 0 && kind != LRCSI_CONTACT_POINT) {
         a->order[other] = kind == LRCSI_CONTACT_LINE      ? c->segment_count
                           : kind == LRCSI_CONTACT_BEHIND  ? (uint32_t)ORDER_BEHIND
                           : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)ORDER_UNKNOWN
@@ -285,7 +314,7 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
         }
     }
     cell->segments = c->segment_count;
-    return lrcsi_meter_take(c->view->meter, (uint64_t)cell->facets + cell->segments);
+    return lrcsi_meter_take(c->view->meter, (uint64_t)a->count + cell->segments);
 }
 
 /* Nothing is known of so much of it: it counts as half visible. */
@@ -295,23 +324,27 @@ static void facet_leave(lrcsi_alone *a, double area)
     a->doubt[1] += 0.5 * area;
 }
 
-/* f's record, its triangle as a cell, and the error of its rim. */
-static void alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
+/* f's record, its triangle as a cell, and the error of its rim. 0 where rounding may have turned
+   the triangle over. */
+static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &c->facet[a->facet];
     const lrcsi_target *frame = &a->frame;
-    record_make((const double(*)[2])frame->corner,
-                frame->needle ? frame->slip + 8 * U : 20 * U * frame->reach, f);
-    c->reach = 0;
-    cell->shape.count = 3;
+    double off = frame->needle ? frame->slip + 8 * U : 20 * U * frame->reach;
+    *f = (lrcsi_cells_facet){.off = off, .line_off = off};
+    lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell->shape);
+    lrcsi_clip_box(&cell->shape, f->low, f->high);
+    c->reach = lrcsi_most(lrcsi_most(-f->low[0], -f->low[1]), lrcsi_most(f->high[0], f->high[1]));
     for (int k = 0; k < 3; k++) {
-        cell->shape.corner[k][0] = f->x[k];
-        cell->shape.corner[k][1] = f->y[k];
-        c->reach = lrcsi_most(c->reach, lrcsi_most(fabs(f->x[k]), fabs(f->y[k])));
-        a->rim += f->length[k];
+        f->x[k] = frame->corner[k][0];
+        f->y[k] = frame->corner[k][1];
+        lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
-    a->rim *= f->off + 16 * U * c->reach;
+    a->rim = frame->perimeter * (off + 16 * U * c->reach);
+    c->facets[0] = a->facet;
+    cell->facets = 1;
+    return lrcsi_clip_area(&cell->shape) > 8 * off * frame->diameter;
 }
 
 void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
@@ -327,9 +360,7 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     c->open[facet] = 1;
     c->segment_count = c->top = 0;
     c->look++;
-    alone_shape(a, &cell);
-    if (c->facet[facet].thin || !(lrcsi_clip_area(&cell.shape) > 0) || !alone_facets(a, &cell) ||
-        !alone_segments(a, &cell)) {
+    if (!alone_shape(a, &cell) || !alone_facets(a) || !alone_segments(a, &cell)) {
         facet_leave(a, lrcsi_view_tilt(c->view, facet).projected / a->frame.unit);
         return;
     }
@@ -390,7 +421,7 @@ typedef struct alone_place {
     int way; /* how it is asked, as below */
     double point[3];
     double off;                     /* by which the point may be elsewhere in the frame */
-    lrcsi_view_box box;             /* of a needle's place, in the view; its depth does not count */
+    lrcsi_view_box box;             /* in the view; its depth does not count */
     const lrcsi_cells_segment *cut; /* found: a segment of the sheet that ends at the */
     uint32_t ends;                  /* fewest, and how many these are */
 } alone_place;
@@ -411,20 +442,19 @@ static void place_lift(const lrcsi_alone *a, alone_place *place)
 }
 
 /* The place in the view: f's first corner and the way from there, which is off by f's own corners,
-   10 u of their reach, by rounding, 3 u, and by the frame's slip. */
-static lrcsi_view_box needle_box(const lrcsi_alone *a, const double at[2])
+   10 u of their reach, by rounding, 3 u, and in a needle by the frame's slip. */
+static lrcsi_view_box place_box(const lrcsi_alone *a, const alone_place *place)
 {
-    const lrcsi_target *frame = &a->frame;
     double first[3];
     double x[3];
-    lrcsi_view_place(a->cells.view, frame->origin, first);
-    lrcsi_target_unrefine(frame, at, x);
+    lrcsi_view_place(a->cells.view, a->target.origin, first);
+    lrcsi_target_unrefine(&a->frame, place->at, x);
     x[0] += first[0];
     x[1] += first[1];
     x[2] = first[2];
     return lrcsi_view_box_about(a->cells.view, x,
-                                lrcsi_view_off(first) +
-                                    (16 * U + 2 * frame->slip) * frame->needle->reach);
+                                lrcsi_view_off(first) + place->off +
+                                    (16 * U + 2 * a->frame.slip) * a->target.reach);
 }
 
 /* 1 a facet surely covers the point of a needle that has these shares, -1 surely not, 0 it passes
@@ -435,9 +465,6 @@ static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32
     const double *at = place->at;
     int guess = place->way == WAY_GUESSED;
     int inside = 1;
-    if (lrcsi_view_box_beside(&place->box, &a->grid.box[other])) {
-        return -1;
-    }
     for (int k = 0; k < 3; k++) {
         const double *p = lrcsi_target_corner(view, other, k);
         const double *q = lrcsi_target_corner(view, other, (k + 1) % 3);
@@ -450,21 +477,28 @@ static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32
     return inside || !guess ? inside : -1;
 }
 
-/* 1 a facet surely covers the place, -1 surely not, 0 it passes too near a side. */
-static int place_covered(const lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
+/* 1 a facet surely covers the place, -1 surely not, or it is behind f, 0 it passes too near a side.
+   Most are told apart by their boxes; what else they need is found for those that are left. */
+static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
 {
-    const lrcsi_cells_facet *f = &a->cells.facet[other];
     const double *at = place->at;
-    double w = f->off + g + place->off;
+    if (lrcsi_view_box_beside(&place->box, &a->grid.box[other])) {
+        return -1;
+    }
+    if (a->order[other] == ORDER_NEW) {
+        a->order[other] = order_of(a, other);
+    }
+    if (a->order[other] == ORDER_BEHIND) {
+        return -1;
+    }
     if (a->frame.needle) {
         return needle_covered(a, place, other);
     }
-    if (at[0] < f->low[0] - w || at[0] > f->high[0] + w || at[1] < f->low[1] - w ||
-        at[1] > f->high[1] + w) {
-        return -1;
-    }
     if (place->way == WAY_EXACT) {
         return lrcsi_sample_covers(a->cells.view, other, place->point) ? 1 : -1;
+    }
+    if (a->side[other][0].clear < 0) {
+        sides_make(a, other, a->side[other]);
     }
     int inside = 1;
     int guess = place->way == WAY_GUESSED;
@@ -480,29 +514,10 @@ static int place_covered(const lrcsi_alone *a, const alone_place *place, uint32_
     return guess && !inside ? -1 : inside;
 }
 
-/* How a facet stands to f, neither of which lies on one side of the other's plane. */
-static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
-{
-    const lrcsi_view *view = a->cells.view;
-    const lrcsi_touches *touches = &view->prepared->touches;
-    for (uint32_t i = touches->first[a->facet]; i < touches->first[a->facet + 1]; i++) {
-        if (touches->touch[i].other == other &&
-            !lrcsi_contest_touch_hides(view, a->facet, &touches->touch[i])) {
-            return ORDER_BEHIND;
-        }
-    }
-    int order = lrcsi_contact_order(view, a->facet, other);
-    order = order == 0 ? lrcsi_contact_within(view, a->facet, other) : order;
-    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
-}
-
 /* Is a facet that covers the place in front of f there? 1 yes, -1 no, 0 it cannot be told so. */
 static int place_front(lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
 {
     uint32_t *order = &a->order[other];
-    if (*order == ORDER_NEW) {
-        *order = order_of(a, other);
-    }
     if (*order == ORDER_ASKED && place->way != WAY_PLACED) {
         int nearer = lrcsi_sample_nearer(a->cells.view, other, a->facet, place->point, 1);
         if (place->way == WAY_EXACT && nearer != 0) {
@@ -524,15 +539,11 @@ static int place_front(lrcsi_alone *a, const alone_place *place, uint32_t other,
 static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                      alone_place *place)
 {
-    const lrcsi_cells_work *c = &a->cells;
     uint32_t last = LRCS_NONE;
     int answer = 0;
     place->ends = LRCS_NONE;
-    for (uint32_t i = 0; i < cell->facets && place->ends > 0; i++) {
-        uint32_t other = c->facets[i];
-        if (other == a->facet || a->order[other] == ORDER_BEHIND) {
-            continue;
-        }
+    for (uint32_t i = 0; i < a->count && place->ends > 0; i++) {
+        uint32_t other = a->candidate[i];
         int covered = place_covered(a, place, other, s->g);
         int front = covered >= 0 ? place_front(a, place, other, s->g) : -1;
         uint32_t sheet = a->contest->sheet[other];
@@ -570,13 +581,12 @@ static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
         if (!(place->clear > margin)) {
             continue;
         }
-        if (a->frame.needle) {
-            place->box = needle_box(a, place->at);
-        }
+        place->box = place_box(a, place);
         answer = place_ask(a, cell, s, place);
         if (answer < 0 && !a->frame.needle && place->clear > margin + lift) {
             place_lift(a, place);
             place->off = lift;
+            place->box = place_box(a, place);
             place->clear -= lift;
             answer = place_ask(a, cell, s, place);
         }
@@ -586,7 +596,7 @@ static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
         lrcsi_cells_spot(cell, 0, place->at);
         place_lift(a, place);
         place->way = WAY_GUESSED;
-        place->box = a->frame.needle ? needle_box(a, place->at) : place->box;
+        place->box = place_box(a, place);
         *guess = place_ask(a, cell, s, place) > 0;
     }
     return answer;
@@ -682,7 +692,7 @@ int lrcsi_alone_next(lrcsi_alone *a)
         if (cell.both[0] > 0 || cell.both[1] > 0) {
             lrcsi_cells_settle(c, &cell);
         }
-        uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
+        uint64_t steps = (uint64_t)1 + a->count + cell.segments;
         if (a->parts == 0 || !lrcsi_meter_take(c->view->meter, steps)) {
             facet_leave(a, lrcsi_clip_area(&cell.shape));
             continue;
@@ -727,7 +737,8 @@ static size_t alone_segments_most(const lrcs_prepared *p)
 size_t lrcsi_alone_need(const lrcs_prepared *p)
 {
     size_t facets = p->scene->facet_count;
-    size_t need = lrcsi_work_bytes(facets, 1);
+    size_t need =
+        lrcsi_work_add(lrcsi_work_bytes(facets, 1), lrcsi_work_bytes(1, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 3 * sizeof(lrcsi_alone_side)));
@@ -753,12 +764,13 @@ int lrcsi_alone_make(lrcsi_contest *contest, const lrcsi_grid *grid, lrcs_work *
     a->side = lrcsi_work_take(work, count, sizeof *a->side);
     a->met = lrcsi_work_take_zero(work, count, sizeof *a->met);
     a->order = lrcsi_work_take(work, count, sizeof *a->order);
-    c.facets = lrcsi_work_take(work, count, sizeof *c.facets);
+    c.facets = lrcsi_work_take(work, 1, sizeof *c.facets);
+    a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
     c.segments = lrcsi_work_take(work, c.segment_room, sizeof *c.segments);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c.stack);
     if (!c.open || !c.facet || !c.area || !c.listed || !a->side || !a->met || !a->order ||
-        !c.facets || !c.segments || !c.segment || !c.stack) {
+        !c.facets || !a->candidate || !c.segments || !c.segment || !c.stack) {
         return LRCS_E_MEMORY;
     }
     a->cells = c;

@@ -17,6 +17,8 @@ typedef struct lrcsi_alone {
     lrcsi_contest *contest;
     lrcsi_grid grid;             /* of facets */
     lrcsi_cells_work cells;      /* in the frame of the facet at hand */
+    uint32_t *candidate;         /* facets that may hide it, */
+    uint32_t count;              /* so many; of each */
     lrcsi_alone_side (*side)[3]; /* facet: its sides */
     uint32_t *met;               /* facet: the search that last met it */
     uint32_t *order;             /* facet that may hide it: how they stand to each other */
