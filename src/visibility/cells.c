@@ -48,6 +48,8 @@
 /* So many facets to be clipped, times those that might hide them, are many: clipping each asks
    about all of them. */
 #define MANY_LEFT 65536u
+/* How much less accurate than clipping areas may be then. */
+#define AS_CLIPPING 4
 /* A facet with less of its diameter's square is a needle. */
 #define NEEDLE 0x1p-18
 
@@ -317,10 +319,11 @@ static double extent_of(const lrcs_prepared *p)
     return 2 * lrcsi_most(p->bulk[0], lrcsi_most(p->bulk[1], p->bulk[2]));
 }
 
-/* What a facet's area may be off by, so that it is told: what DESIGN.md promises, or what clipping
-   the facet alone would charge at least (visibility/occlude.c): 52 u of its diameter times its
-   perimeter, and for each cut a strip 128 u of the diameter wide. Clipping finds needles and what
-   is larger than the bulk of the scene better than that. */
+/* What a facet's area may be off by, so that it is told: what DESIGN.md promises; or, where too
+   many would be left, four times what clipping the facet alone would charge at least
+   (visibility/occlude.c): 52 u of its diameter times its perimeter, and for each cut a strip 128 u
+   of the diameter wide. Needles, and what is larger than the bulk of the scene, are found better
+   one by one. */
 static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, int as_clipping)
 {
     const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
@@ -333,7 +336,8 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, int as_c
     }
     double extent = extent_of(c->view->prepared);
     int ordinary = projected > NEEDLE * diameter * diameter && diameter < 2 * extent;
-    double alone = as_clipping ? U * diameter * (104 * diameter + 128 * c->area[facet].cut) : 0;
+    double alone = U * diameter * (104 * diameter + 128 * c->area[facet].cut);
+    alone = as_clipping ? AS_CLIPPING * alone : 0;
     return ACCURACY_OF_FACET * projected +
            (ordinary ? lrcsi_most(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
 }
@@ -433,7 +437,7 @@ void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned c
             }
         }
         /* A few facets that are less accurate than is promised are clipped; of many, those of which
-           clipping would tell no more. */
+           clipping would tell much more. */
         uint64_t left = areas_tell(&c, 0, visible);
         if (left * view->prepared->scene->facet_count > MANY_LEFT) {
             areas_tell(&c, 1, visible);
