@@ -37,7 +37,7 @@ CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
 ABOVE_SRC = $(sort $(wildcard src/analysis/*.c))
 HOST_SRC = $(sort $(wildcard src/host/*.c))
-CLI_SRC  = $(sort $(wildcard src/cli/*.c))
+CLI_SRC  = $(sort $(wildcard src/cli/*.c src/cli/*/*.c))
 TEST_SRC = $(sort $(wildcard test/*/test_*.c))
 SH_TESTS = $(sort $(wildcard test/*/test_*.sh))
 
@@ -135,7 +135,7 @@ portable: $(JOINED)/lrcs.c
 PORTABLE =
 # Those that take minutes under emulation are left out.
 PORTABLE_TESTS = $(filter-out $(addprefix %/test_,$(addsuffix .c,bound closed cubature divide fit large \
-    margin mean polygon random shadows steps switch workspace)),$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
+    proximity_band mean polygon random shadows steps switch workspace)),$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 
 # Every target of test/fuzz under libFuzzer and the sanitizers (needs clang), each for FUZZ_SECONDS;
 # fuzz-NAME: one of them. fuzz-long, fuzz-long-NAME: FUZZ_RUNS executions of each, without
@@ -214,9 +214,9 @@ ESTIMATE_MODELS     =
 
 # The tessellation bound on SHADOWS_SCENES scenes of curved shapes in contact, flush, nested, pierced:
 # a coarse mesh against a fine one, and meshes against rays over the true shapes.
-shadows: cmocka $(BUILD)/test/integrate/test_margin
-	$(BUILD)/test/integrate/test_margin $(SHADOWS_SCENES) $(SHADOWS_SEED)
-	$(BUILD)/test/integrate/test_margin $(SHADOWS_SCENES) $(SHADOWS_SEED) 24
+shadows: cmocka $(BUILD)/test/integrate/test_proximity_band
+	$(BUILD)/test/integrate/test_proximity_band $(SHADOWS_SCENES) $(SHADOWS_SEED)
+	$(BUILD)/test/integrate/test_proximity_band $(SHADOWS_SCENES) $(SHADOWS_SEED) 24
 SHADOWS_SCENES = 280
 SHADOWS_SEED   = 1
 

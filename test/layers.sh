@@ -131,7 +131,7 @@ done
 
 # The map names every room, by itself or as one of several (`toml*`).
 families=$(grep -oE '`[a-z0-9_]+\*`' src/README.md | tr -d '`*')
-for file in src/*/*.c; do
+for file in src/*/*.c src/*/*/*.c; do
     room=$(basename "$file" .c)
     grep -q "\`$room\`" src/README.md && continue
     for family in $families; do

@@ -7,7 +7,7 @@
 
 /* The quantity that colours show. Where there is a colour scale, surfaces that return nothing are
    grey, shaded by their incidence angle. */
-enum lrcs_host_look {
+enum lrcs_host_colouring {
     LRCS_HOST_BY_SIGMA = 0, /* sigma per visible projected area, dB */
     LRCS_HOST_BY_THETA,     /* incidence angle, deg */
     LRCS_HOST_BY_RANGE,     /* m towards the laser, from the centre of the scene's box */
@@ -17,16 +17,16 @@ enum lrcs_host_look {
 };
 
 /* The name of a colour mapping ("sigma", "theta", "range", "facet", "material", "shaded"), or
-   NULL. lrcs_host_look_find is the inverse: LRCS_E_NAME for an unknown name. */
-const char *lrcs_host_look_text(int look);
-int lrcs_host_look_find(const char *name);
+   NULL. lrcs_host_colouring_find is the inverse: LRCS_E_NAME for an unknown name. */
+const char *lrcs_host_colouring_text(int colouring);
+int lrcs_host_colouring_find(const char *name);
 
 typedef struct lrcs_host_picture {
     const lrcs_scene *scene;
     const lrcs_pose *pose;
     const lrcs_facet_record *records; /* of a run for that pose */
     const char *title;                /* title element of an SVG drawing */
-    int look;                         /* lrcs_host_look */
+    int colouring;                    /* lrcs_host_colouring */
     int white;                        /* 1: white background; 0: dark background */
 } lrcs_host_picture;
 

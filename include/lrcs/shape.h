@@ -86,7 +86,7 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
 typedef struct lrcs_curvature {
     double turn;
     double area_error;
-    double lean;
+    double bias;
     double spread;
 } lrcs_curvature;
 

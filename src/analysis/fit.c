@@ -109,7 +109,7 @@ static int data_take(lrcs_work *work, uint32_t count, lrcsi_fit_data *data)
     double **vector[FIT_VECTORS] = {&data->u,         &data->log_w,     &data->factor,
                                     &data->y,         &data->inverse,   &data->weight,
                                     &data->column[0], &data->column[1], &data->column[2],
-                                    &data->column[3], &data->rest,      &data->spare};
+                                    &data->column[3], &data->residual,  &data->spare};
     data->count = count;
     for (uint32_t i = 0; i < FIT_VECTORS; i++) {
         *vector[i] = lrcsi_work_take(work, count, sizeof(double));
@@ -170,14 +170,14 @@ static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *o
 typedef struct fit_job {
     lrcsi_fit_data data;
     int noise;
-    lrcsi_fit_spot start[LRCSI_FIT_STARTS];
+    lrcsi_fit_parameters start[LRCSI_FIT_STARTS];
     uint32_t starts;
     uint32_t kept;
-    lrcsi_fit_spot whole; /* the best fit of all four parameters */
-    lrcsi_fit_spot best;  /* that, or the best without a part that does not stand out */
-    int absent[2];        /* A or B that does not */
-    double error;         /* standard deviation of a weighted residual */
-    double rise;          /* of the sum of squares at the limits of confidence */
+    lrcsi_fit_parameters whole; /* the best fit of all four parameters */
+    lrcsi_fit_parameters best;  /* that, or the best without a part that does not stand out */
+    int absent[2];              /* A or B that does not */
+    double error;               /* standard deviation of a weighted residual */
+    double rise;                /* of the sum of squares at the limits of confidence */
     lrcsi_fit_spread spread;
     double limit[LRCS_FIT_PARAMETERS][2];
 } fit_job;
@@ -194,23 +194,23 @@ static void starts_make(fit_job *job)
         best = sum < least ? i : best;
         least = lrcsi_least(sum, least);
     }
-    lrcsi_fit_spot first = job->start[best];
+    lrcsi_fit_parameters first = job->start[best];
     job->start[best] = job->start[0];
     job->start[0] = first;
 }
 
 /* The lowest end of all starts and the fit so far, with A or B held at 0 where `without` names it.
  */
-static lrcsi_fit_spot starts_descend(const fit_job *job, unsigned without)
+static lrcsi_fit_parameters starts_descend(const fit_job *job, unsigned without)
 {
-    lrcsi_fit_spot best = job->whole;
+    lrcsi_fit_parameters best = job->whole;
     for (uint32_t i = 0; i <= job->starts; i++) {
-        lrcsi_fit_spot spot = i > 0 ? job->start[i - 1] : job->whole;
+        lrcsi_fit_parameters parameters = i > 0 ? job->start[i - 1] : job->whole;
         for (int k = 0; k < 2; k++) {
-            spot.at[k] = (without & (1u << k)) ? 0.0 : spot.at[k];
+            parameters.at[k] = (without & (1u << k)) ? 0.0 : parameters.at[k];
         }
-        lrcsi_fit_descend(&job->data, without, &spot);
-        best = i == 0 || spot.square < best.square ? spot : best;
+        lrcsi_fit_descend(&job->data, without, &parameters);
+        best = i == 0 || parameters.square < best.square ? parameters : best;
     }
     return best;
 }
@@ -245,7 +245,7 @@ static void whole_settle(fit_job *job)
    it; or without the other. */
 static void parts_choose(fit_job *job)
 {
-    lrcsi_fit_spot without[2];
+    lrcsi_fit_parameters without[2];
     int known = job->noise == LRCS_FIT_GIVEN &&
                 job->whole.square < (double)(job->kept - LRCS_FIT_PARAMETERS);
     for (int k = 0; k < 2; k++) {
@@ -384,13 +384,14 @@ static double points_fill(const fit_job *job, double scale, lrcs_fit_point *poin
 {
     const lrcsi_fit_data *data = &job->data;
     double square = 0.0;
-    lrcsi_fit_rests(data, &job->best);
+    lrcsi_fit_residuals(data, &job->best);
     for (uint32_t i = 0; i < data->count; i++) {
         int keep = data->weight[i] > 0.0;
-        square += keep ? data->rest[i] * data->rest[i] : 0.0;
+        square += keep ? data->residual[i] * data->residual[i] : 0.0;
         if (point) {
-            point[i] = (lrcs_fit_point){scale * (data->y[i] - data->rest[i]), scale * data->rest[i],
-                                        data->rest[i] * data->inverse[i] / job->error, !keep};
+            point[i] = (lrcs_fit_point){scale * (data->y[i] - data->residual[i]),
+                                        scale * data->residual[i],
+                                        data->residual[i] * data->inverse[i] / job->error, !keep};
         }
     }
     return scale * sqrt(square / job->kept);

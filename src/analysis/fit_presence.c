@@ -28,11 +28,12 @@
 
 /* The part's vector at given s and m, made orthogonal to the other part's and normalised, into
    rest[]. Returns 0 if nothing is left. */
-static int presence_vector(const lrcsi_fit_data *data, int part, const lrcsi_fit_spot *spot)
+static int presence_vector(const lrcsi_fit_data *data, int part,
+                           const lrcsi_fit_parameters *parameters)
 {
     int other = part == LRCS_FIT_A ? LRCS_FIT_B : LRCS_FIT_A;
     int shape = other + LRCS_FIT_S;
-    lrcsi_fit_spot at = *spot;
+    lrcsi_fit_parameters at = *parameters;
     lrcsi_fit_normal normal;
     lrcsi_fit_settle(data, 3u, &at, &normal);
     double a = normal.gram[other][other];
@@ -48,36 +49,38 @@ static int presence_vector(const lrcsi_fit_data *data, int part, const lrcsi_fit
     double square = 0.0;
     for (uint32_t i = 0; i < data->count; i++) {
         double v = data->column[part][i] - x * data->column[other][i] - y * data->column[shape][i];
-        data->rest[i] = v;
+        data->residual[i] = v;
         square += v * v;
     }
     if (!(square > PRESENCE_ROUNDING * normal.gram[part][part])) {
         return 0;
     }
     for (uint32_t i = 0; i < data->count; i++) {
-        data->rest[i] /= sqrt(square);
+        data->residual[i] /= sqrt(square);
     }
     return 1;
 }
 
 /* The length of the arc, by chords. */
-static double presence_arc(const lrcsi_fit_data *data, int part, const lrcsi_fit_spot *without)
+static double presence_arc(const lrcsi_fit_data *data, int part,
+                           const lrcsi_fit_parameters *without)
 {
     int shape = part + LRCS_FIT_S;
     int before = 0;
     double arc = 0.0;
-    lrcsi_fit_spot spot = *without;
+    lrcsi_fit_parameters parameters = *without;
     for (int k = 0; k <= PRESENCE_STEPS; k++) {
         double chord = 0.0;
         double share = (double)k / PRESENCE_STEPS;
-        spot.at[shape] = data->least[shape] + share * (data->most[shape] - data->least[shape]);
-        if (!presence_vector(data, part, &spot)) {
+        parameters.at[shape] =
+            data->least[shape] + share * (data->most[shape] - data->least[shape]);
+        if (!presence_vector(data, part, &parameters)) {
             continue;
         }
         for (uint32_t i = 0; i < data->count; i++) {
-            double off = data->rest[i] - data->spare[i];
+            double off = data->residual[i] - data->spare[i];
             chord += off * off;
-            data->spare[i] = data->rest[i];
+            data->spare[i] = data->residual[i];
         }
         arc += before ? 2.0 * asin(lrcsi_least(1.0, 0.5 * sqrt(chord))) : 0.0;
         before = 1;
@@ -85,7 +88,7 @@ static double presence_arc(const lrcsi_fit_data *data, int part, const lrcsi_fit
     return arc;
 }
 
-int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_spot *without,
+int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_parameters *without,
                        double square, uint32_t kept, int known)
 {
     double fall = lrcsi_most(0.0, without->square - square);

@@ -11,7 +11,7 @@
    of the best fit with it; kept, the number of readings with a weight above 0; known: the weights
    are the inverses of the errors themselves, not only up to a factor. Uses column[], rest[] and
    spare[]. */
-int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_spot *without,
+int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_parameters *without,
                        double square, uint32_t kept, int known);
 
 #endif

@@ -46,17 +46,17 @@ static void matrix_invert(double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS],
 }
 
 lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixed,
-                                       const lrcsi_fit_spot *best, double noise)
+                                       const lrcsi_fit_parameters *best, double noise)
 {
     const double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, best->at[LRCS_FIT_A],
                                                best->at[LRCS_FIT_B]};
     double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
     double length[LRCS_FIT_PARAMETERS];
     int in[LRCS_FIT_PARAMETERS];
-    lrcsi_fit_spot spot = *best;
+    lrcsi_fit_parameters parameters = *best;
     lrcsi_fit_normal normal;
     lrcsi_fit_spread spread;
-    lrcsi_fit_settle(data, 3u, &spot, &normal);
+    lrcsi_fit_settle(data, 3u, &parameters, &normal);
     for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
         length[j] = (fixed & (1u << j)) ? 0.0 : scale[j] * sqrt(normal.gram[j][j]);
     }
@@ -85,57 +85,57 @@ typedef struct profile_walk {
     const lrcsi_fit_data *data;
     int parameter;
     double rise;
-    const lrcsi_fit_spot *best, *whole;
-    lrcsi_fit_spot last; /* the least at the last place where the readings did not object */
-    lrcsi_fit_spot low;  /* the least of all met */
+    const lrcsi_fit_parameters *best, *whole;
+    lrcsi_fit_parameters last; /* the least at the last place where the readings did not object */
+    lrcsi_fit_parameters low;  /* the least of all met */
 } profile_walk;
 
 /* Descends from a spot with the walk's parameter at x; the lower end stays in *least. */
-static void walk_descend(const profile_walk *walk, double x, const lrcsi_fit_spot *from,
-                         lrcsi_fit_spot *least)
+static void walk_descend(const profile_walk *walk, double x, const lrcsi_fit_parameters *from,
+                         lrcsi_fit_parameters *least)
 {
-    lrcsi_fit_spot spot = *from;
-    spot.at[walk->parameter] = x;
-    lrcsi_fit_descend(walk->data, 1u << walk->parameter, &spot);
-    *least = spot.square < least->square ? spot : *least;
+    lrcsi_fit_parameters parameters = *from;
+    parameters.at[walk->parameter] = x;
+    lrcsi_fit_descend(walk->data, 1u << walk->parameter, &parameters);
+    *least = parameters.square < least->square ? parameters : *least;
 }
 
 /* The best of some shapes of a part with the walk's parameter at x: a glint may hide between
    readings or grow wide, and there may be a hill between. A and m ask for the glint's shape, B and
    s for that of the diffuse part. */
-static lrcsi_fit_spot walk_shape(const profile_walk *walk, double x)
+static lrcsi_fit_parameters walk_shape(const profile_walk *walk, double x)
 {
     int p = walk->parameter;
     int shape = p == LRCS_FIT_A || p == LRCS_FIT_M ? LRCS_FIT_S : LRCS_FIT_M;
     unsigned fixed = 1u << p | 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
     double least = walk->data->least[shape];
     double most = walk->data->most[shape];
-    lrcsi_fit_spot best = walk->last;
+    lrcsi_fit_parameters best = walk->last;
     best.square = HUGE_VAL;
     for (int k = 0; k <= PROFILE_SHAPES; k++) {
         lrcsi_fit_normal normal;
-        lrcsi_fit_spot spot = walk->last;
-        spot.at[p] = x;
-        spot.at[shape] = least + (most - least) * k / PROFILE_SHAPES;
-        lrcsi_fit_settle(walk->data, fixed, &spot, &normal);
-        best = spot.square < best.square ? spot : best;
+        lrcsi_fit_parameters parameters = walk->last;
+        parameters.at[p] = x;
+        parameters.at[shape] = least + (most - least) * k / PROFILE_SHAPES;
+        lrcsi_fit_settle(walk->data, fixed, &parameters, &normal);
+        best = parameters.square < best.square ? parameters : best;
     }
     return best;
 }
 
 /* The root of the rise at a place, 1 where it is the limit. */
-static double walk_rise(profile_walk *walk, double x, lrcsi_fit_spot *spot)
+static double walk_rise(profile_walk *walk, double x, lrcsi_fit_parameters *parameters)
 {
-    *spot = walk->last;
-    spot->square = HUGE_VAL;
-    walk_descend(walk, x, &walk->last, spot);
-    walk_descend(walk, x, walk->whole, spot);
-    lrcsi_fit_spot from = walk_shape(walk, x);
-    walk_descend(walk, x, &from, spot);
-    if (spot->square < walk->low.square) {
-        walk->low = *spot;
+    *parameters = walk->last;
+    parameters->square = HUGE_VAL;
+    walk_descend(walk, x, &walk->last, parameters);
+    walk_descend(walk, x, walk->whole, parameters);
+    lrcsi_fit_parameters from = walk_shape(walk, x);
+    walk_descend(walk, x, &from, parameters);
+    if (parameters->square < walk->low.square) {
+        walk->low = *parameters;
     }
-    return sqrt(lrcsi_most(0.0, spot->square - walk->best->square) / walk->rise);
+    return sqrt(lrcsi_most(0.0, parameters->square - walk->best->square) / walk->rise);
 }
 
 /* Where the root of the rise is 1 between a place below and one above it: false position, the end
@@ -146,14 +146,14 @@ static double walk_cut(profile_walk *walk, double in, double f_in, double out, d
     double f_high = f_out - 1.0;
     int side = 0;
     for (int i = 0; i < PROFILE_CUTS && fabs(f_high) > PROFILE_NEAR; i++) {
-        lrcsi_fit_spot spot;
+        lrcsi_fit_parameters parameters;
         double x = in + (out - in) * (f_low / (f_low - f_high));
-        double f = walk_rise(walk, x, &spot) - 1.0;
+        double f = walk_rise(walk, x, &parameters) - 1.0;
         if (f < 0.0) {
             in = x;
             f_low = f;
             f_high *= side < 0 ? 0.5 : 1.0;
-            walk->last = spot;
+            walk->last = parameters;
             side = -1;
         } else {
             out = x;
@@ -178,25 +178,25 @@ static double walk_limit(profile_walk *walk, double stride, int direction)
     double f_in = 0.0;
     walk->last = *walk->best;
     for (int i = 0; i < PROFILE_STRIDES && direction * (end - in) > 0.0; i++, stride *= 2.0) {
-        lrcsi_fit_spot spot;
+        lrcsi_fit_parameters parameters;
         double x = in + direction * stride;
         x = direction < 0 ? lrcsi_most(x, end) : lrcsi_least(x, end);
-        double f = walk_rise(walk, x, &spot);
+        double f = walk_rise(walk, x, &parameters);
         if (f > 1.0) {
             return walk_cut(walk, in, f_in, x, f);
         }
         in = x;
         f_in = f;
-        walk->last = spot;
+        walk->last = parameters;
     }
     return direction < 0 && end == 0.0 ? 0.0 : direction * HUGE_VAL;
 }
 
 int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
-                      const lrcsi_fit_spot *best, lrcsi_fit_spot *whole,
+                      const lrcsi_fit_parameters *best, lrcsi_fit_parameters *whole,
                       double limit[LRCS_FIT_PARAMETERS][2])
 {
-    lrcsi_fit_spot low = *whole;
+    lrcsi_fit_parameters low = *whole;
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         profile_walk walk = {data, p, rise, best, whole, *best, low};
         double most = p < LRCS_FIT_S ? HUGE_VAL : 0.5;

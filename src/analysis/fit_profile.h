@@ -14,7 +14,7 @@ typedef struct lrcsi_fit_spread {
     double correlation[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
 } lrcsi_fit_spread;
 lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixed,
-                                       const lrcsi_fit_spot *best, double noise);
+                                       const lrcsi_fit_parameters *best, double noise);
 
 /* Profile limits: the values of each coordinate at which the sum of squares, minimized over the
    other coordinates, exceeds that at `best` by `rise`.
@@ -25,7 +25,7 @@ lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixe
    returned).
    Status: 1; or 0 if a sum below `whole` was found: *whole is then that parameter vector. */
 int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
-                      const lrcsi_fit_spot *best, lrcsi_fit_spot *whole,
+                      const lrcsi_fit_parameters *best, lrcsi_fit_parameters *whole,
                       double limit[LRCS_FIT_PARAMETERS][2]);
 
 #endif

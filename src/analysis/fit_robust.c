@@ -61,15 +61,15 @@ static double value_ranked(double *value, uint32_t count, uint32_t rank)
     return value[rank];
 }
 
-void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_spot *spot)
+void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_parameters *parameters)
 {
     double most = 0.0;
     if (noise != LRCS_FIT_RELATIVE) {
         return;
     }
-    lrcsi_fit_rests(data, spot);
+    lrcsi_fit_residuals(data, parameters);
     for (uint32_t i = 0; i < data->count; i++) {
-        data->spare[i] = data->y[i] - data->rest[i];
+        data->spare[i] = data->y[i] - data->residual[i];
         most = lrcsi_most(most, data->spare[i]);
     }
     for (uint32_t i = 0; i < data->count && most > ROBUST_LEAST; i++) {
@@ -78,13 +78,14 @@ void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_spot
 }
 
 /* |y - f| * inverse into spare[]; returns the least of them that are not rounding alone. */
-static double offsets_fill(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot, double *sum)
+static double offsets_fill(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters,
+                           double *sum)
 {
     double size = 0.0;
     *sum = 0.0;
-    lrcsi_fit_rests(data, spot);
+    lrcsi_fit_residuals(data, parameters);
     for (uint32_t i = 0; i < data->count; i++) {
-        data->spare[i] = fabs(data->rest[i]) * data->inverse[i];
+        data->spare[i] = fabs(data->residual[i]) * data->inverse[i];
         size = lrcsi_most(size, fabs(data->y[i]) * data->inverse[i]);
         *sum += data->spare[i];
     }
@@ -100,29 +101,29 @@ static double offsets_scale(const lrcsi_fit_data *data, double rounding)
     return lrcsi_most(ROBUST_NORMAL * few * median, rounding);
 }
 
-double lrcsi_fit_soften(const lrcsi_fit_data *data, int noise, lrcsi_fit_spot *spot)
+double lrcsi_fit_soften(const lrcsi_fit_data *data, int noise, lrcsi_fit_parameters *parameters)
 {
     double sum = 0.0;
     for (int round = 0; round < ROBUST_ROUNDS; round++) {
-        double rounding = offsets_fill(data, spot, &sum);
+        double rounding = offsets_fill(data, parameters, &sum);
         double most = ROBUST_HUBER * offsets_scale(data, rounding);
         for (uint32_t i = 0; i < data->count; i++) {
-            double off = fabs(data->rest[i]) * data->inverse[i];
+            double off = fabs(data->residual[i]) * data->inverse[i];
             data->weight[i] = data->inverse[i] * (off > most ? sqrt(most / off) : 1.0);
         }
-        lrcsi_fit_descend(data, 0, spot);
-        lrcsi_fit_noise(data, noise, spot);
+        lrcsi_fit_descend(data, 0, parameters);
+        lrcsi_fit_noise(data, noise, parameters);
     }
-    offsets_fill(data, spot, &sum);
+    offsets_fill(data, parameters, &sum);
     return sum;
 }
 
-int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot)
+int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters)
 {
     double sum = 0.0;
     int changed = 0;
     double most = HUGE_VAL;
-    double rounding = offsets_fill(data, spot, &sum);
+    double rounding = offsets_fill(data, parameters, &sum);
     if (data->count >= ROBUST_FEWEST) {
         most = ROBUST_CUT * offsets_scale(data, rounding);
         /* Where more than half agree to the last digit, the rest may still not be outliers. */
@@ -130,7 +131,7 @@ int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot)
         most = lrcsi_most(most, 2.0 * value_ranked(data->spare, data->count, seven));
     }
     for (uint32_t i = 0; i < data->count; i++) {
-        int keep = fabs(data->rest[i]) * data->inverse[i] <= most;
+        int keep = fabs(data->residual[i]) * data->inverse[i] <= most;
         changed |= keep != (data->weight[i] > 0.0);
         data->weight[i] = keep ? data->inverse[i] : 0.0;
     }

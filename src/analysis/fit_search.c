@@ -17,17 +17,17 @@
 #define SEARCH_PASSES 5
 #define SEARCH_FLOOR  0.01
 
-static lrcsi_fit_spot node_spot(const lrcsi_fit_data *data, int slope, int fall)
+static lrcsi_fit_parameters node_spot(const lrcsi_fit_data *data, int slope, int fall)
 {
-    lrcsi_fit_spot spot = {{0.0}, 0.0};
+    lrcsi_fit_parameters parameters = {{0.0}, 0.0};
     const int step[2] = {slope, fall};
     const int steps[2] = {SEARCH_SLOPES - 1, SEARCH_FALLS - 1};
     for (int k = 0; k < 2; k++) {
         int p = LRCS_FIT_S + k;
         double share = (double)step[k] / steps[k];
-        spot.at[p] = data->least[p] + share * (data->most[p] - data->least[p]);
+        parameters.at[p] = data->least[p] + share * (data->most[p] - data->least[p]);
     }
-    return spot;
+    return parameters;
 }
 
 /* The sum of absolute residuals, from weighted ones in rest[]. */
@@ -35,7 +35,7 @@ static double node_sum(const lrcsi_fit_data *data)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < data->count; i++) {
-        sum += fabs(data->rest[i]) * (data->inverse[i] / data->weight[i]);
+        sum += fabs(data->residual[i]) * (data->inverse[i] / data->weight[i]);
     }
     return sum;
 }
@@ -46,7 +46,7 @@ static void node_weigh(const lrcsi_fit_data *data, double mean)
 {
     double floor = lrcsi_most(SEARCH_FLOOR * mean, 0x1p-500);
     for (uint32_t i = 0; i < data->count; i++) {
-        double off = fabs(data->rest[i]) * (data->inverse[i] / data->weight[i]);
+        double off = fabs(data->residual[i]) * (data->inverse[i] / data->weight[i]);
         double weight = data->inverse[i] / sqrt(lrcsi_most(off, floor));
         data->column[LRCS_FIT_A][i] *= weight / data->weight[i];
         data->column[LRCS_FIT_B][i] *= weight / data->weight[i];
@@ -55,18 +55,18 @@ static void node_weigh(const lrcsi_fit_data *data, double mean)
 }
 
 /* The least sum of absolute residuals for the s and m of a node. */
-static double node_least(const lrcsi_fit_data *data, const lrcsi_fit_spot *node)
+static double node_least(const lrcsi_fit_data *data, const lrcsi_fit_parameters *node)
 {
     const unsigned shapes = 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
-    lrcsi_fit_spot spot = *node;
+    lrcsi_fit_parameters parameters = *node;
     lrcsi_fit_normal normal;
     memcpy(data->weight, data->inverse, data->count * sizeof *data->weight);
-    lrcsi_fit_columns(data, &spot);
-    lrcsi_fit_amplitudes(data, shapes, &spot, &normal);
+    lrcsi_fit_columns(data, &parameters);
+    lrcsi_fit_amplitudes(data, shapes, &parameters, &normal);
     double sum = node_sum(data);
     for (int pass = 1; pass < SEARCH_PASSES; pass++) {
         node_weigh(data, sum / data->count);
-        lrcsi_fit_amplitudes(data, shapes, &spot, &normal);
+        lrcsi_fit_amplitudes(data, shapes, &parameters, &normal);
         sum = node_sum(data);
     }
     return sum;
@@ -88,11 +88,11 @@ static int is_least(double sum[SEARCH_SLOPES][SEARCH_FALLS], int slope, int fall
 }
 
 /* Enters a start in its order, the least first; the last one falls out. */
-static uint32_t start_enter(lrcsi_fit_spot start[LRCSI_FIT_STARTS], uint32_t count,
-                            const lrcsi_fit_spot *spot)
+static uint32_t start_enter(lrcsi_fit_parameters start[LRCSI_FIT_STARTS], uint32_t count,
+                            const lrcsi_fit_parameters *parameters)
 {
     uint32_t at = count;
-    while (at > 0 && start[at - 1].square > spot->square) {
+    while (at > 0 && start[at - 1].square > parameters->square) {
         at--;
     }
     if (at == LRCSI_FIT_STARTS) {
@@ -102,25 +102,25 @@ static uint32_t start_enter(lrcsi_fit_spot start[LRCSI_FIT_STARTS], uint32_t cou
     for (uint32_t k = count - 1; k > at; k--) {
         start[k] = start[k - 1];
     }
-    start[at] = *spot;
+    start[at] = *parameters;
     return count;
 }
 
-uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_spot start[LRCSI_FIT_STARTS])
+uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_parameters start[LRCSI_FIT_STARTS])
 {
     double sum[SEARCH_SLOPES][SEARCH_FALLS];
     uint32_t count = 0;
     for (int i = 0; i < SEARCH_SLOPES; i++) {
         for (int k = 0; k < SEARCH_FALLS; k++) {
-            lrcsi_fit_spot spot = node_spot(data, i, k);
-            sum[i][k] = node_least(data, &spot);
+            lrcsi_fit_parameters parameters = node_spot(data, i, k);
+            sum[i][k] = node_least(data, &parameters);
         }
     }
     for (int i = 0; i < SEARCH_SLOPES; i++) {
         for (int k = 0; k < SEARCH_FALLS; k++) {
-            lrcsi_fit_spot spot = node_spot(data, i, k);
-            spot.square = sum[i][k];
-            count = is_least(sum, i, k) ? start_enter(start, count, &spot) : count;
+            lrcsi_fit_parameters parameters = node_spot(data, i, k);
+            parameters.square = sum[i][k];
+            count = is_least(sum, i, k) ? start_enter(start, count, &parameters) : count;
         }
     }
     return count;

@@ -31,11 +31,11 @@
 
 /* ---- columns, residuals and sums ---- */
 
-void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot)
+void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters)
 {
-    double s = exp(spot->at[LRCS_FIT_S]);
-    double w_m = exp(spot->at[LRCS_FIT_M]);
-    double half_m = 0.5 * expm1(spot->at[LRCS_FIT_M]);
+    double s = exp(parameters->at[LRCS_FIT_S]);
+    double w_m = exp(parameters->at[LRCS_FIT_M]);
+    double half_m = 0.5 * expm1(parameters->at[LRCS_FIT_M]);
     for (uint32_t i = 0; i < data->count; i++) {
         double weight = data->weight[i] * data->factor[i];
         double x = data->u[i] / s / s;
@@ -50,15 +50,15 @@ void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot)
     }
 }
 
-void lrcsi_fit_rests(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot)
+void lrcsi_fit_residuals(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters)
 {
-    double s = exp(spot->at[LRCS_FIT_S]);
-    double half_m = 0.5 * expm1(spot->at[LRCS_FIT_M]);
+    double s = exp(parameters->at[LRCS_FIT_S]);
+    double half_m = 0.5 * expm1(parameters->at[LRCS_FIT_M]);
     for (uint32_t i = 0; i < data->count; i++) {
         double far = data->u[i] / s / s - 3.0 * data->log_w[i];
-        double f = far < SOLVE_FAR ? spot->at[LRCS_FIT_A] * exp(-far) : 0.0;
-        f += spot->at[LRCS_FIT_B] * exp(-half_m * data->log_w[i]);
-        data->rest[i] = data->y[i] - data->factor[i] * f;
+        double f = far < SOLVE_FAR ? parameters->at[LRCS_FIT_A] * exp(-far) : 0.0;
+        f += parameters->at[LRCS_FIT_B] * exp(-half_m * data->log_w[i]);
+        data->residual[i] = data->y[i] - data->factor[i] * f;
     }
 }
 
@@ -81,19 +81,19 @@ static void gram_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_normal *n
 }
 
 /* The slopes and the sum of squares, from residuals that do not cancel. */
-static void slope_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_spot *spot,
+static void slope_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_parameters *parameters,
                        lrcsi_fit_normal *normal)
 {
     double sum[LRCS_FIT_PARAMETERS] = {0.0};
-    spot->square = 0.0;
+    parameters->square = 0.0;
     for (uint32_t i = 0; i < data->count; i++) {
-        double rest = data->weight[i] * data->y[i] -
-                      spot->at[LRCS_FIT_A] * data->column[LRCS_FIT_A][i] -
-                      spot->at[LRCS_FIT_B] * data->column[LRCS_FIT_B][i];
-        data->rest[i] = rest;
-        spot->square += rest * rest;
+        double residual = data->weight[i] * data->y[i] -
+                          parameters->at[LRCS_FIT_A] * data->column[LRCS_FIT_A][i] -
+                          parameters->at[LRCS_FIT_B] * data->column[LRCS_FIT_B][i];
+        data->residual[i] = residual;
+        parameters->square += residual * residual;
         for (int j = 0; j < order; j++) {
-            sum[j] += data->column[j][i] * rest;
+            sum[j] += data->column[j][i] * residual;
         }
     }
     memcpy(normal->slope, sum, sizeof sum);
@@ -138,32 +138,33 @@ static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
     return alone[0] > alone[1] ? 1u : 2u;
 }
 
-void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
-                          lrcsi_fit_normal *normal)
+void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed,
+                          lrcsi_fit_parameters *parameters, lrcsi_fit_normal *normal)
 {
     unsigned free = 3u & ~fixed;
     int order = fixed >> LRCS_FIT_S == 3u ? 2 : LRCS_FIT_PARAMETERS;
     double step[2];
     gram_fill(data, order, normal);
     for (int k = 0; k < 2; k++) {
-        spot->at[k] = (free & (1u << k)) ? 0.0 : spot->at[k];
+        parameters->at[k] = (free & (1u << k)) ? 0.0 : parameters->at[k];
     }
-    slope_fill(data, order, spot, normal);
+    slope_fill(data, order, parameters, normal);
     unsigned active = amplitude_active(normal, free);
     for (int pass = 0; pass < 2 && active; pass++) { /* the second takes away rounding */
         amplitude_step(normal, active, step);
         for (int k = 0; k < 2; k++) {
-            spot->at[k] = lrcsi_least(data->most[k], lrcsi_most(0.0, spot->at[k] + step[k]));
+            parameters->at[k] =
+                lrcsi_least(data->most[k], lrcsi_most(0.0, parameters->at[k] + step[k]));
         }
-        slope_fill(data, order, spot, normal);
+        slope_fill(data, order, parameters, normal);
     }
 }
 
-void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
+void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters,
                       lrcsi_fit_normal *normal)
 {
-    lrcsi_fit_columns(data, spot);
-    lrcsi_fit_amplitudes(data, fixed, spot, normal);
+    lrcsi_fit_columns(data, parameters);
+    lrcsi_fit_amplitudes(data, fixed, parameters, normal);
 }
 
 /* ---- s and m ---- */
@@ -175,10 +176,11 @@ typedef struct solve_shape {
 } solve_shape;
 
 static solve_shape shape_make(const lrcsi_fit_data *data, unsigned fixed,
-                              const lrcsi_fit_spot *spot, const lrcsi_fit_normal *normal)
+                              const lrcsi_fit_parameters *parameters,
+                              const lrcsi_fit_normal *normal)
 {
-    const double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, spot->at[LRCS_FIT_A],
-                                               spot->at[LRCS_FIT_B]};
+    const double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, parameters->at[LRCS_FIT_A],
+                                               parameters->at[LRCS_FIT_B]};
     double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
     double r[LRCS_FIT_PARAMETERS];
     for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
@@ -188,7 +190,7 @@ static solve_shape shape_make(const lrcsi_fit_data *data, unsigned fixed,
         }
     }
     for (int p = 0; p < 2; p++) {
-        int active = !(fixed & (1u << p)) && spot->at[p] > 0.0;
+        int active = !(fixed & (1u << p)) && parameters->at[p] > 0.0;
         if (!active || !(m[p][p] > SOLVE_PIVOT * normal->gram[p][p])) {
             continue;
         }
@@ -203,7 +205,8 @@ static solve_shape shape_make(const lrcsi_fit_data *data, unsigned fixed,
     solve_shape shape;
     for (int j = 0; j < 2; j++) {
         int p = LRCS_FIT_S + j;
-        int outward = r[p] > 0.0 ? spot->at[p] >= data->most[p] : spot->at[p] <= data->least[p];
+        int outward =
+            r[p] > 0.0 ? parameters->at[p] >= data->most[p] : parameters->at[p] <= data->least[p];
         double whole = scale[p] * scale[p] * normal->gram[p][p];
         shape.moves[j] = !(fixed & (1u << p)) && !outward && m[p][p] > SOLVE_PIVOT * whole;
         shape.slope[j] = r[p];
@@ -232,16 +235,16 @@ static int shape_step(const solve_shape *shape, double damping, double step[2])
     return shape->moves[0] || shape->moves[1];
 }
 
-void lrcsi_fit_descend(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot)
+void lrcsi_fit_descend(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters)
 {
     lrcsi_fit_normal normal;
     double damping = 1e-3;
     double step[2];
-    lrcsi_fit_settle(data, fixed, spot, &normal);
+    lrcsi_fit_settle(data, fixed, parameters, &normal);
     for (int i = 0; i < SOLVE_STEPS && damping < SOLVE_DAMPING_MOST; i++) {
-        solve_shape shape = shape_make(data, fixed, spot, &normal);
+        solve_shape shape = shape_make(data, fixed, parameters, &normal);
         lrcsi_fit_normal there;
-        lrcsi_fit_spot next = *spot;
+        lrcsi_fit_parameters next = *parameters;
         if (!shape_step(&shape, damping, step)) {
             break;
         }
@@ -251,12 +254,12 @@ void lrcsi_fit_descend(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spo
                 lrcsi_most(data->least[p], lrcsi_least(data->most[p], next.at[p] + step[k]));
         }
         lrcsi_fit_settle(data, fixed, &next, &there);
-        if (!(next.square < spot->square)) {
+        if (!(next.square < parameters->square)) {
             damping *= 8.0;
             continue;
         }
-        int settled = spot->square - next.square <= 1e-14 * spot->square;
-        *spot = next;
+        int settled = parameters->square - next.square <= 1e-14 * parameters->square;
+        *parameters = next;
         normal = there;
         damping *= 0.125;
         if (settled) {

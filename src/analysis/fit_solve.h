@@ -7,10 +7,10 @@
 #include <lrcs/fit.h>
 
 /* The coordinates of a fit are A, B, log(s), log(1 + m), in the order of lrcs_fit_index. */
-typedef struct lrcsi_fit_spot {
+typedef struct lrcsi_fit_parameters {
     double at[LRCS_FIT_PARAMETERS];
     double square; /* sum of weighted squares of the residuals */
-} lrcsi_fit_spot;
+} lrcsi_fit_parameters;
 
 /* The readings as arrays. */
 typedef struct lrcsi_fit_data {
@@ -23,8 +23,8 @@ typedef struct lrcsi_fit_data {
     double *weight;  /* at most `inverse`; 0 excludes the reading */
     double *column[LRCS_FIT_PARAMETERS]; /* weighted derivatives by A, B, and by log(s) and
                                             log(1 + m) for A = 1 and B = 1 */
-    double *rest;                        /* residuals y - f, weighted or not as stated by the
-                                            function that fills it */
+    double *residual;                    /* residuals y - f, weighted or not as stated by the
+                                        function that fills it */
     double *spare;
 } lrcsi_fit_data;
 
@@ -35,22 +35,23 @@ typedef struct lrcsi_fit_normal {
 } lrcsi_fit_normal;
 
 /* Fills the columns, weighted, at the s and m of a parameter vector. */
-void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot);
+void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters);
 
 /* Fills rest[] at a parameter vector for all readings, not weighted. */
-void lrcsi_fit_rests(const lrcsi_fit_data *data, const lrcsi_fit_spot *spot);
+void lrcsi_fit_residuals(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters);
 
 /* Solves for the best A and B >= 0 with the columns as they are; those in `fixed` (bits 1 << index)
    stay unchanged. Also returns the sum of squares and the normal equations there (of A and B only
    if s and m are fixed), and in rest[] the weighted residuals. */
-void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
-                          lrcsi_fit_normal *normal);
+void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed,
+                          lrcsi_fit_parameters *parameters, lrcsi_fit_normal *normal);
 
 /* The same, but first fills the columns at the s and m of the parameter vector. */
-void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot,
+void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters,
                       lrcsi_fit_normal *normal);
 
 /* Minimizes from a parameter vector to a local minimum over the coordinates that are not fixed. */
-void lrcsi_fit_descend(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_spot *spot);
+void lrcsi_fit_descend(const lrcsi_fit_data *data, unsigned fixed,
+                       lrcsi_fit_parameters *parameters);
 
 #endif

@@ -56,7 +56,7 @@ typedef struct image_job {
     lrcs_run_options options;
     lrcs_host_options load;
     cli_output file[IMAGE_FILES];
-    int look, white, ground_asked;
+    int colouring, white, ground_asked;
     uint32_t size;
     lrcs_host_scene scene;
     lrcs_result result;
@@ -103,8 +103,8 @@ static int look_read(image_job *job)
     const cli_command *command = job->args->command;
     const char *by = cli_value(job->args, "by");
     const char *ground = cli_value(job->args, "ground");
-    job->look = by ? lrcs_host_look_find(by) : LRCS_HOST_BY_SIGMA;
-    if (job->look < 0) {
+    job->colouring = by ? lrcs_host_colouring_find(by) : LRCS_HOST_BY_SIGMA;
+    if (job->colouring < 0) {
         return cli_usage(
             command, "--by: expected sigma, theta, range, facet, material or shaded, found '%s'",
             by);
@@ -142,7 +142,7 @@ static lrcs_host_picture picture_of(const image_job *job)
                                .pose = &job->pose,
                                .records = job->records,
                                .title = job->args->operand,
-                               .look = job->look,
+                               .colouring = job->colouring,
                                .white = job->white};
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs merge: the shards of a sweep, made whole. The rows go over byte by byte, so that the file is
    the one that a single sweep would have made. */
-#include "cli/sweep.h"
+#include "cli/sweep/sweep.h"
 
 #include <stdlib.h>
 #include <string.h>

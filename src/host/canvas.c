@@ -100,10 +100,10 @@ static void canvas_stretch(lrcsi_canvas *canvas, lrcsi_spot a, lrcsi_spot b, con
     }
 }
 
-static void canvas_line(lrcsi_pen *pen, const lrcsi_spot *spot, uint32_t count,
+static void canvas_line(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t count,
                         const lrcsi_ink *ink)
 {
-    lrcsi_canvas *canvas = (lrcsi_canvas *)pen;
+    lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
     double gone = 0.0;
     for (uint32_t i = 0; i + 1 < count; i++) {
         lrcsi_spot a = {spot[i].x * canvas->scale, spot[i].y * canvas->scale};
@@ -133,9 +133,10 @@ static void area_span(const lrcsi_spot *spot, uint32_t count, double scale, doub
     }
 }
 
-static void canvas_area(lrcsi_pen *pen, const lrcsi_spot *spot, uint32_t count, uint32_t colour)
+static void canvas_area(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t count,
+                        uint32_t colour)
 {
-    lrcsi_canvas *canvas = (lrcsi_canvas *)pen;
+    lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
     double reach[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     uint32_t part[4];
     for (uint32_t i = 0; i < count; i++) {
@@ -174,9 +175,9 @@ static void canvas_letters(lrcsi_canvas *canvas, const char *text, lrcsi_spot fr
     }
 }
 
-static void canvas_text(lrcsi_pen *pen, const lrcsi_words *words)
+static void canvas_text(lrcsi_plotter *plotter, const lrcsi_words *words)
 {
-    lrcsi_canvas *canvas = (lrcsi_canvas *)pen;
+    lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
     double size = words->size * canvas->scale;
     double half = size * (words->bold ? 0.056 : 0.036);
     double width = size * lrcsi_letters_width(words->text);
@@ -197,7 +198,7 @@ static void canvas_text(lrcsi_pen *pen, const lrcsi_words *words)
 int lrcsi_canvas_make(double width, double height, double scale, lrcsi_canvas *canvas,
                       lrcs_host_error *error)
 {
-    lrcsi_canvas made = {.pen = {canvas_line, canvas_area, canvas_text}, .scale = scale};
+    lrcsi_canvas made = {.plotter = {canvas_line, canvas_area, canvas_text}, .scale = scale};
     made.width = (uint32_t)lround(width * scale);
     made.height = (uint32_t)lround(height * scale);
     made.box[0] = made.width;

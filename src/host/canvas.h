@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* A pen that colours pixels, with smooth edges. */
+/* A plotter that colours pixels, with smooth edges. */
 #ifndef LRCSI_HOST_CANVAS_H
 #define LRCSI_HOST_CANVAS_H
 
-#include "host/pen.h"
+#include "host/plotter.h"
 
 typedef struct lrcsi_canvas {
-    lrcsi_pen pen; /* first: a pen is a canvas */
+    lrcsi_plotter plotter; /* first: a plotter is a canvas */
     uint32_t width, height;
     double scale;       /* pixels a unit of the paper */
     unsigned char *rgb; /* width x height */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A chart from its description: where everything stands and in which order it is drawn. Numbers
-   become ticks in axis.c, strokes become SVG or pixels behind the pen. */
+   become ticks in axis.c, strokes become SVG or pixels behind the plotter. */
 #include "host/axis.h"
 #include "host/canvas.h"
 #include "host/label.h"
@@ -15,7 +15,7 @@
 
 typedef struct chart_plan {
     const lrcs_host_chart *chart;
-    lrcsi_pen *pen;
+    lrcsi_plotter *plotter;
     lrcsi_axis x, y;
     double right; /* of the plot; the legend stands beyond */
     lrcsi_board *board;
@@ -96,7 +96,7 @@ static void chart_floor(const chart_plan *plan)
                                   {plan->right, y},
                                   {plan->right, LRCSI_CHART_BOTTOM},
                                   {LRCSI_CHART_LEFT, LRCSI_CHART_BOTTOM}};
-    plan->pen->area(plan->pen, corner, 4, LRCSI_COLOUR_FLOOR);
+    plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_FLOOR);
 }
 
 /* Lines at the major ticks, or the minor ones where they are not a hatching. */
@@ -107,13 +107,14 @@ static void chart_grid(const chart_plan *plan, int major)
     for (uint32_t i = 0; i < plan->x.count; i++) {
         double x = chart_x(plan, plan->x.tick[i].value);
         if (plan->x.tick[i].major == major && (major || plan->x.count <= GRID_MOST)) {
-            lrcsi_chart_stroke(plan->pen, x, LRCSI_CHART_TOP, x, LRCSI_CHART_BOTTOM, colour, width);
+            lrcsi_chart_stroke(plan->plotter, x, LRCSI_CHART_TOP, x, LRCSI_CHART_BOTTOM, colour,
+                               width);
         }
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
         double y = chart_y(plan, plan->y.tick[i].value);
         if (plan->y.tick[i].major == major && (major || plan->y.count <= GRID_MOST)) {
-            lrcsi_chart_stroke(plan->pen, LRCSI_CHART_LEFT, y, plan->right, y, colour, width);
+            lrcsi_chart_stroke(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, y, colour, width);
         }
     }
 }
@@ -123,12 +124,12 @@ static void chart_ticks(const chart_plan *plan)
     for (uint32_t i = 0; i < plan->x.count; i++) {
         const lrcsi_tick *tick = &plan->x.tick[i];
         const lrcsi_spot at = {chart_x(plan, tick->value), LRCSI_CHART_BOTTOM};
-        lrcsi_chart_tick(plan->pen, tick, at, 0);
+        lrcsi_chart_tick(plan->plotter, tick, at, 0);
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
         const lrcsi_tick *tick = &plan->y.tick[i];
         const lrcsi_spot at = {LRCSI_CHART_LEFT, chart_y(plan, tick->value)};
-        lrcsi_chart_tick(plan->pen, tick, at, 1);
+        lrcsi_chart_tick(plan->plotter, tick, at, 1);
     }
 }
 
@@ -140,7 +141,7 @@ static void run_draw(const chart_plan *plan, const lrcs_host_series *series, con
     const lrcsi_ink ink = lrcsi_series_ink(series);
     int joined = series->dash != LRCS_HOST_NO_LINE;
     if (count > 1 && joined) {
-        plan->pen->line(plan->pen, spot, count, &ink);
+        plan->plotter->line(plan->plotter, spot, count, &ink);
     }
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_board_spot(plan->board, spot[i], LRCSI_CHART_RING);
@@ -172,8 +173,9 @@ static void arrow_draw(const chart_plan *plan, uint32_t colour, lrcsi_spot at)
 {
     const lrcsi_spot head[3] = {
         {at.x - 3.2, at.y + 9.5}, {at.x + 3.2, at.y + 9.5}, {at.x, at.y + 14.5}};
-    lrcsi_chart_stroke(plan->pen, at.x, at.y + LRCSI_CHART_MARK, at.x, at.y + 10.0, colour, 1.4);
-    plan->pen->area(plan->pen, head, 3, colour);
+    lrcsi_chart_stroke(plan->plotter, at.x, at.y + LRCSI_CHART_MARK, at.x, at.y + 10.0, colour,
+                       1.4);
+    plan->plotter->area(plan->plotter, head, 3, colour);
     lrcsi_board_line(plan->board, at, head[2]);
 }
 
@@ -188,7 +190,7 @@ static void series_marks(const chart_plan *plan, const lrcs_host_series *series)
             series->marker != LRCS_HOST_NO_MARKER) {
             arrow_draw(plan, lrcsi_palette_named(series->colour), at);
         }
-        lrcsi_series_marker(plan->pen, series, at);
+        lrcsi_series_marker(plan->plotter, series, at);
     }
 }
 
@@ -200,7 +202,7 @@ static void series_labels(const chart_plan *plan, const lrcs_host_series *series
             .text = series->label[i], .size = 10.5, .colour = lrcsi_palette_named(series->colour)};
         if (words.text && chart_point(plan, series, i, &at) &&
             lrcsi_board_text(plan->board, at, 8.0, words.text, words.size, &words.at)) {
-            plan->pen->text(plan->pen, &words);
+            plan->plotter->text(plan->plotter, &words);
         }
     }
 }
@@ -218,18 +220,18 @@ static void legend_floor(const chart_plan *plan, double x, double y)
                                   {x + LRCSI_CHART_SAMPLE, y - 5.0},
                                   {x + LRCSI_CHART_SAMPLE, y + 6.0},
                                   {x, y + 6.0}};
-    plan->pen->area(plan->pen, corner, 4, LRCSI_COLOUR_FLOOR);
-    lrcsi_chart_stroke(plan->pen, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y - 5.0, LRCSI_COLOUR_FAINT,
-                       1.2);
+    plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_FLOOR);
+    lrcsi_chart_stroke(plan->plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y - 5.0,
+                       LRCSI_COLOUR_FAINT, 1.2);
     arrow_draw(plan, LRCSI_COLOUR_FAINT, (lrcsi_spot){x + 0.5 * LRCSI_CHART_SAMPLE, y - 8.5});
-    plan->pen->text(plan->pen, &words);
+    plan->plotter->text(plan->plotter, &words);
 }
 
 static void chart_legend(const chart_plan *plan)
 {
     const lrcs_host_chart *chart = plan->chart;
     double x = plan->right + LRCSI_CHART_MARGIN;
-    double y = lrcsi_chart_legend(plan->pen, chart, x, LRCSI_CHART_TOP + 8.0);
+    double y = lrcsi_chart_legend(plan->plotter, chart, x, LRCSI_CHART_TOP + 8.0);
     if (chart->y_log && chart->floor > 0.0 && chart->floor_name) {
         legend_floor(plan, x, y);
     }
@@ -246,7 +248,8 @@ static void chart_ground(const chart_plan *plan)
     chart_grid(plan, 1);
     if (floor) {
         double y = chart_y(plan, plan->chart->floor);
-        lrcsi_chart_stroke(plan->pen, LRCSI_CHART_LEFT, y, plan->right, y, LRCSI_COLOUR_FAINT, 1.2);
+        lrcsi_chart_stroke(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, y, LRCSI_COLOUR_FAINT,
+                           1.2);
     }
 }
 
@@ -269,17 +272,17 @@ static void chart_data(const chart_plan *plan)
 static void chart_say(const chart_plan *plan)
 {
     const lrcs_host_chart *chart = plan->chart;
-    lrcsi_chart_box(plan->pen, LRCSI_CHART_LEFT, plan->right);
+    lrcsi_chart_box(plan->plotter, LRCSI_CHART_LEFT, plan->right);
     chart_ticks(plan);
-    lrcsi_chart_title(plan->pen, chart->title, chart->note);
-    lrcsi_chart_names(plan->pen, chart->x_name, 0.5 * (LRCSI_CHART_LEFT + plan->right),
+    lrcsi_chart_title(plan->plotter, chart->title, chart->note);
+    lrcsi_chart_names(plan->plotter, chart->x_name, 0.5 * (LRCSI_CHART_LEFT + plan->right),
                       plan->right - LRCSI_CHART_LEFT, chart->y_name,
                       0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM),
                       LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
     chart_legend(plan);
 }
 
-static void chart_draw(const lrcs_host_chart *chart, lrcsi_pen *pen)
+static void chart_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
 {
     double legend = lrcsi_chart_legend_width(chart);
     double right =
@@ -287,7 +290,7 @@ static void chart_draw(const lrcs_host_chart *chart, lrcsi_pen *pen)
     right = fmax(right, 0.5 * LRCSI_CHART_WIDTH); /* a longer legend is cut */
     lrcsi_board board = {.frame = {(float)LRCSI_CHART_LEFT, (float)LRCSI_CHART_TOP, (float)right,
                                    (float)LRCSI_CHART_BOTTOM}};
-    chart_plan plan = {.chart = chart, .pen = pen, .right = right, .board = &board};
+    chart_plan plan = {.chart = chart, .plotter = plotter, .right = right, .board = &board};
     double range[2];
     int kind = chart->x_log ? LRCSI_AXIS_LOG : chart->x_deg ? LRCSI_AXIS_DEG : LRCSI_AXIS_LINEAR;
     chart_range(chart, 0, range);
@@ -301,12 +304,12 @@ static void chart_draw(const lrcs_host_chart *chart, lrcsi_pen *pen)
 }
 
 /* Either kind. */
-static void drawing_of(const lrcs_host_chart *chart, lrcsi_pen *pen)
+static void drawing_of(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
 {
     if (chart->polar) {
-        lrcsi_polar_draw(chart, pen);
+        lrcsi_polar_draw(chart, plotter);
     } else {
-        chart_draw(chart, pen);
+        chart_draw(chart, plotter);
     }
 }
 
@@ -315,7 +318,7 @@ static void drawing_of(const lrcs_host_chart *chart, lrcsi_pen *pen)
 void lrcs_host_chart_svg(FILE *out, const lrcs_host_chart *chart)
 {
     lrcsi_svg svg = lrcsi_svg_begin(out, LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, chart->title);
-    drawing_of(chart, &svg.pen);
+    drawing_of(chart, &svg.plotter);
     lrcsi_svg_end(&svg);
 }
 
@@ -325,7 +328,7 @@ int lrcs_host_chart_png(FILE *out, const lrcs_host_chart *chart, lrcs_host_error
     int status = lrcsi_canvas_make(LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, LRCSI_CHART_PIXELS,
                                    &canvas, error);
     if (status == LRCS_OK) {
-        drawing_of(chart, &canvas.pen);
+        drawing_of(chart, &canvas.plotter);
         status = lrcsi_canvas_end(&canvas, out, error);
     }
     return status;

@@ -20,7 +20,7 @@ typedef struct drawing_plan {
     double legend, height;
 } drawing_plan;
 
-static drawing_plan drawing_place(const lrcsi_look *look, const lrcs_polygons *polygons)
+static drawing_plan drawing_place(const lrcsi_colouring *colouring, const lrcs_polygons *polygons)
 {
     drawing_plan plan = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0, DRAWING_MARGIN, 1, 0, 0};
     const double room[2] = {DRAWING_WIDTH - 2.0 * DRAWING_MARGIN, DRAWING_HEIGHT};
@@ -41,7 +41,7 @@ static drawing_plan drawing_place(const lrcsi_look *look, const lrcs_polygons *p
     plan.metre = isfinite(metre) ? metre : 0.0;
     double width = plan.metre * (plan.high[0] - plan.low[0]);
     plan.left = 0.5 * (DRAWING_WIDTH - width);
-    plan.legend = lrcsi_legend_height(look, DRAWING_WIDTH, DRAWING_LEGEND);
+    plan.legend = lrcsi_legend_height(colouring, DRAWING_WIDTH, DRAWING_LEGEND);
     plan.height = 2.0 * DRAWING_MARGIN + plan.metre * (plan.high[1] - plan.low[1]) + plan.legend;
     return plan;
 }
@@ -67,11 +67,12 @@ static void scale_stops(FILE *out)
 }
 
 /* Along the steepest way up the facet's plane, from the scale's one end to the other. */
-static void slope_write(FILE *out, const lrcsi_look *look, uint32_t facet, const double at[3])
+static void slope_write(FILE *out, const lrcsi_colouring *colouring, uint32_t facet,
+                        const double at[3])
 {
     double steep = at[1] * at[1] + at[2] * at[2];
-    double from = (look->scale.least - at[0]) / steep;
-    double to = (look->scale.most - at[0]) / steep;
+    double from = (colouring->scale.least - at[0]) / steep;
+    double to = (colouring->scale.most - at[0]) / steep;
     fprintf(out, "<linearGradient id=\"g%lu\" xlink:href=\"#scale\"", (unsigned long)facet);
     drawing_number(out, " gradientUnits=\"userSpaceOnUse\" x1=\"", from * at[1]);
     drawing_number(out, "\" y1=\"", from * at[2]);
@@ -91,19 +92,19 @@ static void ring_write(FILE *out, const lrcs_polygons *polygons, const lrcs_ring
 }
 
 /* The rings from `first` on that lie on one facet; the one after them. */
-static uint32_t facet_write(FILE *out, const lrcsi_look *look, const lrcs_polygons *polygons,
-                            uint32_t first)
+static uint32_t facet_write(FILE *out, const lrcsi_colouring *colouring,
+                            const lrcs_polygons *polygons, uint32_t first)
 {
     uint32_t facet = polygons->ring[first].facet;
     unsigned long number = facet;
     double at[3];
-    if (lrcsi_look_slope(look, facet, at)) {
-        slope_write(out, look, facet, at);
+    if (lrcsi_colouring_slope(colouring, facet, at)) {
+        slope_write(out, colouring, facet, at);
         fprintf(out, "<path id=\"f%lu\" fill=\"url(#g%lu)\" stroke=\"url(#g%lu)\" d=\"", number,
                 number, number);
     } else {
         const lrcs_ring_point *corner = &polygons->point[polygons->ring[first].first];
-        unsigned long colour = lrcsi_look_colour(look, facet, corner->view);
+        unsigned long colour = lrcsi_colouring_colour(colouring, facet, corner->view);
         fprintf(out, "<path id=\"f%lu\" fill=\"#%06lx\" stroke=\"#%06lx\" d=\"", number, colour,
                 colour);
     }
@@ -115,7 +116,7 @@ static uint32_t facet_write(FILE *out, const lrcsi_look *look, const lrcs_polygo
     return r;
 }
 
-static void facets_draw(FILE *out, const lrcsi_look *look, const lrcs_polygons *polygons,
+static void facets_draw(FILE *out, const lrcsi_colouring *colouring, const lrcs_polygons *polygons,
                         const drawing_plan *plan)
 {
     double x = plan->left - plan->metre * plan->low[0];
@@ -127,11 +128,11 @@ static void facets_draw(FILE *out, const lrcsi_look *look, const lrcs_polygons *
     drawing_number(out, ")\" stroke-width=\"",
                    plan->metre > 0.0 ? DRAWING_SEAM / plan->metre : 0.0);
     fputs("\">\n", out);
-    if (look->picture->look == LRCS_HOST_BY_RANGE) {
+    if (colouring->picture->colouring == LRCS_HOST_BY_RANGE) {
         scale_stops(out);
     }
     for (uint32_t r = 0; r < polygons->rings;) {
-        r = facet_write(out, look, polygons, r);
+        r = facet_write(out, colouring, polygons, r);
     }
     fputs("</g>\n", out);
 }
@@ -139,16 +140,16 @@ static void facets_draw(FILE *out, const lrcsi_look *look, const lrcs_polygons *
 void lrcs_host_picture_svg(FILE *out, const lrcs_host_picture *picture,
                            const lrcs_polygons *polygons)
 {
-    lrcsi_look look = lrcsi_look_make(picture);
-    drawing_plan plan = drawing_place(&look, polygons);
+    lrcsi_colouring colouring = lrcsi_colouring_make(picture);
+    drawing_plan plan = drawing_place(&colouring, polygons);
     lrcsi_svg svg = lrcsi_svg_begin(out, DRAWING_WIDTH, plan.height, picture->title);
     if (!picture->white) {
         const lrcsi_spot corner[4] = {
             {0.0, 0.0}, {DRAWING_WIDTH, 0.0}, {DRAWING_WIDTH, plan.height}, {0.0, plan.height}};
-        svg.pen.area(&svg.pen, corner, 4, lrcsi_look_ground(&look));
+        svg.plotter.area(&svg.plotter, corner, 4, lrcsi_colouring_ground(&colouring));
     }
-    facets_draw(out, &look, polygons, &plan);
-    lrcsi_legend_draw(&look, &svg.pen, plan.height - plan.legend, DRAWING_WIDTH, DRAWING_LEGEND,
-                      plan.metre, lrcsi_look_ink(&look));
+    facets_draw(out, &colouring, polygons, &plan);
+    lrcsi_legend_draw(&colouring, &svg.plotter, plan.height - plan.legend, DRAWING_WIDTH,
+                      DRAWING_LEGEND, plan.metre, lrcsi_colouring_ink(&colouring));
     lrcsi_svg_end(&svg);
 }

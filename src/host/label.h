@@ -3,7 +3,7 @@
 #ifndef LRCSI_HOST_LABEL_H
 #define LRCSI_HOST_LABEL_H
 
-#include "host/pen.h"
+#include "host/plotter.h"
 
 #define LRCSI_LABEL_ROOMS 4096u
 

@@ -40,15 +40,16 @@ static double length_choose(double most, char name[32])
     return digit * pow(10.0, decade);
 }
 
-static void legend_stroke(lrcsi_pen *pen, double x0, double y0, double x1, double y1, uint32_t ink)
+static void legend_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
+                          uint32_t ink)
 {
     const lrcsi_spot spot[2] = {{x0, y0}, {x1, y1}};
     const lrcsi_ink line = {ink, 1.2, {0.0, 0.0}};
-    pen->line(pen, spot, 2, &line);
+    plotter->line(plotter, spot, 2, &line);
 }
 
 /* The bar of metres with its ends, on a line at y. */
-static void length_draw(lrcsi_pen *pen, double y, double width, double scale, uint32_t ink)
+static void length_draw(lrcsi_plotter *plotter, double y, double width, double scale, uint32_t ink)
 {
     char name[32];
     double most = (LEGEND_LENGTH * width) / scale;
@@ -57,31 +58,31 @@ static void length_draw(lrcsi_pen *pen, double y, double width, double scale, ui
     }
     double length = scale * length_choose(most, name);
     double x = LEGEND_MARGIN;
-    legend_stroke(pen, x, y, x + length, y, ink);
-    legend_stroke(pen, x, y - 4.0, x, y + 4.0, ink);
-    legend_stroke(pen, x + length, y - 4.0, x + length, y + 4.0, ink);
+    legend_stroke(plotter, x, y, x + length, y, ink);
+    legend_stroke(plotter, x, y - 4.0, x, y + 4.0, ink);
+    legend_stroke(plotter, x + length, y - 4.0, x + length, y + 4.0, ink);
     const lrcsi_words words = {.text = name,
                                .at = {x + 0.5 * length, y + 17.0},
                                .size = LEGEND_TYPE,
                                .anchor = LRCSI_ANCHOR_MIDDLE,
                                .colour = ink};
-    pen->text(pen, &words);
+    plotter->text(plotter, &words);
 }
 
 /* ---- the colour scale ---- */
 
-static void rectangle_draw(lrcsi_pen *pen, double x0, double y0, double x1, double y1,
+static void rectangle_draw(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                            uint32_t colour)
 {
     const lrcsi_spot corner[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-    pen->area(pen, corner, 4, colour);
+    plotter->area(plotter, corner, 4, colour);
 }
 
-static void words_fit(lrcsi_pen *pen, lrcsi_words words, double room)
+static void words_fit(lrcsi_plotter *plotter, lrcsi_words words, double room)
 {
     double width = words.size * lrcsi_letters_width(words.text);
     words.size *= width > room ? room / width : 1.0;
-    pen->text(pen, &words);
+    plotter->text(plotter, &words);
 }
 
 /* How many named ticks there are from one number to the next, so that all have room. */
@@ -98,47 +99,49 @@ static uint32_t numbers_step(const lrcsi_axis *scale, double width)
 }
 
 /* Numbers under the scale, 0 among them where it is. */
-static void scale_numbers(const lrcsi_look *look, lrcsi_pen *pen, double left, double width,
-                          double y, uint32_t ink)
+static void scale_numbers(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double left,
+                          double width, double y, uint32_t ink)
 {
-    uint32_t step = numbers_step(&look->scale, width);
+    uint32_t step = numbers_step(&colouring->scale, width);
     uint32_t named = 0;
-    for (uint32_t i = 0; i < look->scale.count && look->scale.tick[i].value < 0.0; i++) {
-        named += look->scale.tick[i].major != 0;
+    for (uint32_t i = 0; i < colouring->scale.count && colouring->scale.tick[i].value < 0.0; i++) {
+        named += colouring->scale.tick[i].major != 0;
     }
-    named = look->scale.most < 0.0 ? 0 : (step - named % step) % step; /* so that 0 counts as one */
-    for (uint32_t i = 0; i < look->scale.count; i++) {
-        const lrcsi_tick *tick = &look->scale.tick[i];
-        double x = left + width * lrcsi_axis_at(&look->scale, tick->value);
+    named = colouring->scale.most < 0.0
+                ? 0
+                : (step - named % step) % step; /* so that 0 counts as one */
+    for (uint32_t i = 0; i < colouring->scale.count; i++) {
+        const lrcsi_tick *tick = &colouring->scale.tick[i];
+        double x = left + width * lrcsi_axis_at(&colouring->scale, tick->value);
         if (tick->major && named++ % step == 0) {
             const lrcsi_words words = {.text = tick->text,
                                        .at = {x, y + 15.0},
                                        .size = LEGEND_TYPE,
                                        .anchor = LRCSI_ANCHOR_MIDDLE,
                                        .colour = ink};
-            legend_stroke(pen, x, y, x, y + 3.0, ink);
-            pen->text(pen, &words);
+            legend_stroke(plotter, x, y, x, y + 3.0, ink);
+            plotter->text(plotter, &words);
         }
     }
 }
 
-static void scale_draw(const lrcsi_look *look, lrcsi_pen *pen, double top, double width,
-                       uint32_t ink)
+static void scale_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double top,
+                       double width, uint32_t ink)
 {
     double left = LEGEND_MARGIN + (LEGEND_LENGTH + 0.06) * width;
     double bar = width - LEGEND_MARGIN - 8.0 - left;
     double y = top + 16.0;
-    const lrcsi_words title = {.text = lrcsi_look_name(look),
+    const lrcsi_words title = {.text = lrcsi_colouring_name(colouring),
                                .at = {left + 0.5 * bar, top + 10.0},
                                .size = LEGEND_TYPE,
                                .anchor = LRCSI_ANCHOR_MIDDLE,
                                .colour = ink};
-    words_fit(pen, title, bar);
+    words_fit(plotter, title, bar);
     for (int i = 0; i < LEGEND_STEPS; i++) { /* each to the end: no gaps between them */
-        rectangle_draw(pen, left + bar * i / LEGEND_STEPS, y, left + bar, y + LEGEND_BAR,
+        rectangle_draw(plotter, left + bar * i / LEGEND_STEPS, y, left + bar, y + LEGEND_BAR,
                        lrcsi_palette_even((i + 0.5) / LEGEND_STEPS));
     }
-    scale_numbers(look, pen, left, bar, y + LEGEND_BAR, ink);
+    scale_numbers(colouring, plotter, left, bar, y + LEGEND_BAR, ink);
 }
 
 /* ---- materials ---- */
@@ -148,21 +151,21 @@ typedef struct legend_grid {
     double column;
 } legend_grid;
 
-static legend_grid grid_make(const lrcsi_look *look, double width, double most)
+static legend_grid grid_make(const lrcsi_colouring *colouring, double width, double most)
 {
     legend_grid grid = {.columns = 1, .column = width - 2.0 * LEGEND_MARGIN};
-    double widest = look->more ? lrcsi_letters_width("and more") : 0.0;
-    for (uint32_t i = 0; i < look->materials; i++) {
-        widest =
-            fmax(widest, lrcsi_letters_width(lrcsi_look_material_name(look, look->material[i])));
+    double widest = colouring->more ? lrcsi_letters_width("and more") : 0.0;
+    for (uint32_t i = 0; i < colouring->materials; i++) {
+        widest = fmax(widest, lrcsi_letters_width(lrcsi_colouring_material_name(
+                                  colouring, colouring->material[i])));
     }
     double wanted = LEGEND_TYPE * widest + LEGEND_SWATCH + 18.0;
     uint32_t room = (uint32_t)fmax((most - LEGEND_STRIP) / LEGEND_ROW, 0.0);
-    uint32_t items = look->materials + (look->more != 0);
+    uint32_t items = colouring->materials + (colouring->more != 0);
     grid.columns = (uint32_t)fmin(fmax(floor(grid.column / wanted), 1.0), fmax(items, 1.0));
     grid.column /= grid.columns;
     grid.rows = (items + grid.columns - 1) / grid.columns;
-    grid.shown = look->materials;
+    grid.shown = colouring->materials;
     if (grid.rows > room) {
         grid.rows = room;
         grid.shown = room > 0 ? room * grid.columns - 1 : 0;
@@ -170,10 +173,10 @@ static legend_grid grid_make(const lrcsi_look *look, double width, double most)
     return grid;
 }
 
-static void materials_draw(const lrcsi_look *look, lrcsi_pen *pen, const legend_grid *grid,
-                           double top, uint32_t ink)
+static void materials_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
+                           const legend_grid *grid, double top, uint32_t ink)
 {
-    int more = look->more || grid->shown < look->materials;
+    int more = colouring->more || grid->shown < colouring->materials;
     for (uint32_t i = 0; grid->rows > 0 && i < grid->shown + (uint32_t)more; i++) {
         double x = LEGEND_MARGIN + grid->column * (i % grid->columns);
         uint32_t row = i / grid->columns;
@@ -183,38 +186,38 @@ static void materials_draw(const lrcsi_look *look, lrcsi_pen *pen, const legend_
                              .size = LEGEND_TYPE,
                              .colour = ink};
         if (i < grid->shown) {
-            words.text = lrcsi_look_material_name(look, look->material[i]);
-            rectangle_draw(pen, x - 1.0, y - 1.0, x + LEGEND_SWATCH + 1.0, y + LEGEND_SWATCH + 1.0,
-                           ink);
-            rectangle_draw(pen, x, y, x + LEGEND_SWATCH, y + LEGEND_SWATCH,
-                           lrcsi_look_material(look, look->material[i]));
+            words.text = lrcsi_colouring_material_name(colouring, colouring->material[i]);
+            rectangle_draw(plotter, x - 1.0, y - 1.0, x + LEGEND_SWATCH + 1.0,
+                           y + LEGEND_SWATCH + 1.0, ink);
+            rectangle_draw(plotter, x, y, x + LEGEND_SWATCH, y + LEGEND_SWATCH,
+                           lrcsi_colouring_material(colouring, colouring->material[i]));
         }
-        words_fit(pen, words, grid->column - LEGEND_SWATCH - 12.0);
+        words_fit(plotter, words, grid->column - LEGEND_SWATCH - 12.0);
     }
 }
 
 /* ---- the strip ---- */
 
-double lrcsi_legend_height(const lrcsi_look *look, double width, double most)
+double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double most)
 {
     double rows = 0.0;
-    if (look->materials > 0) {
-        legend_grid grid = grid_make(look, width, most);
+    if (colouring->materials > 0) {
+        legend_grid grid = grid_make(colouring, width, most);
         rows = LEGEND_ROW * grid.rows;
     }
     return rows + LEGEND_STRIP;
 }
 
-void lrcsi_legend_draw(const lrcsi_look *look, lrcsi_pen *pen, double top, double width,
-                       double most, double scale, uint32_t ink)
+void lrcsi_legend_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double top,
+                       double width, double most, double scale, uint32_t ink)
 {
-    if (look->materials > 0) {
-        legend_grid grid = grid_make(look, width, most);
-        materials_draw(look, pen, &grid, top, ink);
+    if (colouring->materials > 0) {
+        legend_grid grid = grid_make(colouring, width, most);
+        materials_draw(colouring, plotter, &grid, top, ink);
         top += LEGEND_ROW * grid.rows;
     }
-    if (look->scaled) {
-        scale_draw(look, pen, top, width, ink);
+    if (colouring->scaled) {
+        scale_draw(colouring, plotter, top, width, ink);
     }
-    length_draw(pen, top + 16.0 + 0.5 * LEGEND_BAR, width, scale, ink);
+    length_draw(plotter, top + 16.0 + 0.5 * LEGEND_BAR, width, scale, ink);
 }

@@ -3,15 +3,15 @@
 #ifndef LRCSI_HOST_LEGEND_H
 #define LRCSI_HOST_LEGEND_H
 
-#include "host/look.h"
-#include "host/pen.h"
+#include "host/colouring.h"
+#include "host/plotter.h"
 
 /* How high a legend is on paper of a width, no higher than `most`. */
-double lrcsi_legend_height(const lrcsi_look *look, double width, double most);
+double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double most);
 
 /* Draws it with its top at `top`, all across the paper.
    Given: scale, units of the paper a metre; ink, the colour of words. */
-void lrcsi_legend_draw(const lrcsi_look *look, lrcsi_pen *pen, double top, double width,
-                       double most, double scale, uint32_t ink);
+void lrcsi_legend_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double top,
+                       double width, double most, double scale, uint32_t ink);
 
 #endif

@@ -8,8 +8,8 @@
 
 #include <stddef.h>
 
-/* Two characters a point, x right and y down, each its distance from 'R'; " R" lifts the pen. The
-   first pair is the left and the right side. Capitals stand on 9 and rise to -12. */
+/* Two characters a point, x right and y down, each its distance from 'R'; " R" lifts the plotter.
+   The first pair is the left and the right side. Capitals stand on 9 and rise to -12. */
 static const char *const letter_strokes[] = {
     "JZ",                                                                         /*   */
     "MWRFRT RRYQZR[SZRY",                                                         /* ! */

@@ -3,7 +3,7 @@
 #ifndef LRCSI_HOST_LETTERS_H
 #define LRCSI_HOST_LETTERS_H
 
-#include "host/pen.h"
+#include "host/plotter.h"
 
 /* Width of a text in em: near enough to a common sans serif's to lay out SVG by it too. */
 double lrcsi_letters_width(const char *text);

@@ -21,7 +21,7 @@
 
 typedef struct map_plan {
     const lrcs_host_map *map;
-    lrcsi_pen *pen;
+    lrcsi_plotter *plotter;
     lrcsi_axis x, y, z;
     uint32_t columns, rows; /* cells */
     uint32_t wide, high;    /* points of a cell, each way */
@@ -75,10 +75,11 @@ static double cell_begin(const double *place, uint32_t cell, uint32_t each, uint
                             : 0.5 * (place[first - 1] + place[first]);
 }
 
-static void box_fill(lrcsi_pen *pen, double x0, double y0, double x1, double y1, uint32_t colour)
+static void box_fill(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
+                     uint32_t colour)
 {
     const lrcsi_spot corner[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-    pen->area(pen, corner, 4, colour);
+    plotter->area(plotter, corner, 4, colour);
 }
 
 /* In steps, so that neighbours that look alike are one. */
@@ -106,7 +107,7 @@ static void row_draw(const map_plan *plan, uint32_t row)
             column++;
         } while (column < plan->columns && cell_colour_of(plan, column, row) == colour);
         double to = map_x(plan, cell_begin(map->x, column, plan->wide, map->columns));
-        box_fill(plan->pen, x, top, fmin(to + MAP_LAP, end), low, colour);
+        box_fill(plan->plotter, x, top, fmin(to + MAP_LAP, end), low, colour);
     }
 }
 
@@ -135,14 +136,14 @@ static void contour_square(const map_plan *plan, const lrcsi_spot corner[4], con
         }
     }
     if (count == 2) {
-        plan->pen->line(plan->pen, spot, 2, ink);
+        plan->plotter->line(plan->plotter, spot, 2, ink);
     } else if (count == 4) {
         int middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) >= level;
         int round = middle == (z[0] >= level); /* corners 1 and 3 are cut off, not 0 and 2 */
         const lrcsi_spot pair[4] = {spot[round ? 0 : 3], spot[round ? 1 : 0], spot[round ? 2 : 1],
                                     spot[round ? 3 : 2]};
-        plan->pen->line(plan->pen, pair, 2, ink);
-        plan->pen->line(plan->pen, pair + 2, 2, ink);
+        plan->plotter->line(plan->plotter, pair, 2, ink);
+        plan->plotter->line(plan->plotter, pair + 2, 2, ink);
     }
 }
 
@@ -179,10 +180,10 @@ static void map_scale(const map_plan *plan)
     double left = MAP_RIGHT + 24.0;
     double high = LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP;
     for (int i = MAP_STEPS; i-- > 0;) { /* each from the bottom: no gaps between them */
-        box_fill(plan->pen, left, LRCSI_CHART_BOTTOM - high * (i + 1) / MAP_STEPS, left + MAP_BAR,
-                 LRCSI_CHART_BOTTOM, lrcsi_palette_even((i + 0.5) / MAP_STEPS));
+        box_fill(plan->plotter, left, LRCSI_CHART_BOTTOM - high * (i + 1) / MAP_STEPS,
+                 left + MAP_BAR, LRCSI_CHART_BOTTOM, lrcsi_palette_even((i + 0.5) / MAP_STEPS));
     }
-    lrcsi_chart_box(plan->pen, left, left + MAP_BAR);
+    lrcsi_chart_box(plan->plotter, left, left + MAP_BAR);
     for (uint32_t i = 0; i < plan->z.count; i++) {
         const lrcsi_tick *tick = &plan->z.tick[i];
         double y = LRCSI_CHART_BOTTOM - high * lrcsi_axis_at(&plan->z, tick->value);
@@ -192,8 +193,8 @@ static void map_scale(const map_plan *plan)
                                    .size = LRCSI_CHART_SMALL,
                                    .colour = LRCSI_COLOUR_TEXT};
         if (tick->major) {
-            lrcsi_chart_stroke(plan->pen, x, y, x + 5.0, y, LRCSI_COLOUR_TEXT, 0.9);
-            plan->pen->text(plan->pen, &words);
+            lrcsi_chart_stroke(plan->plotter, x, y, x + 5.0, y, LRCSI_COLOUR_TEXT, 0.9);
+            plan->plotter->text(plan->plotter, &words);
         }
     }
     const lrcsi_words name = {
@@ -203,34 +204,34 @@ static void map_scale(const map_plan *plan)
         .anchor = LRCSI_ANCHOR_MIDDLE,
         .upwards = 1,
         .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_chart_words(plan->pen, name, high);
+    lrcsi_chart_words(plan->plotter, name, high);
 }
 
 static void map_say(const map_plan *plan)
 {
     const lrcs_host_map *map = plan->map;
-    lrcsi_chart_box(plan->pen, LRCSI_CHART_LEFT, MAP_RIGHT);
+    lrcsi_chart_box(plan->plotter, LRCSI_CHART_LEFT, MAP_RIGHT);
     for (uint32_t i = 0; i < plan->x.count; i++) {
         const lrcsi_tick *tick = &plan->x.tick[i];
         const lrcsi_spot at = {map_x(plan, tick->value), LRCSI_CHART_BOTTOM};
-        lrcsi_chart_tick(plan->pen, tick, at, 0);
+        lrcsi_chart_tick(plan->plotter, tick, at, 0);
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
         const lrcsi_tick *tick = &plan->y.tick[i];
         const lrcsi_spot at = {LRCSI_CHART_LEFT, map_y(plan, tick->value)};
-        lrcsi_chart_tick(plan->pen, tick, at, 1);
+        lrcsi_chart_tick(plan->plotter, tick, at, 1);
     }
-    lrcsi_chart_title(plan->pen, map->title, map->note);
-    lrcsi_chart_names(plan->pen, map->x_name, 0.5 * (LRCSI_CHART_LEFT + MAP_RIGHT),
+    lrcsi_chart_title(plan->plotter, map->title, map->note);
+    lrcsi_chart_names(plan->plotter, map->x_name, 0.5 * (LRCSI_CHART_LEFT + MAP_RIGHT),
                       MAP_RIGHT - LRCSI_CHART_LEFT, map->y_name,
                       0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM),
                       LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
     map_scale(plan);
 }
 
-static map_plan map_place(const lrcs_host_map *map, lrcsi_pen *pen)
+static map_plan map_place(const lrcs_host_map *map, lrcsi_plotter *plotter)
 {
-    map_plan plan = {.map = map, .pen = pen};
+    map_plan plan = {.map = map, .plotter = plotter};
     double range[2] = {HUGE_VAL, -HUGE_VAL};
     plan.wide = (map->columns + MAP_COLUMNS - 1) / MAP_COLUMNS;
     plan.high = (map->rows + MAP_ROWS - 1) / MAP_ROWS;
@@ -253,9 +254,9 @@ static map_plan map_place(const lrcs_host_map *map, lrcsi_pen *pen)
     return plan;
 }
 
-static void map_draw(const lrcs_host_map *map, lrcsi_pen *pen)
+static void map_draw(const lrcs_host_map *map, lrcsi_plotter *plotter)
 {
-    map_plan plan = map_place(map, pen);
+    map_plan plan = map_place(map, plotter);
     for (uint32_t row = 0; row < plan.rows; row++) {
         row_draw(&plan, row);
     }
@@ -272,7 +273,7 @@ static void map_draw(const lrcs_host_map *map, lrcsi_pen *pen)
 void lrcs_host_map_svg(FILE *out, const lrcs_host_map *map)
 {
     lrcsi_svg svg = lrcsi_svg_begin(out, LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, map->title);
-    map_draw(map, &svg.pen);
+    map_draw(map, &svg.plotter);
     lrcsi_svg_end(&svg);
 }
 
@@ -282,7 +283,7 @@ int lrcs_host_map_png(FILE *out, const lrcs_host_map *map, lrcs_host_error *erro
     int status = lrcsi_canvas_make(LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, LRCSI_CHART_PIXELS,
                                    &canvas, error);
     if (status == LRCS_OK) {
-        map_draw(map, &canvas.pen);
+        map_draw(map, &canvas.plotter);
         status = lrcsi_canvas_end(&canvas, out, error);
     }
     return status;

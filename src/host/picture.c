@@ -27,10 +27,10 @@ static picture_layout picture_place(const lrcs_host_picture *picture, uint32_t s
     uint32_t strip = 0;
     if (size >= LEGEND_FROM) {
         const lrcs_host_picture plain = {
-            .scene = picture->scene, .pose = picture->pose, .look = picture->look};
-        lrcsi_look look = lrcsi_look_make(&plain);
+            .scene = picture->scene, .pose = picture->pose, .colouring = picture->colouring};
+        lrcsi_colouring colouring = lrcsi_colouring_make(&plain);
         double side = size / at.unit;
-        at.legend = lrcsi_legend_height(&look, side, LEGEND_SHARE * side);
+        at.legend = lrcsi_legend_height(&colouring, side, LEGEND_SHARE * side);
         strip = (uint32_t)lround(at.legend * at.unit);
     }
     at.side = size - 2 * margin - strip;
@@ -44,29 +44,30 @@ uint32_t lrcs_host_picture_need(const lrcs_host_picture *picture, uint32_t size)
     return picture_place(picture, size).side * OVERSAMPLE;
 }
 
-static uint32_t cell_colour(const lrcsi_look *look, const lrcs_image *image, size_t x, size_t y)
+static uint32_t cell_colour(const lrcsi_colouring *colouring, const lrcs_image *image, size_t x,
+                            size_t y)
 {
     size_t side = image->size;
     const uint32_t *cell = image->facet + y * side + x;
-    if (*cell >= look->picture->scene->facet_count) {
-        return lrcsi_look_ground(look);
+    if (*cell >= colouring->picture->scene->facet_count) {
+        return lrcsi_colouring_ground(colouring);
     }
     double step = image->side_m / (double)side;
     const double view[2] = {image->left_m + ((double)x + 0.5) * step,
                             image->top_m - ((double)y + 0.5) * step};
-    uint32_t colour = lrcsi_look_colour(look, *cell, view);
-    int edge = (x + 1 < side && lrcsi_look_outline(look, *cell, cell[1])) ||
-               (y + 1 < side && lrcsi_look_outline(look, *cell, cell[side]));
+    uint32_t colour = lrcsi_colouring_colour(colouring, *cell, view);
+    int edge = (x + 1 < side && lrcsi_colouring_outline(colouring, *cell, cell[1])) ||
+               (y + 1 < side && lrcsi_colouring_outline(colouring, *cell, cell[side]));
     return edge ? lrcsi_palette_shade(colour, OUTLINE_LIGHT) : colour;
 }
 
 /* Averages the cells of a pixel. */
-static void pixel_make(const lrcsi_look *look, const lrcs_image *image, uint32_t x, uint32_t y,
-                       unsigned char rgb[3])
+static void pixel_make(const lrcsi_colouring *colouring, const lrcs_image *image, uint32_t x,
+                       uint32_t y, unsigned char rgb[3])
 {
     uint32_t sum[3] = {0, 0, 0};
     for (uint32_t i = 0; i < OVERSAMPLE * OVERSAMPLE; i++) {
-        uint32_t colour = cell_colour(look, image, (size_t)x * OVERSAMPLE + i % OVERSAMPLE,
+        uint32_t colour = cell_colour(colouring, image, (size_t)x * OVERSAMPLE + i % OVERSAMPLE,
                                       (size_t)y * OVERSAMPLE + i / OVERSAMPLE);
         for (int k = 0; k < 3; k++) {
             sum[k] += colour >> (16 - 8 * k) & 255u;
@@ -78,25 +79,25 @@ static void pixel_make(const lrcsi_look *look, const lrcs_image *image, uint32_t
     }
 }
 
-static void picture_draw(const lrcsi_look *look, const lrcs_image *image, const picture_layout *at,
-                         lrcsi_canvas *canvas)
+static void picture_draw(const lrcsi_colouring *colouring, const lrcs_image *image,
+                         const picture_layout *at, lrcsi_canvas *canvas)
 {
     uint32_t size = canvas->width;
-    uint32_t ground = lrcsi_look_ground(look);
+    uint32_t ground = lrcsi_colouring_ground(colouring);
     for (size_t i = 0; i < 3 * (size_t)size * size; i++) {
         canvas->rgb[i] = (unsigned char)(ground >> (16 - 8 * (i % 3)) & 255u);
     }
     for (uint32_t y = 0; y < at->side; y++) {
         for (uint32_t x = 0; x < at->side; x++) {
             size_t pixel = (size_t)(at->top + y) * size + at->left + x;
-            pixel_make(look, image, x, y, canvas->rgb + 3 * pixel);
+            pixel_make(colouring, image, x, y, canvas->rgb + 3 * pixel);
         }
     }
     if (at->legend > 0.0) {
         double side = size / at->unit;
         double metre = at->side / at->unit / image->side_m;
-        lrcsi_legend_draw(look, &canvas->pen, side - at->legend, side, LEGEND_SHARE * side, metre,
-                          lrcsi_look_ink(look));
+        lrcsi_legend_draw(colouring, &canvas->plotter, side - at->legend, side, LEGEND_SHARE * side,
+                          metre, lrcsi_colouring_ink(colouring));
     }
 }
 
@@ -108,8 +109,8 @@ int lrcs_host_picture_png(FILE *out, const lrcs_host_picture *picture, const lrc
     double side = size / at.unit;
     int status = lrcsi_canvas_make(side, side, at.unit, &canvas, error);
     if (status == LRCS_OK) {
-        lrcsi_look look = lrcsi_look_make(picture);
-        picture_draw(&look, image, &at, &canvas);
+        lrcsi_colouring colouring = lrcsi_colouring_make(picture);
+        picture_draw(&colouring, image, &at, &canvas);
         status = lrcsi_canvas_end(&canvas, out, error);
     }
     return status;

@@ -15,7 +15,7 @@
 
 typedef struct polar_plan {
     const lrcs_host_chart *chart;
-    lrcsi_pen *pen;
+    lrcsi_plotter *plotter;
     lrcsi_axis axis;
     lrcsi_spot pole;
     double radius;
@@ -52,7 +52,7 @@ static void ring_draw(const polar_plan *plan, double part, uint32_t colour, doub
     for (int i = 0; i <= 180; i++) {
         spot[i] = polar_spot(plan, 2.0 * i, part);
     }
-    plan->pen->line(plan->pen, spot, 181, &ink);
+    plan->plotter->line(plan->plotter, spot, 181, &ink);
 }
 
 static void spoke_draw(const polar_plan *plan, int deg)
@@ -66,8 +66,9 @@ static void spoke_draw(const polar_plan *plan, int deg)
                                .size = LRCSI_CHART_SMALL,
                                .anchor = LRCSI_ANCHOR_MIDDLE,
                                .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_chart_stroke(plan->pen, plan->pole.x, plan->pole.y, end.x, end.y, LRCSI_COLOUR_GRID, 0.9);
-    plan->pen->text(plan->pen, &words);
+    lrcsi_chart_stroke(plan->plotter, plan->pole.x, plan->pole.y, end.x, end.y, LRCSI_COLOUR_GRID,
+                       0.9);
+    plan->plotter->text(plan->plotter, &words);
 }
 
 static void polar_ground(const polar_plan *plan)
@@ -101,7 +102,7 @@ static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
             continue;
         }
         if (count > 1) {
-            plan->pen->line(plan->pen, run, count, &ink);
+            plan->plotter->line(plan->plotter, run, count, &ink);
         }
         if (shown) { /* the line goes on from here */
             run[0] = run[count - 1];
@@ -131,8 +132,8 @@ static void polar_numbers(const polar_plan *plan)
                                    .size = size,
                                    .anchor = LRCSI_ANCHOR_MIDDLE,
                                    .colour = LRCSI_COLOUR_TEXT};
-        plan->pen->area(plan->pen, box, 4, LRCSI_COLOUR_PAPER);
-        plan->pen->text(plan->pen, &words);
+        plan->plotter->area(plan->plotter, box, 4, LRCSI_COLOUR_PAPER);
+        plan->plotter->text(plan->plotter, &words);
     }
 }
 
@@ -147,19 +148,19 @@ static void polar_names(const polar_plan *plan, double left)
     double room = LRCSI_CHART_WIDTH - left - LRCSI_CHART_MARGIN;
     snprintf(text, sizeof text, "radius: %.100s, %s at the pole", plan->chart->y_name,
              plan->axis.tick[0].text);
-    lrcsi_chart_words(plan->pen, words, room);
+    lrcsi_chart_words(plan->plotter, words, room);
     words.at.y += 19.0;
     snprintf(text, sizeof text, "angle: %.200s", plan->chart->x_name);
-    lrcsi_chart_words(plan->pen, words, room);
+    lrcsi_chart_words(plan->plotter, words, room);
 }
 
-void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_pen *pen)
+void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
 {
     double range[2];
     polar_range(chart, range);
     double high = LRCSI_CHART_HEIGHT - LRCSI_CHART_TOP - LRCSI_CHART_MARGIN;
     polar_plan plan = {.chart = chart,
-                       .pen = pen,
+                       .plotter = plotter,
                        .axis = lrcsi_axis_make(0, range[0], range[1], POLAR_RINGS),
                        .radius = 0.5 * high - POLAR_ROOM};
     plan.pole.x = LRCSI_CHART_LEFT + 0.5 * high;
@@ -170,7 +171,7 @@ void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_pen *pen)
         polar_line(&plan, &chart->series[i]);
     }
     polar_numbers(&plan);
-    lrcsi_chart_title(pen, chart->title, chart->note);
+    lrcsi_chart_title(plotter, chart->title, chart->note);
     polar_names(&plan, right);
-    lrcsi_chart_legend(pen, chart, right, LRCSI_CHART_TOP + 72.0);
+    lrcsi_chart_legend(plotter, chart, right, LRCSI_CHART_TOP + 72.0);
 }

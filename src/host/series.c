@@ -9,24 +9,24 @@
 
 #include <math.h>
 
-void lrcsi_chart_stroke(lrcsi_pen *pen, double x0, double y0, double x1, double y1, uint32_t colour,
-                        double width)
+void lrcsi_chart_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
+                        uint32_t colour, double width)
 {
     const lrcsi_spot spot[2] = {{x0, y0}, {x1, y1}};
     const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
-    pen->line(pen, spot, 2, &ink);
+    plotter->line(plotter, spot, 2, &ink);
 }
 
-void lrcsi_chart_words(lrcsi_pen *pen, lrcsi_words words, double room)
+void lrcsi_chart_words(lrcsi_plotter *plotter, lrcsi_words words, double room)
 {
     double width = words.size * lrcsi_letters_width(words.text);
     words.size *= width > room ? room / width : 1.0;
-    pen->text(pen, &words);
+    plotter->text(plotter, &words);
 }
 
 /* ---- axes ---- */
 
-void lrcsi_chart_tick(lrcsi_pen *pen, const lrcsi_tick *tick, lrcsi_spot at, int upright)
+void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_spot at, int upright)
 {
     double length = tick->major ? 5.0 : 3.0;
     lrcsi_spot end = {at.x - (upright ? length : 0.0), at.y + (upright ? 0.0 : length)};
@@ -40,13 +40,13 @@ void lrcsi_chart_tick(lrcsi_pen *pen, const lrcsi_tick *tick, lrcsi_spot at, int
         words.at = (lrcsi_spot){at.x - 9.0, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
         words.anchor = LRCSI_ANCHOR_RIGHT;
     }
-    lrcsi_chart_stroke(pen, at.x, at.y, end.x, end.y, LRCSI_COLOUR_TEXT, 0.9);
+    lrcsi_chart_stroke(plotter, at.x, at.y, end.x, end.y, LRCSI_COLOUR_TEXT, 0.9);
     if (tick->major) {
-        pen->text(pen, &words);
+        plotter->text(plotter, &words);
     }
 }
 
-void lrcsi_chart_box(lrcsi_pen *pen, double left, double right)
+void lrcsi_chart_box(lrcsi_plotter *plotter, double left, double right)
 {
     const lrcsi_spot corner[5] = {{left, LRCSI_CHART_TOP},
                                   {right, LRCSI_CHART_TOP},
@@ -54,7 +54,7 @@ void lrcsi_chart_box(lrcsi_pen *pen, double left, double right)
                                   {left, LRCSI_CHART_BOTTOM},
                                   {left, LRCSI_CHART_TOP}};
     const lrcsi_ink ink = {LRCSI_COLOUR_TEXT, 0.9, {0.0, 0.0}};
-    pen->line(pen, corner, 5, &ink);
+    plotter->line(plotter, corner, 5, &ink);
 }
 
 /* ---- series ---- */
@@ -89,7 +89,7 @@ static uint32_t marker_corners(int marker, lrcsi_spot corner[24])
     return count;
 }
 
-void lrcsi_series_marker(lrcsi_pen *pen, const lrcs_host_series *series, lrcsi_spot at)
+void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series, lrcsi_spot at)
 {
     lrcsi_spot corner[25];
     uint32_t colour = lrcsi_palette_named(series->colour);
@@ -98,9 +98,9 @@ void lrcsi_series_marker(lrcsi_pen *pen, const lrcs_host_series *series, lrcsi_s
         return;
     }
     if (series->marker == LRCS_HOST_CROSS) {
-        lrcsi_chart_stroke(pen, at.x - LRCSI_CHART_MARK, at.y - LRCSI_CHART_MARK,
+        lrcsi_chart_stroke(plotter, at.x - LRCSI_CHART_MARK, at.y - LRCSI_CHART_MARK,
                            at.x + LRCSI_CHART_MARK, at.y + LRCSI_CHART_MARK, colour, 1.7);
-        lrcsi_chart_stroke(pen, at.x - LRCSI_CHART_MARK, at.y + LRCSI_CHART_MARK,
+        lrcsi_chart_stroke(plotter, at.x - LRCSI_CHART_MARK, at.y + LRCSI_CHART_MARK,
                            at.x + LRCSI_CHART_MARK, at.y - LRCSI_CHART_MARK, colour, 1.7);
         return;
     }
@@ -111,13 +111,13 @@ void lrcsi_series_marker(lrcsi_pen *pen, const lrcs_host_series *series, lrcsi_s
         corner[i].y = at.y + half * corner[i].y;
     }
     corner[count] = corner[0];
-    pen->area(pen, corner, count, series->hollow ? LRCSI_COLOUR_PAPER : colour);
-    pen->line(pen, corner, count + 1, &ink);
+    plotter->area(plotter, corner, count, series->hollow ? LRCSI_COLOUR_PAPER : colour);
+    plotter->line(plotter, corner, count + 1, &ink);
 }
 
 /* ---- what is said about a chart ---- */
 
-void lrcsi_chart_title(lrcsi_pen *pen, const char *title, const char *note)
+void lrcsi_chart_title(lrcsi_plotter *plotter, const char *title, const char *note)
 {
     double room = LRCSI_CHART_WIDTH - LRCSI_CHART_LEFT - LRCSI_CHART_MARGIN;
     const lrcsi_words first = {.text = title,
@@ -129,12 +129,12 @@ void lrcsi_chart_title(lrcsi_pen *pen, const char *title, const char *note)
                                 .at = {LRCSI_CHART_LEFT, 46.0},
                                 .size = LRCSI_CHART_SMALL,
                                 .colour = LRCSI_COLOUR_FAINT};
-    lrcsi_chart_words(pen, first, room);
-    lrcsi_chart_words(pen, second, room);
+    lrcsi_chart_words(plotter, first, room);
+    lrcsi_chart_words(plotter, second, room);
 }
 
-void lrcsi_chart_names(lrcsi_pen *pen, const char *below, double x, double wide, const char *beside,
-                       double y, double high)
+void lrcsi_chart_names(lrcsi_plotter *plotter, const char *below, double x, double wide,
+                       const char *beside, double y, double high)
 {
     const lrcsi_words first = {.text = below,
                                .at = {x, LRCSI_CHART_HEIGHT - 14.0},
@@ -147,8 +147,8 @@ void lrcsi_chart_names(lrcsi_pen *pen, const char *below, double x, double wide,
                                 .anchor = LRCSI_ANCHOR_MIDDLE,
                                 .upwards = 1,
                                 .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_chart_words(pen, first, wide);
-    lrcsi_chart_words(pen, second, high);
+    lrcsi_chart_words(plotter, first, wide);
+    lrcsi_chart_words(plotter, second, high);
 }
 
 double lrcsi_chart_legend_width(const lrcs_host_chart *chart)
@@ -161,7 +161,7 @@ double lrcsi_chart_legend_width(const lrcs_host_chart *chart)
     return widest > 0.0 ? LRCSI_CHART_SAMPLE + 10.0 + LRCSI_CHART_SMALL * widest : 0.0;
 }
 
-double lrcsi_chart_legend(lrcsi_pen *pen, const lrcs_host_chart *chart, double x, double y)
+double lrcsi_chart_legend(lrcsi_plotter *plotter, const lrcs_host_chart *chart, double x, double y)
 {
     lrcsi_words words = {.size = LRCSI_CHART_SMALL, .colour = LRCSI_COLOUR_TEXT};
     for (uint32_t i = 0; i < chart->series_count; i++) {
@@ -172,13 +172,13 @@ double lrcsi_chart_legend(lrcsi_pen *pen, const lrcs_host_chart *chart, double x
             continue;
         }
         if (series->dash != LRCS_HOST_NO_LINE) {
-            pen->line(pen, sample, 2, &ink);
+            plotter->line(plotter, sample, 2, &ink);
         }
-        lrcsi_series_marker(pen, series, (lrcsi_spot){x + 0.5 * LRCSI_CHART_SAMPLE, y});
+        lrcsi_series_marker(plotter, series, (lrcsi_spot){x + 0.5 * LRCSI_CHART_SAMPLE, y});
         words.text = series->name;
         words.at =
             (lrcsi_spot){x + LRCSI_CHART_SAMPLE + 8.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
-        pen->text(pen, &words);
+        plotter->text(plotter, &words);
         y += LRCSI_CHART_LINE;
     }
     return y;

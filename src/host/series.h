@@ -4,7 +4,7 @@
 #define LRCSI_HOST_SERIES_H
 
 #include "host/axis.h"
-#include "host/pen.h"
+#include "host/plotter.h"
 
 /* Paper, in units of which a PNG has two pixels each. */
 #define LRCSI_CHART_WIDTH  LRCS_HOST_CHART_WIDTH
@@ -31,34 +31,34 @@
 #define LRCSI_COLOUR_PAPER 0xffffffu
 
 lrcsi_ink lrcsi_series_ink(const lrcs_host_series *series);
-void lrcsi_series_marker(lrcsi_pen *pen, const lrcs_host_series *series, lrcsi_spot at);
+void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series, lrcsi_spot at);
 
-void lrcsi_chart_stroke(lrcsi_pen *pen, double x0, double y0, double x1, double y1, uint32_t colour,
-                        double width);
+void lrcsi_chart_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
+                        uint32_t colour, double width);
 
 /* A mark at a spot of an axis, with its number below or, on an upright axis, to the left. */
-void lrcsi_chart_tick(lrcsi_pen *pen, const lrcsi_tick *tick, lrcsi_spot at, int upright);
+void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_spot at, int upright);
 
 /* The frame of what is drawn between left and right. */
-void lrcsi_chart_box(lrcsi_pen *pen, double left, double right);
+void lrcsi_chart_box(lrcsi_plotter *plotter, double left, double right);
 
 /* A line of text, smaller where it would be wider than its room. */
-void lrcsi_chart_words(lrcsi_pen *pen, lrcsi_words words, double room);
+void lrcsi_chart_words(lrcsi_plotter *plotter, lrcsi_words words, double room);
 
 /* The two lines above a chart. */
-void lrcsi_chart_title(lrcsi_pen *pen, const char *title, const char *note);
+void lrcsi_chart_title(lrcsi_plotter *plotter, const char *title, const char *note);
 
 /* The names of axes: below the middle x, and upwards about the middle y. */
-void lrcsi_chart_names(lrcsi_pen *pen, const char *below, double x, double wide, const char *beside,
-                       double y, double high);
+void lrcsi_chart_names(lrcsi_plotter *plotter, const char *below, double x, double wide,
+                       const char *beside, double y, double high);
 
 /* Series that have a name are listed beside a chart: how wide that is, 0 for none; and the list
    from a corner on, which gives where it ends. */
 double lrcsi_chart_legend_width(const lrcs_host_chart *chart);
-double lrcsi_chart_legend(lrcsi_pen *pen, const lrcs_host_chart *chart, double x, double y);
+double lrcsi_chart_legend(lrcsi_plotter *plotter, const lrcs_host_chart *chart, double x, double y);
 
 /* A chart about a pole: x is an angle, deg, counter-clockwise from the right; y a distance from
    the pole, which is where the axis begins. */
-void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_pen *pen);
+void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* SVG 1.1 as text. It decides how a pen's strokes are written; words stay words, in whatever sans
-   serif the reader has. Bytes that are not UTF-8 and control characters become '?', so that every
-   XML parser takes it. */
+/* SVG 1.1 as text. It decides how a plotter's strokes are written; words stay words, in whatever
+   sans serif the reader has. Bytes that are not UTF-8 and control characters become '?', so that
+   every XML parser takes it. */
 #include "host/svg.h"
 
 #include "base/text.h"
@@ -52,9 +52,10 @@ static void svg_spots(FILE *out, const lrcsi_spot *spot, uint32_t count)
     putc('"', out);
 }
 
-static void svg_line(lrcsi_pen *pen, const lrcsi_spot *spot, uint32_t count, const lrcsi_ink *ink)
+static void svg_line(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t count,
+                     const lrcsi_ink *ink)
 {
-    FILE *out = ((lrcsi_svg *)pen)->out;
+    FILE *out = ((lrcsi_svg *)plotter)->out;
     fprintf(out, "<polyline fill=\"none\" stroke=\"#%06lx\"", (unsigned long)ink->colour);
     svg_attribute(out, "stroke-width", ink->width);
     if (ink->dash[0] > 0.0) {
@@ -68,18 +69,19 @@ static void svg_line(lrcsi_pen *pen, const lrcsi_spot *spot, uint32_t count, con
     fputs("/>\n", out);
 }
 
-static void svg_area(lrcsi_pen *pen, const lrcsi_spot *spot, uint32_t count, uint32_t colour)
+static void svg_area(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t count,
+                     uint32_t colour)
 {
-    FILE *out = ((lrcsi_svg *)pen)->out;
+    FILE *out = ((lrcsi_svg *)plotter)->out;
     fprintf(out, "<polygon fill=\"#%06lx\"", (unsigned long)colour);
     svg_spots(out, spot, count);
     fputs("/>\n", out);
 }
 
-static void svg_text(lrcsi_pen *pen, const lrcsi_words *words)
+static void svg_text(lrcsi_plotter *plotter, const lrcsi_words *words)
 {
     static const char *const anchor[] = {"start", "middle", "end"};
-    FILE *out = ((lrcsi_svg *)pen)->out;
+    FILE *out = ((lrcsi_svg *)plotter)->out;
     fprintf(out, "<text text-anchor=\"%s\" fill=\"#%06lx\"", anchor[words->anchor],
             (unsigned long)words->colour);
     svg_attribute(out, "font-size", words->size);

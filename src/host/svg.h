@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* A pen that writes SVG 1.1. */
+/* A plotter that writes SVG 1.1. */
 #ifndef LRCSI_HOST_SVG_H
 #define LRCSI_HOST_SVG_H
 
-#include "host/pen.h"
+#include "host/plotter.h"
 
 typedef struct lrcsi_svg {
-    lrcsi_pen pen; /* first: a pen is an svg */
+    lrcsi_plotter plotter; /* first: a plotter is an svg */
     FILE *out;
 } lrcsi_svg;
 

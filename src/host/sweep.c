@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Many poses over one prepared scene, or each over its own. It decides what each thread keeps (a
    work area of its own), how many threads there are where memory is short, and how a pose that
-   fails is told; in which order poses are run is the crew's (host/crew). */
+   fails is told; in which order poses are run is the workers's (host/workers). */
 #include <lrcs/sweep.h>
 
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "host/crew.h"
 #include "host/run.h"
+#include "host/workers.h"
 
 #define SWEEP_THREADS 1024u
 
@@ -96,17 +96,17 @@ static int sweep_threads_run(sweep_run *run, uint64_t *taken)
 {
     const lrcs_host_sweep *sweep = run->sweep;
     uint64_t done = 0;
-    lrcsi_crew crew = {.first = sweep->first + *taken,
-                       .count = sweep->count - *taken,
-                       .members = run->threads,
-                       .slot_size = sizeof(sweep_slot),
-                       .context = run,
-                       .work = sweep_work,
-                       .take = sweep_take,
-                       .cancel = sweep->cancel};
+    lrcsi_workers workers = {.first = sweep->first + *taken,
+                             .count = sweep->count - *taken,
+                             .members = run->threads,
+                             .slot_size = sizeof(sweep_slot),
+                             .context = run,
+                             .work = sweep_work,
+                             .take = sweep_take,
+                             .cancel = sweep->cancel};
     run->crowded = 0;
     run->area = calloc(run->threads, sizeof *run->area);
-    int status = run->area ? lrcsi_crew_run(&crew, &done, run->error)
+    int status = run->area ? lrcsi_workers_run(&workers, &done, run->error)
                            : lrcsi_host_fail_memory(run->error, run->threads * sizeof *run->area);
     for (uint32_t i = 0; run->area && i < run->threads; i++) {
         lrcsi_host_area_free(&run->area[i]);

@@ -89,7 +89,7 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
         uint32_t f = first + (random >> 8) % left;
         if (lrcsi_grid_casts(view, f)) {
             cost.casting += left;
-            cost.contacts += lrcsi_touches_of(&p->touches, f) != 0 ? left : 0;
+            cost.contacts += lrcsi_intersection_of(&p->intersections, f) != 0 ? left : 0;
             count_events(view, f, left, &cost);
             cost.overdraw += left * area_twice(view, p->scene->facet[f].corner);
         }

@@ -4,7 +4,7 @@
 #ifndef LRCSI_COST_H
 #define LRCSI_COST_H
 
-#include "visibility/contest.h"
+#include "visibility/classify.h"
 
 /* Of a view, from a sample of its facets. */
 typedef struct lrcsi_cost {

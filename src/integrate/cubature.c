@@ -32,8 +32,6 @@
 #include "base/range.h"
 #include "base/work.h"
 
-#define U 0x1p-53
-
 /* Halvings of a cell, and cells of one sum but for those that each triangle is granted. A
    quartering leaves three cells more waiting, for two halvings. */
 #define MOST_HALVINGS 64u
@@ -51,7 +49,8 @@
 /* Of the tolerance: what stays below this, relative to what a peak of the most and of the BRDF's
    own width would add over a radian, is nothing. It goes to the estimate all the same. */
 #define NOTHING 0x1p-20
-/* Of A and B: bounds on what underflows end here (optics/stray.c), and nothing less can be told. */
+/* Of A and B: bounds on what underflows end here (optics/deviation.c), and nothing less can be
+ * told. */
 #define LEAST_TOLD 0x1p-1008
 /* Beyond this tan^2 the laser is as good as in the plane. */
 #define MOST_TAN2 1e300
@@ -83,7 +82,7 @@ typedef struct lrcsi_cubature_cell cube_cell;
    d)
    <= t + 2 d (1 + t^2) for d t <= 1/2; e^x - 1 <= 2 x for x <= 1/4. Where a part may move by more,
    all that is known is the most that it reaches near by. */
-static double node_slip(const lrcsi_cubature *sum, double u, double d, const cube_value *at)
+static double node_position_err(const lrcsi_cubature *sum, double u, double d, const cube_value *at)
 {
     const lrcs_brdf *brdf = sum->brdf;
     double t = sqrt(u) + 2 * d * (1 + u);
@@ -98,7 +97,7 @@ static double node_slip(const lrcsi_cubature *sum, double u, double d, const cub
 }
 
 /* f_r cos at one normal. Rounding: lrcsi_reflect's own, and a square root and a product; tan^2 is
-   good to 6 u, which is at most 2 u in theta and part of the slip. */
+   good to 6 u, which is at most 2 u in theta and part of the position error. */
 static cube_value node_value(const lrcsi_cubature *sum, const double n[3])
 {
     cube_value at = {0, 0, 0};
@@ -110,8 +109,8 @@ static cube_value node_value(const lrcsi_cubature *sum, const double n[3])
     double secant = sqrt(1 + u);
     at.glint = reflection.glint * secant;
     at.diffuse = reflection.diffuse * secant;
-    at.rounding = reflection.error * secant + 4 * U * (at.glint + at.diffuse) +
-                  node_slip(sum, u, sum->slip / (n[2] * secant), &at);
+    at.rounding = reflection.error * secant + 4 * LRCSI_U * (at.glint + at.diffuse) +
+                  node_position_err(sum, u, sum->position_err / (n[2] * secant), &at);
     return at;
 }
 
@@ -129,7 +128,8 @@ static double fan_slack(const cube_cell *cell, int i)
 {
     const double *u = cell->at[i];
     const double *v = cell->at[i + 1];
-    return 8 * U * (1 + cell->depth) * (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1]);
+    return 8 * LRCSI_U * (1 + cell->depth) *
+           (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1]);
 }
 
 /* The rule over the triangle of corners 0, i and i + 1: centroid 9/40; points (a, a, 1 - 2 a) and
@@ -156,7 +156,7 @@ static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cu
         cube_value at = node_value(sum, n);
         value_add(&mean, node[2], &at);
     }
-    mean.rounding += 16 * U * (mean.glint + mean.diffuse);
+    mean.rounding += 16 * LRCSI_U * (mean.glint + mean.diffuse);
     value_add(value, cell->unit * area, &mean);
     value->rounding += cell->unit * slack * (mean.glint + mean.diffuse);
 }
@@ -219,7 +219,7 @@ static double cube_turn(const cube_cell *cell)
                            n[0] * m[1] - n[1] * m[0]};
         most = lrcsi_most(most, dot > 0 ? sqrt(square_of(cross)) / dot : HUGE_VAL);
     }
-    return isfinite(most) ? atan(most) * (1 + 4 * U) + 16 * U : LRCSI_PI;
+    return isfinite(most) ? atan(most) * (1 + 4 * LRCSI_U) + 16 * LRCSI_U : LRCSI_PI;
 }
 
 /* An error of f_r cos that nobody looks for. */
@@ -431,10 +431,11 @@ static double cube_shortest(const cube_cell *cell)
     return shortest;
 }
 
-/* The most that f_r cos reaches in the cone of the corners' normals, each off by the slip. */
+/* The most that f_r cos reaches in the cone of the corners' normals, each off by the position
+ * error. */
 static double cube_peak(const lrcsi_cubature *sum, const cube_cell *cell)
 {
-    double off = 2 * sum->slip / cube_shortest(cell);
+    double off = 2 * sum->position_err / cube_shortest(cell);
     double turn = off <= 1 ? cube_turn(cell) + off : LRCSI_PI;
     lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
     return most.glint + most.diffuse;
@@ -584,10 +585,10 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     return sum;
 }
 
-/* What may be missed, per area, where normals that are off by the slip face the laser and do not
-   seem to: those are off the plane by no more than the slip over their length, which is at least
-   the shortest corner's times the cosine of the turn. */
-static double dark_slip(const lrcsi_cubature *sum, const cube_cell *whole)
+/* What may be missed, per area, where normals that are off by the position error face the laser and
+   do not seem to: those are off the plane by no more than the position error over their length,
+   which is at least the shortest corner's times the cosine of the turn. */
+static double dark_position_err(const lrcsi_cubature *sum, const cube_cell *whole)
 {
     double least = HUGE_VAL;
     double most = -HUGE_VAL;
@@ -595,12 +596,12 @@ static double dark_slip(const lrcsi_cubature *sum, const cube_cell *whole)
         least = lrcsi_least(least, whole->normal[i][2]);
         most = lrcsi_most(most, whole->normal[i][2]);
     }
-    if (least > sum->slip || most < -sum->slip) {
+    if (least > sum->position_err || most < -sum->position_err) {
         return 0;
     }
     double turn = cube_turn(whole);
     double length = turn < LRCSI_PI / 2 ? cube_shortest(whole) * cos(turn) : 0;
-    double off = 2 * sum->slip / length;
+    double off = 2 * sum->position_err / length;
     lrcsi_reflection seen = lrcsi_reflect_most(sum->brdf, LRCSI_PI / 2, off <= 1 ? off : LRCSI_PI);
     return seen.glint + seen.diffuse;
 }
@@ -617,7 +618,7 @@ void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double a
         level[i] = normal[i][2];
     }
     cube_cut(&whole, level, 1, &lit);
-    sum->rounding += area * dark_slip(sum, &whole);
+    sum->rounding += area * dark_position_err(sum, &whole);
     if (lit.count < 3) {
         return;
     }

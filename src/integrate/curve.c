@@ -16,9 +16,9 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 
-#define U          0x1p-53
 #define FOUR_PI    12.566370614359172954
 #define SLIP_WHOLE 0x1p-44
 
@@ -43,7 +43,7 @@ typedef struct curve_all {
 typedef struct curve_job {
     const lrcsi_view *view;
     uint32_t facet;
-    lrcsi_tilt tilt;
+    lrcsi_incidence incidence;
     lrcs_brdf brdf;
     double normal[3][3]; /* at its corners, view axes, on the side that is seen */
     lrcsi_cubature sum;
@@ -62,7 +62,7 @@ static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
     const lrcs_point *n = lrcsi_prepared_normals(view->prepared, facet);
     job->view = view;
     job->facet = facet;
-    job->tilt = lrcsi_view_tilt(view, facet);
+    job->incidence = lrcsi_view_incidence(view, facet);
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             const double *row = view->R[k];
@@ -75,12 +75,13 @@ static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
     job->brdf = lrcsi_plan_brdf(all->how->plan, lrcsi_prepared_material(view->prepared, facet));
     job->sum =
         lrcsi_cubature_make(&job->brdf, (const double(*)[3])job->normal, aim, all->how->waiting);
-    job->sum.whole = job->tilt.projected;
-    job->sum.slip = SLIP_WHOLE;
+    job->sum.whole = job->incidence.projected;
+    job->sum.position_err = SLIP_WHOLE;
     job->sum.meter = view->meter;
     job->sum.nothing = lrcsi_most(job->sum.nothing, all->nothing);
     job->sum.had =
-        all->had > 0 ? all->had / all->projected + all->had / all->count / job->tilt.projected : 0;
+        all->had > 0 ? all->had / all->projected + all->had / all->count / job->incidence.projected
+                     : 0;
 }
 
 static curve_all all_make(const lrcsi_view *view, const lrcsi_curving *how)
@@ -91,7 +92,7 @@ static curve_all all_make(const lrcsi_view *view, const lrcsi_curving *how)
         if (lrcsi_curve_wanted(view, f)) {
             job_start(&job, &all, f);
             all.nothing = job.sum.nothing;
-            all.projected += job.tilt.projected;
+            all.projected += job.incidence.projected;
             all.count++;
         }
     }
@@ -105,7 +106,7 @@ static void all_have(curve_all *all, const lrcsi_curved *curved)
 
 static void job_whole(curve_job *job)
 {
-    lrcsi_cubature_add(&job->sum, (const double(*)[3])job->normal, job->tilt.projected);
+    lrcsi_cubature_add(&job->sum, (const double(*)[3])job->normal, job->incidence.projected);
 }
 
 /* The most that f_r cos reaches on the facet. */
@@ -122,10 +123,10 @@ static lrcsi_curved job_part(const curve_job *job, double share)
     lrcsi_curved part = {0, 0, 0, 0, 0, 0, 0};
     part.glint = factor * lrcsi_sum_value(&sum->glint);
     part.diffuse = factor * lrcsi_sum_value(&sum->diffuse);
-    part.rounding =
-        factor * sum->rounding + (job->tilt.error + 16 * U) * (part.glint + part.diffuse);
+    part.rounding = factor * sum->rounding +
+                    (job->incidence.error + 16 * LRCSI_U) * (part.glint + part.diffuse);
     part.estimate = factor * sum->estimate;
-    part.most = FOUR_PI * job_most(job) * job->tilt.projected * (1 + job->tilt.error);
+    part.most = FOUR_PI * job_most(job) * job->incidence.projected * (1 + job->incidence.error);
     return part;
 }
 
@@ -139,7 +140,7 @@ static lrcsi_curved curve_share(curve_job *job, const lrcsi_visible *visible)
     job_whole(job);
     double whole = lrcsi_sum_value(&job->sum.glint) + lrcsi_sum_value(&job->sum.diffuse);
     double most = job_most(job);
-    double projected = job->tilt.projected;
+    double projected = job->incidence.projected;
     double high = visible->high < projected ? lrcsi_least(whole, most * visible->high) : whole;
     double low =
         visible->low < projected ? lrcsi_most(0, whole - most * (projected - visible->low)) : whole;
@@ -193,7 +194,7 @@ static double piece_add(curve_job *job, const lrcsi_target *target, const double
         const double v[2] = {corner[i][0] - corner[0][0], corner[i][1] - corner[0][1]};
         lrcsi_cubature_add(&job->sum, (const double(*)[3])normal,
                            0.5 * (u[0] * v[1] - u[1] * v[0]));
-        off += 4 * U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
+        off += 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
         for (int k = 0; k < 3; k++) {
             normal[1][k] = normal[2][k];
         }
@@ -203,10 +204,10 @@ static double piece_add(curve_job *job, const lrcsi_target *target, const double
 
 /* Points of pieces are off by 100 u of the reach in projection: as a share of the facet's least
    height, and that times how far its normals lie apart, at most 2. */
-static double pieces_slip(const curve_job *job, const lrcsi_target *target)
+static double pieces_position_err(const curve_job *job, const lrcsi_target *target)
 {
-    double height = 2 * job->tilt.projected / target->diameter;
-    return SLIP_WHOLE + 200 * U * target->reach / height;
+    double height = 2 * job->incidence.projected / target->diameter;
+    return SLIP_WHOLE + 200 * LRCSI_U * target->reach / height;
 }
 
 /* Back sides proved never to be seen, and looked for all the same, may show nothing. */
@@ -220,8 +221,8 @@ static lrcsi_visible facet_known(const lrcsi_view *view, uint32_t facet, lrcsi_v
 static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visible *visible)
 {
     const lrcsi_target *target = &o->alone.target;
-    double off = 20 * U * target->reach * target->perimeter;
-    job->sum.slip = pieces_slip(job, target);
+    double off = 20 * LRCSI_U * target->reach * target->perimeter;
+    job->sum.position_err = pieces_position_err(job, target);
     while (lrcsi_occlude_next(o)) {
         off +=
             piece_add(job, target, (const double(*)[2])o->alone.piece.corner, o->alone.piece.count);
@@ -239,28 +240,28 @@ static void facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet, lrc
                          lrcsi_curved *curved)
 {
     lrcsi_occlude_open(o, facet);
-    if (job && o->contested) {
+    if (job && o->undecided) {
         *curved = curve_pieces(job, o, visible);
         return;
     }
-    *visible = facet_known(o->contest->view, facet, lrcsi_occlude_area(o));
+    *visible = facet_known(o->classification->view, facet, lrcsi_occlude_area(o));
     if (job) {
         *curved = curve_share(job, visible);
     }
 }
 
-int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_curving *how, int sampled,
+int lrcsi_curve_pieces(lrcsi_classification *classification, const lrcsi_curving *how, int sampled,
                        lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved)
 {
-    const lrcsi_view *view = contest->view;
+    const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     lrcsi_occluding o;
     curve_job job;
     curve_all all = all_make(view, how);
-    int status = lrcsi_occlude_make(contest, work, &o);
+    int status = lrcsi_occlude_make(classification, work, &o);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         int wanted = lrcsi_curve_wanted(view, f);
-        int parted = sampled && contest->contested[f] && visible[f].low < visible[f].high;
+        int parted = sampled && classification->undecided[f] && visible[f].low < visible[f].high;
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
         if (wanted) {
             job_start(&job, &all, f);

@@ -39,7 +39,7 @@ void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_curving *how,
 /* Every facet by clipping, as lrcsi_occlude_all, and those wanted integrated over the pieces that
    are visible. Where visible is given, sampled, only those that are wanted and seen in part:
    samples tell how much of a facet is seen, but not where on it. Status: as lrcsi_occlude_all. */
-int lrcsi_curve_pieces(lrcsi_contest *contest, const lrcsi_curving *how, int sampled,
+int lrcsi_curve_pieces(lrcsi_classification *classification, const lrcsi_curving *how, int sampled,
                        lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved);
 
 #endif

@@ -85,7 +85,7 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
     const lrcs_prepared *p = view->prepared;
     lrcsi_plan plan = {0};
     plan.unshadowed = p->convex;
-    plan.graze = p->convex ? p->graze : 1;
+    plan.grazing_cos = p->convex ? p->grazing_cos : 1;
     plan.backless = !view->backs_cast || view->front == 0 || view->back == 0;
     plan.alone = p->convex && plan.backless;
     plan.searched = effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING);

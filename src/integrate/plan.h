@@ -20,10 +20,10 @@ typedef struct lrcsi_plan {
     int previews;   /* auto, and a raster's estimate may count: then what costs least comes first
                        (integrate/cost.h) */
     int unshadowed; /* proved: in this view front facets with cos(theta) > graze are not hidden */
-    double graze;   /* of the scene where unshadowed, else 1 */
-    int backless;   /* no facet hides a back side that counts */
-    int alone;      /* proved: unshadowed and backless */
-    int searched;   /* what hides them is looked for all the same */
+    double grazing_cos; /* of the scene where unshadowed, else 1 */
+    int backless;       /* no facet hides a back side that counts */
+    int alone;          /* proved: unshadowed and backless */
+    int searched;       /* what hides them is looked for all the same */
     int glint, diffuse; /* lrcsi_term */
 } lrcsi_plan;
 

@@ -30,9 +30,9 @@ typedef struct sigma_run {
     lrcsi_view view;
     lrcsi_clear clear; /* shapes that count by their closed forms: under auto */
     lrcsi_plan plan;
-    lrcsi_contest contest;
-    lrcsi_margin margin;
-    const lrcsi_margin *doubt; /* margin, or NULL where none was made */
+    lrcsi_classification classification;
+    lrcsi_proximity_band margin;
+    const lrcsi_proximity_band *doubt; /* margin, or NULL where none was made */
     lrcsi_visible *visible;
     const unsigned char *answer;  /* of facets of which visible[] tells nothing, or NULL */
     lrcsi_curved *curved;         /* NULL: all facets are flat */
@@ -44,7 +44,7 @@ typedef struct sigma_run {
     lrcs_image *image;
     int last;      /* lrcsi_sigma_stage: the run ends after it */
     uint32_t size; /* of the raster used, 0: none */
-    int contested; /* contest has been made, and margin where it is wanted */
+    int undecided; /* facets are classified, and the proximity band is made where it is wanted */
     uint32_t flags;
 } sigma_run;
 
@@ -99,8 +99,8 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     if (options->method == LRCS_METHOD_AUTO) {
         need = lrcsi_work_add(need, lrcsi_clear_need(prepared));
     }
-    need = lrcsi_work_add(need, lrcsi_contest_need(prepared));
-    need = lrcsi_work_add(need, lrcsi_margin_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
     return lrcsi_work_add(need, method_need(prepared, options));
 }
 
@@ -176,9 +176,9 @@ static int run_facet(sigma_run *run)
         const lrcsi_view *view = &run->view;
         lrcsi_curving how = run_curving(run);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-            lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
+            lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
             run->visible[f] = lrcsi_grid_casts(view, f)
-                                  ? lrcsi_visible_unshadowed(&tilt, run->plan.graze)
+                                  ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
                                   : (lrcsi_visible){0, 0, 0, 0, 0};
         }
         lrcsi_curve_shares(&run->view, &how, run->visible, run->curved);
@@ -194,13 +194,13 @@ static void fronts_are_known(const lrcsi_view *view, const lrcsi_plan *plan, lrc
 {
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (view->facing[f] > 0) {
-            lrcsi_tilt tilt = lrcsi_view_tilt(view, f);
-            lrcsi_visible known = lrcsi_visible_unshadowed(&tilt, plan->graze);
+            lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
+            lrcsi_visible known = lrcsi_visible_unshadowed(&incidence, plan->grazing_cos);
             if (plan->searched) {
                 known.area = visible[f].area;
                 known.low = lrcsi_least(known.low, visible[f].low);
                 known.likely = visible[f].likely;
-                known.lean = visible[f].lean;
+                known.bias = visible[f].bias;
             }
             visible[f] = known;
         }
@@ -233,7 +233,8 @@ static void shapes_are_known(const sigma_run *run)
 static void sum_curved(sigma_run *run)
 {
     lrcsi_curving how = run_curving(run);
-    int status = lrcsi_curve_pieces(&run->contest, &how, 1, run->work, run->visible, run->curved);
+    int status =
+        lrcsi_curve_pieces(&run->classification, &how, 1, run->work, run->visible, run->curved);
     if (status != LRCS_OK) {
         lrcsi_curve_shares(&run->view, &how, run->visible, run->curved);
     }
@@ -259,7 +260,7 @@ static void run_sum(sigma_run *run, int sampled)
         sum_curved(run);
     }
     if (run->doubt) {
-        lrcsi_margin_settle(run->doubt, run->visible);
+        lrcsi_proximity_band_settle(run->doubt, run->visible);
     }
     run_total(run, NULL);
 }
@@ -289,32 +290,32 @@ static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
     return status;
 }
 
-/* Which facets are contested, and what curved shapes may show otherwise: once. Where back sides are
+/* Which facets are undecided, and what curved shapes may show otherwise: once. Where back sides are
    left out of a scene that shows some, its true curves are not known. */
 static int run_contest(sigma_run *run)
 {
     const lrcs_prepared *p = run->view.prepared;
-    if (run->contested) {
+    if (run->undecided) {
         return LRCS_OK;
     }
-    int status = lrcsi_contest_make(&run->view, run->work, &run->contest);
-    if (status == LRCS_OK && p->nears.reach && (run->view.backs_cast || p->solid)) {
-        status = lrcsi_margin_make(&run->contest, run->work, &run->margin);
+    int status = lrcsi_classify_make(&run->view, run->work, &run->classification);
+    if (status == LRCS_OK && p->proximity.reach && (run->view.backs_cast || p->solid)) {
+        status = lrcsi_proximity_band_make(&run->classification, run->work, &run->margin);
         run->doubt = &run->margin;
     }
-    run->contested = status == LRCS_OK;
+    run->undecided = status == LRCS_OK;
     return status;
 }
 
 /* Are areas taken from samples alone, without a proof? Curved normals need to know where on a facet
-   it is seen, and curved shapes among others which facets are contested. Of few facets, what could
+   it is seen, and curved shapes among others which facets are undecided. Of few facets, what could
    hide them is searched for at less than the cost of a raster, and tells more of errors than so few
    do by chance. */
 static int run_samples_only(const sigma_run *run, const lrcs_run_options *options)
 {
     const lrcs_prepared *p = run->view.prepared;
     return run->plan.method == LRCS_METHOD_ZBUFFER && options->accept != LRCS_ACCEPT_BOUND &&
-           !p->smooth && !p->nears.reach && run->flags == 0 &&
+           !p->smooth && !p->proximity.reach && run->flags == 0 &&
            run->view.front + run->view.back >= PREVIEW_FACETS;
 }
 
@@ -352,11 +353,11 @@ static int run_exact(sigma_run *run)
     lrcsi_curving how = run_curving(run);
     int status = run_contest(run);
     if (status == LRCS_OK) {
-        status =
-            run->curved
-                ? lrcsi_curve_pieces(&run->contest, &how, 0, run->work, run->visible, run->curved)
-                : lrcsi_occlude_all(&run->contest, run->work,
-                                    run_sums_alone(run) ? &run->answer : NULL, run->visible);
+        status = run->curved
+                     ? lrcsi_curve_pieces(&run->classification, &how, 0, run->work, run->visible,
+                                          run->curved)
+                     : lrcsi_occlude_all(&run->classification, run->work,
+                                         run_sums_alone(run) ? &run->answer : NULL, run->visible);
     }
     if (status == LRCS_OK) {
         run->size = 0;
@@ -388,7 +389,7 @@ static int raster_ends(const sigma_run *run, const lrcs_run_options *options, in
 {
     return options->resolution != 0 || run->size >= LAST_SIZE || run->meter.spent ||
            (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
-           (!samples_only && run->contest.contested_count == 0) ||
+           (!samples_only && run->classification.undecided_count == 0) ||
            !(run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET);
 }
 
@@ -398,7 +399,7 @@ static int run_known(sigma_run *run, lrcsi_known *known)
     int status = run_contest(run);
     if (status == LRCS_OK) {
         run->view.meter = NULL;
-        status = lrcsi_visible_known(&run->contest, run->work, known);
+        status = lrcsi_visible_known(&run->classification, run->work, known);
         run->view.meter = &run->meter;
     }
     return status;
@@ -438,9 +439,9 @@ static int run_clip_within(sigma_run *run, const lrcsi_cost *cost, double ns)
     int result = CLIP_GIVEN_UP;
     run->meter.most = run->meter.taken + (steps < left ? steps : left);
     if (run_contest(run) != LRCS_OK || run->meter.spent) {
-        run->contested = before.contested;
+        run->undecided = before.undecided;
         run->doubt = before.doubt;
-    } else if (lrcsi_cost_clip(cost, run->contest.contested_count) > ns) {
+    } else if (lrcsi_cost_clip(cost, run->classification.undecided_count) > ns) {
         mark = run->work->used;
         result = CLIP_NOT_BEGUN;
     } else {
@@ -476,7 +477,7 @@ static int run_previews(sigma_run *run, const lrcs_run_options *options)
     int status = LRCS_OK;
     for (int rasters = 0; status == LRCS_OK; rasters++) {
         double undecided =
-            run->contested ? run->contest.contested_count : lrcsi_cost_undecided(&cost);
+            run->undecided ? run->classification.undecided_count : lrcsi_cost_undecided(&cost);
         double draw = lrcsi_cost_draw(&cost, size);
         draw *= rasters == 0 ? CLIP_PREFERRED : CLIP_PREFERRED_NEXT;
         if (!any && draw >= 4 * tried && lrcsi_cost_clip(&cost, undecided) <= draw) {

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* The tessellation error of one facet under shadowing. It combines how F strays over the facet's
-   patch (optics/stray.c) with where truth and facets may differ about what is seen
-   (visibility/margin.h), and decides neither.
+   patch (optics/deviation.c) with where truth and facets may differ about what is seen
+   (visibility/proximity_band.h), and decides neither.
 
    Let U be the facet's patch and f the facet, of area S, |U| within a S of it; v and w say what is
    seen of them, off a share b of both alike. Truth T = Int_U F v, the facets' M = F_i Int_f w.
-     seen all over, b = 0: T - M is the whole patch's stray; its numbers hold for the two facets of
-   a sector together, so both must be seen; hidden but for a share h: M <= S h F_i and T <= (1 + a)
-   S (b + h) sup F, neither below 0; else |T - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
+     seen all over, b = 0: T - M is the whole patch's deviation; its numbers hold for the two facets
+   of a sector together, so both must be seen; hidden but for a share h: M <= S h F_i and T <= (1 +
+   a) S (b + h) sup F, neither below 0; else |T - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f
+   w|
                   <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b), and <= (1 + a) S sup F;
          where neither facet of the sector is hidden or dark, the first term together is at most
    what (F - F_i) integrates to over any part of both. Patches of facets that face away from the
-   laser may see it in part: T is at most their stray. Where a scale that differs between axes
+   laser may see it in part: T is at most their deviation. Where a scale that differs between axes
    stretches areas within a patch unevenly, parts of it err by more than the whole: then a is
-   patch_area_error, and the whole's stray has the whole's. On flat facets a = 0 and F = F_i.
+   patch_area_error, and the whole's deviation has the whole's. On flat facets a = 0 and F = F_i.
    Without a margin the facets count as seen: what of it may be hidden is then in the visible area's
    bounds, for truth and facets alike. */
 #include "integrate/tessellation.h"
@@ -62,7 +63,7 @@ static int back_reflects(const lrcsi_view *view, uint32_t facet)
 }
 
 static int patch_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                       const lrcsi_margin *margin)
+                       const lrcsi_proximity_band *margin)
 {
     if (margin && margin->hidden[margin->region[facet]]) {
         return PATCH_HIDDEN;
@@ -70,7 +71,7 @@ static int patch_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visib
     if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
         return PATCH_DARK;
     }
-    if (!margin || (margin->share[facet] == 0 && !margin->contest->contested[facet] &&
+    if (!margin || (margin->share[facet] == 0 && !margin->classification->undecided[facet] &&
                     visible[facet].low > 0)) {
         return PATCH_SEEN;
     }
@@ -79,19 +80,19 @@ static int patch_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visib
 }
 
 /* The share of a hidden facet that may be seen. */
-static double share_seen(const lrcsi_tilt *tilt, uint32_t facet, const lrcsi_visible *visible,
-                         const lrcsi_margin *margin)
+static double share_seen(const lrcsi_incidence *incidence, uint32_t facet,
+                         const lrcsi_visible *visible, const lrcsi_proximity_band *margin)
 {
     return !margin || margin->hidden[margin->region[facet]] || !(visible[facet].high > 0)
                ? 0
-               : fmin(1, visible[facet].high / tilt->projected * (1 + 2 * tilt->error));
+               : fmin(1, visible[facet].high / incidence->projected * (1 + 2 * incidence->error));
 }
 
 /* The state of the other facet of the sector. The two lie side by side in a part's list, which
    every strip of a wall begins at an even place (mesh/tessellate.c); where a strip ends in an apex,
    its facets have sectors of their own and a neighbour stands in. */
 static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                         const lrcsi_margin *margin)
+                         const lrcsi_proximity_band *margin)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t first = patch_part(p, facet)->first_facet;
@@ -106,12 +107,12 @@ static int is_lit(int state)
 
 /* The share of a facet that is hidden or in doubt, at most. */
 static double share_lost(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                         const lrcsi_margin *margin)
+                         const lrcsi_proximity_band *margin)
 {
-    lrcsi_tilt tilt = lrcsi_view_tilt(view, facet);
+    lrcsi_incidence incidence = lrcsi_view_incidence(view, facet);
     double hidden = 0;
-    if (margin->contest->contested[facet] || !(visible[facet].low > 0)) {
-        hidden = 1 + tilt.error + 8 * 0x1p-53 - visible[facet].low / tilt.projected;
+    if (margin->classification->undecided[facet] || !(visible[facet].low > 0)) {
+        hidden = 1 + incidence.error + 8 * 0x1p-53 - visible[facet].low / incidence.projected;
     }
     return hidden >= 0 ? fmin(1, margin->share[facet] + hidden) : 1;
 }
@@ -128,52 +129,53 @@ static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrc
    that is the better way, else 2. Numbers of the sector's first facet decide for both. */
 static double sector_lost(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
                           const lrcs_curvature *c, const lrcsi_visible *visible,
-                          const lrcsi_margin *margin)
+                          const lrcsi_proximity_band *margin)
 {
     uint32_t begin = patch_part(view->prepared, facet)->first_facet;
     uint32_t first = begin + ((facet - begin) & ~UINT32_C(1));
-    lrcsi_tilt tilt = lrcsi_view_tilt(view, first);
-    lrcsi_stray stray = lrcsi_stray_make(brdf, fabs(tilt.cos_theta), tilt.tan2, c);
+    lrcsi_incidence incidence = lrcsi_view_incidence(view, first);
+    lrcsi_deviation deviation =
+        lrcsi_deviation_make(brdf, fabs(incidence.cos_theta), incidence.tan2, c);
     double lost = fmax(share_lost(view, first, visible, margin),
                        share_lost(view, first + 1, visible, margin));
     double a = patch_area_error(view->prepared, facet, c);
-    return stray.whole + (1 + a) * lost * stray.most < stray.part
+    return deviation.whole + (1 + a) * lost * deviation.most < deviation.part
                ? share_lost(view, facet, visible, margin)
                : 2;
 }
 
 /* The error of a facet on a curved wall, per unit of its area. `lost` as sector_lost has it. */
-static double wall_error(const lrcsi_stray *stray, double a, double share, int state, int partner,
-                         double lost)
+static double wall_error(const lrcsi_deviation *deviation, double a, double share, int state,
+                         int partner, double lost)
 {
-    double lit = is_lit(partner) ? stray->part : (1 + a) * stray->apart;
+    double lit = is_lit(partner) ? deviation->part : (1 + a) * deviation->apart;
     if (state == PATCH_HIDDEN) {
-        return (1 + a) * share * stray->most;
+        return (1 + a) * share * deviation->most;
     }
     if (state == partner && state != PATCH_MIXED) {
-        return stray->whole;
+        return deviation->whole;
     }
     if (state == PATCH_DARK) {
-        return (1 + a) * stray->most;
+        return (1 + a) * deviation->most;
     }
     if (lost <= 1) {
-        return stray->whole + (1 + a) * lost * stray->most;
+        return deviation->whole + (1 + a) * lost * deviation->most;
     }
-    return fmin(lit + stray->here * (a + (1 + a) * share), (1 + a) * stray->most);
+    return fmin(lit + deviation->here * (a + (1 + a) * share), (1 + a) * deviation->most);
 }
 
 /* What the facets may show of a closed part's inside, by rounding. */
 static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
-                           const lrcsi_tilt *tilt, const lrcsi_visible *visible,
-                           const lrcsi_margin *margin)
+                           const lrcsi_incidence *incidence, const lrcsi_visible *visible,
+                           const lrcsi_proximity_band *margin)
 {
     const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
     if (!margin || view->facing[facet] >= 0 || !lrcsi_view_reflects(view, facet) ||
         !(visible[facet].high > 0)) {
         return 0;
     }
-    double most = lrcsi_stray_make(brdf, -tilt->cos_theta, tilt->tan2, &flat).most;
-    return most * fmin(1, visible[facet].high / tilt->projected);
+    double most = lrcsi_deviation_make(brdf, -incidence->cos_theta, incidence->tan2, &flat).most;
+    return most * fmin(1, visible[facet].high / incidence->projected);
 }
 
 int lrcsi_tessellation_known(const lrcs_prepared *p, int unshadowed)
@@ -183,12 +185,12 @@ int lrcsi_tessellation_known(const lrcs_prepared *p, int unshadowed)
             return 0;
         }
     }
-    return unshadowed || p->nears.reach != NULL;
+    return unshadowed || p->proximity.reach != NULL;
 }
 
 double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
-                                const lrcsi_tilt *tilt, const lrcsi_visible *visible,
-                                const lrcsi_margin *margin)
+                                const lrcsi_incidence *incidence, const lrcsi_visible *visible,
+                                const lrcsi_proximity_band *margin)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_curvature c = patch_curvature(p, facet);
@@ -197,24 +199,25 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
     double share = margin ? margin->share[facet] : 0;
     double area = 0.5 * p->normal[facet].length;
     if (curve && state == PATCH_HIDDEN) {
-        share += share_seen(tilt, facet, visible, margin);
+        share += share_seen(incidence, facet, visible, margin);
     }
     if (share == 0 && (!curve || state == PATCH_HIDDEN)) {
-        return state == PATCH_DARK ? area * inside_shown(view, facet, brdf, tilt, visible, margin)
-                                   : 0;
+        return state == PATCH_DARK
+                   ? area * inside_shown(view, facet, brdf, incidence, visible, margin)
+                   : 0;
     }
-    double cosine = state == PATCH_DARK ? tilt->cos_theta : fabs(tilt->cos_theta);
-    lrcsi_stray stray = lrcsi_stray_make(brdf, cosine, tilt->tan2, &c);
-    double error = state == PATCH_DARK ? 0 : share * stray.most;
+    double cosine = state == PATCH_DARK ? incidence->cos_theta : fabs(incidence->cos_theta);
+    lrcsi_deviation deviation = lrcsi_deviation_make(brdf, cosine, incidence->tan2, &c);
+    double error = state == PATCH_DARK ? 0 : share * deviation.most;
     if (curve) {
         int partner = margin ? partner_state(view, facet, visible, margin) : state;
         int mixed =
             is_lit(state) && is_lit(partner) && (state == PATCH_MIXED || partner == PATCH_MIXED);
         double lost = mixed ? sector_lost(view, facet, brdf, &c, visible, margin) : 2;
-        error = wall_error(&stray, patch_area_error(p, facet, &c), share, state, partner, lost);
+        error = wall_error(&deviation, patch_area_error(p, facet, &c), share, state, partner, lost);
     }
     if (state == PATCH_DARK) {
-        error += inside_shown(view, facet, brdf, tilt, visible, margin);
+        error += inside_shown(view, facet, brdf, incidence, visible, margin);
     }
     return area * error;
 }

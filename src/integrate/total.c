@@ -6,7 +6,7 @@
    bright lobe of a narrow glint, or with curved normals go one by one through double-double
    incidence (view/view.h) and optics/reflect.h. What each adds to the bounds stands beside each
    step; the bounds themselves are widened by 1e-9 and 2 u a facet for their own rounding.
-   Called: lrcsi_view_dots, lrcsi_shade, lrcsi_sum_lanes_add; lrcsi_view_tilt, lrcsi_reflect;
+   Called: lrcsi_view_dots, lrcsi_shade, lrcsi_sum_lanes_add; lrcsi_view_incidence, lrcsi_reflect;
    lrcsi_tessellation_error. */
 #include "integrate/total.h"
 
@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "base/bits.h"
+#include "base/constant.h"
 #include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
@@ -24,7 +25,6 @@
 #include "optics/shade.h"
 #include "visibility/query.h"
 
-#define U       0x1p-53
 #define FOUR_PI 12.566370614359172954
 
 /* What a facet's terms may lose to underflow, scaled: some 30 operations, of 2^-1075 each, and
@@ -32,14 +32,14 @@
 #define FACET_UNDERFLOW 0x1p-1070
 
 /* The relative error of a visible area that is all of a facet not near grazing: that of
-   lrcsi_tilt.projected (8 u), and a product. */
-#define AREA_ERROR (10 * U)
+   lrcsi_incidence.projected (8 u), and a product. */
+#define AREA_ERROR (10 * LRCSI_U)
 
 /* Running sums, in scaled units. */
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
     double visibility, tessellation, rounding, curvature;
-    double likely, lean; /* of errors that add up by chance; of those that lean one way */
+    double likely, bias; /* of errors that add up by chance; of those that share a sign */
     uint32_t seen;
 } total_sums;
 
@@ -47,12 +47,12 @@ typedef struct total_sums {
 typedef struct total_job {
     const lrcsi_view *view;
     const lrcsi_plan *plan;
-    const lrcsi_visible *visible; /* NULL: all that nothing is known to hide */
-    const unsigned char *answer;  /* lrcsi_areas */
-    const lrcsi_curved *curved;   /* NULL: all facets are flat */
-    const lrcsi_margin *margin;   /* NULL: none was made */
-    const lrcsi_clear *clear;     /* shapes that count by closed forms; NULL: none */
-    lrcs_facet_record *records;   /* NULL: none asked for */
+    const lrcsi_visible *visible;       /* NULL: all that nothing is known to hide */
+    const unsigned char *answer;        /* lrcsi_areas */
+    const lrcsi_curved *curved;         /* NULL: all facets are flat */
+    const lrcsi_proximity_band *margin; /* NULL: none was made */
+    const lrcsi_clear *clear;           /* shapes that count by closed forms; NULL: none */
+    lrcs_facet_record *records;         /* NULL: none asked for */
     lrcsi_total total;
     total_sums sums;
 } total_job;
@@ -83,9 +83,9 @@ static double glint_peak(double s)
 
 /* How far the glint may be off where tan^2 is too vague for its flank: truth and value both lie
    between 0 and the glint at the least tan^2, which beyond the peak (2 s^2 - 1) is the most. */
-static double glint_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt)
+static double glint_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidence *incidence)
 {
-    double least = tilt->tan2 * (1 - 2 * tilt->stretch);
+    double least = incidence->tan2 * (1 - 2 * incidence->tan2_err);
     if (!(least >= 2 * brdf->s * brdf->s)) {
         return brdf->A * glint_peak(brdf->s);
     }
@@ -104,17 +104,18 @@ static double growth(double x)
    log of the glint moves by at most r (2 min(u, 1) + u / s^2), of the diffuse part by at most
    r (m + 2)/2 min(u, 1); where these are no small numbers, each part is bounded itself. Near
    edge-on (r infinite) u is at least this, and beyond the glint's peak both parts only fall. */
-static double reflection_vague(const lrcs_brdf *brdf, const lrcsi_tilt *tilt,
-                               const lrcsi_reflection *at)
+static double reflection_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidence *incidence,
+                                     const lrcsi_reflection *at)
 {
-    if (isinf(tilt->stretch)) {
+    if (isinf(incidence->tan2_err)) {
         double most = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
-        return tilt->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : most;
+        return incidence->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : most;
     }
-    double bent = lrcsi_least(tilt->tan2, 1);
-    double glint = brdf->A > 0 ? tilt->stretch * (2 * bent + tilt->tan2 / brdf->s / brdf->s) : 0;
-    double diffuse = tilt->stretch * (0.5 * brdf->m + 1) * bent;
-    return (glint < 1 ? at->glint * growth(glint) : glint_vague(brdf, tilt)) +
+    double bent = lrcsi_least(incidence->tan2, 1);
+    double glint =
+        brdf->A > 0 ? incidence->tan2_err * (2 * bent + incidence->tan2 / brdf->s / brdf->s) : 0;
+    double diffuse = incidence->tan2_err * (0.5 * brdf->m + 1) * bent;
+    return (glint < 1 ? at->glint * growth(glint) : glint_uncertainty(brdf, incidence)) +
            (diffuse < 1 ? at->diffuse * growth(diffuse) : brdf->B);
 }
 
@@ -139,20 +140,20 @@ static double share_of(double part, double whole)
 /* One facet that reflects towards the laser, precisely. Rounding: S, 4 pi, two products and the
    share, 8 u; the relative error of areas; what f_r cos^2 is off by, over all that may be visible.
  */
-static total_terms facet_terms(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt,
-                               const lrcsi_visible *visible)
+static total_terms facet_terms(const total_job *job, uint32_t facet,
+                               const lrcsi_incidence *incidence, const lrcsi_visible *visible)
 {
     const lrcs_prepared *p = job->view->prepared;
     lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, facet));
-    lrcsi_reflection at = reflection_planned(&brdf, job->plan, tilt->tan2);
+    lrcsi_reflection at = reflection_planned(&brdf, job->plan, incidence->tan2);
     double whole = FOUR_PI * 0.5 * p->normal[facet].length;
-    double share = share_of(visible->area, tilt->projected);
-    double most = share_of(visible->high, tilt->projected);
+    double share = share_of(visible->area, incidence->projected);
+    double most = share_of(visible->high, incidence->projected);
     total_terms terms = {.glint = whole * at.glint * share, .diffuse = whole * at.diffuse * share};
-    terms.rounding = (terms.glint + terms.diffuse) * (tilt->error + 8 * U) +
-                     whole * most * (at.error + reflection_vague(&brdf, tilt, &at)) +
+    terms.rounding = (terms.glint + terms.diffuse) * (incidence->error + 8 * LRCSI_U) +
+                     whole * most * (at.error + reflection_uncertainty(&brdf, incidence, &at)) +
                      (brdf.A > 0 || brdf.B > 0 ? FACET_UNDERFLOW : 0);
-    terms.per_area = whole * (at.glint + at.diffuse) / tilt->projected;
+    terms.per_area = whole * (at.glint + at.diffuse) / incidence->projected;
     return terms;
 }
 
@@ -161,7 +162,7 @@ static void add_doubt(total_sums *sums, double per_area, const lrcsi_visible *vi
     double doubt = lrcsi_most(visible->area - visible->low, visible->high - visible->area);
     sums->visibility += per_area * doubt;
     sums->likely = lrcsi_length_flat(sums->likely, per_area * visible->likely);
-    sums->lean += per_area * visible->lean;
+    sums->bias += per_area * visible->bias;
 }
 
 /* One with curved normals, which comes summed. */
@@ -213,16 +214,16 @@ static void total_finish(total_job *job)
     double glint = lrcsi_sum_value(&sums->glint);
     double diffuse = lrcsi_sum_value(&sums->diffuse);
     double count = p->scene->facet_count;
-    double outward = 1 + 1e-9 + 2 * count * U;
+    double outward = 1 + 1e-9 + 2 * count * LRCSI_U;
     total->glint = lrcsi_prepared_area(p, glint);
     total->diffuse = lrcsi_prepared_area(p, diffuse);
     total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));
     total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
     total->visibility = bound_area(p, sums->visibility * outward);
     total->tessellation = sums->tessellation < 0 ? -1 : bound_area(p, sums->tessellation * outward);
-    double adding = (glint + diffuse) * (4 * U + 3 * (count * U) * (count * U));
+    double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
     total->rounding = bound_area(p, (sums->rounding + adding) * outward);
-    double likely = lrcsi_length_flat(sums->likely, sums->lean);
+    double likely = lrcsi_length_flat(sums->likely, sums->bias);
     total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
     total->curvature = lrcsi_prepared_area(p, sums->curvature);
     total->seen = sums->seen;
@@ -235,17 +236,19 @@ static inline int facet_answered(const total_job *job, uint32_t facet)
 }
 
 /* What is visible of a facet. */
-static lrcsi_visible facet_visible(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)
+static lrcsi_visible facet_visible(const total_job *job, uint32_t facet,
+                                   const lrcsi_incidence *incidence)
 {
     if (facet_answered(job, facet)) {
-        double area = job->answer[facet] == LRCSI_QUERY_VISIBLE ? tilt->projected : 0;
+        double area = job->answer[facet] == LRCSI_QUERY_VISIBLE ? incidence->projected : 0;
         return (lrcsi_visible){area, area, area, 0, 0};
     }
     if (job->visible) {
         return job->visible[facet];
     }
-    return lrcsi_grid_casts(job->view, facet) ? lrcsi_visible_unshadowed(tilt, job->plan->graze)
-                                              : (lrcsi_visible){0, 0, 0, 0, 0};
+    return lrcsi_grid_casts(job->view, facet)
+               ? lrcsi_visible_unshadowed(incidence, job->plan->grazing_cos)
+               : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
 /* What a facet adds goes into its record. */
@@ -264,19 +267,19 @@ static void record_sigma(const total_job *job, uint32_t facet, double glint, dou
 static void sum_precisely(total_job *job, uint32_t facet)
 {
     total_sums *sums = &job->sums;
-    lrcsi_tilt tilt = lrcsi_view_tilt(job->view, facet);
-    lrcsi_visible visible = facet_visible(job, facet, &tilt);
+    lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
+    lrcsi_visible visible = facet_visible(job, facet, &incidence);
     lrcs_brdf brdf =
         lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(job->view->prepared, facet));
     add_seen(sums, &brdf);
     lrcsi_sum_add(&sums->projected, visible.area);
-    count_shown(&job->total, tilt.projected, &visible);
+    count_shown(&job->total, incidence.projected, &visible);
     if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
         add_curved(sums, &job->curved[facet]);
         record_sigma(job, facet, job->curved[facet].glint, job->curved[facet].diffuse);
         return;
     }
-    total_terms terms = facet_terms(job, facet, &tilt, &visible);
+    total_terms terms = facet_terms(job, facet, &incidence, &visible);
     lrcsi_sum_add(&sums->glint, terms.glint);
     lrcsi_sum_add(&sums->diffuse, terms.diffuse);
     sums->rounding += terms.rounding;
@@ -371,7 +374,7 @@ static void block_doubts(total_job *job, const total_batch *batch)
     for (uint32_t i = 0; i < batch->count; i++) {
         double per_area = shades->glint[i] + shades->diffuse[i];
         if (!job->visible) {
-            int sure = shades->cosine[i] > job->plan->graze + 0x1p-40;
+            int sure = shades->cosine[i] > job->plan->grazing_cos + 0x1p-40;
             job->sums.visibility += sure ? 0 : per_area * batch->area[i];
             continue;
         }
@@ -419,7 +422,7 @@ static void block_run(total_job *job, total_batch *batch)
     for (uint32_t i = 0; job->records && i < batch->count; i++) {
         record_sigma(job, batch->facet[i], glint[i], diffuse[i]);
     }
-    if (job->visible || (job->plan->graze > 0 && job->plan->graze < 1)) {
+    if (job->visible || (job->plan->grazing_cos > 0 && job->plan->grazing_cos < 1)) {
         block_doubts(job, batch);
     }
     if (batch->lobes.A > 0 || batch->lobes.B > 0) {
@@ -606,7 +609,7 @@ static void batch_finish(total_job *job, total_batch *batch)
         sums->rounding += batch->error[k] * LRCSI_SHADE_UNIT;
     }
     sums->rounding += job->visible ? lrcsi_sum_value(&both) * AREA_ERROR : 0;
-    sums->visibility += !job->visible && job->plan->graze >= 1 ? lrcsi_sum_value(&both) : 0;
+    sums->visibility += !job->visible && job->plan->grazing_cos >= 1 ? lrcsi_sum_value(&both) : 0;
 }
 
 /* --- all of it -------------------------------------------------------------------------------- */
@@ -638,7 +641,8 @@ static void sum_material(total_job *job, uint32_t material)
 }
 
 /* What the facets of tessellated shapes err from their true surfaces. */
-static double facet_tessellation(const total_job *job, uint32_t facet, const lrcsi_tilt *tilt)
+static double facet_tessellation(const total_job *job, uint32_t facet,
+                                 const lrcsi_incidence *incidence)
 {
     if (is_in_shape(job, facet)) {
         return 0;
@@ -649,19 +653,19 @@ static double facet_tessellation(const total_job *job, uint32_t facet, const lrc
     lrcs_brdf brdf =
         lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(job->view->prepared, facet));
     return FOUR_PI *
-           lrcsi_tessellation_error(job->view, facet, &brdf, tilt, job->visible, job->margin);
+           lrcsi_tessellation_error(job->view, facet, &brdf, incidence, job->visible, job->margin);
 }
 
 static void sum_tessellation(total_job *job)
 {
     const lrcsi_batches *b = &job->view->prepared->batches;
     for (uint32_t place = 0; place < b->count; place += LRCSI_TILTS) {
-        lrcsi_tilt tilt[LRCSI_TILTS];
+        lrcsi_incidence incidence[LRCSI_TILTS];
         uint32_t left = b->count - place;
         uint32_t count = left < LRCSI_TILTS ? left : LRCSI_TILTS;
-        lrcsi_view_tilts(job->view, b->facet + place, count, tilt);
+        lrcsi_view_incidences(job->view, b->facet + place, count, incidence);
         for (uint32_t i = 0; i < count; i++) {
-            job->sums.tessellation += facet_tessellation(job, b->facet[place + i], &tilt[i]);
+            job->sums.tessellation += facet_tessellation(job, b->facet[place + i], &incidence[i]);
         }
     }
 }
@@ -673,15 +677,15 @@ static lrcsi_shape_terms shape_records(const total_job *job, const lrcs_part *pa
 {
     lrcsi_shape_terms all = {0, 0, 0, 0, 0};
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-        lrcsi_tilt tilt = lrcsi_view_tilt(job->view, f);
-        lrcsi_visible whole = {tilt.projected, tilt.projected, tilt.projected, 0, 0};
+        lrcsi_incidence incidence = lrcsi_view_incidence(job->view, f);
+        lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
         if (job->view->facing[f] > 0) {
-            total_terms terms = facet_terms(job, f, &tilt, &whole);
+            total_terms terms = facet_terms(job, f, &incidence, &whole);
             job->records[f].sigma_glint_m2 = terms.glint;
             job->records[f].sigma_m2 = terms.diffuse;
             all.glint += terms.glint;
             all.diffuse += terms.diffuse;
-            all.silhouette += tilt.projected;
+            all.silhouette += incidence.projected;
         }
     }
     return all;
@@ -729,10 +733,10 @@ static void records_start(const total_job *job)
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         job->records[f] = (lrcs_facet_record){0, 0, 0, 0, 0};
         if (!p->skip[f]) {
-            lrcsi_tilt tilt = lrcsi_view_tilt(job->view, f);
-            lrcsi_visible visible = facet_visible(job, f, &tilt);
+            lrcsi_incidence incidence = lrcsi_view_incidence(job->view, f);
+            lrcsi_visible visible = facet_visible(job, f, &incidence);
             job->records[f].area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[f].length);
-            job->records[f].cos_theta = tilt.cos_theta;
+            job->records[f].cos_theta = incidence.cos_theta;
             job->records[f].visible_area_m2 = lrcsi_prepared_area(p, visible.area);
         }
     }
@@ -740,7 +744,7 @@ static void records_start(const total_job *job)
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
-                             const lrcsi_margin *margin, const lrcsi_clear *clear,
+                             const lrcsi_proximity_band *margin, const lrcsi_clear *clear,
                              lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;

@@ -5,7 +5,7 @@
 
 #include "integrate/curve.h"
 #include "integrate/shapes.h"
-#include "visibility/margin.h"
+#include "visibility/proximity_band.h"
 
 /* All in square metres. */
 typedef struct lrcsi_total {
@@ -37,7 +37,7 @@ typedef struct lrcsi_areas {
    of which a sliver is lit but no facet faces the laser, no record has it. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
-                             const lrcsi_margin *margin, const lrcsi_clear *clear,
+                             const lrcsi_proximity_band *margin, const lrcsi_clear *clear,
                              lrcs_facet_record *records);
 
 #endif

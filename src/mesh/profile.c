@@ -25,7 +25,7 @@
        of true and facet normal, phi the azimuth from the sector's middle: bounds gamma by `turn`;
        gamma^2 <= q 4 sin^2(gamma/2) = 2 q (1 - cos gamma), q = (turn/2)^2 / sin^2(turn/2), as
        x / sin x grows: spread^2 = (A/A') 2 q D;
-       gamma - sin gamma <= gamma^3/6: lean = (A/A') T + turn spread^2 / 6.
+       gamma - sin gamma <= gamma^3/6: bias = (A/A') T + turn spread^2 / 6.
    Each is evaluated to a few units of rounding; SLACK covers those. `blur` then adds what rounding
    the vertices does to a facet's plane and area.
 
@@ -223,7 +223,7 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     double part = (s.across / s.area) * (across / facet) + (s.up / s.area) * (s.up / facet);
     c.spread = sqrt(ratio * 2.0 * q * (fmax(0.0, 1.0 - part) + SLACK));
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
-    c.lean = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
+    c.bias = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
     c.area_error = fabs(ratio - 1.0);
     return lrcsi_profile_blurred(&c, profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
 }
@@ -302,7 +302,7 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
         lrcs_curvature c = strip_curvature(profile, i);
         most.turn = fmax(most.turn, c.turn);
         most.area_error = fmax(most.area_error, c.area_error);
-        most.lean = fmax(most.lean, c.lean);
+        most.bias = fmax(most.bias, c.bias);
         most.spread = fmax(most.spread, c.spread);
     }
     return most;
@@ -317,7 +317,7 @@ lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
         return (lrcs_curvature){2.0 * HALF_PI, USELESS, USELESS, sqrt(USELESS)};
     }
     return (lrcs_curvature){fmin(c->turn + blur, 2.0 * HALF_PI), c->area_error + 2.0 * blur,
-                            c->lean + 2.0 * blur, c->spread + 2.0 * blur};
+                            c->bias + 2.0 * blur, c->spread + 2.0 * blur};
 }
 
 /* A linear map takes normals n to N n / |N n|, N being its inverse transpose, and areas dA to
@@ -330,7 +330,7 @@ lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
    So the turn vector tau, of length t, becomes D tau + r, |D| <= k, |r| <= k g t^2; and |N n| /
    |N f| = exp(x), |x - q.tau| <= h t^2, |q| <= g, |x| <= G t with G = g + h turn: with E =
    exp(G turn), |exp(x) - 1 - q.tau| <= (h + G^2 E / 2) t^2 and |exp(x) - 1| <= G E t. Integrated
-   over the patch, per unit of facet, tau gives `lean` and t^2 spread^2. Where G turn exceeds 1,
+   over the patch, per unit of facet, tau gives `bias` and t^2 spread^2. Where G turn exceeds 1,
    |N n| / |N f| within 1/k .. k serves. */
 lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, double *uneven)
 {
@@ -349,8 +349,8 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
     double E = exp(G * c->turn);
     *uneven = (E - 1.0) * outward;
     return (lrcs_curvature){
-        turn * outward, (c->area_error + g * c->lean + (h + 0.5 * G * G * E) * square) * outward,
-        (k * c->lean + k * (g + G * E) * square) * outward, k * c->spread * sqrt(E) * outward};
+        turn * outward, (c->area_error + g * c->bias + (h + 0.5 * G * G * E) * square) * outward,
+        (k * c->bias + k * (g + G * E) * square) * outward, k * c->spread * sqrt(E) * outward};
 }
 
 /* How far a point of the unit circle goes when its sector becomes a triangle of the N-gon. */

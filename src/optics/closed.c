@@ -4,6 +4,7 @@
    what faces the light is lit. */
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/degrees.h"
 #include "optics/closed.h"
 
@@ -218,7 +219,7 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
     out.sigma_m2 = out.sigma_glint_m2 + out.sigma_diffuse_m2;
     out.bound_m2 = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE];
     /* the sums themselves, and products that are subnormal: 2^-1074 each */
-    out.bound_m2 += out.bound_m2 > 0.0 ? 2.0 * LRCSI_CLOSED_UNIT * out.sigma_m2 + 0x1p-1070 : 0.0;
+    out.bound_m2 += out.bound_m2 > 0.0 ? 2.0 * LRCSI_U * out.sigma_m2 + 0x1p-1070 : 0.0;
     if (!isfinite(out.sigma_m2 + out.bound_m2)) {
         return LRCS_E_NUMBER;
     }

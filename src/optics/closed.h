@@ -10,8 +10,6 @@
 #include "base/dd.h"
 #include "optics/reflect.h"
 
-#define LRCSI_CLOSED_UNIT 0x1p-53
-
 /* An angle by its sine and cosine, good to 2^-96 each. */
 typedef struct lrcsi_angle {
     lrcsi_dd sine, cosine;

@@ -23,6 +23,7 @@
    an entire function of y with positive terms only, smooth across kappa = 0. */
 #include <math.h>
 
+#include "base/constant.h"
 #include "optics/closed_arc.h"
 #include "optics/special.h"
 
@@ -36,8 +37,8 @@ lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
     double width = s > 0.0 ? 1.0 + 0.5 * sqrt(LRCSI_PI) * s * lrcsi_special_erfcx(1.0 / s) : 0.0;
     const double factor[LRCSI_PARTS] = {s * s * width, 2.0 / (brdf->m + 3.0)};
     lrcsi_amount amount = {{brdf->A, brdf->B}, {0.0, 0.0}};
-    amount.error[LRCSI_GLINT] = LRCSI_CLOSED_UNIT * brdf->A;
-    amount.error[LRCSI_DIFFUSE] = LRCSI_CLOSED_UNIT * brdf->B;
+    amount.error[LRCSI_GLINT] = LRCSI_U * brdf->A;
+    amount.error[LRCSI_DIFFUSE] = LRCSI_U * brdf->B;
     lrcsi_closed_weigh(&amount, factor, 22.0);
     lrcsi_closed_scale(&amount, LRCSI_PI * shape->radius * shape->radius, 3.0);
     return amount;

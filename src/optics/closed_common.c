@@ -3,6 +3,7 @@
  * summed. */
 #include <math.h>
 
+#include "base/constant.h"
 #include "optics/closed.h"
 
 /* Square root with one Newton step. */
@@ -75,12 +76,12 @@ lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
     lrcsi_reflection r = lrcsi_reflect(&glint, u.hi, 0.0);
     double flank = r.glint > 0.0 ? 2.0 * share - u.hi / brdf->s / brdf->s : 0.0;
     out.value[LRCSI_GLINT] = r.glint * (1.0 + flank * change);
-    out.error[LRCSI_GLINT] = r.error + 2.0 * LRCSI_CLOSED_UNIT * out.value[LRCSI_GLINT];
+    out.error[LRCSI_GLINT] = r.error + 2.0 * LRCSI_U * out.value[LRCSI_GLINT];
     lrcs_brdf diffuse = {0.0, brdf->B, 0.0, brdf->m};
     r = lrcsi_reflect(&diffuse, u.hi, 0.0);
     flank = r.diffuse > 0.0 ? -(0.5 * brdf->m + 1.0) * share : 0.0;
     out.value[LRCSI_DIFFUSE] = r.diffuse * (1.0 + flank * change);
-    out.error[LRCSI_DIFFUSE] = r.error + 2.0 * LRCSI_CLOSED_UNIT * out.value[LRCSI_DIFFUSE];
+    out.error[LRCSI_DIFFUSE] = r.error + 2.0 * LRCSI_U * out.value[LRCSI_DIFFUSE];
     return out;
 }
 
@@ -93,7 +94,7 @@ void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], 
             double after = before * factor[part];
             amount->value[part] = after;
             amount->error[part] = amount->error[part] * factor[part] * (1.0 + 0x1p-40) +
-                                  (units + 1.0) * LRCSI_CLOSED_UNIT * after;
+                                  (units + 1.0) * LRCSI_U * after;
             amount->error[part] += factor[part] > 0.0 ? 0x1p-1070 * before : 0.0;
         }
     }
@@ -109,6 +110,6 @@ void lrcsi_closed_add(lrcsi_amount *sum, const lrcsi_amount *amount)
 {
     for (int part = 0; part < LRCSI_PARTS; part++) {
         sum->value[part] += amount->value[part];
-        sum->error[part] += amount->error[part] + LRCSI_CLOSED_UNIT * sum->value[part];
+        sum->error[part] += amount->error[part] + LRCSI_U * sum->value[part];
     }
 }

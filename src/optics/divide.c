@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* How many facets a curved body needs for its material: lrcs_shape_count. The choice is a plan made
-   before any mesh exists; the proof is lrcs_curvature and lrcsi_reflect_stray, evaluated pose by
-   pose on the mesh, whatever was planned.
+   before any mesh exists; the proof is lrcs_curvature and lrcsi_reflect_deviation, evaluated pose
+   by pose on the mesh, whatever was planned.
 
    The proved error of a body is 4 pi sum a_i stray_i. Over fine facets the sum is an integral over
    the normals, which a fixed midpoint rule estimates:
@@ -34,14 +34,14 @@ typedef struct facet_plan {
     lrcs_curvature curvature;
 } facet_plan;
 
-/* What one direction gives: F and its stray bound. */
+/* What one direction gives: F and its deviation bound. */
 typedef struct plan_value {
-    double sigma, stray;
+    double sigma, deviation;
 } plan_value;
 
 static plan_value plan_at(const facet_plan *plan, double cosine, double tan2)
 {
-    plan_value value = {0.0, lrcsi_reflect_stray(plan->brdf, cosine, tan2, &plan->curvature)};
+    plan_value value = {0.0, lrcsi_reflect_deviation(plan->brdf, cosine, tan2, &plan->curvature)};
     if (cosine > 0.0) {
         lrcsi_reflection f = lrcsi_reflect(plan->brdf, tan2, 0.0);
         value.sigma = f.glint + f.diffuse;
@@ -76,7 +76,8 @@ static plan_value plan_round(const facet_plan *plan)
         double weight = 0.0;
         double theta = plan_node(k, plan_near(plan, end), end, &weight);
         double slope = tan(theta);
-        sum.stray += 0.5 * sin(theta) * weight * plan_at(plan, cos(theta), slope * slope).stray;
+        sum.deviation +=
+            0.5 * sin(theta) * weight * plan_at(plan, cos(theta), slope * slope).deviation;
         theta = plan_node(k, narrow, 0.5 * LRCSI_PI, &weight);
         slope = tan(theta);
         sum.sigma += 0.5 * sin(theta) * weight * plan_at(plan, cos(theta), slope * slope).sigma;
@@ -100,7 +101,7 @@ static plan_value plan_circle(const facet_plan *plan, double psi, double alpha)
         double tan2 = cosine == 0.0 ? HUGE_VAL : (x * x + y * y) / (cosine * cosine);
         plan_value value = plan_at(plan, cosine, tan2);
         sum.sigma += weight / LRCSI_PI * value.sigma;
-        sum.stray += weight / LRCSI_PI * value.stray;
+        sum.deviation += weight / LRCSI_PI * value.deviation;
     }
     return sum;
 }
@@ -117,7 +118,7 @@ static double plan_straight(const facet_plan *plan, double psi)
         if (alpha >= 0.0 && alpha <= LRCSI_PI) {
             plan_value value = plan_circle(plan, psi, alpha);
             double base = fmax(value.sigma, mean);
-            worst = fmax(worst, base > 0.0 ? value.stray / base : 0.0);
+            worst = fmax(worst, base > 0.0 ? value.deviation / base : 0.0);
         }
     }
     return worst;
@@ -167,7 +168,7 @@ static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, doub
         weight *= sin(theta) * plan_density(shape, theta);
         plan_value value = plan_circle(plan, 0.5 * LRCSI_PI - theta, alpha);
         sum.sigma += weight * value.sigma;
-        sum.stray += weight * value.stray;
+        sum.deviation += weight * value.deviation;
         *size += weight;
     }
     return sum;
@@ -185,7 +186,7 @@ static double plan_caps(const facet_plan *plan, const lrcs_shape *shape)
         double alpha = fmax(0.0, k < 4 ? 0.25 * k * rim : rim + (k - 6) * step);
         plan_value value = plan_cap(plan, shape, alpha, &size);
         double base = fmax(value.sigma, size * mean);
-        worst = fmax(worst, base > 0.0 ? value.stray / base : 0.0);
+        worst = fmax(worst, base > 0.0 ? value.deviation / base : 0.0);
     }
     return worst;
 }
@@ -217,7 +218,7 @@ static double plan_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_
         return plan_straight(&plan, plan_elevation(shape));
     }
     plan_value value = plan_round(&plan);
-    return value.sigma > 0.0 ? value.stray / value.sigma : 0.0;
+    return value.sigma > 0.0 ? value.deviation / value.sigma : 0.0;
 }
 
 static int plan_affords(const lrcs_shape *shape, uint32_t around, uint32_t max_facets)

@@ -21,6 +21,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "base/elementary.h"
 #include "base/range.h"
@@ -28,7 +29,6 @@
 #define REFLECT_GLINT_UNITS   18.0
 #define REFLECT_DIFFUSE_UNITS 11.0
 #define REFLECT_ROOT_UNITS    7.0
-#define REFLECT_UNIT          0x1p-53
 
 /* Beyond this x, exp(-x/2) nears underflow and q may not: the exponents are added instead. And
    beyond that, their sum is below -790 for every u that is a double: exp gives 0. */
@@ -63,14 +63,14 @@ static lrcsi_dd glint_exponent(double u, double s)
 static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
 {
     lrcsi_dd x = glint_exponent(u, brdf->s);
-    reflect_part part = {0.0, REFLECT_GLINT_UNITS * REFLECT_UNIT, 2.0 * lrcsi_least(u, 1.0) + x.hi};
+    reflect_part part = {0.0, REFLECT_GLINT_UNITS * LRCSI_U, 2.0 * lrcsi_least(u, 1.0) + x.hi};
     double q = 0.0;
     if (x.hi < REFLECT_X_FAR) {
         q = (1.0 + u) * (lrcsi_exp(-0.5 * x.hi) * (1.0 - 0.5 * x.lo));
-        part.relative += x.lo == 0.0 ? 4.0 * REFLECT_UNIT * x.hi : 0.0;
+        part.relative += x.lo == 0.0 ? 4.0 * LRCSI_U * x.hi : 0.0;
     } else {
         q = x.hi < REFLECT_X_NONE ? lrcsi_exp(lrcsi_log1p(u).hi - 0.5 * x.hi) : 0.0;
-        part.relative += 16.0 * REFLECT_UNIT * x.hi;
+        part.relative += 16.0 * LRCSI_U * x.hi;
     }
     part.value = brdf->A * q * q;
     return part;
@@ -89,15 +89,15 @@ static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
     double root = diffuse_root(1.0 + u, brdf->m);
     if (root > 0.0) {
         part.value = brdf->B / root / (1.0 + u);
-        part.relative = REFLECT_UNIT * REFLECT_ROOT_UNITS;
+        part.relative = LRCSI_U * REFLECT_ROOT_UNITS;
         return part;
     }
     lrcsi_dd log = lrcsi_log1p(u);
     double y = 0.25 * brdf->m * log.hi;
     double r = lrcsi_power(log, -0.25 * brdf->m);
     part.value = brdf->B * r * r / (1.0 + u);
-    part.relative = REFLECT_UNIT * (REFLECT_DIFFUSE_UNITS + 2.0 * LRCSI_LOG_ERROR * y +
-                                    lrcsi_least(2.0 * y, 0.5 * brdf->m * REFLECT_UNIT));
+    part.relative = LRCSI_U * (REFLECT_DIFFUSE_UNITS + 2.0 * LRCSI_LOG_ERROR * y +
+                               lrcsi_least(2.0 * y, 0.5 * brdf->m * LRCSI_U));
     return part;
 }
 

@@ -26,23 +26,23 @@ lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_e
    F(n) = f_r cos^2 where n . s_hat > 0, else 0 (the 4 pi is the caller's).
    Given: brdf; the facet normal's cos and tan^2 to s_hat (cos <= 0: it faces away, though part of
    the patch may not); the patch's curvature. Proved; 0 for a flat patch (all three zero). */
-double lrcsi_reflect_stray(const lrcs_brdf *brdf, double cos_theta, double tan2,
-                           const lrcs_curvature *curvature);
+double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double tan2,
+                               const lrcs_curvature *curvature);
 
 /* The variation of F over a patch, for patches that are only partly visible. All fields except
    `here` are upper bounds. */
-typedef struct lrcsi_stray {
-    double whole; /* lrcsi_reflect_stray; also where F counts on both sides, by |cos(theta)| */
+typedef struct lrcsi_deviation {
+    double whole; /* lrcsi_reflect_deviation; also where F counts on both sides, by |cos(theta)| */
     double apart; /* |F - F(facet normal)| at any point of the patch */
     double part;  /* | integral of F - F(facet normal) over any part of the patch | / facet area */
     double here;  /* F(facet normal) */
     double most;  /* F at any point of the patch */
-} lrcsi_stray;
+} lrcsi_deviation;
 
 /* The same bounds for any curvature. For a flat patch all fields except `here` and `most` may be of
    the size of rounding errors instead of 0. */
-lrcsi_stray lrcsi_stray_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
-                             const lrcs_curvature *curvature);
+lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
+                                     const lrcs_curvature *curvature);
 
 /* Proved upper bounds of the parts of f_r cos (not cos^2) over all normals within `turn` of a
    normal at angle theta to s_hat, both in rad, theta <= pi. `error` is 0.

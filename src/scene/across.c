@@ -97,7 +97,7 @@ static void across_edges(const across_job *job, uint32_t facet_count, lrcsi_acro
             across_set(job, a, all.use[0].facet, e, all.use[1].facet);
             across_set(job, a, all.use[1].facet, e, all.use[0].facet);
         } else if (all.count != 0 && !(all.count == 4 && across_set_pairs(job, a, e, &all))) {
-            a->odd[a->odd_count++] = e;
+            a->irregular[a->irregular_count++] = e;
         }
     }
 }
@@ -108,11 +108,11 @@ int lrcsi_across_make(const lrcsi_topology *topology, uint32_t facet_count,
 {
     size_t mark = work->used;
     across_job job = {topology, redundant, twin};
-    lrcsi_across a = {.odd_count = 0};
+    lrcsi_across a = {.irregular_count = 0};
     a.facet = lrcsi_work_take(work, facet_count, sizeof *a.facet);
     size_t end = work->used;
-    a.odd = lrcsi_work_take(work, 3 * (size_t)facet_count / 2, sizeof *a.odd);
-    if (!a.facet || !a.odd) {
+    a.irregular = lrcsi_work_take(work, 3 * (size_t)facet_count / 2, sizeof *a.irregular);
+    if (!a.facet || !a.irregular) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
@@ -121,7 +121,7 @@ int lrcsi_across_make(const lrcsi_topology *topology, uint32_t facet_count,
     }
     across_edges(&job, facet_count, &a);
     work->used = end; /* what odd edges there are lie where they were filed */
-    a.odd = lrcsi_work_take(work, a.odd_count, sizeof *a.odd);
+    a.irregular = lrcsi_work_take(work, a.irregular_count, sizeof *a.irregular);
     *across = a;
     return LRCS_OK;
 }

@@ -120,7 +120,7 @@ static uint32_t library_count(void)
     return count;
 }
 
-uint32_t lrcsi_binder_wardrobe(const lrcs_recipe *recipe)
+uint32_t lrcsi_binder_material_count(const lrcs_recipe *recipe)
 {
     return recipe->material_count + library_count();
 }
@@ -198,7 +198,7 @@ static void apply_default(const lrcsi_binder *binder, lrcs_material *material)
     }
 }
 
-lrcs_material lrcsi_binder_bare(const lrcsi_binder *binder, uint32_t worn)
+lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t worn)
 {
     lrcs_material material;
     memset(&material, 0, sizeof material);

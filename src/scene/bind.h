@@ -25,15 +25,15 @@ lrcsi_binder lrcsi_binder_plain(const lrcs_recipe *recipe);
 int lrcsi_binder_make(const lrcs_recipe *recipe, lrcs_work *work, lrcsi_binder *binder);
 
 /* How many different materials parts can wear: the recipe's, then the library's. */
-uint32_t lrcsi_binder_wardrobe(const lrcs_recipe *recipe);
+uint32_t lrcsi_binder_material_count(const lrcs_recipe *recipe);
 
-/* What a part wears as a whole, below lrcsi_binder_wardrobe, or LRCS_NONE. Status: LRCS_OK;
+/* What a part wears as a whole, below lrcsi_binder_material_count, or LRCS_NONE. Status: LRCS_OK;
    LRCS_E_NAME. */
 int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, uint32_t *worn);
 
 /* The material of surfaces without a name of their own, on a part that wears `worn` (or
    LRCS_NONE). */
-lrcs_material lrcsi_binder_bare(const lrcsi_binder *binder, uint32_t worn);
+lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t worn);
 
 /* The material of a model's surface on a part that wears `worn` (or LRCS_NONE). */
 lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,

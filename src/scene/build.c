@@ -25,8 +25,8 @@ typedef struct scene_builder {
     const lrcs_build_options *options;
     lrcs_where *where;
     lrcsi_binder binder;
-    uint32_t *entry; /* by worn material: its place among the scene's materials, or LRCS_NONE */
-    uint32_t bare;   /* the place of "", or LRCS_NONE */
+    uint32_t *entry;     /* by worn material: its place among the scene's materials, or LRCS_NONE */
+    uint32_t unassigned; /* the place of "", or LRCS_NONE */
     lrcsi_fineness fineness;
     lrcs_divisions *divisions; /* of each part that is a shape; NULL: only counted */
 } scene_builder;
@@ -88,7 +88,7 @@ static int count_shape(const scene_builder *builder, const lrcs_recipe_part *par
     if (status != LRCS_OK) {
         return status;
     }
-    lrcs_material material = lrcsi_binder_bare(&builder->binder, worn);
+    lrcs_material material = lrcsi_binder_unassigned(&builder->binder, worn);
     status = lrcsi_fineness_divide(&builder->fineness, part, &material, divisions, counts);
     return status == LRCS_OK ? LRCS_OK
                              : refuse_part(builder, status, part,
@@ -135,7 +135,7 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
         builder->fineness.area += lrcsi_fineness_area(
             &recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
     }
-    *totals = (scene_totals){.materials = lrcsi_binder_wardrobe(recipe) + UINT64_C(1)};
+    *totals = (scene_totals){.materials = lrcsi_binder_material_count(recipe) + UINT64_C(1)};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         lrcs_mesh_counts counts;
         int status = count_part(builder, i, &counts);
@@ -191,7 +191,8 @@ size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
     size_t need = array_need(&totals, recipe->part_count);
     need = lrcsi_work_add(need, lrcsi_work_bytes(recipe->part_count, sizeof(lrcs_divisions)));
     need = lrcsi_work_add(need, lrcsi_binder_need(recipe));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(lrcsi_binder_wardrobe(recipe), sizeof(uint32_t)));
+    need = lrcsi_work_add(need,
+                          lrcsi_work_bytes(lrcsi_binder_material_count(recipe), sizeof(uint32_t)));
     return lrcsi_work_add(need, totals.scratch);
 }
 
@@ -211,12 +212,13 @@ static int add_material(const scene_builder *builder, const lrcs_material *mater
 }
 
 /* Where the material of facets without a surface stands; added where it is new. */
-static int bare_entry(scene_builder *builder, uint32_t worn, lrcs_scene *scene, uint32_t *entry)
+static int unassigned_entry(scene_builder *builder, uint32_t worn, lrcs_scene *scene,
+                            uint32_t *entry)
 {
-    uint32_t *slot = worn != LRCS_NONE ? &builder->entry[worn] : &builder->bare;
+    uint32_t *slot = worn != LRCS_NONE ? &builder->entry[worn] : &builder->unassigned;
     int status = LRCS_OK;
     if (*slot == LRCS_NONE) {
-        lrcs_material material = lrcsi_binder_bare(&builder->binder, worn);
+        lrcs_material material = lrcsi_binder_unassigned(&builder->binder, worn);
         *slot = scene->material_count;
         status = add_material(builder, &material, scene);
     }
@@ -278,7 +280,7 @@ static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene
         scene->facet_smooth[to] = mesh->facet_smooth[i];
         scene->facet_material[to] = piece->surfaces + surface;
         if (surface == LRCS_NONE) {
-            int status = bare_entry(builder, piece->worn, scene, &scene->facet_material[to]);
+            int status = unassigned_entry(builder, piece->worn, scene, &scene->facet_material[to]);
             if (status != LRCS_OK) {
                 return status;
             }
@@ -409,7 +411,7 @@ static void settle_normals(lrcs_scene *scene)
 static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
 {
     const lrcs_recipe *recipe = builder->recipe;
-    uint32_t wardrobe = lrcsi_binder_wardrobe(recipe);
+    uint32_t material_count = lrcsi_binder_material_count(recipe);
     scene_totals totals;
     builder->binder = lrcsi_binder_plain(recipe);
     builder->divisions = lrcsi_work_take(work, recipe->part_count, sizeof *builder->divisions);
@@ -424,11 +426,11 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
         return refuse_memory(builder);
     }
     size_t mark = work->used;
-    builder->entry = lrcsi_work_take(work, wardrobe, sizeof *builder->entry);
+    builder->entry = lrcsi_work_take(work, material_count, sizeof *builder->entry);
     if (!builder->entry || lrcsi_binder_make(recipe, work, &builder->binder) != LRCS_OK) {
         return refuse_memory(builder);
     }
-    memset(builder->entry, 0xff, wardrobe * sizeof *builder->entry); /* LRCS_NONE */
+    memset(builder->entry, 0xff, material_count * sizeof *builder->entry); /* LRCS_NONE */
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         status = add_part(builder, i, work, scene);
         if (status != LRCS_OK) {
@@ -446,8 +448,11 @@ int lrcs_scene_build(const lrcs_recipe *recipe, const lrcs_mesh *models,
                      const lrcs_build_options *options, lrcs_work *work, lrcs_scene *scene,
                      lrcs_where *where)
 {
-    scene_builder builder = {
-        .recipe = recipe, .models = models, .options = options, .where = where, .bare = LRCS_NONE};
+    scene_builder builder = {.recipe = recipe,
+                             .models = models,
+                             .options = options,
+                             .where = where,
+                             .unassigned = LRCS_NONE};
     lrcs_scene made;
     size_t mark = work->used;
     if (!(options->tolerance > 0.0) || !isfinite(options->tolerance) || options->max_facets < 64 ||

@@ -42,7 +42,7 @@ static void sample_take(const lrcs_prepared *p, bulk_sample *s)
     uint32_t stride = (vertices / SAMPLE + 1) | 1;
     s->count = 0;
     for (uint64_t v = 0; v < vertices; v += stride) {
-        if (p->stood[v]) {
+        if (p->referenced[v]) {
             for (int k = 0; k < 3; k++) {
                 s->x[k][s->count] = p->vertex[v].x[k];
             }

@@ -177,7 +177,7 @@ static uint32_t first_twin(const lrcs_prepared *p, uint32_t facet)
 /* How many entries the lists will have. */
 static uint64_t count_entries(const lrcs_prepared *p)
 {
-    const lrcsi_touches *t = &p->touches;
+    const lrcsi_intersections *t = &p->intersections;
     uint64_t count = 0;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         uint32_t times = p->twin[f] != LRCS_NONE ? 2 : 1;
@@ -192,15 +192,15 @@ static uint64_t count_entries(const lrcs_prepared *p)
    when the second, which comes after it, is given it. */
 static void spread_entries(lrcs_prepared *p, uint32_t count)
 {
-    lrcsi_touches *t = &p->touches;
+    lrcsi_intersections *t = &p->intersections;
     for (uint32_t f = p->scene->facet_count; f-- > 0;) {
         uint32_t of = first_twin(p, f);
         uint32_t to = count;
         for (uint32_t i = t->first[of + 1]; i-- > t->first[of];) {
-            lrcsi_touch touch = t->touch[i];
+            lrcsi_intersection touch = t->touch[i];
             uint32_t twin = p->twin[touch.other];
             if (twin != LRCS_NONE) {
-                t->touch[--to] = (lrcsi_touch){twin, touch.kind};
+                t->touch[--to] = (lrcsi_intersection){twin, touch.kind};
             }
             t->touch[--to] = touch;
         }
@@ -212,7 +212,7 @@ static void spread_entries(lrcs_prepared *p, uint32_t count)
 
 int lrcsi_coincident_touches(lrcs_prepared *p, lrcs_work *work)
 {
-    lrcsi_touches *t = &p->touches;
+    lrcsi_intersections *t = &p->intersections;
     if (!p->twin) {
         return LRCS_OK;
     }

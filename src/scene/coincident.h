@@ -13,9 +13,9 @@ size_t lrcsi_coincident_need(uint32_t vertex_count, uint32_t facet_count);
 int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work);
 
 /* Gives contacts found between first twins, and facets without, to both twins: each has the list
-   of the first, and in every list a facet is followed by its twin. Given: p->touches, the last that
-   was taken from the work area. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2
-   entries). Linear time. */
+   of the first, and in every list a facet is followed by its twin. Given: p->intersections, the
+   last that was taken from the work area. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than
+   2^32 - 2 entries). Linear time. */
 int lrcsi_coincident_touches(lrcs_prepared *p, lrcs_work *work);
 
 #endif

@@ -6,11 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "base/rotate.h"
-
-/* A unit of rounding, u = 2^-53. */
-#define PLACE_UNIT 0x1p-53
 
 lrcs_place lrcs_place_default(void)
 {
@@ -242,7 +240,7 @@ static placed_bound bound_move(placed_bound x, const double t[3])
 {
     double step = fmax(fabs(t[0]), fmax(fabs(t[1]), fabs(t[2])));
     double most = x.most + step;
-    return (placed_bound){most, x.error + 2.0 * PLACE_UNIT * (most + x.error)};
+    return (placed_bound){most, x.error + 2.0 * LRCSI_U * (most + x.error)};
 }
 
 /* s x rounds once; a denormal result, by less than 2^-1074 more. */
@@ -251,7 +249,7 @@ static placed_bound bound_scale(placed_bound x, const double s[3])
     double factor = fmax(fabs(s[0]), fmax(fabs(s[1]), fabs(s[2])));
     double most = factor * x.most;
     double error = factor * x.error;
-    return (placed_bound){most, error + 2.0 * PLACE_UNIT * (most + error) + 0x1p-1074};
+    return (placed_bound){most, error + 2.0 * LRCSI_U * (most + error) + 0x1p-1074};
 }
 
 /* Three products and two sums: at most 3 u (1 + 3 u) times the sum of their magnitudes, which is
@@ -267,7 +265,7 @@ static placed_bound bound_turn(placed_bound x, const double R[3][3])
     }
     double most = row * x.most;
     double error = row * x.error + (defect <= ROTATION_NEAR ? 0.87 * defect * x.most : 0.0);
-    return (placed_bound){most, error + 4.0 * PLACE_UNIT * (most + error) + 0x1p-1072};
+    return (placed_bound){most, error + 4.0 * LRCSI_U * (most + error) + 0x1p-1072};
 }
 
 double lrcsi_placer_error(const lrcsi_placer *placer, double most, double error)

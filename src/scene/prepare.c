@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "base/exact.h"
 #include "base/ieee.h"
@@ -17,15 +18,13 @@
 #include "scene/coincident.h"
 #include "scene/solid.h"
 
-#define U 0x1p-53
-
 double lrcsi_prepared_area(const lrcs_prepared *p, double scaled)
 {
     return ldexp(scaled, 2 * p->exponent);
 }
 
 /* Checks what lrcs_scene_build promises, so that nothing later need be asked. */
-static int prepare_door(const lrcs_scene *scene)
+static int prepare_check(const lrcs_scene *scene)
 {
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
@@ -143,13 +142,13 @@ static void normal_take(lrcs_prepared *prepared, uint32_t facet, const cross_lan
     }
     double size = lrcsi_length(p) * lrcsi_length(q);
     n->length = lrcsi_length(n->high);
-    n->error = 21 * U * U * size;
+    n->error = 21 * LRCSI_U * LRCSI_U * size;
     if (n->length < NORMAL_SLIVER * size) {
         lrcsi_exact_normal(lrcsi_prepared_corner(prepared, facet, 0),
                            lrcsi_prepared_corner(prepared, facet, 1),
                            lrcsi_prepared_corner(prepared, facet, 2), n->high, n->low);
         n->length = lrcsi_length(n->high);
-        n->error = 100 * U * U * n->length;
+        n->error = 100 * LRCSI_U * LRCSI_U * n->length;
     }
 }
 
@@ -181,7 +180,7 @@ static void prepare_live(lrcs_prepared *p)
         p->redundant[f] = p->skip[f] ? LRCSI_REDUNDANT : LRCSI_NOT_REDUNDANT;
         p->live += !p->skip[f];
         for (int k = 0; k < 3 && !p->skip[f]; k++) {
-            p->stood[p->scene->facet[f].corner[k]] = 1;
+            p->referenced[p->scene->facet[f].corner[k]] = 1;
         }
     }
 }
@@ -193,7 +192,7 @@ static void prepare_box(lrcs_prepared *p)
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     double half[3] = {0, 0, 0};
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
-        for (int k = 0; k < 3 && p->stood[v]; k++) {
+        for (int k = 0; k < 3 && p->referenced[v]; k++) {
             low[k] = lrcsi_least(low[k], p->vertex[v].x[k]);
             high[k] = lrcsi_most(high[k], p->vertex[v].x[k]);
         }
@@ -231,8 +230,8 @@ static int prepare_arrays(const lrcs_scene *scene, lrcs_work *work, lrcs_prepare
     p->skip = lrcsi_work_take_zero(work, scene->facet_count, sizeof *p->skip);
     p->redundant = lrcsi_work_take(work, scene->facet_count, sizeof *p->redundant);
     p->normal = lrcsi_work_take(work, scene->facet_count, sizeof *p->normal);
-    p->stood = lrcsi_work_take_zero(work, scene->vertex_count, sizeof *p->stood);
-    if (!p->vertex || !p->skip || !p->redundant || !p->normal || !p->stood) {
+    p->referenced = lrcsi_work_take_zero(work, scene->vertex_count, sizeof *p->referenced);
+    if (!p->vertex || !p->skip || !p->redundant || !p->normal || !p->referenced) {
         return LRCS_E_MEMORY;
     }
     prepare_vertices(p);
@@ -246,12 +245,12 @@ static int prepare_made(lrcs_prepared *p, lrcs_work *work)
 {
     p->convex = 1;
     size_t facets = p->scene->facet_count;
-    p->touches.first = lrcsi_work_take_zero(work, facets + 1, sizeof *p->touches.first);
-    p->touches.rim = lrcsi_work_take(work, facets, 1);
-    if (!p->touches.first || !p->touches.rim) {
+    p->intersections.first = lrcsi_work_take_zero(work, facets + 1, sizeof *p->intersections.first);
+    p->intersections.rim = lrcsi_work_take(work, facets, 1);
+    if (!p->intersections.first || !p->intersections.rim) {
         return LRCS_E_MEMORY;
     }
-    memset(p->touches.rim, 1, facets);
+    memset(p->intersections.rim, 1, facets);
     return LRCS_OK;
 }
 
@@ -288,10 +287,10 @@ static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
    contacts within one. They stay, as does which facets were asked, beneath the contacts. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
-    if (lrcsi_convex_made(p, &p->solid, &p->graze)) {
+    if (lrcsi_convex_made(p, &p->solid, &p->grazing_cos)) {
         return prepare_made(p, work);
     }
-    p->graze = 0;
+    p->grazing_cos = 0;
     p->solid = 0;
     p->convex = p->live == 0;
     unsigned char *none = lrcsi_work_take(work, p->scene->facet_count, sizeof *none);
@@ -306,9 +305,9 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
     } else {
         work->used = mark;
     }
-    int status =
-        lrcsi_touches_make(p->vertex, p->scene->vertex_count, p->scene->facet,
-                           p->scene->facet_count, &p->topology, none, p->piece, work, &p->touches);
+    int status = lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet,
+                                         p->scene->facet_count, &p->topology, none, p->piece, work,
+                                         &p->intersections);
     return status == LRCS_OK ? lrcsi_coincident_touches(p, work) : status;
 }
 
@@ -316,14 +315,14 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
     int status = LRCS_OK;
-    if (p->piece && !p->touches.self) {
+    if (p->piece && !p->intersections.self) {
         status = lrcsi_solid_outward(p, p->piece, work, &p->solid);
     }
     if (status == LRCS_OK && p->piece && p->solid && count_pieces(p, p->piece) == 1) {
         status = lrcsi_convex_exact(p, work, &p->convex);
     }
     if (status == LRCS_OK && p->curved && !p->convex) {
-        status = lrcsi_nears_make(p, work);
+        status = lrcsi_proximity_make(p, work);
     }
     if (status == LRCS_OK && p->curved) {
         status = lrcsi_extents_make(p, work);
@@ -352,24 +351,25 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     /* 2. Contacts, on top of which facets are asked and their pieces of surface. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    size_t search = lrcsi_touches_need(scene->vertex_count, scene->facet_count, contacts);
+    size_t search = lrcsi_intersection_need(scene->vertex_count, scene->facet_count, contacts);
     /* 3. On top of contacts: the volumes of pieces, the proof of convexity, or what is near. */
     size_t proof = 2 * lrcsi_work_bytes(facets, sizeof(double));
     size_t convex = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
     proof = convex > proof ? convex : proof;
-    size_t nears = lrcsi_work_add(lrcsi_nears_need(scene), lrcsi_tree_need(scene->facet_count));
-    nears = lrcsi_work_add(nears, lrcsi_extents_need(scene));
-    proof = nears > proof ? nears : proof;
+    size_t proximity =
+        lrcsi_work_add(lrcsi_proximity_need(scene), lrcsi_tree_need(scene->facet_count));
+    proximity = lrcsi_work_add(proximity, lrcsi_extents_need(scene));
+    proof = proximity > proof ? proximity : proof;
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets + 1, sizeof(uint32_t)));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 1));
-    proof = lrcsi_work_add(proof, lrcsi_work_bytes(contacts, sizeof(lrcsi_touch)));
+    proof = lrcsi_work_add(proof, lrcsi_work_bytes(contacts, sizeof(lrcsi_intersection)));
     need = lrcsi_work_add(need, search > proof ? search : proof);
     return need > coincident ? need : coincident;
 }
 
 int lrcsi_prepare_start(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared **prepared)
 {
-    int status = lrcsi_ieee_kept() ? prepare_door(scene) : LRCS_E_UNSUPPORTED;
+    int status = lrcsi_ieee_kept() ? prepare_check(scene) : LRCS_E_UNSUPPORTED;
     lrcs_prepared *p = status == LRCS_OK ? lrcsi_work_take_zero(work, 1, sizeof *p) : NULL;
     if (!p) {
         return status == LRCS_OK ? LRCS_E_MEMORY : status;

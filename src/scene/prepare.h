@@ -8,12 +8,12 @@
 
 #include <lrcs/run.h>
 
+#include "mesh/intersection.h"
 #include "mesh/topology.h"
-#include "mesh/touch.h"
 #include "scene/across.h"
 #include "scene/batch.h"
 #include "scene/extent.h"
-#include "scene/near.h"
+#include "scene/proximity.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
    (base/exact.h) ask for that. */
@@ -42,27 +42,29 @@ struct lrcs_prepared {
     unsigned char *redundant; /* facet: a lrcsi_redundant */
     uint32_t *twin; /* facet: the one in the same place wound the other way, or LRCS_NONE; NULL
                        where no facet has any */
-    unsigned char *stood; /* vertex: 1 where a live facet stands on it */
+    unsigned char *referenced; /* vertex: 1 where a live facet stands on it */
     lrcsi_normal *normal;
     lrcsi_batches batches;   /* facets that are not skipped, by material */
     lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
     lrcsi_across across;     /* across the sides of facets that are not redundant */
-    lrcsi_touches touches;   /* between facets that are not redundant, but not between twins */
-    uint32_t *piece;         /* facet: its piece of surface (scene/solid.h), where all are closed;
-                                else NULL */
-    double centre[3];        /* of the box around the live facets */
-    double radius;           /* no live vertex is farther from the centre in any coordinate */
-    double origin[3];        /* of views: the centre of the box around most vertices, */
-    double bulk[3];          /* and half its sides (scene/bulk.h) */
-    uint32_t live;           /* facets not skipped */
+    lrcsi_intersections
+        intersections;  /* between facets that are not redundant, but not between twins */
+    uint32_t *piece;    /* facet: its piece of surface (scene/solid.h), where all are closed;
+                           else NULL */
+    double centre[3];   /* of the box around the live facets */
+    double radius;      /* no live vertex is farther from the centre in any coordinate */
+    double origin[3];   /* of views: the centre of the box around most vertices, */
+    double bulk[3];     /* and half its sides (scene/bulk.h) */
+    uint32_t live;      /* facets not skipped */
     int convex;         /* live facets lie on one convex surface, outward and one-sided: exactly, or
                            by construction; then only facets that graze the light can be hidden */
-    double graze;       /* where convex: a facet with cos(theta) above this is wholly visible */
+    double grazing_cos; /* where convex: a facet with cos(theta) above this is wholly visible */
     int solid;          /* winding number >= 0 everywhere, proved: back sides are never seen */
     int two_sided;      /* some live facet is */
     int glint, diffuse; /* some live facet's A, B is not 0 */
     int curved;         /* some live part was tessellated from a curved shape */
-    lrcsi_nears nears;  /* where curved shapes stand among others; else nears.reach is NULL */
+    lrcsi_proximity
+        proximity; /* where curved shapes stand among others; else proximity.reach is NULL */
     const lrcsi_extent *extent; /* part: where it stands; NULL where no shape has a closed form */
     int articulated;            /* some part stands on a joint */
     int smooth;                 /* some live facet has curved normals */

@@ -124,7 +124,7 @@ void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisi
     double reach = lrcsi_tessellate_reach(shape, divisions);
     double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
     double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
-    int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->lean == 0.0 &&
+    int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->bias == 0.0 &&
                 curvature->spread == 0.0;
     const double zero[3] = {0.0, 0.0, 0.0};
     double stretch;

@@ -5,11 +5,10 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/join.h"
 #include "base/work.h"
 #include "mesh/convex.h"
-
-#define U 0x1p-53
 
 /* --- pieces: facets joined by edges ----------------------------------------------------------- */
 
@@ -51,7 +50,7 @@ static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *
     double det = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) +
                  v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) +
                  v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
-    *error = 40 * U * size;
+    *error = 40 * LRCSI_U * size;
     return det;
 }
 
@@ -65,7 +64,7 @@ static int pieces_outward(const lrcs_prepared *p, const uint32_t *piece, double 
             double off = 0;
             double six = tetrahedron(p, f, lrcsi_prepared_corner(p, piece[f], 0), &off);
             volume[piece[f]] += six;
-            error[piece[f]] += off + 2 * U * fabs(volume[piece[f]]);
+            error[piece[f]] += off + 2 * LRCSI_U * fabs(volume[piece[f]]);
         }
     }
     for (uint32_t f = 0; f < count; f++) {
@@ -154,9 +153,9 @@ static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude
    Without dents beyond rounding (plane-faced and singly curved bodies, Delaunay diagonals) the
    exact mesh is itself convex and only the rounding's tilt counts, at most 2 off / altitude for
    either facet; 16 covers both and the margin. A body thinner than 1e6 roundings is refused. */
-static int part_is_convex(const lrcs_prepared *p, const lrcs_part *part, double *graze)
+static int part_is_convex(const lrcs_prepared *p, const lrcs_part *part, double *grazing_cos)
 {
-    double off = ldexp(part->misplaced, -p->exponent) + 4 * U;
+    double off = ldexp(part->misplaced, -p->exponent) + 4 * LRCSI_U;
     double thin = ldexp(part->thinnest, -p->exponent);
     int plane = part->kind == LRCS_SHAPE_PLATE || part->kind == LRCS_SHAPE_DISC;
     if (!part->convex_patch || (!plane && !(thin > 1e6 * off))) {
@@ -165,14 +164,14 @@ static int part_is_convex(const lrcs_prepared *p, const lrcs_part *part, double 
     double dent = 0;
     double altitude = 0;
     measure_dents(p, &dent, &altitude);
-    *graze = 16 * off / altitude;
+    *grazing_cos = 16 * off / altitude;
     if (dent > 16 * off) {
-        *graze += 3 * part->curvature.turn;
+        *grazing_cos += 3 * part->curvature.turn;
     }
     return 1;
 }
 
-int lrcsi_convex_made(const lrcs_prepared *p, int *solid, double *graze)
+int lrcsi_convex_made(const lrcs_prepared *p, int *solid, double *grazing_cos)
 {
     uint32_t index = lone_part(p);
     if (index == LRCS_NONE) {
@@ -180,7 +179,7 @@ int lrcsi_convex_made(const lrcs_prepared *p, int *solid, double *graze)
     }
     const lrcs_part *part = &p->scene->part[index];
     *solid = part->solid != 0;
-    return (part->solid || !p->two_sided) && part_is_convex(p, part, graze);
+    return (part->solid || !p->two_sided) && part_is_convex(p, part, grazing_cos);
 }
 
 /* Of the live facets alone, where others stand on the topology's edges. */

@@ -13,12 +13,12 @@ int lrcsi_solid_pieces(const lrcs_prepared *prepared, uint32_t *piece);
 
 /* Proves that the winding number of the live facets is nowhere negative: their pieces are closed
    (lrcsi_solid_pieces); no facet meets the inside or a side of another of its piece
-   (lrcsi_touches.self); and the volume is positive. Then the piece meets itself in lone points at
-   most (corners in one place, sides that cross): two sheets that meet along a line do so inside a
-   facet or along overlapping sides, of which one ends inside the other. A sheet less such a point
-   is connected, so it stays on one side of the other sheet and can be moved off it. What results
-   is an embedded surface: winding number 0 outside and 1 inside (Jordan-Brouwer), and winding
-   numbers add. This is the last step, the volume. 1: proved, 0: not; scratch from work.
+   (lrcsi_intersections.self); and the volume is positive. Then the piece meets itself in lone
+   points at most (corners in one place, sides that cross): two sheets that meet along a line do so
+   inside a facet or along overlapping sides, of which one ends inside the other. A sheet less such
+   a point is connected, so it stays on one side of the other sheet and can be moved off it. What
+   results is an embedded surface: winding number 0 outside and 1 inside (Jordan-Brouwer), and
+   winding numbers add. This is the last step, the volume. 1: proved, 0: not; scratch from work.
    Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *piece, lrcs_work *work,
                         int *proved);
@@ -27,7 +27,7 @@ int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *piece, lr
    and one-sided or closed (*solid): convex by construction. Rounding, and on doubly curved bodies
    the choice of diagonals, may have left dents; a front facet with cos(theta) > *graze is wholly
    visible all the same. */
-int lrcsi_convex_made(const lrcs_prepared *prepared, int *solid, double *graze);
+int lrcsi_convex_made(const lrcs_prepared *prepared, int *solid, double *grazing_cos);
 
 /* Proves that the live facets of a solid scene are one convex body, exactly (mesh/convex.h).
    Status: LRCS_OK; LRCS_E_MEMORY. Work: nothing stays; lrcsi_convex_exact_need. */

@@ -21,10 +21,10 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/work.h"
 #include "optics/closed.h"
 
-#define U                0x1p-53
 #define GLINT_SLOPE_MOST 0x1p20
 #define LENGTH           5.0 /* coordinates are below 1, and true shapes not much larger than facets */
 
@@ -62,7 +62,8 @@ static void cross(const double a[3], const double b[3], double out[3])
 static clear_body body_make(const lrcs_prepared *p, uint32_t index)
 {
     const lrcs_part *part = &p->scene->part[index];
-    clear_body body = {.prepared = p, .part = part, .extent = &p->extent[index], .off = 64 * U};
+    clear_body body = {
+        .prepared = p, .part = part, .extent = &p->extent[index], .off = 64 * LRCSI_U};
     body.curved = body.extent->closed_form;
     for (int k = 0; k < 3; k++) {
         body.centre[k] = 0.5 * body.extent->low[k] + 0.5 * body.extent->high[k];
@@ -78,7 +79,7 @@ static clear_body body_make(const lrcs_prepared *p, uint32_t index)
             size += fabs(body.origin[k]);
         }
         size += body.radius + body.radius2 + body.length;
-        body.off = 64 * U * size + ldexp(part->misplaced, -p->exponent);
+        body.off = 64 * LRCSI_U * size + ldexp(part->misplaced, -p->exponent);
     }
     return body;
 }
@@ -150,7 +151,7 @@ static double slab_surface(const clear_body *body, double height)
     } else if (body->part->kind == LRCS_SHAPE_PARABOLOID) {
         slant += 0.5 * wide / body->length;
     }
-    return 1.001 * turn * wide * slant * height + 32 * U * wide * wide;
+    return 1.001 * turn * wide * slant * height + 32 * LRCSI_U * wide * wide;
 }
 
 /* One direction n for a pair, a unit vector to 8 u: 1 where it separates them, `slab` then being
@@ -158,7 +159,7 @@ static double slab_surface(const clear_body *body, double height)
 static int is_separating(const clear_body *P, const clear_body *Q, const double d[3],
                          const double n[3], int knows, double *slab)
 {
-    double error = P->off + Q->off + LENGTH * lrcsi_most(0, 8 * U - dot(n, d));
+    double error = P->off + Q->off + LENGTH * lrcsi_most(0, 8 * LRCSI_U - dot(n, d));
     const double down[3] = {-n[0], -n[1], -n[2]};
     double gap = -support(P, down) - support(Q, n);
     if (gap > error) {
@@ -180,8 +181,8 @@ static int is_separated_along(const clear_body *P, const clear_body *Q, const do
     const double up[3] = {n[0] / length, n[1] / length, n[2] / length};
     const double down[3] = {-up[0], -up[1], -up[2]};
     double toward = dot(up, d);
-    return (toward >= -8 * U && is_separating(P, Q, d, up, knows, slab)) ||
-           (toward <= 8 * U && is_separating(P, Q, d, down, knows, slab));
+    return (toward >= -8 * LRCSI_U && is_separating(P, Q, d, up, knows, slab)) ||
+           (toward <= 8 * LRCSI_U && is_separating(P, Q, d, down, knows, slab));
 }
 
 /* The directions that are tried: P's axis; that to the laser; from centre to centre, as it is and
@@ -229,7 +230,7 @@ static int shows_no_inside(const lrcsi_view *view, const lrcs_part *part)
     const lrcs_material *material = lrcsi_prepared_material(view->prepared, part->first_facet);
     int one = part->kind != LRCS_SHAPE_CYLINDER && part->kind != LRCS_SHAPE_FRUSTUM;
     return part->solid || !material->two_sided || !view->backs_reflect ||
-           (one && dot(part->axis[2], view->unit) > 16 * U);
+           (one && dot(part->axis[2], view->unit) > 16 * LRCSI_U);
 }
 
 size_t lrcsi_clear_need(const lrcs_prepared *p)

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/exact.h"
 #include "base/ieee.h"
 #include "base/length.h"
@@ -13,8 +14,6 @@
 #include "base/work.h"
 #include "view/frame.h"
 #include "view/product.h"
-
-#define U 0x1p-53
 
 /* N . d and N x d. */
 static inline double normal_products(const double *high, const double *low, const double *d,
@@ -29,7 +28,7 @@ static inline double normal_products(const double *high, const double *low, cons
 /* The absolute error of both, per unit of |d|. */
 static double normal_off(const lrcsi_normal *n)
 {
-    return 21 * U * U * n->length + n->error;
+    return 21 * LRCSI_U * LRCSI_U * n->length + n->error;
 }
 
 /* The sign of N . d: from doubles where their error (N.high is N within u, three products and two
@@ -41,7 +40,7 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
     const double part[3] = {n->high[0] * d[0], n->high[1] * d[1], n->high[2] * d[2]};
     double dot = part[0] + part[1] + part[2];
     double size = fabs(part[0]) + fabs(part[1]) + fabs(part[2]);
-    if (fabs(dot) > 8 * U * size + 2 * n->error * view->length) {
+    if (fabs(dot) > 8 * LRCSI_U * size + 2 * n->error * view->length) {
         return dot > 0 ? 1 : -1;
     }
     return (signed char)lrcsi_exact_turn(lrcsi_prepared_corner(view->prepared, facet, 0),
@@ -73,7 +72,7 @@ static tilt_dot tilt_dot_of(const lrcsi_view *view, uint32_t facet, double produ
     tilt_dot dot = {fabs(product), off, 0};
     if (!(dot.value > GRAZING_DOT * off)) {
         dot.value = fabs(grazing_dot(view, facet));
-        dot.off = 2 * U * dot.value;
+        dot.off = 2 * LRCSI_U * dot.value;
     }
     double least = GRAZING_LEAST * view->prepared->normal[facet].length * view->length;
     if (dot.value < least) {
@@ -91,32 +90,32 @@ static double tilt_projected(const lrcsi_view *view, tilt_dot dot)
 /* tan^2 = |N x d|^2 / (N . d)^2. Near normal incidence the cross product drowns in its own error
    and only an upper bound of tan^2 is known; near grazing the dot product does, and is taken
    exactly. */
-static lrcsi_tilt tilt_make(const lrcsi_view *view, uint32_t facet, double product,
-                            const double cross_product[3])
+static lrcsi_incidence tilt_make(const lrcsi_view *view, uint32_t facet, double product,
+                                 const double cross_product[3])
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
     int facing = view->facing[facet];
-    lrcsi_tilt tilt = {0, HUGE_VAL, 0, 0, 0};
+    lrcsi_incidence incidence = {0, HUGE_VAL, 0, 0, 0};
     if (facing == 0) {
-        return tilt;
+        return incidence;
     }
     double off = normal_off(n) * view->length;
     double cross = lrcsi_length(cross_product);
     tilt_dot dot = tilt_dot_of(view, facet, product, off);
     double relative = dot.off / dot.value;
-    tilt.error = dot.least ? 2 : 2 * relative + n->error / n->length + 8 * U;
-    tilt.stretch = 4 * relative + 12 * U;
+    incidence.error = dot.least ? 2 : 2 * relative + n->error / n->length + 8 * LRCSI_U;
+    incidence.tan2_err = 4 * relative + 12 * LRCSI_U;
     if (cross > 1000 * off) {
-        tilt.stretch += 2.1 * off / cross;
+        incidence.tan2_err += 2.1 * off / cross;
     } else {
         cross += off;
-        tilt.stretch = 1;
+        incidence.tan2_err = 1;
     }
-    tilt.stretch = dot.least ? HUGE_VAL : tilt.stretch;
-    tilt.tan2 = (cross / dot.value) * (cross / dot.value);
-    tilt.cos_theta = facing * lrcsi_least(1, dot.value / (n->length * view->length));
-    tilt.projected = tilt_projected(view, dot);
-    return tilt;
+    incidence.tan2_err = dot.least ? HUGE_VAL : incidence.tan2_err;
+    incidence.tan2 = (cross / dot.value) * (cross / dot.value);
+    incidence.cos_theta = facing * lrcsi_least(1, dot.value / (n->length * view->length));
+    incidence.projected = tilt_projected(view, dot);
+    return incidence;
 }
 
 double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
@@ -129,7 +128,7 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
     return tilt_projected(view, tilt_dot_of(view, facet, product, normal_off(n) * view->length));
 }
 
-lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet)
+lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
     double cross[3];
@@ -157,8 +156,8 @@ static void lanes_multiply(normal_lanes *lanes, const double *d)
     }
 }
 
-void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
-                      lrcsi_tilt *tilt)
+void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
+                           lrcsi_incidence *incidence)
 {
     normal_lanes lanes;
     for (uint32_t i = 0; i < LRCSI_TILTS; i++) {
@@ -171,7 +170,7 @@ void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t co
     lanes_multiply(&lanes, view->direction);
     for (uint32_t i = 0; i < count; i++) {
         const double cross[3] = {lanes.cross[0][i], lanes.cross[1][i], lanes.cross[2][i]};
-        tilt[i] = tilt_make(view, facet[i], lanes.dot[i], cross);
+        incidence[i] = tilt_make(view, facet[i], lanes.dot[i], cross);
     }
 }
 
@@ -200,7 +199,7 @@ double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
 {
     const double *o = view->prepared->origin;
     double origin = lrcsi_most(fabs(o[0]), lrcsi_most(fabs(o[1]), fabs(o[2])));
-    return U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
+    return LRCSI_U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
 }
 
 /* With 1.01 u for each component of n, u for d's, u for each product and sum: at most 5.1 u
@@ -271,7 +270,7 @@ static void view_window(lrcsi_view *view)
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
         const double *x = view->point[v].x;
-        for (int k = 0; k < 2 && p->stood[v]; k++) {
+        for (int k = 0; k < 2 && p->referenced[v]; k++) {
             low[k] = lrcsi_least(low[k], x[k]);
             high[k] = lrcsi_most(high[k], x[k]);
         }

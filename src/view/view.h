@@ -14,14 +14,14 @@
 
 /* The part of a facet's geometry that depends on direction. Lengths are scaled, as in
    lrcs_prepared. */
-typedef struct lrcsi_tilt {
+typedef struct lrcsi_incidence {
     double cos_theta; /* signed; its sign agrees with facing */
     double tan2;      /* tan^2(theta), infinity where edge-on */
-    double stretch;   /* relative error of tan2; 1: the true value is in 0 .. tan2; infinity: it is
-                         at least tan2, and the facet is edge-on to within 2^-500 rad */
+    double tan2_err;  /* relative error of tan2; 1: the true value is in 0 .. tan2; infinity: it is
+                        at least tan2, and the facet is edge-on to within 2^-500 rad */
     double projected; /* projected area, >= 0 */
     double error;     /* relative error of projected and of the area */
-} lrcsi_tilt;
+} lrcsi_incidence;
 
 typedef struct lrcsi_view {
     const lrcs_prepared *prepared;
@@ -92,7 +92,7 @@ static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 }
 
 /* The incidence of a facet that is not skipped. */
-lrcsi_tilt lrcsi_view_tilt(const lrcsi_view *view, uint32_t facet);
+lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet);
 
 /* Only its projected area, the same to the last bit, in a quarter of the time. */
 double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
@@ -100,8 +100,8 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 /* The incidence of up to LRCSI_TILTS facets, the same to the last bit, in half the time.
    Returned: tilt[count]. */
 #define LRCSI_TILTS 32u
-void lrcsi_view_tilts(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
-                      lrcsi_tilt *tilt);
+void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
+                           lrcsi_incidence *incidence);
 
 /* n . d of the facets at `place` and after it in the scene's batches, n and d being unit vectors:
    absolute error at most LRCSI_DOT_ERROR. Returned: dot[], that of places beyond the last being 0.

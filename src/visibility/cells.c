@@ -15,7 +15,7 @@
       behind it are dropped from the lists, for all that comes of the cell.
    4. If no event is left, nothing else is seen in the cell: areas are added up. If one is, the cell
       is cut along it.
-   5. What errors put in doubt along events is charged to the facets near them
+   5. What errors put undecided along events is charged to the facets near them
       (visibility/cells_charge.h). A facet's area is told where its error is small enough.
 
    The area of a facet in a cell is off by the error of its sides times their length there, and by
@@ -26,14 +26,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/cells_charge.h"
 #include "visibility/cells_cover.h"
 #include "visibility/cells_cut.h"
 #include "visibility/cells_open.h"
-
-#define U 0x1p-53
 
 /* Corners above which a cell is halved. */
 #define MANY_CORNERS 20u
@@ -91,8 +90,8 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             4 * w;
     }
     double around = wide[0] + wide[1];
-    area->off += 2 * (cell->drift + 4 * U * c->reach) * around +
-                 5 * U * (piece.count + 3) * wide[0] * wide[1];
+    area->off += 2 * (cell->drift + 4 * LRCSI_U * c->reach) * around +
+                 5 * LRCSI_U * (piece.count + 3) * wide[0] * wide[1];
     for (int k = 0; k < 3 && piece.count > 0; k++) {
         double range[2];
         lrcsi_box_range(s->low, s->high, f->side[k], range);
@@ -101,7 +100,7 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
         if (range[0] < w) {
             area->off +=
-                (f->line_off + 12 * U * c->reach) * lrcsi_least(f->length[k] + 4 * w, around);
+                (f->line_off + 12 * LRCSI_U * c->reach) * lrcsi_least(f->length[k] + 4 * w, around);
             lrcsi_cells_shape_clip(&piece, f->side[k]);
         }
     }
@@ -110,7 +109,7 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 
 /* All of the cell shows the component, or nothing where that has no facets. */
 static void cells_decide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                         const lrcsi_cells_sides *s, double doubt)
+                         const lrcsi_cells_sides *s, double uncertainty)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = c->facets[i];
@@ -119,7 +118,7 @@ static void cells_decide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
         int seen = c->components > 0 && c->joined[f] == c->look;
         c->found[f] |= seen ? LRCSI_CELLS_SEEN : LRCSI_CELLS_HIDDEN;
-        c->area[f].doubt += doubt;
+        c->area[f].uncertainty += uncertainty;
         if (seen) {
             facet_seen(c, cell, s, f);
         }
@@ -174,14 +173,14 @@ typedef struct cells_seen {
    does; else the segment of the component at which to cut, if it has one. *doubt: what any facet of
    a thin cell may be off by. */
 static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                       const cells_seen *seen, double *doubt, const lrcsi_cells_segment **cut)
+                       const cells_seen *seen, double *uncertainty, const lrcsi_cells_segment **cut)
 {
     /* 1. A facet that covers the cell alone. */
     uint32_t screen = lrcsi_cells_screen(c, cell, s, seen->at);
     if (screen != LRCS_NONE) {
         lrcsi_cells_component_of(c, screen);
-        *doubt = thin_doubt(c, cell, s, seen->clear);
-        lrcsi_cells_drop(c, cell, s, screen == seen->best ? NULL : seen->at, *doubt);
+        *uncertainty = thin_doubt(c, cell, s, seen->clear);
+        lrcsi_cells_drop(c, cell, s, screen == seen->best ? NULL : seen->at, *uncertainty);
         if (screen == seen->best) {
             return 1;
         }
@@ -196,8 +195,8 @@ static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_
     for (uint32_t i = 0; i < c->borders; i++) {
         lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
     }
-    *doubt = thin_doubt(c, cell, s, seen->clear);
-    lrcsi_cells_drop(c, cell, s, NULL, *doubt);
+    *uncertainty = thin_doubt(c, cell, s, seen->clear);
+    lrcsi_cells_drop(c, cell, s, NULL, *uncertainty);
     return 1;
 }
 
@@ -220,16 +219,16 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     }
 
     /* 2. What is behind covers. */
-    double doubt = 0;
+    double uncertainty = 0;
     const lrcsi_cells_segment *cut = NULL;
-    int told = answer == LRCSI_CELLS_FOUND ? cells_cover(c, cell, &s, &seen, &doubt, &cut)
+    int told = answer == LRCSI_CELLS_FOUND ? cells_cover(c, cell, &s, &seen, &uncertainty, &cut)
                                            : answer == LRCSI_CELLS_NONE;
 
     /* 3. Decided, or cut. */
     if (!cut) {
         cut = cells_choose(c, cell, told ? CHOOSE_EDGES : CHOOSE_ANY);
         if (!cut && told) {
-            cells_decide(c, cell, &s, cell->doubt + doubt);
+            cells_decide(c, cell, &s, cell->uncertainty + uncertainty);
             return 1;
         }
     }
@@ -303,13 +302,13 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
 static lrcsi_visible facet_told(const lrcsi_cells_work *c, uint32_t facet, double *off)
 {
     const lrcsi_cells_found *a = &c->area[facet];
-    double whole = lrcsi_view_tilt(c->view, facet).projected;
+    double whole = lrcsi_view_incidence(c->view, facet).projected;
     double seen = (c->found[facet] & LRCSI_CELLS_HIDDEN) == 0 ? whole
                   : (c->found[facet] & LRCSI_CELLS_SEEN) == 0 ? 0
                                                               : lrcsi_least(whole, a->seen);
     int mixed =
         (c->found[facet] & LRCSI_CELLS_SEEN) != 0 && (c->found[facet] & LRCSI_CELLS_HIDDEN) != 0;
-    *off = a->doubt + (mixed ? a->off + 64 * U * a->seen : 0);
+    *off = a->uncertainty + (mixed ? a->off + 64 * LRCSI_U * a->seen : 0);
     return (lrcsi_visible){seen, lrcsi_most(0, seen - *off), lrcsi_least(whole, seen + *off), 0, 0};
 }
 
@@ -336,7 +335,7 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, int as_c
     }
     double extent = extent_of(c->view->prepared);
     int ordinary = projected > NEEDLE * diameter * diameter && diameter < 2 * extent;
-    double alone = U * diameter * (104 * diameter + 128 * c->area[facet].cut);
+    double alone = LRCSI_U * diameter * (104 * diameter + 128 * c->area[facet].cut);
     alone = as_clipping ? AS_CLIPPING * alone : 0;
     return ACCURACY_OF_FACET * projected +
            (ordinary ? lrcsi_most(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
@@ -366,7 +365,7 @@ static uint32_t areas_tell(const lrcsi_cells_work *c, int as_clipping, lrcsi_vis
    Where coplanar facets and rims add more than find room, facets are clipped one by one. */
 static size_t segments_need(const lrcs_prepared *p)
 {
-    return (size_t)p->topology.edge_count + p->touches.count;
+    return (size_t)p->topology.edge_count + p->intersections.count;
 }
 
 size_t lrcsi_cells_need(const lrcs_prepared *prepared)
@@ -388,7 +387,8 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
 
 /* Takes what the view needs, and files its facets and events in blocks. 0 where there is not enough
    memory. */
-static int cells_make(const lrcsi_contest *contest, lrcs_work *work, lrcsi_cells_work *c)
+static int cells_make(const lrcsi_classification *classification, lrcs_work *work,
+                      lrcsi_cells_work *c)
 {
     const lrcs_prepared *p = c->view->prepared;
     uint32_t count = p->scene->facet_count;
@@ -407,7 +407,7 @@ static int cells_make(const lrcsi_contest *contest, lrcs_work *work, lrcsi_cells
     c->stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c->stack);
     if (!c->found || !c->kind || !c->facet || !c->area || !c->listed || !c->met || !c->joined ||
         !c->frame.point || !c->component || !c->hit || !c->facets || !c->border || !c->stack ||
-        !lrcsi_cells_grid_make(contest, work, &c->grid)) {
+        !lrcsi_cells_grid_make(classification, work, &c->grid)) {
         return 0;
     }
     for (uint32_t f = 0; f < count; f++) {
@@ -422,15 +422,15 @@ static int cells_make(const lrcsi_contest *contest, lrcs_work *work, lrcsi_cells
     return segments < LRCS_NONE && c->segments && c->segment;
 }
 
-void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned char *open,
-                       lrcsi_visible *visible)
+void lrcsi_cells_areas(const lrcsi_classification *classification, lrcs_work *work,
+                       unsigned char *open, lrcsi_visible *visible)
 {
-    const lrcsi_view *view = contest->view;
+    const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     size_t peak = work->peak; /* nothing is missing where this finds no memory */
     lrcsi_cells_work c = {.view = view, .frame = {.view = view}, .open = open};
     c.trifle = 0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
-    if (!view->prepared->convex && cells_make(contest, work, &c)) {
+    if (!view->prepared->convex && cells_make(classification, work, &c)) {
         for (uint32_t y = 0; y < c.grid.side; y++) {
             for (uint32_t x = 0; x < c.grid.side; x++) {
                 block_do(&c, x, y);

@@ -14,7 +14,7 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared);
    extent, it goes to visible[facet] and open[facet] becomes 0; facets that stay open are to be
    clipped one by one. None is found where memory does not suffice; only some where the view's meter
    is spent. Nothing stays in the work area. */
-void lrcsi_cells_areas(const lrcsi_contest *contest, lrcs_work *work, unsigned char *open,
-                       lrcsi_visible *visible);
+void lrcsi_cells_areas(const lrcsi_classification *classification, lrcs_work *work,
+                       unsigned char *open, lrcsi_visible *visible);
 
 #endif

@@ -3,22 +3,22 @@
    be known than of the cells of a block (visibility/cells.c).
 
    Listed are the facets that may be in front of f. The segments are what may change whether f is
-   seen: the event edges that cross its inside nearer than it, found exactly (visibility/contest.h),
-   its contacts, and the sides of facets in its plane that hide it. A sample tells which facets are
-   in front of f at a place P of a cell; x is any point of the cell.
+   seen: the event edges that cross its inside nearer than it, found exactly
+   (visibility/classify.h), its contacts, and the sides of facets in its plane that hide it. A
+   sample tells which facets are in front of f at a place P of a cell; x is any point of the cell.
      (1) Nothing is in front of f at P, and no segment is left in the cell: then f is seen in all of
    it, since on the way from P to x nothing changes.
-     (2) A facet is in front of f at P, and no segment is left at which its sheet ends (all facets
-   joined by edges that are no events, visibility/contest.h) or meets f: then the sheet goes on
-   along the way from P to x, and stays in front of f, since to pass behind it would have to touch
-   it. So f is hidden in all of the cell, whatever else the cell may show.
-   Else the cell is cut along a segment: of the sheet that has the fewest left.
+     (2) A facet is in front of f at P, and no segment is left at which its component ends (all
+   facets joined by edges that are no events, visibility/classify.h) or meets f: then the component
+   goes on along the way from P to x, and stays in front of f, since to pass behind it would have to
+   touch it. So f is hidden in all of the cell, whatever else the cell may show. Else the cell is
+   cut along a segment: of the component that has the fewest left.
 
    Error. Lines, strips and cells are those of visibility/cells_charge.c, in coordinates from a
    corner of f. The ends of segments are off by 10 u of their distance R from there, or what matters
-   of it (visibility/target.h), those of contacts by 16 u R and a slip; lines through them by 9 u R
-   more: 32 u R holds both. What is said holds in f's triangle as it is computed: that differs from
-   f's by its sides' length times their error.
+   of it (visibility/target.h), those of contacts by 16 u R and a position error; lines through them
+   by 9 u R more: 32 u R holds both. What is said holds in f's triangle as it is computed: that
+   differs from f's by its sides' length times their error.
 
    A needle in the view may be no wider than all this. It is done in the frame of its shares
    (visibility/needle.h), where it is as wide as long: its corners are exact but for the frame's
@@ -29,6 +29,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "base/work.h"
@@ -38,8 +39,6 @@
 #include "visibility/cells_open.h"
 #include "visibility/contact.h"
 #include "visibility/sample.h"
-
-#define U 0x1p-53
 
 /* Cells that a facet may be cut into: so many, and so many a segment. */
 #define PARTS_MOST      4096u
@@ -75,7 +74,7 @@ static double alone_off(const lrcsi_alone *a)
    needle, it may be anywhere. */
 static double needle_off(double off)
 {
-    return off < 0.25 ? 192 * U + 2 * off : 4;
+    return off < 0.25 ? 192 * LRCSI_U + 2 * off : 4;
 }
 
 /* The sides of a facet in f's frame, with how near to one a place must be that its side of it is
@@ -102,7 +101,7 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
     double least = lrcsi_least(reach[0], lrcsi_least(reach[1], reach[2]));
     double most = lrcsi_most(reach[0], lrcsi_most(reach[1], reach[2]));
     double longest = lrcsi_most(length[0], lrcsi_most(length[1], length[2]));
-    double off = 20 * U * most;
+    double off = 20 * LRCSI_U * most;
     double twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
                    (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
     int odd =
@@ -116,7 +115,7 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
             double *line = side[k].line;
             line[2] = -(line[0] * corner[n][0] + line[1] * corner[n][1]);
             side[k].clear =
-                16 * U *
+                16 * LRCSI_U *
                 ((reach[k] + reach[next]) * (gap / length[k]) + reach[n] + frame->diameter);
         }
     }
@@ -127,12 +126,12 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
 static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
-    const lrcsi_touches *touches = &view->prepared->touches;
+    const lrcsi_intersections *intersections = &view->prepared->intersections;
     int order = lrcsi_contact_side(view, a->facet, other);
-    for (uint32_t i = touches->first[a->facet]; order == 0 && i < touches->first[a->facet + 1];
-         i++) {
-        if (touches->touch[i].other == other &&
-            !lrcsi_contest_touch_hides(view, a->facet, &touches->touch[i])) {
+    for (uint32_t i = intersections->first[a->facet];
+         order == 0 && i < intersections->first[a->facet + 1]; i++) {
+        if (intersections->touch[i].other == other &&
+            !lrcsi_intersection_hides(view, a->facet, &intersections->touch[i])) {
             order = -1;
         }
     }
@@ -143,7 +142,7 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
 
 /* Does one side of f have all of another facet beyond it? In view coordinates: differences are off
    by e and g at most, rounding included, so p x q by e |q| + g |p| + 2 e g in the 1-norm, and by 2
-   u |p| |q| more, below a fifth of that (visibility/contest.c). */
+   u |p| |q| more, below a fifth of that (visibility/classify.c). */
 static int facet_apart(const lrcsi_alone *a, uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
@@ -251,7 +250,7 @@ static int alone_edge(lrcsi_alone *a, uint32_t edge)
     } else {
         const double away[2] = {lrcsi_target_place(&a->frame, from, end[0]),
                                 lrcsi_target_place(&a->frame, to, end[1])};
-        e->off = 32 * U * lrcsi_target_segment(&a->frame, end, away);
+        e->off = 32 * LRCSI_U * lrcsi_target_segment(&a->frame, end, away);
     }
     segment_ends(e, (const double(*)[2])end);
     return 1;
@@ -285,8 +284,8 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
     if (!e) {
         return 0;
     }
-    e->off = a->frame.needle ? needle_off(contact.off + contact.slip)
-                             : 32 * U * contact.reach + contact.slip;
+    e->off = a->frame.needle ? needle_off(contact.off + contact.position_err)
+                             : 32 * LRCSI_U * contact.reach + contact.position_err;
     e->owner[0] = a->facet;
     e->owner[1] = other;
     e->contact = 1;
@@ -298,18 +297,17 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
 static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
-    const lrcsi_touches *touches = &c->view->prepared->touches;
-    for (uint32_t i = touches->first[a->facet]; i < touches->first[a->facet + 1]; i++) {
-        const lrcsi_touch *touch = &touches->touch[i];
+    const lrcsi_intersections *intersections = &c->view->prepared->intersections;
+    for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
+        const lrcsi_intersection *touch = &intersections->touch[i];
         if (c->listed[touch->other] == c->look &&
-            lrcsi_contest_touch_hides(c->view, a->facet, touch) &&
-            !alone_contact(a, touch->other)) {
+            lrcsi_intersection_hides(c->view, a->facet, touch) && !alone_contact(a, touch->other)) {
             return 0;
         }
     }
-    uint32_t crossings = lrcsi_contest_crossings(a->contest, a->facet);
+    uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet);
     for (uint32_t i = 0; i < crossings; i++) {
-        if (!alone_edge(a, a->contest->crossing[i])) {
+        if (!alone_edge(a, a->classification->crossing[i])) {
             return 0;
         }
     }
@@ -320,8 +318,8 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
 /* Nothing is known of so much of it: it counts as half visible. */
 static void facet_leave(lrcsi_alone *a, double area)
 {
-    a->doubt[0] += 0.5 * area;
-    a->doubt[1] += 0.5 * area;
+    a->uncertainty[0] += 0.5 * area;
+    a->uncertainty[1] += 0.5 * area;
 }
 
 /* f's record, its triangle as a cell, and the error of its rim. 0 where rounding may have turned
@@ -331,7 +329,7 @@ static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &c->facet[a->facet];
     const lrcsi_target *frame = &a->frame;
-    double off = frame->needle ? frame->slip + 8 * U : 20 * U * frame->reach;
+    double off = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
     *f = (lrcsi_cells_facet){.off = off, .line_off = off};
     lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell->shape);
     lrcsi_clip_box(&cell->shape, f->low, f->high);
@@ -341,7 +339,7 @@ static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
         f->y[k] = frame->corner[k][1];
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
-    a->rim = frame->perimeter * (off + 16 * U * c->reach);
+    a->rim = frame->perimeter * (off + 16 * LRCSI_U * c->reach);
     c->facets[0] = a->facet;
     cell->facets = 1;
     return lrcsi_clip_area(&cell->shape) > 8 * off * frame->diameter;
@@ -352,7 +350,7 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_cell cell = {.cuts = 0};
     a->facet = facet;
-    a->doubt[0] = a->doubt[1] = a->rim = a->bent = 0;
+    a->uncertainty[0] = a->uncertainty[1] = a->rim = a->bent = 0;
     a->hidden = 0;
     lrcsi_target_make(c->view, facet, &a->target);
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
@@ -361,7 +359,7 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     c->segment_count = c->top = 0;
     c->look++;
     if (!alone_shape(a, &cell) || !alone_facets(a) || !alone_segments(a, &cell)) {
-        facet_leave(a, lrcsi_view_tilt(c->view, facet).projected / a->frame.unit);
+        facet_leave(a, lrcsi_view_incidence(c->view, facet).projected / a->frame.unit);
         return;
     }
     a->parts = PARTS_MOST + (uint64_t)PARTS_A_SEGMENT * cell.segments;
@@ -369,37 +367,39 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     c->top = 1;
 }
 
-/* --- sheets -----------------------------------------------------------------------------------
+/* --- components
+ * -----------------------------------------------------------------------------------
  */
 
-/* Does a sheet end at a segment, or meet f there? */
-static int sheet_ends(const lrcsi_alone *a, const lrcsi_cells_segment *e, uint32_t sheet)
+/* Does a component end at a segment, or meet f there? */
+static int component_ends(const lrcsi_alone *a, const lrcsi_cells_segment *e, uint32_t component)
 {
-    const uint32_t *of = a->contest->sheet;
+    const uint32_t *of = a->classification->component;
     const lrcsi_topology *t = &a->cells.view->prepared->topology;
-    if ((!e->contact && of[e->owner[0]] == sheet) ||
-        (e->owner[1] != LRCS_NONE && of[e->owner[1]] == sheet)) {
+    if ((!e->contact && of[e->owner[0]] == component) ||
+        (e->owner[1] != LRCS_NONE && of[e->owner[1]] == component)) {
         return 1;
     }
     for (uint32_t i = 0; e->edge != LRCS_NONE && i < t->edge[e->edge].uses; i++) {
-        if (of[t->use[t->edge[e->edge].first_use + i].facet] == sheet) {
+        if (of[t->use[t->edge[e->edge].first_use + i].facet] == component) {
             return 1;
         }
     }
     return 0;
 }
 
-/* Of a cell's segments, or of those at which a sheet ends where one is told, that whose line passes
-   nearest to a place: what is on its sides is then about as much. Returns how many there are. */
+/* Of a cell's segments, or of those at which a component ends where one is told, that whose line
+   passes nearest to a place: what is on its sides is then about as much. Returns how many there
+   are. */
 static uint32_t cell_choose(const lrcsi_alone *a, const lrcsi_cells_cell *cell, const double at[2],
-                            uint32_t sheet, const lrcsi_cells_segment **best)
+                            uint32_t component, const lrcsi_cells_segment **best)
 {
     uint32_t count = 0;
     double nearest = HUGE_VAL;
     *best = NULL;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &a->cells.segment[a->cells.segments[i]];
-        if (sheet == LRCS_NONE || sheet_ends(a, e, sheet)) {
+        if (component == LRCS_NONE || component_ends(a, e, component)) {
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
             count++;
             *best = far < nearest ? e : *best;
@@ -422,7 +422,7 @@ typedef struct alone_place {
     double point[3];
     double off;                     /* by which the point may be elsewhere in the frame */
     lrcsi_view_box box;             /* in the view; its depth does not count */
-    const lrcsi_cells_segment *cut; /* found: a segment of the sheet that ends at the */
+    const lrcsi_cells_segment *cut; /* found: a segment of the component that ends at the */
     uint32_t ends;                  /* fewest, and how many these are */
 } alone_place;
 
@@ -442,7 +442,7 @@ static void place_lift(const lrcsi_alone *a, alone_place *place)
 }
 
 /* The place in the view: f's first corner and the way from there, which is off by f's own corners,
-   10 u of their reach, by rounding, 3 u, and in a needle by the frame's slip. */
+   10 u of their reach, by rounding, 3 u, and in a needle by the frame's position error. */
 static lrcsi_view_box place_box(const lrcsi_alone *a, const alone_place *place)
 {
     double first[3];
@@ -454,11 +454,11 @@ static lrcsi_view_box place_box(const lrcsi_alone *a, const alone_place *place)
     x[2] = first[2];
     return lrcsi_view_box_about(a->cells.view, x,
                                 lrcsi_view_off(first) + place->off +
-                                    (16 * U + 2 * a->frame.slip) * a->target.reach);
+                                    (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach);
 }
 
 /* 1 a facet surely covers the point of a needle that has these shares, -1 surely not, 0 it passes
-   too near a side. The point is off its place by the frame's slip. */
+   too near a side. The point is off its place by the frame's position error. */
 static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
@@ -534,8 +534,8 @@ static int place_front(lrcsi_alone *a, const alone_place *place, uint32_t other,
     return *order == ORDER_FRONT ? 1 : *order == ORDER_BEHIND ? -1 : 0;
 }
 
-/* Is f hidden at a place? 1 by the sheet told in the place, 0 no, -1 it cannot be told so. Of a
-   sheet that ends nowhere in the cell no more need be known. */
+/* Is f hidden at a place? 1 by the component told in the place, 0 no, -1 it cannot be told so. Of a
+   component that ends nowhere in the cell no more need be known. */
 static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                      alone_place *place)
 {
@@ -546,8 +546,8 @@ static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
         uint32_t other = a->candidate[i];
         int covered = place_covered(a, place, other, s->g);
         int front = covered >= 0 ? place_front(a, place, other, s->g) : -1;
-        uint32_t sheet = a->contest->sheet[other];
-        if (front < 0 || (answer > 0 && sheet == last)) {
+        uint32_t component = a->classification->component[other];
+        if (front < 0 || (answer > 0 && component == last)) {
             continue;
         }
         if (front == 0 || covered == 0) {
@@ -555,12 +555,12 @@ static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
             continue;
         }
         const lrcsi_cells_segment *cut;
-        uint32_t ends = cell_choose(a, cell, place->at, sheet, &cut);
+        uint32_t ends = cell_choose(a, cell, place->at, component, &cut);
         if (ends < place->ends) {
             place->ends = ends;
             place->cut = cut;
         }
-        last = sheet;
+        last = component;
         answer = 1;
     }
     return answer;
@@ -615,7 +615,7 @@ static void cell_charge(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcs
         double wide = cell->inset + alone_off(a) + s->g;
         strips = lrcsi_least(most, 2.0 * cell->struck * wide * s->perimeter);
     }
-    a->cells.area[a->facet].doubt += cell->doubt + strips;
+    a->cells.area[a->facet].uncertainty += cell->uncertainty + strips;
 }
 
 /* The cell as a piece. In a needle its corners are rounded to the frame of the view axes. */
@@ -627,10 +627,10 @@ static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_
         for (uint32_t i = 0; i < cell->shape.count; i++) {
             lrcsi_target_unrefine(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
         }
-        a->bent += 4 * U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
+        a->bent += 4 * LRCSI_U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
     }
     area->seen += lrcsi_most(0, lrcsi_clip_area(&cell->shape));
-    area->off += 4 * s->g * s->perimeter + 5 * U * (cell->shape.count + 3) *
+    area->off += 4 * s->g * s->perimeter + 5 * LRCSI_U * (cell->shape.count + 3) *
                                                (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
 }
 
@@ -677,7 +677,7 @@ static int cell_do(lrcsi_alone *a, lrcsi_cells_cell *cell)
     /* 3. Else it is cut. */
     if (!cell_divide(a, cell, &s, place.cut)) {
         int seen = hidden < 0 ? !guess : !hidden;
-        a->doubt[seen] += lrcsi_clip_area(&cell->shape);
+        a->uncertainty[seen] += lrcsi_clip_area(&cell->shape);
     }
     return 0;
 }
@@ -708,17 +708,18 @@ int lrcsi_alone_next(lrcsi_alone *a)
 lrcsi_visible lrcsi_alone_close(lrcsi_alone *a)
 {
     const lrcsi_cells_found *found = &a->cells.area[a->facet];
-    lrcsi_tilt tilt = lrcsi_view_tilt(a->cells.view, a->facet);
-    double whole = tilt.projected;
+    lrcsi_incidence incidence = lrcsi_view_incidence(a->cells.view, a->facet);
+    double whole = incidence.projected;
     double unit = a->frame.unit;
-    double off = unit * (a->rim + found->doubt + found->off + 64 * U * (found->seen + a->doubt[1]));
-    double seen = a->hidden || a->doubt[0] > 0
-                      ? lrcsi_least(whole, unit * (found->seen + a->doubt[1]))
+    double off = unit * (a->rim + found->uncertainty + found->off +
+                         64 * LRCSI_U * (found->seen + a->uncertainty[1]));
+    double seen = a->hidden || a->uncertainty[0] > 0
+                      ? lrcsi_least(whole, unit * (found->seen + a->uncertainty[1]))
                       : whole;
-    off += a->frame.needle ? tilt.error * whole : 0;
+    off += a->frame.needle ? incidence.error * whole : 0;
     a->cells.open[a->facet] = 0;
-    return (lrcsi_visible){seen, lrcsi_most(0, seen - unit * a->doubt[1] - off),
-                           lrcsi_least(whole, seen + unit * a->doubt[0] + off), 0, 0};
+    return (lrcsi_visible){seen, lrcsi_most(0, seen - unit * a->uncertainty[1] - off),
+                           lrcsi_least(whole, seen + unit * a->uncertainty[0] + off), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
@@ -728,7 +729,7 @@ static size_t alone_segments_most(const lrcs_prepared *p)
 {
     size_t most = 0;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        size_t count = lrcsi_touches_of(&p->touches, f);
+        size_t count = lrcsi_intersection_of(&p->intersections, f);
         most = count > most ? count : most;
     }
     return p->topology.edge_count + 3 * most;
@@ -749,13 +750,13 @@ size_t lrcsi_alone_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
 }
 
-int lrcsi_alone_make(lrcsi_contest *contest, const lrcsi_grid *grid, lrcs_work *work,
+int lrcsi_alone_make(lrcsi_classification *classification, const lrcsi_grid *grid, lrcs_work *work,
                      lrcsi_alone *a)
 {
-    const lrcs_prepared *p = contest->view->prepared;
+    const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
-    *a = (lrcsi_alone){.contest = contest, .grid = *grid};
-    lrcsi_cells_work c = {.view = contest->view};
+    *a = (lrcsi_alone){.classification = classification, .grid = *grid};
+    lrcsi_cells_work c = {.view = classification->view};
     c.segment_room = (uint32_t)alone_segments_most(p);
     c.open = lrcsi_work_take_zero(work, count, 1);
     c.facet = lrcsi_work_take(work, count, sizeof *c.facet);

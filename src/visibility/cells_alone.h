@@ -14,7 +14,7 @@ typedef struct lrcsi_alone_side {
 } lrcsi_alone_side;
 
 typedef struct lrcsi_alone {
-    lrcsi_contest *contest;
+    lrcsi_classification *classification;
     lrcsi_grid grid;             /* of facets */
     lrcsi_cells_work cells;      /* in the frame of the facet at hand */
     uint32_t *candidate;         /* facets that may hide it, */
@@ -30,7 +30,7 @@ typedef struct lrcsi_alone {
     uint64_t parts;           /* that it may yet be cut into */
     double rim;               /* area within the error of its sides */
     double bent;              /* by which the area of a needle's pieces may be wrong beside */
-    double doubt[2];          /* area that could not be told: hidden, visible by a guess */
+    double uncertainty[2];    /* area that could not be told: hidden, visible by a guess */
     int hidden;               /* some of it is */
 } lrcsi_alone;
 
@@ -39,7 +39,7 @@ size_t lrcsi_alone_need(const lrcs_prepared *prepared);
 
 /* What serves all facets of a view; it stays in the work area. Given: a grid of facets that lists
    all that stand where any facet does which is to be opened. Status: LRCS_OK; LRCS_E_MEMORY. */
-int lrcsi_alone_make(lrcsi_contest *contest, const lrcsi_grid *grid, lrcs_work *work,
+int lrcsi_alone_make(lrcsi_classification *classification, const lrcsi_grid *grid, lrcs_work *work,
                      lrcsi_alone *a);
 
 /* Readies a facet that casts. Each `next` that returns 1 then leaves one more of the pieces of what

@@ -5,11 +5,10 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/grid.h"
-
-#define U 0x1p-53
 
 /* How often facets and events may be listed in blocks, a facet and beside that. */
 #define ENTRIES_A_FACET 16u
@@ -21,17 +20,17 @@ static uint64_t block_entries(const lrcs_prepared *p)
 }
 
 /* Blocks are squares of the window of the scene's bulk, four times as large as the cells of the
-   contest's grid, in a ring of blocks that hold what stands outside. */
+   grid of the classification, in a ring of blocks that hold what stands outside. */
 #define BLOCK 4u
 
 static void blocks_place(lrcsi_cells_grid *c)
 {
-    const lrcsi_grid *grid = &c->contest->grid;
+    const lrcsi_grid *grid = &c->classification->grid;
     uint32_t size = (grid->size + BLOCK - 1) / BLOCK;
     c->side = size + 2;
-    c->size = grid->scale > 0 ? BLOCK / (grid->scale * c->contest->view->scale) : 1;
+    c->size = grid->scale > 0 ? BLOCK / (grid->scale * c->classification->view->scale) : 1;
     for (int k = 0; k < 2; k++) {
-        c->low[k] = grid->low[k] / c->contest->view->scale;
+        c->low[k] = grid->low[k] / c->classification->view->scale;
         c->high[k] = c->low[k] + size * c->size;
     }
 }
@@ -53,7 +52,7 @@ static uint32_t block_of(const lrcsi_cells_grid *c, double x, int k)
 static void block_range(const lrcsi_cells_grid *c, double low, double high, int k, uint32_t *from,
                         uint32_t *to)
 {
-    double near = 64 * U * (fabs(c->low[k]) + c->side * c->size);
+    double near = 64 * LRCSI_U * (fabs(c->low[k]) + c->side * c->size);
     *from = block_of(c, low - near, k);
     *to = block_of(c, high + near, k) + 1;
 }
@@ -72,12 +71,12 @@ static void block_put(lrcsi_cells_lists *b, size_t row, uint32_t x0, uint32_t x1
 
 static void blocks_put_facet(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t facet)
 {
-    const uint32_t *corner = c->contest->view->prepared->scene->facet[facet].corner;
+    const uint32_t *corner = c->classification->view->prepared->scene->facet[facet].corner;
     double low[3];
     double high[3];
     uint32_t x[2];
     uint32_t y[2];
-    lrcsi_view_bounds(c->contest->view, corner, 3, low, high);
+    lrcsi_view_bounds(c->classification->view, corner, 3, low, high);
     block_range(c, low[0], high[0], 0, &x[0], &x[1]);
     block_range(c, low[1], high[1], 1, &y[0], &y[1]);
     for (uint32_t row = y[0]; row < y[1]; row++) {
@@ -89,9 +88,9 @@ static void blocks_put_facet(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t
 static void blocks_put_edge(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t event)
 {
     const lrcsi_edge *e =
-        &c->contest->view->prepared->topology.edge[c->contest->events.edge[event]];
-    const double *p = c->contest->view->point[e->low].x;
-    const double *q = c->contest->view->point[e->high].x;
+        &c->classification->view->prepared->topology.edge[c->classification->events.edge[event]];
+    const double *p = c->classification->view->point[e->low].x;
+    const double *q = c->classification->view->point[e->high].x;
     double off = 4 * lrcsi_most(lrcsi_view_off(p), lrcsi_view_off(q));
     uint32_t y[2];
     block_range(c, lrcsi_least(p[1], q[1]) - off, lrcsi_most(p[1], q[1]) + off, 1, &y[0], &y[1]);
@@ -101,7 +100,7 @@ static void blocks_put_edge(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t 
         double rise = q[1] - p[1];
         if (y[1] - y[0] > 1 && fabs(rise) > 64 * off) {
             double slope = (q[0] - p[0]) / rise;
-            double near = off + 64 * U * (fabs(c->low[1]) + c->side * c->size);
+            double near = off + 64 * LRCSI_U * (fabs(c->low[1]) + c->side * c->size);
             double low = row > 0 ? block_edge(c, row, 1) - near : -HUGE_VAL;
             double high = row + 1 < c->side ? block_edge(c, row + 1, 1) + near : HUGE_VAL;
             low = lrcsi_most(low, lrcsi_least(p[1], q[1]));
@@ -121,8 +120,8 @@ static void blocks_put_edge(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t 
 static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lrcs_work *work)
 {
     size_t count = (size_t)c->side * c->side;
-    uint32_t items =
-        events ? c->contest->events.count : c->contest->view->prepared->scene->facet_count;
+    uint32_t items = events ? c->classification->events.count
+                            : c->classification->view->prepared->scene->facet_count;
     b->first = lrcsi_work_take_zero(work, count + 1, sizeof *b->first);
     b->item = NULL;
     if (!b->first) {
@@ -132,7 +131,7 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
         for (uint32_t i = 0; i < items; i++) {
             if (events) {
                 blocks_put_edge(c, b, i);
-            } else if (lrcsi_grid_casts(c->contest->view, i)) {
+            } else if (lrcsi_grid_casts(c->classification->view, i)) {
                 blocks_put_facet(c, b, i);
             }
         }
@@ -141,7 +140,7 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
             for (size_t k = 0; k < count; k++) {
                 total += b->first[k + 1];
                 b->first[k + 1] = (uint32_t)total;
-                if (total > block_entries(c->contest->view->prepared)) {
+                if (total > block_entries(c->classification->view->prepared)) {
                     return 0;
                 }
             }
@@ -167,8 +166,8 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
     double high[2];
     double reach = 0;
     for (int k = 0; k < 2; k++) {
-        double start = c->contest->view->low[k];
-        double end = c->contest->view->low[k] + c->contest->view->side;
+        double start = c->classification->view->low[k];
+        double end = c->classification->view->low[k] + c->classification->view->side;
         double wide = 0x1p-30 * (fabs(start) + fabs(end) + c->side * c->size);
         low[k] = at[k] > 0 ? block_edge(c, at[k], k) : lrcsi_least(start, c->low[k]) - wide;
         high[k] =
@@ -193,10 +192,11 @@ size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared)
                           2 * lrcsi_work_bytes((size_t)block_entries(prepared), sizeof(uint32_t)));
 }
 
-int lrcsi_cells_grid_make(const lrcsi_contest *contest, lrcs_work *work, lrcsi_cells_grid *c)
+int lrcsi_cells_grid_make(const lrcsi_classification *classification, lrcs_work *work,
+                          lrcsi_cells_grid *c)
 {
-    *c = (lrcsi_cells_grid){.contest = contest};
+    *c = (lrcsi_cells_grid){.classification = classification};
     blocks_place(c);
-    return contest->view->side <= 2 * c->side * c->size && blocks_make(c, &c->facets, 0, work) &&
-           blocks_make(c, &c->events, 1, work);
+    return classification->view->side <= 2 * c->side * c->size &&
+           blocks_make(c, &c->facets, 0, work) && blocks_make(c, &c->events, 1, work);
 }

@@ -5,7 +5,7 @@
 #define LRCSI_CELLS_BLOCK_H
 
 #include "visibility/cells_shape.h"
-#include "visibility/contest.h"
+#include "visibility/classify.h"
 
 /* Items of each block: item[first[b] .. first[b + 1]) of block b. */
 typedef struct lrcsi_cells_lists {
@@ -13,7 +13,7 @@ typedef struct lrcsi_cells_lists {
 } lrcsi_cells_lists;
 
 typedef struct lrcsi_cells_grid {
-    const lrcsi_contest *contest;
+    const lrcsi_classification *classification;
     uint32_t side;          /* blocks along each, with the ring */
     double low[2], high[2]; /* of those within */
     double size;            /* of one */
@@ -26,7 +26,8 @@ size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared);
 /* Places the blocks and files casting facets and events. 0 where they find no memory, are listed
    too often, or where much of the view lies outside of the bulk: blocks there are so large that
    nothing is told. */
-int lrcsi_cells_grid_make(const lrcsi_contest *contest, lrcs_work *work, lrcsi_cells_grid *c);
+int lrcsi_cells_grid_make(const lrcsi_classification *classification, lrcs_work *work,
+                          lrcsi_cells_grid *c);
 
 /* The square of a block, from its middle; returns the largest coordinate. */
 double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How much area is in doubt along segments that are not asked about any more, and whose.
+/* How much area is undecided along segments that are not asked about any more, and whose.
 
    Cells. A cut puts new corners beside the sides that it cuts, by no more than is measured where it
    is made (lrcsi_cells_shape_divide); the two parts of a cell then miss no point of it by more. The
@@ -16,7 +16,7 @@
    cell, or of its own line with the cell on one side. The sample P is clear of these by c. So the
    way from P to x crosses the segment only if x lies within 2 w of that line, and no farther along
    it from the segment than 2 w / c of the cell's diameter, which is below CELLS_FAR w where c is
-   above LRCSI_CELLS_THIN of the perimeter. That area is in doubt; it is charged to the facets of
+   above LRCSI_CELLS_THIN of the perimeter. That area is undecided; it is charged to the facets of
    the list, as much of it as they have, when the segment is struck from the list; all cells that
    come of the cell are then rid of it. In a thin cell the strips of all that were struck run along
    the whole of it.
@@ -94,9 +94,9 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e)
 {
     double strip = e->part.strip;
-    double doubt = strip * ((e->part.to - e->part.from) * e->length + CELLS_FAR * strip);
-    if (doubt < 0x1p-58 * c->reach * c->reach) {
-        cell->doubt += doubt;
+    double uncertainty = strip * ((e->part.to - e->part.from) * e->length + CELLS_FAR * strip);
+    if (uncertainty < 0x1p-58 * c->reach * c->reach) {
+        cell->uncertainty += uncertainty;
         return;
     }
     double box[2][2];
@@ -127,13 +127,15 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             continue;
         }
         corners_along(f, e->line, e->start, along);
-        if (lrcsi_least(doubt, strip * (along[1] - along[0])) > c->trifle) {
+        if (lrcsi_least(uncertainty, strip * (along[1] - along[0])) > c->trifle) {
             facet_along(f, e->line, e->start, 2 * far, along);
-            c->area[facet].cut += lrcsi_least(doubt / strip, lrcsi_most(0, along[1] - along[0]));
+            c->area[facet].cut +=
+                lrcsi_least(uncertainty / strip, lrcsi_most(0, along[1] - along[0]));
         }
         if (along[1] > e->part.from * e->length - beyond &&
             along[0] < e->part.to * e->length + beyond) {
-            c->area[facet].doubt += lrcsi_least(doubt, strip * (along[1] - along[0] + 2 * far));
+            c->area[facet].uncertainty +=
+                lrcsi_least(uncertainty, strip * (along[1] - along[0] + 2 * far));
         }
     }
 }
@@ -158,7 +160,7 @@ void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, dou
         length = lrcsi_least(along[1], strip->to) - lrcsi_most(along[0], strip->from) + 2 * beyond;
         c->area[index].cut += lrcsi_most(0, length);
     }
-    c->area[index].doubt += lrcsi_most(0, wide) * lrcsi_most(0, length);
+    c->area[index].uncertainty += lrcsi_most(0, wide) * lrcsi_most(0, length);
 }
 
 int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
@@ -173,7 +175,7 @@ int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         uint32_t facet = c->facets[i];
         c->found[facet] |= LRCSI_CELLS_SPARED;
         if (c->open[facet]) {
-            c->area[facet].doubt += cell->doubt + area;
+            c->area[facet].uncertainty += cell->uncertainty + area;
             c->area[facet].cut += 0.5 * s->perimeter;
         }
     }

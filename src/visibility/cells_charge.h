@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Area in doubt along segments, charged to the facets that it may belong to (visibility/cells.c).
+/* Area undecided along segments, charged to the facets that it may belong to (visibility/cells.c).
  */
 #ifndef LRCSI_CELLS_CHARGE_H
 #define LRCSI_CELLS_CHARGE_H
@@ -14,8 +14,9 @@ typedef struct lrcsi_cells_strip {
     double g; /* of the cell that is cut */
 } lrcsi_cells_strip;
 
-/* Charges what a segment at the border puts in doubt to the facets that come near: no more than the
-   strip has along the length of the facet. What is next to nothing goes to all of them, later. */
+/* Charges what a segment at the border puts undecided to the facets that come near: no more than
+   the strip has along the length of the facet. What is next to nothing goes to all of them, later.
+ */
 void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e);
 

@@ -19,10 +19,11 @@
    that is nearest at P and has no contact with that cover is behind it nowhere.
      (4) Where no facet covers P, and no event crosses the cell, no facet is seen in it.
    A contact is where two facets meet in space other than along a common edge or in a point: across
-   segments of the inside of one (mesh/touch.h), along parts of edges of both (the facets are then
-   marked as rims), or in one plane. All edges of rims and of facets with another in their plane
-   count as events, so that no component goes on across them. Facets of which a contact is not known
-   tell nothing (`vague`). Contacts in points do not matter: ways in general position miss them. */
+   segments of the inside of one (mesh/intersection.h), along parts of edges of both (the facets are
+   then marked as rims), or in one plane. All edges of rims and of facets with another in their
+   plane count as events, so that no component goes on across them. Facets of which a contact is not
+   known tell nothing (`vague`). Contacts in points do not matter: ways in general position miss
+   them. */
 #include "visibility/cells_cover.h"
 
 #include <math.h>
@@ -316,9 +317,9 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
     return 0;
 }
 
-static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double doubt)
+static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double uncertainty)
 {
-    c->area[facet].doubt += c->open[facet] ? doubt : 0;
+    c->area[facet].uncertainty += c->open[facet] ? uncertainty : 0;
 }
 
 void lrcsi_cells_component_of(lrcsi_cells_work *c, uint32_t facet)
@@ -344,7 +345,7 @@ static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, cons
 }
 
 void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                      const double *at, double doubt)
+                      const double *at, double uncertainty)
 {
     double low = HUGE_VAL;
     for (uint32_t i = 0; i < c->components; i++) {
@@ -357,7 +358,7 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
                                         lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
             c->found[f] |= LRCSI_CELLS_HIDDEN;
-            facet_charge(c, f, cell->doubt + doubt);
+            facet_charge(c, f, cell->uncertainty + uncertainty);
             continue;
         }
         lrcsi_cells_keep(c->facets, i, kept++);

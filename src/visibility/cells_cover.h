@@ -44,6 +44,6 @@ void lrcsi_cells_component_of(lrcsi_cells_work *c, uint32_t facet);
    sample, where others may be nearer than the component, which is one facet then; NULL where none
    is. */
 void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                      const double *at, double doubt);
+                      const double *at, double uncertainty);
 
 #endif

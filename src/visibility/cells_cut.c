@@ -6,10 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 #include "visibility/cells_charge.h"
-
-#define U 0x1p-53
 
 /* Does a segment that met the cell which this one was cut from meet it too? If not, its own line or
    that of the cut parts them. */
@@ -171,7 +170,7 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     lrcsi_cells_strip strip = {along, 0, 0, 0, s->g};
     if (along) {
         lrcsi_cells_part part = {0, 1, 0};
-        strip.width = along->line_off + cell->drift + 12 * U * c->reach;
+        strip.width = along->line_off + cell->drift + 12 * LRCSI_U * c->reach;
         lrcsi_cells_place_of(&cell->shape, s, along->end[0], along->end[1], along->line,
                              along->off + s->g, along->off + s->g, &part);
         strip.from = part.from * along->length;

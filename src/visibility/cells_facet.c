@@ -20,12 +20,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "base/range.h"
 #include "visibility/contact.h"
 #include "visibility/sample.h"
-
-#define U 0x1p-53
 
 /* The axes of the view, exactly perpendicular to the direction but for 32 u^2: R's rows are so but
    for 4 u, which is taken off in their lower parts. They may be oblique by as much. */
@@ -68,8 +67,8 @@ static void point_make(const lrcsi_cells_frame *c, uint32_t vertex, lrcsi_cells_
     }
     p->z = c->view->point[vertex].x[2];
     double far = fabs(p->x[0].hi) + fabs(p->x[1].hi) + fabs(p->z);
-    p->line_off = 256 * U * U * far;
-    p->z_err = 20 * U * far;
+    p->line_off = 256 * LRCSI_U * LRCSI_U * far;
+    p->z_err = 20 * LRCSI_U * far;
     p->made = 1;
 }
 
@@ -84,7 +83,7 @@ const lrcsi_cells_point *lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t verte
             lrcsi_dd gap = lrcsi_dd_two_sum(p->x[k].hi, -c->middle[k]);
             p->local[k] = lrcsi_dd_two_sum(gap.hi, gap.lo + p->x[k].lo);
         }
-        p->off = 6 * U * (fabs(p->local[0].hi) + fabs(p->local[1].hi)) + p->line_off;
+        p->off = 6 * LRCSI_U * (fabs(p->local[0].hi) + fabs(p->local[1].hi)) + p->line_off;
         p->block = c->block;
     }
     return p;
@@ -161,8 +160,9 @@ static void facet_slope(lrcsi_cells_facet *f, const double z[3])
         double slope = lrcsi_least(4 * rise / height,
                                    2 * (fabs(f->z[0]) + fabs(f->z[1])) + 8 * f->z_err / height);
         f->z_off[1] = slope;
-        f->z_off[0] = 3 * f->z_err + slope * (2 * f->off + 8 * U * longest * longest / height) +
-                      8 * U * (fabs(z[0]) + fabs(f->z[0] * f->x[0]) + fabs(f->z[1] * f->y[0]));
+        f->z_off[0] =
+            3 * f->z_err + slope * (2 * f->off + 8 * LRCSI_U * longest * longest / height) +
+            8 * LRCSI_U * (fabs(z[0]) + fabs(f->z[0] * f->x[0]) + fabs(f->z[1] * f->y[0]));
     }
 }
 
@@ -246,16 +246,16 @@ double lrcsi_cells_facet_limit(const lrcsi_cells_facet *f, const lrcsi_cells_sid
 
 int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t second)
 {
-    const lrcsi_touches *touches = &view->prepared->touches;
+    const lrcsi_intersections *intersections = &view->prepared->intersections;
     int side = lrcsi_contact_side(view, first, second);
     int touch = 0;
     for (int way = 0; way < 2 && side == 0; way++) {
         uint32_t facet = way == 0 ? first : second;
         uint32_t other = way == 0 ? second : first;
-        for (uint32_t i = touches->first[facet]; i < touches->first[facet + 1]; i++) {
-            if (touches->touch[i].other == other) {
+        for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
+            if (intersections->touch[i].other == other) {
                 touch = 1;
-                if (touches->touch[i].kind == LRCSI_TOUCH_COPLANAR) {
+                if (intersections->touch[i].kind == LRCSI_INTERSECTION_COPLANAR) {
                     return lrcsi_sample_beats(view, second, first) ? 1 : -1;
                 }
             }

@@ -7,10 +7,10 @@
 
 int lrcsi_cells_apart(const lrcsi_view *view, uint32_t facet)
 {
-    const lrcsi_touches *touches = &view->prepared->touches;
-    for (uint32_t i = touches->first[facet]; i < touches->first[facet + 1]; i++) {
-        if (touches->touch[i].kind == LRCSI_TOUCH_COPLANAR &&
-            lrcsi_grid_casts(view, touches->touch[i].other)) {
+    const lrcsi_intersections *intersections = &view->prepared->intersections;
+    for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
+        if (intersections->touch[i].kind == LRCSI_INTERSECTION_COPLANAR &&
+            lrcsi_grid_casts(view, intersections->touch[i].other)) {
             return 1;
         }
     }
@@ -53,7 +53,7 @@ uint32_t lrcsi_cells_next(const lrcsi_view *view, const unsigned char *kind, uin
 {
     uint32_t other = lrcsi_cells_joined(view, facet, k);
     return other != LRCS_NONE && ((kind[facet] | kind[other]) & LRCSI_CELLS_APART) == 0 &&
-                   !lrcsi_touches_along(&view->prepared->touches, facet, k)
+                   !lrcsi_intersection_along(&view->prepared->intersections, facet, k)
                ? other
                : LRCS_NONE;
 }

@@ -4,11 +4,10 @@
    visibility/cells_cover.c. */
 #include "visibility/cells_open.h"
 
+#include "base/constant.h"
 #include "base/range.h"
 #include "visibility/contact.h"
 #include "visibility/grid.h"
-
-#define U 0x1p-53
 
 lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c)
 {
@@ -65,7 +64,8 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
 /* Does the surface go on across all sides of a facet that are no events of the view? */
 static int goes_on(const lrcsi_cells_work *c, uint32_t facet)
 {
-    return (c->kind[facet] & LRCSI_CELLS_APART) == 0 && c->view->prepared->touches.rim[facet] <= 1;
+    return (c->kind[facet] & LRCSI_CELLS_APART) == 0 &&
+           c->view->prepared->intersections.rim[facet] <= 1;
 }
 
 /* Edges across which two facets continue each other are events nevertheless where one of these
@@ -87,8 +87,8 @@ static int open_joins(lrcsi_cells_work *c, uint32_t facet)
 
 static int touches_back(const lrcs_prepared *p, uint32_t facet, uint32_t other)
 {
-    for (uint32_t i = p->touches.first[other]; i < p->touches.first[other + 1]; i++) {
-        if (p->touches.touch[i].other == facet) {
+    for (uint32_t i = p->intersections.first[other]; i < p->intersections.first[other + 1]; i++) {
+        if (p->intersections.touch[i].other == facet) {
             return 1;
         }
     }
@@ -99,11 +99,12 @@ static int touches_back(const lrcs_prepared *p, uint32_t facet, uint32_t other)
 static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
 {
     const lrcsi_view *view = c->view;
-    const lrcsi_touches *touches = &view->prepared->touches;
+    const lrcsi_intersections *intersections = &view->prepared->intersections;
     lrcsi_target target = {.view = NULL};
-    for (uint32_t i = touches->first[facet]; i < touches->first[facet + 1]; i++) {
-        uint32_t other = touches->touch[i].other;
-        if (touches->touch[i].kind != LRCSI_TOUCH_CROSS || c->listed[other] != c->look ||
+    for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
+        uint32_t other = intersections->touch[i].other;
+        if (intersections->touch[i].kind != LRCSI_INTERSECTION_CROSS ||
+            c->listed[other] != c->look ||
             (other < facet && touches_back(view->prepared, facet, other))) {
             continue;
         }
@@ -135,7 +136,7 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
             e->end[n][1] = origin->local[1].hi + contact.end[n][1];
         }
         e->end[0][2] = e->end[1][2] = 0;
-        e->off = origin->off + 32 * U * contact.reach + contact.slip;
+        e->off = origin->off + 32 * LRCSI_U * contact.reach + contact.position_err;
         e->owner[0] = facet;
         e->owner[1] = other;
         e->contact = 1;
@@ -149,7 +150,7 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
 static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.facets;
-    double g = 16 * U * c->reach;
+    double g = 16 * LRCSI_U * c->reach;
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
         uint32_t index = b->item[i];
         lrcsi_cells_facet *f = &c->facet[index];
@@ -181,7 +182,7 @@ static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
         }
     }
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
-        if (!open_edge(c, c->grid.contest->events.edge[b->item[i]])) {
+        if (!open_edge(c, c->grid.classification->events.edge[b->item[i]])) {
             return 0;
         }
     }
@@ -191,7 +192,7 @@ static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
 
 size_t lrcsi_cells_segments_most(const lrcsi_cells_work *c)
 {
-    const lrcsi_touches *touches = &c->view->prepared->touches;
+    const lrcsi_intersections *intersections = &c->view->prepared->intersections;
     const lrcsi_cells_lists *facets = &c->grid.facets;
     const lrcsi_cells_lists *events = &c->grid.events;
     size_t most = 0;
@@ -199,7 +200,7 @@ size_t lrcsi_cells_segments_most(const lrcsi_cells_work *c)
         size_t count = events->first[b + 1] - events->first[b];
         for (uint32_t i = facets->first[b]; i < facets->first[b + 1]; i++) {
             uint32_t f = facets->item[i];
-            count += touches->first[f + 1] - touches->first[f];
+            count += intersections->first[f + 1] - intersections->first[f];
             count += goes_on(c, f) ? 0 : 3;
         }
         most = count > most ? count : most;

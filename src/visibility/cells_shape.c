@@ -6,9 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/range.h"
-
-#define U 0x1p-53
 
 double lrcsi_line_through(const double *p, const double *q, double line[3])
 {
@@ -148,9 +147,9 @@ static double corner_drift(double x, double y, double t, const double corner[2])
 {
     x = fabs(x);
     y = fabs(y);
-    double off_x = x > 0 ? U * (2 * t * x + fabs(corner[0])) : 0;
-    double off_y = y > 0 ? U * (2 * t * y + fabs(corner[1])) : 0;
-    return (1 + 8 * U) * (x * off_y + y * off_x) / lrcsi_most(x, y);
+    double off_x = x > 0 ? LRCSI_U * (2 * t * x + fabs(corner[0])) : 0;
+    double off_y = y > 0 ? LRCSI_U * (2 * t * y + fabs(corner[1])) : 0;
+    return (1 + 8 * LRCSI_U) * (x * off_y + y * off_x) / lrcsi_most(x, y);
 }
 
 double lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape, const double line[3],

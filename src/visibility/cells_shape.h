@@ -38,7 +38,7 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
                      double range[2]);
 
 /* What of a segment is in a cell, or near it: between two shares of its length; at the border, how
-   far from there places are in doubt. */
+   far from there places are undecided. */
 typedef struct lrcsi_cells_part {
     double from, to, strip;
 } lrcsi_cells_part;

@@ -23,21 +23,21 @@ typedef struct lrcsi_cells_cell {
     lrcsi_clip_polygon shape;
     uint32_t facets, segments;
     uint32_t cuts, struck;
-    double drift;     /* how far a place that belongs to it may be from it */
-    double doubt;     /* area that may be wrong for any facet, yet to be charged */
-    double inset;     /* the widest w of what was struck */
-    double cut[3];    /* the line along which it was last cut, */
-    double sign;      /* which side of it it lies on, */
-    double strip;     /* and how wide a strip was charged there */
-    uint32_t both[2]; /* a cell that waits: behind so many facets, segments, all are its own */
+    double drift;       /* how far a place that belongs to it may be from it */
+    double uncertainty; /* area that may be wrong for any facet, yet to be charged */
+    double inset;       /* the widest w of what was struck */
+    double cut[3];      /* the line along which it was last cut, */
+    double sign;        /* which side of it it lies on, */
+    double strip;       /* and how wide a strip was charged there */
+    uint32_t both[2];   /* a cell that waits: behind so many facets, segments, all are its own */
 } lrcsi_cells_cell;
 
 /* What is found of a facet that is asked about. */
 typedef struct lrcsi_cells_found {
-    double seen;  /* area in cells where it is seen */
-    double off;   /* by which that may be wrong */
-    double doubt; /* area of strips, */
-    double cut;   /* and their length */
+    double seen;        /* area in cells where it is seen */
+    double off;         /* by which that may be wrong */
+    double uncertainty; /* area of strips, */
+    double cut;         /* and their length */
 } lrcsi_cells_found;
 
 /* A segment at the border of a cell. */
@@ -79,7 +79,7 @@ typedef struct lrcsi_cells_work {
     uint32_t top;
     double reach;  /* the largest coordinate in the block at hand, from its middle */
     double off;    /* the largest of what is listed there */
-    double trifle; /* area in doubt that is charged without a closer look */
+    double trifle; /* area undecided that is charged without a closer look */
 } lrcsi_cells_work;
 
 /* Keeps item i of a list as one of the first: puts it in place `kept`, and that one in its own. */

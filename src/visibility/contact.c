@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* A facet against the plane of another: on which side its corners lie, exactly, and where it passes
-   through, in doubles, with how far that may be off. Which facets touch is known (mesh/touch.h). */
+   through, in doubles, with how far that may be off. Which facets touch is known
+   (mesh/intersection.h). */
 #include "visibility/contact.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "base/exact.h"
 #include "base/length.h"
@@ -13,7 +15,6 @@
 #include "visibility/clip.h"
 #include "visibility/sample.h"
 
-#define U 0x1p-53
 /* How many times its error a height must be, so that where it is 0 is told to a double. */
 #define TOLD 0x1p53
 
@@ -38,7 +39,7 @@ static lrcsi_dd height_finely(const lrcsi_target *t, const double *x, double *of
         sum = lrcsi_dd_add(sum, lrcsi_dd_mul((lrcsi_dd){n->high[k], n->low[k]}, gap));
         square += gap.hi * gap.hi;
     }
-    *off = (32 * U * U * n->length + n->error) * sqrt(square);
+    *off = (32 * LRCSI_U * LRCSI_U * n->length + n->error) * sqrt(square);
     return t->view->facing[t->facet] > 0 ? sum : lrcsi_dd_negate(sum);
 }
 
@@ -121,7 +122,7 @@ static int height_find(const lrcsi_target *t, const double *x, lrcsi_dd *height,
                                          lrcsi_prepared_corner(p, t->facet, 1),
                                          lrcsi_prepared_corner(p, t->facet, 2), x);
         *height = t->view->facing[t->facet] > 0 ? up : lrcsi_dd_negate(up);
-        *off = 128 * U * U * fabs(up.hi);
+        *off = 128 * LRCSI_U * LRCSI_U * fabs(up.hi);
     }
     return (height->hi > 0) - (height->hi < 0);
 }
@@ -160,12 +161,12 @@ static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, 
 
 /* May the segment be off by more than the facet is wide, about? Its corners are counted from a near
    one, so that its area is no difference of far ones. */
-static int slip_wide(const lrcsi_contact *c)
+static int position_err_wide(const lrcsi_contact *c)
 {
     const double(*corner)[2] = (const double(*)[2])c->corner;
     lrcsi_clip_polygon triangle;
     lrcsi_clip_triangle(corner, &triangle);
-    return !(c->slip * lrcsi_clip_perimeter(&triangle) < lrcsi_clip_area(&triangle));
+    return !(c->position_err * lrcsi_clip_perimeter(&triangle) < lrcsi_clip_area(&triangle));
 }
 
 /* Walked counter-clockwise, the facet leaves its part above the plane in one place and enters it in
@@ -198,8 +199,8 @@ static void contact_ends(const lrcsi_target *t, const contact_heights *h, lrcsi_
     contact_leaves(h, leaves);
     for (int i = 0; i < 2; i++) {
         if (leaves[i] >= SIDE) {
-            double slip = side_cut(h, c, leaves[i] - SIDE, c->end[i], &reach[i]);
-            c->slip = lrcsi_most(c->slip, slip);
+            double position_err = side_cut(h, c, leaves[i] - SIDE, c->end[i], &reach[i]);
+            c->position_err = lrcsi_most(c->position_err, position_err);
         } else {
             memcpy(c->end[i], c->corner[leaves[i]], sizeof c->end[i]);
             reach[i] = c->away[leaves[i]];
@@ -209,31 +210,31 @@ static void contact_ends(const lrcsi_target *t, const contact_heights *h, lrcsi_
 }
 
 /* The segment's ends, and the corner that it parts from the others, are off by 16 u of how far away
-   they are and the slip, e at most. Where that corner lies 4 e beyond its line, that crosses both
-   sides of the facet within a quarter of this beyond the ends, and parts the facet as the segment
-   does. Else all that it cuts off is as near to the line, or, where the segment is so short that
-   its line may turn anywhere, to the line from it to the corner: that is taken in then, and what
-   the rest does is all there is to tell. */
+   they are and the position error, e at most. Where that corner lies 4 e beyond its line, that
+   crosses both sides of the facet within a quarter of this beyond the ends, and parts the facet as
+   the segment does. Else all that it cuts off is as near to the line, or, where the segment is so
+   short that its line may turn anywhere, to the line from it to the corner: that is taken in then,
+   and what the rest does is all there is to tell. */
 static int segment_kind(const contact_heights *h, lrcsi_contact *c, int above)
 {
     int lone = above == 1 ? 1 : -1; /* the sign of its height */
     int corner = h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2;
     const double *p = c->corner[corner];
-    double off = 16 * U * lrcsi_most(c->away[corner], c->reach) + c->slip;
+    double off = 16 * LRCSI_U * lrcsi_most(c->away[corner], c->reach) + c->position_err;
     const lrcsi_clip_line line = {{c->end[0][0], c->end[0][1]},
                                   {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]}};
     double length = lrcsi_length_flat(line.to[0], line.to[1]);
     double beyond = length > 0 ? lone * lrcsi_clip_side(&line, p) / length : 0;
-    if (c->slip > 0 && slip_wide(c)) {
+    if (c->position_err > 0 && position_err_wide(c)) {
         return LRCSI_CONTACT_UNKNOWN;
     }
     if (beyond > 4 * off) {
         return LRCSI_CONTACT_LINE;
     }
     if (length > 4 * off) {
-        c->slip += fabs(beyond);
+        c->position_err += fabs(beyond);
     } else {
-        c->slip += length;
+        c->position_err += length;
         memcpy(c->end[1], p, sizeof c->end[1]);
         c->reach = lrcsi_most(c->reach, c->away[corner]);
     }
@@ -282,8 +283,8 @@ static void ends_finely(const contact_heights *h, contact_finely *f, lrcsi_conta
     contact_leaves(h, leaves);
     for (int i = 0; i < 2; i++) {
         if (leaves[i] >= SIDE) {
-            double slip = side_cut_finely(h, f, leaves[i] - SIDE, f->end[i]);
-            c->slip = lrcsi_most(c->slip, slip);
+            double position_err = side_cut_finely(h, f, leaves[i] - SIDE, f->end[i]);
+            c->position_err = lrcsi_most(c->position_err, position_err);
         } else {
             memcpy(f->end[i], f->corner[leaves[i]], sizeof f->end[i]);
         }
@@ -318,23 +319,23 @@ static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contac
         to[i] = lrcsi_dd_sub(f->end[1][i], f->end[0][i]);
         way[i] = lrcsi_dd_sub(p[i], f->end[0][i]);
     }
-    double off = c->off + 16 * U + c->slip;
+    double off = c->off + 16 * LRCSI_U + c->position_err;
     double length = lrcsi_length_flat(to[0].hi, to[1].hi);
     double side =
         lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(to[0], way[1]), lrcsi_dd_mul(to[1], way[0])));
     double beyond = length > 0 ? lone * side / length : 0;
     double far = lrcsi_length_flat(way[0].hi, way[1].hi);
-    double turned = brief ? 0 : 4 * far / length * (c->off + c->slip);
-    if (c->slip > 0 && slip_wide(c)) {
+    double turned = brief ? 0 : 4 * far / length * (c->off + c->position_err);
+    if (c->position_err > 0 && position_err_wide(c)) {
         return LRCSI_CONTACT_UNKNOWN;
     }
     if (beyond > 4 * off + turned) {
         return LRCSI_CONTACT_LINE;
     }
     if (length > 4 * off) {
-        c->slip += fabs(beyond) + turned;
+        c->position_err += fabs(beyond) + turned;
     } else {
-        c->slip += length;
+        c->position_err += length;
         memcpy(f->end[1], p, sizeof f->end[1]);
     }
     return lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
@@ -355,7 +356,7 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
 {
     contact_heights h = heights_of(t, other);
     contact_finely f = {0};
-    *c = (lrcsi_contact){.slip = 0};
+    *c = (lrcsi_contact){.position_err = 0};
     if (t->needle) {
         corners_finely(t, other, &f, c);
     }

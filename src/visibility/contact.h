@@ -21,11 +21,11 @@ typedef struct lrcsi_contact {
     double away[3];      /* their distances, in space, from the target's first; in a needle 0 */
     double end[2][2];    /* of the segment; in a needle, of what lies near it */
     double reach;        /* how far away they are at most, likewise */
-    double slip;         /* how far they may be off, but for 16 u of that, */
+    double position_err; /* how far they may be off, but for 16 u of that, */
     double off;          /* or, in a needle, for this and rounding */
 } lrcsi_contact;
 
-/* A lrcsi_contact_kind; the ends and the slip are told of a segment only. */
+/* A lrcsi_contact_kind; the ends and the position error are told of a segment only. */
 int lrcsi_contact_find(const lrcsi_target *target, uint32_t other, lrcsi_contact *contact);
 
 /* 1 where `other` is nearer wherever a line meets both, because one lies on one side of the other's

@@ -60,13 +60,13 @@ static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t
     }
 }
 
-static void mark_odd(const lrcsi_view *view, uint32_t *mark)
+static void mark_irregular(const lrcsi_view *view, uint32_t *mark)
 {
     const lrcsi_across *across = &view->prepared->across;
-    for (uint32_t i = 0; i < across->odd_count; i++) {
+    for (uint32_t i = 0; i < across->irregular_count; i++) {
         uint32_t pair[2];
-        if (edge_kind_of(view, across->odd[i], pair) == EDGE_EVENT) {
-            mark_edge_event(mark, across->odd[i]);
+        if (edge_kind_of(view, across->irregular[i], pair) == EDGE_EVENT) {
+            mark_edge_event(mark, across->irregular[i]);
         }
     }
 }
@@ -104,7 +104,7 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
         return LRCS_E_MEMORY;
     }
     mark_plain(p, cast, marks);
-    mark_odd(view, marks);
+    mark_irregular(view, marks);
     events->count = mark_list(marks, mark_words(p), edge);
     work->used = end;
     events->edge = lrcsi_work_take(work, events->count, sizeof *edge);
@@ -113,23 +113,23 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
 
 /* --- groups ----------------------------------------------------------------------------------- */
 
-void lrcsi_events_join(const lrcsi_view *view, const signed char *kin, uint32_t *group)
+void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t count = p->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
         group[f] = f;
-        for (int k = 0; k < 3 && kin[f] != 0; k++) {
+        for (int k = 0; k < 3 && joinable[f] != 0; k++) {
             uint32_t other = p->across.facet[f].corner[k];
-            if (other < f && kin[other] == kin[f] && group[other] != group[f]) {
+            if (other < f && joinable[other] == joinable[f] && group[other] != group[f]) {
                 lrcsi_join(group, other, f);
             }
         }
     }
-    for (uint32_t i = 0; i < p->across.odd_count; i++) {
+    for (uint32_t i = 0; i < p->across.irregular_count; i++) {
         uint32_t pair[2];
-        if (edge_kind_of(view, p->across.odd[i], pair) == EDGE_JOINS && kin[pair[0]] != 0 &&
-            kin[pair[1]] != 0) {
+        if (edge_kind_of(view, p->across.irregular[i], pair) == EDGE_JOINS &&
+            joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
             lrcsi_join(group, pair[0], pair[1]);
         }
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Event edges: those whose facets do not continue each other in a view, that is, not exactly two, one
-   on each side of the edge in projection (contours, rims, and edges of three or more facets).
+/* Event edges: those whose facets do not continue each other in a view, that is, not exactly two,
+   one on each side of the edge in projection (contours, rims, and edges of three or more facets).
    Facets that cannot hide anything do not count. */
 #ifndef LRCSI_EVENT_H
 #define LRCSI_EVENT_H
@@ -20,7 +20,7 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
                       lrcsi_events *events);
 
 /* Joins facets into groups (base/join.h) across the edges that are no event edges. Given
-   kin[facet]: like cast, but 0 too for a facet that is to stay alone. */
-void lrcsi_events_join(const lrcsi_view *view, const signed char *kin, uint32_t *group);
+   joinable[facet]: like cast, but 0 too for a facet that is to stay alone. */
+void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group);
 
 #endif

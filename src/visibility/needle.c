@@ -19,11 +19,11 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 #include "visibility/target.h"
 
-#define U   0x1p-53
-#define OFF (160 * U * U)
+#define OFF (160 * LRCSI_U * LRCSI_U)
 
 /* Products of coordinates and components are multiples of 2^-1056 (base/exact.c). What underflows
    in those of quotients and places, some 2^-1074, is lost in this. */
@@ -187,5 +187,7 @@ double lrcsi_needle_side(const lrcsi_needle *n, const double p[3], const double 
     }
     cross_view(along, n->direction, -1, row);
     double side = lrcsi_dd_value(dot_finely(row, gap));
-    return guess || fabs(side) > 64 * U * U * length * far * n->length + UNDERFLOWN ? side : 0;
+    return guess || fabs(side) > 64 * LRCSI_U * LRCSI_U * length * far * n->length + UNDERFLOWN
+               ? side
+               : 0;
 }

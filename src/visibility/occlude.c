@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Who is asked how: uniform facets once a region, contested ones that one sheet hides at once, all
-   others in cells of the view plane, together or one by one. */
+/* Who is asked how: uniform facets once a region, undecided ones that one component hides at once,
+   all others in cells of the view plane, together or one by one. */
 #include "visibility/occlude.h"
 
 #include <string.h>
@@ -19,7 +19,7 @@
 
 static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
 {
-    double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
+    double whole = lrcsi_view_incidence(o->classification->view, facet).projected;
     int answer = o->uniform[facet];
     double low = answer == LRCSI_QUERY_VISIBLE ? whole : 0;
     double high = answer == LRCSI_QUERY_HIDDEN ? 0 : whole;
@@ -28,18 +28,18 @@ static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
 
 void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
 {
-    lrcsi_contest *contest = o->contest;
+    lrcsi_classification *classification = o->classification;
     o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
     o->alone.facet = o->alone.target.facet = facet;
-    o->contested = o->whole = 0;
-    if (!lrcsi_grid_casts(contest->view, facet)) {
+    o->undecided = o->whole = 0;
+    if (!lrcsi_grid_casts(classification->view, facet)) {
         return;
     }
-    if (!contest->contested[facet]) {
+    if (!classification->undecided[facet]) {
         o->answer = answered_area(o, facet);
         o->whole = o->answer.low > 0;
-    } else if (!lrcsi_query_screened(contest, &o->facets, facet)) {
-        o->contested = 1;
+    } else if (!lrcsi_query_screened(classification, &o->facets, facet)) {
+        o->undecided = 1;
         lrcsi_alone_open(&o->alone, facet);
     }
 }
@@ -47,22 +47,22 @@ void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
 int lrcsi_occlude_next(lrcsi_occluding *o)
 {
     if (!o->whole) {
-        return o->contested && lrcsi_alone_next(&o->alone);
+        return o->undecided && lrcsi_alone_next(&o->alone);
     }
     o->whole = 0;
-    lrcsi_target_make(o->contest->view, o->alone.facet, &o->alone.target);
+    lrcsi_target_make(o->classification->view, o->alone.facet, &o->alone.target);
     lrcsi_clip_triangle((const double(*)[2])o->alone.target.corner, &o->alone.piece);
     return 1;
 }
 
 lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o)
 {
-    return o->contested ? lrcsi_alone_close(&o->alone) : o->answer;
+    return o->undecided ? lrcsi_alone_close(&o->alone) : o->answer;
 }
 
 lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
 {
-    while (o->contested && lrcsi_alone_next(&o->alone)) {
+    while (o->undecided && lrcsi_alone_next(&o->alone)) {
     }
     return lrcsi_occlude_close(o);
 }
@@ -85,18 +85,20 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 }
 
 /* All but what single facets take. */
-static int occlude_begin(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)
+static int occlude_begin(lrcsi_classification *classification, lrcs_work *work, lrcsi_occluding *o)
 {
-    *o = (lrcsi_occluding){.contest = contest};
-    o->uniform = lrcsi_work_take(work, contest->view->prepared->scene->facet_count, 1);
-    return o->uniform ? lrcsi_query_uniform(contest, work, &o->facets, o->uniform) : LRCS_E_MEMORY;
+    *o = (lrcsi_occluding){.classification = classification};
+    o->uniform = lrcsi_work_take(work, classification->view->prepared->scene->facet_count, 1);
+    return o->uniform ? lrcsi_query_uniform(classification, work, &o->facets, o->uniform)
+                      : LRCS_E_MEMORY;
 }
 
-int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o)
+int lrcsi_occlude_make(lrcsi_classification *classification, lrcs_work *work, lrcsi_occluding *o)
 {
     size_t mark = work->used;
-    int status = occlude_begin(contest, work, o);
-    status = status == LRCS_OK ? lrcsi_alone_make(contest, &o->facets, work, &o->alone) : status;
+    int status = occlude_begin(classification, work, o);
+    status =
+        status == LRCS_OK ? lrcsi_alone_make(classification, &o->facets, work, &o->alone) : status;
     if (status != LRCS_OK) {
         work->used = mark;
     }
@@ -107,17 +109,17 @@ int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding 
 static int occlude_contested(lrcsi_occluding *o, lrcs_work *work, unsigned char *open,
                              lrcsi_visible *visible)
 {
-    lrcsi_contest *contest = o->contest;
-    const lrcs_prepared *p = contest->view->prepared;
+    lrcsi_classification *classification = o->classification;
+    const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
-    if (contest->contested_count >= CELLS_LEAST &&
-        contest->contested_count >= count / CELLS_SHARE && cells_serve(p)) {
-        lrcsi_cells_areas(contest, work, open, visible);
+    if (classification->undecided_count >= CELLS_LEAST &&
+        classification->undecided_count >= count / CELLS_SHARE && cells_serve(p)) {
+        lrcsi_cells_areas(classification, work, open, visible);
     }
     if (!memchr(open, 1, count)) {
         return LRCS_OK;
     }
-    int status = lrcsi_alone_make(contest, &o->facets, work, &o->alone);
+    int status = lrcsi_alone_make(classification, &o->facets, work, &o->alone);
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
         if (open[f]) {
             lrcsi_occlude_open(o, f);
@@ -130,18 +132,18 @@ static int occlude_contested(lrcsi_occluding *o, lrcs_work *work, unsigned char 
     return status;
 }
 
-int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, const unsigned char **answer,
-                      lrcsi_visible *visible)
+int lrcsi_occlude_all(lrcsi_classification *classification, lrcs_work *work,
+                      const unsigned char **answer, lrcsi_visible *visible)
 {
-    const lrcsi_view *view = contest->view;
+    const lrcsi_view *view = classification->view;
     uint32_t count = view->prepared->scene->facet_count;
     size_t mark = work->used;
     lrcsi_occluding o;
-    int status = occlude_begin(contest, work, &o);
+    int status = occlude_begin(classification, work, &o);
     unsigned char *open = lrcsi_work_take(work, count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
-        open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
+        open[f] = classification->undecided[f] && lrcsi_grid_casts(view, f);
         if (open[f]) {
             o.uniform[f] = LRCSI_QUERY_UNDECIDED;
         } else if (o.uniform[f] == LRCSI_QUERY_UNDECIDED) {

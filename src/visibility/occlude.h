@@ -8,12 +8,12 @@
 
 /* What serves all facets of a view, and the facet at hand. */
 typedef struct lrcsi_occluding {
-    lrcsi_contest *contest;
+    lrcsi_classification *classification;
     lrcsi_grid facets;
     unsigned char *uniform; /* facet: what a uniform one shows, a lrcsi_query_answer */
     lrcsi_alone alone;      /* target and piece of the facet at hand */
-    lrcsi_visible answer;   /* of a facet that is not contested */
-    int contested;
+    lrcsi_visible answer;   /* of a facet that is not undecided */
+    int undecided;
     int whole; /* all of it is visible, and no piece has been asked for yet */
 } lrcsi_occluding;
 
@@ -22,7 +22,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 
 /* What serves all facets; it stays in the work area.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
-int lrcsi_occlude_make(lrcsi_contest *contest, lrcs_work *work, lrcsi_occluding *o);
+int lrcsi_occlude_make(lrcsi_classification *classification, lrcs_work *work, lrcsi_occluding *o);
 
 /* One facet piece by piece: open it, ask for more until there are none, close it. Each `next` that
    returns 1 leaves one more of the disjoint convex pieces of what is visible in o->alone.piece, in
@@ -37,14 +37,14 @@ lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o);
 /* Closes a facet of which only the area is wanted, and no piece has been asked for. */
 lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o);
 
-/* Every facet: uniform ones by one exact sample; contested ones all together where they are many
+/* Every facet: uniform ones by one exact sample; undecided ones all together where they are many
    (visibility/cells.h), else one by one. One that falls into more cells than the limit is bounded
    by what was reached.
    Returned: *answer, unless answer is NULL: facet -> LRCSI_QUERY_HIDDEN or _VISIBLE where it shows
    nothing or all of itself, which is exact then; else LRCSI_QUERY_UNDECIDED, and visible[facet] is
    its area. So most of visible[] is never touched. With answer NULL visible[] has the areas of all.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */
-int lrcsi_occlude_all(lrcsi_contest *contest, lrcs_work *work, const unsigned char **answer,
-                      lrcsi_visible *visible);
+int lrcsi_occlude_all(lrcsi_classification *classification, lrcs_work *work,
+                      const unsigned char **answer, lrcsi_visible *visible);
 
 #endif

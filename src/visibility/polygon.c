@@ -7,10 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/work.h"
 #include "visibility/occlude.h"
-
-#define U 0x1p-53
 
 /* Rings and points a facet: twice what satellites take; as if there were some facets more, for
    scenes of few that cut each other up. */
@@ -108,7 +107,7 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
     const lrcsi_target *target = &o->alone.target;
     lrcsi_occlude_open(o, facet);
     while (lrcsi_occlude_next(o)) {
-        if (o->contested) {
+        if (o->undecided) {
             ring_add_piece(list, target, &o->alone.piece);
         } else {
             ring_add_facet(list, target, (const double(*)[2])o->alone.piece.corner);
@@ -116,11 +115,11 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
     }
     lrcsi_visible visible = lrcsi_occlude_close(o);
     list->bound += visible.high - visible.low;
-    if (!o->contested) {
+    if (!o->undecided) {
         return LRCS_OK;
     }
     list->bound += o->alone.bent;
-    int all = visible.high >= lrcsi_view_tilt(o->contest->view, facet).projected;
+    int all = visible.high >= lrcsi_view_incidence(o->classification->view, facet).projected;
     int none = visible.low <= 0;
     if (all != none) {
         list->rings = before.rings;
@@ -135,8 +134,8 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
 static int facets_add(ring_list *list, lrcsi_occluding *o)
 {
     int status = LRCS_OK;
-    for (uint32_t f = 0; f < o->contest->view->prepared->scene->facet_count && status == LRCS_OK;
-         f++) {
+    for (uint32_t f = 0;
+         f < o->classification->view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         status = facet_add(list, o, f);
     }
     return status;
@@ -147,7 +146,7 @@ static int facets_add(ring_list *list, lrcsi_occluding *o)
 size_t lrcs_polygon_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_contest_need(prepared));
+    size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_occlude_need(prepared));
     facets += ORDINARY_MORE;
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, ORDINARY_RINGS * sizeof(lrcs_ring)));
@@ -169,11 +168,11 @@ static int polygon_list(const lrcs_prepared *prepared, const lrcs_pose *pose, lr
                         ring_list *list)
 {
     lrcsi_view view;
-    lrcsi_contest contest;
+    lrcsi_classification classification;
     lrcsi_occluding o;
     int status = lrcsi_view_make(prepared, pose, work, &view);
-    status = status == LRCS_OK ? lrcsi_contest_make(&view, work, &contest) : status;
-    status = status == LRCS_OK ? lrcsi_occlude_make(&contest, work, &o) : status;
+    status = status == LRCS_OK ? lrcsi_classify_make(&view, work, &classification) : status;
+    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, work, &o) : status;
     status = status == LRCS_OK ? facets_add(list, &o) : status;
     return status == LRCS_OK ? list_fill(list, &o, work) : status;
 }
@@ -199,7 +198,8 @@ int lrcs_polygon_run(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_
     if (status == LRCS_OK) {
         double count = prepared->scene->facet_count;
         *polygons = list_settle(&list, work);
-        polygons->bound_m2 = lrcsi_prepared_area(prepared, list.bound * (1 + 1e-9 + 2 * count * U));
+        polygons->bound_m2 =
+            lrcsi_prepared_area(prepared, list.bound * (1 + 1e-9 + 2 * count * LRCSI_U));
     }
     return status;
 }

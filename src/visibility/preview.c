@@ -127,7 +127,7 @@ static void preview_sample(preview_job *job, preview_facet *f, uint32_t x, uint3
 static inline uint32_t lanes_draw(uint32_t *restrict owner, float *restrict depth, float first,
                                   float along, float close, uint32_t facet, int32_t left)
 {
-    uint32_t doubt[LANES];
+    uint32_t uncertainty[LANES];
     for (int32_t k = 0; k < LANES; k++) {
         float height = first + along * (float)k;
         float ahead = height - depth[k];
@@ -141,11 +141,11 @@ static inline uint32_t lanes_draw(uint32_t *restrict owner, float *restrict dept
         bits = (new_bits & nearer) | (bits & ~nearer);
         memcpy(&depth[k], &bits, sizeof bits);
         owner[k] = (facet & nearer) | (owner[k] & ~nearer);
-        doubt[k] = close_by & ~nearer;
+        uncertainty[k] = close_by & ~nearer;
     }
     uint32_t any = 0;
     for (int32_t k = 0; k < LANES; k++) {
-        any |= doubt[k];
+        any |= uncertainty[k];
     }
     return any;
 }
@@ -159,13 +159,13 @@ static void preview_run(preview_job *job, preview_facet *f, uint32_t y, uint32_t
     size_t at = (size_t)y * job->raster.size + x0;
     float first = (float)plane_height(&f->plane, x0, y);
     float along = (float)f->plane.along;
-    uint32_t doubt = !f->ordinary;
+    uint32_t uncertainty = !f->ordinary;
     for (uint32_t i = 0; i < x1 - x0 && f->ordinary; i += LANES) {
-        doubt |=
+        uncertainty |=
             lanes_draw(job->owner + at + i, job->depth + at + i, first + along * (float)(int32_t)i,
                        along, f->close, f->facet, (int32_t)(x1 - x0 - i));
     }
-    for (uint32_t i = 0; i < x1 - x0 && doubt != 0; i++) { /* those in doubt, one by one */
+    for (uint32_t i = 0; i < x1 - x0 && uncertainty != 0; i++) { /* those undecided, one by one */
         float ahead = first + along * (float)(int32_t)i - job->depth[at + i];
         if (job->owner[at + i] != f->facet && (!f->ordinary || ahead >= -f->close)) {
             preview_sample(job, f, x0 + i, y);
@@ -454,18 +454,18 @@ static preview_lean preview_lean_of(const preview_job *job)
     }
     double chance = sqrt(LIKELY_SQUARE * job->outline) * pixel;
     double both = sqrt(over * over + chance * chance);
-    preview_lean lean = {0, 0, 0};
+    preview_lean bias = {0, 0, 0};
     if (both > 0 && shares > 0) {
         double wanted = over * (over / both) * (over / both);
         double taken = lrcsi_least(shares, lrcsi_most(-room, wanted));
-        lean.less = taken > 0 ? taken / shares : 0;
-        lean.more = taken < 0 ? -taken / room : 0;
-        lean.left = (2 * fabs(over) * (chance / both) + fabs(wanted - taken)) / shares;
+        bias.less = taken > 0 ? taken / shares : 0;
+        bias.more = taken < 0 ? -taken / room : 0;
+        bias.left = (2 * fabs(over) * (chance / both) + fabs(wanted - taken)) / shares;
     }
-    return lean;
+    return bias;
 }
 
-static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const preview_lean *lean)
+static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const preview_lean *bias)
 {
     const preview_counts *c = &job->counts[facet];
     double area = lrcsi_view_projected(job->view, facet);
@@ -473,8 +473,8 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
     lrcsi_visible v = {0, 0, area, 0, 0};
     v.area = area * (double)c->share;
     if (preview_few(job, facet)) {
-        v.lean = lean->left * v.area;
-        v.area += lean->more * (area - v.area) - lean->less * v.area;
+        v.bias = bias->left * v.area;
+        v.area += bias->more * (area - v.area) - bias->less * v.area;
         v.area = lrcsi_least(area, lrcsi_most(0, v.area));
     }
     if (c->covered == 0) {
@@ -534,9 +534,9 @@ int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
         preview_facets(&job);
         preview_count(&job);
         preview_shares(&job);
-        preview_lean lean = preview_lean_of(&job);
+        preview_lean bias = preview_lean_of(&job);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-            visible[f] = lrcsi_grid_casts(view, f) ? preview_area(&job, f, &lean)
+            visible[f] = lrcsi_grid_casts(view, f) ? preview_area(&job, f, &bias)
                                                    : (lrcsi_visible){0, 0, 0, 0, 0};
         }
         *undecided = job.undecided;

@@ -147,16 +147,16 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
 
 /* Answers for the uniform facets from the first one of each region. Returns how many regions are
    undecided by it. */
-static uint32_t query_regions(const lrcsi_contest *contest, const lrcsi_grid *facets,
+static uint32_t query_regions(const lrcsi_classification *classification, const lrcsi_grid *facets,
                               unsigned char *answer)
 {
     uint32_t undecided = 0;
-    for (uint32_t f = 0; f < contest->view->prepared->scene->facet_count; f++) {
-        uint32_t first = contest->region[f];
+    for (uint32_t f = 0; f < classification->view->prepared->scene->facet_count; f++) {
+        uint32_t first = classification->region[f];
         answer[f] = LRCSI_QUERY_HIDDEN;
         if (first != f) {
             answer[f] = answer[first];
-        } else if (lrcsi_grid_casts(contest->view, f) && !contest->contested[f]) {
+        } else if (lrcsi_grid_casts(classification->view, f) && !classification->undecided[f]) {
             answer[f] = (unsigned char)lrcsi_query_facet(facets, f);
             undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
         }
@@ -166,21 +166,22 @@ static uint32_t query_regions(const lrcsi_contest *contest, const lrcsi_grid *fa
 
 /* The grid lists what only some facets ask for; where a region's first one gives no answer, which
    hardly ever happens, all are listed and each of its facets asks for itself. */
-int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_grid *facets,
-                        unsigned char *answer)
+int lrcsi_query_uniform(const lrcsi_classification *classification, lrcs_work *work,
+                        lrcsi_grid *facets, unsigned char *answer)
 {
     size_t mark = work->used;
-    uint32_t count = contest->view->prepared->scene->facet_count;
-    lrcsi_contest_regions(contest);
+    uint32_t count = classification->view->prepared->scene->facet_count;
+    lrcsi_classify_regions(classification);
     for (uint32_t f = 0; f < count; f++) { /* for now: which facets ask */
-        answer[f] = contest->contested[f] || contest->region[f] == f;
+        answer[f] = classification->undecided[f] || classification->region[f] == f;
     }
-    int status = lrcsi_grid_facets(&contest->grid, contest->cells, answer, work, facets);
-    if (status != LRCS_OK || query_regions(contest, facets, answer) == 0) {
+    int status =
+        lrcsi_grid_facets(&classification->grid, classification->cells, answer, work, facets);
+    if (status != LRCS_OK || query_regions(classification, facets, answer) == 0) {
         return status;
     }
     work->used = mark;
-    status = lrcsi_grid_facets(&contest->grid, contest->cells, NULL, work, facets);
+    status = lrcsi_grid_facets(&classification->grid, classification->cells, NULL, work, facets);
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
         if (answer[f] == LRCSI_QUERY_UNDECIDED) {
             answer[f] = (unsigned char)lrcsi_query_facet(facets, f);
@@ -193,63 +194,66 @@ int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_gri
 static int touched_by(const lrcsi_view *view, uint32_t facet, uint32_t other)
 {
     const lrcs_prepared *p = view->prepared;
-    if (!lrcsi_meter_take(view->meter, lrcsi_touches_of(&p->touches, facet))) {
+    if (!lrcsi_meter_take(view->meter, lrcsi_intersection_of(&p->intersections, facet))) {
         return 1;
     }
-    for (uint32_t i = p->touches.first[facet]; i < p->touches.first[facet + 1]; i++) {
-        if (p->touches.touch[i].other == other) {
+    for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
+        if (p->intersections.touch[i].other == other) {
             return 1;
         }
     }
     return 0;
 }
 
-/* Does none of the sheet's edges cross the facet, and none of its facets touch its inside? */
-static int sheet_unbroken(lrcsi_contest *contest, uint32_t sheet, uint32_t facet)
+/* Does none of the component's edges cross the facet, and none of its facets touch its inside? */
+static int component_unbroken(lrcsi_classification *classification, uint32_t component,
+                              uint32_t facet)
 {
-    const lrcs_prepared *p = contest->view->prepared;
-    lrcsi_meter *meter = contest->view->meter;
-    uint32_t crossings = lrcsi_contest_crossings(contest, facet);
-    if (!lrcsi_meter_take(meter, lrcsi_touches_of(&p->touches, facet))) {
+    const lrcs_prepared *p = classification->view->prepared;
+    lrcsi_meter *meter = classification->view->meter;
+    uint32_t crossings = lrcsi_classify_crossings(classification, facet);
+    if (!lrcsi_meter_take(meter, lrcsi_intersection_of(&p->intersections, facet))) {
         return 0; /* nor are those all the crossings, perhaps */
     }
     for (uint32_t i = 0; i < crossings; i++) {
-        const lrcsi_edge *edge = &p->topology.edge[contest->crossing[i]];
+        const lrcsi_edge *edge = &p->topology.edge[classification->crossing[i]];
         if (!lrcsi_meter_take(meter, edge->uses)) {
             return 0;
         }
         for (uint32_t k = 0; k < edge->uses; k++) {
-            if (contest->sheet[p->topology.use[edge->first_use + k].facet] == sheet) {
+            if (classification->component[p->topology.use[edge->first_use + k].facet] ==
+                component) {
                 return 0;
             }
         }
     }
-    for (uint32_t i = p->touches.first[facet]; i < p->touches.first[facet + 1]; i++) {
-        if (contest->sheet[p->touches.touch[i].other] == sheet) {
+    for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
+        if (classification->component[p->intersections.touch[i].other] == component) {
             return 0;
         }
     }
     return 1;
 }
 
-int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint32_t facet)
+int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid *facets,
+                         uint32_t facet)
 {
     query_line line;
     if (!line_start(&line, facets, facet)) {
         return 0;
     }
-    uint32_t broken = LRCS_NONE; /* the sheet last found so */
+    uint32_t broken = LRCS_NONE; /* the component last found so */
     uint32_t other;
     while ((other = line_next(&line)) != LRCS_NONE) {
-        if (contest->sheet[other] == broken ||
+        if (classification->component[other] == broken ||
             touched_by(facets->view, other, facet) || /* order perhaps a guess */
             line_nearer(&line, other) <= 0) {
             continue;
         }
-        if (sheet_unbroken(contest, contest->sheet[other], facet)) {
+        if (component_unbroken(classification, classification->component[other], facet)) {
             return 1;
         }
-        broken = contest->sheet[other];
+        broken = classification->component[other];
     }
     return 0;
 }

@@ -3,7 +3,7 @@
 #ifndef LRCSI_QUERY_H
 #define LRCSI_QUERY_H
 
-#include "visibility/contest.h"
+#include "visibility/classify.h"
 
 enum lrcsi_query_answer {
     LRCSI_QUERY_HIDDEN = 0,
@@ -18,14 +18,15 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet);
 /* Asks at a point of the facet, rounded; undecided where the facet does not cover it. */
 int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3]);
 
-/* Makes a grid of facets that serves every contested facet, and asks for every uniform facet, once
+/* Makes a grid of facets that serves every undecided facet, and asks for every uniform facet, once
    a region: answer[facet], a lrcsi_query_answer. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
-int lrcsi_query_uniform(const lrcsi_contest *contest, lrcs_work *work, lrcsi_grid *facets,
-                        unsigned char *answer);
+int lrcsi_query_uniform(const lrcsi_classification *classification, lrcs_work *work,
+                        lrcsi_grid *facets, unsigned char *answer);
 
-/* 1 where a contested facet is proved to be hidden, all of it behind one sheet; else 0, as where
-   the view's meter is spent. It may ask contest for the facet's crossings, which are then at hand
-   (visibility/contest.h). */
-int lrcsi_query_screened(lrcsi_contest *contest, const lrcsi_grid *facets, uint32_t facet);
+/* 1 where an undecided facet is proved to be hidden, all of it behind one component; else 0, as
+   where the view's meter is spent. It may ask classification for the facet's crossings, which are
+   then at hand (visibility/classify.h). */
+int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid *facets,
+                         uint32_t facet);
 
 #endif

@@ -7,12 +7,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/grid.h"
 #include "visibility/sample.h"
-
-#define U 0x1p-53
 
 double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2])
 {
@@ -36,35 +35,36 @@ static uint32_t pixel_to(const lrcsi_raster *raster, double x, double off)
     return (uint32_t)lrcsi_least(lrcsi_most(x + 0.5 + off, 0), raster->size);
 }
 
-/* The pixels that the facet may cover and touch, from the box of its corners and their slip. */
+/* The pixels that the facet may cover and touch, from the box of its corners and their position
+ * error. */
 static void edges_box(const lrcsi_raster *r, double p[3][2], lrcsi_edges *e)
 {
     double x0 = lrcsi_least(p[0][0], lrcsi_least(p[1][0], p[2][0]));
     double x1 = lrcsi_most(p[0][0], lrcsi_most(p[1][0], p[2][0]));
     double y0 = lrcsi_least(p[0][1], lrcsi_least(p[1][1], p[2][1]));
     double y1 = lrcsi_most(p[0][1], lrcsi_most(p[1][1], p[2][1]));
-    e->off = 8 * e->slip * (x1 - x0 + y1 - y0 + 2);
-    e->x0 = pixel_from(r, x0, e->slip);
-    e->x1 = pixel_to(r, x1, e->slip);
-    e->y0 = pixel_from(r, y0, e->slip);
-    e->y1 = pixel_to(r, y1, e->slip);
+    e->off = 8 * e->position_err * (x1 - x0 + y1 - y0 + 2);
+    e->x0 = pixel_from(r, x0, e->position_err);
+    e->x1 = pixel_to(r, x1, e->position_err);
+    e->y0 = pixel_from(r, y0, e->position_err);
+    e->y1 = pixel_to(r, y1, e->position_err);
     e->left = e->x0 > 0 ? e->x0 - 1 : 0;
     e->right = e->x1 < r->size ? e->x1 + 1 : r->size;
     e->bottom = e->y0 > 0 ? e->y0 - 1 : 0;
     e->top = e->y1 < r->size ? e->y1 + 1 : r->size;
 }
 
-/* Corners are off by `slip`, and so is the sample; with |q - p| and |sample - p| at most the box's
-   half perimeter h and the margin of a pixel, the cross product is off by at most 4 slip (h + 2).
-   Roundings add 2 u N h for `at`, u N h for the differences and 5 u N h for the value, together at
-   most slip h. */
+/* Corners are off by `position_err`, and so is the sample; with |q - p| and |sample - p| at most
+   the box's half perimeter h and the margin of a pixel, the cross product is off by at most 4
+   position_err (h + 2). Roundings add 2 u N h for `at`, u N h for the differences and 5 u N h for
+   the value, together at most position_err h. */
 lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
 {
-    lrcsi_edges e = {.slip = 0};
+    lrcsi_edges e = {.position_err = 0};
     const uint32_t *corner = raster->view->prepared->scene->facet[facet].corner;
     double p[3][2];
     for (int k = 0; k < 3; k++) {
-        e.slip = lrcsi_most(e.slip, lrcsi_raster_point(raster, corner[k], p[k]));
+        e.position_err = lrcsi_most(e.position_err, lrcsi_raster_point(raster, corner[k], p[k]));
     }
     edges_box(raster, p, &e);
     for (int k = 0; k < 3; k++) {
@@ -118,8 +118,8 @@ double lrcsi_raster_slack(const lrcsi_raster *raster, uint32_t facet)
         reach = lrcsi_most(reach, raster->reach + fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
     }
     double cosine = fabs(n[2]) / view->prepared->normal[facet].length;
-    double off = 256 * U * reach + 4 * raster->off * raster->pixel;
-    return cosine > 64 * U ? off / cosine : HUGE_VAL;
+    double off = 256 * LRCSI_U * reach + 4 * raster->off * raster->pixel;
+    return cosine > 64 * LRCSI_U ? off / cosine : HUGE_VAL;
 }
 
 /* --- facets ----------------------------------------------------------------------------------- */
@@ -409,7 +409,7 @@ void lrcsi_raster_over(const lrcsi_view *view, uint32_t size, lrcsi_raster *rast
     for (int k = 0; k < 2; k++) {
         r.reach += lrcsi_most(fabs(view->low[k]), fabs(view->low[k] + view->side));
     }
-    r.off = lrcsi_view_lift_off(view, r.reach, 0) * r.scale + 8 * U * size;
+    r.off = lrcsi_view_lift_off(view, r.reach, 0) * r.scale + 8 * LRCSI_U * size;
     *raster = r;
 }
 

@@ -5,10 +5,10 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "base/exact.h"
 
-#define U         0x1p-53
 #define UNDERFLOW 0x1p-1000
 
 /* The axis along which the direction is largest: the other two span the view plane with it. */
@@ -67,7 +67,7 @@ int lrcsi_sample_above(const lrcsi_view *view, uint32_t facet, const double poin
         dot += term;
         size += fabs(term);
     }
-    if (fabs(dot) > 8 * U * size + 8 * n->error + UNDERFLOW) {
+    if (fabs(dot) > 8 * LRCSI_U * size + 8 * n->error + UNDERFLOW) {
         return (dot > 0) == (view->facing[facet] > 0) ? 1 : -1;
     }
     return view->facing[facet] *
@@ -125,7 +125,7 @@ static sample_height sample_height_of(const lrcsi_view *view, uint32_t facet, co
         h.bottom = lrcsi_dd_add(h.bottom, lrcsi_dd_scale(normal, view->direction[k]));
         square += gap.hi * gap.hi;
     }
-    double off = 32 * U * U * n->length + n->error;
+    double off = 32 * LRCSI_U * LRCSI_U * n->length + n->error;
     h.top_off = off * sqrt(square);
     h.bottom_off = off * view->length;
     return h;
@@ -206,7 +206,7 @@ static int sample_corner(const lrcsi_view *view, uint32_t first, uint32_t second
 
 /* Two facets that pierce each other, on a line where they meet as far as can be told: which is
    nearer just beside it, on the side to which the line counts as moved. Heights fall by
-   N_k / (N . d) there. Where they meet elsewhere it may be wrong; but both are then contested, and
+   N_k / (N . d) there. Where they meet elsewhere it may be wrong; but both are then undecided, and
    so mixed is the pixel (visibility/visible.c), so that no bound rests on it. */
 static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t second, int sense,
                           lrcsi_dd first_bottom, lrcsi_dd second_bottom)
@@ -247,7 +247,7 @@ int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
     double off = f.top_off * fabs(s.bottom.hi) + s.bottom_off * fabs(f.top.hi) +
                  s.top_off * fabs(f.bottom.hi) + f.bottom_off * fabs(s.top.hi) +
                  f.top_off * s.bottom_off + s.top_off * f.bottom_off +
-                 16 * U * U * (fabs(left.hi) + fabs(right.hi));
+                 16 * LRCSI_U * LRCSI_U * (fabs(left.hi) + fabs(right.hi));
     if (fabs(difference) > 1.01 * off) {
         return difference > 0 ? 1 : -1;
     }
@@ -257,7 +257,7 @@ int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
     }
     const lrcs_scene *scene = view->prepared->scene;
     return lrcsi_touch_pair(view->prepared->vertex, scene->facet[first], scene->facet[second]) ==
-                   LRCSI_TOUCH_CROSS
+                   LRCSI_INTERSECTION_CROSS
                ? sample_steeper(view, first, second, sense, f.bottom, s.bottom)
                : sample_corner(view, first, second);
 }

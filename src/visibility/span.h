@@ -12,7 +12,7 @@ typedef struct lrcsi_edges {
     double over[3];          /* 1 / along, 0 where the side runs along the rows */
     double near[3], far[3];  /* half a pixel, and how far along a row a value changes by off, and by
                                 off and what it changes over half a pixel */
-    double slip;             /* error bound of the corners' pixel coordinates and of samples' */
+    double position_err;     /* error bound of the corners' pixel coordinates and of samples' */
     double off;              /* error bound of a value in pixels touched, with 3 / 8 to spare */
     uint32_t x0, x1, y0, y1; /* pixels whose centres may be covered: x0 <= x < x1 */
     uint32_t left, right, bottom, top; /* pixels that may be touched: left <= x < right */

@@ -5,12 +5,11 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "base/length.h"
 #include "base/range.h"
 #include "view/product.h"
-
-#define U 0x1p-53
 
 /* What is so many times as far off as what is near is far away. */
 #define FAR_OFF 8.0
@@ -41,7 +40,7 @@ static double frame_point_deep(const lrcsi_view *view, const double *origin, con
         }
         out[k] = lrcsi_dd_value(sum);
     }
-    return fabs(out[0]) + fabs(out[1]) + 8 * U * length;
+    return fabs(out[0]) + fabs(out[1]) + 8 * LRCSI_U * length;
 }
 
 /* A scene point relative to the target's first corner, in the view plane; returns the distance of
@@ -71,7 +70,7 @@ static int corner_first(const lrcsi_view *view, uint32_t facet)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     double off = lrcsi_view_off(view->point[corner[0]].x);
-    if (off * view->scale <= FAR_OFF * 10 * U) {
+    if (off * view->scale <= FAR_OFF * 10 * LRCSI_U) {
         return 0;
     }
     double second = lrcsi_view_off(view->point[corner[1]].x);
@@ -114,7 +113,7 @@ double lrcsi_target_segment(const lrcsi_target *t, double end[2][2], const doubl
     double box = 4 * t->diameter;
     double share = 1;
     for (int k = 0; k < 2 && f > FAR_OFF * (n + box); k++) {
-        if (fabs(end[far][k]) > box + 32 * U * f) {
+        if (fabs(end[far][k]) > box + 32 * LRCSI_U * f) {
             double exit = copysign(box, end[far][k]) - end[!far][k];
             share = lrcsi_least(share, exit / (end[far][k] - end[!far][k]));
         }
@@ -139,7 +138,7 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
     for (int k = 0; k < 3; k++) {
         const double *p = t->corner[k];
         const double *q = t->corner[(k + 1) % 3];
-        double side = lrcsi_length_flat(q[0] - p[0], q[1] - p[1]) + 32 * U * t->reach;
+        double side = lrcsi_length_flat(q[0] - p[0], q[1] - p[1]) + 32 * LRCSI_U * t->reach;
         t->diameter = lrcsi_most(t->diameter, side);
         t->perimeter += side;
         for (int i = 0; i < 3; i++) {
@@ -152,7 +151,7 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
    by 3 u of the largest coordinate in each, below 6 u in norm. */
 double lrcsi_target_lift_off(const lrcsi_target *t)
 {
-    return 100 * U * t->reach + 8 * U * t->size;
+    return 100 * LRCSI_U * t->reach + 8 * LRCSI_U * t->size;
 }
 
 void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_target *refined)
@@ -166,8 +165,8 @@ void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_targ
                                   .size = 1,
                                   .diameter = 1.4143,
                                   .perimeter = 3.4143,
-                                  .slip = needle->off * needle->reach,
-                                  .unit = 2 * lrcsi_view_tilt(t->view, t->facet).projected,
+                                  .position_err = needle->off * needle->reach,
+                                  .unit = 2 * lrcsi_view_incidence(t->view, t->facet).projected,
                                   .needle = needle};
     }
 }

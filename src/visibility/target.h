@@ -17,7 +17,7 @@ typedef struct lrcsi_target {
     double size;          /* largest coordinate of a corner, in space */
     double diameter;      /* its longest side in the view, upper bound */
     double perimeter;     /* in the view, upper bound */
-    double slip;          /* by which its corners may be off, but for 10 u reach */
+    double position_err;  /* by which its corners may be off, but for 10 u reach */
     double unit;          /* the area of the view plane that is 1 in the frame */
     const lrcsi_needle *needle; /* whose frame it is; NULL: view axes */
 } lrcsi_target;

@@ -1,24 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* From samples to areas with bounds. What a contested facet has in a pixel that is touched by no
+/* From samples to areas with bounds. What an undecided facet has in a pixel that is touched by no
    event edge crossing the facet and by no contact with it is visible all together or not at all: a
    sample on the facet tells which, exactly, and one in a neighbouring such pixel does too, since
    the facet's part of both is connected. And where a pixel is known to be covered by one visible
    facet, all others are hidden there. Those pixels bound the area from below and above; the
-   area between the bounds comes from the samples (visibility/share.h). */
+   area between the bounds comes from the samples (visibility/visible_fraction.h). */
 #include "visibility/visible.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/clip.h"
-#include "visibility/drift.h"
 #include "visibility/query.h"
 #include "visibility/sample.h"
-#include "visibility/share.h"
-
-#define U 0x1p-53
+#include "visibility/sampling_error.h"
+#include "visibility/visible_fraction.h"
 
 /* --- answers ---------------------------------------------------------------------------------- */
 
@@ -104,7 +103,7 @@ static void level_narrow(double row, double along, double slack, double *x0, dou
 {
     double middle = -row / along;
     double half = slack / fabs(along);
-    double spare = 2 + 8 * U * (fabs(middle) + half);
+    double spare = 2 + 8 * LRCSI_U * (fabs(middle) + half);
     if (middle - half - spare > *x0) {
         *x0 = floor(middle - half - spare);
     }
@@ -148,13 +147,13 @@ static void mark_meeting(pixel_marks *m, uint32_t facet, uint32_t other)
 static void mark_touches(pixel_marks *m, uint32_t facet)
 {
     const lrcsi_view *view = m->raster->view;
-    const lrcsi_touches *touches = &view->prepared->touches;
-    for (uint32_t i = touches->first[facet]; i < touches->first[facet + 1]; i++) {
-        const lrcsi_touch *touch = &touches->touch[i];
-        if (!lrcsi_contest_touch_hides(view, facet, touch)) {
+    const lrcsi_intersections *intersections = &view->prepared->intersections;
+    for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
+        const lrcsi_intersection *touch = &intersections->touch[i];
+        if (!lrcsi_intersection_hides(view, facet, touch)) {
             continue;
         }
-        if (touch->kind == LRCSI_TOUCH_CROSS) {
+        if (touch->kind == LRCSI_INTERSECTION_CROSS) {
             mark_meeting(m, facet, touch->other);
             continue;
         }
@@ -164,7 +163,7 @@ static void mark_touches(pixel_marks *m, uint32_t facet)
     }
 }
 
-/* --- contested facets ------------------------------------------------------------------------- */
+/* --- undecided facets ------------------------------------------------------------------------- */
 
 /* The part of a unit square where a linear function that is `value` at its centre, and changes by
    most >= least >= 0 along its sides, is positive. */
@@ -181,7 +180,7 @@ static double square_share(double value, double most, double least)
 /* How much the facet surely covers, in pixels, of one that it may not cover whole. Where just one
    side passes: a value that is too large by off moves the line by off / |gradient|, and the area by
    that times its length in the pixel, below 1.5; roundings are below 8 u, and off is at least 64 u
-   N h. Else corners are off by their slip, and the area by at most the length of the cut,
+   N h. Else corners are off by their position error, and the area by at most the length of the cut,
    below 6, times that. */
 static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
 {
@@ -200,7 +199,7 @@ static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
     }
     if (sides != 1) {
         const double low[2] = {x, y};
-        share = lrcsi_clip_box_area((const double(*)[2])m->corner, low) - 8 * m->edges.slip;
+        share = lrcsi_clip_box_area((const double(*)[2])m->corner, low) - 8 * m->edges.position_err;
     }
     return lrcsi_most(0, share);
 }
@@ -281,7 +280,7 @@ static pixel_sums count_certain(const pixel_marks *m, uint32_t facet)
     return sums;
 }
 
-/* The pixels that a contested facet covers and is visible in. */
+/* The pixels that an undecided facet covers and is visible in. */
 static void mark_pure(pixel_marks *m, uint32_t facet)
 {
     lrcsi_raster *r = m->raster;
@@ -293,55 +292,57 @@ static void mark_pure(pixel_marks *m, uint32_t facet)
     }
 }
 
-/* Puts the event edges that cross a facet into contest->crossing; returns how many they are. */
+/* Puts the event edges that cross a facet into classification->crossing; returns how many they are.
+ */
 static uint32_t known_crossings(const lrcsi_known *known, uint32_t facet)
 {
     if (facet >= known->listed) {
-        return lrcsi_contest_crossings(known->contest, facet);
+        return lrcsi_classify_crossings(known->classification, facet);
     }
     uint32_t first = known->first[facet];
     uint32_t count = known->first[facet + 1] - first;
-    lrcsi_contest_recall(known->contest, facet, known->crossing + first, count);
+    lrcsi_classify_recall(known->classification, facet, known->crossing + first, count);
     return count;
 }
 
-/* Marks where the visibility of a contested facet may change. Returns how many event edges cross
-   it; they stand in contest->crossing. */
+/* Marks where the visibility of an undecided facet may change. Returns how many event edges cross
+   it; they stand in classification->crossing. */
 static uint32_t mark_changes(pixel_marks *m, uint32_t facet)
 {
     marks_start(m, facet);
     uint32_t crossings = known_crossings(m->known, facet);
     for (uint32_t i = 0; i < crossings; i++) {
-        mark_edge(m, m->known->contest->crossing[i]);
+        mark_edge(m, m->known->classification->crossing[i]);
     }
     mark_touches(m, facet);
     return crossings;
 }
 
 /* Pixel areas are side^2 / N^2 to a few roundings; 1e-12 of them is given away. */
-static lrcsi_visible contested_area(const lrcsi_sharing *sharing, pixel_marks *marks,
+static lrcsi_visible undecided_area(const lrcsi_sharing *sharing, pixel_marks *marks,
                                     uint32_t facet)
 {
-    lrcsi_contest *contest = sharing->known->contest;
+    lrcsi_classification *classification = sharing->known->classification;
     const lrcsi_raster *raster = sharing->raster;
-    double area = lrcsi_view_projected(contest->view, facet);
+    double area = lrcsi_view_projected(classification->view, facet);
     double pixel = raster->pixel * raster->pixel;
-    lrcsi_share share = lrcsi_share_facet(sharing, facet);
+    lrcsi_visible_fraction share = lrcsi_visible_fraction_facet(sharing, facet);
     pixel_sums sums = {0, 0, 0, 0};
-    lrcsi_drift drift = {HUGE_VAL, 0};
+    lrcsi_sampling_error sampling_error = {HUGE_VAL, 0};
     if (!raster->undecided[facet]) {
         uint32_t crossings = mark_changes(marks, facet);
-        drift = share.row ? lrcsi_drift_row(raster, facet, share.longest, share.share)
-                          : lrcsi_drift_facet(contest, crossings, raster, facet);
+        sampling_error = share.row
+                             ? lrcsi_sampling_error_row(raster, facet, share.longest, share.share)
+                             : lrcsi_sampling_error_facet(classification, crossings, raster, facet);
         sums = count_certain(marks, facet);
     }
     lrcsi_visible v;
     v.low = lrcsi_least(area, (sums.whole_shown + sums.shown) * pixel * (1 - 1e-12));
     v.high = lrcsi_most(v.low, area - (sums.whole_hidden + sums.hidden) * pixel * (1 - 1e-12));
-    lrcsi_share_keep(sharing, facet, area, &share, &v);
+    lrcsi_visible_fraction_keep(sharing, facet, area, &share, &v);
     double gap = v.high - v.low;
-    v.likely = lrcsi_least(gap, sqrt(drift.square) * pixel);
-    v.lean = lrcsi_least(gap, lrcsi_most(-gap, drift.lean * pixel));
+    v.likely = lrcsi_least(gap, sqrt(sampling_error.square) * pixel);
+    v.bias = lrcsi_least(gap, lrcsi_most(-gap, sampling_error.bias * pixel));
     return v;
 }
 
@@ -363,28 +364,30 @@ size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
 }
 
-/* Lists what crosses the next facet, which is contested or not, unless there is no room. */
+/* Lists what crosses the next facet, which is undecided or not, unless there is no room. */
 static void known_list(lrcsi_known *k, uint32_t facet, uint32_t crossings)
 {
     uint32_t used = k->first[facet];
-    if (crossings <= known_room(k->contest->view->prepared) - used) {
+    if (crossings <= known_room(k->classification->view->prepared) - used) {
         if (crossings != 0) { /* mostly there are none */
-            memcpy(k->crossing + used, k->contest->crossing, crossings * sizeof *k->crossing);
+            memcpy(k->crossing + used, k->classification->crossing,
+                   crossings * sizeof *k->crossing);
         }
         k->first[facet + 1] = used + crossings;
         k->listed++;
     }
 }
 
-/* Asks about contested facets. The search that serves the answer serves the list too. */
-static void known_contested(lrcsi_known *k)
+/* Asks about undecided facets. The search that serves the answer serves the list too. */
+static void known_undecided(lrcsi_known *k)
 {
     k->first[0] = 0;
-    for (uint32_t f = 0; f < k->contest->view->prepared->scene->facet_count; f++) {
+    for (uint32_t f = 0; f < k->classification->view->prepared->scene->facet_count; f++) {
         uint32_t crossings = 0;
-        if (k->contest->contested[f] && !lrcsi_query_screened(k->contest, &k->facets, f)) {
+        if (k->classification->undecided[f] &&
+            !lrcsi_query_screened(k->classification, &k->facets, f)) {
             k->answer[f] = LRCSI_QUERY_UNDECIDED;
-            crossings = k->listed == f ? lrcsi_contest_crossings(k->contest, f) : 0;
+            crossings = k->listed == f ? lrcsi_classify_crossings(k->classification, f) : 0;
         }
         if (k->listed == f) {
             known_list(k, f, crossings);
@@ -392,23 +395,23 @@ static void known_contested(lrcsi_known *k)
     }
 }
 
-int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *known)
+int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, lrcsi_known *known)
 {
     size_t mark = work->used;
-    const lrcs_prepared *p = contest->view->prepared;
+    const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
-    lrcsi_known k = {.contest = contest};
+    lrcsi_known k = {.classification = classification};
     k.answer = lrcsi_work_take(work, count, 1);
     k.first = lrcsi_work_take(work, (size_t)count + 1, sizeof *k.first);
     k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
     int status = k.answer && k.first && k.crossing
-                     ? lrcsi_query_uniform(contest, work, &k.facets, k.answer)
+                     ? lrcsi_query_uniform(classification, work, &k.facets, k.answer)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    known_contested(&k);
+    known_undecided(&k);
     *known = k;
     return LRCS_OK;
 }
@@ -419,7 +422,7 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
     size_t need = lrcsi_work_bytes((size_t)size * size, 1);
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(lrcsi_row)));
-    need = lrcsi_work_add(need, lrcsi_share_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_visible_fraction_need(prepared));
     return lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
 }
 
@@ -457,30 +460,30 @@ static lrcsi_visible unknown_area(lrcsi_raster *raster, uint32_t facet)
 static void visible_fill(const lrcsi_sharing *sharing, pixel_marks *marks, lrcsi_visible *visible)
 {
     const lrcsi_known *known = sharing->known;
-    lrcsi_contest *contest = known->contest;
+    lrcsi_classification *classification = known->classification;
     lrcsi_raster *raster = marks->raster;
-    uint32_t count = contest->view->prepared->scene->facet_count;
+    uint32_t count = classification->view->prepared->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
-        if (contest->contested[f] && raster->owned[f] != 0 && !raster->undecided[f]) {
+        if (classification->undecided[f] && raster->owned[f] != 0 && !raster->undecided[f]) {
             mark_changes(marks, f);
             mark_pure(marks, f);
         }
     }
-    lrcsi_visible_answered(contest->view, known->answer, visible);
+    lrcsi_visible_answered(classification->view, known->answer, visible);
     for (uint32_t f = 0; f < count; f++) {
         if (known->answer[f] == LRCSI_QUERY_UNDECIDED) {
-            visible[f] =
-                contest->contested[f] ? contested_area(sharing, marks, f) : unknown_area(raster, f);
+            visible[f] = classification->undecided[f] ? undecided_area(sharing, marks, f)
+                                                      : unknown_area(raster, f);
         }
     }
-    lrcsi_share_settle(sharing, visible);
+    lrcsi_visible_fraction_settle(sharing, visible);
 }
 
 int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
                           lrcsi_raster *raster, lrcsi_visible *visible)
 {
     size_t mark = work->used;
-    int status = lrcsi_raster_start(known->contest->view, size, work, raster);
+    int status = lrcsi_raster_start(known->classification->view, size, work, raster);
     if (status != LRCS_OK) {
         return status;
     }
@@ -489,7 +492,8 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
     marks.mixed = lrcsi_work_take(work, (size_t)size * size, 1);
     marks.row = lrcsi_work_take(work, size, sizeof *marks.row);
     lrcsi_sharing sharing;
-    if (!marks.mixed || !marks.row || lrcsi_share_make(known, raster, work, &sharing) != LRCS_OK) {
+    if (!marks.mixed || !marks.row ||
+        lrcsi_visible_fraction_make(known, raster, work, &sharing) != LRCS_OK) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#include "visibility/contest.h"
+#include "visibility/classify.h"
 #include "visibility/raster.h"
 
 /* Projected areas in scaled units; 0 <= low <= area <= high <= the facet's projected area, but for
@@ -14,15 +14,16 @@
 typedef struct lrcsi_visible {
     double area, low, high;
     double likely; /* of a sampled area: its likely error; else 0 */
-    double lean;   /* the part of it that has a sign, too much being positive */
+    double bias;   /* the part of it that has a sign, too much being positive */
 } lrcsi_visible;
 
 /* A facet that nothing is known to hide: all of it is visible, certainly so for |cos(theta)| >
    graze; below it the area is an upper bound (low is 0). graze = 1 makes every facet so. */
-static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_tilt *tilt, double graze)
+static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_incidence *incidence,
+                                                     double grazing_cos)
 {
-    double low = fabs(tilt->cos_theta) > graze ? tilt->projected : 0;
-    return (lrcsi_visible){tilt->projected, low, tilt->projected, 0, 0};
+    double low = fabs(incidence->cos_theta) > grazing_cos ? incidence->projected : 0;
+    return (lrcsi_visible){incidence->projected, low, incidence->projected, 0, 0};
 }
 
 /* All or nothing of each facet, by its lrcsi_query_answer; visible[facet] stays as it is where that
@@ -32,12 +33,12 @@ void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
 
 /* What exact queries tell of facets before any sample is taken. */
 typedef struct lrcsi_known {
-    lrcsi_contest *contest;
+    lrcsi_classification *classification;
     lrcsi_grid facets;
     unsigned char *answer; /* facet: a lrcsi_query_answer; hidden where it casts nothing; undecided
                               where samples are to tell */
     uint32_t listed;       /* the event edges that cross facet f < listed are
-                              crossing[first[f] .. first[f + 1]), of contested ones that samples are
+                              crossing[first[f] .. first[f + 1]), of undecided ones that samples are
                               to tell of */
     uint32_t *first, *crossing;
 } lrcsi_known;
@@ -45,16 +46,16 @@ typedef struct lrcsi_known {
 /* Bytes for that, at most. */
 size_t lrcsi_visible_known_need(const lrcs_prepared *prepared);
 
-/* Asks of uniform facets whether they are visible, of contested ones whether they are hidden.
+/* Asks of uniform facets whether they are visible, of undecided ones whether they are hidden.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. What is known stays in the work area. */
-int lrcsi_visible_known(lrcsi_contest *contest, lrcs_work *work, lrcsi_known *known);
+int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, lrcsi_known *known);
 
 /* Bytes for lrcsi_visible_sampled, at most. */
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size);
 
 /* The hybrid of exact decisions and samples: uniform facets have their exact projected area or show
-   nothing; contested ones show the share of their samples that they own, bounded by the pixels that
-   no change of visibility touches. Only the tiles about contested facets are drawn.
+   nothing; undecided ones show the share of their samples that they own, bounded by the pixels that
+   no change of visibility touches. Only the tiles about undecided facets are drawn.
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
 int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
                           lrcsi_raster *raster, lrcsi_visible *visible);

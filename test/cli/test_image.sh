@@ -46,9 +46,9 @@ failure a_folder_that_is_not_there "none/p.vtk" image demo --vtk none/p.vtk
 rm m.png m.svg
 same the_inputs_are_intact "$(cksum m.obj m.mtl pair.toml)" "$(cat before)"
 
-for look in sigma theta range facet material shaded; do
-    run image pair.toml --by $look --size 192 -o $look.png --visible $look.svg
-    same "by_${look}_is_drawn" "$rc" 0
+for colouring in sigma theta range facet material shaded; do
+    run image pair.toml --by $colouring --size 192 -o $colouring.png --visible $colouring.svg
+    same "by_${colouring}_is_drawn" "$rc" 0
 done
 run image pair.toml --azel 0,30 --by theta --size 192 -o slant.png
 run image m.obj --by material --size 192 --ground white -o coloured.png --visible coloured.svg
@@ -107,15 +107,15 @@ def svg(path):
             areas[p.get("id")] = areas.get(p.get("id"), 0) + sum(
                 a[0] * b[1] - a[1] * b[0] for a, b in zip(xy, xy[1:] + xy[:1])) / 2
     return root, group, matrix, areas
-for look in "sigma theta range facet material shaded".split():
-    root, group, matrix, areas = svg(look + ".svg")
-    check(look + "_svg_shows_what_is_visible", set(areas) == {"f0", "f1", "f2", "f3"} and
+for colouring in "sigma theta range facet material shaded".split():
+    root, group, matrix, areas = svg(colouring + ".svg")
+    check(colouring + "_svg_shows_what_is_visible", set(areas) == {"f0", "f1", "f2", "f3"} and
           math.isclose(areas["f0"] + areas["f1"], 3, rel_tol=1e-12) and
           math.isclose(areas["f2"] + areas["f3"], 1, rel_tol=1e-12))
     words = [t.text for t in root.iter(NS + "text")]
     bar = next(w for w in words if re.fullmatch(r"[0-9.]+ m", w))
     ends = [[float(s.split(",")[0]) for s in e.get("points").split()] for e in root.iter(NS + "polyline")]
-    check(look + "_svg_bar_has_its_length", any(abs(abs(p[0] - p[-1]) - float(bar[:-2]) * matrix[0]) < 0.02 for p in ends))
+    check(colouring + "_svg_bar_has_its_length", any(abs(abs(p[0] - p[-1]) - float(bar[:-2]) * matrix[0]) < 0.02 for p in ends))
 root, group, matrix, areas = svg("coloured.svg")
 check("svg_has_the_colours_of_materials", [p.get("fill") for p in group.iter(NS + "path")] == ["#ff0000"] * 2 + ["#003399"] * 2)
 check("svg_names_materials", {"red", "sea"} <= {t.text for t in root.iter(NS + "text")})

@@ -104,26 +104,26 @@ static void make_scene(const char *kind, uint32_t count)
 /* Cuts of one facet: edges, and three for each contact. */
 static double most_cuts(const lrcs_prepared *p, uint32_t facet)
 {
-    return p->topology.edge_count + 3.0 * lrcsi_touches_of(&p->touches, facet);
+    return p->topology.edge_count + 3.0 * lrcsi_intersection_of(&p->intersections, facet);
 }
 
 /* What is left when steps have been spent. */
 static double most_passes(const lrcs_prepared *p)
 {
-    double k = p->touches.first[p->scene->facet_count];
+    double k = p->intersections.first[p->scene->facet_count];
     return 1100.0 * p->scene->facet_count + 32 * k + 160000;
 }
 
 static double most_questions(const lrcs_prepared *p)
 {
     double n = p->scene->facet_count;
-    double k = p->touches.first[p->scene->facet_count];
+    double k = p->intersections.first[p->scene->facet_count];
     if (steps != 0) {
         return 4.0 * (double)steps + most_passes(p);
     }
     double most = 48 * n * n * n + 208 * n * n + 32 * n * k + 1100 * n + 160000;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        double own = lrcsi_touches_of(&p->touches, f);
+        double own = lrcsi_intersection_of(&p->intersections, f);
         double cuts = most_cuts(p, f);
         most += n * (cuts + own) + (8193 + 512 * cuts) * (2 * cuts + n + 7 * n * (2 + cuts));
     }
@@ -166,7 +166,7 @@ static void one_pose(void **state)
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0.25, -0.5, 1}, &pose), LRCS_OK);
     run(prepared, &work, &pose);
     printf("%u %u %.0f %.0f\n", (unsigned)scene.scene.facet_count,
-           (unsigned)prepared->touches.first[scene.scene.facet_count],
+           (unsigned)prepared->intersections.first[scene.scene.facet_count],
            method == LRCS_METHOD_EXACT ? most_questions(prepared) : 0, most_parts(prepared));
 }
 

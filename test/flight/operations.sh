@@ -6,9 +6,9 @@
 folder=$1/operations
 mkdir -p "$folder" || exit 1
 # A facet or edge against an event, a line, a cut or a cell, each in bounded time.
-questions='boxes_apart edge_crosses touch_contests box_misses lrcsi_sample_covers_towards line_nearer
-touched_by facet_record order_of place_covered place_front sheet_ends lrcsi_cells_place_of
-lrcsi_cells_facet_order event_slack grid_put'
+questions='lrcsi_view_box_beside lrcsi_view_box_behind edge_crosses intersection_divides
+lrcsi_sample_covers_towards line_nearer touched_by facet_apart order_of place_covered place_front
+component_ends lrcsi_cells_place_of lrcsi_cells_facet_order event_slack grid_put'
 # A curved facet, a triangle of it, a part of that.
 parts='lrcsi_cubature_make lrcsi_cubature_add cube_step'
 flags='-std=c11 -ffp-contract=off -O0'
@@ -16,8 +16,11 @@ flags='-std=c11 -ffp-contract=off -O0'
 cp "$1/lrcs.c" "$1/lrcs.h" "$folder" && (cd "$folder" && gcc $flags --coverage -c lrcs.c) &&
     gcc $flags -Itest/portable -Itest -Iinclude -Isrc -c -o "$folder/main.o" test/flight/operations.c &&
     gcc --coverage -o "$folder/operations" "$folder/main.o" "$folder/lrcs.o" -lm || exit 1
-printf '%-18s %6s %6s %9s %-10s %12s %14s\n' scene facets touch cells steps taken 'at most'
 bad=0
+for name in $questions $parts; do
+    grep -qE "^[a-z].*[ *]$name\(" "$folder/lrcs.c" || { echo "operations: the core has no function $name"; bad=1; }
+done
+printf '%-18s %6s %6s %9s %-10s %12s %14s\n' scene facets touch cells steps taken 'at most'
 for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' 'random 32' 'random 128' \
     'book 16' 'book 256' 'half 2' 'half 16' 'patches 1' 'patches 16' 'razors 1' \
     'sheets 64 1000' 'sheets 64 100000' 'random 128 1000' 'random 128 100000' 'book 256 1000' \
@@ -33,11 +36,11 @@ for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' '
         }
         function row(kind, most) {
             if (most > 0)
-                printf "%-18s %6d %6d %9d %-10s %12d %14.3g\n", scene, facets, touches, cells, kind, sum[kind], most
+                printf "%-18s %6d %6d %9d %-10s %12d %14.3g\n", scene, facets, intersections, cells, kind, sum[kind], most
             return most > 0 ? sum[kind] > 0 && sum[kind] <= most : !sum[kind]
         }
         BEGIN { wanted("questions", questions); wanted("parts", parts); }
-        FNR == NR { facets = $1; touches = $2; most_q = $3; most_c = $4; next }
+        FNR == NR { facets = $1; intersections = $2; most_q = $3; most_c = $4; next }
         /^function / && ($2 in kind_of) { sum[kind_of[$2]] += $4 }
         /^function cell_do / { cells = $4 }
         END { exit !(row("questions", most_q) + row("parts", most_c) == 2) }

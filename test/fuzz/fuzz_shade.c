@@ -46,9 +46,9 @@ static void require_same(const lrcsi_view *view, const lrcs_brdf *brdf, const lr
                          uint32_t place, double dot)
 {
     const lrcsi_batches *b = &view->prepared->batches;
-    lrcsi_tilt tilt = lrcsi_view_tilt(view, b->facet[place]);
+    lrcsi_incidence incidence = lrcsi_view_incidence(view, b->facet[place]);
     static lrcsi_shades shades;
-    if (!(dot > lobes->low && dot < lobes->high && tilt.stretch < 1)) {
+    if (!(dot > lobes->low && dot < lobes->high && incidence.tan2_err < 1)) {
         return;
     }
     for (uint32_t i = 0; i < LRCSI_LANES; i++) {
@@ -60,7 +60,7 @@ static void require_same(const lrcsi_view *view, const lrcs_brdf *brdf, const lr
     uint32_t lane = place % LRCSI_LANES;
     double whole = b->area[place] * shades.cosine[lane];
     double got = (shades.glint[lane] + shades.diffuse[lane]) * whole;
-    lrcsi_reflection at = lrcsi_reflect(brdf, tilt.tan2, tilt.stretch);
+    lrcsi_reflection at = lrcsi_reflect(brdf, incidence.tan2, incidence.tan2_err);
     double want = FOUR_PI * b->area[place] * (at.glint + at.diffuse);
     double bound = shades.error[lane] * LRCSI_SHADE_UNIT * whole +
                    FOUR_PI * b->area[place] * at.error + 8 * U * want + 0x1p-1000;

@@ -217,7 +217,7 @@ static void a_stroke_colours_its_pixels_and_no_others(void **state)
     const lrcsi_spot line[2] = {{4.0, 10.0}, {16.0, 10.0}};
     const lrcsi_ink ink = {0x0072b2u, 2.0, {0.0, 0.0}};
     assert_int_equal(lrcsi_canvas_make(20.0, 20.0, 1.0, &canvas, NULL), LRCS_OK);
-    canvas.pen.line(&canvas.pen, line, 2, &ink);
+    canvas.plotter.line(&canvas.plotter, line, 2, &ink);
     for (int y = 0; y < 20; y++) {
         for (int x = 0; x < 20; x++) {
             const unsigned char *pixel = canvas.rgb + 3 * (20 * y + x);
@@ -236,7 +236,7 @@ static void an_area_covers_parts_of_pixels(void **state)
     lrcsi_canvas canvas;
     const lrcsi_spot corner[4] = {{2.5, 3.25}, {8.0, 3.25}, {8.0, 6.0}, {2.5, 6.0}};
     assert_int_equal(lrcsi_canvas_make(10.0, 10.0, 1.0, &canvas, NULL), LRCS_OK);
-    canvas.pen.area(&canvas.pen, corner, 4, 0x000000u);
+    canvas.plotter.area(&canvas.plotter, corner, 4, 0x000000u);
     assert_int_equal(canvas.rgb[3 * (10 * 4 + 4)], 0);   /* inside */
     assert_int_equal(canvas.rgb[3 * (10 * 4 + 2)], 128); /* half */
     assert_int_equal(canvas.rgb[3 * (10 * 3 + 4)], 64);  /* three quarters */
@@ -253,9 +253,9 @@ static void nothing_outside_the_canvas_is_touched(void **state)
     const lrcsi_ink ink = {0u, 3.0, {40.0, 30.0}};
     const lrcsi_words words = {.text = "out of it", .at = {5.0, -2.0}, .size = 30.0};
     assert_int_equal(lrcsi_canvas_make(10.0, 10.0, 1.0, &canvas, NULL), LRCS_OK);
-    canvas.pen.line(&canvas.pen, line, 2, &ink);
-    canvas.pen.area(&canvas.pen, line, 3, 0x123456u);
-    canvas.pen.text(&canvas.pen, &words);
+    canvas.plotter.line(&canvas.plotter, line, 2, &ink);
+    canvas.plotter.area(&canvas.plotter, line, 3, 0x123456u);
+    canvas.plotter.text(&canvas.plotter, &words);
     lrcsi_canvas_free(&canvas);
 }
 

@@ -24,7 +24,7 @@ static lrcsi_cubature start(const lrcs_brdf *brdf, const double normal[3][3], do
     assert_non_null(waiting);
     lrcsi_cubature sum = lrcsi_cubature_make(brdf, normal, tolerance, waiting);
     sum.whole = 1;
-    sum.slip = 0x1p-44;
+    sum.position_err = 0x1p-44;
     return sum;
 }
 
@@ -45,7 +45,7 @@ static void check_vector(const vector *v, double A, double B, double tolerance)
     check_abs(got, want, sum.estimate + sum.rounding + 1e-12 * want);
     check_most(sum.estimate, 3 * tolerance * want);
     double steep = 4 * ((A > 0 ? 1 / (v->s * v->s) : 0) + v->m + 5); /* for tan(theta) up to 2 */
-    check_most(sum.rounding, sum.slip * steep * want + 1e-10 * want);
+    check_most(sum.rounding, sum.position_err * steep * want + 1e-10 * want);
 }
 
 static void the_glint_is_within_its_estimate_and_that_within_the_tolerance(void **state)
@@ -191,8 +191,8 @@ static void normals_all_but_in_the_plane_may_see_what_the_slip_lets_them(void **
         const double normal[3][3] = {{1, 0, z}, {1, 0, z}, {1, 0, z}};
         lrcsi_cubature sum = integrate(&brdf, normal, 1e-5);
         double most = lrcsi_sum_value(&sum.diffuse) + sum.rounding;
-        check_most(value_at(&brdf, (const double[3]){1, 0, z + sum.slip}), most);
-        check_most(most, 8 * sum.slip);
+        check_most(value_at(&brdf, (const double[3]){1, 0, z + sum.position_err}), most);
+        check_most(most, 8 * sum.position_err);
     }
 }
 
@@ -204,14 +204,14 @@ static void without_steps_what_is_left_is_within_its_bound(void **state)
     for (size_t i = 0; i < 4 * VECTORS; i++) {
         const vector *v = &vectors[i / 4];
         lrcs_brdf brdf = {1, 0.25, v->s, v->m};
-        double slip = i % 2 ? 1e-3 : 0x1p-44;
+        double position_err = i % 2 ? 1e-3 : 0x1p-44;
         double normal[3][3];
         for (int k = 0; k < 9; k++) {
-            normal[k / 3][k % 3] = v->normal[k / 3][k % 3] + (k % 3 == 0 ? 0.99 : 0) * slip;
+            normal[k / 3][k % 3] = v->normal[k / 3][k % 3] + (k % 3 == 0 ? 0.99 : 0) * position_err;
         }
         lrcsi_meter meter = {.most = i % 4 < 2 ? 0 : 2000};
         lrcsi_cubature sum = start(&brdf, (const double(*)[3])normal, 1e-5);
-        sum.slip = slip;
+        sum.position_err = position_err;
         sum.meter = &meter;
         lrcsi_cubature_add(&sum, (const double(*)[3])normal, 1);
         double want = v->glint + 0.25 * v->diffuse;

@@ -489,7 +489,7 @@ static void near_coplanar_skins_one_ulp_apart_keep_their_order(void **state)
 }
 
 /* Its parts shade and pierce each other, all of them behind the screen. Symptom: bounds of
-   contested facets that nothing of the laser reaches. */
+   undecided facets that nothing of the laser reaches. */
 static void scene_wholly_hidden_is_exactly_nothing(void **state)
 {
     (void)state;

@@ -5,11 +5,11 @@
    every larger area; at _need it is served, and undegraded. */
 #include "build3ds.h"
 #include "integrate/cubature.h"
-#include "scene/near.h"
+#include "scene/proximity.h"
 #include "scene/solid.h"
 #include "scenes.h"
 #include "starve.h"
-#include "visibility/margin.h"
+#include "visibility/proximity_band.h"
 
 static const char text[] =
     "[[material]]\nname='m'\nlike='mli-gold'\n[[part]]\nname='low'\nshape='plate'\n"
@@ -213,14 +213,14 @@ typedef struct inner_steps {
     lrcs_prepared prepared;
     uint32_t piece[14];
     lrcsi_view view;
-    lrcsi_contest contest;
-    lrcsi_margin margin;
+    lrcsi_classification classification;
+    lrcsi_proximity_band margin;
     int proved;
 } inner_steps;
 
 static int step_nears(inner_steps *s, lrcs_work *work)
 {
-    int status = lrcsi_nears_make(&s->prepared, work);
+    int status = lrcsi_proximity_make(&s->prepared, work);
     work->used = 0; /* the caller's to put back */
     return status;
 }
@@ -237,7 +237,7 @@ static int step_convex(inner_steps *s, lrcs_work *work)
 
 static int step_margin(inner_steps *s, lrcs_work *work)
 {
-    int status = lrcsi_margin_make(&s->contest, work, &s->margin);
+    int status = lrcsi_proximity_band_make(&s->classification, work, &s->margin);
     assert_true(status == LRCS_OK || work->used == 0);
     work->used = 0;
     return status;
@@ -269,7 +269,7 @@ static void steps_within_grow_until_they_fit(void **state)
     assert_int_equal(lrcs_pose_from_azel(20, 60, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(&s.prepared, &pose, &work, &s.view), LRCS_OK);
     assert_int_equal(lrcsi_view_project(&work, &s.view), LRCS_OK);
-    assert_int_equal(lrcsi_contest_make(&s.view, &work, &s.contest), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&s.view, &work, &s.classification), LRCS_OK);
     for (int i = 0; i < 4; i++) {
         int status = LRCS_E_MEMORY;
         size_t size = 0;

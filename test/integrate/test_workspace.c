@@ -127,7 +127,7 @@ static void running_grows_until_it_fits(void **state)
                      least[2]); /* auto falls back to the coarsest raster before it gives up */
 }
 
-/* Symptom: auto went on to a raster when the search for contested facets had found no memory. */
+/* Symptom: auto went on to a raster when the search for undecided facets had found no memory. */
 static void every_size_is_survived(void **state)
 {
     (void)state;

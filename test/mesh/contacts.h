@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Contacts by brute force: every pair of facets, by exact signs alone, without a box, a ring or a
-   filter. The reference for mesh/touch.c; itself compared with clipping in rational arithmetic. */
+   filter. The reference for mesh/intersection.c; itself compared with clipping in rational
+   arithmetic. */
 #ifndef TEST_MESH_CONTACTS_H
 #define TEST_MESH_CONTACTS_H
 
 #include "base/exact.h"
-#include "mesh/touch.h"
+#include "mesh/intersection.h"
 
 typedef struct contacts_facet {
     const double *x[3];
@@ -64,8 +65,8 @@ static inline int contacts_kind(const contacts_facet *f, const contacts_facet *t
     if (side[0] == 0 && side[1] == 0 && side[2] == 0) {
         int turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], f->axis);
         return contacts_separated(f, f->turn, t, f->axis) || contacts_separated(t, turn, f, f->axis)
-                   ? LRCSI_TOUCH_NONE
-                   : LRCSI_TOUCH_COPLANAR;
+                   ? LRCSI_INTERSECTION_NONE
+                   : LRCSI_INTERSECTION_COPLANAR;
     }
     /* Where the plane cuts t: lines from u to w that cross it. */
     const double *u[3];
@@ -88,14 +89,14 @@ static inline int contacts_kind(const contacts_facet *f, const contacts_facet *t
             inner |= up[i] * lrcsi_exact_side(u[i], w[i], f->x[k], f->x[(k + 1) % 3]) > 0;
         }
         if (!inner) {
-            return LRCSI_TOUCH_NONE;
+            return LRCSI_INTERSECTION_NONE;
         }
     }
     int of_f[3];
     contacts_sides(t, f, of_f);
     int above = of_f[0] > 0 || of_f[1] > 0 || of_f[2] > 0;
     int below = of_f[0] < 0 || of_f[1] < 0 || of_f[2] < 0;
-    return ends == 1 || (above && below) ? LRCSI_TOUCH_CROSS : LRCSI_TOUCH_NONE;
+    return ends == 1 || (above && below) ? LRCSI_INTERSECTION_CROSS : LRCSI_INTERSECTION_NONE;
 }
 
 /* Is x, on the line a b, strictly between a and b? */

@@ -56,7 +56,7 @@ static lrcs_curvature measure(const double facet[3], double normal[NORMALS][3],
         square += area[i] * turn * turn;
     }
     c.area_error = fabs(sum - 1);
-    c.lean = sqrt(dot(vector, vector));
+    c.bias = sqrt(dot(vector, vector));
     c.spread = sqrt(square);
     return c;
 }
@@ -113,12 +113,12 @@ static void a_mapped_patch_stays_within_the_mapped_numbers(void **state)
         lrcs_curvature after = measure(facet, normal, area);
         check_most(after.turn, bound.turn + 1e-14);
         check_most(after.area_error, bound.area_error + 1e-14);
-        check_most(after.lean, bound.lean + 1e-14);
+        check_most(after.bias, bound.bias + 1e-14);
         check_most(after.spread, bound.spread + 1e-14);
         tightest = fmax(tightest, after.spread / bound.spread);
         if (run % 3 == 0) { /* no map */
             check_rel(bound.spread, before.spread, 1e-13);
-            check_rel(bound.lean, before.lean, 1e-13);
+            check_rel(bound.bias, before.bias, 1e-13);
             check_most(uneven, 1e-13);
         }
     }

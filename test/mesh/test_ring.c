@@ -58,7 +58,7 @@ static int ring_meets_itself(uint32_t v, uint32_t facets)
             }
             contacts_facet a = contacts_facet_make(vertex, &facet[f]);
             contacts_facet b = contacts_facet_make(vertex, &facet[g]);
-            if (contacts_kind(&a, &b) != LRCSI_TOUCH_NONE || contacts_rim(&a, &b)) {
+            if (contacts_kind(&a, &b) != LRCSI_INTERSECTION_NONE || contacts_rim(&a, &b)) {
                 return 1;
             }
         }
@@ -231,7 +231,7 @@ static uint32_t check_cones(uint32_t facets, uint32_t *met)
             for (uint32_t j = (leaf + 1) * LRCSI_TREE_LANES; j < facets && i < facets; j++) {
                 contacts_facet a = contacts_facet_make(vertex, &facet[tree.order[i]]);
                 contacts_facet b = contacts_facet_make(vertex, &facet[tree.order[j]]);
-                if (contacts_kind(&a, &b) != LRCSI_TOUCH_NONE || contacts_rim(&a, &b)) {
+                if (contacts_kind(&a, &b) != LRCSI_INTERSECTION_NONE || contacts_rim(&a, &b)) {
                     assert_true(kept[j / LRCSI_TREE_LANES]);
                     ++*met;
                 }

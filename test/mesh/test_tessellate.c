@@ -290,7 +290,7 @@ static void plane_faced_bodies_and_discs_have_no_curvature(void **state)
     for (int i = 0; i < 3; i++) {
         lrcs_curvature c = {1.0, 1.0, 1.0, 1.0};
         lrcs_mesh mesh = make(&shapes[i], i < 2 ? 4 : 16, 1, &c);
-        check_same(c.turn + c.area_error + c.lean + c.spread, 0.0);
+        check_same(c.turn + c.area_error + c.bias + c.spread, 0.0);
         double n[3];
         facet_vector(&mesh, 0, n);
         assert_true(i == 1 || n[2] > 0.0);
@@ -299,7 +299,8 @@ static void plane_faced_bodies_and_discs_have_no_curvature(void **state)
 
 /* The true body near a facet: the point at height z' of its radius, by kind. */
 typedef struct patch {
-    double area, tilt[3], turn, square; /* integrals of 1, turn vector, turn^2; the largest turn */
+    double area, incidence[3], turn,
+        square; /* integrals of 1, turn vector, turn^2; the largest turn */
 } patch;
 
 /* Polar angle of the normal and radius at a fraction t of the way from radius r0 to r1. */
@@ -330,7 +331,7 @@ static void patch_add(patch *p, double weight, const double n[3], const double f
     }
     double size = sqrt(dot(off, off));
     for (int k = 0; k < 3 && size > 0.0; k++) {
-        p->tilt[k] += weight * turn * off[k] / size;
+        p->incidence[k] += weight * turn * off[k] / size;
     }
 }
 
@@ -386,12 +387,12 @@ static void check_strips(const lrcs_shape *shape, uint32_t around, uint32_t alon
         patch p = patch_integrate(shape, low[0] / swell, top / swell, h, f);
         seen.turn = fmax(seen.turn, p.turn);
         seen.area_error = fmax(seen.area_error, fabs(p.area - facet) / facet);
-        seen.lean = fmax(seen.lean, sqrt(dot(p.tilt, p.tilt)) / facet);
+        seen.bias = fmax(seen.bias, sqrt(dot(p.incidence, p.incidence)) / facet);
         seen.spread = fmax(seen.spread, sqrt(p.square / facet));
     }
     check_most(seen.turn, c.turn);
     check_most(seen.area_error, c.area_error * 1.002);
-    check_most(seen.lean, c.lean * 1.002 + 1e-4 * h * h);
+    check_most(seen.bias, c.bias * 1.002 + 1e-4 * h * h);
     check_most(seen.spread, c.spread * 1.0005);
     check_most(c.turn, seen.turn * 1.1); /* and they are not idle */
     check_most(c.area_error, seen.area_error * 1.1 + 1e-3 * h * h);
@@ -441,7 +442,7 @@ static void no_dimension_at_all_makes_a_mesh_of_no_area(void **state)
         lrcs_curvature c;
         lrcs_mesh mesh = make(&shape, plane ? 4 : 8, 1, &c);
         check_same(group_area(&mesh, 0) + group_area(&mesh, 1), 0.0);
-        assert_true(isfinite(c.turn + c.area_error + c.lean + c.spread));
+        assert_true(isfinite(c.turn + c.area_error + c.bias + c.spread));
     }
 }
 
@@ -458,7 +459,7 @@ static void extreme_dimensions_stay_finite(void **state)
         uint32_t along = i % 4 < 2 ? 1 : 3;
         lrcs_curvature c;
         lrcs_mesh mesh = make(&shape, 8, along, &c);
-        assert_true(isfinite(c.turn + c.area_error + c.lean + c.spread));
+        assert_true(isfinite(c.turn + c.area_error + c.bias + c.spread));
         double reach = lrcsi_tessellate_reach(&shape, &(lrcs_divisions){8, along});
         double size = shape.radius + shape.radius2 + shape.length;
         assert_true(reach >= 0.0 && reach <= 3.0 * size + 1e-300);

@@ -53,7 +53,7 @@ static void facet_sums(const lrcs_mesh *mesh, const lrcs_curvature *curvature,
         double tan2 = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / (c * c);
         lrcsi_reflection f = lrcsi_reflect(brdf, tan2, 0.0);
         sum[0] += c > 0.0 ? 2.0 * pi * size * (f.glint + f.diffuse) : 0.0;
-        sum[1] += 2.0 * pi * size * lrcsi_reflect_stray(brdf, c / size, tan2, curvature);
+        sum[1] += 2.0 * pi * size * lrcsi_reflect_deviation(brdf, c / size, tan2, curvature);
         sum[2] += 0.5 * size;
     }
 }

@@ -14,7 +14,7 @@ static void box_faces_have_one_neighbour_on_every_side(void **state)
     scene_start(&scene);
     scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
     const lrcsi_across *across = &scene_prepare(&scene, &work)->across;
-    assert_int_equal(across->odd_count, 0);
+    assert_int_equal(across->irregular_count, 0);
     for (uint32_t f = 0; f < 12; f++) {
         for (int k = 0; k < 3; k++) {
             assert_true(across->facet[f].corner[k] < 12 && across->facet[f].corner[k] != f);
@@ -100,7 +100,7 @@ static void random_soups_agree_with_a_search(void **state)
 {
     (void)state;
     int plain = 0;
-    int odd = 0;
+    int irregular = 0;
     int two_pairs = 0;
     for (uint32_t seed = 1; seed <= 400; seed++) {
         random_facets(seed);
@@ -123,16 +123,16 @@ static void random_soups_agree_with_a_search(void **state)
             uint32_t want = others == 0 ? count : (others == 1 && along == 0) || pairs ? other : f;
             assert_int_equal(p->across.facet[f].corner[k], want);
             int listed = 0;
-            for (uint32_t n = 0; n < p->across.odd_count; n++) {
-                listed += p->across.odd[n] == p->topology.facet_edge[f].corner[k];
+            for (uint32_t n = 0; n < p->across.irregular_count; n++) {
+                listed += p->across.irregular[n] == p->topology.facet_edge[f].corner[k];
             }
             assert_int_equal(listed, want == f);
             plain += others == 1 && along == 0;
             two_pairs += pairs;
-            odd += want == f;
+            irregular += want == f;
         }
     }
-    assert_true(plain > 100 && odd > 100 && two_pairs > 20);
+    assert_true(plain > 100 && irregular > 100 && two_pairs > 20);
 }
 
 int main(void)

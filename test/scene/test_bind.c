@@ -60,8 +60,8 @@ static lrcs_material bind(const lrcs_recipe *recipe, uint32_t worn, const lrcs_s
     lrcs_material material;
     assert_true(lrcsi_binder_need(recipe) <= sizeof bytes);
     assert_int_equal(lrcsi_binder_make(recipe, &work, &binder), LRCS_OK);
-    material =
-        surface ? lrcsi_binder_surface(&binder, worn, surface) : lrcsi_binder_bare(&binder, worn);
+    material = surface ? lrcsi_binder_surface(&binder, worn, surface)
+                       : lrcsi_binder_unassigned(&binder, worn);
     if (unmatched) {
         *unmatched = lrcsi_binder_unmatched(&binder);
     }
@@ -245,7 +245,7 @@ static void parts_wear_the_recipes_materials_before_the_librarys(void **state)
     assert_int_equal(worn, 0);
     part.material = "solar-cell";
     assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_OK);
-    assert_true(worn >= 1 && worn < lrcsi_binder_wardrobe(&recipe));
+    assert_true(worn >= 1 && worn < lrcsi_binder_material_count(&recipe));
     lrcs_material material = bind(&recipe, worn, NULL, NULL);
     assert_string_equal(material.name, "solar-cell");
     part.material = "none such";
@@ -278,7 +278,7 @@ static void the_slow_binder_agrees_with_the_indexed_one(void **state)
             check_same(a.brdf.A, b.brdf.A);
             check_same(a.brdf.B, b.brdf.B);
             a = bind(&recipe, worn, NULL, NULL);
-            b = lrcsi_binder_bare(&plain, worn);
+            b = lrcsi_binder_unassigned(&plain, worn);
             check_same(a.brdf.B, b.brdf.B);
         }
     }

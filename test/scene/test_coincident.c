@@ -5,7 +5,7 @@
 #include <lrcs/polygon.h>
 
 #include "scenes.h"
-#include "visibility/contest.h"
+#include "visibility/classify.h"
 
 static test_scene scene;
 static test_scene reference;
@@ -108,7 +108,7 @@ static void any_number_of_copies_is_the_work_of_one(void **state)
         lrcs_pose pose;
         lrcsi_view view;
         const lrcs_prepared *p = scene_prepare(&scene, &work);
-        assert_int_equal(p->touches.first[2000], both ? 0 : 2); /* twins are no contact */
+        assert_int_equal(p->intersections.first[2000], both ? 0 : 2); /* twins are no contact */
         assert_int_equal(lrcs_pose_from_direction((const double[3]){0.1, 0.2, 1}, &pose), LRCS_OK);
         assert_int_equal(lrcsi_view_make(p, &pose, &work, &view), LRCS_OK);
         uint32_t cast = 0;
@@ -275,12 +275,12 @@ static void twins_cost_what_one_of_them_costs(void **state)
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
     for (uint32_t i = 0; i < 10; i++) {
         uint32_t events[2];
-        uint32_t contested[2];
+        uint32_t undecided[2];
         uint64_t steps[2];
         for (int doubled = 0; doubled < 2; doubled++) {
             uint64_t again = seed + i;
             lrcsi_view view;
-            lrcsi_contest contest;
+            lrcsi_classification classification;
             random_bodies(&again);
             if (doubled) {
                 store_twice(&again, 1);
@@ -288,12 +288,12 @@ static void twins_cost_what_one_of_them_costs(void **state)
             const lrcs_prepared *p = scene_prepare(&scene, &work);
             steps[doubled] = scene_pose(&scene, p, &work, d, LRCS_METHOD_EXACT, 0).steps;
             assert_int_equal(lrcsi_view_make(p, &pose, &work, &view), LRCS_OK);
-            assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
-            events[doubled] = contest.events.count;
-            contested[doubled] = contest.contested_count;
+            assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+            events[doubled] = classification.events.count;
+            undecided[doubled] = classification.undecided_count;
         }
         assert_int_equal(events[1], events[0]);
-        assert_int_equal(contested[1], contested[0]);
+        assert_int_equal(undecided[1], undecided[0]);
         check_most((double)steps[1], 1.3 * (double)steps[0]);
     }
 }
@@ -346,18 +346,19 @@ static void twins_have_the_contacts_of_both_sides(void **state)
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
             for (uint32_t g = 0; g < scene.scene.facet_count; g++) {
                 uint32_t listed = 0;
-                for (uint32_t k = p->touches.first[f]; k < p->touches.first[f + 1]; k++) {
-                    listed += p->touches.touch[k].other == g;
+                for (uint32_t k = p->intersections.first[f]; k < p->intersections.first[f + 1];
+                     k++) {
+                    listed += p->intersections.touch[k].other == g;
                 }
                 int live = p->redundant[f] != LRCSI_REDUNDANT && p->redundant[g] != LRCSI_REDUNDANT;
-                int want =
-                    g != f && live && !(p->twin && p->twin[f] == g) &&
-                    lrcsi_touch_pair(p->vertex, scene.facet[f], scene.facet[g]) != LRCSI_TOUCH_NONE;
+                int want = g != f && live && !(p->twin && p->twin[f] == g) &&
+                           lrcsi_touch_pair(p->vertex, scene.facet[f], scene.facet[g]) !=
+                               LRCSI_INTERSECTION_NONE;
                 assert_int_equal(listed, want);
                 met += listed;
             }
             if (p->twin && p->twin[f] != LRCS_NONE) {
-                assert_int_equal(p->touches.rim[f], p->touches.rim[p->twin[f]]);
+                assert_int_equal(p->intersections.rim[f], p->intersections.rim[p->twin[f]]);
                 assert_int_equal(p->twin[p->twin[f]], f);
             }
         }

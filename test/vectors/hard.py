@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-# References of the hard cases: of `lrcs verify --hard` (src/cli/verify_cases.c repeats them, which
+# References of the hard cases: of `lrcs verify --hard` (src/cli/verify/cases.c repeats them, which
 # test/cli/test_verify.sh checks) and of test_hard.c. sigma from Eq. 2 at inputs that are exact
 # doubles, by mpmath at 50 digits; walls and curved bodies by closed.py, visible areas by hand, as
 # said beside each, in exact fractions. Writes hard.inc: a name, a value rounded once.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""sigma of curved bodies by the definition, for test/optics/test_stray.c.
+"""sigma of curved bodies by the definition, for test/optics/test_deviation.c.
 
 sigma = 4 pi * integral over the surface where c = n . s_hat > 0 of
         A c^-4 exp(-(c^-2 - 1)/s^2) + B c^(m+2)

@@ -224,8 +224,8 @@ static void matrices_stay_orthonormal_all_round_the_sphere(void **state)
             check_direction(&pose);
         }
     }
-    for (double tilt = 1.0; tilt > 1e-300; tilt /= 1024.0) {
-        const double d[3] = {tilt, -0.6 * tilt, -1.0};
+    for (double incidence = 1.0; incidence > 1e-300; incidence /= 1024.0) {
+        const double d[3] = {incidence, -0.6 * incidence, -1.0};
         lrcs_pose pose;
         assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
         check_orthonormal(&pose);

@@ -37,9 +37,9 @@ static void facing_is_exact_at_edge_on_and_one_ulp_off(void **state)
     for (int i = 0; i < 5; i++) {
         lrcsi_view view = view_along(in_plane[i]);
         assert_int_equal(view.facing[0], 0);
-        lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
-        check_same(tilt.projected, 0);
-        check_same(tilt.cos_theta, 0);
+        lrcsi_incidence incidence = lrcsi_view_incidence(&view, 0);
+        check_same(incidence.projected, 0);
+        check_same(incidence.cos_theta, 0);
         for (int k = 0; k < 3; k++) {
             static const int sign[3] = {-1, 1, 1};
             for (int side = -1; side <= 1; side += 2) {
@@ -47,9 +47,9 @@ static void facing_is_exact_at_edge_on_and_one_ulp_off(void **state)
                 d[k] = d[k] == 0 ? side * 0x1p-290 : nextafter(d[k], side * HUGE_VAL);
                 view = view_along(d);
                 assert_int_equal(view.facing[0], side * sign[k]);
-                tilt = lrcsi_view_tilt(&view, 0);
-                assert_true(tilt.cos_theta * side * sign[k] > 0);
-                assert_true(tilt.projected > 0);
+                incidence = lrcsi_view_incidence(&view, 0);
+                assert_true(incidence.cos_theta * side * sign[k] > 0);
+                assert_true(incidence.projected > 0);
             }
         }
     }
@@ -93,19 +93,19 @@ static void tilt_agrees_from_normal_to_grazing(void **state)
             long double want2 =
                 ((long double)d[0] * d[0] / d[2] / d[2] + (long double)d[1] * d[1] / d[2] / d[2]);
             lrcsi_view view = view_along(d);
-            lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
-            if (tilt.stretch < 1) {
-                check_rel(tilt.tan2, (double)want2, tilt.stretch);
-                assert_true(tilt.stretch < 1e-14);
-            } else if (isfinite(tilt.stretch)) { /* it lies in 0 .. tan2 */
-                check_most((double)want2, tilt.tan2);
-                check_most(tilt.tan2, 1e-50);
+            lrcsi_incidence incidence = lrcsi_view_incidence(&view, 0);
+            if (incidence.tan2_err < 1) {
+                check_rel(incidence.tan2, (double)want2, incidence.tan2_err);
+                assert_true(incidence.tan2_err < 1e-14);
+            } else if (isfinite(incidence.tan2_err)) { /* it lies in 0 .. tan2 */
+                check_most((double)want2, incidence.tan2);
+                check_most(incidence.tan2, 1e-50);
             }
             long double cosine = 1 / sqrtl(1 + want2);
-            check_rel(tilt.cos_theta, (double)cosine, 1e-15);
-            check_abs(lrcsi_prepared_area(view.prepared, tilt.projected), (double)(3 * cosine),
-                      tilt.error * 3 * (double)cosine);
-            assert_true(tilt.error < 4e-15);
+            check_rel(incidence.cos_theta, (double)cosine, 1e-15);
+            check_abs(lrcsi_prepared_area(view.prepared, incidence.projected), (double)(3 * cosine),
+                      incidence.error * 3 * (double)cosine);
+            assert_true(incidence.error < 4e-15);
         }
     }
 }
@@ -119,21 +119,21 @@ static void tilt_agrees_with_exact_arithmetic(void **state)
         scene_start(&scene);
         scene_triangle(&scene, row->corner[0], row->corner[1], row->corner[2]);
         lrcsi_view view = view_along(row->direction);
-        lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
-        check_rel(tilt.tan2, row->tan2, tilt.stretch + 0x1p-53);
-        check_most(tilt.stretch, 1e-14);
-        check_rel(tilt.cos_theta, row->cosine, 12 * 0x1p-53);
-        check_rel(lrcsi_prepared_area(view.prepared, tilt.projected), row->projected,
-                  tilt.error + 0x1p-53);
-        check_most(tilt.error, 9 * 0x1p-53);
+        lrcsi_incidence incidence = lrcsi_view_incidence(&view, 0);
+        check_rel(incidence.tan2, row->tan2, incidence.tan2_err + 0x1p-53);
+        check_most(incidence.tan2_err, 1e-14);
+        check_rel(incidence.cos_theta, row->cosine, 12 * 0x1p-53);
+        check_rel(lrcsi_prepared_area(view.prepared, incidence.projected), row->projected,
+                  incidence.error + 0x1p-53);
+        check_most(incidence.error, 9 * 0x1p-53);
     }
 }
 
-static void check_same_tilt(lrcsi_tilt got, lrcsi_tilt want)
+static void check_same_tilt(lrcsi_incidence got, lrcsi_incidence want)
 {
     check_same(got.cos_theta, want.cos_theta);
     check_same(got.tan2, want.tan2);
-    check_same(got.stretch, want.stretch);
+    check_same(got.tan2_err, want.tan2_err);
     check_same(got.projected, want.projected);
     check_same(got.error, want.error);
 }
@@ -150,13 +150,13 @@ static void many_tilts_are_those_of_one_facet_each(void **state)
         lrcsi_view view = view_along(along[i]);
         for (uint32_t count = 1; count <= LRCSI_TILTS; count++) {
             uint32_t facet[LRCSI_TILTS];
-            lrcsi_tilt tilt[LRCSI_TILTS];
+            lrcsi_incidence incidence[LRCSI_TILTS];
             for (uint32_t k = 0; k < count; k++) {
                 facet[k] = (7 * k + 3 * count) % scene.scene.facet_count;
             }
-            lrcsi_view_tilts(&view, facet, count, tilt);
+            lrcsi_view_incidences(&view, facet, count, incidence);
             for (uint32_t k = 0; k < count; k++) {
-                check_same_tilt(tilt[k], lrcsi_view_tilt(&view, facet[k]));
+                check_same_tilt(incidence[k], lrcsi_view_incidence(&view, facet[k]));
             }
         }
     }
@@ -170,11 +170,11 @@ static void nearest_to_edge_on_tan2_is_a_lower_bound(void **state)
     scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
                    (const double[3]){0, 1, 0x1p-250});
     lrcsi_view view = view_along((const double[3]){1, -0x1p-299, 0});
-    lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
+    lrcsi_incidence incidence = lrcsi_view_incidence(&view, 0);
     assert_int_equal(view.facing[0], 1);
-    assert_true(isinf(tilt.stretch) && isfinite(tilt.tan2));
-    check_most(0x1p990, tilt.tan2);
-    assert_true(tilt.cos_theta >= 0x1p-549 && tilt.cos_theta <= 0x1p-499);
+    assert_true(isinf(incidence.tan2_err) && isfinite(incidence.tan2));
+    check_most(0x1p990, incidence.tan2);
+    assert_true(incidence.cos_theta >= 0x1p-549 && incidence.cos_theta <= 0x1p-499);
     lrcs_result r = scene_run(&scene, (const double[3]){1, -0x1p-299, 0}, LRCS_METHOD_EXACT, 0);
     check_most(r.sigma_m2, r.bound_m2); /* the truth is below 1e-400 */
     check_most(r.bound_m2, 0x1p-995);   /* 2^-1000 of each part is for underflow (reflect.c) */
@@ -188,11 +188,11 @@ static void normal_incidence_is_exact(void **state)
                    (const double[3]){1, 5, 1}); /* (1,2,0) x (0,3,-2) = (-4, 2, 3) */
     for (int sign = -1; sign <= 1; sign += 2) {
         lrcsi_view view = view_along((const double[3]){-4 * sign, 2 * sign, 3 * sign});
-        lrcsi_tilt tilt = lrcsi_view_tilt(&view, 0);
+        lrcsi_incidence incidence = lrcsi_view_incidence(&view, 0);
         assert_int_equal(view.facing[0], sign);
-        check_rel(tilt.cos_theta, (double)sign, 4e-16);
-        check_most(tilt.tan2, 1e-60);
-        check_rel(lrcsi_prepared_area(view.prepared, tilt.projected), 0.5 * sqrt(29), 1e-15);
+        check_rel(incidence.cos_theta, (double)sign, 4e-16);
+        check_most(incidence.tan2, 1e-60);
+        check_rel(lrcsi_prepared_area(view.prepared, incidence.projected), 0.5 * sqrt(29), 1e-15);
     }
 }
 

@@ -84,27 +84,27 @@ static void agree_facet(agree_way *way, int number, uint32_t facet, double proje
     }
 }
 
-/* One direction: all facets that can be seen by cells together, contested ones each alone. */
+/* One direction: all facets that can be seen by cells together, undecided ones each alone. */
 static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *work,
                        unsigned char *open, lrcsi_visible *found, agree_sums *sums)
 {
     lrcsi_view view;
-    lrcsi_contest contest;
+    lrcsi_classification classification;
     ref_occluding o;
     lrcsi_alone a;
     uint32_t count = prepared->scene->facet_count;
     lrcs_pose pose = pose_of(number);
     work->used = 0;
     must(lrcsi_view_make(prepared, &pose, work, &view));
-    must(lrcsi_contest_make(&view, work, &contest));
+    must(lrcsi_classify_make(&view, work, &classification));
     for (uint32_t f = 0; f < count; f++) {
         open[f] = lrcsi_grid_casts(&view, f) != 0;
     }
     double start = now_ms();
-    lrcsi_cells_areas(&contest, work, open, found);
+    lrcsi_cells_areas(&classification, work, open, found);
     sums->together.ms += now_ms() - start;
-    must(ref_occlude_make(&contest, work, &o));
-    must(lrcsi_alone_make(&contest, &o.cover.facets, work, &a));
+    must(ref_occlude_make(&classification, work, &o));
+    must(lrcsi_alone_make(&classification, &o.cover.facets, work, &a));
     for (uint32_t f = 0; f < count; f++) {
         if (!lrcsi_grid_casts(&view, f)) {
             continue;
@@ -118,14 +118,14 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         if (!open[f]) {
             agree_facet(&sums->together, number, f, projected, &found[f], &clipped);
         }
-        if (contest.contested[f]) {
+        if (classification.undecided[f]) {
             start = now_ms();
             lrcsi_alone_open(&a, f);
             while (lrcsi_alone_next(&a)) {
             }
             lrcsi_visible one = lrcsi_alone_close(&a);
             sums->alone.ms += now_ms() - start;
-            sums->alone.left += a.doubt[0] + a.doubt[1] > 0;
+            sums->alone.left += a.uncertainty[0] + a.uncertainty[1] > 0;
             agree_facet(&sums->alone, number, f, projected, &one, &clipped);
         }
     }
@@ -133,7 +133,8 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
 
 static void agree_print(const agree_way *way, int directions)
 {
-    printf("    %-8s %llu facets, %llu in doubt, %llu apart (worst gap %.3g); widths %.3g, clipped "
+    printf("    %-8s %llu facets, %llu in uncertainty, %llu apart (worst gap %.3g); widths %.3g, "
+           "clipped "
            "%.3g; %.2f ms a pose\n",
            way->name, (unsigned long long)way->asked, (unsigned long long)way->left,
            (unsigned long long)way->apart, way->worst, way->width, way->theirs,

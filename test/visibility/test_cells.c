@@ -10,7 +10,7 @@
 static test_scene scene;
 static lrcs_work work;
 static lrcsi_view view;
-static lrcsi_contest contest;
+static lrcsi_classification classification;
 static lrcsi_visible found[SCENE_FACETS];
 static unsigned char open[SCENE_FACETS];
 
@@ -20,7 +20,7 @@ static void turned(const double direction[3])
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
 }
 
 /* Asks for all facets that can be seen, undecided or not. Returns how many there are; *left is how
@@ -33,7 +33,7 @@ static uint32_t ask(uint32_t *left)
         open[f] = lrcsi_grid_casts(&view, f) != 0;
         asked += open[f];
     }
-    lrcsi_cells_areas(&contest, &work, open, found);
+    lrcsi_cells_areas(&classification, &work, open, found);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         *left += open[f];
     }
@@ -49,7 +49,7 @@ static uint32_t agree(const double direction[3])
     turned(direction);
     uint32_t asked = ask(&left);
     lrcsi_occluding o;
-    assert_int_equal(lrcsi_occlude_make(&contest, &work, &o), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_make(&classification, &work, &o), LRCS_OK);
     const double *bulk = view.prepared->bulk;
     double extent = 2 * fmax(bulk[0], fmax(bulk[1], bulk[2]));
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
@@ -233,8 +233,8 @@ static void moebius_strip_wound_at_random(void **state)
         }
         for (size_t i = 0; i < sizeof direction / sizeof *direction; i++) {
             assert_true(agree(direction[i]) >= 2 * PARTS - 8);
-            events[i] = winding == 0 ? contest.events.count : events[i];
-            assert_int_equal(contest.events.count, events[i]);
+            events[i] = winding == 0 ? classification.events.count : events[i];
+            assert_int_equal(classification.events.count, events[i]);
             for (uint32_t f = 0; f < 2 * PARTS; f++) {
                 seen[i][f] = winding == 0 ? found[f].area : seen[i][f];
                 check_abs(found[f].area, seen[i][f], 1e-12);

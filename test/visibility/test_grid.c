@@ -4,7 +4,7 @@
 #include "visibility/grid.h"
 
 #include "scenes.h"
-#include "visibility/contest.h"
+#include "visibility/classify.h"
 
 static test_scene scene;
 static unsigned char little[1u << 20];
@@ -29,8 +29,8 @@ static void shards(uint32_t count)
     }
 }
 
-/* Sheets of 2 n^2 facets that share their corners, one above the other. */
-static void sheets(uint32_t count, uint32_t n)
+/* Surface components of 2 n^2 facets that share their corners, one above the other. */
+static void components(uint32_t count, uint32_t n)
 {
     scene_start(&scene);
     for (uint32_t k = 0; k < count; k++) {
@@ -102,29 +102,30 @@ static uint32_t check_grids(void)
 {
     lrcs_work work;
     lrcsi_view view = view_of_scene(&work);
-    lrcsi_contest contest;
+    lrcsi_classification classification;
     lrcsi_grid facets;
-    assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
-    assert_int_equal(lrcsi_grid_facets(&contest.grid, contest.cells, NULL, &work, &facets),
-                     LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(
+        lrcsi_grid_facets(&classification.grid, classification.cells, NULL, &work, &facets),
+        LRCS_OK);
     const lrcs_prepared *p = view.prepared;
     assert_true(listed(&facets) <= LRCSI_GRID_FACET_CELLS * p->scene->facet_count);
-    assert_true(listed(&contest.grid) <= 8 * p->topology.edge_count);
+    assert_true(listed(&classification.grid) <= 8 * p->topology.edge_count);
     double at[2];
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         lrcsi_view_box box = lrcsi_view_box_of(&view, p->scene->facet[f].corner, 3);
         lrcsi_cells cells = lrcsi_grid_cells(&facets, &box);
-        assert_memory_equal(&cells, &contest.cells[f], sizeof cells);
+        assert_memory_equal(&cells, &classification.cells[f], sizeof cells);
         for (int i = 0; i < 20; i++) {
             place_on(&view, p->scene->facet[f].corner, 3, at);
             assert_true(lists(&facets, at, f));
         }
     }
-    for (uint32_t i = 0; i < contest.events.count; i++) {
-        const lrcsi_edge *edge = &p->topology.edge[contest.events.edge[i]];
+    for (uint32_t i = 0; i < classification.events.count; i++) {
+        const lrcsi_edge *edge = &p->topology.edge[classification.events.edge[i]];
         for (int k = 0; k < 20; k++) {
             place_on(&view, (const uint32_t[2]){edge->low, edge->high}, 2, at);
-            assert_true(lists(&contest.grid, at, i));
+            assert_true(lists(&classification.grid, at, i));
         }
     }
     return facets.size;
@@ -138,7 +139,7 @@ static void what_stands_in_a_cell_is_listed_there_and_not_too_often(void **state
         assert_true(check_grids() <= 4); /* or each would be listed more than 16 times */
     }
     for (uint32_t count = 1; count <= 64; count *= 2) {
-        sheets(count, 4);
+        components(count, 4);
         assert_true(check_grids() <= 16); /* where it would be 45 */
     }
 }
@@ -146,9 +147,9 @@ static void what_stands_in_a_cell_is_listed_there_and_not_too_often(void **state
 static void cells_of_small_facets_are_as_many_as_those(void **state)
 {
     (void)state;
-    sheets(1, 32);
+    components(1, 32);
     assert_int_equal(check_grids(), 45); /* the root of 2048 */
-    sheets(2, 32);
+    components(2, 32);
     assert_int_equal(check_grids(), 64);
 }
 
@@ -213,11 +214,13 @@ static void boxes_of_cells_grow_with_the_cells(void **state)
 }
 
 /* In so many bytes, and unharmed where they are too few. */
-static int facets_in(const lrcsi_contest *contest, const unsigned char *wanted, size_t size)
+static int facets_in(const lrcsi_classification *classification, const unsigned char *wanted,
+                     size_t size)
 {
     lrcsi_grid grid;
     lrcs_work work = lrcs_work_make(little, size);
-    int status = lrcsi_grid_facets(&contest->grid, contest->cells, wanted, &work, &grid);
+    int status =
+        lrcsi_grid_facets(&classification->grid, classification->cells, wanted, &work, &grid);
     assert_int_equal(status, work.peak <= size ? LRCS_OK : LRCS_E_MEMORY);
     assert_true(status == LRCS_OK || work.used == 0);
     return status;
@@ -232,16 +235,16 @@ static void grids_of_facets_fit_into_what_they_ask_for(void **state)
         lrcs_work work;
         shards(count);
         lrcsi_view view = view_of_scene(&work);
-        lrcsi_contest contest;
-        assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
+        lrcsi_classification classification;
+        assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
         size_t need = lrcsi_grid_facets_need(view.prepared);
         size_t fits = 0;
-        while (facets_in(&contest, all, fits) != LRCS_OK) {
+        while (facets_in(&classification, all, fits) != LRCS_OK) {
             fits += count < 20 ? 1 : 97;
         }
         assert_true(fits <= need);
-        assert_int_equal(facets_in(&contest, all, need), LRCS_OK);
-        assert_int_equal(facets_in(&contest, NULL, need), LRCS_OK);
+        assert_int_equal(facets_in(&classification, all, need), LRCS_OK);
+        assert_int_equal(facets_in(&classification, NULL, need), LRCS_OK);
     }
 }
 
@@ -252,12 +255,12 @@ static void contests_fit_into_what_they_ask_for(void **state)
         lrcs_work work;
         shards(count);
         lrcsi_view view = view_of_scene(&work);
-        size_t need = lrcsi_contest_need(view.prepared);
+        size_t need = lrcsi_classify_need(view.prepared);
         int before = LRCS_E_MEMORY;
         for (size_t size = 0; size <= need; size += count < 10 ? 1 : need / 50) {
-            lrcsi_contest contest;
+            lrcsi_classification classification;
             lrcs_work few = lrcs_work_make(little, size);
-            int status = lrcsi_contest_make(&view, &few, &contest);
+            int status = lrcsi_classify_make(&view, &few, &classification);
             assert_int_equal(status, few.peak <= size ? LRCS_OK : LRCS_E_MEMORY);
             assert_true(status == LRCS_OK ? few.used != 0 : before != LRCS_OK && few.used == 0);
             before = status;

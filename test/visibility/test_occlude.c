@@ -8,7 +8,7 @@
 static test_scene scene;
 static lrcs_work work;
 static lrcsi_view view;
-static lrcsi_contest contest;
+static lrcsi_classification classification;
 
 /* A level plate of two facets at height 0, seen from above, and whatever else was put there. */
 static lrcsi_occluding open_scene(void)
@@ -18,8 +18,8 @@ static lrcsi_occluding open_scene(void)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
-    assert_int_equal(lrcsi_occlude_make(&contest, &work, &o), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_make(&classification, &work, &o), LRCS_OK);
     return o;
 }
 
@@ -115,11 +115,11 @@ static double share_left(const double direction[3], double *error)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
-    assert_int_equal(lrcsi_occlude_make(&contest, &work, &o), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_make(&classification, &work, &o), LRCS_OK);
     lrcsi_occlude_open(&o, 0);
     lrcsi_visible seen = lrcsi_occlude_area(&o);
-    double whole = lrcsi_view_tilt(&view, 0).projected;
+    double whole = lrcsi_view_incidence(&view, 0).projected;
     *error = (seen.high - seen.low) / whole;
     return seen.area / whole;
 }
@@ -200,7 +200,7 @@ static void front_skin_hides_a_back_in_its_plane(void **state)
 }
 
 /* Planes that meet at 1e-9: the cut is where exact arithmetic puts it, and its slip is charged. */
-static void shallow_cuts_own_up_to_their_slip(void **state)
+static void shallow_cuts_own_up_to_their_position_err(void **state)
 {
     (void)state;
     for (int power = 1; power <= 50; power += 7) {
@@ -253,7 +253,7 @@ static void a_needle_shows_its_share_in_pieces(void **state)
                     (const double[3]){0, 2, 0});
         check_abs(share_left(from, &error), 0.75, 1e-14);
         check_most(error, 1e-12);
-        assert_int_equal(lrcsi_occlude_make(&contest, &work, &o), LRCS_OK);
+        assert_int_equal(lrcsi_occlude_make(&classification, &work, &o), LRCS_OK);
         lrcsi_occlude_open(&o, 0);
         double area = 0;
         while (lrcsi_occlude_next(&o)) {
@@ -328,9 +328,9 @@ static void answers_and_areas_tell_what_areas_alone_tell(void **state)
         some[f] = untouched;
     }
     size_t used = work.used;
-    assert_int_equal(lrcsi_occlude_all(&contest, &work, NULL, all), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_all(&classification, &work, NULL, all), LRCS_OK);
     assert_int_equal(work.used, used);
-    assert_int_equal(lrcsi_occlude_all(&contest, &work, &answer, some), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_all(&classification, &work, &answer, some), LRCS_OK);
     for (uint32_t f = 0; f < SECTORS + 3; f++) {
         double whole = lrcsi_view_projected(&view, f);
         int undecided = answer[f] == LRCSI_QUERY_UNDECIDED;
@@ -358,7 +358,7 @@ int main(void)
         cmocka_unit_test(piercing_facet_hides_only_what_its_upper_part_covers),
         cmocka_unit_test(facets_behind_beside_or_in_contact_hide_nothing),
         cmocka_unit_test(front_skin_hides_a_back_in_its_plane),
-        cmocka_unit_test(shallow_cuts_own_up_to_their_slip),
+        cmocka_unit_test(shallow_cuts_own_up_to_their_position_err),
         cmocka_unit_test(needles_turned_over_by_rounding_hide_nothing),
         cmocka_unit_test(a_needle_shows_its_share_in_pieces),
         cmocka_unit_test(a_fan_costs_pieces_along_its_rim_only),

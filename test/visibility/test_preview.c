@@ -214,23 +214,23 @@ static void the_likely_error_is_near_the_error(void **state)
         tangle((uint64_t)s + 100);
         for (int i = 0; i < DIRECTIONS; i++) {
             lrcsi_view view = seen_from(i);
-            lrcsi_contest contest;
-            assert_int_equal(lrcsi_contest_make(&view, &work, &contest), LRCS_OK);
-            assert_int_equal(lrcsi_occlude_all(&contest, &work, NULL, truth), LRCS_OK);
+            lrcsi_classification classification;
+            assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+            assert_int_equal(lrcsi_occlude_all(&classification, &work, NULL, truth), LRCS_OK);
             for (uint32_t size = 32; size <= 512; size *= 4) {
                 int undecided;
                 assert_int_equal(lrcsi_preview_make(&view, size, &work, visible, &undecided),
                                  LRCS_OK);
                 double error = 0;
                 double square = 0;
-                double lean = 0;
+                double bias = 0;
                 for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
                     double weight = 1 + f % 5;
                     error += weight * (visible[f].area - truth[f].area);
                     square += weight * weight * visible[f].likely * visible[f].likely;
-                    lean += weight * visible[f].lean;
+                    bias += weight * visible[f].bias;
                 }
-                double likely = sqrt(square + lean * lean);
+                double likely = sqrt(square + bias * bias);
                 below += likely < fabs(error);
                 far += likely > 8 * fabs(error);
                 runs++;

@@ -193,12 +193,12 @@ static void skins_closer_than_double_double_keep_their_order(void **state)
 {
     (void)state;
     const double gap = 0x1p-140;
-    for (int tilt = -1; tilt <= 1; tilt++) {
+    for (int incidence = -1; incidence <= 1; incidence++) {
         for (int upper = 0; upper < 2; upper++) {
             scene_start(&scene);
             for (int i = 0; i < 2; i++) {
                 double z = i == upper ? gap : 0;
-                double rise = i == upper ? 0.5 * gap * tilt : 0;
+                double rise = i == upper ? 0.5 * gap * incidence : 0;
                 scene_triangle(&scene, (const double[3]){0, 0, z}, (const double[3]){0.5, 0, z},
                                (const double[3]){0, 0.5, z + rise});
             }

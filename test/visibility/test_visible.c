@@ -36,12 +36,12 @@ static lrcsi_view seen_from(int i)
 }
 
 /* The sampled run of a view, in memory that was all `untouched`. */
-static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_contest *contest, lrcsi_known *known,
-                            lrcsi_visible *visible)
+static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_classification *classification,
+                            lrcsi_known *known, lrcsi_visible *visible)
 {
     lrcsi_raster raster;
-    assert_int_equal(lrcsi_contest_make(view, &work, contest), LRCS_OK);
-    assert_int_equal(lrcsi_visible_known(contest, &work, known), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(view, &work, classification), LRCS_OK);
+    assert_int_equal(lrcsi_visible_known(classification, &work, known), LRCS_OK);
     size_t need = lrcsi_visible_need(view->prepared, N);
     assert_true(work.size - work.used >= need);
     memset(work.bytes + work.used, untouched, need);
@@ -60,10 +60,10 @@ static void wanted_tiles_hold_what_the_whole_picture_holds(void **state)
     for (int i = 0; i < 4; i++) {
         crowd();
         lrcsi_view view = seen_from(i);
-        lrcsi_contest contest;
+        lrcsi_classification classification;
         lrcsi_known known;
         lrcsi_raster whole;
-        lrcsi_raster raster = sampled(&view, &contest, &known, visible);
+        lrcsi_raster raster = sampled(&view, &classification, &known, visible);
         assert_int_equal(lrcsi_raster_make(&view, N, &work, &whole), LRCS_OK);
         for (uint32_t k = 0; k < N * N; k++) {
             uint32_t tile = k / N / LRCSI_RASTER_TILE * raster.tiles + k % N / LRCSI_RASTER_TILE;
@@ -108,15 +108,15 @@ static void tangle(uint64_t seed)
 }
 
 /* A pure pixel shows its owner in every part: so says a picture eight times as fine. Adds up the
-   samples of uniform and contested owners. */
+   samples of uniform and undecided owners. */
 static void check_pure(int direction, unsigned pure[2])
 {
     static lrcsi_visible visible[SCENE_FACETS];
     lrcsi_view view = seen_from(direction);
-    lrcsi_contest contest;
+    lrcsi_classification classification;
     lrcsi_known known;
     lrcsi_raster fine;
-    lrcsi_raster raster = sampled(&view, &contest, &known, visible);
+    lrcsi_raster raster = sampled(&view, &classification, &known, visible);
     assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
     for (uint32_t k = 0; k < N * N * FINE * FINE; k++) {
         uint32_t x = k % (N * FINE) / FINE;
@@ -124,7 +124,7 @@ static void check_pure(int direction, unsigned pure[2])
         uint32_t owner = lrcsi_raster_owner(&raster, x, y);
         if (owner != LRCS_NONE && raster.pure[y * N + x]) {
             assert_int_equal(fine.owner[k], owner);
-            pure[contest.contested[owner]]++;
+            pure[classification.undecided[owner]]++;
         }
     }
 }

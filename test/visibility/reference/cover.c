@@ -2,9 +2,9 @@
 /* One line of sight through a facet, against the facets near it. All decisions are exact but the
    place of the line, which is the caller's to keep away from what divides.
 
-   Let a sheet hide the point, and none of the events of a cell be one where it ends. Along any path
-   in the cell, apart from the cuts, the sheet goes on (visibility/contest.h) and stays in front:
-   to pass behind it would have to touch the target. So it hides all of the cell.
+   Let a component hide the point, and none of the events of a cell be one where it ends. Along any
+   path in the cell, apart from the cuts, the component goes on (visibility/classify.h) and stays in
+   front: to pass behind it would have to touch the target. So it hides all of the cell.
 
    A line is held against candidates in the frame first, in doubles: away from their sides that is
    sure, and good to the target's own size. Where it passes too near a side, all of them are asked
@@ -38,10 +38,10 @@ size_t ref_cover_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(ref_cover_facet)));
 }
 
-int ref_cover_make(lrcsi_contest *contest, lrcs_work *work, ref_cover *cover)
+int ref_cover_make(lrcsi_classification *classification, lrcs_work *work, ref_cover *cover)
 {
-    uint32_t count = contest->view->prepared->scene->facet_count;
-    *cover = (ref_cover){.contest = contest};
+    uint32_t count = classification->view->prepared->scene->facet_count;
+    *cover = (ref_cover){.classification = classification};
     cover->asked = lrcsi_work_take_zero(work, count, sizeof *cover->asked);
     cover->candidate = lrcsi_work_take(work, count, sizeof *cover->candidate);
     cover->sides = lrcsi_work_take_zero(work, REF_COVER_KEPT, sizeof *cover->sides);
@@ -85,7 +85,7 @@ void ref_cover_start(ref_cover *cover, const lrcsi_target *target)
 static uint32_t order_mixed(const ref_cuts *cuts, uint32_t other)
 {
     const lrcsi_target *t = cuts->target;
-    const lrcsi_touches *touches = &t->view->prepared->touches;
+    const lrcsi_intersections *intersections = &t->view->prepared->intersections;
     for (uint32_t i = 0; i < cuts->count; i++) {
         if (cuts->cut[i].other == other) {
             int kind = cuts->cut[i].kind;
@@ -95,8 +95,8 @@ static uint32_t order_mixed(const ref_cuts *cuts, uint32_t other)
                                                    : ORDER_FRONT;
         }
     }
-    for (uint32_t i = touches->first[t->facet]; i < touches->first[t->facet + 1]; i++) {
-        if (touches->touch[i].other == other) {
+    for (uint32_t i = intersections->first[t->facet]; i < intersections->first[t->facet + 1]; i++) {
+        if (intersections->touch[i].other == other) {
             return ORDER_BEHIND;
         }
     }
@@ -111,8 +111,8 @@ static uint32_t order_mixed(const ref_cuts *cuts, uint32_t other)
 static uint32_t order_of(const ref_cuts *cuts, uint32_t other)
 {
     const lrcsi_target *t = cuts->target;
-    uint32_t touches = lrcsi_touches_of(&t->view->prepared->touches, t->facet);
-    if (!lrcsi_meter_take(t->view->meter, (uint64_t)1 + cuts->count + touches)) {
+    uint32_t intersections = lrcsi_intersection_of(&t->view->prepared->intersections, t->facet);
+    if (!lrcsi_meter_take(t->view->meter, (uint64_t)1 + cuts->count + intersections)) {
         return ORDER_NEW;
     }
     int side = lrcsi_contact_side(t->view, t->facet, other);
@@ -300,12 +300,13 @@ static lrcsi_view_box line_box(const lrcsi_target *t, const double at[2])
     lrcsi_target_unrefine(t, at, x);
     x[0] += first[0];
     x[1] += first[1];
-    return lrcsi_view_box_about(t->view, x, lrcsi_view_off(first) + (16 * U + 2 * t->slip) * reach);
+    return lrcsi_view_box_about(t->view, x,
+                                lrcsi_view_off(first) + (16 * U + 2 * t->position_err) * reach);
 }
 
-/* Of the sheets that hide a point, the one that ends at the fewest cuts. */
+/* Of the components that hide a point, the one that ends at the fewest cuts. */
 typedef struct cover_found {
-    uint32_t sheet, ends;
+    uint32_t component, ends;
 } cover_found;
 
 #define LINE_AGAIN (-1)
@@ -326,8 +327,8 @@ static int line_ask(const cover_line *line, ref_cover *cover, ref_cover_facet *c
     if (!lrcsi_meter_take(cover->facets.view->meter, line->count)) {
         return REF_COVER_UNKNOWN;
     }
-    uint32_t sheet = cover->contest->sheet[c->facet];
-    uint32_t ends = ref_cuts_of(line->cuts, line->count, sheet);
+    uint32_t component = cover->classification->component[c->facet];
+    uint32_t ends = ref_cuts_of(line->cuts, line->count, component);
     if (ends == 0) {
         ref_cover_facet first = cover->candidate[0];
         cover->candidate[0] = *c;
@@ -335,39 +336,39 @@ static int line_ask(const cover_line *line, ref_cover *cover, ref_cover_facet *c
         return REF_COVER_ALL;
     }
     if (ends < found->ends) {
-        *found = (cover_found){sheet, ends};
+        *found = (cover_found){component, ends};
     }
     return REF_COVER_SOME;
 }
 
 /* What hides the target on a line, likewise. Candidates are counted once they have been asked. */
-static int line_tells(const cover_line *line, ref_cover *cover, uint32_t *sheet)
+static int line_tells(const cover_line *line, ref_cover *cover, uint32_t *component)
 {
-    cover_found found = {*sheet, LRCS_NONE};
+    cover_found found = {*component, LRCS_NONE};
     int answer = REF_COVER_NONE;
     uint32_t asked = 0;
     while (asked < cover->count && answer != LINE_AGAIN && answer != REF_COVER_ALL) {
         ref_cover_facet *c = &cover->candidate[asked++];
         answer = line_misses(line, c) ? answer : line_ask(line, cover, c, answer, &found);
     }
-    *sheet = found.sheet;
+    *component = found.component;
     return lrcsi_meter_take(cover->facets.view->meter, asked) ? answer : REF_COVER_UNKNOWN;
 }
 
 int ref_cover_sample(ref_cover *cover, const ref_cuts *cuts, uint32_t count, ref_cover_place *place,
-                     uint32_t *sheet)
+                     uint32_t *component)
 {
     cover_line line = {.cover = cover,
                        .cuts = cuts,
                        .count = count,
                        .at = {place->at[0], place->at[1]},
                        .box = line_box(cuts->target, place->at),
-                       .off = cuts->target->slip};
-    int answer = place->clear > 0 ? line_tells(&line, cover, sheet) : LINE_AGAIN;
+                       .off = cuts->target->position_err};
+    int answer = place->clear > 0 ? line_tells(&line, cover, component) : LINE_AGAIN;
     if (answer == LINE_AGAIN) {
         line_lift(&line);
         line.way = place->clear > line.off ? LINE_EXACT : LINE_GUESSED;
-        answer = line_tells(&line, cover, sheet);
+        answer = line_tells(&line, cover, component);
     }
     place->guess = line.way == LINE_GUESSED;
     return answer;

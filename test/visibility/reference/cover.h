@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What stands in front of a point of a contested facet: one exact sample, and whether it tells of
+/* What stands in front of a point of an undecided facet: one exact sample, and whether it tells of
    all of a cell around the point. */
 #ifndef REF_COVER_H
 #define REF_COVER_H
@@ -9,8 +9,8 @@
 
 enum ref_cover_answer {
     REF_COVER_NONE,   /* nothing hides the point */
-    REF_COVER_ALL,    /* a sheet hides it that ends nowhere in the cell: it hides all of that */
-    REF_COVER_SOME,   /* only sheets hide it that may end in the cell */
+    REF_COVER_ALL,    /* a component hides it that ends nowhere in the cell: it hides all of that */
+    REF_COVER_SOME,   /* only components hide it that may end in the cell */
     REF_COVER_UNKNOWN /* it cannot be told, or the view's meter is spent */
 };
 
@@ -32,7 +32,7 @@ typedef struct ref_cover_sides {
 #define REF_COVER_KEPT 1024u
 
 typedef struct ref_cover {
-    lrcsi_contest *contest;
+    lrcsi_classification *classification;
     lrcsi_grid facets;
     uint32_t *asked; /* facet: the search for candidates that last met it */
     uint32_t asks;   /* searches so far */
@@ -46,7 +46,7 @@ size_t ref_cover_need(const lrcs_prepared *prepared);
 
 /* What serves all facets of a view, but for the grid of facets, which is the caller's to make; it
    stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
-int ref_cover_make(lrcsi_contest *contest, lrcs_work *work, ref_cover *cover);
+int ref_cover_make(lrcsi_classification *classification, lrcs_work *work, ref_cover *cover);
 
 /* Lists what may hide some of a facet that casts: not all of it where the view's meter is spent. */
 void ref_cover_start(ref_cover *cover, const lrcsi_target *target);
@@ -59,8 +59,8 @@ typedef struct ref_cover_place {
 } ref_cover_place;
 
 /* Asks at a place near which a cell may be divided by list[0 .. count) of the cuts alone. A
-   ref_cover_answer; where it is SOME, *sheet is that with the fewest of them. */
+   ref_cover_answer; where it is SOME, *component is that with the fewest of them. */
 int ref_cover_sample(ref_cover *cover, const ref_cuts *cuts, uint32_t count, ref_cover_place *place,
-                     uint32_t *sheet);
+                     uint32_t *component);
 
 #endif

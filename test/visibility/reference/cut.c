@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The segments that may divide a facet, and which of them come near a part of it. That no other
-   edge or contact matters is exact (visibility/contest.h); only places are computed in doubles.
+   edge or contact matters is exact (visibility/classify.h); only places are computed in doubles.
 
    In the facet's frame, with d its diameter and r the largest distance in space of a segment's ends
    from its first corner (of a long one's that runs far off, of what matters of it), ends are off by
@@ -48,7 +48,7 @@ static ref_cut *cut_new(ref_cuts *cuts, const double from[2], const double to[2]
         e->line.to[0] = 1; /* any line through it will do */
     }
     e->width = width;
-    e->sheets = 0;
+    e->components = 0;
     e->other = LRCS_NONE;
     return e;
 }
@@ -66,22 +66,22 @@ static double width_in_needle(double off)
     return off < 0.25 ? WIDTH * 6 + 2 * off : BEYOND;
 }
 
-static void cut_sheet(ref_cut *e, uint32_t sheet)
+static void cut_component(ref_cut *e, uint32_t component)
 {
-    for (uint32_t i = 0; i < e->sheets && i < REF_CUT_SHEETS; i++) {
-        if (e->sheet[i] == sheet) {
+    for (uint32_t i = 0; i < e->components && i < REF_CUT_SHEETS; i++) {
+        if (e->component[i] == component) {
             return;
         }
     }
-    if (e->sheets < REF_CUT_SHEETS) {
-        e->sheet[e->sheets] = sheet;
+    if (e->components < REF_CUT_SHEETS) {
+        e->component[e->components] = component;
     }
-    e->sheets++;
+    e->components++;
 }
 
-static void cuts_edge(ref_cuts *cuts, const lrcsi_contest *contest, uint32_t edge)
+static void cuts_edge(ref_cuts *cuts, const lrcsi_classification *classification, uint32_t edge)
 {
-    const lrcs_prepared *p = contest->view->prepared;
+    const lrcs_prepared *p = classification->view->prepared;
     const lrcsi_edge *e = &p->topology.edge[edge];
     const double *from = p->vertex[e->low].x;
     const double *to = p->vertex[e->high].x;
@@ -97,21 +97,23 @@ static void cuts_edge(ref_cuts *cuts, const lrcsi_contest *contest, uint32_t edg
     ref_cut *cut = cut_new(cuts, end[0], end[1], width);
     for (uint32_t i = 0; i < e->uses; i++) {
         uint32_t facet = p->topology.use[e->first_use + i].facet;
-        if (lrcsi_grid_casts(contest->view, facet)) {
-            cut_sheet(cut, contest->sheet[facet]);
+        if (lrcsi_grid_casts(classification->view, facet)) {
+            cut_component(cut, classification->component[facet]);
         }
     }
 }
 
 /* Those that cross it: not all of them where the view's meter is spent. */
-static void cuts_crossing(ref_cuts *cuts, const lrcsi_contest *contest, uint32_t crossings)
+static void cuts_crossing(ref_cuts *cuts, const lrcsi_classification *classification,
+                          uint32_t crossings)
 {
-    const lrcsi_edge *edge = contest->view->prepared->topology.edge;
+    const lrcsi_edge *edge = classification->view->prepared->topology.edge;
     for (uint32_t i = 0; i < crossings; i++) {
-        if (!lrcsi_meter_take(contest->view->meter, edge[contest->crossing[i]].uses)) {
+        if (!lrcsi_meter_take(classification->view->meter,
+                              edge[classification->crossing[i]].uses)) {
             return;
         }
-        cuts_edge(cuts, contest, contest->crossing[i]);
+        cuts_edge(cuts, classification, classification->crossing[i]);
     }
 }
 
@@ -137,7 +139,7 @@ static void cuts_outline(ref_cuts *cuts, uint32_t other, const lrcsi_contact *c)
     }
 }
 
-static void cuts_contact(ref_cuts *cuts, const lrcsi_contest *contest, uint32_t other)
+static void cuts_contact(ref_cuts *cuts, const lrcsi_classification *classification, uint32_t other)
 {
     lrcsi_contact c;
     int kind = lrcsi_contact_find(cuts->target, other, &c);
@@ -145,24 +147,24 @@ static void cuts_contact(ref_cuts *cuts, const lrcsi_contest *contest, uint32_t 
     if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
         cuts_outline(cuts, other, &c);
     } else if (kind != LRCSI_CONTACT_POINT) {
-        double width = cuts->target->needle ? width_in_needle(c.off + c.slip)
-                                            : width_of(cuts, c.reach) + c.slip;
+        double width = cuts->target->needle ? width_in_needle(c.off + c.position_err)
+                                            : width_of(cuts, c.reach) + c.position_err;
         cut_new(cuts, c.end[0], c.end[1], width);
     }
     for (uint32_t i = first; i < cuts->count; i++) {
         cuts->cut[i].other = other;
         cuts->cut[i].kind = kind;
-        cut_sheet(&cuts->cut[i], contest->sheet[other]);
+        cut_component(&cuts->cut[i], classification->component[other]);
     }
 }
 
 /* Each edge may cross a facet, and each of its contacts may divide it along three sides. */
 size_t ref_cuts_need(const lrcs_prepared *prepared)
 {
-    const lrcsi_touches *touches = &prepared->touches;
+    const lrcsi_intersections *intersections = &prepared->intersections;
     size_t most = 0;
     for (uint32_t f = 0; f < prepared->scene->facet_count; f++) {
-        size_t count = lrcsi_touches_of(touches, f);
+        size_t count = lrcsi_intersection_of(intersections, f);
         most = count > most ? count : most;
     }
     size_t room = prepared->topology.edge_count + 3 * most;
@@ -170,13 +172,13 @@ size_t ref_cuts_need(const lrcs_prepared *prepared)
                           lrcsi_work_bytes(room, sizeof(uint32_t)));
 }
 
-int ref_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_work *work,
+int ref_cuts_make(lrcsi_classification *classification, const lrcsi_target *target, lrcs_work *work,
                   ref_cuts *cuts)
 {
-    const lrcsi_touches *touches = &target->view->prepared->touches;
-    uint32_t first = touches->first[target->facet];
-    uint32_t end = touches->first[target->facet + 1];
-    uint32_t crossings = lrcsi_contest_crossings(contest, target->facet);
+    const lrcsi_intersections *intersections = &target->view->prepared->intersections;
+    uint32_t first = intersections->first[target->facet];
+    uint32_t end = intersections->first[target->facet + 1];
+    uint32_t crossings = lrcsi_classify_crossings(classification, target->facet);
     size_t room = crossings + 3 * (size_t)(end - first);
     *cuts = (ref_cuts){.target = target};
     cuts->cut = lrcsi_work_take(work, room, sizeof *cuts->cut);
@@ -184,10 +186,10 @@ int ref_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_work 
     if (!cuts->cut || !cuts->list) {
         return LRCS_E_MEMORY;
     }
-    cuts_crossing(cuts, contest, crossings);
+    cuts_crossing(cuts, classification, crossings);
     for (uint32_t i = first; i < end; i++) {
-        if (lrcsi_contest_touch_hides(target->view, target->facet, &touches->touch[i])) {
-            cuts_contact(cuts, contest, touches->touch[i].other);
+        if (lrcsi_intersection_hides(target->view, target->facet, &intersections->touch[i])) {
+            cuts_contact(cuts, classification, intersections->touch[i].other);
         }
     }
     for (uint32_t i = 0; i < cuts->count; i++) {
@@ -198,10 +200,10 @@ int ref_cuts_make(lrcsi_contest *contest, const lrcsi_target *target, lrcs_work 
 
 /* --- cells ------------------------------------------------------------------------------------ */
 
-int ref_cut_ends(const ref_cut *e, uint32_t sheet)
+int ref_cut_ends(const ref_cut *e, uint32_t component)
 {
-    return e->sheets > REF_CUT_SHEETS || (e->sheets > 0 && e->sheet[0] == sheet) ||
-           (e->sheets > 1 && e->sheet[1] == sheet);
+    return e->components > REF_CUT_SHEETS || (e->components > 0 && e->component[0] == component) ||
+           (e->components > 1 && e->component[1] == component);
 }
 
 uint32_t ref_cuts_keep(ref_cuts *cuts, const ref_clip_polygon *shape, uint32_t count)
@@ -222,11 +224,11 @@ uint32_t ref_cuts_keep(ref_cuts *cuts, const ref_clip_polygon *shape, uint32_t c
     return kept;
 }
 
-uint32_t ref_cuts_of(const ref_cuts *cuts, uint32_t count, uint32_t sheet)
+uint32_t ref_cuts_of(const ref_cuts *cuts, uint32_t count, uint32_t component)
 {
     uint32_t of = 0;
     for (uint32_t i = 0; i < count; i++) {
-        of += (uint32_t)ref_cut_ends(&cuts->cut[cuts->list[i]], sheet);
+        of += (uint32_t)ref_cut_ends(&cuts->cut[cuts->list[i]], component);
     }
     return of;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Analytic visibility of contested facets. The facet is cut into cells along what may divide it
+/* Analytic visibility of undecided facets. The facet is cut into cells along what may divide it
    (visibility/cut.c) until nothing divides a cell: then one exact sample tells all of it
-   (visibility/cover.c). A sample taken on the way may tell that one sheet hides all of a cell,
-   whatever else divides it, and where not, along which sheet's edges to cut. So the work grows
+   (visibility/cover.c). A sample taken on the way may tell that one component hides all of a cell,
+   whatever else divides it, and where not, along which component's edges to cut. So the work grows
    with what is visible, not with what is hidden behind it. A cell that many divide is halved first:
    they meet few of the small ones.
 
@@ -21,10 +21,10 @@
    change is in a strip 2 w wide and as long as the segment's part there and FAR w; that, or the
    cell's area if less, is charged as the segment is struck from the cell's list, and serves all
    cells that come of it. In a thin cell the whole strip of each is charged. Everything else of a
-   cell is seen as P is: what still divides the cell where one sheet hides it does not divide that
-   sheet.
+   cell is seen as P is: what still divides the cell where one component hides it does not divide
+   that component.
 
-   A cell of which the sample is a guess, or that could not be divided further, counts as in doubt:
+   A cell of which the sample is a guess, or that could not be divided further, counts as undecided:
    the bounds let all of it be visible, or hidden. So does one that is left when the view's meter is
    spent, as half visible.
 
@@ -60,7 +60,7 @@
 /* A cell without place for a sample whose area is more than so many margins wide is only odd in
    shape: it is halved, but half of all cells are for those that cuts divide. */
 #define NARROW 64.0
-/* A cell no larger than so many margins is left in doubt. */
+/* A cell no larger than so many margins is left undecided. */
 #define TINY_MARGINS 64.0
 /* Cells that wait at most. Of two, that with the sample comes first: the other has all the room. */
 #define MOST_WAITING 256u
@@ -78,13 +78,13 @@
 /* How far a place must lie within a cell of such an inset to stand for it. */
 static double cell_margin(const ref_occluding *o, double inset)
 {
-    return 2 * inset + 16 * U * o->frame.diameter + 2 * o->frame.slip;
+    return 2 * inset + 16 * U * o->frame.diameter + 2 * o->frame.position_err;
 }
 
 /* How far the point of a sample may be from its place. */
 static double cell_off(const ref_occluding *o)
 {
-    return lrcsi_target_lift_off(&o->frame) + o->frame.slip;
+    return lrcsi_target_lift_off(&o->frame) + o->frame.position_err;
 }
 
 /* Is the cell known to be visible at a place that stands clear within it? */
@@ -96,7 +96,7 @@ static int cell_lit(const ref_occluding *o, const ref_occlude_cell *cell)
 
 /* What is known of a cell at a place in it, a ref_cover_answer; where that is a guess, it is not
    sure. */
-static int cell_look(ref_occluding *o, ref_occlude_cell *cell, uint32_t *sheet)
+static int cell_look(ref_occluding *o, ref_occlude_cell *cell, uint32_t *component)
 {
     if (cell_lit(o, cell)) {
         return REF_COVER_NONE;
@@ -104,7 +104,7 @@ static int cell_look(ref_occluding *o, ref_occlude_cell *cell, uint32_t *sheet)
     ref_cover_place place;
     ref_clip_middle(&cell->shape, place.at);
     place.clear = ref_clip_clear(&cell->shape, place.at) - cell_margin(o, cell->inset);
-    int answer = ref_cover_sample(&o->cover, &o->cuts, cell->count, &place, sheet);
+    int answer = ref_cover_sample(&o->cover, &o->cuts, cell->count, &place, component);
     cell->at[0] = place.at[0];
     cell->at[1] = place.at[1];
     cell->sure = !place.guess;
@@ -141,7 +141,7 @@ static int cell_show(ref_occluding *o, const ref_occlude_cell *cell, double area
     cell_piece(o, &cell->shape);
     o->off += U * o->frame.diameter * o->frame.perimeter;
     o->area += area;
-    o->doubt[1] += cell->sure ? 0 : area;
+    o->uncertainty[1] += cell->sure ? 0 : area;
     return cell->sure;
 }
 
@@ -150,8 +150,8 @@ static void cell_leave(ref_occluding *o, double area)
 {
     o->off += U * o->frame.diameter * o->frame.perimeter;
     o->area += 0.5 * area;
-    o->doubt[0] += 0.5 * area;
-    o->doubt[1] += 0.5 * area;
+    o->uncertainty[0] += 0.5 * area;
+    o->uncertainty[1] += 0.5 * area;
 }
 
 /* Strikes a cut from the cell's list, and charges its strip. */
@@ -207,14 +207,15 @@ static int cell_halve(ref_occluding *o, ref_occlude_cell *cell)
 }
 
 /* Where in the list the cut stands that passes nearest to the cell's place, of those at which a
-   sheet ends; of all where there is no sheet, or none is its own. */
-static uint32_t cell_choose(const ref_occluding *o, const ref_occlude_cell *cell, uint32_t sheet)
+   component ends; of all where there is no component, or none is its own. */
+static uint32_t cell_choose(const ref_occluding *o, const ref_occlude_cell *cell,
+                            uint32_t component)
 {
     uint32_t best = 0;
     double nearest = HUGE_VAL;
     for (uint32_t i = 0; i < cell->count; i++) {
         const ref_cut *cut = &o->cuts.cut[o->cuts.list[i]];
-        if (sheet == LRCS_NONE || ref_cut_ends(cut, sheet)) {
+        if (component == LRCS_NONE || ref_cut_ends(cut, component)) {
             double far = fabs(ref_clip_side(&cut->line, cell->at)) /
                          (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
             best = far < nearest ? i : best;
@@ -233,16 +234,16 @@ static int cell_cut(ref_occluding *o, const ref_occlude_cell *cell, uint32_t whi
     return cell_split(o, &rest, &cut->line);
 }
 
-/* Divides a cell that a sheet hides in part (LRCS_NONE: of which some is visible). 0 where that is
-   not possible, or the cell is too small to be worth it. */
-static int cell_divide(ref_occluding *o, ref_occlude_cell *cell, uint32_t sheet, double area)
+/* Divides a cell that a component hides in part (LRCS_NONE: of which some is visible). 0 where that
+   is not possible, or the cell is too small to be worth it. */
+static int cell_divide(ref_occluding *o, ref_occlude_cell *cell, uint32_t component, double area)
 {
     int halves = cell->count > LEAF_CUTS && !cell->slice;
     if (ref_clip_perimeter(&cell->shape) < TINY_MARGINS * cell_margin(o, cell->inset)) {
         return 0;
     }
     return (halves && cell_halve(o, cell)) ||
-           cell_cut(o, cell, cell_choose(o, cell, sheet), area) || cell_halve(o, cell);
+           cell_cut(o, cell, cell_choose(o, cell, component), area) || cell_halve(o, cell);
 }
 
 /* Narrows the list to what may divide the cell; what passes beside it is charged and dropped. */
@@ -259,18 +260,18 @@ static void cell_keep(ref_occluding *o, ref_occlude_cell *cell, double area)
     cell->slice ^= cell->depth > 0 && 4 * (size_t)cell->count > 3 * (size_t)before;
 }
 
-/* Does one cell: 1 where it has shown a piece. Else it is hidden, divided, or in doubt. */
+/* Does one cell: 1 where it has shown a piece. Else it is hidden, divided, or undecided. */
 static int cell_do(ref_occluding *o, ref_occlude_cell *cell, double area)
 {
-    uint32_t sheet = LRCS_NONE;
+    uint32_t component = LRCS_NONE;
     cell_keep(o, cell, area);
-    int answer = cell_look(o, cell, &sheet);
+    int answer = cell_look(o, cell, &component);
     if (answer == REF_COVER_ALL && cell->sure) {
         cell_charge(o, cell, area);
         return 0;
     }
     if (cell->count > 0 && answer != REF_COVER_ALL) {
-        if (cell_divide(o, cell, sheet, area)) {
+        if (cell_divide(o, cell, component, area)) {
             return 0;
         }
         cell->sure = 0;
@@ -283,7 +284,7 @@ static int cell_do(ref_occluding *o, ref_occlude_cell *cell, double area)
         cell_charge(o, cell, area);
         return cell_show(o, cell, area);
     }
-    o->doubt[0] += area;
+    o->uncertainty[0] += area;
     return 0;
 }
 
@@ -292,7 +293,7 @@ static int cell_do(ref_occluding *o, ref_occlude_cell *cell, double area)
    cuts are gone through four times. */
 static int occlude_cells(ref_occluding *o)
 {
-    lrcsi_meter *meter = o->contest->view->meter;
+    lrcsi_meter *meter = o->classification->view->meter;
     while (o->top > 0) {
         ref_occlude_cell cell = o->stack[--o->top];
         double area = ref_clip_area(&cell.shape);
@@ -310,14 +311,14 @@ static int occlude_cells(ref_occluding *o)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* Readies a contested facet: all of it as the first cell. Candidates and cuts may be missing where
+/* Readies an undecided facet: all of it as the first cell. Candidates and cuts may be missing where
    the meter is spent: then none of it is done. */
 static int cells_open(ref_occluding *o, uint32_t facet)
 {
-    lrcsi_target_make(o->contest->view, facet, &o->target);
+    lrcsi_target_make(o->classification->view, facet, &o->target);
     lrcsi_target_refine(&o->target, &o->needle, &o->frame);
-    o->area = o->doubt[0] = o->doubt[1] = o->off = 0;
-    int status = ref_cuts_make(o->contest, &o->frame, o->work, &o->cuts);
+    o->area = o->uncertainty[0] = o->uncertainty[1] = o->off = 0;
+    int status = ref_cuts_make(o->classification, &o->frame, o->work, &o->cuts);
     if (status == LRCS_OK) {
         ref_cover_start(&o->cover, &o->target);
         o->cells = PARTS_MOST + (uint64_t)PARTS_A_CUT * o->cuts.count;
@@ -331,19 +332,20 @@ static int cells_open(ref_occluding *o, uint32_t facet)
 
 static lrcsi_visible cells_area(const ref_occluding *o)
 {
-    lrcsi_tilt tilt = lrcsi_view_tilt(o->contest->view, o->frame.facet);
+    lrcsi_incidence incidence = lrcsi_view_incidence(o->classification->view, o->frame.facet);
     double unit = o->frame.unit;
-    double own = 20 * U * o->frame.reach + 32 * U * o->frame.diameter + 4 * o->frame.slip;
+    double own = 20 * U * o->frame.reach + 32 * U * o->frame.diameter + 4 * o->frame.position_err;
     double error = unit * (own * o->frame.perimeter + o->off);
-    double left = lrcsi_most(0, lrcsi_least(tilt.projected, unit * o->area));
-    error += o->frame.needle ? tilt.error * tilt.projected : 0;
-    return (lrcsi_visible){left, lrcsi_most(0, left - unit * o->doubt[1] - error),
-                           lrcsi_least(tilt.projected, left + unit * o->doubt[0] + error), 0, 0};
+    double left = lrcsi_most(0, lrcsi_least(incidence.projected, unit * o->area));
+    error += o->frame.needle ? incidence.error * incidence.projected : 0;
+    return (lrcsi_visible){
+        left, lrcsi_most(0, left - unit * o->uncertainty[1] - error),
+        lrcsi_least(incidence.projected, left + unit * o->uncertainty[0] + error), 0, 0};
 }
 
 lrcsi_visible ref_occlude_unknown(const lrcsi_view *view, uint32_t facet)
 {
-    double whole = lrcsi_view_tilt(view, facet).projected;
+    double whole = lrcsi_view_incidence(view, facet).projected;
     return (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
 }
 
@@ -353,31 +355,31 @@ static lrcsi_visible answered_area(const ref_occluding *o, uint32_t facet)
         return (lrcsi_visible){0, 0, 0, 0, 0};
     }
     if (o->uniform[facet] == LRCSI_QUERY_UNDECIDED) {
-        return ref_occlude_unknown(o->contest->view, facet);
+        return ref_occlude_unknown(o->classification->view, facet);
     }
-    double whole = lrcsi_view_tilt(o->contest->view, facet).projected;
+    double whole = lrcsi_view_incidence(o->classification->view, facet).projected;
     return (lrcsi_visible){whole, whole, whole, 0, 0};
 }
 
 int ref_occlude_open(ref_occluding *o, uint32_t facet)
 {
-    lrcsi_contest *contest = o->contest;
+    lrcsi_classification *classification = o->classification;
     o->mark = o->work->used;
     o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
     o->target.facet = facet;
-    o->contested = o->whole = 0;
+    o->undecided = o->whole = 0;
     o->top = 0;
     o->bent = 0;
-    if (!lrcsi_grid_casts(contest->view, facet)) {
+    if (!lrcsi_grid_casts(classification->view, facet)) {
         return LRCS_OK;
     }
-    if (!contest->contested[facet]) {
+    if (!classification->undecided[facet]) {
         o->answer = answered_area(o, facet);
         o->whole = o->answer.low > 0;
         return LRCS_OK;
     }
-    o->contested = !lrcsi_query_screened(contest, &o->cover.facets, facet);
-    int status = o->contested ? cells_open(o, facet) : LRCS_OK;
+    o->undecided = !lrcsi_query_screened(classification, &o->cover.facets, facet);
+    int status = o->undecided ? cells_open(o, facet) : LRCS_OK;
     if (status != LRCS_OK) {
         o->work->used = o->mark;
     }
@@ -390,7 +392,7 @@ int ref_occlude_next(ref_occluding *o)
         return occlude_cells(o);
     }
     o->whole = 0;
-    lrcsi_target_make(o->contest->view, o->target.facet, &o->target);
+    lrcsi_target_make(o->classification->view, o->target.facet, &o->target);
     ref_clip_triangle((const double(*)[2])o->target.corner, &o->piece);
     return 1;
 }
@@ -398,7 +400,7 @@ int ref_occlude_next(ref_occluding *o)
 lrcsi_visible ref_occlude_close(ref_occluding *o)
 {
     o->work->used = o->mark;
-    return o->contested ? cells_area(o) : o->answer;
+    return o->undecided ? cells_area(o) : o->answer;
 }
 
 lrcsi_visible ref_occlude_area(ref_occluding *o)
@@ -429,15 +431,16 @@ size_t ref_occlude_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, cuts > cells ? cuts : cells);
 }
 
-int ref_occlude_make(lrcsi_contest *contest, lrcs_work *work, ref_occluding *o)
+int ref_occlude_make(lrcsi_classification *classification, lrcs_work *work, ref_occluding *o)
 {
     size_t mark = work->used;
-    *o = (ref_occluding){.contest = contest, .work = work};
-    o->uniform = lrcsi_work_take(work, contest->view->prepared->scene->facet_count, 1);
+    *o = (ref_occluding){.classification = classification, .work = work};
+    o->uniform = lrcsi_work_take(work, classification->view->prepared->scene->facet_count, 1);
     o->stack = lrcsi_work_take(work, MOST_WAITING, sizeof *o->stack);
-    int status = o->uniform && o->stack ? ref_cover_make(contest, work, &o->cover) : LRCS_E_MEMORY;
+    int status =
+        o->uniform && o->stack ? ref_cover_make(classification, work, &o->cover) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        status = lrcsi_query_uniform(contest, work, &o->cover.facets, o->uniform);
+        status = lrcsi_query_uniform(classification, work, &o->cover.facets, o->uniform);
     }
     if (status != LRCS_OK) {
         work->used = mark;
@@ -445,13 +448,13 @@ int ref_occlude_make(lrcsi_contest *contest, lrcs_work *work, ref_occluding *o)
     return status;
 }
 
-int ref_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible,
+int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work, lrcsi_visible *visible,
                     uint32_t *starved)
 {
-    const lrcsi_view *view = contest->view;
+    const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     ref_occluding o;
-    int status = ref_occlude_make(contest, work, &o);
+    int status = ref_occlude_make(classification, work, &o);
     *starved = 0;
     if (status == LRCS_OK) {
         lrcsi_visible_answered(view, o.uniform, visible);
@@ -460,12 +463,12 @@ int ref_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visi
     unsigned char *open = lrcsi_work_take(work, view->prepared->scene->facet_count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        open[f] = contest->contested[f] && lrcsi_grid_casts(view, f);
+        open[f] = classification->undecided[f] && lrcsi_grid_casts(view, f);
     }
-    if (status == LRCS_OK && contest->contested_count >= CELLS_LEAST &&
-        contest->contested_count >= view->prepared->scene->facet_count / CELLS_SHARE &&
+    if (status == LRCS_OK && classification->undecided_count >= CELLS_LEAST &&
+        classification->undecided_count >= view->prepared->scene->facet_count / CELLS_SHARE &&
         cells_serve(view->prepared)) {
-        lrcsi_cells_areas(contest, work, open, visible);
+        lrcsi_cells_areas(classification, work, open, visible);
     }
     /* 2. One by one what that left open. */
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the laser sees of a facet, analytically: contested facets fall into cells that nothing
+/* What the laser sees of a facet, analytically: undecided facets fall into cells that nothing
    divides. As an area with bounds, and as disjoint convex pieces. */
 #ifndef REF_OCCLUDE_H
 #define REF_OCCLUDE_H
@@ -24,7 +24,7 @@ typedef struct ref_occlude_cell {
 
 /* What serves all facets of a view, and the facet at hand. */
 typedef struct ref_occluding {
-    lrcsi_contest *contest;
+    lrcsi_classification *classification;
     lrcs_work *work;
     ref_cover cover;
     unsigned char *uniform;  /* facet: what a uniform one shows, a lrcsi_query_answer */
@@ -32,20 +32,20 @@ typedef struct ref_occluding {
     uint32_t top;
 
     size_t mark;            /* of the work area, before the facet */
-    lrcsi_target target;    /* of a contested facet; of others once a piece has been asked for */
+    lrcsi_target target;    /* of an undecided facet; of others once a piece has been asked for */
     lrcsi_target frame;     /* the same in the frame in which it is divided */
     lrcsi_needle needle;    /* that of a needle */
     ref_cuts cuts;          /* what may divide it */
     ref_clip_polygon piece; /* the piece last found */
-    lrcsi_visible answer;   /* of a facet that is not contested */
-    int contested;
-    int whole;       /* all of it is visible, and no piece has been asked for yet */
-    uint64_t cells;  /* that may yet be divided */
-    uint64_t spare;  /* of these, for cells that cuts divide */
-    double area;     /* visible so far */
-    double doubt[2]; /* area of cells that could not be told: hidden, visible by a guess */
-    double off;      /* by which the area may be wrong */
-    double bent;     /* by which the pieces' area may be wrong beside */
+    lrcsi_visible answer;   /* of a facet that is not undecided */
+    int undecided;
+    int whole;             /* all of it is visible, and no piece has been asked for yet */
+    uint64_t cells;        /* that may yet be divided */
+    uint64_t spare;        /* of these, for cells that cuts divide */
+    double area;           /* visible so far */
+    double uncertainty[2]; /* area of cells that could not be told: hidden, visible by a guess */
+    double off;            /* by which the area may be wrong */
+    double bent;           /* by which the pieces' area may be wrong beside */
 } ref_occluding;
 
 /* Bytes at most. */
@@ -53,7 +53,7 @@ size_t ref_occlude_need(const lrcs_prepared *prepared);
 
 /* What serves all facets; it stays in the work area.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
-int ref_occlude_make(lrcsi_contest *contest, lrcs_work *work, ref_occluding *o);
+int ref_occlude_make(lrcsi_classification *classification, lrcs_work *work, ref_occluding *o);
 
 /* One facet piece by piece: open it, ask for more until there are none, close it. Each `next` that
    returns 1 leaves one more of the disjoint convex pieces of what is visible in o->piece, in the
@@ -73,11 +73,11 @@ lrcsi_visible ref_occlude_area(ref_occluding *o);
 /* What a facet shows of which nothing is known. */
 lrcsi_visible ref_occlude_unknown(const lrcsi_view *view, uint32_t facet);
 
-/* Every facet: uniform ones by one exact sample, contested ones cell by cell unless one sheet hides
-   all of them. A facet whose cuts find no memory may show anything: *starved counts those. One
-   that falls into more cells than the limit is bounded by what was reached.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. */
-int ref_occlude_all(lrcsi_contest *contest, lrcs_work *work, lrcsi_visible *visible,
+/* Every facet: uniform ones by one exact sample, undecided ones cell by cell unless one component
+   hides all of them. A facet whose cuts find no memory may show anything: *starved counts those.
+   One that falls into more cells than the limit is bounded by what was reached. Status: LRCS_OK;
+   LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. */
+int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work, lrcsi_visible *visible,
                     uint32_t *starved);
 
 #endif

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs compare: another implementation's answers to a kit, judged case by case, and why they
+   differ. */
+#include "cli/compare/compare.h"
+
+#include <string.h>
+
+#define PIXELS      512u
+#define PIXELS_MOST 65536.0
+
+static const char compare_help[] =
+    "usage: lrcs compare DIR THEIRS.csv [options]\n"
+    "\n"
+    "Judges what another implementation answered to the kit in DIR (lrcs vectors). THEIRS.csv "
+    "names\n"
+    "its columns in its first line: scene, attitude, and sigma_m2 or sigma_dbsm. Each case falls "
+    "into\n"
+    "a class: exact, float (single precision), raster (N x N pixels) or fail; DIR/README.md says\n"
+    "what they allow. Where cases fail, compare computes what a code with a certain mistake would\n"
+    "have answered, and names those mistakes that explain the failures. Facets and images explain\n"
+    "too; the verdict is by sigma alone.\n"
+    "\n"
+    "options\n"
+    "  --tier K              asks for tiers 1 .. K (5)\n"
+    "  --class C             asks for that class or better: exact, float, raster (the default)\n"
+    "  --pixels N            the side of their raster, for class raster (512)\n"
+    "  --facets FILE.csv     their scene, attitude, facet, visible_area_m2 and perhaps cos_theta:\n"
+    "                        names the facets that differ\n"
+    "  --items DIR           their item images, NAME.ATTITUDE.item.u32 as in the kit: finds "
+    "flips,\n"
+    "                        shifted numbers, facets lost or seen through\n"
+    "  --json FILE           all of it as JSON, every case ('-': instead of the table)\n"
+    "  --junit FILE.xml      a test suite a tier, a test case a case ('-' likewise)\n"
+    "\n"
+    "Exit: 0 every case of the tiers asked for was handed in and passed, 1 otherwise.\n"
+    "\n"
+    "examples\n"
+    "  lrcs compare kit theirs.csv --tier 1\n"
+    "  lrcs compare kit theirs.csv --pixels 1024 --facets facets.csv --junit kit.xml\n";
+
+static const cli_option compare_options[] = {
+    {"tier", 1, 0},         {"class", 1, 0}, {"pixels", 1, 0},
+    {"facets", 1, 0},       {"items", 1, 0}, {"json", CLI_FILE, 0},
+    {"junit", CLI_FILE, 0}, {"help", 0, 0},  {NULL, 0, 0}};
+
+/* ---- options ---- */
+
+/* The two names that are no options. */
+static int operands_read(compare_job *job, const char **folder)
+{
+    const cli_args *args = job->args;
+    const char *name[2] = {NULL, NULL};
+    int count = 0;
+    for (int i = 0; i < args->given_count; i++) {
+        if (args->given[i].name[0] == '\0') {
+            name[count < 2 ? count : 1] = args->given[i].value;
+            count++;
+        }
+    }
+    if (count != 2) {
+        return cli_usage(args->command, "expected a kit's folder and a table, found %d names",
+                         count);
+    }
+    *folder = name[0];
+    job->theirs = name[1];
+    return 0;
+}
+
+static int grade_read(compare_job *job)
+{
+    const char *text = cli_value(job->args, "class");
+    job->grade = COMPARE_RASTER;
+    for (int grade = COMPARE_EXACT; text && grade <= COMPARE_RASTER; grade++) {
+        if (strcmp(text, cli_compare_grade(grade)) == 0) {
+            job->grade = grade;
+            return 0;
+        }
+    }
+    return text ? cli_usage(job->args->command,
+                            "--class: expected exact, float or raster, found '%s'", text)
+                : 0;
+}
+
+/* Nothing that is read is written over. */
+static int outputs_read(const compare_job *job, cli_output output[2])
+{
+    const cli_command *command = job->args->command;
+    const char *const input[2] = {job->theirs, job->facets};
+    output[0] = (cli_output){"json", cli_value(job->args, "json")};
+    output[1] = (cli_output){"junit", cli_value(job->args, "junit")};
+    for (int i = 0; i < 4; i++) {
+        const char *path = output[i % 2].path;
+        if (path && input[i / 2] && lrcs_host_output_same(path, input[i / 2])) {
+            return cli_usage(command, "--%s %s: would overwrite what is to be judged",
+                             output[i % 2].option, path);
+        }
+    }
+    return cli_outputs_apart(command, output, 2);
+}
+
+static int options_read(compare_job *job, const char **folder, cli_output output[2])
+{
+    const cli_args *args = job->args;
+    job->tier = KIT_TIERS;
+    job->pixels = PIXELS;
+    job->facets = cli_value(args, "facets");
+    job->items = cli_value(args, "items");
+    int code = operands_read(job, folder);
+    code = code ? code : cli_whole(args, "tier", 1.0, KIT_TIERS, &job->tier);
+    code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &job->pixels);
+    code = code ? code : grade_read(job);
+    return code ? code : outputs_read(job, output);
+}
+
+/* ---- the command ---- */
+
+static int compare_make(compare_job *job, const char *folder)
+{
+    int code = cli_compare_kit(folder, &job->kit);
+    code = code ? code : cli_compare_judge(job);
+    code = code ? code : cli_compare_explain(job);
+    code = code ? code : cli_compare_facets(job);
+    return code ? code : cli_compare_items(job);
+}
+
+static int to_stdout(const cli_output *output)
+{
+    return output->path && strcmp(output->path, "-") == 0;
+}
+
+static int compare_report(compare_job *job, const cli_output output[2])
+{
+    int code = output[0].path ? cli_output_write(output[0].path, cli_compare_json, job) : 0;
+    if (code == 0 && output[1].path) {
+        code = cli_output_write(output[1].path, cli_compare_junit, job);
+    }
+    if (code == 0 && !to_stdout(&output[0]) && !to_stdout(&output[1])) {
+        cli_compare_table(job);
+    }
+    return code ? code : cli_compare_passed(job) ? CLI_DONE : CLI_FAILED;
+}
+
+static int compare_command(const cli_args *args)
+{
+    compare_job job;
+    cli_output output[2];
+    const char *folder = NULL;
+    memset(&job, 0, sizeof job);
+    job.args = args;
+    int code = options_read(&job, &folder, output);
+    code = code ? code : compare_make(&job, folder);
+    code = code ? code : compare_report(&job, output);
+    cli_compare_kit_free(&job.kit);
+    return code;
+}
+
+const cli_command cli_compare_command = {
+    "compare",    "DIR THEIRS.csv...", "give a kit's folder and a table of answers to it",
+    compare_help, compare_options,     compare_command};

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT */
+/* Why answers differ: for each mistake of the catalogue, what it would have answered, with and
+   without a constant factor, against what was handed in. The one that removes most of the
+   differences is a finding; what it leaves is looked at again. An explanation is no proof: it says
+   how many cases it explains, and what none explains is said to be unexplained. */
+#include "cli/compare/search.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define PROBE       16u  /* failing cases after which a hopeless mistake is given up */
+#define HOPELESS    0.1  /* share of them */
+#define LATER       0.1  /* of all failing cases, what a second finding must explain */
+#define PRICE       0.05 /* what a factor or a second mistake must gain to be believed */
+#define SURE        0.94 /* a score after which none is sought that is better */
+#define PAIRS_BELOW 0.9  /* where one mistake explains less, two at once are tried */
+
+/* ---- the catalogue ---- */
+
+static uint32_t explained_count(const compare_search *search, uint32_t failings, double factor)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < failings; i++) {
+        count +=
+            (uint32_t)cli_search_explained(search, search->failing[i], factor * search->answer[i]);
+    }
+    return count;
+}
+
+/* Is a mistake worth going on with, after so many failing cases? */
+static int answers_hopeful(const compare_search *search, uint32_t failings)
+{
+    int known;
+    double least = fmax(1.0, HOPELESS * failings);
+    return explained_count(search, failings, 1.0) >= least ||
+           explained_count(search, failings, cli_search_factor(search, failings, &known)) >= least;
+}
+
+/* The answers of a mistake; 1 where it is worth scoring, 0 where not, -1 with the message. */
+static int answers_make(const compare_search *search, const compare_mistake *mistake)
+{
+    uint32_t failings = search->failings;
+    uint32_t probe = failings < PROBE ? failings : PROBE;
+    for (uint32_t i = 0; i < failings + search->passings; i++) {
+        compare_case *one = i < failings ? search->failing[i] : search->passing[i - failings];
+        if (cli_compare_answer(&search->job->kit, one, mistake, &search->answer[i]) != 0) {
+            return -1;
+        }
+        if (i + 1 == probe && !answers_hopeful(search, probe)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Keeps the mistake where it explains more than the best so far. 0, or -1 on failure. */
+static int mistake_try(const compare_search *search, const compare_mistake *first,
+                       const compare_mistake *second, search_score *best)
+{
+    compare_mistake both = cli_mistake_both(first, second);
+    int worth = answers_make(search, &both);
+    int known;
+    if (worth <= 0) {
+        return worth;
+    }
+    double factor = cli_search_factor(search, search->failings, &known);
+    search_score try[2] = {cli_search_score(search, 1.0), {.score = 0.0}};
+    if (factor > 0.0) {
+        try[1] = cli_search_score(search, factor);
+        try[1].price = known ? PRICE : 2.0 * PRICE;
+    }
+    for (int i = 0; i < 2; i++) {
+        try[i].price += second ? PRICE : 0.0;
+        try[i].score -= try[i].price;
+        if (try[i].score > best->score) {
+            *best = try[i];
+            best->first = first;
+            best->second = second;
+        }
+    }
+    return 0;
+}
+
+static int singles_try(const compare_search *search, search_score *best)
+{
+    int code = 0;
+    for (const compare_mistake *a = cli_compare_mistakes;
+         a->name && best->score < SURE && code == 0; a++) {
+        code = mistake_try(search, a, NULL, best);
+    }
+    return code;
+}
+
+/* Every pair of a mistake in which areas are summed and one in how they are shaded; none that takes
+   a run of its own for each case. */
+static int pairs_try(const compare_search *search, search_score *best)
+{
+    int code = 0;
+    for (const compare_mistake *a = cli_compare_mistakes + 1; a->name && code == 0; a++) {
+        for (const compare_mistake *b = cli_compare_mistakes + 1; b->name && code == 0; b++) {
+            if (a->area && !a->turn && b->shade) {
+                code = mistake_try(search, a, b, best);
+            }
+        }
+    }
+    return code;
+}
+
+/* ---- findings ---- */
+
+/* The best explanation of what fails still; 1 where there is one, 0 where not, -1 on failure. */
+static int finding_next(compare_search *search)
+{
+    compare_job *job = search->job;
+    search_score best = {.first = cli_compare_mistakes};
+    int code = singles_try(search, &best);
+    if (code == 0 && best.score < PAIRS_BELOW) {
+        code = pairs_try(search, &best);
+    }
+    if (job->findings > 0 && best.explained < LATER * job->failed) {
+        best.score = 0.0; /* of a few cases that are left, chance explains some */
+    }
+    if (code != 0) {
+        return -1;
+    }
+    if (best.score <= 0.0 || job->findings == COMPARE_FINDINGS) {
+        return 0;
+    }
+    return cli_search_say(search, &best) == 0 ? 1 : -1;
+}
+
+/* ---- the search ---- */
+
+static void lacks_count(compare_job *job)
+{
+    for (uint32_t i = 0; i < job->kit.cases; i++) {
+        int lack = cli_compare_lack(job, &job->kit.list[i]);
+        job->not_numbers += lack == LACK_NUMBER;
+        job->negatives += lack == LACK_SIGN;
+        job->unexplained += lack == LACK_REASON;
+    }
+}
+
+static int findings_make(compare_search *search)
+{
+    int more = 1;
+    cli_search_part(search);
+    cli_compare_format(search);
+    while (more > 0 && search->failings > 0) {
+        more = finding_next(search);
+        cli_search_part(search);
+    }
+    if (more < 0 || cli_compare_symptoms(search) != 0) {
+        return CLI_FAILED;
+    }
+    lacks_count(search->job);
+    return 0;
+}
+
+int cli_compare_explain(compare_job *job)
+{
+    size_t count = (size_t)job->kit.cases + 1;
+    compare_search search = {.job = job};
+    search.failing = malloc(count * sizeof(compare_case *));
+    search.passing = malloc(count * sizeof(compare_case *));
+    search.answer = calloc(count, sizeof(double));
+    search.room = calloc(count, sizeof(double));
+    int code = search.failing && search.passing && search.answer && search.room
+                   ? findings_make(&search)
+                   : cli_out_of_memory();
+    free(search.failing);
+    free(search.passing);
+    free(search.answer);
+    free(search.room);
+    return code;
+}

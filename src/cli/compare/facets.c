@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+/* Their visible areas, facet by facet, against the truth's: how facets differ, and which ones cost
+   most. It explains; the verdict is by sigma alone. */
+#include "cli/compare/compare.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SEEN         0.02 /* of a facet's projected area: what may be off */
+#define NONE_SEEN    1e-3 /* less of it is none, and all but that is all of it */
+#define COSINE_WRONG 1e-3
+#define COSINE_FLOAT 1e-9
+
+typedef struct facets_read {
+    compare_job *job;
+    double **visible; /* by case: their areas, by facet; NULL: not handed in */
+    compare_facets *found;
+} facets_read;
+
+/* ---- reading ---- */
+
+static double *facets_room(facets_read *facets, compare_case *one)
+{
+    const compare_kit *kit = &facets->job->kit;
+    double **visible = &facets->visible[one - kit->list];
+    if (!*visible && cli_compare_records(kit, one) == 0) {
+        size_t count = kit->scene[one->scene].host.scene.facet_count;
+        *visible = calloc(count + 1, sizeof **visible);
+        if (!*visible) {
+            cli_out_of_memory();
+        }
+    }
+    return *visible;
+}
+
+static void cosine_take(compare_facets *facets, double theirs, double truth)
+{
+    double off = fabs(theirs - truth);
+    facets->cosines++;
+    if (off > COSINE_WRONG && fabs(theirs + truth) < COSINE_WRONG) {
+        facets->turned++;
+    } else {
+        facets->cosine_most = fmax(facets->cosine_most, off);
+    }
+}
+
+static int facet_line(facets_read *facets, const compare_table *table, const int *column)
+{
+    double index;
+    double area;
+    double cosine;
+    compare_case *one = cli_compare_find(&facets->job->kit, table, column);
+    double *visible = one ? facets_room(facets, one) : NULL;
+    if (!visible || cli_table_number(table, column[2], &index) != 0 ||
+        cli_table_number(table, column[3], &area) != 0) {
+        return CLI_FAILED;
+    }
+    uint32_t count = facets->job->kit.scene[one->scene].host.scene.facet_count;
+    if (!(index >= 0.0 && index < count) || index != floor(index)) {
+        return cli_table_refuse(table, column[2], "a facet 0 .. %lu", (unsigned long)count - 1);
+    }
+    if (column[4] >= 0 && cli_table_number(table, column[4], &cosine) != 0) {
+        return CLI_FAILED;
+    }
+    if (column[4] >= 0) {
+        cosine_take(facets->found, cosine, one->records[(uint32_t)index].cos_theta);
+    }
+    visible[(uint32_t)index] = area;
+    return 0;
+}
+
+static int facets_file(facets_read *facets)
+{
+    static const char *const name[] = {"scene", "attitude", "facet", "visible_area_m2"};
+    compare_table table;
+    int column[5];
+    int more = 1;
+    int code = cli_table_open(facets->job->facets, &table);
+    for (int i = 0; i < 4 && code == 0; i++) {
+        code = cli_table_require(&table, name[i], &column[i]);
+    }
+    column[4] = cli_table_column(&table, "cos_theta");
+    while (code == 0 && (more = cli_table_next(&table)) > 0) {
+        code = facet_line(facets, &table, column);
+    }
+    cli_table_close(&table);
+    return more < 0 ? CLI_FAILED : code;
+}
+
+/* ---- differing ---- */
+
+/* Facets of cases that fail come first, then those that change most of what the case is allowed. */
+static int facet_before(const compare_facet *a, const compare_facet *b)
+{
+    return a->failed != b->failed ? a->failed : a->weight > b->weight;
+}
+
+static void worst_take(compare_facets *facets, const compare_facet *off)
+{
+    uint32_t at = facets->worsts;
+    while (at > 0 && facet_before(off, &facets->worst[at - 1])) {
+        at--;
+    }
+    if (at < COMPARE_NAMED) {
+        facets->worsts += facets->worsts < COMPARE_NAMED;
+        memmove(&facets->worst[at + 1], &facets->worst[at],
+                (facets->worsts - at - 1) * sizeof *facets->worst);
+        facets->worst[at] = *off;
+    }
+}
+
+/* How far an area may be off: a share of the facet, or a pixel along its outline where a raster was
+   asked for, two where others draw outlines across it, and a pixel. */
+static double area_allowed(const compare_job *job, const compare_case *one, uint32_t facet,
+                           double whole, double truth)
+{
+    const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
+    double pixel = one->side_m / job->pixels;
+    double outlines = truth >= (1.0 - NONE_SEEN) * whole ? 1.0 : 2.0;
+    double raster = outlines * cli_kit_outline(scene, facet, &one->pose) * pixel + pixel * pixel;
+    return job->grade == COMPARE_RASTER ? fmax(SEEN * whole, raster) : SEEN * whole;
+}
+
+static int facet_way(double whole, double truth, double theirs, double allowed)
+{
+    double none = NONE_SEEN * whole;
+    return truth <= none              ? FACET_SHOWN
+           : theirs <= none           ? FACET_LOST
+           : theirs > whole + allowed ? FACET_LARGER
+           : truth >= whole - none    ? FACET_PART
+           : theirs >= whole - none   ? FACET_WHOLE
+                                      : FACET_ELSEWHERE;
+}
+
+static void facet_compare(facets_read *facets, const compare_case *one, uint32_t facet,
+                          double theirs)
+{
+    const compare_job *job = facets->job;
+    const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
+    const lrcs_facet_record *record = &one->records[facet];
+    const lrcs_brdf *brdf = &scene->material[scene->facet_material[facet]].brdf;
+    double c = fabs(record->cos_theta);
+    double whole = record->area_m2 * c;
+    double truth = record->visible_area_m2;
+    double allowed = area_allowed(job, one, facet, whole, truth);
+    compare_facet off = {.one = one, .facet = facet, .theirs_m2 = theirs, .truth_m2 = truth};
+    if (fabs(theirs - truth) <= allowed) {
+        return;
+    }
+    off.sigma_m2 = 4.0 * CLI_PI * lrcs_brdf_eval(brdf, c) * c * fabs(theirs - truth);
+    double sigma_allowed = cli_compare_allowed(one, job->grade, job->pixels);
+    off.weight = sigma_allowed > 0.0 ? off.sigma_m2 / sigma_allowed : 0.0;
+    off.failed = cli_compare_failed(job, one);
+    off.way = facet_way(whole, truth, theirs, allowed);
+    facets->found->way[off.way]++;
+    worst_take(facets->found, &off);
+}
+
+static void facets_all(facets_read *facets)
+{
+    const compare_kit *kit = &facets->job->kit;
+    for (uint32_t i = 0; i < kit->cases; i++) {
+        const compare_case *one = &kit->list[i];
+        uint32_t count = kit->scene[one->scene].host.scene.facet_count;
+        facets->found->cases += facets->visible[i] != NULL;
+        for (uint32_t k = 0; facets->visible[i] && k < count; k++) {
+            facet_compare(facets, one, k, facets->visible[i][k]);
+        }
+    }
+}
+
+int cli_compare_facets(compare_job *job)
+{
+    facets_read facets = {.job = job, .found = &job->by_facet};
+    if (!job->facets) {
+        return 0;
+    }
+    facets.visible = calloc((size_t)job->kit.cases + 1, sizeof *facets.visible);
+    if (!facets.visible) {
+        return cli_out_of_memory();
+    }
+    int code = facets_file(&facets);
+    if (code == 0) {
+        facets_all(&facets);
+    }
+    for (uint32_t i = 0; i < job->kit.cases; i++) {
+        free(facets.visible[i]);
+    }
+    free(facets.visible);
+    return code;
+}
+
+/* ---- in words ---- */
+
+const char *cli_compare_facet_way(int way)
+{
+    static const char *const text[FACET_WAYS] = {
+        "seen by them, hidden in truth (missing shadow)",
+        "not seen by them, visible in truth (lost, culled or behind)",
+        "seen whole by them, partly hidden in truth (missing shadow)",
+        "seen in part by them, whole in truth (clipped, or hidden by what is behind?)",
+        "seen larger by them than they are (area of a pixel, or of the window?)",
+        "seen in another part than in truth"};
+    return text[way];
+}
+
+const char *cli_compare_cosines(const compare_facets *facets)
+{
+    return facets->cosines == 0 ? NULL
+           : 2 * facets->turned > facets->cosines
+               ? "the other sign: normals point inward, or to the wrong side"
+           : facets->cosine_most > COSINE_WRONG ? "wrong frame or normals"
+           : facets->cosine_most > COSINE_FLOAT ? "single precision"
+                                                : "double precision";
+}

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/* How far an answer may be off in each class, and into which one each case falls. Why it is off is
+   compare_explain.c. */
+#include "cli/compare/compare.h"
+
+#include <math.h>
+
+#define EXACT_SHARE 1e-9 /* of sigma */
+#define FLOAT_SHARE 1e-6
+
+const char *cli_compare_grade(int grade)
+{
+    static const char *const name[] = {"exact", "float", "raster", "fail", "missing"};
+    return name[grade];
+}
+
+double cli_compare_allowed(const compare_case *one, int grade, uint32_t pixels)
+{
+    double share = grade == COMPARE_EXACT ? EXACT_SHARE : FLOAT_SHARE;
+    double allowed = one->bound_m2 + share * one->sigma_m2;
+    allowed += grade >= COMPARE_FLOAT ? one->float_m2 : 0.0;
+    return allowed + (grade >= COMPARE_RASTER ? one->edge_m2 / pixels : 0.0);
+}
+
+static int case_class(const compare_case *one, uint32_t pixels)
+{
+    double off = fabs(one->theirs_m2 - one->sigma_m2);
+    for (int grade = COMPARE_EXACT; grade < COMPARE_FAIL; grade++) {
+        if (off <= cli_compare_allowed(one, grade, pixels)) {
+            return grade;
+        }
+    }
+    return COMPARE_FAIL;
+}
+
+int cli_compare_passed(const compare_job *job)
+{
+    return job->failed == 0 && !job->biased;
+}
+
+int cli_compare_asked(const compare_job *job, const compare_case *one)
+{
+    return (uint32_t)one->tier <= job->tier;
+}
+
+int cli_compare_failed(const compare_job *job, const compare_case *one)
+{
+    return cli_compare_asked(job, one) && one->grade > job->grade;
+}
+
+int cli_compare_lack(const compare_job *job, const compare_case *one)
+{
+    return !cli_compare_failed(job, one) || one->explained ? LACK_NONE
+           : !one->given                                   ? LACK_ANSWER
+           : !isfinite(one->theirs_m2)                     ? LACK_NUMBER
+           : one->theirs_m2 < 0.0                          ? LACK_SIGN
+                                                           : LACK_REASON;
+}
+
+/* A line of theirs: sigma, or dBsm, of which nothing at all is none. */
+static int answer_read(const compare_job *job, const compare_table *table, const int *column)
+{
+    int linear = column[2] >= 0;
+    int at = linear ? column[2] : column[3];
+    compare_case *one = cli_compare_find(&job->kit, table, column);
+    double value = -HUGE_VAL;
+    if (!one) {
+        return CLI_FAILED;
+    }
+    if (one->given) {
+        return cli_table_refuse(table, column[1], "every case once");
+    }
+    if (linear || table->text.field[at].size > 0) {
+        int code = cli_table_answer(table, at, &value);
+        if (code != 0) {
+            return code;
+        }
+    }
+    one->printed = value;
+    one->theirs_m2 = linear ? value : pow(10.0, value / 10.0);
+    one->given = 1;
+    return 0;
+}
+
+static int answers_read(compare_job *job)
+{
+    compare_table table;
+    int column[4];
+    int more = 1;
+    int code = cli_table_open(job->theirs, &table);
+    code = code ? code : cli_table_require(&table, "scene", &column[0]);
+    code = code ? code : cli_table_require(&table, "attitude", &column[1]);
+    if (code == 0) {
+        column[2] = cli_table_column(&table, "sigma_m2");
+        column[3] = cli_table_column(&table, "sigma_dbsm");
+        code = column[2] >= 0 || column[3] >= 0
+                   ? 0
+                   : cli_table_require(&table, "sigma_m2 or sigma_dbsm", &column[2]);
+    }
+    job->decibels = code == 0 && column[2] < 0;
+    while (code == 0 && (more = cli_table_next(&table)) > 0) {
+        code = answer_read(job, &table, column);
+    }
+    cli_table_close(&table);
+    return more < 0 ? CLI_FAILED : code;
+}
+
+int cli_compare_judge(compare_job *job)
+{
+    int code = answers_read(job);
+    for (uint32_t i = 0; i < job->kit.cases && code == 0; i++) {
+        compare_case *one = &job->kit.list[i];
+        one->grade = one->given ? case_class(one, job->pixels) : COMPARE_MISSING;
+        if (cli_compare_asked(job, one)) {
+            job->asked++;
+            job->given += (uint32_t)one->given;
+            job->failed += (uint32_t)cli_compare_failed(job, one);
+        }
+    }
+    return code;
+}

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT */
+/* The verdict for people: a line a scene, a line a tier, and why. */
+#include "cli/compare/compare.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NAMES_MOST 8u /* unexplained cases that are named */
+
+typedef struct report_line {
+    uint32_t count[COMPARE_MISSING + 1];
+    double worst;           /* difference, of what is allowed */
+    const compare_case *at; /* there */
+} report_line;
+
+static double case_off(const compare_case *one)
+{
+    double off = fabs(one->theirs_m2 - one->sigma_m2);
+    return off == 0.0 ? 0.0 : one->sigma_m2 > 0.0 && isfinite(off) ? off / one->sigma_m2 : HUGE_VAL;
+}
+
+/* How far it is off, of what it is allowed. */
+static double case_share(const compare_job *job, const compare_case *one)
+{
+    double off = fabs(one->theirs_m2 - one->sigma_m2);
+    double allowed = cli_compare_allowed(one, job->grade, job->pixels);
+    return off == 0.0 ? 0.0 : allowed > 0.0 && isfinite(off) ? off / allowed : HUGE_VAL;
+}
+
+static report_line scene_line(const compare_job *job, const compare_scene *scene)
+{
+    report_line line = {.worst = -1.0};
+    for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
+        const compare_case *one = &job->kit.list[i];
+        double share = one->given ? case_share(job, one) : -1.0;
+        line.count[one->grade]++;
+        if (share > line.worst) {
+            line.worst = share;
+            line.at = one;
+        }
+    }
+    return line;
+}
+
+static void count_print(uint32_t count)
+{
+    if (count > 0) {
+        printf(" %6lu", (unsigned long)count);
+    } else {
+        printf("      .");
+    }
+}
+
+static void scene_print(const compare_job *job, const compare_scene *scene)
+{
+    report_line line = scene_line(job, scene);
+    printf("%4d  ", scene->tier);
+    cli_column(scene->name, 16);
+    for (int k = COMPARE_EXACT; k <= COMPARE_MISSING; k++) {
+        count_print(line.count[k]);
+    }
+    double off = line.at ? case_off(line.at) : 0.0;
+    if (line.at && isfinite(off)) {
+        printf("   %8.1e  %s\n", off, line.at->attitude);
+    } else if (line.at) {
+        printf("   %8s  %s\n", "-", line.at->attitude);
+    } else {
+        putchar('\n');
+    }
+}
+
+static void tier_print(const compare_job *job, uint32_t tier)
+{
+    uint32_t cases = 0;
+    uint32_t failed = 0;
+    for (uint32_t i = 0; i < job->kit.cases; i++) {
+        const compare_case *one = &job->kit.list[i];
+        if ((uint32_t)one->tier == tier) {
+            cases++;
+            failed += (uint32_t)cli_compare_failed(job, one);
+        }
+    }
+    if (cases > 0 && failed == 0) {
+        printf("tier %lu       passed, %lu cases\n", (unsigned long)tier, (unsigned long)cases);
+    } else if (cases > 0) {
+        printf("tier %lu       FAILED, %lu of %lu cases\n", (unsigned long)tier,
+               (unsigned long)failed, (unsigned long)cases);
+    }
+}
+
+/* The tiers that a finding touches: " in tiers 1 2". */
+static void finding_tiers(const compare_job *job, int mark)
+{
+    for (int tier = 1; tier <= KIT_TIERS; tier++) {
+        for (uint32_t i = 0; i < job->kit.cases; i++) {
+            const compare_case *one = &job->kit.list[i];
+            if (one->tier == tier && one->explained == mark && cli_compare_failed(job, one)) {
+                printf(" %d", tier);
+                break;
+            }
+        }
+    }
+}
+
+static const char *plural(uint32_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
+static void findings_print(const compare_job *job)
+{
+    for (uint32_t i = 0; i < job->findings; i++) {
+        const compare_finding *finding = &job->finding[i];
+        uint32_t failed = job->failed - (job->asked - job->given) - job->not_numbers;
+        printf("why          %s\n", finding->text);
+        if (finding->explained == 0) {
+            continue;
+        }
+        printf("             explains %lu of %lu failing case%s, in tiers",
+               (unsigned long)finding->explained, (unsigned long)failed, plural(failed));
+        finding_tiers(job, (int)i + 1);
+        if (finding->rest < 1.0) {
+            printf("; leaves %.2g %% of their differences", 100.0 * finding->rest);
+        }
+        putchar('\n');
+    }
+}
+
+/* The first cases that lack something: "box nose, box a, ..". */
+static void lacks_print(const compare_job *job, int lack)
+{
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < job->kit.cases && named <= NAMES_MOST; i++) {
+        const compare_case *one = &job->kit.list[i];
+        if (cli_compare_lack(job, one) == lack && named++ < NAMES_MOST) {
+            printf("%s%s %s", named > 1 ? ", " : "", job->kit.scene[one->scene].name,
+                   one->attitude);
+        }
+    }
+    puts(named > NAMES_MOST ? ", .." : "");
+}
+
+static void answers_print(const compare_job *job)
+{
+    uint32_t missing = job->asked - job->given;
+    if (missing > 0) {
+        printf("missing      %lu case%s: ", (unsigned long)missing, plural(missing));
+        lacks_print(job, LACK_ANSWER);
+    }
+    if (job->not_numbers > 0) {
+        printf("why          %lu answer%s not numbers: ", (unsigned long)job->not_numbers,
+               job->not_numbers == 1 ? " is" : "s are");
+        lacks_print(job, LACK_NUMBER);
+    }
+    if (job->negatives > 0) {
+        printf("why          %lu answer%s negative: ", (unsigned long)job->negatives,
+               job->negatives == 1 ? " is" : "s are");
+        lacks_print(job, LACK_SIGN);
+    }
+}
+
+static void unexplained_print(const compare_job *job)
+{
+    uint32_t named = 0;
+    if (job->unexplained == 0) {
+        return;
+    }
+    printf("unexplained  %lu failing case%s\n", (unsigned long)job->unexplained,
+           plural(job->unexplained));
+    for (uint32_t i = 0; i < job->kit.cases && named < NAMES_MOST; i++) {
+        const compare_case *one = &job->kit.list[i];
+        if (cli_compare_lack(job, one) != LACK_REASON) {
+            continue;
+        }
+        printf("             %s %s: %.4g m2, truth %.4g", job->kit.scene[one->scene].name,
+               one->attitude, one->theirs_m2, one->sigma_m2);
+        if (one->sigma_m2 > 0.0) {
+            printf(" (%.3g of it)", one->theirs_m2 / one->sigma_m2);
+        }
+        printf(", allowed %.2g\n", cli_compare_allowed(one, job->grade, job->pixels));
+        named++;
+    }
+    if (named < job->unexplained) {
+        printf("             and %lu more\n", (unsigned long)(job->unexplained - named));
+    }
+}
+
+/* ---- facets and images ---- */
+
+static const char *material_of(const compare_job *job, const compare_case *one, uint32_t facet)
+{
+    const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
+    return scene->material[scene->facet_material[facet]].name;
+}
+
+static void facets_print(const compare_job *job, const compare_facets *facets)
+{
+    const char *cosines = cli_compare_cosines(facets);
+    printf("facets       of %lu case%s%s\n", (unsigned long)facets->cases, plural(facets->cases),
+           facets->worsts == 0 ? ": none differs by more than it is allowed" : "");
+    for (int way = 0; way < FACET_WAYS; way++) {
+        if (facets->way[way] > 0) {
+            printf("             %lu facet%s %s\n", (unsigned long)facets->way[way],
+                   plural(facets->way[way]), cli_compare_facet_way(way));
+        }
+    }
+    if (cosines) {
+        printf("             cos theta: %s (off by at most %.1e, turned signs aside)\n", cosines,
+               facets->cosine_most);
+    }
+    for (uint32_t i = 0; i < facets->worsts; i++) {
+        const compare_facet *off = &facets->worst[i];
+        printf("             %s %s, facet %lu (%s%s): %.6g m2, in truth %.6g m2; %.3g m2 of "
+               "sigma\n",
+               job->kit.scene[off->one->scene].name, off->one->attitude, (unsigned long)off->facet,
+               material_of(job, off->one, off->facet),
+               off->one->records[off->facet].cos_theta < 0.0 ? ", its back" : "", off->theirs_m2,
+               off->truth_m2, off->sigma_m2);
+    }
+}
+
+static void image_print(const compare_job *job, const compare_image *image)
+{
+    printf("             %s %s: %.1f %% of the pixels agree\n",
+           job->kit.scene[image->one->scene].name, image->one->attitude, 100.0 * image->agree);
+    for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
+        printf("             facet %lu (%s): %lu of its pixels show something else\n",
+               (unsigned long)image->facet[n], material_of(job, image->one, image->facet[n]),
+               (unsigned long)image->lost[n]);
+    }
+}
+
+static void items_print(const compare_job *job, const compare_items *items)
+{
+    printf("items        in %s: %lu of %lu images handed in; %lu differ\n", job->items,
+           (unsigned long)items->handed, (unsigned long)items->images,
+           (unsigned long)items->differ);
+    for (size_t way = 0; way < COMPARE_IMAGE_WAYS; way++) {
+        if (items->way[way] > 0) {
+            printf("             %lu %s\n", (unsigned long)items->way[way],
+                   cli_compare_image_way(way));
+        }
+    }
+    for (uint32_t i = 0; i < items->named; i++) {
+        image_print(job, &items->image[i]);
+    }
+}
+
+/* ---- all of it ---- */
+
+void cli_compare_table(const compare_job *job)
+{
+    printf("kit          %s: %lu scenes, %lu cases\n", job->kit.folder,
+           (unsigned long)job->kit.scenes, (unsigned long)job->kit.cases);
+    printf("answers      %s: %lu of %lu cases of tiers 1 .. %lu\n", job->theirs,
+           (unsigned long)job->given, (unsigned long)job->asked, (unsigned long)job->tier);
+    printf("asked        class %s or better; a raster of %lu x %lu pixels\n\n",
+           cli_compare_grade(job->grade), (unsigned long)job->pixels, (unsigned long)job->pixels);
+    printf("tier  scene             exact  float raster   fail missing   worst of sigma\n");
+    for (uint32_t i = 0; i < job->kit.scenes; i++) {
+        if ((uint32_t)job->kit.scene[i].tier <= job->tier) {
+            scene_print(job, &job->kit.scene[i]);
+        }
+    }
+    putchar('\n');
+    for (uint32_t tier = 1; tier <= job->tier; tier++) {
+        tier_print(job, tier);
+    }
+    answers_print(job);
+    findings_print(job);
+    unexplained_print(job);
+    if (job->facets) {
+        facets_print(job, &job->by_facet);
+    }
+    if (job->items) {
+        items_print(job, &job->by_item);
+    }
+    printf("verdict      %s\n", cli_compare_passed(job) ? "passed" : "FAILED");
+}

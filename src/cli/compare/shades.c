@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT */
+/* How somebody shades a facet: f_r cos theta with a mistake in it. Which mistakes there are is
+   compare_mistakes.c. */
+#include "cli/compare/mistakes.h"
+
+#include <math.h>
+
+#define DEGREES_PER_RADIAN 57.295779513082320877
+
+double cli_mistake_right(const mistake_spot *spot, double at)
+{
+    (void)at;
+    return lrcs_brdf_eval(spot->brdf, spot->c) * spot->c;
+}
+
+/* With a power of the cosine in place of the first. */
+double cli_shade_cosine(const mistake_spot *spot, double at)
+{
+    return lrcs_brdf_eval(spot->brdf, spot->c) * pow(spot->c, at);
+}
+
+/* f_r at the cosine of so many radians as theta has degrees; at 1: its magnitude. */
+double cli_shade_degrees(const mistake_spot *spot, double at)
+{
+    double c = cos(acos(spot->c) * DEGREES_PER_RADIAN);
+    c = at > 0.0 ? fabs(c) : c;
+    return c > 0.0 ? lrcs_brdf_eval(spot->brdf, c) * spot->c : 0.0;
+}
+
+/* Both terms from their formulas, for mistakes inside the glint. */
+static double shade_terms(const mistake_spot *spot, double power, double exponent)
+{
+    const lrcs_brdf *b = spot->brdf;
+    double glint = b->A > 0.0 ? b->A * pow(spot->c, -power) * exp(-exponent) : 0.0;
+    return (glint + b->B * pow(spot->c, b->m)) * spot->c;
+}
+
+static double spot_tan2(const mistake_spot *spot)
+{
+    return 1.0 / (spot->c * spot->c) - 1.0;
+}
+
+/* 1 / cos^at in place of 1 / cos^6. */
+double cli_shade_power(const mistake_spot *spot, double at)
+{
+    return shade_terms(spot, at, spot_tan2(spot) / (spot->brdf->s * spot->brdf->s));
+}
+
+/* tan^2 at / s^2 in place of tan^2 / s^2; at 0: tan^2 / s. */
+double cli_shade_slope(const mistake_spot *spot, double at)
+{
+    double s = spot->brdf->s;
+    return shade_terms(spot, 6.0, spot_tan2(spot) * (at > 0.0 ? at / (s * s) : 1.0 / s));
+}
+
+double cli_shade_sine(const mistake_spot *spot, double at)
+{
+    double s = spot->brdf->s;
+    (void)at;
+    return shade_terms(spot, 6.0, (1.0 - spot->c * spot->c) / (s * s));
+}
+
+double cli_shade_small_angle(const mistake_spot *spot, double at)
+{
+    double theta = acos(spot->c) / spot->brdf->s;
+    (void)at;
+    return shade_terms(spot, 6.0, theta * theta);
+}
+
+/* The tangent of theta in degrees, taken for radians; the cosines are right. */
+double cli_shade_tan_degrees(const mistake_spot *spot, double at)
+{
+    double t = tan(acos(spot->c) * DEGREES_PER_RADIAN) / spot->brdf->s;
+    (void)at;
+    return shade_terms(spot, 6.0, t * t);
+}
+
+double cli_shade_lambert(const mistake_spot *spot, double at)
+{
+    lrcs_brdf brdf = *spot->brdf;
+    brdf.m = at;
+    return lrcs_brdf_eval(&brdf, spot->c) * spot->c;
+}
+
+/* At 0 without the glint term, at 1 without the diffuse one. */
+double cli_shade_one_term(const mistake_spot *spot, double at)
+{
+    lrcs_brdf brdf = *spot->brdf;
+    brdf.A *= at;
+    brdf.B *= 1.0 - at;
+    return lrcs_brdf_eval(&brdf, spot->c) * spot->c;
+}
+
+static double brdf_at(const mistake_spot *spot, double theta_deg)
+{
+    return lrcs_brdf_eval(spot->brdf, cos(theta_deg / DEGREES_PER_RADIAN));
+}
+
+/* f_r from a table in steps of `at` deg, with lines between its entries. */
+double cli_shade_lines(const mistake_spot *spot, double at)
+{
+    double theta = acos(spot->c) * DEGREES_PER_RADIAN;
+    double low = at * floor(theta / at);
+    double from = brdf_at(spot, low);
+    return (from + (theta - low) / at * (brdf_at(spot, low + at) - from)) * spot->c;
+}
+
+/* theta rounded to multiples of `at` deg. */
+double cli_shade_steps(const mistake_spot *spot, double at)
+{
+    double theta = acos(spot->c) * DEGREES_PER_RADIAN;
+    return brdf_at(spot, at * floor(theta / at + 0.5)) * spot->c;
+}
+
+/* A channel of 8 bits, of which `at` is the brightest; 0: the brightest of the case. */
+double cli_shade_bits(const mistake_spot *spot, double at)
+{
+    double white = at > 0.0 ? at : spot->peak;
+    double value = white > 0.0 ? fmin(cli_mistake_right(spot, at) / white, 1.0) : 0.0;
+    return white * floor(255.0 * value + 0.5) / 255.0;
+}
+
+double cli_shade_clamped(const mistake_spot *spot, double at)
+{
+    return fmin(cli_mistake_right(spot, at), at);
+}

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: MIT */
+/* Reasons that show without a mistake of the catalogue: which cases fail and by how much tells of
+   depths that are too coarse, of single precision, of a raster, of a factor that all share. */
+#include "cli/compare/search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FIGHTS_MOST  256u  /* facets of scenes in which facets in one plane are looked for */
+#define SKINS_TOUCH  60    /* a distance of 2^-60 m stands for none */
+#define COARSEST     16.0  /* pixels a side of the coarsest raster that is believed in, */
+#define COARSE_SHARE 0.012 /* and what answers are off, of what it is allowed: usual is 0.02 */
+#define BIAS_CASES   20u   /* a factor that all share: of so many cases */
+#define BIAS_SHARE   0.75  /* this share is nearer to it than to the truth, and */
+#define BIAS_SPREADS 4.0   /* more than half by so many spreads of a fair coin */
+#define BIAS_LEAST   1e-4  /* and it is this far from 1 */
+
+/* ---- classes ---- */
+
+/* The failing cases of a class. */
+static void class_say(compare_search *search, int grade, const char *name, const char *text)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < search->failings; i++) {
+        count += search->failing[i]->grade == grade;
+    }
+    compare_finding *finding = count > 0 ? cli_search_finding(search->job, name) : NULL;
+    if (!finding) {
+        return;
+    }
+    for (uint32_t i = 0; i < search->failings; i++) {
+        if (search->failing[i]->grade == grade) {
+            search->failing[i]->explained = (int)search->job->findings;
+        }
+    }
+    finding->explained = count;
+    snprintf(finding->text, sizeof finding->text, "%s", text);
+    cli_search_part(search);
+}
+
+/* ---- a coarser raster ---- */
+
+/* The pixels at which a case is within what a raster is allowed; 0 for one that never is. */
+static double case_pixels(const compare_case *one)
+{
+    double off = fabs(one->theirs_m2 - one->sigma_m2);
+    double rest = off - cli_compare_allowed(one, COMPARE_FLOAT, 1);
+    return rest > 0.0 ? one->edge_m2 / rest : HUGE_VAL;
+}
+
+/* The share of what they are allowed that answers are off, in the median of those that are no
+   better than a raster's and have no other reason; 0 where few are. */
+static double raster_share(const compare_search *search, double pixels)
+{
+    const compare_job *job = search->job;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->kit.cases; i++) {
+        const compare_case *one = &job->kit.list[i];
+        if (one->given && cli_compare_asked(job, one) && one->grade >= COMPARE_RASTER &&
+            one->explained == 0 && isfinite(one->theirs_m2)) {
+            search->room[count++] = pixels / case_pixels(one);
+        }
+    }
+    return 2 * count > job->given ? cli_search_median(search->room, count) : 0.0;
+}
+
+/* Where all that fail would pass with fewer pixels, and the others look like that too. */
+static void coarse_say(compare_search *search)
+{
+    compare_job *job = search->job;
+    double pixels = job->grade == COMPARE_RASTER && search->failings > 0 ? job->pixels : 0.0;
+    for (uint32_t i = 0; i < search->failings; i++) {
+        pixels = fmin(pixels, floor(case_pixels(search->failing[i])));
+    }
+    int coarse = pixels >= COARSEST && raster_share(search, pixels) >= COARSE_SHARE;
+    compare_finding *finding = coarse ? cli_search_finding(job, "coarse-raster") : NULL;
+    if (!finding) {
+        return;
+    }
+    for (uint32_t i = 0; i < search->failings; i++) {
+        search->failing[i]->explained = (int)job->findings;
+    }
+    finding->explained = search->failings;
+    snprintf(finding->text, sizeof finding->text,
+             "a raster of fewer than %lu x %lu pixels: all these pass as one of %.0f x %.0f or "
+             "fewer: give --pixels N, or render finer",
+             (unsigned long)job->pixels, (unsigned long)job->pixels, pixels, pixels);
+    cli_search_part(search);
+}
+
+/* ---- depths ---- */
+
+/* Skins 2^-K m apart in a scene 8 m deep are called skins-K, those in one place by other names; 0
+   for scenes without. */
+static int skins_of(const compare_job *job, const compare_case *one)
+{
+    const char *name = job->kit.scene[one->scene].name;
+    int coincident = strcmp(name, "twins") == 0 || strcmp(name, "two-faced") == 0;
+    int skins = strncmp(name, "skins-", 6) == 0 ? (int)strtol(name + 6, NULL, 10) : 0;
+    return coincident || skins > SKINS_TOUCH ? SKINS_TOUCH : skins;
+}
+
+/* Where most of what fails are skins close to each other, the depths are too coarse. */
+static void depth_say(compare_search *search)
+{
+    int coarsest = SKINS_TOUCH;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < search->failings; i++) {
+        int skins = skins_of(search->job, search->failing[i]);
+        coarsest = skins > 0 && skins < coarsest ? skins : coarsest;
+        count += skins > 0;
+    }
+    int most = coarsest < SKINS_TOUCH && 2 * count > search->failings;
+    compare_finding *finding = most ? cli_search_finding(search->job, "depth-precision") : NULL;
+    if (!finding) {
+        return;
+    }
+    for (uint32_t i = 0; i < search->failings; i++) {
+        if (skins_of(search->job, search->failing[i]) > 0) {
+            search->failing[i]->explained = (int)search->job->findings;
+        }
+    }
+    finding->explained = count;
+    snprintf(finding->text, sizeof finding->text,
+             "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told apart: a depth "
+             "of some %d bits or fewer",
+             coarsest, coarsest + 3);
+    cli_search_part(search);
+}
+
+/* ---- facets in one plane ---- */
+
+/* Is an answer between the truth and what is seen where the wrong one of facets in one plane wins?
+   1, 0, or -1 on failure. */
+static int case_fights(const compare_search *search, compare_case *one)
+{
+    static const compare_mistake wrong = {.name = "skins", .text = "", .skins = 1};
+    const compare_job *job = search->job;
+    double allowed = cli_compare_allowed(one, job->grade, job->pixels);
+    double other = 0.0;
+    if (cli_compare_records(&job->kit, one) != 0) {
+        return -1;
+    }
+    if (job->kit.scene[one->scene].host.scene.facet_count > FIGHTS_MOST) {
+        return 0;
+    }
+    if (cli_compare_answer(&job->kit, one, &wrong, &other) != 0) {
+        return -1;
+    }
+    double theirs = one->theirs_m2 - one->sigma_m2;
+    double most = other - one->sigma_m2;
+    return fabs(most) > allowed && theirs / most > 0.0 && fabs(theirs) <= fabs(most) + allowed;
+}
+
+/* 0, or -1 on failure. */
+static int fights_say(compare_search *search)
+{
+    uint32_t count = 0;
+    int mark = (int)search->job->findings + 1;
+    for (uint32_t i = 0; i < search->failings && mark <= (int)COMPARE_FINDINGS; i++) {
+        int fights = case_fights(search, search->failing[i]);
+        if (fights < 0) {
+            return -1;
+        }
+        search->failing[i]->explained = fights ? mark : 0;
+        count += (uint32_t)fights;
+    }
+    compare_finding *finding = count ? cli_search_finding(search->job, "coincident-skins") : NULL;
+    if (finding) {
+        finding->explained = count;
+        snprintf(finding->text, sizeof finding->text,
+                 "coincident skins, decided by rounding or by order (z-fighting): of facets in one "
+                 "plane a front beats a back, then the lower index wins; push backs away by some "
+                 "roundings of the scene's size");
+        cli_search_part(search);
+    }
+    return 0;
+}
+
+/* ---- a factor ---- */
+
+/* The ratios of the answers that are not exact; how many there are. */
+static uint32_t bias_ratios(const compare_job *job, double *ratio)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->kit.cases; i++) {
+        const compare_case *one = &job->kit.list[i];
+        if (one->given && cli_compare_asked(job, one) && one->sigma_m2 > 0.0 &&
+            one->grade > COMPARE_EXACT && isfinite(one->theirs_m2)) {
+            ratio[count++] = one->theirs_m2 / one->sigma_m2;
+        }
+    }
+    return count;
+}
+
+/* The share of the ratios that lie nearer to the median than to 1, where that is no chance. */
+static double bias_share(const double *ratio, uint32_t count, double median)
+{
+    uint32_t nearer = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        nearer += fabs(ratio[i] - median) < fabs(ratio[i] - 1.0);
+    }
+    double least = fmax(BIAS_SHARE, 0.5 + 0.5 * BIAS_SPREADS / sqrt(fmax(count, 1.0)));
+    return count >= BIAS_CASES && nearer >= least * count && fabs(median - 1.0) >= BIAS_LEAST
+               ? (double)nearer / count
+               : 0.0;
+}
+
+/* A factor that all answers share, though each by itself is within its class. */
+static void bias_say(compare_search *search)
+{
+    compare_job *job = search->job;
+    uint32_t count = bias_ratios(job, search->room);
+    double median = cli_search_median(search->room, count);
+    double share = bias_share(search->room, count, median);
+    compare_finding *finding = share > 0.0 ? cli_search_finding(job, "pixel-area") : NULL;
+    if (!finding) {
+        return;
+    }
+    job->biased = 1;
+    finding->factor = median;
+    finding->name = cli_factor_name(median);
+    for (uint32_t i = 0; i < search->failings; i++) {
+        compare_case *one = search->failing[i];
+        if (cli_search_explained(search, one, median * one->sigma_m2)) {
+            one->explained = (int)job->findings;
+            finding->explained++;
+        }
+    }
+    snprintf(finding->text, sizeof finding->text,
+             "all answers are %.6g times the truth: most are within their allowance, but %.0f %% "
+             "lean the same way, which errors of a raster do not: %s",
+             median, 100.0 * share, cli_factor_text(job, median));
+    cli_search_part(search);
+}
+
+int cli_compare_symptoms(compare_search *search)
+{
+    if (search->job->findings == 0) {
+        bias_say(search);
+    }
+    coarse_say(search);
+    depth_say(search);
+    if (fights_say(search) != 0) {
+        return -1;
+    }
+    coarse_say(search);
+    class_say(search, COMPARE_FLOAT, "single-precision",
+              "single precision: off by no more than some of its roundings");
+    class_say(search, COMPARE_RASTER, "raster",
+              "a raster's pixels: off by no more than half a pixel along the outlines");
+    return 0;
+}

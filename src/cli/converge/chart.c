@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs converge as a chart: for each dial what it costs and how true it is, on logarithmic axes.
+   It decides which curves there are and how they look; the host draws them. */
+#include "cli/converge/converge.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CHART_SERIES (3 * CONVERGE_DIALS)
+
+/* What is known of a setting, each a curve. */
+enum chart_quantity { CHART_ERROR, CHART_BOUND, CHART_ESTIMATE };
+
+typedef struct chart_curve {
+    char name[48];
+    double x[CONVERGE_SETTINGS], y[CONVERGE_SETTINGS];
+    const char *label[CONVERGE_SETTINGS];
+} chart_curve;
+
+typedef struct chart_curves {
+    chart_curve curve[CHART_SERIES];
+    lrcs_host_series series[CHART_SERIES];
+    uint32_t count;
+    char short_name[CONVERGE_SETTINGS][16];
+} chart_curves;
+
+static const struct {
+    int colour, marker;
+} chart_dials[CONVERGE_DIALS] = {[CONVERGE_MESH] = {LRCS_HOST_GREEN, LRCS_HOST_TRIANGLE},
+                                 [CONVERGE_PREVIEW] = {LRCS_HOST_ORANGE, LRCS_HOST_SQUARE},
+                                 [CONVERGE_FACET] = {LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
+                                 [CONVERGE_EXACT] = {LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
+                                 [CONVERGE_CLOSED] = {LRCS_HOST_BLACK, LRCS_HOST_CROSS},
+                                 [CONVERGE_ZBUFFER] = {LRCS_HOST_BLUE, LRCS_HOST_DISC}};
+
+static double setting_quantity(const converge_setting *setting, int quantity)
+{
+    return quantity == CHART_ERROR   ? setting->error_m2
+           : quantity == CHART_BOUND ? setting->bound_m2
+                                     : setting->estimate_m2;
+}
+
+/* Whether a dial has a curve: some value known; an estimate of 0 all along says only that nothing
+   was sampled. */
+static int curve_known(const converge_job *job, int dial, int quantity)
+{
+    for (uint32_t i = 0; i < job->settings; i++) {
+        double value = setting_quantity(&job->setting[i], quantity);
+        if (job->setting[i].dial == dial &&
+            (value > 0.0 || (value == 0.0 && quantity != CHART_ESTIMATE))) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* "zbuffer N: bound", "exact, mesh 1e-k: error" */
+static void curve_name(const converge_job *job, int dial, int quantity, chart_curve *curve)
+{
+    static const char *const what[] = {"error", "bound", "estimate"};
+    int method = 0;
+    for (uint32_t i = 0; i < job->settings; i++) {
+        method = job->setting[i].dial == dial ? job->setting[i].method : method;
+    }
+    if (dial == CONVERGE_PREVIEW) {
+        snprintf(curve->name, sizeof curve->name, "accepted by estimate: %s", what[quantity]);
+        return;
+    }
+    const char *position = dial == CONVERGE_MESH      ? ", mesh 1e-k"
+                           : dial == CONVERGE_ZBUFFER ? " N"
+                                                      : "";
+    snprintf(curve->name, sizeof curve->name, "%s%s: %s", lrcs_method_text(method), position,
+             what[quantity]);
+}
+
+static void curve_add(const converge_job *job, chart_curves *all, int dial, int quantity, int named)
+{
+    static const int dash[] = {LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED};
+    chart_curve *curve = &all->curve[all->count];
+    lrcs_host_series *series = &all->series[all->count++];
+    *series = (lrcs_host_series){.name = curve->name,
+                                 .x = curve->x,
+                                 .y = curve->y,
+                                 .label = curve->label,
+                                 .colour = chart_dials[dial].colour,
+                                 .marker = quantity == CHART_ESTIMATE ? LRCS_HOST_CROSS
+                                                                      : chart_dials[dial].marker,
+                                 .dash = dash[quantity],
+                                 .hollow = quantity == CHART_BOUND};
+    curve_name(job, dial, quantity, curve);
+    for (uint32_t i = 0; i < job->settings; i++) {
+        double value = setting_quantity(&job->setting[i], quantity);
+        if (job->setting[i].dial == dial && value >= 0.0) {
+            int has_name = named && all->short_name[i][0];
+            curve->x[series->count] = 1e3 * job->setting[i].pose_s;
+            curve->y[series->count] = cli_converge_relative(job, value);
+            curve->label[series->count++] = has_name ? all->short_name[i] : NULL;
+        }
+    }
+}
+
+/* The curves of a dial; the upper one has the settings' names. A preview's bound is that of its
+   raster, which is no reason to choose it. */
+static void dial_add(const converge_job *job, chart_curves *all, int dial)
+{
+    int bounds = dial != CONVERGE_PREVIEW && curve_known(job, dial, CHART_BOUND);
+    if (bounds) {
+        curve_add(job, all, dial, CHART_BOUND, 1);
+    }
+    if (curve_known(job, dial, CHART_ESTIMATE)) {
+        curve_add(job, all, dial, CHART_ESTIMATE, dial == CONVERGE_PREVIEW);
+    }
+    if (curve_known(job, dial, CHART_ERROR)) {
+        curve_add(job, all, dial, CHART_ERROR, !bounds && dial != CONVERGE_PREVIEW);
+    }
+}
+
+/* "256" for a raster, "1e-3" for a mesh. */
+static void short_names(const converge_job *job, chart_curves *all)
+{
+    for (uint32_t i = 0; i < job->settings; i++) {
+        const converge_setting *one = &job->setting[i];
+        char *name = all->short_name[i];
+        name[0] = '\0';
+        if (one->dial == CONVERGE_ZBUFFER) {
+            snprintf(name, 16, "%lu", (unsigned long)one->resolution);
+        } else if (one->dial == CONVERGE_MESH) {
+            snprintf(name, 16, "1e-%d", job->mesh[one->mesh].digits);
+        } else if (one->dial == CONVERGE_PREVIEW) {
+            snprintf(name, 16, "1e-%d", one->digits);
+        }
+    }
+}
+
+/* What the truth itself is not known better than, nor a double: never 0, which the axis lacks. */
+static double chart_floor(const converge_job *job)
+{
+    double floor = cli_converge_relative(job, job->truth.bound_m2);
+    if (job->truth.sigma_m2 > 0.0) {
+        return floor > 0x1p-53 ? floor : 0x1p-53;
+    }
+    return floor > 0.0 ? floor : 1e-16; /* m2 */
+}
+
+/* The scene without its folders; where the truth is from, and the laser. */
+static void chart_words(const converge_job *job, char title[256], char note[256])
+{
+    const char *slash = strrchr(job->args->operand, '/');
+    const double *d = job->pose.direction;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    snprintf(title, 256, "What accuracy costs in time: %s",
+             slash && slash[1] ? slash + 1 : job->args->operand);
+    snprintf(note, 256, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)", job->truth.text,
+             job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
+}
+
+int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_error *error)
+{
+    chart_curves all = {.count = 0};
+    char title[256];
+    char note[256];
+    chart_words(job, title, note);
+    short_names(job, &all);
+    for (int dial = 0; dial < CONVERGE_DIALS; dial++) {
+        dial_add(job, &all, dial);
+    }
+    const lrcs_host_chart chart = {
+        .title = title,
+        .note = note,
+        .x_name = "time of one pose, median (ms)",
+        .y_name = job->truth.sigma_m2 > 0.0 ? "error of sigma (relative to the truth)"
+                                            : "error of sigma (m2)",
+        .x_log = 1,
+        .y_log = 1,
+        .floor = chart_floor(job),
+        .floor_name = job->truth.whole ? "truth's own bound" : "truth's bound (facets)",
+        .series = all.series,
+        .series_count = all.count};
+    if (png) {
+        return lrcs_host_chart_png(out, &chart, error);
+    }
+    lrcs_host_chart_svg(out, &chart);
+    return LRCS_OK;
+}

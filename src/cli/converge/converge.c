@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs converge: what accuracy costs in time, for one scene from one pose. */
+#include "cli/converge/converge.h"
+
+#include <string.h>
+
+static const char converge_help[] =
+    "usage: lrcs converge SCENE [pose] [options]\n"
+    "\n"
+    "Runs SCENE from one pose with every method and resolution, and engine-made shapes at every\n"
+    "fineness, and compares error, proved bound and time; and beside them what a tolerance costs\n"
+    "that an estimate meets (run --accept estimate). The truth is the closed form where the scene\n"
+    "is a single shape, not turned or scaled, else exact on the finest mesh.\n"
+    "\n" CLI_POSE_HELP "\n"
+    "options\n"
+    "  --csv FILE.csv        one row for every setting ('-': instead of the table)\n"
+    "  --plot FILE           error against time; FILE.svg or FILE.png; repeatable\n"
+    "  --seconds S           time for the runs, about (20); loading and preparing come on top\n"
+    "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
+    "  --material [WHAT=]BRDF  repeatable, as in lrcs run\n"
+    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "  --json                the table as JSON, notices included\n"
+    "\n"
+    "Columns: prepare is done once a mesh, pose once a direction (median over the runs); error is\n"
+    "|sigma - truth|; '-' is not known, or none. Exit 1 where an error exceeds its bound.\n"
+    "\n"
+    "examples\n"
+    "  lrcs converge demo --azel 50,40 --plot demo.svg --csv demo.csv\n"
+    "  lrcs converge examples/cylinder.toml --azel 0,30 --plot cylinder.png\n";
+
+static const cli_option converge_options[] = {
+    CLI_POSE_OPTIONS,           {"csv", CLI_FILE, 0}, {"plot", CLI_FILE, 1}, {"unit", 1, 0},
+    {"material", 1, 1},         {"json", 0, 0},       {"seconds", 1, 0},     {"help", 0, 0},
+    {"keep-transparent", 0, 0}, {NULL, 0, 0}};
+
+/* ---- options ---- */
+
+static int plot_check(const converge_job *job, int index)
+{
+    const cli_args *args = job->args;
+    const char *path = args->given[index].value;
+    if (!cli_extension(path, ".svg") && !cli_extension(path, ".png")) {
+        return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'", path);
+    }
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *other = &args->given[i];
+        int clashes =
+            strcmp(other->name, "csv") == 0 || (strcmp(other->name, "plot") == 0 && i < index);
+        if (clashes && lrcs_host_output_same(other->value, path)) {
+            return cli_usage(args->command, "--%s and --plot name the same file: '%s', '%s'",
+                             other->name, other->value, path);
+        }
+    }
+    return 0;
+}
+
+static int converge_read(converge_job *job)
+{
+    const cli_args *args = job->args;
+    job->seconds = 20.0;
+    job->csv = cli_value(args, "csv");
+    int code = cli_pose_read(args, &job->pose);
+    code = code ? code : cli_number(args, "seconds", &job->seconds);
+    if (code == 0 && !(job->seconds > 0.0)) {
+        return cli_usage(args->command, "--seconds: expected a time > 0, found '%s'",
+                         cli_value(args, "seconds"));
+    }
+    if (code == 0 && job->csv && strcmp(job->csv, "-") == 0 && cli_value(args, "json")) {
+        return cli_usage(args->command, "--csv - and --json both want standard output");
+    }
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        code = strcmp(args->given[i].name, "plot") == 0 ? plot_check(job, i) : 0;
+    }
+    return code ? code : cli_scene_options_read(args, &job->load);
+}
+
+/* ---- files ---- */
+
+static int plot_write(const converge_job *job, const char *path)
+{
+    lrcs_host_error error;
+    lrcs_host_output out;
+    int status = lrcs_host_output_open(path, &out, &error);
+    if (status == LRCS_OK) {
+        status = cli_converge_chart(job, cli_extension(path, ".png"), out.stream, &error);
+        int good = status == LRCS_OK;
+        int closed = lrcs_host_output_close(&out, good, good ? &error : NULL);
+        status = good ? closed : status;
+    }
+    return status == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+static int csv_write(const converge_job *job)
+{
+    lrcs_host_error error;
+    lrcs_host_output out;
+    if (lrcs_host_output_open(job->csv, &out, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    cli_converge_csv(job, out.stream);
+    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+/* No output may replace a file that the scene was read from. */
+static int files_check(const converge_job *job)
+{
+    const cli_args *args = job->args;
+    lrcs_host_error error;
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *one = &args->given[i];
+        int output = strcmp(one->name, "csv") == 0 || strcmp(one->name, "plot") == 0;
+        if (output && lrcs_host_output_check(one->value, &job->mesh[0].scene, &error) != LRCS_OK) {
+            return cli_usage(args->command, "--%s %s", one->name, error.text);
+        }
+    }
+    return 0;
+}
+
+static int files_write(const converge_job *job)
+{
+    const cli_args *args = job->args;
+    int code = job->csv ? csv_write(job) : 0;
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        if (strcmp(args->given[i].name, "plot") == 0) {
+            code = plot_write(job, args->given[i].value);
+        }
+    }
+    return code;
+}
+
+/* ---- the command ---- */
+
+/* The errors against their bounds: one above is a fault of the engine. */
+static int settings_check(const converge_job *job)
+{
+    int code = CLI_DONE;
+    for (uint32_t i = 0; i < job->settings; i++) {
+        const converge_setting *one = &job->setting[i];
+        if (one->bound_m2 >= 0.0 && one->error_m2 > one->bound_m2 + job->truth.bound_m2) {
+            fprintf(stderr, "lrcs: %s: the error, %.3g m2, exceeds its bound, %.3g m2\n", one->name,
+                    one->error_m2, one->bound_m2);
+            return CLI_FAILED;
+        }
+        code = one->short_of_memory ? CLI_DEGRADED : code;
+    }
+    return code;
+}
+
+static int converge_report(const converge_job *job)
+{
+    int code = files_write(job);
+    if (code != 0) {
+        return code;
+    }
+    if (cli_value(job->args, "json")) {
+        cli_converge_json(job);
+        return settings_check(job);
+    }
+    cli_notices_print(stderr, &cli_converge_finest(job)->scene.notices);
+    if (job->left_out[0]) {
+        fprintf(stderr, "notice: %s\n", job->left_out);
+    }
+    if (job->busy[0]) {
+        fprintf(stderr, "notice: %s\n", job->busy);
+    }
+    if (!job->csv || strcmp(job->csv, "-") != 0) {
+        cli_converge_table(job);
+    }
+    return settings_check(job);
+}
+
+static int converge_command(const cli_args *args)
+{
+    converge_job job;
+    memset(&job, 0, sizeof job);
+    job.args = args;
+    int code = converge_read(&job);
+    code = code ? code : cli_converge_meshes(&job);
+    code = code ? code : files_check(&job);
+    code = code ? code : cli_converge_measure(&job);
+    code = code ? code : converge_report(&job);
+    for (uint32_t i = 0; i < job.meshes; i++) {
+        lrcs_host_scene_free(&job.mesh[i].scene);
+    }
+    cli_scene_options_free(&job.load);
+    return code;
+}
+
+const cli_command cli_converge_command = {
+    "converge",    "SCENE",          "give a .3ds, .obj or .stl model, a scene file, or demo",
+    converge_help, converge_options, converge_command};

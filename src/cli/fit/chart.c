@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs fit as charts: readings beside the fit, and what is left of them. It decides which series
+   there are and when an axis is logarithmic; the host draws them. */
+#include "cli/fit/fit.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define CHART_CURVE 400u /* points of a fitted curve */
+#define CHART_RANGE 20.0 /* a fit that spans more is drawn on a logarithmic axis */
+#define CHART_FLOOR 0.2  /* of the least fitted value: what is read below it stands on the floor */
+#define CHART_DEPTH 1e-6 /* of the largest: the floor is not below it */
+#define CHART_EDGE  6.0  /* standard errors: residuals beyond stand there with their number */
+
+typedef struct chart_points {
+    double *x, *y;
+    uint32_t count;
+} chart_points;
+
+/* The number of a residual that stands on the edge, "" for the others. */
+typedef struct chart_label {
+    char text[16];
+} chart_label;
+
+static double end_angle(const fit_material *material, int most)
+{
+    double angle = material->reading[0].angle_deg;
+    for (uint32_t i = 0; i < material->count; i++) {
+        double other = material->reading[i].angle_deg;
+        angle = most ? fmax(angle, other) : fmin(angle, other);
+    }
+    return angle;
+}
+
+/* The readings, or their residuals, that are kept or that are not. */
+static void points_take(const fit_job *job, int residuals, int outlier, chart_points *points)
+{
+    const fit_material *material = &job->material[0];
+    points->count = 0;
+    for (uint32_t i = 0; i < material->count; i++) {
+        const lrcs_fit_point *point = &material->point[i];
+        if (point->outlier == outlier) {
+            points->x[points->count] = material->reading[i].angle_deg;
+            points->y[points->count++] =
+                residuals ? point->standard : job->options.unit * material->reading[i].value;
+        }
+    }
+}
+
+/* The fit over all angles; its part without the glint or without the rest. */
+static void curve_take(const fit_job *job, int parts, chart_points *points)
+{
+    const fit_material *material = &job->material[0];
+    lrcs_brdf brdf = material->fit.brdf;
+    double first = end_angle(material, 0);
+    double last = end_angle(material, 1);
+    if (parts != 3 && (brdf.A == 0.0 || brdf.B == 0.0)) {
+        points->count = 0; /* the part is the fit, or nothing */
+        return;
+    }
+    brdf.A = parts & 1 ? brdf.A : 0.0;
+    brdf.B = parts & 2 ? brdf.B : 0.0;
+    points->count = CHART_CURVE;
+    for (uint32_t i = 0; i < CHART_CURVE; i++) {
+        double deg = first + (last - first) * i / (CHART_CURVE - 1);
+        double cosine = cos(deg * CLI_PI / 180.0);
+        points->x[i] = deg;
+        points->y[i] = lrcs_brdf_eval(&brdf, cosine) * (job->options.cosine ? cosine : 1.0);
+    }
+}
+
+static void line_take(const fit_material *material, double y, chart_points *points)
+{
+    points->count = 2;
+    points->x[0] = end_angle(material, 0);
+    points->x[1] = end_angle(material, 1);
+    points->y[0] = points->y[1] = y;
+}
+
+enum { CHART_KEPT, CHART_OUTLIERS, CHART_FIT, CHART_GLINT, CHART_DIFFUSE, CHART_SERIES };
+
+static const lrcs_host_series chart_looks[2][CHART_SERIES] = {
+    {{.name = "readings", .colour = LRCS_HOST_BLUE, .dash = LRCS_HOST_NO_LINE},
+     {.name = "set aside",
+      .colour = LRCS_HOST_VERMILION,
+      .dash = LRCS_HOST_NO_LINE,
+      .marker = LRCS_HOST_CROSS},
+     {.name = "fit", .colour = LRCS_HOST_BLACK, .marker = LRCS_HOST_NO_MARKER},
+     {.name = "glint",
+      .colour = LRCS_HOST_ORANGE,
+      .marker = LRCS_HOST_NO_MARKER,
+      .dash = LRCS_HOST_DASHED},
+     {.name = "diffuse",
+      .colour = LRCS_HOST_GREEN,
+      .marker = LRCS_HOST_NO_MARKER,
+      .dash = LRCS_HOST_DASHED}},
+    {{.name = "residuals", .colour = LRCS_HOST_BLUE, .dash = LRCS_HOST_NO_LINE},
+     {.name = "set aside",
+      .colour = LRCS_HOST_VERMILION,
+      .dash = LRCS_HOST_NO_LINE,
+      .marker = LRCS_HOST_CROSS},
+     {.name = "fit", .colour = LRCS_HOST_BLACK, .marker = LRCS_HOST_NO_MARKER},
+     {.name = "+2 errors",
+      .colour = LRCS_HOST_BLACK,
+      .marker = LRCS_HOST_NO_MARKER,
+      .dash = LRCS_HOST_DOTTED},
+     {.name = "-2 errors",
+      .colour = LRCS_HOST_BLACK,
+      .marker = LRCS_HOST_NO_MARKER,
+      .dash = LRCS_HOST_DOTTED}}};
+
+/* Fills all series of a chart. */
+static void series_take(const fit_job *job, int residuals, chart_points points[CHART_SERIES])
+{
+    points_take(job, residuals, 0, &points[CHART_KEPT]);
+    points_take(job, residuals, 1, &points[CHART_OUTLIERS]);
+    if (residuals) {
+        line_take(&job->material[0], 0.0, &points[CHART_FIT]);
+        line_take(&job->material[0], 2.0, &points[CHART_GLINT]);
+        line_take(&job->material[0], -2.0, &points[CHART_DIFFUSE]);
+    } else {
+        curve_take(job, 3, &points[CHART_FIT]);
+        curve_take(job, 1, &points[CHART_GLINT]);
+        curve_take(job, 2, &points[CHART_DIFFUSE]);
+    }
+}
+
+/* Residuals beyond the edge come to stand on it. */
+static void edge_take(chart_points *points, chart_label *label, const char **text)
+{
+    for (uint32_t i = 0; i < points->count; i++) {
+        double y = points->y[i];
+        text[i] = NULL;
+        if (fabs(y) > CHART_EDGE) {
+            snprintf(label[i].text, sizeof label[i].text, "%.3g", y);
+            text[i] = label[i].text;
+            points->y[i] = copysign(CHART_EDGE, y);
+        }
+    }
+}
+
+/* A fit that spans decades has a logarithmic axis, with a floor where readings need one; curves
+   end where they fall below. */
+static void axis_choose(chart_points points[CHART_SERIES], lrcs_host_chart *chart)
+{
+    const chart_points *fit = &points[CHART_FIT];
+    double least = fit->y[0];
+    double most = fit->y[0];
+    for (uint32_t i = 0; i < fit->count; i++) {
+        least = fmin(least, fit->y[i]);
+        most = fmax(most, fit->y[i]);
+    }
+    if (!(most > CHART_RANGE * least)) {
+        return;
+    }
+    double floor = CHART_FLOOR * fmax(least, CHART_DEPTH * most);
+    chart->y_log = 1;
+    for (int k = 0; k < CHART_SERIES; k++) {
+        for (uint32_t i = 0; i < points[k].count; i++) {
+            int below = points[k].y[i] < floor;
+            if (below && k <= CHART_OUTLIERS) {
+                chart->floor = floor;
+                chart->floor_name = "below";
+            } else if (below) {
+                points[k].y[i] = (double)NAN; /* not drawn */
+            }
+        }
+    }
+}
+
+static int chart_draw(const fit_job *job, int residuals, int png, FILE *out,
+                      lrcs_host_series series[CHART_SERIES], chart_points points[CHART_SERIES],
+                      lrcs_host_error *error)
+{
+    const fit_material *material = &job->material[0];
+    const lrcs_brdf *brdf = &material->fit.brdf;
+    char title[256];
+    char note[256];
+    snprintf(title, sizeof title, "%s of %s", residuals ? "Residuals" : "BRDF", material->name);
+    snprintf(note, sizeof note, "A = %.5g /sr, B = %.5g /sr, s = %.5g, m = %.5g; rms %.3g /sr",
+             brdf->A, brdf->B, brdf->s, brdf->m, material->fit.rms);
+    lrcs_host_chart chart = {.title = title,
+                             .note = note,
+                             .x_name = "angle from the normal (deg)",
+                             .y_name = residuals             ? "residual (standard errors)"
+                                       : job->options.cosine ? "f_r cos(theta) (1/sr)"
+                                                             : "f_r (1/sr)",
+                             .series = series};
+    if (!residuals) {
+        axis_choose(points, &chart);
+    }
+    for (int i = 0; i < CHART_SERIES; i++) { /* those that have points */
+        lrcs_host_series one = chart_looks[residuals][i];
+        one.x = points[i].x;
+        one.y = points[i].y;
+        one.count = points[i].count;
+        one.label = i <= CHART_OUTLIERS ? series[i].label : NULL;
+        series[chart.series_count] = one;
+        chart.series_count += one.count > 0;
+    }
+    if (png) {
+        return lrcs_host_chart_png(out, &chart, error);
+    }
+    lrcs_host_chart_svg(out, &chart);
+    return LRCS_OK;
+}
+
+int cli_fit_chart(const fit_job *job, int residuals, int png, FILE *out, lrcs_host_error *error)
+{
+    uint32_t count = job->material[0].count;
+    size_t room = count > CHART_CURVE ? count : CHART_CURVE;
+    double *number = malloc(2 * (size_t)CHART_SERIES * room * sizeof *number);
+    chart_label *label = malloc(2 * room * sizeof *label);
+    const char **text = malloc(2 * room * sizeof *text);
+    int status = LRCS_E_SYSTEM;
+    snprintf(error->text, sizeof error->text, "out of memory");
+    if (number && label && text) {
+        chart_points points[CHART_SERIES];
+        lrcs_host_series series[CHART_SERIES] = {{.name = NULL}};
+        for (size_t i = 0; i < CHART_SERIES; i++) {
+            points[i] = (chart_points){number + 2 * i * room, number + (2 * i + 1) * room, 0};
+        }
+        series_take(job, residuals, points);
+        for (size_t i = 0; residuals && i <= CHART_OUTLIERS; i++) {
+            edge_take(&points[i], label + i * room, text + i * room);
+            series[i].label = text + i * room;
+        }
+        status = chart_draw(job, residuals, png, out, series, points, error);
+    }
+    free(number);
+    free(label);
+    free(text);
+    return status;
+}

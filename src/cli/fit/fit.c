@@ -1,0 +1,392 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs fit: a material from measured BRDF against angle. */
+#include "cli/fit/fit.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char fit_help[] =
+    "usage: lrcs fit DATA.csv [options]\n"
+    "\n"
+    "A, B, s, m of the four-parameter BRDF\n"
+    "  f_r(theta) = A / cos^6(theta) exp(-tan^2(theta) / s^2) + B cos^m(theta)      1/sr\n"
+    "(Steinvall 2000; Han et al. 2014, Eq. 1) from readings in mono-station (retro) geometry, "
+    "laser\n"
+    "and detector both at angle theta from the normal. Robust: outliers are set aside and named.\n"
+    "\n"
+    "DATA.csv: one reading a line, apart by commas, semicolons, tabs or blanks; '#' begins a "
+    "comment.\n"
+    "The first line names the columns, in any order: angle_deg (-90 .. 90, the sign has no "
+    "effect),\n"
+    "brdf (also reading or value), and where there are any sigma (standard error, unit of brdf),\n"
+    "weight (like 1/sigma^2) and material (or sample), each of which is fitted by itself. Without "
+    "names:\n"
+    "angle, brdf and perhaps sigma.\n"
+    "\n"
+    "options\n"
+    "  --panel RHO           brdf is relative to a Lambert panel of reflectance RHO read at the "
+    "same\n"
+    "                        angle: f_r = value RHO / pi (without: brdf is f_r, 1/sr)\n"
+    "  --cosine              values fall with the projected area too: f_r cos(theta)\n"
+    "  --noise KIND          where there is no sigma: errors are absolute (the same for all),\n"
+    "                        relative (in proportion to what is measured), or auto: which of both\n"
+    "                        the residuals make likelier (the default)\n"
+    "  --name NAME           of several materials the one to fit; of one, what it is called (else\n"
+    "                        by its file)\n"
+    "  --plot FILE           readings and fit; FILE.svg or FILE.png; repeatable\n"
+    "  --residuals FILE      residuals against angle; FILE.svg or FILE.png; repeatable\n"
+    "  --csv FILE.csv        every reading with fit and residual ('-': instead of the table)\n"
+    "  --json                the table as JSON\n"
+    "\n"
+    "The limits are where the best fit of the other three parameters is worse at 95 % confidence.\n"
+    "A glint or a diffuse part that noise alone could pass for is left out: its A or B is then 0,\n"
+    "with an upper limit. What the readings do not determine is said in plain words.\n"
+    "Exit: 0 all four parameters determined, 3 some are not.\n"
+    "\n"
+    "examples\n"
+    "  lrcs fit gold.csv --plot gold.svg --residuals gold-residuals.svg\n"
+    "  lrcs fit panels.csv --panel 0.99 --noise absolute --name white --json\n";
+
+static const cli_option fit_options[] = {{"panel", 1, 0},       {"cosine", 0, 0},
+                                         {"noise", 1, 0},       {"name", 1, 0},
+                                         {"plot", CLI_FILE, 1}, {"residuals", CLI_FILE, 1},
+                                         {"csv", CLI_FILE, 0},  {"json", 0, 0},
+                                         {"help", 0, 0},        {NULL, 0, 0}};
+
+/* ---- options ---- */
+
+static int is_chart(const cli_given *given)
+{
+    return strcmp(given->name, "plot") == 0 || strcmp(given->name, "residuals") == 0;
+}
+
+static int is_output(const cli_given *given)
+{
+    return is_chart(given) || strcmp(given->name, "csv") == 0;
+}
+
+/* An output that is no chart's name, another output, or the data themselves. */
+static int output_check(const cli_args *args, int index)
+{
+    const cli_given *given = &args->given[index];
+    if (is_chart(given) && !cli_extension(given->value, ".svg") &&
+        !cli_extension(given->value, ".png")) {
+        return cli_usage(args->command, "--%s: expected FILE.svg or FILE.png, found '%s'",
+                         given->name, given->value);
+    }
+    if (lrcs_host_output_same(given->value, args->operand)) {
+        return cli_usage(args->command, "--%s %s: would overwrite the readings", given->name,
+                         given->value);
+    }
+    for (int i = 0; i < index; i++) {
+        if (is_output(&args->given[i]) &&
+            lrcs_host_output_same(args->given[i].value, given->value)) {
+            return cli_usage(args->command, "--%s and --%s name the same file: '%s', '%s'",
+                             args->given[i].name, given->name, args->given[i].value, given->value);
+        }
+    }
+    return 0;
+}
+
+static int noise_read(fit_job *job)
+{
+    const cli_args *args = job->args;
+    const char *text = cli_value(args, "noise");
+    if (!text || strcmp(text, "auto") == 0) {
+        return 0;
+    }
+    job->noise_asked = 1;
+    job->options.noise = strcmp(text, "relative") == 0 ? LRCS_FIT_RELATIVE : LRCS_FIT_ABSOLUTE;
+    return job->options.noise == LRCS_FIT_RELATIVE || strcmp(text, "absolute") == 0
+               ? 0
+               : cli_usage(args->command,
+                           "--noise: expected absolute, relative or auto, found '%s'", text);
+}
+
+static int fit_read(fit_job *job)
+{
+    const cli_args *args = job->args;
+    const char *csv = cli_value(args, "csv");
+    job->options = lrcs_fit_options_default();
+    job->options.cosine = cli_value(args, "cosine") != NULL;
+    int code = noise_read(job);
+    code = code ? code : cli_number(args, "panel", &job->panel);
+    if (code == 0 && cli_value(args, "panel")) {
+        if (!(job->panel > 0.0 && job->panel <= 1.5)) {
+            return cli_usage(args->command,
+                             "--panel: expected a reflectance 0 < RHO <= 1.5, "
+                             "found '%s'",
+                             cli_value(args, "panel"));
+        }
+        job->options.unit = job->panel / CLI_PI;
+    }
+    if (code == 0 && csv && strcmp(csv, "-") == 0 && cli_value(args, "json")) {
+        return cli_usage(args->command, "--csv - and --json both want standard output");
+    }
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        code = is_output(&args->given[i]) ? output_check(args, i) : 0;
+    }
+    return code;
+}
+
+/* ---- materials ---- */
+
+/* The file's name without folders and ending, in memory that the caller frees. */
+static char *stem_make(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    size_t size = dot && dot != name ? (size_t)(dot - name) : strlen(name);
+    char *stem = malloc(size + 1);
+    if (stem) {
+        memcpy(stem, name, size);
+        stem[size] = '\0';
+    }
+    return stem;
+}
+
+/* Gives readings without a material the name asked for, or the file's. */
+static int material_name(fit_job *job)
+{
+    lrcs_host_readings *readings = &job->readings;
+    const char *asked = cli_value(job->args, "name");
+    if (readings->name_count != 1 || readings->name[0][0] != '\0') {
+        return 0;
+    }
+    char *name = asked ? strdup(asked) : stem_make(job->args->operand);
+    if (!name) {
+        return cli_out_of_memory();
+    }
+    free(readings->name[0]);
+    readings->name[0] = name;
+    return 0;
+}
+
+/* Copies the readings of one material of the file. */
+static int material_take(const lrcs_host_readings *readings, uint32_t index, fit_material *material)
+{
+    size_t room = readings->count;
+    material->name = readings->name[index];
+    material->reading = malloc(room * sizeof *material->reading);
+    material->line = malloc(room * sizeof *material->line);
+    material->point = malloc(room * sizeof *material->point);
+    if (!material->reading || !material->line || !material->point) {
+        return cli_out_of_memory();
+    }
+    for (uint32_t i = 0; i < readings->count; i++) {
+        if (readings->reading[i].material == index) {
+            material->reading[material->count] = readings->reading[i].fit;
+            material->line[material->count++] = readings->reading[i].line;
+        }
+    }
+    return 0;
+}
+
+/* The error expected of a reading of a kind (lrcs_fit_noise) but for a common factor. */
+static double noise_size(const fit_material *material, int noise, uint32_t i, double most)
+{
+    return noise == LRCS_FIT_RELATIVE ? fmax(material->point[i].fitted, 1e-4 * most) : 1.0;
+}
+
+/* The logarithm of the likelihood of all residuals, but for a constant: of errors after Cauchy,
+   whom outliers do not impress. Their width is the likeliest (by expectation and maximisation). */
+static double noise_likelihood(const fit_material *material, int noise)
+{
+    double most = 0.0;
+    double square = 1.0; /* of the width */
+    double sum = 0.0;
+    for (uint32_t i = 0; i < material->count; i++) {
+        most = fmax(most, material->point[i].fitted);
+    }
+    for (int round = 0; round < 60; round++) {
+        double next = 0.0;
+        sum = 0.0;
+        for (uint32_t i = 0; i < material->count; i++) {
+            double size = noise_size(material, noise, i, most);
+            double x = material->point[i].residual / size;
+            sum -= log(size) + 0.5 * log(square) + log1p(x * x / square);
+            next += 2.0 * x * x / (1.0 + x * x / square) / material->count;
+        }
+        square = fmax(next, DBL_MIN);
+    }
+    return sum;
+}
+
+static int noise_fit(const fit_job *job, int noise, fit_material *material, lrcs_work *work)
+{
+    lrcs_fit_options options = job->options;
+    options.noise = noise;
+    material->noise = noise;
+    return lrcs_fit_run(material->reading, material->count, &options, work, &material->fit,
+                        material->point);
+}
+
+/* With relative errors and with absolute ones: the likelier fit stays. */
+static int noise_choose(const fit_job *job, fit_material *material, lrcs_work *work)
+{
+    int status = noise_fit(job, LRCS_FIT_RELATIVE, material, work);
+    double relative = status == LRCS_OK ? noise_likelihood(material, LRCS_FIT_RELATIVE) : 0.0;
+    status = status == LRCS_OK ? noise_fit(job, LRCS_FIT_ABSOLUTE, material, work) : status;
+    if (status == LRCS_OK && relative > noise_likelihood(material, LRCS_FIT_ABSOLUTE)) {
+        status = noise_fit(job, LRCS_FIT_RELATIVE, material, work);
+    }
+    return status;
+}
+
+static int material_fit(const fit_job *job, fit_material *material)
+{
+    size_t size = lrcs_fit_need(material->count);
+    void *bytes = malloc(size);
+    if (!bytes) {
+        return cli_out_of_memory();
+    }
+    lrcs_work work = lrcs_work_make(bytes, size);
+    int status = job->noise_asked ? noise_fit(job, job->options.noise, material, &work)
+                                  : noise_choose(job, material, &work);
+    free(bytes);
+    if (status == LRCS_E_EMPTY && material->count < LRCS_FIT_READINGS) {
+        fprintf(stderr, "lrcs: %s: %s: found %lu readings, expected %u or more\n",
+                job->args->operand, material->name, (unsigned long)material->count,
+                LRCS_FIT_READINGS);
+        return CLI_FAILED;
+    }
+    if (status != LRCS_OK) {
+        fprintf(stderr, "lrcs: %s: %s: %s\n", job->args->operand, material->name,
+                status == LRCS_E_EMPTY ? "no reading is above 0" : lrcs_status_text(status));
+        return CLI_FAILED;
+    }
+    return 0;
+}
+
+/* The materials asked for, each with its readings and its fit. */
+static int materials_make(fit_job *job)
+{
+    const lrcs_host_readings *readings = &job->readings;
+    const char *asked = cli_value(job->args, "name");
+    const char *best = NULL;
+    int code = material_name(job);
+    job->material = calloc(readings->name_count, sizeof *job->material);
+    if (code == 0 && !job->material) {
+        return cli_out_of_memory();
+    }
+    for (uint32_t i = 0; i < readings->name_count && code == 0; i++) {
+        best = asked ? cli_nearest(asked, best, readings->name[i]) : NULL;
+        if (!asked || strcmp(asked, readings->name[i]) == 0) {
+            fit_material *material = &job->material[job->materials++];
+            code = material_take(readings, i, material);
+            code = code ? code : material_fit(job, material);
+        }
+    }
+    if (code == 0 && job->materials == 0) {
+        return cli_usage(job->args->command, "--name: no reading is of '%s'; the nearest is '%s'",
+                         asked, best);
+    }
+    return code;
+}
+
+/* What the file holds against what was asked of it. */
+static int readings_check(fit_job *job)
+{
+    const cli_args *args = job->args;
+    int given = job->readings.noise != LRCS_FIT_ABSOLUTE;
+    if (given && cli_value(args, "noise")) {
+        return cli_usage(args->command, "--noise: the readings have errors of their own");
+    }
+    if (given) {
+        job->options.noise = job->readings.noise;
+        job->noise_asked = 1;
+    }
+    for (int i = 0; i < args->given_count; i++) {
+        if (is_chart(&args->given[i]) && job->readings.name_count > 1 && !cli_value(args, "name")) {
+            return cli_usage(args->command,
+                             "--%s: the readings are of %lu materials; choose one with --name",
+                             args->given[i].name, (unsigned long)job->readings.name_count);
+        }
+    }
+    return 0;
+}
+
+/* ---- the command ---- */
+
+static int output_write(const fit_job *job, const cli_given *given)
+{
+    lrcs_host_error error;
+    lrcs_host_output out;
+    int status = lrcs_host_output_open(given->value, &out, &error);
+    if (status != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    if (is_chart(given)) {
+        status = cli_fit_chart(job, strcmp(given->name, "residuals") == 0,
+                               cli_extension(given->value, ".png"), out.stream, &error);
+    } else {
+        cli_fit_csv(job, out.stream);
+    }
+    int good = status == LRCS_OK;
+    int closed = lrcs_host_output_close(&out, good, good ? &error : NULL);
+    return good && closed == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+static void warnings_print(const fit_material *material)
+{
+    int warnings = lrcs_brdf_check(&material->fit.brdf);
+    for (int bit = 1; warnings > 0 && bit <= warnings; bit *= 2) {
+        if (warnings & bit) {
+            fprintf(stderr, "notice: %s: %s\n", material->name, lrcs_brdf_warning_text(bit));
+        }
+    }
+}
+
+static int fit_report(const fit_job *job)
+{
+    const cli_args *args = job->args;
+    const char *csv = cli_value(args, "csv");
+    int code = CLI_DONE;
+    for (int i = 0; i < args->given_count; i++) {
+        int failed = is_output(&args->given[i]) ? output_write(job, &args->given[i]) : 0;
+        if (failed) {
+            return failed;
+        }
+    }
+    cli_notices_print(stderr, &job->readings.notices);
+    for (uint32_t i = 0; i < job->materials; i++) {
+        warnings_print(&job->material[i]);
+        code = cli_fit_open(&job->material[i].fit) ? CLI_DEGRADED : code;
+    }
+    if (cli_value(args, "json")) {
+        cli_fit_json(job);
+    } else if (!csv || strcmp(csv, "-") != 0) {
+        cli_fit_table(job);
+    }
+    return code;
+}
+
+static int fit_command(const cli_args *args)
+{
+    lrcs_host_error error;
+    fit_job job;
+    memset(&job, 0, sizeof job);
+    job.args = args;
+    int code = fit_read(&job);
+    if (code == 0 && lrcs_host_readings_read(args->operand, &job.readings, &error) != LRCS_OK) {
+        code = cli_failed(&error);
+    }
+    code = code ? code : readings_check(&job);
+    code = code ? code : materials_make(&job);
+    code = code ? code : fit_report(&job);
+    for (uint32_t i = 0; i < job.materials; i++) {
+        free(job.material[i].reading);
+        free(job.material[i].line);
+        free(job.material[i].point);
+    }
+    free(job.material);
+    lrcs_host_readings_free(&job.readings);
+    return code;
+}
+
+const cli_command cli_fit_command = {
+    "fit",    "DATA.csv",  "give a table of angles (deg) and BRDF readings",
+    fit_help, fit_options, fit_command};

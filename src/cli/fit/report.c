@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: MIT */
+/* What lrcs fit says in numbers and words: the table with a material line to paste, JSON, and CSV
+   of the residuals. */
+#include "cli/fit/fit.h"
+
+#include <math.h>
+#include <string.h>
+
+#define REPORT_LINES_MOST 12u /* outliers named in the table */
+
+/* Parameters trade against each other beyond this correlation. */
+#define REPORT_TRADE 0.95
+
+static const char *const report_name[LRCS_FIT_PARAMETERS] = {"A", "B", "s", "m"};
+
+typedef struct report_statement {
+    char text[256];
+} report_statement;
+
+int cli_fit_open(const lrcs_fit *fit)
+{
+    int open = 0;
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        open += fit->parameter[p].verdict != LRCS_FIT_DETERMINED;
+    }
+    return open;
+}
+
+/* The verdict's sentence; where readings do not reach far enough, how far they do. */
+static report_statement statement_make(const lrcs_fit *fit, int parameter)
+{
+    report_statement statement;
+    int verdict = fit->parameter[parameter].verdict;
+    int reach =
+        verdict == LRCS_FIT_AT_MOST || verdict == LRCS_FIT_AT_LEAST || verdict == LRCS_FIT_FREE;
+    int used = snprintf(statement.text, sizeof statement.text, "%s",
+                        lrcs_fit_verdict_text(parameter, verdict));
+    if (reach && used > 0 && (size_t)used < sizeof statement.text) {
+        snprintf(statement.text + used, sizeof statement.text - (size_t)used,
+                 " (readings from %.4g to %.4g deg)", fit->least_deg, fit->most_deg);
+    }
+    return statement;
+}
+
+/* ---- the table ---- */
+
+static void unit_print(const fit_job *job)
+{
+    const char *with = job->options.cosine ? " cos(theta)" : "";
+    if (job->panel > 0.0) {
+        printf("unit       relative to a Lambert panel of reflectance %.6g: f_r%s = %.6g value, "
+               "1/sr\n",
+               job->panel, with, job->options.unit);
+    } else {
+        printf("unit       value = f_r%s, 1/sr\n", with);
+    }
+}
+
+static void outliers_print(const fit_material *material)
+{
+    uint32_t named = 0;
+    uint32_t outliers = material->count - material->fit.kept;
+    printf("readings   %lu from %.6g to %.6g deg, outliers set aside: %lu",
+           (unsigned long)material->count, material->fit.least_deg, material->fit.most_deg,
+           (unsigned long)outliers);
+    for (uint32_t i = 0; i < material->count && named < REPORT_LINES_MOST; i++) {
+        if (material->point[i].outlier) {
+            printf("%s%lu", named++ ? ", " : " (line ", (unsigned long)material->line[i]);
+        }
+    }
+    printf("%s%s\n", named < outliers ? ", ..." : "", outliers ? ")" : "");
+}
+
+/* A number right-aligned, or a word for one that there is not. */
+static void cell_print(double value, int width, const char *none)
+{
+    if (value < HUGE_VAL) {
+        printf("  %*.6g", width, value);
+    } else {
+        printf("  %*s", width, none);
+    }
+}
+
+static void parameters_print(const lrcs_fit *fit)
+{
+    printf("\n%8s  %12s  %12s  %12s  %12s\n", "", "value", "std error", "low, 95 %", "high, 95 %");
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        const lrcs_fit_parameter *one = &fit->parameter[p];
+        printf("%s %-6s", report_name[p], p < LRCS_FIT_S ? "1/sr" : "");
+        cell_print(one->value, 12, "");
+        cell_print(one->error, 12, "-");
+        cell_print(one->low, 12, "");
+        cell_print(one->high, 12, "no limit");
+        putchar('\n');
+    }
+}
+
+static void statements_print(const lrcs_fit *fit)
+{
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        if (fit->parameter[p].verdict != LRCS_FIT_DETERMINED) {
+            report_statement statement = statement_make(fit, p);
+            printf("%s %s\n", report_name[p], statement.text);
+        }
+    }
+    if (cli_fit_open(fit) == 0) {
+        printf("all four parameters are determined\n");
+    }
+    if (fit->angles < LRCS_FIT_PARAMETERS) {
+        printf("only %lu different angles for four parameters\n", (unsigned long)fit->angles);
+    }
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        for (int q = 0; q < p; q++) {
+            if (fabs(fit->correlation[p][q]) > REPORT_TRADE) {
+                printf("%s and %s trade against each other: correlation %.3f\n", report_name[q],
+                       report_name[p], fit->correlation[p][q]);
+            }
+        }
+    }
+}
+
+static void residuals_print(const fit_job *job, const fit_material *material)
+{
+    const lrcs_fit *fit = &material->fit;
+    const char *taken = job->noise_asked ? "taken" : "likelier";
+    printf("residuals  rms %.4g 1/sr; errors ", fit->rms);
+    switch (material->noise) {
+    case LRCS_FIT_GIVEN:
+        printf("given: reduced chi-square %.4g\n", fit->noise * fit->noise);
+        break;
+    case LRCS_FIT_WEIGHTED:
+        printf("by weight\n");
+        break;
+    case LRCS_FIT_RELATIVE:
+        printf("%s relative: %.3g %% a reading\n", taken, 100.0 * fit->noise);
+        break;
+    default:
+        printf("%s the same for all: %.4g 1/sr a reading\n", taken, fit->noise);
+    }
+}
+
+/* A name that stands between quotes, of a shell or a scene file; what would end them is '?'. */
+static void name_print(const char *name, char quote)
+{
+    for (; *name; name++) {
+        unsigned char byte = (unsigned char)*name;
+        int bad = byte < 0x20 || byte == 0x7f || *name == quote || *name == '\\';
+        putchar(bad ? '?' : *name);
+    }
+}
+
+static void brdf_text(const lrcs_brdf *brdf, char text[LRCS_FIT_PARAMETERS][LRCS_HOST_NUMBER_SIZE])
+{
+    const double value[] = {brdf->A, brdf->B, brdf->s, brdf->m};
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        snprintf(text[p], LRCS_HOST_NUMBER_SIZE, "%.6g", value[p]);
+    }
+}
+
+static void material_print(const fit_material *material)
+{
+    char text[LRCS_FIT_PARAMETERS][LRCS_HOST_NUMBER_SIZE];
+    brdf_text(&material->fit.brdf, text);
+    printf("\n--material '");
+    name_print(material->name, '\'');
+    printf("=%s,%s,%s,%s'\n", text[0], text[1], text[2], text[3]);
+    printf("\n[[material]]\nname = \"");
+    name_print(material->name, '"');
+    putchar('"');
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        printf("\n%s = %s", report_name[p], text[p]);
+    }
+    putchar('\n');
+}
+
+void cli_fit_table(const fit_job *job)
+{
+    for (uint32_t i = 0; i < job->materials; i++) {
+        const fit_material *material = &job->material[i];
+        printf("%smaterial   ", i ? "\n\n" : "");
+        cli_column(material->name, 0);
+        putchar('\n');
+        outliers_print(material);
+        unit_print(job);
+        residuals_print(job, material);
+        parameters_print(&material->fit);
+        putchar('\n');
+        statements_print(&material->fit);
+        material_print(material);
+    }
+}
+
+/* ---- CSV ---- */
+
+/* A text field, quoted only where it must be. */
+static void csv_name(FILE *out, const char *name)
+{
+    int quote = strpbrk(name, ",;\"\r\n") != NULL;
+    fputs(quote ? "\"" : "", out);
+    for (; *name; name++) {
+        fputs(*name == '"' ? "\"" : "", out);
+        putc(*name, out);
+    }
+    fputs(quote ? "\"" : "", out);
+}
+
+void cli_fit_csv(const fit_job *job, FILE *out)
+{
+    fputs("material,line,angle_deg,value,fitted,residual,standard,outlier\n", out);
+    for (uint32_t i = 0; i < job->materials; i++) {
+        const fit_material *material = &job->material[i];
+        for (uint32_t k = 0; k < material->count; k++) {
+            const lrcs_fit_reading *reading = &material->reading[k];
+            const lrcs_fit_point *point = &material->point[k];
+            const double value[] = {reading->angle_deg, reading->value, point->fitted,
+                                    point->residual, point->standard};
+            char text[LRCS_HOST_NUMBER_SIZE];
+            csv_name(out, material->name);
+            fprintf(out, ",%lu", (unsigned long)material->line[k]);
+            for (size_t c = 0; c < sizeof value / sizeof value[0]; c++) {
+                lrcs_host_number_text(value[c], text);
+                fprintf(out, ",%s", text);
+            }
+            fprintf(out, ",%d\n", point->outlier);
+        }
+    }
+}
+
+/* ---- JSON ---- */
+
+static void parameter_json(const lrcs_fit *fit, int p, lrcs_host_json *json)
+{
+    const lrcs_fit_parameter *one = &fit->parameter[p];
+    report_statement statement = statement_make(fit, p);
+    lrcs_host_json_begin(json, report_name[p], LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(json, "value", one->value);
+    lrcs_host_json_number(json, "std_error", one->error);
+    lrcs_host_json_number(json, "low", one->low);
+    lrcs_host_json_number(json, "high", one->high);
+    lrcs_host_json_bool(json, "determined", one->verdict == LRCS_FIT_DETERMINED);
+    lrcs_host_json_text(json, "statement", statement.text);
+    lrcs_host_json_end(json);
+}
+
+static void correlation_json(const lrcs_fit *fit, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, "correlation", LRCS_HOST_ARRAY);
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_ARRAY);
+        for (int q = 0; q < LRCS_FIT_PARAMETERS; q++) {
+            lrcs_host_json_number(json, NULL, fit->correlation[p][q]);
+        }
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+}
+
+static void outliers_json(const fit_material *material, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, "outlier_lines", LRCS_HOST_ROW_ARRAY);
+    for (uint32_t i = 0; i < material->count; i++) {
+        if (material->point[i].outlier) {
+            lrcs_host_json_count(json, NULL, material->line[i]);
+        }
+    }
+    lrcs_host_json_end(json);
+}
+
+static void material_json(const fit_material *material, lrcs_host_json *json)
+{
+    const lrcs_fit *fit = &material->fit;
+    static const char *const noise[] = {"absolute", "relative", "given", "weighted"};
+    int given = material->noise == LRCS_FIT_GIVEN;
+    lrcs_host_json_begin(json, NULL, LRCS_HOST_OBJECT);
+    lrcs_host_json_text(json, "material", material->name);
+    lrcs_host_json_begin(json, "parameters", LRCS_HOST_OBJECT);
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        parameter_json(fit, p, json);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_bool(json, "all_determined", cli_fit_open(fit) == 0);
+    correlation_json(fit, json);
+    lrcs_host_json_count(json, "readings", material->count);
+    lrcs_host_json_count(json, "kept", fit->kept);
+    outliers_json(material, json);
+    lrcs_host_json_number(json, "least_deg", fit->least_deg);
+    lrcs_host_json_number(json, "most_deg", fit->most_deg);
+    lrcs_host_json_number(json, "rms_per_sr", fit->rms);
+    lrcs_host_json_text(json, "errors", noise[material->noise]);
+    lrcs_host_json_number(json, "noise", fit->noise);
+    lrcs_host_json_number(json, "reduced_chi2", given ? fit->noise * fit->noise : (double)NAN);
+    lrcs_host_json_end(json);
+}
+
+void cli_fit_json(const fit_job *job)
+{
+    lrcs_host_json json = lrcs_host_json_make(stdout);
+    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
+    lrcs_host_json_text(&json, "version", lrcs_version());
+    lrcs_host_json_number(&json, "unit_per_sr", job->options.unit);
+    lrcs_host_json_bool(&json, "cosine", job->options.cosine);
+    lrcs_host_json_begin(&json, "fits", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < job->materials; i++) {
+        material_json(&job->material[i], &json);
+    }
+    lrcs_host_json_end(&json);
+    lrcs_host_json_begin(&json, "notices", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < job->readings.notices.count; i++) {
+        lrcs_host_json_text(&json, NULL, job->readings.notices.text[i]);
+    }
+    lrcs_host_json_end(&json);
+    lrcs_host_json_end(&json);
+}

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT */
+/* Looks at all that a scene holds: counts, areas, defects, whether facets serve the glint. It
+   decides what the mesh itself gives notice of. */
+#include "cli/info/info.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static double facet_area(const lrcs_scene *scene, uint32_t facet)
+{
+    const uint32_t *corner = scene->facet[facet].corner;
+    const double *a = scene->vertex[corner[0]].x;
+    const double *b = scene->vertex[corner[1]].x;
+    const double *c = scene->vertex[corner[2]].x;
+    double n[3];
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        n[k] = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
+    }
+    return 0.5 * hypot(hypot(n[0], n[1]), n[2]);
+}
+
+static int materials_count(cli_info *info)
+{
+    const lrcs_scene *scene = &info->scene.scene;
+    info->material = calloc((size_t)scene->material_count + 1, sizeof *info->material);
+    if (!info->material) {
+        return -1;
+    }
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        info_material *material = &info->material[scene->facet_material[i]];
+        material->facets++;
+        cli_sum_add(&material->area, facet_area(scene, i));
+    }
+    return 0;
+}
+
+/* Parts as files and shapes count them. */
+static uint32_t parts_count(const lrcs_host_scene *scene)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->recipe.part_count; i++) {
+        count += scene->recipe.part[i].file ? scene->model[i].part_count : 1;
+    }
+    return count;
+}
+
+static int mesh_examine(cli_info *info)
+{
+    const lrcs_scene *scene = &info->scene.scene;
+    size_t need = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
+    void *bytes = malloc(need);
+    lrcs_work work = lrcs_work_make(bytes, need);
+    int status = bytes ? lrcs_mesh_check(scene->vertex, scene->vertex_count, scene->facet,
+                                         scene->facet_count, &work, &info->report)
+                       : LRCS_E_MEMORY;
+    free(bytes);
+    return status;
+}
+
+/* Looks at a scene that was built from what `base` was read from. */
+static int info_look(const char *operand, const lrcs_host_scene *base, cli_info *info)
+{
+    lrcs_host_error error;
+    int status = mesh_examine(info);
+    if (status != LRCS_OK || materials_count(info) != 0) {
+        fprintf(stderr, "lrcs: %s: %s\n", operand,
+                status == LRCS_OK || status == LRCS_E_MEMORY ? "out of memory"
+                                                             : lrcs_status_text(status));
+        return CLI_FAILED;
+    }
+    if (lrcs_host_glint_check(&info->scene.scene, &info->glint, &info->glint_count, &error) !=
+        LRCS_OK) {
+        return cli_failed(&error);
+    }
+    info->parts = parts_count(base);
+    return 0;
+}
+
+int cli_info_read(const cli_args *args, const lrcs_host_options *options, cli_info *info)
+{
+    lrcs_host_options load = *options;
+    load.build.normals = LRCS_NORMALS_SMOOTH;
+    int code = cli_scene_read(args, &load, &info->scene);
+    return code ? code : info_look(args->operand, &info->scene, info);
+}
+
+int cli_info_make(const cli_args *args, const lrcs_host_scene *base,
+                  const lrcs_build_options *build, cli_info *info)
+{
+    lrcs_host_error error;
+    lrcs_build_options smooth = *build;
+    smooth.normals = LRCS_NORMALS_SMOOTH;
+    return lrcs_host_scene_vary(base, &base->recipe, &smooth, &info->scene, &error) == LRCS_OK
+               ? info_look(args->operand, base, info)
+               : cli_failed(&error);
+}
+
+int cli_coarse_glint(const lrcs_host_scene *base, const lrcs_build_options *build,
+                     lrcs_host_glint **list, uint32_t *count)
+{
+    lrcs_host_error error;
+    lrcs_host_scene smooth;
+    lrcs_host_glint *all = NULL;
+    lrcs_build_options options = *build;
+    uint32_t found = 0;
+    uint32_t used = 0;
+    *list = NULL;
+    *count = 0;
+    if (base->scene.normals != LRCS_NORMALS_FLAT) {
+        return 0;
+    }
+    memset(&smooth, 0, sizeof smooth);
+    options.normals = LRCS_NORMALS_SMOOTH;
+    int status = lrcs_host_scene_vary(base, &base->recipe, &options, &smooth, &error);
+    if (status == LRCS_OK) {
+        status = lrcs_host_glint_check(&smooth.scene, &all, &found, &error);
+    }
+    for (uint32_t i = 0; status == LRCS_OK && i < found; i++) {
+        int model = base->scene.part[all[i].part].kind < 0; /* shapes meet the tolerance */
+        if (model && all[i].error > INFO_GLINT_WARN) {
+            all[used++] = all[i];
+        }
+    }
+    lrcs_host_scene_free(&smooth);
+    if (status != LRCS_OK) {
+        free(all);
+        return cli_failed(&error);
+    }
+    *list = all;
+    *count = used;
+    return 0;
+}
+
+void cli_info_free(cli_info *info)
+{
+    free(info->material);
+    free(info->glint);
+    lrcs_host_scene_free(&info->scene);
+}
+
+int cli_info_shows(const cli_info *info, uint32_t material)
+{
+    return info->material[material].facets > 0 || info->scene.scene.material[material].name[0];
+}
+
+/* ---- what the mesh itself gives notice of ---- */
+
+static const char *notice_normals(const lrcs_scene *scene)
+{
+    for (uint32_t k = 0; k < scene->part_count; k++) {
+        const lrcs_part *part = &scene->part[k];
+        if (part->kind < 0 && !part->smoothed && part->facet_count > 0) {
+            return "a model has no smoothing groups or vertex normals: whether its facets stand "
+                   "for curves is not known";
+        }
+    }
+    return NULL;
+}
+
+static const char *notice_glint(const cli_info *info, char text[INFO_NOTICE_SIZE])
+{
+    uint32_t poor = 0;
+    for (uint32_t k = 0; k < info->glint_count; k++) {
+        poor += info->glint[k].error > INFO_GLINT_WARN;
+    }
+    snprintf(text, INFO_NOTICE_SIZE,
+             "glint: %lu of %lu curved parts are too coarse for their material's slope "
+             "(estimated error above 1 %%); lrcs run --normals auto curves them",
+             (unsigned long)poor, (unsigned long)info->glint_count);
+    return poor > 0 ? text : NULL;
+}
+
+const char *cli_info_notice(const cli_info *info, int i, char text[INFO_NOTICE_SIZE])
+{
+    const lrcs_mesh_report *report = &info->report;
+    switch (i) {
+    case 0:
+        return report->closed || info->scene.scene.facet_count == 0
+                   ? NULL
+                   : "the mesh is not closed: its back sides may show, and its volume has no "
+                     "meaning";
+    case 1:
+        return report->closed && report->volume < 0.0
+                   ? "the mesh is closed but inverted (negative volume): its fronts face inwards"
+                   : NULL;
+    case 2:
+        return notice_normals(&info->scene.scene);
+    default:
+        return notice_glint(info, text);
+    }
+}

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs info: what a scene holds, and what is wrong or remarkable in it. */
+#include "cli/info/info.h"
+
+#include <string.h>
+
+static const char info_help[] =
+    "usage: lrcs info SCENE [--unit U] [--material [WHAT=]BRDF] [--two-sided WHAT]\n"
+    "                 [--keep-transparent] [--json]\n"
+    "\n"
+    "What SCENE holds: parts, materials, area (m2), volume (m3), box (m), defects of the mesh,\n"
+    "and whether its facets are fine enough for the glint of what they wear. Counts are of what\n"
+    "the file stores; notices say what a run leaves out.\n"
+    "\n"
+    "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
+    "  --material [WHAT=]BRDF  as in lrcs run: shows what would wear what\n"
+    "  --two-sided WHAT      likewise: all, open, a part or a material\n"
+    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "  --json                the same as JSON\n"
+    "\n"
+    "examples\n"
+    "  lrcs info demo\n"
+    "  lrcs info aura.3ds --unit in --json\n";
+
+static const cli_option info_options[] = {
+    {"unit", 1, 0}, {"material", 1, 1},         {"two-sided", 1, 0},
+    {"json", 0, 0}, {"keep-transparent", 0, 0}, {"help", 0, 0},
+    {NULL, 0, 0}};
+
+/* ---- JSON ---- */
+
+static void json_point(lrcs_host_json *json, const char *key, const double x[3])
+{
+    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_ARRAY);
+    for (int k = 0; k < 3; k++) {
+        lrcs_host_json_number(json, NULL, x[k]);
+    }
+    lrcs_host_json_end(json);
+}
+
+static void json_materials(const cli_info *info, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < info->scene.scene.material_count; i++) {
+        const lrcs_material *material = &info->scene.scene.material[i];
+        char colour[8];
+        if (!cli_info_shows(info, i)) {
+            continue;
+        }
+        snprintf(colour, sizeof colour, "#%02X%02X%02X", material->rgb[0], material->rgb[1],
+                 material->rgb[2]);
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_text(json, "name", material->name);
+        lrcs_host_json_text(json, "colour", material->has_colour ? colour : NULL);
+        lrcs_host_json_count(json, "facets", info->material[i].facets);
+        lrcs_host_json_number(json, "area_m2", cli_sum_value(&info->material[i].area));
+        lrcs_host_json_begin(json, "brdf", LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_number(json, "A", material->brdf.A);
+        lrcs_host_json_number(json, "B", material->brdf.B);
+        lrcs_host_json_number(json, "s", material->brdf.s);
+        lrcs_host_json_number(json, "m", material->brdf.m);
+        lrcs_host_json_end(json);
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+}
+
+static void json_glint(const cli_info *info, lrcs_host_json *json)
+{
+    const lrcs_scene *scene = &info->scene.scene;
+    lrcs_host_json_begin(json, "glint", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < info->glint_count; i++) {
+        const lrcs_host_glint *glint = &info->glint[i];
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_text(json, "part", scene->part[glint->part].name);
+        lrcs_host_json_text(json, "material", scene->material[glint->material].name);
+        lrcs_host_json_number(json, "s", glint->s);
+        lrcs_host_json_number(json, "turn_estimate_deg", glint->turn * CLI_DEGREES);
+        lrcs_host_json_number(json, "relative_error_estimate", glint->error);
+        lrcs_host_json_number(json, "facets_around_for_1e-2", glint->around_1_percent);
+        lrcs_host_json_number(json, "facets_around_for_1e-3", glint->around_01_percent);
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+}
+
+static void json_notices(const cli_info *info, lrcs_host_json *json)
+{
+    const lrcs_host_notices *notices = &info->scene.notices;
+    char text[INFO_NOTICE_SIZE];
+    lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < notices->count; i++) {
+        lrcs_host_json_text(json, NULL, notices->text[i]);
+    }
+    for (int i = 0; i < INFO_NOTICES; i++) {
+        const char *notice = cli_info_notice(info, i, text);
+        if (notice) {
+            lrcs_host_json_text(json, NULL, notice);
+        }
+    }
+    lrcs_host_json_end(json);
+}
+
+static void info_json(const cli_info *info)
+{
+    const lrcs_scene *scene = &info->scene.scene;
+    const lrcs_mesh_report *report = &info->report;
+    lrcs_host_json json = lrcs_host_json_make(stdout);
+    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
+    lrcs_host_json_count(&json, "parts", info->parts);
+    lrcs_host_json_count(&json, "vertices", scene->vertex_count);
+    lrcs_host_json_count(&json, "facets", scene->facet_count);
+    lrcs_host_json_number(&json, "area_m2", report->area);
+    lrcs_host_json_number(&json, "volume_m3", report->volume);
+    json_point(&json, "box_min_m", report->box_min);
+    json_point(&json, "box_max_m", report->box_max);
+    lrcs_host_json_bool(&json, "closed", report->closed);
+    lrcs_host_json_bool(&json, "convex", report->convex);
+    json_materials(info, &json);
+    lrcs_host_json_begin(&json, "defects", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_count(&json, "degenerate", report->degenerate);
+    lrcs_host_json_count(&json, "duplicate", report->duplicate);
+    lrcs_host_json_count(&json, "opposite_pairs", report->opposite_pairs);
+    lrcs_host_json_count(&json, "boundary_edges", report->boundary_edges);
+    lrcs_host_json_count(&json, "nonmanifold_edges", report->nonmanifold_edges);
+    lrcs_host_json_end(&json);
+    json_glint(info, &json);
+    json_notices(info, &json);
+    lrcs_host_json_end(&json);
+}
+
+/* ---- the table ---- */
+
+static void table_materials(const cli_info *info)
+{
+    printf("materials\n  %-24s %-8s %9s %12s  %s\n", "name", "colour", "facets", "area m2",
+           "A,B,s,m");
+    for (uint32_t i = 0; i < info->scene.scene.material_count; i++) {
+        const lrcs_material *material = &info->scene.scene.material[i];
+        char colour[8] = "-";
+        if (!cli_info_shows(info, i)) {
+            continue;
+        }
+        if (material->has_colour) {
+            snprintf(colour, sizeof colour, "#%02X%02X%02X", material->rgb[0], material->rgb[1],
+                     material->rgb[2]);
+        }
+        printf("  ");
+        cli_column(cli_material_name(material), 24);
+        printf(" %-8s %9lu %12.6g  %g,%g,%g,%g%s%s%s\n", colour,
+               (unsigned long)info->material[i].facets, cli_sum_value(&info->material[i].area),
+               material->brdf.A, material->brdf.B, material->brdf.s, material->brdf.m,
+               material->bound ? "" : "  (unbound)", material->two_sided ? "  two-sided" : "",
+               material->omitted ? "  left out" : "");
+    }
+}
+
+static void table_glint(const cli_info *info)
+{
+    const lrcs_scene *scene = &info->scene.scene;
+    if (info->glint_count == 0) {
+        printf("glint        no curved part with smoothing groups or vertex normals\n");
+        return;
+    }
+    printf("glint        estimates for curved parts; N: facets around a full turn\n"
+           "  %-20s %-20s %6s %9s %9s %8s %8s\n",
+           "part", "material", "s", "turn deg", "error", "N 1 %", "N 0.1 %");
+    for (uint32_t i = 0; i < info->glint_count; i++) {
+        const lrcs_host_glint *glint = &info->glint[i];
+        printf("  ");
+        cli_column(scene->part[glint->part].name, 20);
+        printf(" ");
+        cli_column(cli_material_name(&scene->material[glint->material]), 20);
+        printf(" %6g %9.3g %8.2g%s %8.0f %8.0f\n", glint->s, glint->turn * CLI_DEGREES,
+               glint->error, glint->error > INFO_GLINT_WARN ? "!" : " ", glint->around_1_percent,
+               glint->around_01_percent);
+    }
+}
+
+static void info_table(const cli_info *info, const char *operand)
+{
+    const lrcs_scene *scene = &info->scene.scene;
+    const lrcs_mesh_report *r = &info->report;
+    char text[INFO_NOTICE_SIZE];
+    printf("scene        %s\nparts        %lu\nvertices     %lu\nfacets       %lu\n", operand,
+           (unsigned long)info->parts, (unsigned long)scene->vertex_count,
+           (unsigned long)scene->facet_count);
+    printf("area         %.10g m2\nvolume       %.10g m3%s\n", r->area, r->volume,
+           r->closed ? "" : "   (not closed)");
+    printf("box          %.9g, %.9g, %.9g .. %.9g, %.9g, %.9g m\n", r->box_min[0], r->box_min[1],
+           r->box_min[2], r->box_max[0], r->box_max[1], r->box_max[2]);
+    printf("closed       %s\nconvex       %s\n", r->closed ? "yes" : "no",
+           r->convex ? "yes" : "no");
+    table_materials(info);
+    printf("defects      %lu degenerate, %lu duplicate (%lu facing the other way), "
+           "%lu boundary edges, %lu non-manifold edges\n",
+           (unsigned long)r->degenerate, (unsigned long)r->duplicate,
+           (unsigned long)r->opposite_pairs, (unsigned long)r->boundary_edges,
+           (unsigned long)r->nonmanifold_edges);
+    table_glint(info);
+    cli_notices_print(stdout, &info->scene.notices);
+    for (int i = 0; i < INFO_NOTICES; i++) {
+        const char *notice = cli_info_notice(info, i, text);
+        if (notice) {
+            printf("notice: %s\n", notice);
+        }
+    }
+}
+
+static int info_command(const cli_args *args)
+{
+    cli_info info;
+    lrcs_host_options options;
+    memset(&info, 0, sizeof info);
+    int code = cli_scene_options_read(args, &options);
+    code = code ? code : cli_info_read(args, &options, &info);
+    if (code == 0 && cli_value(args, "json")) {
+        info_json(&info);
+    } else if (code == 0) {
+        info_table(&info, args->operand);
+    }
+    cli_info_free(&info);
+    cli_scene_options_free(&options);
+    return code;
+}
+
+const cli_command cli_info_command = {
+    "info",    "SCENE",      "give a .3ds, .obj or .stl model, a scene file, or demo",
+    info_help, info_options, info_command};

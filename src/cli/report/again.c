@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: MIT */
+/* How to make all of a report again: the command lines, as a shell takes them. */
+#include "cli/report/report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A word as it is, or in single quotes where a shell would take it apart. */
+static void word_quote(FILE *out, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "_./:,=+@%-";
+    putc(' ', out);
+    if (word[0] && word[strspn(word, plain)] == '\0') {
+        fputs(word, out);
+        return;
+    }
+    putc('\'', out);
+    for (; *word; word++) {
+        fputs(*word == '\'' ? "'\\''" : (const char[2]){*word, '\0'}, out);
+    }
+    putc('\'', out);
+}
+
+static int is_one_of(const char *name, const char *const *list)
+{
+    while (*list && strcmp(*list, name) != 0) {
+        list++;
+    }
+    return *list != NULL;
+}
+
+/* The options that were given, of those that a list names. */
+static void given_add(FILE *out, const cli_args *args, const char *const *list)
+{
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *one = &args->given[i];
+        if (is_one_of(one->name, list)) {
+            fprintf(out, " %s%s", cli_dashes(one->name), one->name);
+            if (one->value) {
+                word_quote(out, one->value);
+            }
+        }
+    }
+}
+
+static const char *const again_pose[] = {"direction", "azel", "euler", "quaternion", NULL};
+static const char *const again_scene[] = {"unit", "material", "two-sided", "keep-transparent",
+                                          NULL};
+static const char *const again_accuracy[] = {"tolerance",  "accept",  "method",
+                                             "resolution", "normals", NULL};
+static const char *const again_sweep[] = {"accept", "method", "resolution", "normals", NULL};
+static const char *const again_report[] = {"o", "seconds", NULL};
+
+static void run_line(FILE *out, const report_job *job, const char *command, const char *more)
+{
+    fprintf(out, "lrcs %s", command);
+    word_quote(out, job->args->operand);
+    given_add(out, job->args, again_pose);
+    given_add(out, job->args, again_accuracy);
+    given_add(out, job->args, again_scene);
+    fprintf(out, "%s\n", more);
+}
+
+static void report_line(FILE *out, const report_job *job)
+{
+    fputs("lrcs report", out);
+    word_quote(out, job->args->operand);
+    given_add(out, job->args, again_pose);
+    given_add(out, job->args, again_accuracy);
+    given_add(out, job->args, again_scene);
+    given_add(out, job->args, again_report);
+    fprintf(out, " --cut-step %lu --map-step %lu\n", (unsigned long)job->cut_step,
+            (unsigned long)job->map_step);
+}
+
+static void sweep_line(FILE *out, const report_job *job, int kind)
+{
+    static const char *const file[REPORT_SWEEPS] = {"xy", "xz", "yz", "map"};
+    const report_sweep *sweep = &job->sweep[kind];
+    fputs("lrcs sweep", out);
+    word_quote(out, job->args->operand);
+    fprintf(out, " --az %s --el %s --tolerance %.15g", sweep->az, sweep->el,
+            job->sweep_options.tolerance);
+    given_add(out, job->args, again_sweep);
+    given_add(out, job->args, again_scene);
+    fprintf(out, " --dbsm %s-o %s.csv --plot %s.svg", kind == REPORT_MAP ? "" : "--polar ",
+            file[kind], file[kind]);
+    if (kind == REPORT_MAP) {
+        fprintf(out, " --brightest %u", REPORT_PEAKS);
+    }
+    putc('\n', out);
+}
+
+static void lines_write(FILE *out, const report_job *job)
+{
+    report_line(out, job);
+    run_line(out, job, "run", " --shares --facets facets.csv");
+    run_line(out, job, "image", " --by sigma -o sigma.png");
+    run_line(out, job, "image", " --by material -o material.png");
+    fputs("lrcs info", out);
+    word_quote(out, job->args->operand);
+    given_add(out, job->args, again_scene);
+    fputs(cli_has_curved_shapes(&job->scene.scene) &&
+                  job->load.build.tolerance != lrcs_build_options_default().tolerance
+              ? " # shapes as fine as by default\n"
+              : "\n",
+          out);
+    for (int kind = 0; kind < REPORT_SWEEPS; kind++) {
+        sweep_line(out, job, kind);
+    }
+    fputs("lrcs converge", out);
+    word_quote(out, job->args->operand);
+    given_add(out, job->args, again_pose);
+    given_add(out, job->args, again_scene);
+    fprintf(out, " --seconds %.3g --plot accuracy.svg\n", job->converge.seconds);
+}
+
+void cli_report_again(FILE *out, const report_job *job)
+{
+    report_bytes lines = {NULL, 0};
+    cli_page_section(out, "again", "How to make it again");
+    fputs("<dl class=\"facts\">\n", out);
+    cli_page_fact(out, "Version");
+    cli_page_say(out, "lrcs %s", lrcs_version());
+    cli_page_fact_end(out);
+    cli_page_fact(out, "Scene hash");
+    fprintf(out, "<code id=\"scene_hash\">%016llx</code>",
+            (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+    cli_page_fact_end(out);
+    fputs("</dl>\n<p>The first line makes this page again, the others what stands on it, one by "
+          "one.</p>\n",
+          out);
+    FILE *text = cli_report_bytes_begin(&lines);
+    if (text) {
+        lines_write(text, job);
+        if (cli_report_bytes_end(text) == 0) {
+            fputs("<pre tabindex=\"0\"><code>", out);
+            cli_page_text(out, lines.bytes);
+            fputs("</code></pre>\n", out);
+        }
+    }
+    free(lines.bytes);
+    cli_page_section_end(out);
+}

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: MIT */
+/* What a report shows of other directions, and of accuracy: cuts, the map, its peaks and who makes
+   them, error against time. */
+#include "cli/report/report.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NAMED_MOST   3u   /* parts or materials told of a peak */
+#define NAMED_ENOUGH 0.95 /* nor more where these are so much of sigma */
+
+/* ---- what is drawn ---- */
+
+static const double polar_box[4] = {LRCS_HOST_CHART_POLAR_LEFT, LRCS_HOST_CHART_TITLE,
+                                    LRCS_HOST_CHART_POLAR_SIDE, LRCS_HOST_CHART_POLAR_SIDE};
+static const double chart_box[4] = {0.0, LRCS_HOST_CHART_TITLE, LRCS_HOST_CHART_WIDTH,
+                                    LRCS_HOST_CHART_HEIGHT - LRCS_HOST_CHART_TITLE};
+
+/* The brightest and darkest row, and the widest bound, of a sweep. */
+static void extremes(const report_sweep *sweep, double *least, double *most, double *bound)
+{
+    *least = HUGE_VAL;
+    *most = *bound = 0.0;
+    for (uint64_t i = 0; i < sweep->plan.rows; i++) {
+        *least = fmin(*least, sweep->row[i][0]);
+        *most = fmax(*most, sweep->row[i][0]);
+        *bound = fmax(*bound, sweep->row[i][1]);
+    }
+}
+
+static void extremes_say(FILE *out, const report_sweep *sweep)
+{
+    double least;
+    double most;
+    double bound;
+    extremes(sweep, &least, &most, &bound);
+    if (most > 0.0) {
+        fputs(" From ", out);
+        if (least > 0.0) {
+            cli_page_number(out, NULL, cli_dbsm(least), 4);
+        } else {
+            fputs("nothing", out);
+        }
+        fputs(" to ", out);
+        cli_page_number(out, NULL, cli_dbsm(most), 4);
+        fputs(" dBsm; each", out);
+    } else {
+        fputs(" Nothing returns; each", out);
+    }
+    fputs(" \xcf\x83 is proved to within ", out);
+    cli_page_bound(out, NULL, bound, 2);
+    fprintf(out, " m\xc2\xb2 or better%s.",
+            sweep->plot.open ? " for its materials, which are illustrative" : "");
+}
+
+static void cut_figure(FILE *out, const report_sweep *sweep, const char *plane, const char *angle)
+{
+    char label[160];
+    snprintf(label, sizeof label, "Polar chart of sigma in dBsm in the plane of %s", plane);
+    if (sweep->svg.bytes) {
+        cli_page_figure(out, &sweep->svg, label, polar_box);
+    } else {
+        fputs("<figure><figcaption>", out);
+    }
+    fprintf(out, "<b>Plane of %s</b>; %s.", plane, angle);
+    extremes_say(out, sweep);
+    cli_page_figure_end(out);
+}
+
+static void cuts_section(FILE *out, const report_job *job)
+{
+    cli_page_section(out, "cuts", "Cuts through three planes");
+    fputs("<p>", out);
+    cli_page_say(out,
+                 "Away from the middle \xcf\x83 grows, in dBsm: the numbers stand on the rings. "
+                 "The laser goes around the body in steps of %lu\xc2\xb0; what is narrower than "
+                 "that may stand between them.",
+                 (unsigned long)job->cut_step);
+    fputs("</p>\n<div class=\"pair\">\n", out);
+    cut_figure(out, &job->sweep[REPORT_CUT_XY], "x and y",
+               "the angle is the azimuth, at elevation 0");
+    cut_figure(out, &job->sweep[REPORT_CUT_XZ], "x and z",
+               "the angle is the elevation, from +x over +z");
+    cut_figure(out, &job->sweep[REPORT_CUT_YZ], "y and z",
+               "the angle is the elevation, from +y over +z");
+    fputs("</div>\n", out);
+    cli_page_section_end(out);
+}
+
+static void map_section(FILE *out, const report_job *job)
+{
+    const report_sweep *sweep = &job->sweep[REPORT_MAP];
+    cli_page_section(out, "map", "All directions");
+    if (sweep->svg.bytes) {
+        cli_page_figure(out, &sweep->svg, "Map of sigma in dBsm over azimuth and elevation",
+                        chart_box);
+    } else {
+        fputs("<figure><figcaption>", out);
+    }
+    cli_page_say(out, "Steps of %lu\xc2\xb0.", (unsigned long)job->map_step);
+    extremes_say(out, sweep);
+    cli_page_figure_end(out);
+    cli_page_section_end(out);
+}
+
+/* ---- peaks ---- */
+
+/* The few rows that make most of a peak. */
+static void most_cell(FILE *out, const cli_shares *shares, const shares_row *row, uint32_t count,
+                      const char *nameless)
+{
+    double told = 0.0;
+    uint32_t i = 0;
+    fputs("<td class=\"why\">", out);
+    for (; i < count && i < NAMED_MOST && told < NAMED_ENOUGH && row[i].sigma_m2 > 0.0; i++) {
+        double share = cli_share_of(shares, row[i].sigma_m2);
+        fputs(i > 0 ? ", " : "", out);
+        cli_page_name(out, row[i].name, nameless);
+        fputs("\xc2\xa0", out);
+        cli_page_percent(out, share);
+        told += share;
+    }
+    shares_row others = cli_shares_others(row, i, count);
+    if (others.sigma_m2 > 0.0) {
+        cli_page_say(out, ", %lu other%s\xc2\xa0", (unsigned long)(count - i),
+                     count - i > 1 ? "s" : "");
+        cli_page_percent(out, cli_share_of(shares, others.sigma_m2));
+    }
+    cli_page_cell_end(out);
+}
+
+static void peak_row(FILE *out, const report_job *job, uint32_t i)
+{
+    const report_sweep *map = &job->sweep[REPORT_MAP];
+    const cli_shares *shares = &job->peak_shares[i];
+    double value[SWEEP_COLUMNS];
+    double glint = 0.0;
+    cli_plan_values(&map->plan, job->peak[i], value);
+    for (uint32_t k = 0; k < shares->parts; k++) {
+        glint += shares->part[k].glint_m2;
+    }
+    cli_page_row(out);
+    cli_page_number_cell(out, value[0], 6);
+    cli_page_number_cell(out, value[1], 6);
+    cli_page_number_cell(out, map->row[job->peak[i]][0], 5);
+    cli_page_number_cell(out, cli_dbsm(map->row[job->peak[i]][0]), 4);
+    fputs("<td class=\"n\">", out);
+    cli_page_percent(out, cli_share_of(shares, glint));
+    fputs("</td>", out);
+    most_cell(out, shares, shares->part, shares->parts, "(no name)");
+    most_cell(out, shares, shares->material, shares->materials, "(default)");
+    cli_page_row_end(out);
+}
+
+static void peaks_section(FILE *out, const report_job *job)
+{
+    cli_page_section(out, "peaks", "The brightest directions, and who makes them");
+    fputs("<p>Peaks of the map: directions that outshine all their neighbours.", out);
+    fputs(job->peaks > 0 ? "</p>\n" : " There are none: nothing returns.</p>\n", out);
+    if (job->peaks > 0) {
+        cli_page_table(out, "Peaks of the map",
+                       "#Az, deg|#El, deg|#\xcf\x83, m\xc2\xb2|#dBsm|#Glint|Parts|Materials");
+        for (uint32_t i = 0; i < job->peaks; i++) {
+            peak_row(out, job, i);
+        }
+        cli_page_table_end(out);
+    }
+    cli_page_section_end(out);
+}
+
+void cli_report_curves(FILE *out, const report_job *job)
+{
+    cuts_section(out, job);
+    map_section(out, job);
+    peaks_section(out, job);
+}
+
+/* ---- accuracy ---- */
+
+static void accuracy_row(FILE *out, const converge_job *job, const converge_setting *one)
+{
+    cli_page_row(out);
+    cli_page_name_cell(out, one->name, "");
+    cli_page_count_cell(out, cli_converge_scene(job, one)->scene.facet_count);
+    cli_page_number_cell(out, 1e3 * one->pose_s, 3);
+    cli_page_number_cell(out, one->sigma_m2, 8);
+    cli_page_number_cell(out, cli_converge_relative(job, one->error_m2), 2);
+    cli_page_bound_cell(out, cli_converge_relative(job, one->bound_m2), 2);
+    cli_page_number_cell(out, cli_converge_known(cli_converge_relative(job, one->estimate_m2)), 2);
+    cli_page_row_end(out);
+}
+
+static void accuracy_table(FILE *out, const converge_job *job)
+{
+    cli_page_table(out, "Accuracy against time",
+                   job->truth.sigma_m2 > 0.0
+                       ? "Setting|#Facets|#Pose, ms|#\xcf\x83, m\xc2\xb2|#Error|#Bound|#Estimate"
+                       : "Setting|#Facets|#Pose, ms|#\xcf\x83, m\xc2\xb2|#Error, m\xc2\xb2|#Bound, "
+                         "m\xc2\xb2|#Estimate, m\xc2\xb2");
+    for (uint32_t i = 0; i < job->settings; i++) {
+        accuracy_row(out, job, &job->setting[i]);
+    }
+    cli_page_table_end(out);
+}
+
+void cli_report_accuracy(FILE *out, const report_job *job)
+{
+    const converge_job *compare = &job->converge;
+    converge_sentence sentence = cli_converge_sentence(compare);
+    cli_page_section(out, "accuracy", "What accuracy costs in time");
+    fputs("<p>", out);
+    cli_page_text(out, sentence.text);
+    fputs("</p>\n", out);
+    cli_page_figure(out, &job->chart, "Chart of error and bound against the time of a pose",
+                    chart_box);
+    cli_page_say(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2%s%s%s%s.", compare->truth.text,
+                 compare->truth.sigma_m2, compare->left_out[0] ? "; " : "", compare->left_out,
+                 compare->busy[0] ? "; " : "", compare->busy);
+    cli_page_figure_end(out);
+    accuracy_table(out, compare);
+    cli_page_section_end(out);
+}

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT */
+/* What pages are made of: sections, facts, tables, figures, numbers. It decides how each is marked
+   up, well-formed as XML too; what stands in them is the sections' own, how they look the style
+   sheet's. */
+#include "cli/report/report.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PLAIN_BELOW 1e7 /* whole numbers below it need no power of ten */
+
+/* ---- memory to write to ---- */
+
+FILE *cli_report_bytes_begin(report_bytes *bytes)
+{
+    FILE *out = open_memstream(&bytes->bytes, &bytes->size);
+    if (!out) {
+        cli_out_of_memory();
+    }
+    return out;
+}
+
+int cli_report_bytes_end(FILE *out)
+{
+    int failed = ferror(out);
+    return fclose(out) != 0 || failed ? cli_out_of_memory() : 0;
+}
+
+/* ---- words and numbers ---- */
+
+void cli_page_text(FILE *out, const char *text)
+{
+    lrcs_host_html_text(out, text);
+}
+
+void cli_page_say(FILE *out, const char *format, ...)
+{
+    char text[2048];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    lrcs_host_html_text(out, text);
+}
+
+void cli_page_name(FILE *out, const char *name, const char *nameless)
+{
+    if (name[0]) {
+        lrcs_host_html_text(out, name);
+    } else {
+        fprintf(out, "<i>%s</i>", nameless);
+    }
+}
+
+/* "-2.5e-06" with a minus sign and a power of ten. */
+static void number_put(FILE *out, const char *text)
+{
+    for (; *text && *text != 'e'; text++) {
+        fputs(*text == '-' ? "\xe2\x88\x92" : (const char[2]){*text, '\0'}, out);
+    }
+    if (*text == 'e') {
+        long power = strtol(text + 1, NULL, 10);
+        fprintf(out,
+                "\xc2\xb7"
+                "10<sup>%s%ld</sup>",
+                power < 0 ? "\xe2\x88\x92" : "", labs(power));
+    }
+}
+
+static void data_put(FILE *out, const char *id, double value, const char *text)
+{
+    char exact[LRCS_HOST_NUMBER_SIZE];
+    lrcs_host_number_text(value, exact);
+    fputs("<data", out);
+    if (id) {
+        fprintf(out, " id=\"%s\"", id);
+    }
+    fprintf(out, " value=\"%s\">", exact);
+    number_put(out, text);
+    fputs("</data>", out);
+}
+
+void cli_page_number(FILE *out, const char *id, double value, int digits)
+{
+    char text[64];
+    if (fabs(value) >= pow(10.0, digits) && fabs(value) < PLAIN_BELOW) {
+        snprintf(text, sizeof text, "%.0f", value);
+    } else {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+    }
+    if (isfinite(value)) {
+        data_put(out, id, value, text);
+    } else {
+        fputs("\xe2\x80\x93", out);
+    }
+}
+
+void cli_page_bound(FILE *out, const char *id, double bound, int digits)
+{
+    if (bound >= 0.0 && isfinite(bound)) {
+        char text[CLI_BOUND_SIZE];
+        cli_bound_text(bound, digits, text);
+        data_put(out, id, bound, text);
+    } else {
+        fputs("\xe2\x80\x93", out);
+    }
+}
+
+void cli_page_count(FILE *out, uint64_t value)
+{
+    fprintf(out, "%llu", (unsigned long long)value);
+}
+
+void cli_page_percent(FILE *out, double share)
+{
+    if (share > 0.0 && share < 0.0005) {
+        fputs("&lt;\xc2\xa0"
+              "0.1\xc2\xa0%",
+              out);
+    } else if (isfinite(share)) {
+        fprintf(out, "%.1f\xc2\xa0%%", 100.0 * share);
+    } else {
+        fputs("\xe2\x80\x93", out);
+    }
+}
+
+/* ---- sections and facts ---- */
+
+void cli_page_section(FILE *out, const char *id, const char *title)
+{
+    fprintf(out, "<section aria-labelledby=\"%s\">\n<h2 id=\"%s\">%s</h2>\n", id, id, title);
+}
+
+void cli_page_section_end(FILE *out)
+{
+    fputs("</section>\n", out);
+}
+
+void cli_page_fact(FILE *out, const char *name)
+{
+    fprintf(out, "<div><dt>%s</dt><dd>", name);
+}
+
+void cli_page_fact_end(FILE *out)
+{
+    fputs("</dd></div>\n", out);
+}
+
+/* ---- tables ---- */
+
+void cli_page_table(FILE *out, const char *label, const char *columns)
+{
+    fprintf(out,
+            "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"%s\">\n<table>\n"
+            "<thead><tr>",
+            label);
+    for (const char *at = columns; at; at = strchr(at, '|')) {
+        at += at > columns; /* past the bar */
+        int number = *at == '#';
+        fprintf(out, "<th scope=\"col\"%s>%.*s</th>", number ? " class=\"n\"" : "",
+                (int)strcspn(at, "|") - number, at + number);
+    }
+    fputs("</tr></thead>\n<tbody>", out);
+}
+
+void cli_page_row(FILE *out)
+{
+    fputs("\n<tr>", out);
+}
+
+void cli_page_row_others(FILE *out)
+{
+    fputs("\n<tr class=\"others\">", out);
+}
+
+void cli_page_row_end(FILE *out)
+{
+    fputs("</tr>", out);
+}
+
+void cli_page_cell(FILE *out)
+{
+    fputs("<td class=\"name\">", out);
+}
+
+void cli_page_cell_end(FILE *out)
+{
+    fputs("</td>", out);
+}
+
+void cli_page_name_cell(FILE *out, const char *name, const char *nameless)
+{
+    cli_page_cell(out);
+    cli_page_name(out, name, nameless);
+    cli_page_cell_end(out);
+}
+
+void cli_page_number_cell(FILE *out, double value, int digits)
+{
+    fputs("<td class=\"n\">", out);
+    cli_page_number(out, NULL, value, digits);
+    fputs("</td>", out);
+}
+
+void cli_page_bound_cell(FILE *out, double bound, int digits)
+{
+    fputs("<td class=\"n\">", out);
+    cli_page_bound(out, NULL, bound, digits);
+    fputs("</td>", out);
+}
+
+void cli_page_count_cell(FILE *out, uint64_t value)
+{
+    fputs("<td class=\"n\">", out);
+    cli_page_count(out, value);
+    fputs("</td>", out);
+}
+
+void cli_page_share_cells(FILE *out, double share)
+{
+    fputs("<td class=\"n\">", out);
+    cli_page_percent(out, share);
+    fprintf(out, "</td><td class=\"bar\"><i style=\"width:%.1f%%\"></i></td>",
+            isfinite(share) ? fmin(fmax(100.0 * share, 0.0), 100.0) : 0.0);
+}
+
+void cli_page_table_end(FILE *out)
+{
+    fputs("\n</tbody>\n</table>\n</div>\n", out);
+}
+
+/* ---- figures ---- */
+
+/* An attribute's value within a tag's bytes, or where they end. */
+static const char *svg_after(const char *at, const char *what)
+{
+    const char *found = strstr(at, what);
+    return found ? found + strlen(what) : at + strlen(at);
+}
+
+/* The drawing's own head gives way to one that says what it shows and which part of it is seen. */
+void cli_page_figure(FILE *out, const report_bytes *svg, const char *label, const double box[4])
+{
+    const char *body = svg_after(svg_after(svg->bytes, "<svg "), ">");
+    fputs("<figure>\n<div class=\"chart\">", out);
+    fprintf(out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"%g %g %g %g\" role=\"img\""
+            " aria-label=\"",
+            box[0], box[1], box[2], box[3]);
+    lrcs_host_html_text(out, label);
+    fputs("\" font-family=\"inherit\" stroke-linecap=\"round\" stroke-linejoin=\"round\">", out);
+    fputs(body, out);
+    fputs("</div>\n<figcaption>", out);
+}
+
+static void picture_data(FILE *out, const report_bytes *png)
+{
+    fputs("data:image/png;base64,", out);
+    lrcs_host_html_base64(out, (const unsigned char *)png->bytes, png->size);
+}
+
+void cli_page_picture(FILE *out, const report_bytes picture[2], const char *label)
+{
+    fputs("<figure>\n<picture><source media=\"(prefers-color-scheme: dark)\" srcset=\"", out);
+    picture_data(out, &picture[0]);
+    fprintf(out, "\" />\n<img width=\"%u\" height=\"%u\" alt=\"", CLI_PICTURE_DEFAULT,
+            CLI_PICTURE_DEFAULT);
+    lrcs_host_html_text(out, label);
+    fputs("\" src=\"", out);
+    picture_data(out, &picture[1]);
+    fputs("\" /></picture>\n<figcaption>", out);
+}
+
+void cli_page_figure_end(FILE *out)
+{
+    fputs("</figcaption>\n</figure>\n", out);
+}

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs report: all that is known of a scene from a pose, as one page that needs nothing beside it.
+   It decides what is asked for and in which order it is measured. */
+#include "cli/report/report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char report_help[] =
+    "usage: lrcs report SCENE [pose] -o FILE.html [options]\n"
+    "\n"
+    "Writes one page about SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo': what\n"
+    "it holds, what the laser sees, sigma (m2) with its certificate, who makes it, what was\n"
+    "simulated and why, cuts through three planes and a map of all directions (dBsm), the\n"
+    "peaks and who makes them, what accuracy costs in time, and the commands that make all\n"
+    "of it again. The page is one file for any browser, with its pictures inside and no\n"
+    "scripts.\n"
+    "\n" CLI_POSE_HELP "\n"
+    "output\n"
+    "  -o FILE.html          the page ('-': standard output)\n"
+    "\n"
+    "options\n"
+    "  --seconds S           time for cuts, map and comparison, about (40): it decides\n"
+    "                        their steps and is exceeded where a pose takes seconds\n"
+    "  --cut-step DEG        of the cuts, a divisor of 90, in place of what time allows\n"
+    "  --map-step DEG        of the map, likewise\n"
+    "  --jobs N              threads for cuts and map (one for each processor)\n"
+    "\n"
+    "run and scene\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
+    "Cuts and map are drawn to a tolerance of 0.01, or REL where that is coarser: their\n"
+    "shapes are tessellated for it. Exit 3 where the run at the pose misses its own\n"
+    "tolerance.\n"
+    "\n"
+    "examples\n"
+    "  lrcs report demo --azel 50,40 -o demo.html\n"
+    "  lrcs report aura.3ds --unit in --azel 30,20 --material solar=solar-cell -o aura.html\n"
+    "  lrcs report examples/satellites/lander.toml --tolerance 0.003 --seconds 300 "
+    "-o lander.html\n";
+
+static const cli_option report_options[] = {
+    CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS,  {"o", CLI_FILE, 0},
+    {"seconds", 1, 0}, {"cut-step", 1, 0},   {"map-step", 1, 0}, {"jobs", 1, 0},
+    {"help", 0, 0},    {NULL, 0, 0}};
+
+#define REPORT_SECONDS   40.0
+#define REPORT_COMPARE   0.25 /* of the time is for the comparison */
+#define REPORT_TOLERANCE 1e-2 /* of cuts and map */
+#define REPORT_JOBS      1024.0
+
+/* ---- options ---- */
+
+static int path_read(report_job *job)
+{
+    const cli_args *args = job->args;
+    job->path = cli_value(args, "o");
+    if (!job->path) {
+        return cli_usage(args->command, "give -o FILE.html");
+    }
+    if (strcmp(job->path, "-") != 0 && !cli_extension(job->path, ".html") &&
+        !cli_extension(job->path, ".htm")) {
+        return cli_usage(args->command, "-o: expected FILE.html, found '%s'", job->path);
+    }
+    return 0;
+}
+
+/* A step that meets 0, 90, 180 and 270 deg. */
+static int step_read(const cli_args *args, const char *name, uint32_t *step)
+{
+    int code = cli_whole(args, name, 1.0, 90.0, step);
+    return code == 0 && *step > 0 && 90 % *step != 0
+               ? cli_usage(args->command, "--%s: expected a divisor of 90, found '%s'", name,
+                           cli_value(args, name))
+               : code;
+}
+
+static int time_read(report_job *job)
+{
+    const cli_args *args = job->args;
+    job->seconds = REPORT_SECONDS;
+    int code = cli_number(args, "seconds", &job->seconds);
+    if (code == 0 && !(job->seconds > 0.0)) {
+        return cli_usage(args->command, "--seconds: expected a time > 0, found '%s'",
+                         cli_value(args, "seconds"));
+    }
+    code = code ? code : step_read(args, "cut-step", &job->cut_step);
+    code = code ? code : step_read(args, "map-step", &job->map_step);
+    return code ? code : cli_whole(args, "jobs", 1.0, REPORT_JOBS, &job->threads);
+}
+
+static int report_read(report_job *job)
+{
+    const cli_args *args = job->args;
+    int code = path_read(job);
+    code = code ? code : cli_pose_read(args, &job->pose);
+    code = code ? code : cli_accuracy_read(args, &job->options);
+    code = code ? code : time_read(job);
+    code = code ? code : cli_scene_options_read(args, &job->load);
+    code = code ? code : cli_normals_read(args, &job->load);
+    job->load.build.tolerance = job->options.tolerance;
+    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
+    job->sweep_options = job->options;
+    job->sweep_load = job->load;
+    if (job->options.tolerance < REPORT_TOLERANCE) {
+        job->sweep_options.tolerance = job->sweep_load.build.tolerance = REPORT_TOLERANCE;
+    }
+    return code;
+}
+
+/* ---- the comparison ---- */
+
+/* What accuracy costs. Of shapes, meshes are compared up to the run's own
+   tolerance; none that would take most of the time for its first run. */
+static int report_compare(report_job *job)
+{
+    converge_job *compare = &job->converge;
+    double least = 1.0;
+    *compare = (converge_job){.args = job->args,
+                              .pose = job->pose,
+                              .load = job->load,
+                              .seconds = REPORT_COMPARE * job->seconds};
+    compare->load.build.normals = LRCS_NORMALS_FLAT; /* as lrcs converge has it */
+    compare->digits = 1;
+    while (compare->digits < CONVERGE_MESHES && least > 1.5 * job->options.tolerance &&
+           (least > 1e-3 || 3.0 * job->pose_s < compare->seconds)) {
+        least /= 10.0;
+        compare->digits += least < 0.05;
+    }
+    int code = cli_converge_meshes(compare);
+    code = code ? code : cli_converge_measure(compare);
+    if (code == 0) {
+        lrcs_host_error error;
+        FILE *out = cli_report_bytes_begin(&job->chart);
+        if (!out) {
+            return CLI_FAILED;
+        }
+        cli_converge_chart(compare, 0, out, &error);
+        code = cli_report_bytes_end(out);
+    }
+    return code;
+}
+
+/* ---- the command ---- */
+
+static int report_measure(report_job *job)
+{
+    const cli_output file = {"o", job->path};
+    int code = cli_scene_read(job->args, &job->load, &job->scene);
+    code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->scene);
+    code = code ? code : cli_info_make(job->args, &job->scene, &job->load.build, &job->info);
+    code = code ? code : cli_report_run(job);
+    code = code ? code : cli_report_sweeps(job);
+    return code ? code : report_compare(job);
+}
+
+static void report_free(report_job *job)
+{
+    for (int i = 0; i < REPORT_SWEEPS; i++) {
+        free(job->sweep[i].row);
+        free(job->sweep[i].svg.bytes);
+    }
+    for (uint32_t i = 0; i < REPORT_PEAKS; i++) {
+        cli_shares_free(&job->peak_shares[i]);
+    }
+    for (int i = 0; i < REPORT_PICTURES; i++) {
+        free(job->picture[i][0].bytes);
+        free(job->picture[i][1].bytes);
+    }
+    for (uint32_t i = 0; i < job->converge.meshes; i++) {
+        lrcs_host_scene_free(&job->converge.mesh[i].scene);
+    }
+    free(job->chart.bytes);
+    free(job->records);
+    free(job->image.facet);
+    cli_shares_free(&job->shares);
+    cli_info_free(&job->info);
+    lrcs_host_scene_free(&job->sweep_scene);
+    lrcs_host_scene_free(&job->scene);
+    cli_scene_options_free(&job->load);
+}
+
+static int report_command(const cli_args *args)
+{
+    report_job *job = calloc(1, sizeof *job);
+    if (!job) {
+        return cli_out_of_memory();
+    }
+    job->args = args;
+    int code = report_read(job);
+    code = code ? code : report_measure(job);
+    code = code ? code : cli_output_write(job->path, cli_report_page, job);
+    if (code == 0) {
+        cli_notices_print(stderr, &job->scene.notices);
+        code = cli_accuracy_code(args, &job->options, job->result.flags);
+    }
+    report_free(job);
+    free(job);
+    return code;
+}
+
+const cli_command cli_report_command = {
+    "report",    "SCENE",        "give a .3ds, .obj or .stl model, a scene file, or demo",
+    report_help, report_options, report_command};

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/* The run that a report is about: the scene from its pose, with what each facet returns and what
+   the laser sees of it. */
+#include "cli/report/report.h"
+
+#include <stdlib.h>
+
+static lrcs_host_picture picture_of(const report_job *job, int kind, int white)
+{
+    static const int look[REPORT_PICTURES] = {LRCS_HOST_BY_SIGMA, LRCS_HOST_BY_MATERIAL};
+    return (lrcs_host_picture){.scene = &job->scene.scene,
+                               .pose = &job->pose,
+                               .records = job->records,
+                               .colouring = look[kind],
+                               .white = white};
+}
+
+static int picture_draw(report_job *job, const lrcs_host_picture *picture, report_bytes *bytes)
+{
+    lrcs_host_error error;
+    FILE *out = cli_report_bytes_begin(bytes);
+    if (!out) {
+        return CLI_FAILED;
+    }
+    int status = lrcs_host_picture_png(out, picture, &job->image, CLI_PICTURE_DEFAULT, &error);
+    int code = cli_report_bytes_end(out);
+    return status == LRCS_OK ? code : cli_failed(&error);
+}
+
+/* One image serves all that need the same side: that of the legend at hand. */
+static int picture_make(report_job *job, int kind)
+{
+    lrcs_host_error error;
+    lrcs_result result;
+    lrcs_host_picture picture = picture_of(job, kind, 0);
+    uint32_t side = lrcs_host_picture_need(&picture, CLI_PICTURE_DEFAULT);
+    free(job->image.facet);
+    job->image.size = side;
+    job->image.facet = calloc((size_t)side * side, sizeof(uint32_t));
+    if (!job->image.facet) {
+        return cli_out_of_memory();
+    }
+    lrcs_run_options coarse = job->options;
+    coarse.method = LRCS_METHOD_FACET; /* of it only the image counts */
+    if (lrcs_host_scene_run(&job->scene, &job->pose, &coarse, &result, NULL, &job->image, NULL,
+                            &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    int code = 0;
+    for (int white = 0; white < 2 && code == 0; white++) {
+        picture = picture_of(job, kind, white);
+        code = picture_draw(job, &picture, &job->picture[kind][white]);
+    }
+    return code;
+}
+
+int cli_report_run(report_job *job)
+{
+    lrcs_host_error error;
+    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
+    if (!job->records) {
+        return cli_out_of_memory();
+    }
+    int status = lrcs_host_scene_prepare(&job->scene, &error);
+    if (status == LRCS_OK) {
+        status = lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result,
+                                     job->records, NULL, &job->pose_s, &error);
+    }
+    if (status != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    int code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
+                               &job->shares);
+    for (int kind = 0; kind < REPORT_PICTURES && code == 0; kind++) {
+        code = picture_make(job, kind);
+    }
+    return code;
+}

@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: MIT */
+/* The sweeps of a report: three cuts and a map. Each is what a command line of lrcs sweep says, so
+   that the page can name the command that makes it again; how fine they are is decided by the time
+   that there is. */
+#include "cli/report/report.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define SWEEP_PART 0.65 /* of the time is for sweeps */
+
+/* ---- how fine ---- */
+
+static const struct {
+    uint32_t cut, map; /* deg */
+} sweep_steps[] = {{1, 5}, {2, 10}, {3, 15}, {5, 15}, {5, 18}, {10, 18}, {15, 30}, {30, 30}};
+
+#define SWEEP_STEPS (sizeof sweep_steps / sizeof sweep_steps[0])
+
+/* Directions that differ. */
+static double steps_poses(uint32_t cut, uint32_t map)
+{
+    return 3.0 * (360.0 / cut) + (360.0 / map) * (180.0 / map - 1.0) + 2.0;
+}
+
+/* The time of a processor that a pose takes in the scene of the sweeps: of the second run, since
+   the first finds out how much memory it needs. */
+static int pose_measure(report_job *job, const lrcs_host_scene *scene, double *seconds)
+{
+    lrcs_host_error error;
+    lrcs_result result;
+    for (int i = 0; i < 2; i++) {
+        clock_t begun = clock();
+        if (lrcs_host_scene_run(scene, &job->pose, &job->sweep_options, &result, NULL, NULL, NULL,
+                                &error) != LRCS_OK) {
+            return cli_failed(&error);
+        }
+        *seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
+    }
+    return 0;
+}
+
+static int steps_choose(report_job *job, const lrcs_host_scene *scene)
+{
+    double seconds = 0.0;
+    size_t i = 0;
+    if (job->cut_step > 0 && job->map_step > 0) {
+        return 0;
+    }
+    int code = pose_measure(job, scene, &seconds);
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    double threads = job->threads > 0 ? job->threads : processors > 0 ? (double)processors : 1.0;
+    double poses = SWEEP_PART * job->seconds * threads / fmax(seconds, 1e-6);
+    while (i + 1 < SWEEP_STEPS && steps_poses(sweep_steps[i].cut, sweep_steps[i].map) > poses) {
+        i++;
+    }
+    job->cut_step = job->cut_step > 0 ? job->cut_step : sweep_steps[i].cut;
+    job->map_step = job->map_step > 0 ? job->map_step : sweep_steps[i].map;
+    return code;
+}
+
+/* ---- one sweep ---- */
+
+static void word_add(report_sweep *sweep, const char *name, const char *value)
+{
+    sweep->given[sweep->args.given_count++] = (cli_given){name, value};
+}
+
+/* Its command line. */
+static void words_make(const report_job *job, int kind, report_sweep *sweep)
+{
+    unsigned long cut = job->cut_step;
+    unsigned long map = job->map_step;
+    sweep->args = (cli_args){&cli_sweep_command, job->args->operand, sweep->given, 0};
+    snprintf(sweep->az, sizeof sweep->az, "%s", kind == REPORT_CUT_YZ ? "90" : "0");
+    snprintf(sweep->el, sizeof sweep->el, "0");
+    if (kind == REPORT_MAP) {
+        snprintf(sweep->az, sizeof sweep->az, "0:360:%lu", map);
+        snprintf(sweep->el, sizeof sweep->el, "-90:90:%lu", map);
+    } else if (kind == REPORT_CUT_XY) {
+        snprintf(sweep->az, sizeof sweep->az, "0:360:%lu", cut);
+    } else {
+        snprintf(sweep->el, sizeof sweep->el, "0:360:%lu", cut);
+    }
+    word_add(sweep, "az", sweep->az);
+    word_add(sweep, "el", sweep->el);
+    word_add(sweep, "dbsm", NULL);
+    if (kind != REPORT_MAP) {
+        word_add(sweep, "polar", NULL);
+    }
+    word_add(sweep, "plot", kind == REPORT_MAP ? "map.svg" : "cut.svg");
+}
+
+static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
+{
+    words_make(job, kind, sweep);
+    int code = cli_plan_read(&sweep->args, &sweep->plan);
+    code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
+    sweep->plot.open = cli_materials_open(&job->scene.scene);
+    sweep->plot.map = kind == REPORT_MAP; /* however few rows it has */
+    return code;
+}
+
+typedef struct sweep_walk {
+    report_sweep *sweep;
+    uint64_t *list; /* rows to be run: one of each direction */
+    uint64_t listed;
+    sweep_progress *progress;
+    uint64_t before; /* rows of the sweeps before */
+} sweep_walk;
+
+/* The first row of the same direction: a full turn ends where it began, and at a pole all azimuths
+   are one. */
+static uint64_t row_first(const sweep_plan *plan, uint64_t row)
+{
+    uint64_t els = plan->axis[1].range.count;
+    uint64_t az = row / els;
+    uint64_t el = row % els;
+    int turns = plan->axis[0].range.count > 1;
+    int pole = turns && els > 1 && (el == 0 || el == els - 1);
+    az = pole || az == plan->axis[0].range.count - 1 ? 0 : az;
+    el = !turns && el == els - 1 ? 0 : el;
+    return az * els + el;
+}
+
+static int walk_pose(void *context, uint64_t index, lrcs_pose *pose)
+{
+    const sweep_walk *walk = context;
+    return cli_plan_pose(&walk->sweep->plan, walk->list[index], pose);
+}
+
+static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
+                     const lrcs_result *result, lrcs_host_error *error)
+{
+    sweep_walk *walk = context;
+    (void)pose;
+    (void)error;
+    double *row = walk->sweep->row[walk->list[index]];
+    row[0] = result->sigma_m2;
+    row[1] = result->bound_m2;
+    cli_progress_show(walk->progress, walk->before + index + 1);
+    return LRCS_OK;
+}
+
+static int walk_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
+{
+    lrcs_host_error error;
+    const lrcs_host_sweep sweep = {.count = walk->listed,
+                                   .threads = job->threads,
+                                   .pose = walk_pose,
+                                   .take = walk_take,
+                                   .context = walk};
+    if (lrcs_host_sweep_run(scene, &job->sweep_options, &sweep, NULL, &error) != LRCS_OK) {
+        cli_progress_clear(walk->progress);
+        return cli_failed(&error);
+    }
+    walk->before += walk->listed;
+    return 0;
+}
+
+/* Runs each direction once, and gives all rows of it the same. */
+static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
+{
+    const sweep_plan *plan = &walk->sweep->plan;
+    double(*row)[2] = calloc(plan->rows, sizeof *row);
+    uint64_t *list = calloc(plan->rows, sizeof *list);
+    walk->sweep->row = row;
+    walk->list = list;
+    walk->listed = 0;
+    if (!row || !list) {
+        free(list);
+        return cli_out_of_memory();
+    }
+    for (uint64_t i = 0; i < plan->rows; i++) {
+        if (row_first(plan, i) == i) {
+            list[walk->listed++] = i;
+        }
+    }
+    int code = walk_run(job, scene, walk);
+    for (uint64_t i = 0; i < plan->rows && code == 0; i++) {
+        memcpy(row[i], row[row_first(plan, i)], sizeof row[i]);
+    }
+    free(list);
+    return code;
+}
+
+/* Draws it, unless nothing returns anything anywhere. */
+static int sweep_draw(report_sweep *sweep)
+{
+    int dark = 1;
+    for (uint64_t i = 0; i < sweep->plan.rows; i++) {
+        dark &= !(sweep->row[i][0] > 0.0);
+    }
+    if (dark) {
+        return 0;
+    }
+    sweep->plot.row = sweep->row;
+    FILE *out = cli_report_bytes_begin(&sweep->svg);
+    if (!out) {
+        return CLI_FAILED;
+    }
+    int code = cli_plot_svg(out, &sweep->args, &sweep->plot, &sweep->plan);
+    int ended = cli_report_bytes_end(out);
+    return code ? code : ended;
+}
+
+/* ---- all of them ---- */
+
+/* The scene as coarse as its tolerance has it, where shapes depend on that. */
+static int scene_choose(report_job *job, lrcs_host_scene **scene)
+{
+    lrcs_host_error error;
+    *scene = &job->scene;
+    if (job->sweep_options.tolerance == job->options.tolerance ||
+        !cli_has_curved_shapes(&job->scene.scene)) {
+        return 0;
+    }
+    *scene = &job->sweep_scene;
+    int code = cli_scene_read(job->args, &job->sweep_load, &job->sweep_scene);
+    if (code == 0 && lrcs_host_scene_prepare(&job->sweep_scene, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    return code;
+}
+
+static int peaks_run(report_job *job, lrcs_host_scene *scene)
+{
+    const report_sweep *map = &job->sweep[REPORT_MAP];
+    int code = 0;
+    job->peaks = cli_peaks_find(&map->plan, (const double(*)[2])map->row, REPORT_PEAKS, job->peak);
+    for (uint32_t i = 0; i < job->peaks && code == 0; i++) {
+        code = cli_row_shares(&map->plan, job->peak[i], scene, &job->sweep_options,
+                              &job->sweep_load.build, &job->peak_shares[i]);
+    }
+    return code;
+}
+
+int cli_report_sweeps(report_job *job)
+{
+    lrcs_host_scene *scene = NULL;
+    int code = scene_choose(job, &scene);
+    code = code ? code : steps_choose(job, scene);
+    double poses = code ? 0.0 : steps_poses(job->cut_step, job->map_step);
+    sweep_progress progress = cli_progress_make(0, (uint64_t)poses);
+    sweep_walk walk = {.progress = &progress};
+    for (int kind = 0; kind < REPORT_SWEEPS && code == 0; kind++) {
+        walk.sweep = &job->sweep[kind];
+        code = sweep_plan_make(job, kind, walk.sweep);
+        code = code ? code : sweep_run(job, scene, &walk);
+        code = code ? code : sweep_draw(walk.sweep);
+    }
+    cli_progress_clear(&progress);
+    return code ? code : peaks_run(job, scene);
+}

@@ -1,0 +1,347 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs run --time-budget: the best answer that a time buys. How long a setting takes is not known
+   before it has been tried, so two processes try settings from cheap to dear, one of them rasters,
+   the other tolerances, and report every answer; when the time is up the best one counts, and what
+   still runs is stopped. It decides which settings are tried; each is an ordinary run, which the
+   same options give again. */
+#include "cli/run/run.h"
+
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define RACERS       2
+#define RASTER_LEAST 64u
+#define RASTER_MOST  4096u
+
+/* Rasters of which only an estimate is expected. */
+#define PREVIEW_LEAST 256u
+#define PREVIEW_MOST  1024u
+
+/* A bound above this share of sigma says little: there a likely error decides. */
+#define BOUND_TELLS 0.1
+
+/* Tolerances tried, two to a decade: rungs 0 .. 22 are 1e-1, 3e-2, 1e-2, ... 1e-12. */
+#define RUNGS     23
+#define RUNG_NONE (-1) /* for scenes that no tolerance changes */
+
+/* An answer on its way to the parent. Its reasons are constant texts, at the same place in both
+   processes. */
+typedef struct budget_answer {
+    lrcs_result result;
+    int rung;
+    int named;  /* the method was chosen, not found by auto */
+    int accept; /* LRCS_ACCEPT_ESTIMATE: a raster as cheap as drawing it */
+    int racer;  /* whose answer it is, in the parent */
+    double seconds_load, seconds_prepare, seconds_pose;
+} budget_answer;
+
+/* A process that tries settings, and where its answers come from. */
+typedef struct budget_racer {
+    pid_t process;
+    int end; /* of its pipe; negative: it has ended */
+} budget_racer;
+
+static const char *rung_text(int rung, char text[16])
+{
+    snprintf(text, 16, "%de-%d", rung % 2 ? 3 : 1, 1 + (rung + 1) / 2);
+    return text;
+}
+
+static double rung_tolerance(int rung)
+{
+    char text[16];
+    double value = lrcs_run_options_default().tolerance;
+    if (rung == RUNG_NONE) {
+        return value;
+    }
+    rung_text(rung, text);
+    lrcs_host_number_read(text, strlen(text), &value);
+    return value;
+}
+
+/* ---- in the racers ---- */
+
+/* Runs one setting and reports it; 0, or -1 where the race is over for this racer. */
+static int race_run(run_job *job, int rung, int answers)
+{
+    lrcs_host_error error;
+    budget_answer answer;
+    memset(&answer, 0, sizeof answer);
+    int status = lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer.result, NULL,
+                                     NULL, &answer.seconds_pose, &error);
+    answer.rung = rung;
+    answer.named = job->options.method != LRCS_METHOD_AUTO;
+    answer.accept = job->options.accept;
+    answer.seconds_load = job->scene.seconds_load;
+    answer.seconds_prepare = job->scene.seconds_prepare;
+    return status == LRCS_OK && write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
+               ? 0
+               : -1;
+}
+
+/* What is cheapest first, on the mesh at hand: no shadows; rasters whose samples are all that is
+   looked at; then rasters with bounds, ever finer. */
+static void race_rasters(run_job *job, int rung, int answers)
+{
+    job->options.method = LRCS_METHOD_FACET;
+    int over = race_run(job, rung, answers);
+    job->options.method = LRCS_METHOD_ZBUFFER;
+    job->options.accept = LRCS_ACCEPT_ESTIMATE;
+    for (uint32_t n = PREVIEW_LEAST; n <= PREVIEW_MOST && over == 0; n *= 4) {
+        job->options.resolution = n;
+        over = race_run(job, rung, answers);
+    }
+    job->options.accept = LRCS_ACCEPT_BOUND;
+    for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && over == 0; n *= 2) {
+        job->options.resolution = n;
+        over = race_run(job, rung, answers);
+    }
+}
+
+/* Reads the scene with its shapes built for ever finer rungs, from this one on, until it is another
+   than the last one, and prepares it. Returns its rung; RUNGS: there is none. */
+static int rung_scene(run_job *job, int rung)
+{
+    lrcs_host_error error;
+    uint64_t last = lrcs_scene_hash(&job->scene.scene);
+    for (; rung < RUNGS; rung++) {
+        lrcs_host_scene_free(&job->scene);
+        job->load.build.tolerance = rung_tolerance(rung);
+        if (lrcs_host_scene_read(job->args->operand, &job->load, &job->scene, &error) != LRCS_OK) {
+            return RUNGS;
+        }
+        if (lrcs_scene_hash(&job->scene.scene) != last) {
+            break;
+        }
+    }
+    return rung < RUNGS && lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? rung : RUNGS;
+}
+
+/* Tolerances, ever finer, by whatever method is enough; where none changes anything, clipping. */
+static void race_tolerances(run_job *job, int rung, int answers)
+{
+    int shapes = cli_has_curved_shapes(&job->scene.scene);
+    int last = rung == RUNG_NONE ? RUNG_NONE : RUNGS - 1;
+    job->options.method = rung == RUNG_NONE ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;
+    while (rung <= last) {
+        job->options.tolerance = rung_tolerance(rung);
+        if (race_run(job, rung, answers) != 0) {
+            break;
+        }
+        rung = shapes ? rung_scene(job, rung + 1) : rung + 1;
+    }
+}
+
+/* Where there is no room for another process, it has ended before it began. */
+static void racer_start(run_job *job, int rung, budget_racer *racer,
+                        void (*race)(run_job *job, int rung, int answers))
+{
+    int end[2];
+    *racer = (budget_racer){.end = -1};
+    if (pipe(end) != 0) {
+        return;
+    }
+    racer->process = fork();
+    if (racer->process == 0) {
+        signal(SIGINT, SIG_DFL); /* the parent says what a Ctrl-C leaves */
+        close(end[0]);
+        race(job, rung, end[1]);
+        _exit(0);
+    }
+    close(end[1]);
+    if (racer->process < 0) {
+        close(end[0]);
+        return;
+    }
+    racer->end = end[0];
+}
+
+/* ---- in the parent ---- */
+
+static void racer_stop(budget_racer *racer)
+{
+    if (racer->end >= 0) {
+        close(racer->end);
+        kill(racer->process, SIGKILL);
+        waitpid(racer->process, NULL, 0);
+        racer->end = -1;
+    }
+}
+
+/* What an answer may be off by: its bound, and what curved normals add to it. Where that says
+   little, the likely error of a raster in its place: ranked after every bound that tells, before
+   those that do not. */
+static double answer_error(const budget_answer *answer)
+{
+    const lrcs_result *r = &answer->result;
+    double bound = r->bound_m2 + fmax(0.0, r->curvature_estimate_m2);
+    double tells = BOUND_TELLS * r->sigma_m2;
+    return bound > tells && r->estimate_m2 >= 0.0 ? fmin(bound, tells + r->estimate_m2) : bound;
+}
+
+/* Of equal answers the first racer's counts, whichever came first. */
+static int answer_beats(const budget_answer *answer, const budget_answer *best)
+{
+    double error = answer_error(answer);
+    double least = answer_error(best);
+    return error < least || (error <= least && answer->racer < best->racer);
+}
+
+/* Takes an answer of a racer into account: 1; 0 where it has ended. */
+static int race_take(run_job *job, budget_racer racer[RACERS], int i, budget_answer *best)
+{
+    budget_answer answer;
+    if (read(racer[i].end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
+        racer_stop(&racer[i]);
+        return 0;
+    }
+    answer.racer = i;
+    if (answer_beats(&answer, best)) {
+        *best = answer;
+    }
+    job->budget.answered = 1;
+    return 1;
+}
+
+/* Milliseconds left for poll: no end where there is no answer yet. */
+static int time_left(const run_budget *budget)
+{
+    double left = budget->asked_ms - 1e3 * (cli_seconds() - budget->start);
+    return !budget->answered ? -1 : left > 1e9 ? 1000000000 : left > 0.0 ? (int)ceil(left) : 0;
+}
+
+/* May anything better come? */
+static int race_is_on(const run_job *job, const budget_racer racer[RACERS],
+                      const budget_answer *best)
+{
+    return (racer[0].end >= 0 || racer[1].end >= 0) && !cli_run_meets(&best->result, job->asked);
+}
+
+/* Once a tolerance has an answer, rasters of the same mesh have nothing to add. */
+static void race_watch(run_job *job, budget_racer racer[RACERS], budget_answer *best)
+{
+    while (race_is_on(job, racer, best)) {
+        struct pollfd wait[RACERS];
+        for (int i = 0; i < RACERS; i++) { /* negative ones are skipped */
+            wait[i] = (struct pollfd){.fd = racer[i].end, .events = POLLIN};
+        }
+        if (poll(wait, RACERS, time_left(&job->budget)) <= 0) {
+            break;
+        }
+        for (int i = 0; i < RACERS; i++) {
+            if (wait[i].revents != 0 && race_take(job, racer, i, best) && i == 0) {
+                racer_stop(&racer[1]);
+            }
+        }
+    }
+}
+
+/* ---- the command's part ---- */
+
+int cli_run_meets(const lrcs_result *result, double tolerance)
+{
+    double most = tolerance * result->sigma_m2;
+    return tolerance > 0.0 && result->bound_m2 <= most && result->curvature_estimate_m2 <= most;
+}
+
+int cli_run_budget_read(run_job *job)
+{
+    static const char *const clash[] = {"method", "resolution", "explain", "steps", "accept"};
+    const int clashes = sizeof clash / sizeof clash[0];
+    const cli_args *args = job->args;
+    run_budget *budget = &job->budget;
+    budget->start = cli_seconds();
+    int code = cli_number(args, "time-budget", &budget->asked_ms);
+    if (code != 0 || !cli_value(args, "time-budget")) {
+        return code;
+    }
+    if (!(budget->asked_ms > 0.0)) {
+        return cli_usage(args->command, "--time-budget: expected milliseconds > 0, found '%s'",
+                         cli_value(args, "time-budget"));
+    }
+    for (int i = 0; i < clashes; i++) {
+        if (cli_value(args, clash[i])) {
+            return cli_usage(args->command, "--time-budget chooses for itself: leave out --%s",
+                             clash[i]);
+        }
+    }
+    job->asked = cli_value(args, "tolerance") ? job->asked : 0.0;
+    job->load.build.tolerance = rung_tolerance(0);
+    return 0;
+}
+
+/* Makes the run's settings those of the answer, and its scene the one that they give. */
+static int budget_settle(run_job *job, const budget_answer *best)
+{
+    char *same = job->budget.same;
+    size_t room = sizeof job->budget.same;
+    int used = 0;
+    int code = 0;
+    if (best->rung != RUNG_NONE) {
+        char tolerance[16];
+        used = snprintf(same, room, "--tolerance %s", rung_text(best->rung, tolerance));
+    }
+    if (best->named) {
+        used += snprintf(same + used, room - (size_t)used, "%s--method %s", used ? " " : "",
+                         lrcs_method_text(best->result.method));
+        if (best->accept == LRCS_ACCEPT_ESTIMATE) {
+            used += snprintf(same + used, room - (size_t)used, " --accept estimate");
+        }
+        job->options.accept = best->accept;
+        job->options.method = best->result.method;
+        job->options.resolution = best->result.resolution;
+    }
+    if (best->result.resolution != 0) {
+        snprintf(same + used, room - (size_t)used, " --resolution %lu",
+                 (unsigned long)best->result.resolution);
+    }
+    job->options.tolerance = rung_tolerance(best->rung);
+    if (best->rung > 0 && cli_has_curved_shapes(&job->scene.scene)) {
+        lrcs_host_scene_free(&job->scene);
+        job->load.build.tolerance = job->options.tolerance;
+        code = cli_scene_read(job->args, &job->load, &job->scene);
+    }
+    job->result = best->result;
+    if (best->named) {
+        job->result.method_reason = "the best that the time budget reached";
+    }
+    job->scene.seconds_load = best->seconds_load;
+    job->scene.seconds_prepare = best->seconds_prepare;
+    job->seconds = best->seconds_pose;
+    return code;
+}
+
+int cli_run_budget(run_job *job)
+{
+    lrcs_host_error error;
+    budget_answer best;
+    budget_racer racer[RACERS];
+    int scales =
+        cli_has_curved_shapes(&job->scene.scene) || job->scene.scene.normals != LRCS_NORMALS_FLAT;
+    int rung = scales ? 0 : RUNG_NONE;
+    memset(&best, 0, sizeof best);
+    best.result.bound_m2 = HUGE_VAL; /* before the first answer */
+    best.result.estimate_m2 = -1.0;
+    best.racer = RACERS;
+    if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    cli_watch_end(); /* it would wake the race */
+    fflush(NULL);    /* or both would write what is buffered */
+    racer_start(job, rung, &racer[0], race_tolerances);
+    racer_start(job, rung, &racer[1], race_rasters);
+    race_watch(job, racer, &best);
+    job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
+    for (int i = 0; i < RACERS; i++) {
+        racer_stop(&racer[i]);
+    }
+    if (!job->budget.answered) {
+        fprintf(stderr, "lrcs: --time-budget: no setting gave an answer\n");
+        return CLI_FAILED;
+    }
+    return budget_settle(job, &best);
+}

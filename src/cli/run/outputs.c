@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT */
+/* The files that lrcs run writes: their options, what they may not replace, and the writing. */
+#include "cli/run/run.h"
+
+#include <string.h>
+
+#define FILES 3
+
+static void files_list(const run_job *job, cli_output file[FILES])
+{
+    file[0] = (cli_output){"facets", job->facets};
+    file[1] = (cli_output){"polygons", job->polygons_path};
+    file[2] = (cli_output){"image", job->image_path};
+}
+
+static int to_stdout(const char *path)
+{
+    return path && strcmp(path, "-") == 0;
+}
+
+/* No two outputs in one place, a file or standard output. */
+static int files_apart(const run_job *job)
+{
+    const cli_command *command = job->args->command;
+    const char *table = cli_value(job->args, "json")      ? "json"
+                        : cli_value(job->args, "explain") ? "explain"
+                        : cli_value(job->args, "shares")  ? "shares"
+                                                          : NULL;
+    cli_output file[FILES];
+    files_list(job, file);
+    for (int i = 0; table && i < FILES; i++) {
+        if (to_stdout(file[i].path)) {
+            return cli_usage(command, "--%s - and --%s both want standard output", file[i].option,
+                             table);
+        }
+    }
+    return cli_outputs_apart(command, file, FILES);
+}
+
+/* A picture is PNG: under the ending of another format no program would open it. */
+static int image_check(const cli_args *args, const char *path)
+{
+    static const char *const other[] = {".jpg", ".jpeg", ".gif", ".svg", ".pdf"};
+    for (size_t i = 0; path && i < sizeof other / sizeof other[0]; i++) {
+        if (cli_extension(path, other[i])) {
+            return cli_usage(args->command, "--image: expected FILE.png, found '%s'", path);
+        }
+    }
+    return 0;
+}
+
+int cli_run_outputs_read(run_job *job)
+{
+    const cli_args *args = job->args;
+    int method = job->options.method;
+    job->facets = cli_value(args, "facets");
+    job->polygons_path = cli_value(args, "polygons");
+    job->image_path = cli_value(args, "image");
+    if (to_stdout(job->image_path)) {
+        return cli_usage(args->command, "--image: a picture does not go to standard output");
+    }
+    if (job->polygons_path && method != LRCS_METHOD_AUTO && method != LRCS_METHOD_EXACT) {
+        return cli_usage(args->command,
+                         "--polygons: visible polygons come from --method exact (or auto), found "
+                         "--method %s",
+                         lrcs_method_text(method));
+    }
+    int code = image_check(args, job->image_path);
+    code = code ? code : files_apart(job);
+    if (code == 0 && cli_value(args, "image-size") && !job->image_path) {
+        return cli_usage(args->command, "--image-size needs --image FILE.png");
+    }
+    job->image_size = CLI_PICTURE_DEFAULT;
+    return code ? code
+                : cli_whole(args, "image-size", CLI_PICTURE_LEAST, CLI_PICTURE_MOST,
+                            &job->image_size);
+}
+
+int cli_run_outputs_check(const run_job *job)
+{
+    cli_output file[FILES];
+    files_list(job, file);
+    return cli_outputs_spare(job->args->command, file, FILES, &job->scene);
+}
+
+int cli_run_outputs_stdout(const run_job *job)
+{
+    return to_stdout(job->facets) || to_stdout(job->polygons_path);
+}
+
+static int facets_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const run_job *job = context;
+    (void)error;
+    lrcs_host_facets_write(out, &job->scene.scene, job->records);
+    return LRCS_OK;
+}
+
+static int polygons_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const run_job *job = context;
+    (void)error;
+    lrcs_host_polygons_write(out, &job->polygons.list);
+    return LRCS_OK;
+}
+
+lrcs_host_picture cli_run_picture(const run_job *job)
+{
+    return (lrcs_host_picture){
+        .scene = &job->scene.scene, .pose = &job->pose, .records = job->records};
+}
+
+static int image_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const run_job *job = context;
+    lrcs_host_picture picture = cli_run_picture(job);
+    return lrcs_host_picture_png(out, &picture, &job->image, job->image_size, error);
+}
+
+int cli_run_outputs_write(const run_job *job)
+{
+    int code = job->image_path ? cli_output_write(job->image_path, image_write, job) : 0;
+    code = code == 0 && job->facets ? cli_output_write(job->facets, facets_write, job) : code;
+    return code == 0 && job->polygons_path
+               ? cli_output_write(job->polygons_path, polygons_write, job)
+               : code;
+}

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs run: sigma of a scene from a pose. */
+#include "cli/run/run.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* What stopping may take beyond a time budget. */
+#define BUDGET_GRACE_MS 20.0
+
+/* Facets that take seconds or more. */
+#define RUN_MANY 200000u
+
+#define STEPS_MOST 4294967295.0
+
+static const char run_help[] =
+    "usage: lrcs run SCENE [pose] [options]\n"
+    "\n"
+    "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
+    "\n" CLI_POSE_HELP "\n"
+    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best answer that "
+    "MS milliseconds buy, loading and\n"
+    "                        preparing included: by its bound, or by its likely error where "
+    "bounds\n"
+    "                        say little; names the options that give it again. Exit 3 where it "
+    "took\n"
+    "                        longer, misses a --tolerance, or the bound exceeds sigma\n"
+    "  --steps N             at most N steps of finding what is seen, counted the same on every\n"
+    "                        machine; what they leave open is in the bound. A raster's pixels are\n"
+    "                        not counted\n" CLI_SCENE_HELP
+    "  --precision P         float32 or float64: graphics hardware emulated, a z-buffer of "
+    "--resolution N\n"
+    "                        (1024 if not given); sigma is what it gives, bound what method exact\n"
+    "                        proves of it, and a table says what sampling, precision, depth and a\n"
+    "                        running sum each cost. Of equal depths the first facet drawn wins\n"
+    "  --depth-bits B        16, 24 or 32 of its depth buffer (default: all that P holds); alone "
+    "it\n"
+    "                        means --precision float64\n"
+    "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
+    "                        where it is off; and what each stage of preparing and of the pose\n"
+    "                        takes; runs the pose for some 2 s more, or once for each\n"
+    "  --shares              who makes sigma: parts, materials, and the ten brightest facets\n"
+    "  --json                the result as JSON, notices included\n"
+    "  --facets FILE.csv     one row for every facet ('-': instead of the table)\n"
+    "  --polygons FILE.csv   what is visible, as convex rings on each facet, one row a point; by\n"
+    "                        exact visibility, whichever method auto took ('-' as for --facets)\n"
+    "  --image FILE.png      what the laser sees, coloured by sigma per projected area\n"
+    "  --image-size N        its side in pixels (512)\n"
+    "\n"
+    "examples\n"
+    "  lrcs run demo --image demo.png\n"
+    "  lrcs run demo --azel 30,-20 --explain --shares\n"
+    "  lrcs run demo --azel 30,-20 --time-budget 200\n"
+    "  lrcs run demo --azel 30,-20 --steps 20000\n"
+    "  lrcs run demo --azel 30,-20 --tolerance 1e-2 --accept estimate\n"
+    "  lrcs run demo --azel 30,-20 --resolution 512 --precision float32 --depth-bits 24\n"
+    "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
+    "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
+
+static const cli_option run_options[] = {CLI_POSE_OPTIONS,        CLI_ACCURACY_OPTIONS,
+                                         CLI_SCENE_OPTIONS,       {"json", 0, 0},
+                                         {"facets", CLI_FILE, 0}, {"polygons", CLI_FILE, 0},
+                                         {"image", CLI_FILE, 0},  {"image-size", 1, 0},
+                                         {"explain", 0, 0},       {"time-budget", 1, 0},
+                                         {"shares", 0, 0},        {"precision", 1, 0},
+                                         {"depth-bits", 1, 0},    {"steps", 1, 0},
+                                         {"help", 0, 0},          {NULL, 0, 0}};
+
+/* ---- options ---- */
+
+static int options_read(run_job *job)
+{
+    const cli_args *args = job->args;
+    uint32_t steps = 0;
+    int code = cli_pose_read(args, &job->pose);
+    code = code ? code : cli_accuracy_read(args, &job->options);
+    code = code ? code : cli_whole(args, "steps", 1.0, STEPS_MOST, &steps);
+    job->options.steps = steps;
+    code = code ? code : cli_run_outputs_read(job);
+    code = code ? code : cli_scene_options_read(args, &job->load);
+    job->load.build.tolerance = job->asked = job->options.tolerance;
+    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
+    code = code ? code : cli_run_budget_read(job);
+    code = code ? code : cli_run_emulation_read(job);
+    job->asked = cli_tolerance_judged(args, &job->options) ? job->asked : 0.0;
+    job->explain = cli_value(args, "explain") != NULL;
+    job->shares_asked = cli_value(args, "shares") != NULL;
+    return code ? code : cli_normals_read(args, &job->load);
+}
+
+/* ---- the run ---- */
+
+/* Room for what the outputs show. */
+static int run_room(run_job *job)
+{
+    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
+    if (job->image_path) {
+        lrcs_host_picture picture = cli_run_picture(job);
+        job->image.size = lrcs_host_picture_need(&picture, job->image_size);
+        job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
+    }
+    if (!job->records || (!job->image.facet && job->image_path)) {
+        return cli_out_of_memory();
+    }
+    return 0;
+}
+
+/* Silence is no answer where shapes became very many facets. */
+static void run_patience(const run_job *job)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    if (scene->facet_count > RUN_MANY && cli_has_curved_shapes(scene)) {
+        fprintf(stderr,
+                "lrcs: %lu facets for a tolerance of %g: preparing and running them takes a "
+                "while\n",
+                (unsigned long)scene->facet_count, job->options.tolerance);
+    }
+}
+
+static int run_pose(run_job *job)
+{
+    lrcs_host_error error;
+    if (!job->scene.prepared) {
+        run_patience(job);
+        cli_watch_stage("preparing", &job->scene);
+    }
+    if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    cli_watch_stage("pose", NULL);
+    if (job->emulation.asked) {
+        return cli_run_emulate(job);
+    }
+    int status =
+        lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
+                            job->image_path ? &job->image : NULL, &job->seconds, &error);
+    if (status == LRCS_OK && job->polygons_path) {
+        status = lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error);
+    }
+    if (status != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    return 0;
+}
+
+/* A search for the best settings comes with their result; files and shares need the run itself. */
+static int run_scene(run_job *job)
+{
+    int searched = job->budget.asked_ms > 0.0;
+    int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
+    cli_watch_begin();
+    int code = cli_scene_read(job->args, &job->load, &job->scene);
+    code = code ? code : cli_run_outputs_check(job);
+    code = code == 0 && searched ? cli_run_budget(job) : code;
+    if (code == 0 && (files || !searched)) {
+        code = run_room(job);
+        code = code ? code : run_pose(job);
+    }
+    return code == 0 && job->shares_asked
+               ? cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
+                                 &job->shares)
+               : code;
+}
+
+/* The flag of a result that was searched for speaks of a tolerance that was tried; where no
+   tolerance is in force none is missed. */
+static void run_judge(run_job *job)
+{
+    uint32_t *flags = &job->result.flags;
+    if (job->budget.asked_ms > 0.0) {
+        int missed = job->asked > 0.0 && !cli_run_meets(&job->result, job->asked);
+        *flags &= ~(uint32_t)LRCS_FLAG_TOLERANCE_NOT_MET;
+        *flags |= missed ? LRCS_FLAG_TOLERANCE_NOT_MET : 0u;
+    }
+    *flags = job->asked > 0.0 ? *flags : *flags & ~(uint32_t)LRCS_FLAG_TOLERANCE_NOT_MET;
+    job->met = !(*flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+}
+
+/* ---- the command ---- */
+
+/* Files first: a table on stdout that says "picture" must be true. */
+static int run_outputs(run_job *job)
+{
+    int code = cli_run_open(job);
+    code = code ? code : cli_run_outputs_write(job);
+    code = code == 0 && job->explain ? cli_run_explain(job) : code;
+    if (code != 0) {
+        return code;
+    }
+    if (cli_value(job->args, "json")) {
+        cli_run_json(job);
+    } else {
+        cli_run_notices(job);
+        if (!cli_run_outputs_stdout(job)) {
+            cli_run_table(job);
+        }
+    }
+    int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
+    /* a bound that tells nothing of sigma is no answer that a time bought */
+    int empty = job->budget.asked_ms > 0.0 && job->result.bound_m2 > job->result.sigma_m2;
+    return late || empty ? CLI_DEGRADED
+                         : cli_accuracy_code(job->args, &job->options, job->result.flags);
+}
+
+static int run_command(const cli_args *args)
+{
+    run_job job;
+    memset(&job, 0, sizeof job);
+    job.args = args;
+    int code = options_read(&job);
+    code = code ? code : run_scene(&job);
+    cli_watch_end();
+    if (code == 0) {
+        run_judge(&job);
+        code = run_outputs(&job);
+    }
+    free(job.records);
+    free(job.image.facet);
+    cli_shares_free(&job.shares);
+    lrcs_host_polygons_free(&job.polygons);
+    lrcs_host_scene_free(&job.scene);
+    cli_scene_options_free(&job.load);
+    return code;
+}
+
+const cli_command cli_run_command = {
+    "run",    "SCENE",     "give a .3ds, .obj or .stl model, a scene file, or demo",
+    run_help, run_options, run_command};

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: MIT */
+/* What a run's bound does not hold: the unit that was assumed, back sides that return nothing,
+   glints of facets too coarse for them, the origin of the materials. Gathered from the records of
+   the facets; told in words as the last lines of a run, and as JSON. */
+#include "cli/info/info.h"
+#include "cli/run/run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FOUR_PI 12.566370614359172954
+
+/* From this share of sigma on a single facet's own glint is said to dominate. */
+#define GLINT_DOMINATES 0.5
+
+/* ---- what is found ---- */
+
+/* Backs that show of materials that are not two-sided, and what they would return. */
+static void backs_find(const run_job *job, run_open *open)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    double more = 0.0;
+    for (uint32_t i = 0; job->records && i < scene->facet_count; i++) {
+        const lrcs_facet_record *record = &job->records[i];
+        const lrcs_material *material = &scene->material[scene->facet_material[i]];
+        if (record->cos_theta < 0.0 && !material->two_sided && record->visible_area_m2 > 0.0) {
+            double f = lrcs_brdf_eval(&material->brdf, -record->cos_theta);
+            more += FOUR_PI * f * -record->cos_theta * record->visible_area_m2;
+        }
+    }
+    open->back_area_m2 = job->result.back_side_area_m2;
+    open->back_share = job->result.projected_area_m2 > 0.0
+                           ? open->back_area_m2 / job->result.projected_area_m2
+                           : 0.0;
+    open->back_sigma_m2 = job->records ? job->result.sigma_m2 + more : (double)NAN;
+}
+
+/* The glint of facets of curved parts that are too coarse for it: how much of sigma that is, how
+   far off it may be, and whether one facet's own makes most of sigma. */
+static void glint_sum(const run_job *job, const lrcs_host_glint *list, uint32_t count,
+                      run_open *open)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    for (uint32_t k = 0; k < count; k++) {
+        open->coarse++;
+        for (uint32_t i = 0; job->records && i < scene->facet_count; i++) {
+            double glint = job->records[i].sigma_glint_m2;
+            if (scene->facet_part[i] != list[k].part ||
+                scene->facet_material[i] != list[k].material || !(glint > 0.0)) {
+                continue;
+            }
+            open->glint_m2 += glint;
+            open->glint_error_m2 += glint * fmin(list[k].error, 1.0);
+            if (glint > open->glint_most_m2) {
+                open->glint_most_m2 = glint;
+                open->glint_facet = i;
+            }
+        }
+    }
+}
+
+int cli_run_open(run_job *job)
+{
+    lrcs_host_glint *list = NULL;
+    uint32_t count = 0;
+    memset(&job->open, 0, sizeof job->open);
+    backs_find(job, &job->open);
+    int code = cli_coarse_glint(&job->scene, &job->load.build, &list, &count);
+    glint_sum(job, list, count, &job->open);
+    free(list);
+    return code;
+}
+
+static int glint_dominates(const run_job *job)
+{
+    return job->open.glint_most_m2 > GLINT_DOMINATES * job->result.sigma_m2;
+}
+
+/* ---- as JSON ---- */
+
+void cli_run_open_json(const run_job *job, lrcs_host_json *json)
+{
+    const run_open *open = &job->open;
+    lrcs_host_json_begin(json, "back_sides", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(json, "area_m2", open->back_area_m2);
+    lrcs_host_json_number(json, "share_of_silhouette", open->back_share);
+    lrcs_host_json_number(json, "sigma_two_sided_m2", open->back_sigma_m2);
+    lrcs_host_json_end(json);
+    lrcs_host_json_begin(json, "coarse_glint", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_count(json, "parts", open->coarse);
+    lrcs_host_json_number(json, "sigma_glint_m2", open->glint_m2);
+    lrcs_host_json_number(json, "error_estimate_m2", open->glint_error_m2);
+    lrcs_host_json_bool(json, "one_facet_dominates", glint_dominates(job));
+    lrcs_host_json_end(json);
+}
+
+/* ---- in words ---- */
+
+static double percent(double part, double whole)
+{
+    return whole > 0.0 ? 100.0 * part / whole : 0.0;
+}
+
+static void unit_say(const run_job *job)
+{
+    for (uint32_t i = 0; i < job->scene.recipe.part_count; i++) {
+        const lrcs_recipe_part *part = &job->scene.recipe.part[i];
+        if (part->file && !part->unit_given) {
+            printf("  unit       metres are assumed: no unit is stated for ");
+            cli_column(part->name, 0);
+            putchar('\n');
+            return;
+        }
+    }
+}
+
+static void backs_say(const run_job *job)
+{
+    const run_open *open = &job->open;
+    if (!(open->back_area_m2 > 0.0)) {
+        return;
+    }
+    printf("  back sides %.3g m2, %.3g %% of the silhouette, return nothing", open->back_area_m2,
+           100.0 * open->back_share);
+    if (!isnan(open->back_sigma_m2)) {
+        printf("; if they reflected, sigma would be\n             %.6g m2", open->back_sigma_m2);
+        if (job->result.sigma_m2 > 0.0) {
+            printf(" (%+.3g %%)",
+                   percent(open->back_sigma_m2 - job->result.sigma_m2, job->result.sigma_m2));
+        }
+        printf(": --two-sided open, or all");
+    }
+    putchar('\n');
+}
+
+static void glint_say(const run_job *job)
+{
+    const run_open *open = &job->open;
+    if (open->coarse == 0 || !(open->glint_error_m2 > job->result.bound_m2)) {
+        return;
+    }
+    printf("  glint      %.3g %% of sigma from facets too coarse for it: flat or curved differ by "
+           "some "
+           "%.2g %%\n             (an estimate): --normals auto\n",
+           percent(open->glint_m2, job->result.sigma_m2),
+           percent(open->glint_error_m2, job->result.sigma_m2));
+    if (glint_dominates(job)) {
+        printf("             facet %lu alone makes %.3g %% of sigma: its normal is the mesh's, not "
+               "the "
+               "surface's\n",
+               (unsigned long)open->glint_facet,
+               percent(open->glint_most_m2, job->result.sigma_m2));
+    }
+}
+
+static void materials_say(const run_job *job)
+{
+    static const char *const source[] = {"illustrative", "default", "given"};
+    static const char *const words[] = {"illustrative, of the library: not measured",
+                                        "none bound, A=1, B=0.25, s=0.2, m=0.5 taken", "as given"};
+    const lrcs_scene *scene = &job->scene.scene;
+    for (int k = 0; k < 3; k++) {
+        uint32_t facets = 0;
+        for (uint32_t i = 0; i < scene->facet_count; i++) {
+            const lrcs_material *material = &scene->material[scene->facet_material[i]];
+            facets += !material->omitted && strcmp(cli_material_source(material), source[k]) == 0;
+        }
+        if (facets > 0) {
+            printf("  %-10s %lu facets: %s\n", "materials", (unsigned long)facets, words[k]);
+        }
+    }
+}
+
+void cli_run_verdict(const run_job *job)
+{
+    const lrcs_result *r = &job->result;
+    char bound[CLI_BOUND_SIZE];
+    if (r->budget.tessellation_m2 < 0.0) {
+        printf(
+            "verdict      shadows are proved, but not how far curved shapes are from their facets");
+    } else if (r->sigma_m2 > 0.0) {
+        cli_bound_text(r->bound_m2 / r->sigma_m2, 2, bound);
+        printf("verdict      geometry and shadows are proved to %s of sigma%s", bound,
+               r->bound_m2 > r->sigma_m2         ? ": a bound larger than sigma says little"
+               : r->bound_m2 > 0.1 * r->sigma_m2 ? ": coarse"
+                                                 : "");
+    } else {
+        cli_bound_text(r->bound_m2, 2, bound);
+        printf("verdict      geometry and shadows are proved: sigma is at most %s m2", bound);
+    }
+    if (r->estimate_m2 >= 0.0 && r->bound_m2 > 0.1 * r->sigma_m2) {
+        printf("; likely error\n             %.2g m2, an estimate", r->estimate_m2);
+    }
+    printf(".\n             Left open by the model:\n");
+    unit_say(job);
+    backs_say(job);
+    glint_say(job);
+    materials_say(job);
+}

@@ -1,0 +1,441 @@
+/* SPDX-License-Identifier: MIT */
+/* Where the rows of a sweep go. It decides what is on disk at every moment: rows in FILE.partial,
+   each complete before the next, with a checksum after the last of them, and FILE itself only when
+   it is whole; and what --resume makes of what it finds. A process holds FILE.lock for as long. */
+#include "cli/sweep/sweep.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define FILE_PERIOD 0.2 /* s: no more than this is lost with the process */
+
+static int path_refuse(const char *path, const char *what)
+{
+    fprintf(stderr, "lrcs: %s: cannot %s: %s\n", path, what, strerror(errno));
+    return CLI_FAILED;
+}
+
+/* ---- options ---- */
+
+int cli_file_read(const cli_args *args, sweep_file *file)
+{
+    static const char *const extension[] = {".csv", ".jsonl", ".npy"};
+    const char *path = cli_value(args, "o");
+    int lines = cli_value(args, "json") != NULL;
+    memset(file, 0, sizeof *file);
+    file->descriptor = file->lock = -1;
+    file->format = lines ? SWEEP_JSONL : SWEEP_CSV;
+    if (!path || strcmp(path, "-") == 0) {
+        return cli_value(args, "resume")
+                   ? cli_usage(args->command, "--resume needs -o FILE: it goes on with that file")
+                   : 0;
+    }
+    if (lines) {
+        return cli_usage(args->command, "--json is for standard output; -o FILE.jsonl writes it");
+    }
+    int found = -1;
+    for (int i = 0; i < 3; i++) {
+        found = cli_extension(path, extension[i]) ? i : found;
+    }
+    if (found < 0) {
+        return cli_usage(args->command, "-o: expected FILE.csv, FILE.jsonl or FILE.npy, found '%s'",
+                         path);
+    }
+    file->npy = found == SWEEP_NPY;
+    file->format = found == SWEEP_JSONL ? SWEEP_JSONL : SWEEP_CSV;
+    char *real = realpath(path, NULL); /* a link stays one */
+    size_t room = strlen(real ? real : path) + sizeof ".partial";
+    file->path = real ? real : strdup(path);
+    file->partial = malloc(room);
+    file->lock_path = malloc(room);
+    if (!file->path || !file->partial || !file->lock_path) {
+        return cli_out_of_memory();
+    }
+    snprintf(file->partial, room, "%s.partial", file->path);
+    snprintf(file->lock_path, room, "%s.lock", file->path);
+    return 0;
+}
+
+void cli_file_free(sweep_file *file)
+{
+    if (file->stream) {
+        fclose(file->stream);
+    }
+    if (file->path && file->descriptor >= 0) {
+        close(file->descriptor);
+    }
+    if (file->path) {
+        cli_lock_drop(file);
+    }
+    free(file->waiting);
+    free(file->path);
+    free(file->partial);
+    free(file->lock_path);
+    memset(file, 0, sizeof *file);
+    file->descriptor = file->lock = -1;
+}
+
+void cli_file_take(sweep_file *file, const sweep_row *row)
+{
+    cli_tally_add(&file->tally, row);
+    if (file->row) {
+        file->row[row->index][0] = row->sigma_m2;
+        file->row[row->index][1] = row->bound_m2;
+    }
+    file->next++;
+}
+
+/* ---- bytes on their way ---- */
+
+/* Rows are gathered in memory and handed over together. 0, or CLI_FAILED without memory. */
+static int waiting_begin(sweep_file *file)
+{
+    free(file->waiting);
+    file->waiting = NULL;
+    file->stream = open_memstream(&file->waiting, &file->waiting_size);
+    return file->stream ? 0 : cli_out_of_memory();
+}
+
+static int bytes_write(int descriptor, const char *bytes, size_t size, uint64_t at)
+{
+    while (size > 0) {
+        ssize_t done = pwrite(descriptor, bytes, size, (off_t)at);
+        if (done < 0 && errno != EINTR) {
+            return -1;
+        }
+        bytes += done > 0 ? done : 0;
+        size -= done > 0 ? (size_t)done : 0;
+        at += done > 0 ? (uint64_t)done : 0;
+    }
+    return 0;
+}
+
+static int stream_fault(const sweep_file *file, lrcs_host_error *error)
+{
+    snprintf(error->text, sizeof error->text, "%.900s: cannot write: %s",
+             file->path ? file->partial : "standard output", strerror(errno));
+    return LRCS_E_SYSTEM;
+}
+
+/* Hands over what is waiting: to standard output, with the checksum where `last`; or to the file,
+   where the checksum of all so far stands behind it, in one write, over the checksum of before,
+   which is never longer than what replaces it. Status: LRCS_OK; LRCS_E_SYSTEM. */
+static int waiting_flush(sweep_file *file, int last, lrcs_host_error *error)
+{
+    fflush(file->stream);
+    size_t rows = file->waiting_size;
+    file->sum = cli_sum_more(file->sum, file->waiting, rows);
+    if (file->path || last) {
+        cli_rows_sum(file->stream, file->format, file->sum);
+    }
+    int good = !ferror(file->stream) && fclose(file->stream) == 0;
+    file->stream = NULL;
+    if (good && file->path) {
+        good = bytes_write(file->descriptor, file->waiting, file->waiting_size, file->size) == 0;
+        file->size += rows;
+    } else if (good) {
+        good = fwrite(file->waiting, 1, file->waiting_size, stdout) == file->waiting_size &&
+               fflush(stdout) == 0;
+    }
+    if (!good) {
+        return stream_fault(file, error);
+    }
+    if (waiting_begin(file) != 0) {
+        snprintf(error->text, sizeof error->text, "out of memory");
+        return LRCS_E_SYSTEM;
+    }
+    return LRCS_OK;
+}
+
+/* ---- what is there already ---- */
+
+/* The head as it would be written, to be compared; freed by the caller, NULL without memory. */
+static char *head_bytes(int format, const sweep_head *head, const sweep_plan *plan, size_t *size)
+{
+    char *bytes = NULL;
+    FILE *out = open_memstream(&bytes, size);
+    if (!out) {
+        return NULL;
+    }
+    cli_rows_head(out, format, head, plan);
+    return fclose(out) == 0 ? bytes : NULL;
+}
+
+/* Takes up the rows of a file that begins with the right head. 0: they end in order, in a checksum
+   or a line cut short, and file->size and file->sum are what they amount to; 1: it is not of this
+   sweep and shard, nothing is said; CLI_FAILED, with a message: a row is damaged. */
+static int rows_recover(sweep_file *file, const char *path, const sweep_plan *plan,
+                        const lrcs_host_file *there, const char *head, size_t head_size,
+                        int *summed)
+{
+    sweep_text text;
+    sweep_row row;
+    const char *line;
+    size_t size;
+    const char *bytes = (const char *)there->bytes;
+    if (there->size < head_size || memcmp(bytes, head, head_size) != 0 ||
+        cli_text_open(bytes, there->size, &text) != 0) {
+        return 1;
+    }
+    const char *good = text.at;
+    int more;
+    while ((more = cli_text_next(&text, plan, &row, &line, &size)) == 1) {
+        if (row.index >= plan->end || (row.index != file->next && good == text.head + head_size)) {
+            return 1; /* of another shard */
+        }
+        if (row.index != file->next) {
+            fprintf(stderr, "lrcs: %s: line %llu: found row %llu, expected row %llu\n", path,
+                    (unsigned long long)text.line - 1, (unsigned long long)row.index,
+                    (unsigned long long)file->next);
+            return CLI_FAILED;
+        }
+        cli_file_take(file, &row);
+        good = line + size;
+    }
+    int end = more == 0 ? cli_text_end(&text) : -1;
+    if (end < 0) {
+        fprintf(stderr,
+                "lrcs: %s: is damaged: %s; remove the file, or what is wrong in it and all that "
+                "follows\n",
+                path, text.fault);
+        return CLI_FAILED;
+    }
+    *summed = end;
+    file->size = (uint64_t)(good - bytes);
+    file->sum = cli_sum_more(SWEEP_SUM_BEGIN, bytes, (size_t)(good - bytes));
+    return 0;
+}
+
+/* Goes on with FILE.partial: what follows the last whole row is written over. */
+static int partial_continue(sweep_file *file, const sweep_plan *plan, const char *head,
+                            size_t head_size)
+{
+    lrcs_host_error error;
+    lrcs_host_file there = {NULL, 0};
+    int summed;
+    if (lrcs_host_file_read(file->partial, &there, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    int torn = there.size < head_size && memcmp(there.bytes, head, there.size) == 0;
+    int code = torn ? 0 : rows_recover(file, file->partial, plan, &there, head, head_size, &summed);
+    lrcs_host_file_free(&there);
+    if (code == 1) {
+        fprintf(stderr,
+                "lrcs: %s: is of another sweep (scene, options, shard or version): remove it, or "
+                "give the same\n",
+                file->partial);
+        return CLI_FAILED;
+    }
+    if (code != 0) {
+        return code;
+    }
+    file->descriptor = open(file->partial, O_WRONLY | O_CLOEXEC);
+    if (file->descriptor < 0 || ftruncate(file->descriptor, (off_t)file->size) != 0) {
+        return path_refuse(file->partial, "continue");
+    }
+    if (torn) {
+        fwrite(head, 1, head_size, file->stream);
+    }
+    return 0;
+}
+
+/* FILE is there, and --resume never replaces it: 0 where it is whole and of this very sweep, its
+   rows taken up; else CLI_FAILED. */
+static int whole_recover(sweep_file *file, const sweep_plan *plan, const char *const head[2],
+                         const size_t size[2])
+{
+    lrcs_host_error error;
+    lrcs_host_file there;
+    int summed = 0;
+    int code;
+    if (file->npy) {
+        code = cli_map_recover(file, plan, head, size) == 0 ? 0 : 1;
+        summed = 1;
+    } else if (lrcs_host_file_read(file->path, &there, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    } else {
+        int format = file->format == SWEEP_JSONL;
+        code = rows_recover(file, file->path, plan, &there, head[format], size[format], &summed);
+        lrcs_host_file_free(&there);
+    }
+    if (code == 1) {
+        fprintf(stderr,
+                "lrcs: %s: is not of this sweep (scene, options, shard or version)%s: --resume "
+                "replaces no whole file: remove it, or give another name\n",
+                file->path, file->npy ? ", or is not what its .head says" : "");
+        return CLI_FAILED;
+    }
+    if (code == 0 && (!summed || file->next != plan->end)) {
+        fprintf(stderr, "lrcs: %s: is damaged: it holds %llu of %llu rows%s: remove it\n",
+                file->path, (unsigned long long)(file->next - plan->first),
+                (unsigned long long)(plan->end - plan->first), summed ? "" : " and no checksum");
+        return CLI_FAILED;
+    }
+    return code;
+}
+
+/* A new FILE.partial; one that is there may be hours of work. */
+static int partial_begin(sweep_file *file, const char *head, size_t head_size)
+{
+    file->descriptor = open(file->partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file->descriptor < 0 && errno == EEXIST) {
+        fprintf(stderr,
+                "lrcs: %s: is there from a sweep that was stopped: --resume goes on with "
+                "it; or remove it\n",
+                file->partial);
+        return CLI_FAILED;
+    }
+    if (file->descriptor < 0) {
+        return path_refuse(file->partial, "write");
+    }
+    fwrite(head, 1, head_size, file->stream);
+    return 0;
+}
+
+int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head,
+                  const sweep_plan *plan)
+{
+    struct stat about;
+    char *text[2] = {NULL, NULL};
+    size_t size[2] = {0, 0};
+    int resume = cli_value(args, "resume") != NULL;
+    file->next = plan->first;
+    file->sum = SWEEP_SUM_BEGIN;
+    int code = waiting_begin(file);
+    if (code == 0 && !file->path) {
+        cli_rows_head(file->stream, file->format, head, plan);
+        return 0;
+    }
+    code = code ? code : cli_lock_take(file);
+    for (int i = 0; i < 2 && code == 0; i++) {
+        text[i] = head_bytes(i == 1 ? SWEEP_JSONL : SWEEP_CSV, head, plan, &size[i]);
+        code = text[i] ? 0 : cli_out_of_memory();
+    }
+    int format = file->format == SWEEP_JSONL;
+    if (code != 0 || !text[0] || !text[1]) {
+        code = CLI_FAILED; /* said already */
+    } else if (resume && stat(file->path, &about) == 0) {
+        code = whole_recover(file, plan, (const char *const *)text, size);
+    } else if (resume && stat(file->partial, &about) == 0) {
+        code = partial_continue(file, plan, text[format], size[format]);
+    } else {
+        code = partial_begin(file, text[format], size[format]);
+    }
+    free(text[0]);
+    free(text[1]);
+    return code;
+}
+
+/* ---- rows, and the end ---- */
+
+int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
+                 lrcs_host_error *error)
+{
+    cli_rows_put(file->stream, file->format, plan, row);
+    cli_file_take(file, row);
+    double now = cli_seconds();
+    if (now - file->flushed < FILE_PERIOD) {
+        return LRCS_OK;
+    }
+    file->flushed = now;
+    return waiting_flush(file, 0, error);
+}
+
+/* The rows of FILE.npy.partial once more. */
+typedef struct map_rows {
+    const sweep_plan *plan;
+    sweep_text text;
+} map_rows;
+
+static int map_next(void *context, sweep_row *row)
+{
+    map_rows *rows = context;
+    const char *line;
+    size_t size;
+    int more = cli_text_next(&rows->text, rows->plan, row, &line, &size);
+    if (more == 0 && cli_text_end(&rows->text) != 1) {
+        more = -1;
+    }
+    if (more < 0) {
+        fprintf(stderr, "lrcs: the rows of the map were changed: %s\n", rows->text.fault);
+    }
+    return more;
+}
+
+static int map_make(const sweep_file *file, const sweep_plan *plan)
+{
+    lrcs_host_error error;
+    lrcs_host_file bytes;
+    map_rows rows = {.plan = plan};
+    if (lrcs_host_file_read(file->partial, &bytes, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    int code = CLI_FAILED;
+    if (cli_text_open((const char *)bytes.bytes, bytes.size, &rows.text) == 0) {
+        const sweep_text head = rows.text;
+        code = cli_map_write(file->path, &head, map_next, &rows);
+    }
+    lrcs_host_file_free(&bytes);
+    return code ? code : remove(file->partial) == 0 ? 0 : path_refuse(file->partial, "remove");
+}
+
+/* Is FILE.partial still the file that was written, byte for byte as far as its size tells? */
+static int partial_is_ours(const sweep_file *file)
+{
+    struct stat held;
+    struct stat named;
+    return fstat(file->descriptor, &held) == 0 && stat(file->partial, &named) == 0 &&
+           held.st_dev == named.st_dev && held.st_ino == named.st_ino &&
+           (uint64_t)held.st_size > file->size && (uint64_t)held.st_size <= file->size + 64;
+}
+
+/* With rows in the file, all of them or some. */
+static int partial_close(sweep_file *file, const sweep_plan *plan, int all)
+{
+    int ours = partial_is_ours(file);
+    int closed = close(file->descriptor);
+    file->descriptor = -1;
+    if (closed != 0) {
+        return path_refuse(file->partial, "write");
+    }
+    if (!ours) {
+        fprintf(stderr,
+                "lrcs: %s: was changed or removed by another program while it was written: it does "
+                "not become %s\n",
+                file->partial, file->path);
+        return CLI_FAILED;
+    }
+    if (!all) {
+        return 0;
+    }
+    if (file->npy) {
+        return map_make(file, plan);
+    }
+    return rename(file->partial, file->path) == 0 ? 0 : path_refuse(file->path, "write");
+}
+
+int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
+{
+    lrcs_host_error error;
+    int whole = file->path && file->descriptor < 0; /* FILE was there already */
+    if (!file->stream || whole) {
+        return 0;
+    }
+    if (all && cli_plan_has_mean(plan) && file->tally.rows == plan->rows) {
+        cli_rows_mean(file->stream, file->format, &file->tally);
+    }
+    if (waiting_flush(file, all, &error) != LRCS_OK) {
+        return file->path ? cli_failed(&error) : 0; /* the tool's end looks at standard output */
+    }
+    int code = 0;
+    if (file->path && !all && file->next == plan->first) {
+        code = remove(file->partial) == 0 ? 0 : path_refuse(file->partial, "remove");
+    } else if (file->path) {
+        code = partial_close(file, plan, all);
+    }
+    return code;
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* What the first line of a sweep's file says: all that its rows depend on, and nothing that differs
+   between machines, threads or shards. Files that begin alike belong together. */
+#include "cli/sweep/sweep.h"
+
+#include <string.h>
+
+/* An option given again stands beside the first. Returns 0 where its text has no room. */
+static int head_add(sweep_head *head, const char *key, const char *text)
+{
+    const size_t room = sizeof head->option[0].text;
+    uint32_t at = 0;
+    while (at < head->options && strcmp(head->option[at].key, key) != 0) {
+        at++;
+    }
+    char *end = head->option[at].text + strlen(head->option[at].text);
+    const char *between = at < head->options ? " and " : "";
+    head->option[at].key = key;
+    head->options += at == head->options;
+    size_t left = room - (size_t)(end - head->option[at].text);
+    int size = snprintf(end, left, "%s%s", between, text);
+    for (; *end; end++) {
+        *end = (unsigned char)*end < 0x20 || *end == 0x7f ? '?' : *end;
+    }
+    return size >= 0 && (size_t)size < left;
+}
+
+/* Options of these names as they were given. 0 or CLI_USAGE. */
+static int head_given(const cli_args *args, const char *const *name, sweep_head *head)
+{
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        for (size_t k = 0; name[k]; k++) {
+            if (strcmp(given->name, name[k]) == 0 &&
+                !head_add(head, name[k], given->value ? given->value : "yes")) {
+                return cli_usage(args->command, "--%s: too long", name[k]);
+            }
+        }
+    }
+    return 0;
+}
+
+/* What rows depend on beside the scene, which its hash stands for. */
+static int head_options(const cli_args *args, const sweep_plan *plan,
+                        const lrcs_run_options *options, sweep_head *head)
+{
+    static const char *const varied[] = {"az",    "el",         "rotate",    "sphere",
+                                         "joint", "vary",       "direction", "azel",
+                                         "euler", "quaternion", NULL};
+    char text[64];
+    int code = head_given(args, varied, head);
+    if (plan->kind == SWEEP_TRACK) {
+        snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)plan->track.hash);
+        head_add(head, "poses", text);
+    }
+    lrcs_host_number_text(options->tolerance, text);
+    head_add(head, "tolerance", text);
+    if (options->accept != LRCS_ACCEPT_BOUND) {
+        head_add(head, "accept", lrcs_accept_text(options->accept));
+    }
+    head_add(head, "method", lrcs_method_text(options->method));
+    snprintf(text, sizeof text, "%lu", (unsigned long)options->resolution);
+    head_add(head, "resolution", options->resolution ? text : "auto");
+    return code;
+}
+
+/* Where the scene comes from: files with their hashes, by their last names, which are the same
+   wherever they lie; and what the command line made of them. */
+static int head_scene(const cli_args *args, const lrcs_host_scene *scene, sweep_head *head)
+{
+    static const char *const told[] = {"unit", "material", "two-sided", "keep-transparent", NULL};
+    char text[400];
+    head_add(head, "normals", lrcs_normals_text(scene->scene.normals));
+    head_add(head, "title", cli_base_name(cli_scene_title(args, scene)));
+    for (const lrcs_host_input *input = scene->input; input; input = input->next) {
+        snprintf(text, sizeof text, "%.300s fnv1a:%016llx", cli_base_name(input->path),
+                 (unsigned long long)input->hash);
+        if (!head_add(head, "files", text)) {
+            break; /* the scene's hash stands for all of them */
+        }
+    }
+    return head_given(args, told, head);
+}
+
+int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
+                  const lrcs_host_scene *scene, sweep_head *head)
+{
+    memset(head, 0, sizeof *head);
+    head->scene_hash = lrcs_scene_hash(&scene->scene);
+    head->rows = plan->rows;
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        if (plan->axis[i].range.count > 1) {
+            head->shape[head->dimensions++] = plan->axis[i].range.count;
+        }
+    }
+    if (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK || head->dimensions == 0) {
+        head->shape[head->dimensions++] = plan->kind == SWEEP_FIXED ? 1 : plan->poses;
+    }
+    int code = head_options(args, plan, options, head);
+    return code ? code : head_scene(args, scene, head);
+}

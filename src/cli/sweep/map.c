@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/* A sweep as a NumPy array, FILE.npy, and what says of which sweep it is, FILE.npy.head: the first
+   lines of the rows, a checksum of the map and how its rows fared. It decides the bytes of both,
+   and whether a map that is there is what a sweep would make. */
+#include "cli/sweep/sweep.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define MAP_HEAD ".head"
+
+static void npy_double(FILE *out, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    for (int i = 0; i < 8; i++) {
+        putc((int)(bits >> (8 * i) & 0xff), out);
+    }
+}
+
+/* The format: numpy.org/doc/stable/reference/generated/numpy.lib.format.html, version 1.0. */
+static void npy_head(FILE *out, const sweep_text *text)
+{
+    char head[512];
+    int used = snprintf(head, sizeof head, "{'descr': '<f8', 'fortran_order': False, 'shape': (");
+    for (uint32_t i = 0; i < text->dimensions; i++) {
+        used += snprintf(head + used, sizeof head - (size_t)used, "%llu, ",
+                         (unsigned long long)text->shape[i]);
+    }
+    used += snprintf(head + used, sizeof head - (size_t)used, "%d), }", text->flagged ? 3 : 2);
+    int whole = (10 + used + 1 + 63) / 64 * 64;
+    fprintf(out, "%cNUMPY%c%c%c%c%s%*s\n", 0x93, 1, 0, (whole - 10) & 0xff, (whole - 10) >> 8, head,
+            whole - 11 - used, "");
+}
+
+static void npy_row(FILE *out, const sweep_text *text, const sweep_row *row)
+{
+    npy_double(out, row->sigma_m2);
+    npy_double(out, row->bound_m2);
+    if (text->flagged) {
+        npy_double(out, row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE ? 1.0
+                        : row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED  ? 2.0
+                        : row->flags & LRCS_FLAG_TOLERANCE_NOT_MET  ? -1.0
+                                                                    : 0.0);
+    }
+}
+
+/* ---- the head beside it ---- */
+
+static void map_sum(FILE *out, const lrcs_host_file *map, const sweep_tally *tally)
+{
+    fprintf(out, "# map=fnv1a:%016llx; missed=%llu; starved=%llu; estimated=%llu; unjudged=%llu\n",
+            (unsigned long long)cli_sum_more(SWEEP_SUM_BEGIN, map->bytes, map->size),
+            (unsigned long long)tally->missed, (unsigned long long)tally->starved,
+            (unsigned long long)tally->estimated, (unsigned long long)tally->unjudged);
+}
+
+int cli_map_write(const char *path, const sweep_text *text, sweep_next *next, void *context)
+{
+    lrcs_host_error error;
+    lrcs_host_output map;
+    lrcs_host_output beside;
+    lrcs_host_file made = {NULL, 0};
+    sweep_tally tally = {0};
+    sweep_row row;
+    char head[4096];
+    int more = 1;
+    if ((size_t)snprintf(head, sizeof head, "%s" MAP_HEAD, path) >= sizeof head ||
+        lrcs_host_output_open(path, &map, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    /* 1. The map, under a temporary name. */
+    npy_head(map.stream, text);
+    while ((more = next(context, &row)) == 1) {
+        cli_tally_add(&tally, &row);
+        npy_row(map.stream, text, &row);
+    }
+    int status = more == 0 ? LRCS_OK : LRCS_E_SYNTAX;
+    /* 2. What it amounts to, and its head; a device or standard output has none. */
+    if (status == LRCS_OK && map.temporary && fflush(map.stream) == 0) {
+        status = lrcs_host_file_read(map.temporary, &made, &error);
+        if (status == LRCS_OK) {
+            status = lrcs_host_output_open(head, &beside, &error);
+        }
+        if (status == LRCS_OK) {
+            fwrite(text->head, 1, text->head_size, beside.stream);
+            map_sum(beside.stream, &made, &tally);
+            status = lrcs_host_output_close(&beside, 1, &error);
+        }
+        lrcs_host_file_free(&made);
+    }
+    /* 3. The map under its own name. */
+    int closed = lrcs_host_output_close(&map, status == LRCS_OK, status == LRCS_OK ? &error : NULL);
+    if (more != 0) {
+        return CLI_FAILED;
+    }
+    status = status == LRCS_OK ? closed : status;
+    return status == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+/* ---- a map that is there ---- */
+
+static double double_at(const unsigned char *bytes)
+{
+    uint64_t bits = 0;
+    double value;
+    for (int i = 0; i < 8; i++) {
+        bits |= (uint64_t)bytes[i] << (8 * i);
+    }
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* The last line of a head: counts of rows that no map tells. 0, or -1 where it is none, or not that
+   of these bytes. */
+static int map_tally_read(const lrcs_host_file *head, size_t begin, const lrcs_host_file *map,
+                          sweep_tally *tally)
+{
+    static const char *const key[] = {"; missed=", "; starved=", "; estimated=", "; unjudged="};
+    uint64_t *count[] = {&tally->missed, &tally->starved, &tally->estimated, &tally->unjudged};
+    char line[200] = "";
+    char expected[200] = "";
+    size_t size = head->size - begin;
+    memcpy(line, head->bytes + begin, size < sizeof line ? size : 0);
+    for (int i = 0; i < 4; i++) {
+        const char *at = strstr(line, key[i]);
+        *count[i] = at ? strtoull(at + strlen(key[i]), NULL, 10) : 0;
+    }
+    FILE *out = fmemopen(expected, sizeof expected, "w");
+    if (!out) {
+        return -1;
+    }
+    map_sum(out, map, tally);
+    fclose(out);
+    return strcmp(line, expected) == 0 ? 0 : -1;
+}
+
+int cli_map_recover(sweep_file *file, const sweep_plan *plan, const char *const head[2],
+                    const size_t head_size[2])
+{
+    lrcs_host_file map = {NULL, 0};
+    lrcs_host_file beside = {NULL, 0};
+    sweep_tally tally = {0};
+    char path[4096];
+    int same = -1;
+    if ((size_t)snprintf(path, sizeof path, "%s" MAP_HEAD, file->path) >= sizeof path ||
+        lrcs_host_file_read(path, &beside, NULL) != LRCS_OK ||
+        lrcs_host_file_read(file->path, &map, NULL) != LRCS_OK) {
+        lrcs_host_file_free(&beside);
+        return -1;
+    }
+    for (int i = 0; i < 2 && same != 0; i++) { /* a merged map's rows were either */
+        same = beside.size > head_size[i] && memcmp(beside.bytes, head[i], head_size[i]) == 0
+                   ? map_tally_read(&beside, head_size[i], &map, &tally)
+                   : -1;
+    }
+    size_t skip = map.size > 10 ? 10u + map.bytes[8] + 256u * map.bytes[9] : map.size;
+    size_t room = map.size > skip ? (map.size - skip) / plan->rows : 0;
+    same = room == 16 || room == 24 ? same : -1;
+    for (uint64_t i = 0; same == 0 && i < plan->rows; i++) {
+        const unsigned char *at = map.bytes + skip + i * room;
+        sweep_row row = {.index = i, .sigma_m2 = double_at(at), .bound_m2 = double_at(at + 8)};
+        cli_file_take(file, &row);
+    }
+    if (same == 0) {
+        file->tally.missed = tally.missed;
+        file->tally.starved = tally.starved;
+        file->tally.estimated = tally.estimated;
+        file->tally.unjudged = tally.unjudged;
+    }
+    lrcs_host_file_free(&map);
+    lrcs_host_file_free(&beside);
+    return same;
+}

@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: MIT */
+/* Which rows a sweep has: the command line's axes, and from the number of a row to its values and
+   its pose. It decides their order; how a scene changes along its axes is sweep_scene's. */
+#include "cli/sweep/sweep.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PLAN_ROWS ((uint64_t)1 << 53) /* more than anyone waits for */
+
+/* ---- axes ---- */
+
+int cli_axis_add(const cli_args *args, sweep_plan *plan, const char *option, const char *name,
+                 const char *text, size_t size)
+{
+    if (plan->axes == SWEEP_AXES) {
+        return cli_usage(args->command, "at most %d axes", SWEEP_AXES);
+    }
+    sweep_axis *axis = &plan->axis[plan->axes];
+    const char *fault = cli_range_read(text, size, &axis->range);
+    if (fault) {
+        return cli_usage(args->command, "--%s: %s, found '%.*s'", option, fault, (int)size, text);
+    }
+    axis->option = option;
+    snprintf(axis->name, sizeof axis->name, "%s", name);
+    plan->axes++;
+    return 0;
+}
+
+/* --az and --el in the order given; the one not given stays 0. */
+static int azel_axes(const cli_args *args, sweep_plan *plan)
+{
+    int code = 0;
+    plan->kind = SWEEP_AZEL;
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        const cli_given *one = &args->given[i];
+        if (strcmp(one->name, "az") == 0 || strcmp(one->name, "el") == 0) {
+            code = cli_axis_add(args, plan, one->name, one->name[0] == 'a' ? "az_deg" : "el_deg",
+                                one->value, strlen(one->value));
+        }
+    }
+    if (code == 0 && !cli_value(args, "az")) {
+        code = cli_axis_add(args, plan, "az", "az_deg", "0", 1);
+    }
+    if (code == 0 && !cli_value(args, "el")) {
+        code = cli_axis_add(args, plan, "el", "el_deg", "0", 1);
+    }
+    return code;
+}
+
+/* SEQ:a,b,c where each may be a range. */
+static int euler_axes(const cli_args *args, sweep_plan *plan)
+{
+    static const char *const name[3] = {"euler_a_deg", "euler_b_deg", "euler_c_deg"};
+    const char *text = cli_value(args, "euler");
+    const double none[3] = {0.0, 0.0, 0.0};
+    lrcs_pose pose;
+    int code = 0;
+    plan->kind = SWEEP_EULER;
+    if (strlen(text) > 3 && text[3] == ':') {
+        memcpy(plan->sequence, text, 3);
+    }
+    if (lrcs_pose_from_euler(plan->sequence, none, &pose) != LRCS_OK) {
+        return cli_usage(args->command,
+                         "--euler: expected SEQ:a,b,c with SEQ three of XYZ (intrinsic) or of xyz "
+                         "(extrinsic), neighbours different, found '%s'",
+                         text);
+    }
+    const char *at = text + 4;
+    for (int i = 0; i < 3 && code == 0; i++) {
+        size_t size = strcspn(at, ",");
+        if ((at[size] == '\0') != (i == 2)) {
+            return cli_usage(args->command, "--euler: expected three angles or ranges, found '%s'",
+                             text);
+        }
+        code = cli_axis_add(args, plan, "euler", name[i], at, size);
+        at += size + 1;
+    }
+    return code;
+}
+
+/* x:RANGE, y:, z: or u,v,w:RANGE, an axis of the body. */
+static int rotate_axes(const cli_args *args, sweep_plan *plan)
+{
+    const char *text = cli_value(args, "rotate");
+    size_t size = strcspn(text, ":");
+    char axis[128] = "";
+    lrcs_pose pose = lrcs_pose_default();
+    plan->kind = SWEEP_ROTATE;
+    if (size < sizeof axis) {
+        memcpy(axis, text, size);
+    }
+    if (size == 1 && axis[0] >= 'x' && axis[0] <= 'z') {
+        plan->about[axis[0] - 'x'] = 1.0;
+    } else if (cli_list(axis, plan->about, 3) != 0 ||
+               lrcs_host_pose_turn(&pose, plan->about, 0.0, &pose) != LRCS_OK) {
+        return cli_usage(args->command,
+                         "--rotate: expected x, y, z or an axis u,v,w of the body, then "
+                         ":A:B:STEP in degrees, found '%s'",
+                         text);
+    }
+    const char *range = text[size] ? text + size + 1 : text + size;
+    int code = cli_pose_read(args, &plan->base);
+    return code ? code : cli_axis_add(args, plan, "rotate", "rotate_deg", range, strlen(range));
+}
+
+/* ---- which kind ---- */
+
+/* Two ways to say where the laser stands are one too many; a turn starts from a pose. */
+static int ways_check(const cli_args *args)
+{
+    static const struct {
+        const char *name;
+        int way;
+    } given[] = {{"az", 1},        {"el", 1},   {"rotate", 2}, {"sphere", 3},    {"poses", 4},
+                 {"direction", 5}, {"azel", 6}, {"euler", 7},  {"quaternion", 8}};
+    const char *first = NULL;
+    int way = 0;
+    for (size_t i = 0; i < sizeof given / sizeof given[0]; i++) {
+        int turned = way == 2 && given[i].way >= 5; /* which cli_pose_read looks at */
+        if (!cli_value(args, given[i].name) || given[i].way == way || turned) {
+            continue;
+        }
+        if (first) {
+            return cli_usage(args->command, "--%s and --%s both give the poses: give one", first,
+                             given[i].name);
+        }
+        first = given[i].name;
+        way = given[i].way;
+    }
+    return 0;
+}
+
+static int sphere_read(const cli_args *args, sweep_plan *plan)
+{
+    uint32_t points = 0;
+    int code = cli_whole(args, "sphere", 1.0, 4e9, &points);
+    plan->kind = SWEEP_SPHERE;
+    plan->poses = points;
+    return code;
+}
+
+static int track_poses(const cli_args *args, sweep_plan *plan)
+{
+    int code = cli_track_read(cli_value(args, "poses"), &plan->track);
+    plan->kind = SWEEP_TRACK;
+    plan->poses = plan->track.count;
+    return code;
+}
+
+static int poses_read(const cli_args *args, sweep_plan *plan)
+{
+    plan->poses = 1;
+    plan->base = lrcs_pose_default();
+    if (cli_value(args, "az") || cli_value(args, "el")) {
+        return azel_axes(args, plan);
+    }
+    if (cli_value(args, "rotate")) {
+        return rotate_axes(args, plan);
+    }
+    if (cli_value(args, "sphere")) {
+        return sphere_read(args, plan);
+    }
+    if (cli_value(args, "poses")) {
+        return track_poses(args, plan);
+    }
+    if (cli_value(args, "euler")) {
+        return euler_axes(args, plan);
+    }
+    plan->kind = SWEEP_FIXED;
+    return cli_pose_read(args, &plan->base);
+}
+
+/* ---- rows ---- */
+
+static int rows_count(const cli_args *args, sweep_plan *plan)
+{
+    plan->rows = plan->poses;
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        if (plan->axis[i].range.count > PLAN_ROWS / plan->rows) {
+            return cli_usage(args->command, "too many poses: more than 2^53");
+        }
+        plan->rows *= plan->axis[i].range.count;
+        plan->poses *= i >= plan->scene_axes ? plan->axis[i].range.count : 1;
+    }
+    if (plan->kind == SWEEP_FIXED && plan->axes == 0) {
+        return cli_usage(args->command,
+                         "nothing varies: give --az A:B:STEP, --el, --euler, --rotate, --sphere N, "
+                         "--poses FILE.csv, --joint or --vary");
+    }
+    plan->first = 0;
+    plan->end = plan->rows;
+    return 0;
+}
+
+static void columns_name(sweep_plan *plan)
+{
+    static const char *const direction[3] = {"x", "y", "z"};
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        plan->column[plan->columns++] = plan->axis[i].name;
+    }
+    if (plan->kind == SWEEP_TRACK) {
+        plan->column[plan->columns++] = "time";
+    }
+    for (int k = 0; k < 3 && (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK); k++) {
+        plan->column[plan->columns++] = direction[k];
+    }
+}
+
+/* K/N: the K-th of N nearly equal runs of rows. */
+static int shard_read(const cli_args *args, sweep_plan *plan)
+{
+    const char *text = cli_value(args, "shard");
+    double part[2];
+    size_t size = text ? strcspn(text, "/") : 0;
+    if (!text) {
+        return 0;
+    }
+    if (!text[size] || lrcs_host_number_read(text, size, &part[0]) != LRCS_OK ||
+        lrcs_host_number_read(text + size + 1, strlen(text + size + 1), &part[1]) != LRCS_OK ||
+        !(part[0] >= 1.0 && part[0] <= part[1] && part[1] <= 1e6) ||
+        part[0] != (double)(uint32_t)part[0] || part[1] != (double)(uint32_t)part[1]) {
+        return cli_usage(args->command, "--shard: expected K/N, 1 <= K <= N <= 1000000, found '%s'",
+                         text);
+    }
+    uint64_t shards = (uint64_t)part[1];
+    uint64_t k = (uint64_t)part[0];
+    uint64_t whole = plan->rows / shards;
+    uint64_t rest = plan->rows % shards;
+    plan->first = whole * (k - 1) + rest * (k - 1) / shards;
+    plan->end = whole * k + rest * k / shards;
+    return 0;
+}
+
+int cli_plan_read(const cli_args *args, sweep_plan *plan)
+{
+    memset(plan, 0, sizeof *plan);
+    int code = ways_check(args);
+    code = code ? code : cli_scene_axes_read(args, plan);
+    code = code ? code : poses_read(args, plan);
+    code = code ? code : rows_count(args, plan);
+    code = code ? code : shard_read(args, plan);
+    columns_name(plan);
+    return code;
+}
+
+void cli_plan_free(sweep_plan *plan)
+{
+    free(plan->track.row);
+    plan->track.row = NULL;
+}
+
+int cli_plan_has_mean(const sweep_plan *plan)
+{
+    return plan->kind == SWEEP_SPHERE && plan->rows == plan->poses;
+}
+
+/* ---- one row ---- */
+
+uint64_t cli_plan_place(const sweep_plan *plan, uint64_t row, uint32_t axis)
+{
+    uint64_t inner = plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK ? plan->poses : 1;
+    for (uint32_t i = plan->axes; i-- > axis + 1;) {
+        inner *= plan->axis[i].range.count;
+    }
+    return row / inner % plan->axis[axis].range.count;
+}
+
+/* Point i of a spherical Fibonacci lattice of N: z = 1 - (2 i + 1) / N, the azimuth a multiple of
+   the golden section of a turn, taken modulo 1 in whole numbers (2^64 / phi). Source: R. Swinbank,
+   R. J. Purser, Q. J. R. Meteorol. Soc. 132 (2006) 1769. */
+static void sphere_point(uint64_t i, uint64_t count, double direction[3])
+{
+    uint64_t turn = i * 0x9e3779b97f4a7c15u;
+    lrcs_pose around = lrcs_pose_default();
+    double n = (double)count;
+    double z = (n - 1.0 - 2.0 * (double)i) / n;
+    double level = sqrt((1.0 - z) * (1.0 + z));
+    lrcs_pose_from_azel(360.0 * ((double)(turn >> 11) * 0x1p-53), 0.0, &around);
+    direction[0] = level * around.direction[0];
+    direction[1] = level * around.direction[1];
+    direction[2] = z;
+}
+
+static void axes_values(const sweep_plan *plan, uint64_t row, double value[SWEEP_COLUMNS])
+{
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        value[i] = cli_range_at(&plan->axis[i].range, cli_plan_place(plan, row, i));
+    }
+}
+
+int cli_plan_pose(const sweep_plan *plan, uint64_t row, lrcs_pose *pose)
+{
+    double value[SWEEP_COLUMNS];
+    const double *v = value + plan->scene_axes;
+    uint64_t at = row % plan->poses;
+    if (plan->kind == SWEEP_FIXED) {
+        *pose = plan->base;
+        return LRCS_OK;
+    }
+    if (plan->kind == SWEEP_TRACK) {
+        const double *given = plan->track.row[at] + 1;
+        return plan->track.quaternions ? lrcs_pose_from_quaternion(given, pose)
+                                       : lrcs_pose_from_direction(given, pose);
+    }
+    if (plan->kind == SWEEP_SPHERE) {
+        double direction[3];
+        sphere_point(at, plan->poses, direction);
+        return lrcs_pose_from_direction(direction, pose);
+    }
+    axes_values(plan, row, value);
+    if (plan->kind == SWEEP_AZEL) {
+        int swapped = plan->axis[plan->scene_axes].option[0] == 'e';
+        return lrcs_pose_from_azel(v[swapped], v[!swapped], pose);
+    }
+    return plan->kind == SWEEP_EULER ? lrcs_pose_from_euler(plan->sequence, v, pose)
+                                     : lrcs_host_pose_turn(&plan->base, plan->about, v[0], pose);
+}
+
+void cli_plan_values(const sweep_plan *plan, uint64_t row, double value[SWEEP_COLUMNS])
+{
+    uint32_t used = plan->axes;
+    lrcs_pose pose = lrcs_pose_default();
+    axes_values(plan, row, value);
+    if (plan->kind == SWEEP_TRACK) {
+        value[used++] = plan->track.row[row % plan->poses][0];
+    }
+    if (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK) {
+        cli_plan_pose(plan, row, &pose);
+        for (int k = 0; k < 3; k++) {
+            value[used++] = pose.R[2][k];
+        }
+    }
+}

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: MIT */
+/* How rows look: CSV with '#' before what is no row, or JSON lines. It decides their bytes, which
+   depend on nothing but the sweep and its results; where they go is sweep_file's. */
+#include "cli/sweep/sweep.h"
+
+#include <math.h>
+#include <string.h>
+
+void cli_tally_add(sweep_tally *tally, const sweep_row *row)
+{
+    double off = row->sigma_m2 - tally->mean;
+    tally->rows++;
+    tally->mean += off / (double)tally->rows; /* B. P. Welford, Technometrics 4 (1962) 419 */
+    tally->square += off * (row->sigma_m2 - tally->mean);
+    tally->bound += row->bound_m2;
+    tally->missed += (row->flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0;
+    tally->estimated += (row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) != 0;
+    tally->unjudged += (row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) != 0;
+    tally->starved += (row->flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
+}
+
+double cli_tally_error(const sweep_tally *tally)
+{
+    double n = (double)tally->rows;
+    return tally->rows > 1 ? sqrt(tally->square / (n - 1.0) / n) : (double)NAN;
+}
+
+static void number_put(FILE *out, const char *before, double value)
+{
+    char text[LRCS_HOST_NUMBER_SIZE];
+    lrcs_host_number_text(value, text);
+    fprintf(out, "%s%s", before, isfinite(value) ? text : "");
+}
+
+/* ---- CSV ---- */
+
+static void csv_field(FILE *out, const char *text)
+{
+    int quoted = strpbrk(text, ",\"") != NULL;
+    if (quoted) {
+        putc('"', out);
+    }
+    for (; *text; text++) {
+        if (*text == '"') {
+            putc('"', out);
+        }
+        putc(*text, out);
+    }
+    if (quoted) {
+        putc('"', out);
+    }
+}
+
+static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
+{
+    fprintf(out, "# lrcs %s sweep; scene_hash=%016llx; rows=%llu; shape=", lrcs_version(),
+            (unsigned long long)head->scene_hash, (unsigned long long)head->rows);
+    for (uint32_t i = 0; i < head->dimensions; i++) {
+        fprintf(out, "%s%llu", i > 0 ? "x" : "", (unsigned long long)head->shape[i]);
+    }
+    for (uint32_t i = 0; i < head->options; i++) {
+        fprintf(out, "; %s=%s", head->option[i].key, head->option[i].text);
+    }
+    fputs("\nindex", out);
+    for (uint32_t i = 0; i < plan->columns; i++) {
+        putc(',', out);
+        csv_field(out, plan->column[i]);
+    }
+    fputs(",sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2,flags\n", out);
+}
+
+static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
+{
+    const char *before = ",";
+    fprintf(out, "%llu", (unsigned long long)row->index);
+    for (uint32_t i = 0; i < plan->columns; i++) {
+        number_put(out, ",", row->value[i]);
+    }
+    number_put(out, ",", row->sigma_m2);
+    number_put(out, ",", row->sigma_m2 > 0.0 ? cli_dbsm(row->sigma_m2) : (double)NAN);
+    number_put(out, ",", row->bound_m2);
+    number_put(out, ",", row->sigma_glint_m2);
+    number_put(out, ",", row->sigma_diffuse_m2);
+    for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
+        if (bits & 1u) {
+            fprintf(out, "%s%s", before, lrcs_flag_text((int)bit));
+            before = " ";
+        }
+    }
+    fputs(row->flags ? "\n" : ",\n", out);
+}
+
+/* ---- JSON lines ---- */
+
+static void jsonl_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
+{
+    char hash[17];
+    lrcs_host_json json = lrcs_host_json_make(out);
+    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)head->scene_hash);
+    lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_text(&json, "lrcs", "sweep");
+    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
+    lrcs_host_json_text(&json, "version", lrcs_version());
+    lrcs_host_json_text(&json, "scene_hash", hash);
+    lrcs_host_json_count(&json, "rows", head->rows);
+    lrcs_host_json_begin(&json, "shape", LRCS_HOST_ROW_ARRAY);
+    for (uint32_t i = 0; i < head->dimensions; i++) {
+        lrcs_host_json_count(&json, NULL, head->shape[i]);
+    }
+    lrcs_host_json_end(&json);
+    lrcs_host_json_begin(&json, "columns", LRCS_HOST_ROW_ARRAY);
+    for (uint32_t i = 0; i < plan->columns; i++) {
+        lrcs_host_json_text(&json, NULL, plan->column[i]);
+    }
+    lrcs_host_json_end(&json);
+    for (uint32_t i = 0; i < head->options; i++) {
+        lrcs_host_json_text(&json, head->option[i].key, head->option[i].text);
+    }
+    lrcs_host_json_end(&json);
+}
+
+static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
+{
+    lrcs_host_json json = lrcs_host_json_make(out);
+    lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_count(&json, "index", row->index);
+    for (uint32_t i = 0; i < plan->columns; i++) {
+        lrcs_host_json_number(&json, plan->column[i], row->value[i]);
+    }
+    lrcs_host_json_number(&json, "sigma_m2", row->sigma_m2);
+    lrcs_host_json_number(&json, "sigma_dbsm",
+                          row->sigma_m2 > 0.0 ? cli_dbsm(row->sigma_m2) : (double)NAN);
+    lrcs_host_json_number(&json, "bound_m2", row->bound_m2);
+    lrcs_host_json_number(&json, "sigma_glint_m2", row->sigma_glint_m2);
+    lrcs_host_json_number(&json, "sigma_diffuse_m2", row->sigma_diffuse_m2);
+    lrcs_host_json_begin(&json, "flags", LRCS_HOST_ROW_ARRAY);
+    for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
+        if (bits & 1u) {
+            lrcs_host_json_text(&json, NULL, lrcs_flag_text((int)bit));
+        }
+    }
+    lrcs_host_json_end(&json);
+    lrcs_host_json_end(&json);
+}
+
+/* ---- either ---- */
+
+void cli_rows_head(FILE *out, int format, const sweep_head *head, const sweep_plan *plan)
+{
+    if (format == SWEEP_JSONL) {
+        jsonl_head(out, head, plan);
+    } else {
+        csv_head(out, head, plan);
+    }
+}
+
+void cli_rows_put(FILE *out, int format, const sweep_plan *plan, const sweep_row *row)
+{
+    if (format == SWEEP_JSONL) {
+        jsonl_row(out, plan, row);
+    } else {
+        csv_row(out, plan, row);
+    }
+}
+
+void cli_rows_mean(FILE *out, int format, const sweep_tally *tally)
+{
+    double bound = tally->bound / (double)tally->rows;
+    if (format == SWEEP_JSONL) {
+        lrcs_host_json json = lrcs_host_json_make(out);
+        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_number(&json, "mean_sigma_m2", tally->mean);
+        lrcs_host_json_number(&json, "standard_error_m2", cli_tally_error(tally));
+        lrcs_host_json_number(&json, "mean_bound_m2", bound);
+        lrcs_host_json_end(&json);
+        return;
+    }
+    number_put(out, "# mean_sigma_m2=", tally->mean);
+    number_put(out, "; standard_error_m2=", cli_tally_error(tally));
+    number_put(out, "; mean_bound_m2=", bound);
+    putc('\n', out);
+}
+
+uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < size; i++) {
+        sum = (sum ^ at[i]) * 0x100000001b3u;
+    }
+    return sum;
+}
+
+void cli_rows_sum(FILE *out, int format, uint64_t sum)
+{
+    fprintf(out,
+            format == SWEEP_JSONL ? "{\"checksum\": \"fnv1a:%016llx\"}\n"
+                                  : "# checksum=fnv1a:%016llx\n",
+            (unsigned long long)sum);
+}

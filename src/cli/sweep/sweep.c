@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs sweep: sigma over attitudes and over what can change in a scene. */
+#include "cli/sweep/sweep.h"
+#include "cli/info/info.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static const char sweep_help[] =
+    "usage: lrcs sweep SCENE WHAT [options]\n"
+    "\n"
+    "Computes sigma (m2) and its bound for every combination of what varies, the last axis\n"
+    "fastest. Rows are the same bytes for any number of threads.\n"
+    "\n"
+    "what varies: RANGE is A:B:STEP, both ends included, or one number; steps do not drift\n"
+    "  --az RANGE, --el RANGE  azimuth and elevation of the laser, deg, body frame\n"
+    "  --euler SEQ:a,b,c     deg, each a RANGE; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c)\n"
+    "  --rotate AXIS:RANGE   turns about the body's x, y, z or u,v,w, deg; from the pose of\n"
+    "                        --direction, --azel, --euler or --quaternion, else laser on +z\n"
+    "  --sphere N            N near-uniform directions, and their mean with its standard error\n"
+    "  --poses FILE.csv      rows time,w,x,y,z (quaternion, body to observation) or time,x,y,z\n"
+    "                        (direction to the laser, body frame)\n"
+    "  --joint PART:RANGE    the joint's angle, deg; several as NAME,NAME or '*' turn together\n"
+    "  --vary MATERIAL.KEY:RANGE  A, B, s or m of a material\n"
+    "  --vary PART.KEY:RANGE   of a shape: size_x, size_y, size_z, radius, radius2, length (m) or\n"
+    "                        half_angle_deg; shapes are tessellated anew for every value\n"
+    "\n"
+    "output\n"
+    "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: shape of the map, then "
+    "sigma\n"
+    "                        and bound; FILE.npy.head says of what); without it CSV on stdout\n"
+    "  --json                JSON lines on stdout\n"
+    "  --resume              go on with FILE.partial, its rows checked; never replaces a whole "
+    "FILE\n"
+    "  --shard K/N           only the K-th of N parts of the rows; lrcs merge joins the files\n"
+    "  --jobs N              threads (one for each processor; fewer where memory is short)\n"
+    "  --plot FILE           FILE.svg or FILE.png, repeatable: up to 7 curves, or a map\n"
+    "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
+    "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
+    "  --stats               mean by solid angle, percentiles, least and most\n"
+    "  --brightest N         with -o FILE: the N brightest peaks, who makes each, on stdout; a\n"
+    "                        peak outshines the rows one step away (--sphere: those around)\n"
+    "\n"
+    "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
+    "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, sigma_glint_m2,\n"
+    "sigma_diffuse_m2, flags; last a checksum, a comment in CSV; JSON lines without an index are\n"
+    "no rows. Exit 3 where a row misses the tolerance; stderr says how many. With --accept\n"
+    "estimate or any, .npy has a third number: 1 by estimate, 2 by any, 0 by bound, -1 missed.\n"
+    "\n"
+    "examples\n"
+    "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
+    "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy --brightest 10 --stats\n"
+    "  lrcs sweep demo --sphere 1000 --accept estimate\n"
+    "  lrcs sweep demo --poses track.csv -o track.jsonl --resume\n"
+    "  lrcs sweep demo --az 0:360:1 --el -90:90:1 --shard 3/16 -o map.3.csv\n";
+
+static const cli_option sweep_options[] = {
+    CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS,   {"az", 1, 0},
+    {"el", 1, 0},     {"joint", 1, 1},      {"vary", 1, 1},      {"rotate", 1, 0},
+    {"sphere", 1, 0}, {"poses", 1, 0},      {"o", CLI_FILE, 0},  {"json", 0, 0},
+    {"resume", 0, 0}, {"shard", 1, 0},      {"jobs", 1, 0},      {"plot", CLI_FILE, 1},
+    {"dbsm", 0, 0},   {"polar", 0, 0},      {"brightest", 1, 0}, {"stats", 0, 0},
+    {"help", 0, 0},   {NULL, 0, 0}};
+
+#define JOBS_MOST 1024.0
+
+typedef struct sweep_job {
+    const cli_args *args;
+    sweep_plan plan;
+    sweep_head head;
+    sweep_file file;
+    sweep_progress progress;
+    sweep_plot plot;
+    uint32_t brightest;
+    int stats;
+    double (*row)[2]; /* sigma and bound of every row, for these two */
+    lrcs_run_options options;
+    lrcs_host_options load;
+    lrcs_host_scene scene;
+    uint32_t threads;
+    uint32_t notices;        /* of all results, bits */
+    lrcs_host_glint *coarse; /* curved parts whose facets are too coarse for their glint */
+    uint32_t coarse_count;
+} sweep_job;
+
+/* Set by a signal: the sweep ends after the poses that are running. */
+static volatile sig_atomic_t sweep_stop;
+
+/* The first Ctrl-C, or a batch system's warning, ends the sweep in order; one that comes seconds
+   later ends it at once. (A signal may come twice, to a process and to its group.) */
+static void stop_signal(int number)
+{
+    static volatile time_t since;
+    time_t now = time(NULL);
+    if (sweep_stop && now - since > 1) {
+        signal(number, SIG_DFL);
+        raise(number);
+    }
+    since = sweep_stop ? since : now;
+    sweep_stop = 1;
+}
+
+/* A signal that the shell has told to ignore stays ignored. */
+static void signals_watch(void)
+{
+    static const int number[] = {SIGINT, SIGTERM};
+    struct sigaction action;
+    struct sigaction before;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = stop_signal;
+    action.sa_flags = SA_RESTART;
+    sigaddset(&action.sa_mask, SIGINT);
+    sigaddset(&action.sa_mask, SIGTERM);
+    for (size_t i = 0; i < sizeof number / sizeof number[0]; i++) {
+        if (sigaction(number[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
+            sigaction(number[i], &action, NULL);
+        }
+    }
+}
+
+/* ---- options ---- */
+
+static int job_read(sweep_job *job)
+{
+    const cli_args *args = job->args;
+    int code = cli_file_read(args, &job->file);
+    code = code ? code : cli_whole(args, "jobs", 1.0, JOBS_MOST, &job->threads);
+    code = code ? code : cli_accuracy_read(args, &job->options);
+    code = code ? code : cli_scene_options_read(args, &job->load);
+    code = code ? code : cli_normals_read(args, &job->load);
+    code = code ? code : cli_plan_read(args, &job->plan);
+    code = code ? code : cli_plot_read(args, &job->plan, &job->plot);
+    code = code ? code : cli_brightest_read(args, &job->plan, &job->file, &job->brightest);
+    job->stats = cli_value(args, "stats") != NULL;
+    if (code == 0 && job->stats && cli_value(args, "shard")) {
+        return cli_usage(args->command, "--stats is of whole sweeps: not with --shard");
+    }
+    job->load.build.tolerance = job->options.tolerance;
+    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
+    if (code == 0 && job->file.npy && cli_value(args, "shard")) {
+        return cli_usage(args->command,
+                         "--shard writes .csv or .jsonl; lrcs merge makes the .npy of them");
+    }
+    return code;
+}
+
+/* No output may replace a file that is read. */
+static int job_files_check(const sweep_job *job)
+{
+    lrcs_host_error error;
+    const char *poses = cli_value(job->args, "poses");
+    for (int i = 0; job->file.path && i < 2; i++) {
+        const char *path = i == 0 ? job->file.path : job->file.partial;
+        if (lrcs_host_output_check(path, &job->scene, &error) != LRCS_OK) {
+            return cli_usage(job->args->command, "-o %s", error.text);
+        }
+        if (poses && lrcs_host_output_same(path, poses)) {
+            return cli_usage(job->args->command, "-o %s: would overwrite the poses", path);
+        }
+    }
+    return cli_plot_spares(job->args, &job->file, &job->scene);
+}
+
+/* ---- the rows ---- */
+
+static int job_pose(void *context, uint64_t index, lrcs_pose *pose)
+{
+    const sweep_job *job = context;
+    return cli_plan_pose(&job->plan, index, pose);
+}
+
+static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const lrcs_result *result,
+                    lrcs_host_error *error)
+{
+    sweep_job *job = context;
+    (void)pose;
+    sweep_row row = {.index = index,
+                     .sigma_m2 = result->sigma_m2,
+                     .bound_m2 = result->bound_m2,
+                     .sigma_glint_m2 = result->sigma_glint_m2,
+                     .sigma_diffuse_m2 = result->sigma_diffuse_m2,
+                     .flags = cli_flags_in_force(job->args, &job->options, result->flags)};
+    cli_plan_values(&job->plan, index, row.value);
+    job->notices |= result->notices;
+    int status = cli_file_put(&job->file, &job->plan, &row, error);
+    cli_progress_show(&job->progress, job->file.next - job->plan.first);
+    return status;
+}
+
+static int job_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs_host_error *error)
+{
+    const sweep_job *job = context;
+    return cli_scene_of_row(&job->plan, index, &job->scene, &job->load.build, scene, error);
+}
+
+/* The rows up to `end`: all of one scene, or (NULL) each of its own. */
+static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
+{
+    lrcs_host_error error;
+    lrcs_host_sweep sweep = {.first = job->file.next,
+                             .count = end - job->file.next,
+                             .threads = job->threads,
+                             .pose = job_pose,
+                             .scene = scene ? NULL : job_scene,
+                             .take = job_take,
+                             .context = job,
+                             .cancel = &sweep_stop};
+    if (lrcs_host_sweep_run(scene, &job->options, &sweep, NULL, &error) == LRCS_OK) {
+        return 0;
+    }
+    cli_progress_clear(&job->progress);
+    return cli_failed(&error);
+}
+
+/* One scene after another, the poses of each in threads. */
+static int scenes_run(sweep_job *job)
+{
+    int code = 0;
+    while (code == 0 && job->file.next < job->plan.end) {
+        lrcs_host_scene scene;
+        lrcs_host_error error;
+        uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
+        memset(&scene, 0, sizeof scene);
+        if (job_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
+            return cli_failed(&error);
+        }
+        code = rows_run(job, &scene, end < job->plan.end ? end : job->plan.end);
+        lrcs_host_scene_free(&scene);
+    }
+    return code;
+}
+
+static int job_run(sweep_job *job)
+{
+    lrcs_host_error error;
+    int code = 0;
+    job->progress =
+        cli_progress_make(job->file.next - job->plan.first, job->plan.end - job->plan.first);
+    if (job->plan.scene_axes > 0) {
+        code = job->plan.poses > 1 ? scenes_run(job) : rows_run(job, NULL, job->plan.end);
+    } else if (job->file.next < job->plan.end) {
+        code = lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
+        code = code ? code : rows_run(job, &job->scene, job->plan.end);
+    }
+    cli_progress_clear(&job->progress);
+    return code;
+}
+
+/* ---- the command ---- */
+
+/* For people; the rows say all of it too. */
+static void job_say(const sweep_job *job)
+{
+    const sweep_tally *tally = &job->file.tally;
+    for (uint32_t bits = job->notices, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
+        if (bits & 1u) {
+            fprintf(stderr, "notice: %s\n", lrcs_notice_text((int)bit));
+        }
+    }
+    if (cli_plan_has_mean(&job->plan) && tally->rows == job->plan.rows) {
+        char spread[40] = "not known from one direction";
+        if (tally->rows > 1) {
+            snprintf(spread, sizeof spread, "%.3g m2", cli_tally_error(tally));
+        }
+        fprintf(stderr, "mean of sigma %.10g m2, standard error %s, mean bound %.3g m2\n",
+                tally->mean, spread, tally->bound / (double)tally->rows);
+    }
+    if (tally->missed > 0) {
+        fprintf(stderr, "lrcs: %llu of %llu rows miss the tolerance %g\n",
+                (unsigned long long)tally->missed, (unsigned long long)tally->rows,
+                job->options.tolerance);
+    }
+    if (tally->estimated > 0) {
+        fprintf(stderr, "lrcs: %llu of %llu rows are accepted by estimate, not proved to %g\n",
+                (unsigned long long)tally->estimated, (unsigned long long)tally->rows,
+                job->options.tolerance);
+    }
+    if (tally->unjudged > 0) {
+        fprintf(stderr, "lrcs: %llu of %llu rows are accepted whatever their error\n",
+                (unsigned long long)tally->unjudged, (unsigned long long)tally->rows);
+    }
+    if (tally->starved > 0) {
+        fprintf(stderr, "lrcs: %llu of %llu rows were short of memory\n",
+                (unsigned long long)tally->starved, (unsigned long long)tally->rows);
+    }
+}
+
+/* Room for what is told of all rows together. */
+static int job_room(sweep_job *job)
+{
+    if (job->plot.asked || job->brightest > 0 || job->stats) {
+        job->row = calloc(job->plan.rows, sizeof *job->row);
+        if (!job->row) {
+            return cli_out_of_memory();
+        }
+    }
+    job->file.row = job->plot.row = job->row;
+    return 0;
+}
+
+static int job_show(sweep_job *job)
+{
+    int code = job->plot.asked ? cli_plot_write(job->args, &job->plot, &job->plan) : 0;
+    if (code == 0 && job->stats) { /* stdout is for rows where no file is */
+        code = cli_stats_print(job->file.path ? stdout : stderr, &job->plan,
+                               (const double(*)[2])job->row);
+    }
+    return code == 0 && job->brightest > 0
+               ? cli_brightest_print(&job->plan, (const double(*)[2])job->row, job->brightest,
+                                     &job->scene, &job->options, &job->load.build, job->coarse,
+                                     job->coarse_count)
+               : code;
+}
+
+static int job_rows(sweep_job *job)
+{
+    signals_watch(); /* before the rows that are there are read: that may take seconds */
+    int code = job_room(job);
+    code = code ? code : cli_file_open(job->args, &job->file, &job->head, &job->plan);
+    if (code != 0) {
+        return code;
+    }
+    code = job_run(job);
+    int closed = cli_file_close(&job->file, &job->plan, code == 0);
+    if (code != 0 && job->file.next > job->plan.first && job->file.path && closed == 0) {
+        fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
+                job->file.partial, (unsigned long long)(job->file.next - job->plan.first),
+                (unsigned long long)(job->plan.end - job->plan.first));
+    }
+    code = code ? code : closed;
+    code = code ? code : job_show(job);
+    if (code != 0) {
+        return code;
+    }
+    job_say(job);
+    return job->file.tally.missed > 0 || job->file.tally.starved > 0 ? CLI_DEGRADED : CLI_DONE;
+}
+
+/* Where the glint is off by more than any bound says. */
+static void coarse_say(const sweep_job *job)
+{
+    double worst = 0.0;
+    for (uint32_t i = 0; i < job->coarse_count; i++) {
+        worst = job->coarse[i].error > worst ? job->coarse[i].error : worst;
+    }
+    if (job->coarse_count > 0) {
+        fprintf(
+            stderr,
+            "notice: glint: %lu curved part%s too coarse for the slope of their material: near the "
+            "normals of facets sigma may be off by %.2g %% of its glint, an estimate (--normals "
+            "auto)\n",
+            (unsigned long)job->coarse_count, job->coarse_count == 1 ? " is" : "s are",
+            100.0 * worst);
+    }
+}
+
+static int sweep_command(const cli_args *args)
+{
+    sweep_job *job = calloc(1, sizeof *job);
+    if (!job) {
+        return cli_out_of_memory();
+    }
+    job->args = args;
+    int code = job_read(job);
+    code = code ? code : cli_scene_read(args, &job->load, &job->scene);
+    code = code ? code : cli_scene_axes_check(args, &job->plan, &job->scene);
+    code = code ? code : job_files_check(job);
+    if (code == 0) {
+        cli_notices_print(stderr, &job->scene.notices);
+        code = cli_coarse_glint(&job->scene, &job->load.build, &job->coarse, &job->coarse_count);
+    }
+    if (code == 0) {
+        coarse_say(job);
+        job->plot.open = cli_materials_open(&job->scene.scene);
+        code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
+        code = code ? code : job_rows(job);
+    }
+    free(job->row);
+    free(job->coarse);
+    cli_file_free(&job->file);
+    cli_plan_free(&job->plan);
+    lrcs_host_scene_free(&job->scene);
+    cli_scene_options_free(&job->load);
+    free(job);
+    return code;
+}
+
+const cli_command cli_sweep_command = {
+    "sweep",    "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
+    sweep_help, sweep_options, sweep_command};

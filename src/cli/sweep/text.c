@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: MIT */
+/* Reading rows back, to go on with them, to join them, to make a map of them. It reads what
+   sweep_rows writes and takes nothing else: every field of a row is held against what it must be, a
+   checksum against what stands before it. A last line that is cut short is no row. */
+#include "cli/sweep/sweep.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TEXT_LINE 4096u /* longer than any row */
+
+/* ---- the head ---- */
+
+/* The first lines as a string, for their keys; NULL where there is none. */
+static char *head_copy(const sweep_text *text)
+{
+    char *copy = malloc(text->head_size + 1);
+    if (copy) {
+        memcpy(copy, text->head, text->head_size);
+        copy[text->head_size] = '\0';
+    }
+    return copy;
+}
+
+/* What follows a key; rows and shape stand before anything that a user wrote. */
+static const char *head_value(const char *head, const char *csv, const char *json)
+{
+    const char *key = head[0] == '#' ? csv : json;
+    const char *at = strstr(head, key);
+    return at ? at + strlen(key) : NULL;
+}
+
+/* N x M .. or [N, M, ..]; their product must be the number of rows. */
+static int head_shape(const char *at, sweep_text *text)
+{
+    uint64_t product = 1;
+    for (;;) {
+        char *end;
+        uint64_t size = strtoull(at, &end, 10);
+        if (end == at || size == 0 || text->dimensions == SWEEP_AXES + 1 ||
+            size > UINT64_MAX / product) {
+            return -1;
+        }
+        text->shape[text->dimensions++] = size;
+        product *= size;
+        if (*end != 'x' && *end != ',') {
+            return product == text->rows ? 0 : -1;
+        }
+        at = end + 1;
+    }
+}
+
+/* Names between index and sigma_m2: of the second line, where commas in quotes separate nothing, or
+   of the list in the first. */
+static uint32_t head_columns(const char *head)
+{
+    const char *at = head[0] == '#' ? strchr(head, '\n') + 1 : strstr(head, "\"columns\": [");
+    uint32_t count = 0;
+    int quoted = 0;
+    if (head[0] == '#') {
+        for (; *at && *at != '\n'; at++) {
+            quoted ^= *at == '"';
+            count += *at == ',' && !quoted;
+        }
+        return count > SWEEP_FIELDS ? count - SWEEP_FIELDS : 0;
+    }
+    for (at = at ? strchr(at, '[') + 1 : ""; *at && (*at != ']' || quoted); at++) {
+        at += *at == '\\' && at[1] != '\0';
+        quoted ^= *at == '"';
+        count += *at == '"' && quoted;
+    }
+    return count;
+}
+
+static int head_read(const char *head, sweep_text *text)
+{
+    const char *rows = head_value(head, "; rows=", "\"rows\": ");
+    const char *shape = head_value(head, "; shape=", "\"shape\": [");
+    const char *sphere = head_value(head, "; sphere=", "\"sphere\": \"");
+    text->rows = rows ? strtoull(rows, NULL, 10) : 0;
+    text->has_mean = sphere && strtoull(sphere, NULL, 10) == text->rows;
+    text->flagged = head_value(head, "; accept=", "\"accept\": \"") != NULL;
+    text->columns = head_columns(head);
+    return rows && shape && text->rows > 0 && text->columns > 0 && text->columns <= SWEEP_COLUMNS
+               ? head_shape(shape, text)
+               : -1;
+}
+
+int cli_text_open(const char *bytes, size_t size, sweep_text *text)
+{
+    static const char csv[] = "# lrcs ";
+    static const char json[] = "{\"lrcs\": \"sweep\"";
+    const char *end = bytes + size;
+    const char *at = memchr(bytes, '\n', size);
+    int is_csv = size > sizeof csv && memcmp(bytes, csv, sizeof csv - 1) == 0;
+    int is_json = size > sizeof json && memcmp(bytes, json, sizeof json - 1) == 0;
+    memset(text, 0, sizeof *text);
+    at = at && is_csv ? memchr(at + 1, '\n', (size_t)(end - at - 1)) : at;
+    if (!at || (!is_csv && !is_json)) {
+        return -1;
+    }
+    *text = (sweep_text){.format = is_csv ? SWEEP_CSV : SWEEP_JSONL,
+                         .head = bytes,
+                         .head_size = (size_t)(at + 1 - bytes),
+                         .at = at + 1,
+                         .end = end,
+                         .line = is_csv ? 3 : 2};
+    char *head = head_copy(text);
+    int fault = head ? head_read(head, text) : -1;
+    free(head);
+    return fault;
+}
+
+/* ---- rows ---- */
+
+/* Fields of a row after its values, in their order. */
+enum { FIELD_SIGMA, FIELD_DBSM, FIELD_BOUND, FIELD_GLINT, FIELD_DIFFUSE, FIELD_FLAGS };
+static const char *const field_name[SWEEP_FIELDS] = {
+    "sigma_m2", "sigma_dbsm", "bound_m2", "sigma_glint_m2", "sigma_diffuse_m2", "flags"};
+
+static int text_refuse(sweep_text *text, const char *name, const char *found, const char *expected)
+{
+    snprintf(text->fault, sizeof text->fault, "line %llu, %s: found '%.40s', expected %.80s",
+             (unsigned long long)text->line, name, found, expected);
+    return -1;
+}
+
+/* Flags in words, blanks or commas and quotes between them. */
+static int flags_read(const char *at, uint32_t *flags)
+{
+    *flags = 0;
+    for (at += strspn(at, " ,\""); *at; at += strspn(at, " ,\"")) {
+        size_t size = strcspn(at, " ,\"");
+        uint32_t found = 0;
+        for (uint32_t bit = 1; bit <= LRCS_FLAG_ACCEPTED_UNJUDGED; bit *= 2) {
+            const char *name = lrcs_flag_text((int)bit);
+            found |= strlen(name) == size && memcmp(name, at, size) == 0 ? bit : 0;
+        }
+        if (!found) {
+            return -1;
+        }
+        *flags |= found;
+        at += size;
+    }
+    return 0;
+}
+
+/* Cuts a row into index, values and fields, in place. Returns their number; those that have no room
+   are counted, and that is all. */
+static uint32_t csv_split(char *line, const char **field, uint32_t room)
+{
+    uint32_t count = 0;
+    for (char *at = line; at; count++) {
+        char *comma = strchr(at, ',');
+        if (comma) {
+            *comma++ = '\0';
+        }
+        if (count < room) {
+            field[count] = at;
+        }
+        at = comma;
+    }
+    return count;
+}
+
+/* The same of {"key": value, ..., "flags": [..]}; 0 where that is not its form. The keys of fields
+   must be theirs; those of values are what the user named, in the head's order. */
+static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint32_t columns)
+{
+    uint32_t count = 0;
+    char *at = line;
+    for (*at = ','; *at == ','; count++) {
+        *at++ = '\0';
+        at += strspn(at, " ");
+        const char *key = at + 1;
+        for (at += *at == '"'; *at && *at != '"'; at++) {
+            at += *at == '\\' && at[1] != '\0';
+        }
+        const char *want = count == 0                        ? "index"
+                           : count <= columns                ? NULL
+                           : count <= columns + SWEEP_FIELDS ? field_name[count - columns - 1]
+                                                             : "";
+        if (strncmp(at, "\": ", 3) != 0 || (want && (strlen(want) != (size_t)(at - key) ||
+                                                     memcmp(want, key, strlen(want)) != 0))) {
+            return 0;
+        }
+        at += 3;
+        int list = *at == '[';
+        at += list;
+        if (count < room) {
+            field[count] = at;
+        }
+        at += strcspn(at, list ? "]" : ",}");
+        if (list && *at == ']') {
+            *at++ = '\0';
+        }
+    }
+    int whole = strcmp(at, "}") == 0;
+    *at = '\0';
+    return whole ? count : 0;
+}
+
+/* An empty field, or null, where there is no number. */
+static int field_number(const sweep_text *text, const char *field, double *value)
+{
+    *value = (double)NAN;
+    return field[0] == '\0' || (text->format == SWEEP_JSONL && strcmp(field, "null") == 0)
+               ? 0
+               : lrcs_host_number_read(field, strlen(field), value);
+}
+
+/* Are two doubles as near as a libm and another one make them? */
+static int about_equal(double a, double b, double relative)
+{
+    return fabs(a - b) <= relative * fmax(fabs(a), fabs(b));
+}
+
+static int values_read(sweep_text *text, const sweep_plan *plan, const char *const *field,
+                       sweep_row *row)
+{
+    double want[SWEEP_COLUMNS] = {0.0};
+    char name[40];
+    if (plan) {
+        cli_plan_values(plan, row->index, want);
+    }
+    for (uint32_t i = 0; i < text->columns; i++) {
+        snprintf(name, sizeof name, "value %lu", (unsigned long)i + 1);
+        if (field_number(text, field[i], &row->value[i]) != 0 || !isfinite(row->value[i])) {
+            return text_refuse(text, plan ? plan->column[i] : name, field[i], "a finite number");
+        }
+        /* directions of a sphere come from libm */
+        int close = !plan || row->value[i] == want[i] ||
+                    (plan->kind == SWEEP_SPHERE && i >= plan->axes &&
+                     fabs(row->value[i] - want[i]) <= 1e-14);
+        if (!close) {
+            char expected[LRCS_HOST_NUMBER_SIZE];
+            lrcs_host_number_text(want[i], expected);
+            return text_refuse(text, plan->column[i], field[i], expected);
+        }
+    }
+    return 0;
+}
+
+static int fields_read(sweep_text *text, const char *const *field, sweep_row *row)
+{
+    double number[FIELD_FLAGS];
+    for (int i = 0; i < FIELD_FLAGS; i++) {
+        int none = field_number(text, field[i], &number[i]) != 0;
+        if (none || (i != FIELD_DBSM && !(number[i] >= 0.0))) {
+            return text_refuse(text, field_name[i], field[i],
+                               i == FIELD_DBSM ? "a number" : "a number of at least 0");
+        }
+    }
+    double sigma = number[FIELD_SIGMA];
+    double dbsm = sigma > 0.0 ? cli_dbsm(sigma) : (double)NAN;
+    if (sigma > 0.0 ? !(fabs(number[FIELD_DBSM] - dbsm) <= 1e-12 * (1.0 + fabs(dbsm)))
+                    : !isnan(number[FIELD_DBSM])) {
+        char expected[LRCS_HOST_NUMBER_SIZE + 16];
+        lrcs_host_number_text(dbsm, expected);
+        return text_refuse(text, "sigma_dbsm", field[FIELD_DBSM],
+                           sigma > 0.0 ? expected : "none, for a sigma of 0");
+    }
+    /* each is a sum of its own, and is rounded */
+    if (!about_equal(number[FIELD_GLINT] + number[FIELD_DIFFUSE], sigma, 1e-9)) {
+        return text_refuse(text, "sigma_glint_m2 and sigma_diffuse_m2", field[FIELD_GLINT],
+                           "what adds up to sigma_m2");
+    }
+    if (flags_read(field[FIELD_FLAGS], &row->flags) != 0) {
+        return text_refuse(text, "flags", field[FIELD_FLAGS], "names of flags");
+    }
+    row->sigma_m2 = sigma;
+    row->bound_m2 = number[FIELD_BOUND];
+    row->sigma_glint_m2 = number[FIELD_GLINT];
+    row->sigma_diffuse_m2 = number[FIELD_DIFFUSE];
+    return 0;
+}
+
+/* A copy of a whole line. */
+static int row_read(sweep_text *text, const sweep_plan *plan, char *line, sweep_row *row)
+{
+    const char *field[1 + SWEEP_COLUMNS + SWEEP_FIELDS];
+    for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
+        field[i] = "";
+    }
+    const uint32_t room = 1 + text->columns + SWEEP_FIELDS;
+    char begun[41];
+    snprintf(begun, sizeof begun, "%.40s", line);
+    uint32_t count = text->format == SWEEP_JSONL ? jsonl_split(line, field, room, text->columns)
+                                                 : csv_split(line, field, room);
+    if (count != room) {
+        char expected[60];
+        snprintf(expected, sizeof expected, "a row of %lu fields", (unsigned long)room);
+        return text_refuse(text, "the row", begun, expected);
+    }
+    char *end;
+    row->index = strtoull(field[0], &end, 10);
+    if (field[0][0] < '0' || field[0][0] > '9' || *end != '\0' || row->index >= text->rows) {
+        return text_refuse(text, "index", field[0], "the number of a row of the sweep");
+    }
+    int fault = values_read(text, plan, field + 1, row);
+    return fault ? fault : fields_read(text, field + 1 + text->columns, row);
+}
+
+/* The lines after the rows begin so. */
+static const char *const mean_lead[] = {"# mean_sigma_m2=", "{\"mean_sigma_m2\": "};
+static const char *const sum_lead[] = {"# checksum=fnv1a:", "{\"checksum\": \"fnv1a:"};
+
+static int text_begins(const sweep_text *text, const char *lead)
+{
+    size_t size = strlen(lead);
+    return (size_t)(text->end - text->at) >= size && memcmp(text->at, lead, size) == 0;
+}
+
+int cli_text_next(sweep_text *text, const sweep_plan *plan, sweep_row *row, const char **line,
+                  size_t *line_size)
+{
+    char copy[TEXT_LINE];
+    const char *newline =
+        text->at < text->end ? memchr(text->at, '\n', (size_t)(text->end - text->at)) : NULL;
+    if (!newline || text_begins(text, mean_lead[text->format]) ||
+        text_begins(text, sum_lead[text->format])) {
+        return 0;
+    }
+    size_t size = (size_t)(newline - text->at);
+    size = size < sizeof copy ? size : sizeof copy - 1;
+    memcpy(copy, text->at, size);
+    copy[size] = '\0';
+    if (row_read(text, plan, copy, row) != 0) {
+        return -1;
+    }
+    *line = text->at;
+    *line_size = size + 1;
+    text->at = newline + 1;
+    text->line++;
+    return 1;
+}
+
+int cli_text_end(sweep_text *text)
+{
+    if (text_begins(text, mean_lead[text->format])) {
+        const char *newline = memchr(text->at, '\n', (size_t)(text->end - text->at));
+        if (!newline) {
+            return 0;
+        }
+        text->at = newline + 1;
+        text->line++;
+    }
+    if (!memchr(text->at, '\n', (size_t)(text->end - text->at))) {
+        return 0; /* the end, or a line cut short */
+    }
+    uint64_t sum = cli_sum_more(SWEEP_SUM_BEGIN, text->head, (size_t)(text->at - text->head));
+    char expected[80];
+    FILE *out = fmemopen(expected, sizeof expected, "w");
+    if (!out) {
+        return text_refuse(text, "the checksum", "", "memory to compute it");
+    }
+    cli_rows_sum(out, text->format, sum);
+    fclose(out);
+    size_t size = strlen(expected);
+    if ((size_t)(text->end - text->at) == size && memcmp(text->at, expected, size) == 0) {
+        return 1;
+    }
+    char found[41];
+    snprintf(found, sizeof found, "%.*s", (int)strcspn(text->at, "\n"), text->at);
+    expected[size - 1] = '\0';
+    return text_refuse(text, "the last line", found, expected);
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT */
+/* A scene of the kit as OBJ with its MTL, as STL and as JSON: the same facets in the same order in
+   each, numbers to the last digit. STL knows no materials; JSON holds all there is. */
+#include "cli/vectors/vectors.h"
+
+typedef struct files_scene {
+    const vectors_scene *scene;
+    const vectors_mesh *mesh;
+} files_scene;
+
+static void point_print(FILE *out, const lrcs_point *point)
+{
+    for (int k = 0; k < 3; k++) {
+        char text[LRCS_HOST_NUMBER_SIZE];
+        lrcs_host_number_text(point->x[k], text);
+        fprintf(out, " %s", text);
+    }
+    putc('\n', out);
+}
+
+static int obj_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const files_scene *file = context;
+    const vectors_mesh *mesh = file->mesh;
+    (void)error;
+    fprintf(out, "# %s: %s; metres\nmtllib %s.mtl\no %s\n", file->scene->name, file->scene->about,
+            file->scene->name, file->scene->name);
+    for (uint32_t i = 0; i < mesh->vertices; i++) {
+        putc('v', out);
+        point_print(out, &mesh->vertex[i]);
+    }
+    for (uint32_t i = 0; i < mesh->facets; i++) {
+        const uint32_t *v = mesh->facet[i].corner;
+        if (i == 0 || mesh->wear[i] != mesh->wear[i - 1]) {
+            fprintf(out, "usemtl %s\n", cli_vectors_materials[mesh->wear[i]].name);
+        }
+        fprintf(out, "f %lu %lu %lu\n", v[0] + 1UL, v[1] + 1UL, v[2] + 1UL);
+    }
+    return LRCS_OK;
+}
+
+static int mesh_wears(const vectors_mesh *mesh, uint32_t material)
+{
+    uint32_t i = 0;
+    while (i < mesh->facets && mesh->wear[i] != material) {
+        i++;
+    }
+    return i < mesh->facets;
+}
+
+static int mtl_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const files_scene *file = context;
+    (void)error;
+    fputs("# colours for viewers; how a material reflects is in materials.csv\n", out);
+    for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
+        const vectors_material *material = &cli_vectors_materials[i];
+        if (mesh_wears(file->mesh, i)) {
+            fprintf(out, "newmtl %s\nKd", material->name);
+            for (int k = 0; k < 3; k++) {
+                char text[LRCS_HOST_NUMBER_SIZE];
+                lrcs_host_number_text(material->rgb[k] / 255.0, text);
+                fprintf(out, " %s", text);
+            }
+            putc('\n', out);
+        }
+    }
+    return LRCS_OK;
+}
+
+/* Normals are left to the reader: zero is what the format says for that. */
+static int stl_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const files_scene *file = context;
+    (void)error;
+    fprintf(out, "solid %s\n", file->scene->name);
+    for (uint32_t i = 0; i < file->mesh->facets; i++) {
+        fputs("facet normal 0 0 0\nouter loop\n", out);
+        for (int k = 0; k < 3; k++) {
+            fputs("vertex", out);
+            point_print(out, &file->mesh->vertex[file->mesh->facet[i].corner[k]]);
+        }
+        fputs("endloop\nendfacet\n", out);
+    }
+    fprintf(out, "endsolid %s\n", file->scene->name);
+    return LRCS_OK;
+}
+
+static void materials_json(lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
+        const vectors_material *material = &cli_vectors_materials[i];
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_text(json, "name", material->name);
+        lrcs_host_json_number(json, "A", material->brdf.A);
+        lrcs_host_json_number(json, "B", material->brdf.B);
+        lrcs_host_json_number(json, "s", material->brdf.s);
+        lrcs_host_json_number(json, "m", material->brdf.m);
+        lrcs_host_json_bool(json, "two_sided", material->two_sided);
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+}
+
+static void mesh_json(lrcs_host_json *json, const vectors_mesh *mesh)
+{
+    lrcs_host_json_begin(json, "vertices_m", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < mesh->vertices; i++) {
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_ARRAY);
+        for (int k = 0; k < 3; k++) {
+            lrcs_host_json_number(json, NULL, mesh->vertex[i].x[k]);
+        }
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_begin(json, "facets", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < mesh->facets; i++) {
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_ARRAY);
+        for (int k = 0; k < 3; k++) {
+            lrcs_host_json_count(json, NULL, mesh->facet[i].corner[k]);
+        }
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_begin(json, "facet_material", LRCS_HOST_ROW_ARRAY);
+    for (uint32_t i = 0; i < mesh->facets; i++) {
+        lrcs_host_json_count(json, NULL, mesh->wear[i]);
+    }
+    lrcs_host_json_end(json);
+}
+
+static int json_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const files_scene *file = context;
+    lrcs_host_json json = lrcs_host_json_make(out);
+    (void)error;
+    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
+    lrcs_host_json_text(&json, "name", file->scene->name);
+    lrcs_host_json_count(&json, "tier", (uint64_t)file->scene->tier);
+    lrcs_host_json_text(&json, "about", file->scene->about);
+    materials_json(&json);
+    mesh_json(&json, file->mesh);
+    lrcs_host_json_end(&json);
+    return LRCS_OK;
+}
+
+int cli_vectors_files(const vectors_job *job, const vectors_scene *scene, const vectors_mesh *mesh)
+{
+    static const struct {
+        const char *ending;
+        cli_writer *write;
+    } form[] = {{"obj", obj_write}, {"mtl", mtl_write}, {"stl", stl_write}, {"json", json_write}};
+    const files_scene file = {scene, mesh};
+    int code = 0;
+    for (size_t i = 0; i < sizeof form / sizeof form[0] && code == 0; i++) {
+        char path[KIT_PATH];
+        code = cli_kit_path(path, "%s/scenes/%s.%s", job->folder, scene->name, form[i].ending);
+        code = code ? code : cli_output_write(path, form[i].write, &file);
+    }
+    return code;
+}

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: MIT */
+/* A scene of the tables as facets. It decides their order, their winding (counter-clockwise from
+   outside) and where they part; all coordinates are rounded to single precision, so that a code
+   that works in it starts from the same body. Plain loops of its own: a kit that came from the
+   engine's own meshes would not try them. */
+#include "cli/vectors/vectors.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The item that is being built. */
+typedef struct mesh_build {
+    vectors_mesh *mesh;
+    const vectors_scene *scene;
+    const vectors_item *item;
+    lrcs_pose turn;
+    uint32_t first; /* vertex of the item: none before it is shared */
+} mesh_build;
+
+static void *room_grow(void *list, uint32_t *room, uint32_t used, size_t size)
+{
+    if (used < *room) {
+        return list;
+    }
+    *room = *room ? 2 * *room : 256;
+    void *grown = realloc(list, *room * size);
+    if (!grown) {
+        free(list);
+    }
+    return grown;
+}
+
+/* The scene's coordinates of a point of the item, in single precision. */
+static lrcs_point point_place(const mesh_build *build, const double p[3])
+{
+    lrcs_point placed;
+    for (int k = 0; k < 3; k++) {
+        const double *row = build->turn.R[k];
+        double x = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + build->item->at[k];
+        x = fabs(x) < 1e-12 && build->item->at[k] == 0.0 ? 0.0 : x; /* of a rounded turn */
+        placed.x[k] = (double)(float)((x + build->scene->move[k]) * build->scene->scale);
+    }
+    return placed;
+}
+
+/* The index of a point; those of one item are shared. */
+static uint32_t point_add(mesh_build *build, const double p[3])
+{
+    vectors_mesh *mesh = build->mesh;
+    lrcs_point placed = point_place(build, p);
+    for (uint32_t i = build->first; i < mesh->vertices; i++) {
+        if (memcmp(&mesh->vertex[i], &placed, sizeof placed) == 0) {
+            return i;
+        }
+    }
+    mesh->vertex = room_grow(mesh->vertex, &mesh->vertex_room, mesh->vertices, sizeof placed);
+    mesh->failed |= !mesh->vertex;
+    if (mesh->failed) {
+        return 0;
+    }
+    mesh->vertex[mesh->vertices] = placed;
+    return mesh->vertices++;
+}
+
+static uint32_t wear_find(char letter)
+{
+    uint32_t i = 0;
+    while (cli_vectors_materials[i].name && cli_vectors_materials[i].letter != letter) {
+        i++;
+    }
+    return i;
+}
+
+/* The letter of an item's face. */
+static char face_letter(const vectors_item *item, size_t face)
+{
+    size_t last = strlen(item->wear) - 1;
+    return item->wear[face < last ? face : last];
+}
+
+/* A triangle, left out where two corners are one. */
+static void triangle_add(mesh_build *build, size_t face, const double *a, const double *b,
+                         const double *c)
+{
+    vectors_mesh *mesh = build->mesh;
+    char letter = face_letter(build->item, face);
+    if (letter == '-' || mesh->failed) {
+        return;
+    }
+    uint32_t room = mesh->facet_room;
+    lrcs_facet facet = {{point_add(build, a), point_add(build, b), point_add(build, c)}};
+    const uint32_t *v = facet.corner;
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+        return;
+    }
+    mesh->facet = room_grow(mesh->facet, &mesh->facet_room, mesh->facets, sizeof facet);
+    mesh->wear = room_grow(mesh->wear, &room, mesh->facets, sizeof *mesh->wear);
+    mesh->failed |= !mesh->facet || !mesh->wear;
+    if (!mesh->failed) {
+        mesh->wear[mesh->facets] = wear_find(letter);
+        mesh->facet[mesh->facets++] = facet;
+    }
+}
+
+static void quad_add(mesh_build *build, size_t face, double p[4][3])
+{
+    triangle_add(build, face, p[0], p[1], p[2]);
+    triangle_add(build, face, p[0], p[2], p[3]);
+}
+
+static void plate_add(mesh_build *build)
+{
+    double x = build->item->size[0] / 2;
+    double y = build->item->size[1] / 2;
+    double p[4][3] = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
+    quad_add(build, 0, p);
+}
+
+static void box_add(mesh_build *build)
+{
+    const double *size = build->item->size;
+    for (size_t face = 0; face < 6; face++) {
+        size_t axis = face / 2;
+        size_t u = (axis + 1 + face % 2) % 3;
+        size_t v = (axis + 2 - face % 2) % 3;
+        double p[4][3];
+        for (int k = 0; k < 4; k++) {
+            p[k][axis] = (face % 2 ? -size[axis] : size[axis]) / 2;
+            p[k][u] = (k == 1 || k == 2 ? size[u] : -size[u]) / 2;
+            p[k][v] = (k >= 2 ? size[v] : -size[v]) / 2;
+        }
+        quad_add(build, face, p);
+    }
+}
+
+/* A point of a circle; the quarters are exact. */
+static void circle_point(double radius, int i, int count, double z, double p[3])
+{
+    double angle = 2.0 * CLI_PI * i / count;
+    p[0] = 4 * i % (2 * count) == count ? 0.0 : radius * cos(angle);
+    p[1] = 2 * i % count == 0 ? 0.0 : radius * sin(angle);
+    p[2] = z;
+}
+
+/* What lies between two circles, radius and height of each, from below. */
+static void belt_add(mesh_build *build, double r0, double z0, double r1, double z1)
+{
+    int count = build->item->count;
+    for (int i = 0; i < count; i++) {
+        int next = (i + 1) % count;
+        double p[4][3];
+        circle_point(r0, i, count, z0, p[0]);
+        circle_point(r0, next, count, z0, p[1]);
+        circle_point(r1, next, count, z1, p[2]);
+        circle_point(r1, i, count, z1, p[3]);
+        quad_add(build, 0, p);
+    }
+}
+
+/* A cap in fans from its first corner, seen from above or from below. */
+static void cap_add(mesh_build *build, size_t face, double radius, double z)
+{
+    int count = build->item->count;
+    for (int i = 1; radius > 0.0 && i + 1 < count; i++) {
+        double p[3][3];
+        int below = face == 2;
+        circle_point(radius, 0, count, z, p[0]);
+        circle_point(radius, below ? i + 1 : i, count, z, p[1]);
+        circle_point(radius, below ? i : i + 1, count, z, p[2]);
+        triangle_add(build, face, p[0], p[1], p[2]);
+    }
+}
+
+static void round_add(mesh_build *build)
+{
+    const double *size = build->item->size;
+    belt_add(build, size[0], -size[2] / 2, size[1], size[2] / 2);
+    cap_add(build, 1, size[1], size[2] / 2);
+    cap_add(build, 2, size[0], -size[2] / 2);
+}
+
+static void ball_add(mesh_build *build)
+{
+    double radius = build->item->size[0];
+    int rings = build->item->count / 2;
+    for (int i = 0; i < rings; i++) {
+        double low[3];
+        double high[3]; /* radius of the ring, -, height */
+        circle_point(radius, 3 * rings + 2 * i, 4 * rings, 0.0, low);
+        circle_point(radius, 3 * rings + 2 * (i + 1), 4 * rings, 0.0, high);
+        belt_add(build, i ? low[0] : 0.0, low[1], i + 1 < rings ? high[0] : 0.0, high[1]);
+    }
+}
+
+/* The height of a corner of the quilt: no two neighbours alike, the same on every machine. */
+static double quilt_height(const vectors_item *item, int i, int k)
+{
+    return item->size[2] * ((7 * i + 3 * k + i * k) % 5 - 2);
+}
+
+static void quilt_add(mesh_build *build)
+{
+    const vectors_item *item = build->item;
+    int count = item->count;
+    for (int i = 0; i < count * count; i++) {
+        double p[4][3];
+        for (int k = 0; k < 4; k++) {
+            int x = i % count + (k == 1 || k == 2);
+            int y = i / count + (k >= 2);
+            p[k][0] = item->size[0] * (x / (double)count - 0.5);
+            p[k][1] = item->size[1] * (y / (double)count - 0.5);
+            p[k][2] = quilt_height(item, x, y);
+        }
+        quad_add(build, 0, p);
+    }
+}
+
+static void fan_add(mesh_build *build)
+{
+    const vectors_item *item = build->item;
+    for (int i = 0; i < item->count; i++) {
+        double p[3][3] = {{0, 0, 0}};
+        circle_point(item->size[0], i, item->count, 0.0, p[1]);
+        circle_point(item->size[0], (i + 1) % item->count, item->count, 0.0, p[2]);
+        triangle_add(build, 0, p[0], p[1], p[2]);
+    }
+}
+
+static void item_add(mesh_build *build)
+{
+    build->first = build->mesh->vertices;
+    switch (build->item->kind) {
+    case VECTORS_PLATE:
+        plate_add(build);
+        break;
+    case VECTORS_BOX:
+        box_add(build);
+        break;
+    case VECTORS_ROUND:
+        round_add(build);
+        break;
+    case VECTORS_BALL:
+        ball_add(build);
+        break;
+    case VECTORS_QUILT:
+        quilt_add(build);
+        break;
+    default:
+        fan_add(build);
+        break;
+    }
+}
+
+int cli_vectors_mesh(const vectors_scene *scene, vectors_mesh *mesh)
+{
+    mesh_build build = {.mesh = mesh, .scene = scene};
+    memset(mesh, 0, sizeof *mesh);
+    for (int i = 0; scene->item[i].kind != VECTORS_NONE; i++) {
+        build.item = &scene->item[i];
+        if (lrcs_pose_from_euler("XYZ", build.item->turn_deg, &build.turn) != LRCS_OK) {
+            return CLI_FAILED;
+        }
+        item_add(&build);
+    }
+    return mesh->failed ? cli_out_of_memory() : 0;
+}
+
+void cli_vectors_mesh_free(vectors_mesh *mesh)
+{
+    free(mesh->vertex);
+    free(mesh->facet);
+    free(mesh->wear);
+    memset(mesh, 0, sizeof *mesh);
+}

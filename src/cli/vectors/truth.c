@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+/* The truth of a scene's cases: the exact method over the OBJ as it was written, so that what is
+   judged is what others read. It also decides what single precision and a raster are allowed, which
+   are no bounds but the size of what such codes lose. */
+#include "cli/vectors/vectors.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SINGLE       0x1p-24 /* half the spacing of numbers near 1, single precision */
+#define SINGLE_LEAST 0x1p-96 /* relative to which its least number, 2^-126, is some roundings */
+#define EDGE_ON      (4.0 * SINGLE)
+#define PARTLY_SEEN  0.999 /* less of a facet is taken for an outline inside it */
+
+typedef struct truth_run {
+    const vectors_job *job;
+    lrcs_host_scene host;
+    lrcs_facet_record *records; /* of one case */
+    lrcs_image image;
+    FILE *out; /* NAME.facets.csv */
+} truth_run;
+
+/* ---- what is allowed ---- */
+
+/* A few roundings in single precision: 16 in the sum, 4 in the cosine, whose error the BRDF
+   enlarges; close to grazing and at narrow glints that is much. What underflows may be lost, what
+   is edge-on may show a trace. */
+static double facet_float(const lrcs_facet_record *record, const lrcs_brdf *brdf)
+{
+    lrcs_brdf glint = *brdf;
+    lrcs_brdf diffuse = *brdf;
+    double c = fabs(record->cos_theta);
+    double unit = 4.0 * CLI_PI * c * record->visible_area_m2 * SINGLE;
+    if (c < EDGE_ON) {
+        return 4.0 * CLI_PI * lrcs_brdf_eval(brdf, EDGE_ON) * EDGE_ON * EDGE_ON * record->area_m2;
+    }
+    if (record->sigma_m2 <= 0.0) {
+        return unit * SINGLE_LEAST;
+    }
+    glint.B = diffuse.A = 0.0;
+    double steep = 7.0 + (brdf->A > 0.0 ? 2.0 / (c * c * brdf->s * brdf->s) : 0.0);
+    return unit * (SINGLE_LEAST + lrcs_brdf_eval(&glint, c) * (16.0 + 4.0 * steep / c) +
+                   lrcs_brdf_eval(&diffuse, c) * (16.0 + 4.0 * (1.0 + brdf->m) / c));
+}
+
+/* Half a pixel along the outline of each facet, errors of different facets independent: a raster's
+   usual error is a tenth of that, its worst is where an outline lies along rows or columns. */
+static double facet_edge(const lrcs_scene *scene, const lrcs_facet_record *record, uint32_t facet,
+                         const lrcs_pose *pose)
+{
+    double whole = record->area_m2 * fabs(record->cos_theta);
+    if (!(record->visible_area_m2 > 0.0)) {
+        return 0.0;
+    }
+    double pixels = record->visible_area_m2 < PARTLY_SEEN * whole ? 1.0 : 0.5;
+    return pixels * cli_kit_outline(scene, facet, pose) * record->sigma_m2 /
+           record->visible_area_m2;
+}
+
+static void case_allow(const truth_run *run, vectors_case *one)
+{
+    const lrcs_scene *scene = &run->host.scene;
+    double square = 0.0;
+    one->float_m2 = 0.0;
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        const lrcs_brdf *brdf = &scene->material[scene->facet_material[i]].brdf;
+        double edge = facet_edge(scene, &run->records[i], i, &one->pose);
+        one->float_m2 += facet_float(&run->records[i], brdf);
+        square += edge * edge;
+    }
+    one->edge_m2 = sqrt(square) * one->window[2];
+}
+
+/* ---- a case ---- */
+
+static void record_print(FILE *out, const vectors_case *one, uint32_t facet,
+                         const lrcs_facet_record *record)
+{
+    const double value[3] = {record->cos_theta, record->visible_area_m2, record->sigma_m2};
+    fprintf(out, "%s,%s,%lu", one->scene->name, one->attitude->name, (unsigned long)facet);
+    for (int k = 0; k < 3; k++) {
+        char text[LRCS_HOST_NUMBER_SIZE];
+        lrcs_host_number_text(value[k], text);
+        fprintf(out, ",%s", text);
+    }
+    putc('\n', out);
+}
+
+static int case_run(truth_run *run, vectors_case *one)
+{
+    lrcs_host_error error;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = LRCS_METHOD_EXACT;
+    if (lrcs_host_scene_run(&run->host, &one->pose, &options, &one->result, run->records,
+                            &run->image, NULL, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    if (one->result.method != LRCS_METHOD_EXACT ||
+        (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)) {
+        fprintf(stderr, "lrcs: %s, %s: no exact truth here\n", one->scene->name,
+                one->attitude->name);
+        return CLI_FAILED;
+    }
+    one->window[0] = run->image.left_m;
+    one->window[1] = run->image.top_m;
+    one->window[2] = run->image.side_m;
+    case_allow(run, one);
+    for (uint32_t i = 0; i < run->host.scene.facet_count; i++) {
+        record_print(run->out, one, i, &run->records[i]);
+    }
+    return one->image ? cli_vectors_images(run->job, one, &run->host.scene, &run->image) : 0;
+}
+
+static int truth_write(truth_run *run, vectors_job *job, const vectors_scene *scene)
+{
+    int code = 0;
+    fputs("scene,attitude,facet,cos_theta,visible_area_m2,sigma_m2\n", run->out);
+    for (uint32_t i = 0; i < job->cases && code == 0; i++) {
+        code = job->list[i].scene == scene ? case_run(run, &job->list[i]) : 0;
+    }
+    return code;
+}
+
+static int truth_file(truth_run *run, vectors_job *job, const vectors_scene *scene)
+{
+    lrcs_host_error error;
+    lrcs_host_output out;
+    char path[KIT_PATH];
+    if (cli_kit_path(path, "%s/truth/%s.facets.csv", job->folder, scene->name) != 0) {
+        return CLI_FAILED;
+    }
+    if (lrcs_host_output_open(path, &out, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    run->out = out.stream;
+    int code = truth_write(run, job, scene);
+    if (lrcs_host_output_close(&out, code == 0, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    return code;
+}
+
+int cli_vectors_truth(vectors_job *job, const vectors_scene *scene)
+{
+    truth_run run = {.job = job};
+    int code = cli_kit_scene(job->folder, scene->name, job->binding, job->bindings, &run.host);
+    if (code == 0) {
+        uint32_t side = job->resolution > 0 ? job->resolution : 1;
+        run.image.size = side;
+        run.image.facet = malloc((size_t)side * side * sizeof *run.image.facet);
+        run.records = malloc(((size_t)run.host.scene.facet_count + 1) * sizeof *run.records);
+        code = run.image.facet && run.records ? truth_file(&run, job, scene) : cli_out_of_memory();
+    }
+    free(run.image.facet);
+    free(run.records);
+    lrcs_host_scene_free(&run.host);
+    return code;
+}

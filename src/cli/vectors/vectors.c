@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs vectors: a conformance kit for other implementations. It decides the order of work and which
+   cases there are; the same bytes come of it every time. */
+#include "cli/vectors/vectors.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define RESOLUTION         128u
+#define RESOLUTION_MOST    4096.0
+#define DEGREES_PER_RADIAN 57.295779513082320877
+
+static const char vectors_help[] =
+    "usage: lrcs vectors DIR [options]\n"
+    "\n"
+    "Writes a conformance kit for other implementations into DIR: small scenes (OBJ, STL, JSON),\n"
+    "attitudes, materials, and the truth of each: sigma with its bound, glint and diffuse parts,\n"
+    "visible area and cos theta of every facet, item and depth images; in five tiers, from a "
+    "plate\n"
+    "to hard cases. DIR/README.md says all that one needs to take part; lrcs compare judges.\n"
+    "DIR is made where it is not there; an older kit in it is overwritten, but files of scenes "
+    "that\n"
+    "are not asked for stay (cases.csv says which count). The same bytes every time.\n"
+    "\n"
+    "options\n"
+    "  --resolution N        side of the images in pixels (128; 0: none)\n"
+    "  --tier K              tiers 1 .. K alone (5)\n"
+    "\n"
+    "examples\n"
+    "  lrcs vectors kit\n"
+    "  lrcs vectors kit --resolution 512\n";
+
+static const cli_option vectors_options[] = {
+    {"resolution", 1, 0}, {"tier", 1, 0}, {"help", 0, 0}, {NULL, 0, 0}};
+
+/* ---- the folder ---- */
+
+static int folder_fail(const char *path)
+{
+    fprintf(stderr, "lrcs: %s: cannot make this folder: %s\n", path, strerror(errno));
+    return CLI_FAILED;
+}
+
+/* Holds it anything, and no kit? What is not a kit is left alone. */
+static int folder_foreign(const char *path)
+{
+    char inside[KIT_PATH];
+    struct stat about;
+    int entries = 0;
+    DIR *folder = opendir(path);
+    while (folder && readdir(folder)) {
+        entries++;
+    }
+    if (folder) {
+        closedir(folder);
+    }
+    int kit = cli_kit_path(inside, "%s/scenes", path) == 0 && stat(inside, &about) == 0;
+    return entries > 2 && !kit; /* "." and ".." */
+}
+
+static int folder_make(const char *path)
+{
+    return mkdir(path, 0777) == 0 || errno == EEXIST ? 0 : folder_fail(path);
+}
+
+static int folders_make(const char *path)
+{
+    char inside[KIT_PATH];
+    if (folder_foreign(path)) {
+        fprintf(stderr, "lrcs: %s: holds other files, and no kit: give an empty folder\n", path);
+        return CLI_FAILED;
+    }
+    int code = folder_make(path);
+    code = code ? code : cli_kit_path(inside, "%s/scenes", path);
+    code = code ? code : folder_make(inside);
+    code = code ? code : cli_kit_path(inside, "%s/truth", path);
+    return code ? code : folder_make(inside);
+}
+
+/* ---- cases ---- */
+
+/* The numbers of an attitude as they are printed, and the pose of those. */
+static int case_make(const vectors_scene *scene, const vectors_attitude *attitude,
+                     vectors_case *one)
+{
+    lrcs_pose pose;
+    double length = 0.0;
+    double across = 0.0;
+    *one = (vectors_case){.scene = scene, .attitude = attitude};
+    if (lrcs_pose_from_quaternion(attitude->quaternion, &pose) != LRCS_OK) {
+        return CLI_FAILED;
+    }
+    for (int k = 0; k < 4; k++) {
+        length += attitude->quaternion[k] * attitude->quaternion[k];
+    }
+    for (int k = 0; k < 4; k++) {
+        one->quaternion[k] = attitude->quaternion[k] / sqrt(length);
+    }
+    for (int k = 0; k < 3; k++) {
+        across += pose.direction[k] * pose.direction[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        one->direction[k] = pose.direction[k] / sqrt(across);
+    }
+    const double *s = one->direction;
+    one->azel_deg[0] = DEGREES_PER_RADIAN * atan2(s[1], s[0]);
+    one->azel_deg[1] = DEGREES_PER_RADIAN * atan2(s[2], hypot(s[0], s[1]));
+    return cli_kit_pose(one->quaternion, one->direction, &one->pose) == LRCS_OK ? 0 : CLI_FAILED;
+}
+
+/* Every attitude of the scene's sets; the first one, off all axes where there is such, has
+   pictures. */
+static int cases_add(vectors_job *job, const vectors_scene *scene)
+{
+    int code = 0;
+    int pictures = job->resolution > 0;
+    unsigned shown = scene->attitudes & VECTORS_TURNS ? VECTORS_TURNS : ~VECTORS_EDGES;
+    for (const vectors_attitude *a = cli_vectors_attitudes; a->name && code == 0; a++) {
+        if (a->set & scene->attitudes) {
+            vectors_case *one = &job->list[job->cases++];
+            code = case_make(scene, a, one);
+            one->image = pictures && (a->set & ~shown) == 0;
+            pictures = pictures && !one->image;
+        }
+    }
+    return code;
+}
+
+static int scene_make(vectors_job *job, const vectors_scene *scene)
+{
+    vectors_mesh mesh;
+    int code = cli_vectors_mesh(scene, &mesh);
+    code = code ? code : cli_vectors_files(job, scene, &mesh);
+    cli_vectors_mesh_free(&mesh);
+    code = code ? code : cases_add(job, scene);
+    return code ? code : cli_vectors_truth(job, scene);
+}
+
+static void bindings_make(vectors_job *job)
+{
+    for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
+        job->binding[job->bindings++] =
+            (lrcs_binding){.kind = LRCS_BIND_NAME,
+                           .name = cli_vectors_materials[i].name,
+                           .brdf = cli_vectors_materials[i].brdf,
+                           .two_sided = cli_vectors_materials[i].two_sided};
+    }
+}
+
+/* Room for every table's rows, the last one as well. */
+static int job_room(vectors_job *job)
+{
+    size_t scenes = 0;
+    size_t attitudes = 0;
+    size_t materials = 0;
+    while (cli_vectors_scenes[scenes].name) {
+        scenes++;
+    }
+    while (cli_vectors_attitudes[attitudes].name) {
+        attitudes++;
+    }
+    while (cli_vectors_materials[materials].name) {
+        materials++;
+    }
+    job->list = calloc(scenes * attitudes + 1, sizeof *job->list);
+    job->binding = calloc(materials + 1, sizeof *job->binding);
+    return job->list && job->binding ? 0 : cli_out_of_memory();
+}
+
+static int vectors_make(vectors_job *job, uint32_t tier)
+{
+    uint32_t scenes = 0;
+    int code = job_room(job);
+    code = code ? code : folders_make(job->folder);
+    if (code != 0) {
+        return code;
+    }
+    bindings_make(job);
+    for (const vectors_scene *scene = cli_vectors_scenes; scene->name && code == 0; scene++) {
+        if ((uint32_t)scene->tier <= tier) {
+            code = scene_make(job, scene);
+            scenes++;
+        }
+    }
+    code = code ? code : cli_vectors_index(job);
+    if (code == 0) {
+        printf("%s: kit %d, %lu scenes, %lu cases; begin with %s/README.md\n", job->folder,
+               KIT_VERSION, (unsigned long)scenes, (unsigned long)job->cases, job->folder);
+    }
+    return code;
+}
+
+static int vectors_command(const cli_args *args)
+{
+    vectors_job job = {.folder = args->operand, .resolution = RESOLUTION};
+    uint32_t tier = KIT_TIERS;
+    int code = cli_whole(args, "resolution", 0.0, RESOLUTION_MOST, &job.resolution);
+    code = code ? code : cli_whole(args, "tier", 1.0, KIT_TIERS, &tier);
+    code = code ? code : vectors_make(&job, tier);
+    free(job.list);
+    free(job.binding);
+    return code;
+}
+
+const cli_command cli_vectors_command = {
+    "vectors",    "DIR",           "give the folder that the kit goes to",
+    vectors_help, vectors_options, vectors_command};

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs verify: the engine (shape to facets to sigma) against closed forms, on this machine. The
+   hard cases are verify_hard.c's. */
+#include "cli/verify/verify.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char verify_help[] =
+    "usage: lrcs verify [--hard] [--json]\n"
+    "\n"
+    "Tessellates simple bodies, computes sigma of the facets, and compares with the closed form\n"
+    "of the body, for shapes x aspects x materials. Every error must lie within the bound that\n"
+    "the engine states (plus the closed form's own); then the exit code is 0, else 1.\n"
+    "\n"
+    "options\n"
+    "  --hard   hard cases instead: sigma by the plain formula in doubles (which fails on most),\n"
+    "           by the engine, and a reference computed to 50 digits\n"
+    "  --json   the same as JSON\n"
+    "\n"
+    "example\n"
+    "  lrcs verify --hard\n";
+
+static const cli_option verify_options[] = {
+    {"hard", 0, 0}, {"json", 0, 0}, {"help", 0, 0}, {NULL, 0, 0}};
+
+/* Fine enough to be a test, coarse enough to take seconds. */
+#define VERIFY_TOLERANCE 1e-2
+
+static const lrcs_shape verify_shapes[] = {
+    {.kind = LRCS_SHAPE_PLATE, .size = {1.2, 0.8, 0.0}},
+    {.kind = LRCS_SHAPE_DISC, .radius = 0.5},
+    {.kind = LRCS_SHAPE_BOX, .size = {1.0, 0.8, 0.6}},
+    {.kind = LRCS_SHAPE_SPHERE, .radius = 0.7},
+    {.kind = LRCS_SHAPE_DOME, .radius = 0.6},
+    {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.5, .length = 2.0},
+    {.kind = LRCS_SHAPE_CONE, .radius = 0.5, .half_angle_deg = 15.0},
+    {.kind = LRCS_SHAPE_FRUSTUM, .radius = 0.3, .radius2 = 0.6, .length = 1.0},
+    {.kind = LRCS_SHAPE_PARABOLOID, .radius = 0.5, .length = 0.4}};
+
+static const double verify_aspects[] = {0.0, 20.0, 60.0, 90.0, 135.0, 180.0};
+
+static const lrcs_brdf verify_brdfs[] = {
+    {1.0, 0.25, 0.2, 0.5}, {0.0, 0.3, 0.2, 1.0}, {2.0, 0.0, 0.15, 0.0}};
+
+#define COUNT_OF(list) (sizeof(list) / sizeof(list)[0])
+
+typedef struct verify_case {
+    const char *shape;
+    double aspect_deg;
+    const lrcs_brdf *brdf;
+    double engine, closed, bound, seconds;
+    int good;
+} verify_case;
+
+typedef struct verify_tally {
+    unsigned count, failed;
+    double seconds, worst; /* the largest |error| / bound */
+} verify_tally;
+
+static void case_row(const verify_case *one)
+{
+    double error = one->engine - one->closed;
+    char material[64];
+    snprintf(material, sizeof material, "%g,%g,%g,%g", one->brdf->A, one->brdf->B, one->brdf->s,
+             one->brdf->m);
+    printf("%-10s %6g  %-14s %15.9g %15.9g ", one->shape, one->aspect_deg, material, one->engine,
+           one->closed);
+    if (one->closed != 0.0) {
+        printf("%10.1e", error / one->closed);
+    } else {
+        printf("%10s", error == 0.0 ? "0" : "-");
+    }
+    printf(" %9.1e %9.3f%s\n", one->bound, 1e3 * one->seconds, one->good ? "" : "  FAIL");
+}
+
+static void case_json(const verify_case *one, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_text(json, "shape", one->shape);
+    lrcs_host_json_number(json, "aspect_deg", one->aspect_deg);
+    lrcs_host_json_begin(json, "material", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(json, "A", one->brdf->A);
+    lrcs_host_json_number(json, "B", one->brdf->B);
+    lrcs_host_json_number(json, "s", one->brdf->s);
+    lrcs_host_json_number(json, "m", one->brdf->m);
+    lrcs_host_json_end(json);
+    lrcs_host_json_number(json, "engine_m2", one->engine);
+    lrcs_host_json_number(json, "closed_form_m2", one->closed);
+    lrcs_host_json_number(json, "relative_error",
+                          one->closed != 0.0 ? (one->engine - one->closed) / one->closed
+                                             : (double)NAN);
+    lrcs_host_json_number(json, "bound_m2", one->bound);
+    lrcs_host_json_number(json, "seconds", one->seconds);
+    lrcs_host_json_bool(json, "ok", one->good);
+    lrcs_host_json_end(json);
+}
+
+/* One shape in one material, ready to be looked at. */
+static int shape_scene(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_host_scene *scene,
+                       lrcs_host_error *error)
+{
+    lrcs_recipe_part part = {.name = lrcs_shape_text(shape->kind),
+                             .shape = *shape,
+                             .place = lrcs_place_default(),
+                             .wears = -1};
+    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = -1};
+    lrcs_recipe recipe = {.part = &part, .binding = &binding, .part_count = 1, .binding_count = 1};
+    lrcs_build_options build = lrcs_build_options_default();
+    build.tolerance = VERIFY_TOLERANCE;
+    build.facets_only = 1;
+    int status = lrcs_host_scene_make(&recipe, &build, scene, error);
+    return status == LRCS_OK ? lrcs_host_scene_prepare(scene, error) : status;
+}
+
+/* An axis and an angle from it: s_hat = (sin, 0, cos), as elevation 90 - angle. */
+static int case_run(const lrcs_host_scene *scene, const lrcs_shape *shape, verify_case *one,
+                    lrcs_host_error *error)
+{
+    lrcs_run_options options = lrcs_run_options_default();
+    lrcs_aspect aspect = {.deg = one->aspect_deg};
+    lrcs_pose pose;
+    lrcs_result result = {0};
+    lrcs_closed closed;
+    options.method = LRCS_METHOD_FACET;
+    options.tolerance = VERIFY_TOLERANCE;
+    int status = lrcs_closed_eval(shape, one->brdf, &aspect, &closed);
+    if (status == LRCS_OK) {
+        status = lrcs_pose_from_azel(0.0, 90.0 - one->aspect_deg, &pose);
+    }
+    if (status != LRCS_OK) {
+        snprintf(error->text, sizeof error->text, "%s at %g deg: %s", one->shape, one->aspect_deg,
+                 lrcs_status_text(status));
+        return status;
+    }
+    status = lrcs_host_scene_run(scene, &pose, &options, &result, NULL, NULL, &one->seconds, error);
+    if (status == LRCS_OK) {
+        one->engine = result.sigma_m2;
+        one->closed = closed.sigma_m2;
+        one->bound = result.bound_m2 + closed.bound_m2;
+        one->good = fabs(one->engine - one->closed) <= one->bound;
+    }
+    return status;
+}
+
+static int shape_verify(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_host_json *json,
+                        verify_tally *tally)
+{
+    lrcs_host_error error;
+    lrcs_host_scene scene;
+    int status = shape_scene(shape, brdf, &scene, &error);
+    for (size_t i = 0; i < COUNT_OF(verify_aspects) && status == LRCS_OK; i++) {
+        verify_case one = {
+            .shape = lrcs_shape_text(shape->kind), .aspect_deg = verify_aspects[i], .brdf = brdf};
+        status = case_run(&scene, shape, &one, &error);
+        if (status != LRCS_OK) {
+            break;
+        }
+        tally->count++;
+        tally->failed += !one.good;
+        tally->seconds += one.seconds;
+        if (one.bound > 0.0) {
+            tally->worst = fmax(tally->worst, fabs(one.engine - one.closed) / one.bound);
+        }
+        if (json) {
+            case_json(&one, json);
+        } else {
+            case_row(&one);
+        }
+    }
+    lrcs_host_scene_free(&scene);
+    return status == LRCS_OK ? CLI_DONE : cli_failed(&error);
+}
+
+static void tally_print(const verify_tally *tally, lrcs_host_json *json)
+{
+    if (json) {
+        lrcs_host_json_end(json);
+        lrcs_host_json_count(json, "count", tally->count);
+        lrcs_host_json_count(json, "failed", tally->failed);
+        lrcs_host_json_number(json, "worst_error_over_bound", tally->worst);
+        lrcs_host_json_end(json);
+        return;
+    }
+    printf("%u of %u cases within their bound; the worst error is %.2g of its bound; %.3g s\n",
+           tally->count - tally->failed, tally->count, tally->worst, tally->seconds);
+}
+
+static int verify_command(const cli_args *args)
+{
+    lrcs_host_json writer = lrcs_host_json_make(stdout);
+    lrcs_host_json *json = cli_value(args, "json") ? &writer : NULL;
+    verify_tally tally = {0, 0, 0.0, 0.0};
+    if (cli_value(args, "hard")) {
+        return cli_hard_verify(json != NULL);
+    }
+    if (json) {
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_OBJECT);
+        lrcs_host_json_count(json, "schema", CLI_SCHEMA);
+        lrcs_host_json_text(json, "version", lrcs_version());
+        lrcs_host_json_begin(json, "cases", LRCS_HOST_ARRAY);
+    } else {
+        printf("%-10s %6s  %-14s %15s %15s %10s %9s %9s\n", "shape", "aspect", "A,B,s,m",
+               "engine m2", "closed form m2", "rel error", "bound m2", "time ms");
+    }
+    for (size_t i = 0; i < COUNT_OF(verify_shapes); i++) {
+        for (size_t k = 0; k < COUNT_OF(verify_brdfs); k++) {
+            int code = shape_verify(&verify_shapes[i], &verify_brdfs[k], json, &tally);
+            if (code != CLI_DONE) {
+                return code;
+            }
+        }
+    }
+    tally_print(&tally, json);
+    return tally.failed == 0 ? CLI_DONE : CLI_FAILED;
+}
+
+const cli_command cli_verify_command = {"verify",    NULL,           NULL,
+                                        verify_help, verify_options, verify_command};

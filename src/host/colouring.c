@@ -1,0 +1,367 @@
+/* SPDX-License-Identifier: MIT */
+/* From the numbers of a run to colours, and the scale that covers them. It decides how a run looks,
+   never a number of the result, nor where anything stands on the paper. */
+#include "host/colouring.h"
+
+#include "base/constant.h"
+#include "host/palette.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SCALE_DB    40.0 /* what the scale of sigma spans at most */
+#define SCALE_BINS  800  /* a histogram of -400 .. 400 dB */
+#define SCALE_TEXTS 9.0
+#define LOOK_DEG    (180.0 / LRCSI_PI)
+#define LOOK_PLAIN  0xc8c8c8u /* what has no colour of its own, under a lamp */
+#define LOOK_LEVEL  1e-9      /* a slope that no colour shows */
+#define LOOK_CREASE 0.05      /* cosines that differ by more: an edge to show */
+
+static const char *const look_names[] = {"sigma", "theta", "range", "facet", "material", "shaded"};
+
+#define LOOKS (int)(sizeof look_names / sizeof look_names[0])
+
+const char *lrcs_host_colouring_text(int colouring)
+{
+    return colouring >= 0 && colouring < LOOKS ? look_names[colouring] : NULL;
+}
+
+int lrcs_host_colouring_find(const char *name)
+{
+    for (int i = 0; i < LOOKS; i++) {
+        if (strcmp(look_names[i], name) == 0) {
+            return i;
+        }
+    }
+    return LRCS_E_NAME;
+}
+
+uint32_t lrcsi_colouring_ground(const lrcsi_colouring *colouring)
+{
+    return colouring->picture->white ? 0xffffffu : 0x0d111cu;
+}
+
+uint32_t lrcsi_colouring_ink(const lrcsi_colouring *colouring)
+{
+    return colouring->picture->white ? 0x222222u : 0xcdd2dcu;
+}
+
+/* ---- numbers of a facet ---- */
+
+static const lrcs_material *facet_wears(const lrcsi_colouring *colouring, uint32_t facet)
+{
+    const lrcs_scene *scene = colouring->picture->scene;
+    return &scene->material[scene->facet_material[facet]];
+}
+
+/* sigma per visible projected area in dB, or -HUGE_VAL where nothing comes back. */
+static double facet_return(const lrcs_facet_record *record)
+{
+    if (!(record->sigma_m2 > 0.0) || !(record->visible_area_m2 > 0.0)) {
+        return -HUGE_VAL;
+    }
+    return 10.0 * (log10(record->sigma_m2) - log10(record->visible_area_m2));
+}
+
+/* A corner in the observation frame, about the scene's centre. */
+static void corner_view(const lrcsi_colouring *colouring, uint32_t facet, int corner,
+                        double view[3])
+{
+    const lrcs_scene *scene = colouring->picture->scene;
+    const double *x = scene->vertex[scene->facet[facet].corner[corner]].x;
+    for (int k = 0; k < 3; k++) {
+        const double *axis = colouring->picture->pose->R[k];
+        view[k] = axis[0] * (x[0] - colouring->centre[0]) +
+                  axis[1] * (x[1] - colouring->centre[1]) + axis[2] * (x[2] - colouring->centre[2]);
+    }
+}
+
+/* The plane of a facet over the picture, about the scene's centre; level where it stands on edge.
+   Returned: the least and the most height of its corners. */
+static void facet_plane(const lrcsi_colouring *colouring, uint32_t facet, double at[3],
+                        double height[2])
+{
+    double p[3][3];
+    for (int k = 0; k < 3; k++) {
+        corner_view(colouring, facet, k, p[k]);
+    }
+    double ax = p[1][0] - p[0][0];
+    double ay = p[1][1] - p[0][1];
+    double bx = p[2][0] - p[0][0];
+    double by = p[2][1] - p[0][1];
+    double area = ax * by - ay * bx;
+    double along = ((p[1][2] - p[0][2]) * by - (p[2][2] - p[0][2]) * ay) / area;
+    double up = ((p[2][2] - p[0][2]) * ax - (p[1][2] - p[0][2]) * bx) / area;
+    int level = !isfinite(along) || !isfinite(up);
+    at[1] = level ? 0.0 : along;
+    at[2] = level ? 0.0 : up;
+    at[0] = p[0][2] - at[1] * p[0][0] - at[2] * p[0][1];
+    height[0] = fmin(p[0][2], fmin(p[1][2], p[2][2]));
+    height[1] = fmax(p[0][2], fmax(p[1][2], p[2][2]));
+}
+
+/* ---- scales ---- */
+
+/* The value below which `share` of the area lies, from a histogram of whole dB. */
+static double histogram_at(const double area[SCALE_BINS], double share)
+{
+    double total = 0.0;
+    double seen = 0.0;
+    int bin = 0;
+    for (int i = 0; i < SCALE_BINS; i++) {
+        total += area[i];
+    }
+    while (bin < SCALE_BINS - 1 && seen + area[bin] <= share * total) {
+        seen += area[bin++];
+    }
+    return bin - SCALE_BINS / 2.0;
+}
+
+/* The scale covers all returns seen but the weakest and strongest half percent of the area, in
+   steps of 5 dB; what lies beyond has the end's colour. */
+static void sigma_range(const lrcs_host_picture *picture, double range[2])
+{
+    double area[SCALE_BINS] = {0};
+    double most = 0.0;
+    for (uint32_t f = 0; f < picture->scene->facet_count; f++) {
+        double bin = floor(facet_return(&picture->records[f])) + SCALE_BINS / 2.0;
+        if (bin >= 0.0 && bin < SCALE_BINS) {
+            area[(int)bin] += picture->records[f].visible_area_m2;
+            most = fmax(most, area[(int)bin]);
+        }
+    }
+    if (!(most > 0.0)) { /* nothing returns: no scale is better than another */
+        range[0] = -10.0;
+        range[1] = 0.0;
+        return;
+    }
+    range[1] = 5.0 * ceil((histogram_at(area, 0.995) + 1.0) / 5.0);
+    range[0] = 5.0 * floor(histogram_at(area, 0.005) / 5.0);
+    range[0] = fmax(range[0], range[1] - SCALE_DB);
+    range[0] = fmin(range[0], range[1] - 10.0);
+}
+
+/* All corners of what is seen. */
+static void height_range(const lrcsi_colouring *colouring, double range[2])
+{
+    range[0] = HUGE_VAL;
+    range[1] = -HUGE_VAL;
+    for (uint32_t f = 0; f < colouring->picture->scene->facet_count; f++) {
+        if (colouring->picture->records[f].visible_area_m2 > 0.0) {
+            double at[3];
+            double height[2];
+            facet_plane(colouring, f, at, height);
+            range[0] = fmin(range[0], height[0]);
+            range[1] = fmax(range[1], height[1]);
+        }
+    }
+}
+
+static void scale_make(lrcsi_colouring *colouring)
+{
+    double range[2] = {0.0, 90.0};
+    if (colouring->picture->colouring == LRCS_HOST_BY_SIGMA) {
+        sigma_range(colouring->picture, range);
+    } else if (colouring->picture->colouring == LRCS_HOST_BY_RANGE) {
+        height_range(colouring, range);
+    }
+    colouring->scale = lrcsi_axis_make(0, range[0], range[1], SCALE_TEXTS);
+}
+
+const char *lrcsi_colouring_name(const lrcsi_colouring *colouring)
+{
+    static const char *const name[] = {"sigma per projected area (dB)", "angle of incidence (deg)",
+                                       "range towards the laser (m)"};
+    return colouring->scaled ? name[colouring->picture->colouring] : NULL;
+}
+
+/* ---- materials ---- */
+
+/* A model read twice gives each material twice. */
+static int material_alike(const lrcs_material *a, const lrcs_material *b)
+{
+    return strcmp(a->name, b->name) == 0 && a->has_colour == b->has_colour &&
+           memcmp(a->rgb, b->rgb, sizeof a->rgb) == 0;
+}
+
+/* The place of a material among those that look apart, or their number. */
+static uint32_t material_find(const lrcsi_colouring *colouring, uint32_t material)
+{
+    const lrcs_material *all = colouring->picture->scene->material;
+    uint32_t i = 0;
+    while (i < colouring->materials && material != colouring->material[i] &&
+           !material_alike(&all[colouring->material[i]], &all[material])) {
+        i++;
+    }
+    return i;
+}
+
+static void materials_list(lrcsi_colouring *colouring)
+{
+    const lrcs_scene *scene = colouring->picture->scene;
+    uint32_t last = LRCS_NONE;
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        uint32_t material = scene->facet_material[f];
+        if (material == last || scene->material[material].omitted) {
+            continue;
+        }
+        last = material;
+        if (material_find(colouring, material) < colouring->materials) {
+            continue;
+        }
+        if (colouring->materials < LRCSI_LOOK_MATERIALS) {
+            colouring->material[colouring->materials++] = material;
+        } else {
+            colouring->more = 1;
+        }
+    }
+}
+
+const char *lrcsi_colouring_material_name(const lrcsi_colouring *colouring, uint32_t material)
+{
+    const char *name = colouring->picture->scene->material[material].name;
+    return name && name[0] ? name : "(default)";
+}
+
+uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t material)
+{
+    const lrcs_material *m = &colouring->picture->scene->material[material];
+    if (m->has_colour) {
+        return (uint32_t)m->rgb[0] << 16 | (uint32_t)m->rgb[1] << 8 | m->rgb[2];
+    }
+    uint32_t place = material_find(colouring, material);
+    return place < 7 ? lrcsi_palette_named((int)place + 1) : lrcsi_palette_distinct(material);
+}
+
+/* ---- the look ---- */
+
+static void look_centre(lrcsi_colouring *colouring)
+{
+    const lrcs_scene *scene = colouring->picture->scene;
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (size_t i = 0; i < 3 * (size_t)scene->facet_count; i++) {
+        const double *x = scene->vertex[scene->facet[i / 3].corner[i % 3]].x;
+        for (int k = 0; k < 3 && !facet_wears(colouring, (uint32_t)(i / 3))->omitted; k++) {
+            low[k] = fmin(low[k], x[k]);
+            high[k] = fmax(high[k], x[k]);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        colouring->centre[k] = low[k] <= high[k] ? 0.5 * (low[k] + high[k]) : 0.0;
+    }
+}
+
+lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
+{
+    lrcsi_colouring colouring = {.picture = picture,
+                                 .scaled = picture->colouring <= LRCS_HOST_BY_RANGE};
+    if (picture->colouring == LRCS_HOST_BY_MATERIAL) {
+        materials_list(&colouring);
+    }
+    if (picture->colouring == LRCS_HOST_BY_RANGE) {
+        look_centre(&colouring);
+    }
+    if (colouring.scaled && picture->records) {
+        scale_make(&colouring);
+    }
+    return colouring;
+}
+
+/* What has no value on the scale: darker where it slants. */
+static uint32_t look_grey(const lrcs_facet_record *record)
+{
+    return lrcsi_palette_shade(0x787878u, 0.375 + 0.625 * fmin(fabs(record->cos_theta), 1.0));
+}
+
+static int look_dead(const lrcsi_colouring *colouring, uint32_t facet)
+{
+    return colouring->picture->records[facet].cos_theta < 0.0 &&
+           !facet_wears(colouring, facet)->two_sided;
+}
+
+static double look_height(const lrcsi_colouring *colouring, uint32_t facet, const double view[2])
+{
+    double at[3];
+    double height[2];
+    double x[2];
+    facet_plane(colouring, facet, at, height);
+    for (int k = 0; k < 2; k++) {
+        const double *axis = colouring->picture->pose->R[k];
+        const double *c = colouring->centre;
+        x[k] = view[k] - (axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2]);
+    }
+    return fmin(fmax(at[0] + at[1] * x[0] + at[2] * x[1], height[0]), height[1]);
+}
+
+static uint32_t look_shaded(const lrcsi_colouring *colouring, uint32_t facet)
+{
+    const lrcs_material *material = facet_wears(colouring, facet);
+    double light = 0.12 + 0.88 * fmin(fabs(colouring->picture->records[facet].cos_theta), 1.0);
+    uint32_t own = colouring->picture->scene->facet_material[facet];
+    return lrcsi_palette_shade(
+        material->has_colour ? lrcsi_colouring_material(colouring, own) : LOOK_PLAIN, light);
+}
+
+/* Nothing to show is -HUGE_VAL. */
+static double look_value(const lrcsi_colouring *colouring, uint32_t facet, const double view[2])
+{
+    const lrcs_facet_record *record = &colouring->picture->records[facet];
+    switch (colouring->picture->colouring) {
+    case LRCS_HOST_BY_SIGMA:
+        return facet_return(record);
+    case LRCS_HOST_BY_THETA:
+        return look_dead(colouring, facet) ? -HUGE_VAL
+                                           : LOOK_DEG * acos(fmin(fabs(record->cos_theta), 1.0));
+    default:
+        return look_height(colouring, facet, view);
+    }
+}
+
+uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet,
+                                const double view[2])
+{
+    if (colouring->scaled) {
+        double value = look_value(colouring, facet, view);
+        return isfinite(value) ? lrcsi_palette_even(lrcsi_axis_at(&colouring->scale, value))
+                               : look_grey(&colouring->picture->records[facet]);
+    }
+    switch (colouring->picture->colouring) {
+    case LRCS_HOST_BY_FACET:
+        return lrcsi_palette_distinct(facet);
+    case LRCS_HOST_BY_MATERIAL:
+        return lrcsi_colouring_material(colouring,
+                                        colouring->picture->scene->facet_material[facet]);
+    default:
+        return look_shaded(colouring, facet);
+    }
+}
+
+int lrcsi_colouring_slope(const lrcsi_colouring *colouring, uint32_t facet, double at[3])
+{
+    double height[2];
+    if (colouring->picture->colouring != LRCS_HOST_BY_RANGE) {
+        return 0;
+    }
+    facet_plane(colouring, facet, at, height);
+    for (int k = 0; k < 2; k++) {
+        const double *axis = colouring->picture->pose->R[k];
+        const double *c = colouring->centre;
+        at[0] -= at[k + 1] * (axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2]);
+    }
+    return hypot(at[1], at[2]) > LOOK_LEVEL;
+}
+
+int lrcsi_colouring_outline(const lrcsi_colouring *colouring, uint32_t a, uint32_t b)
+{
+    const lrcs_scene *scene = colouring->picture->scene;
+    const lrcs_facet_record *records = colouring->picture->records;
+    int in_a = a < scene->facet_count;
+    int in_b = b < scene->facet_count;
+    if (!in_a || !in_b) {
+        return in_a;
+    }
+    int crease = colouring->picture->colouring == LRCS_HOST_BY_MATERIAL &&
+                 fabs(records[a].cos_theta - records[b].cos_theta) > LOOK_CREASE;
+    return crease || scene->facet_part[a] != scene->facet_part[b];
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/* What a picture's colours stand for: which colour each facet has, and the scale they are read by.
+ */
+#ifndef LRCSI_COLOURING_H
+#define LRCSI_COLOURING_H
+
+#include <lrcs/picture.h>
+
+#include "host/axis.h"
+
+#define LRCSI_LOOK_MATERIALS 24u
+
+typedef struct lrcsi_colouring {
+    const lrcs_host_picture *picture;
+    int scaled;                              /* colours are read by a scale */
+    lrcsi_axis scale;                        /* then this one */
+    double centre[3];                        /* of the box round the facets, body frame */
+    uint32_t materials;                      /* that look apart; by material only */
+    uint32_t material[LRCSI_LOOK_MATERIALS]; /* one of each */
+    int more;                                /* there are more than these */
+} lrcsi_colouring;
+
+/* Without records, what does not depend on them: all but the scale. */
+lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture);
+
+/* What is behind a picture, and the colour of words on it. */
+uint32_t lrcsi_colouring_ground(const lrcsi_colouring *colouring);
+uint32_t lrcsi_colouring_ink(const lrcsi_colouring *colouring);
+
+/* What the scale stands for, or NULL. */
+const char *lrcsi_colouring_name(const lrcsi_colouring *colouring);
+
+/* The colour of a facet at a point of the observation frame (m, about the body's origin). */
+uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet,
+                                const double view[2]);
+
+/* The colour of a material, and its name for people. */
+uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t material);
+const char *lrcsi_colouring_material_name(const lrcsi_colouring *colouring, uint32_t material);
+
+/* Does a facet have a slope that its colours follow? Then height = at[0] + at[1] x + at[2] y on its
+   plane, above the scene's centre, m. */
+int lrcsi_colouring_slope(const lrcsi_colouring *colouring, uint32_t facet, double at[3]);
+
+/* Does an outline run between two facets that meet in the picture? */
+int lrcsi_colouring_outline(const lrcsi_colouring *colouring, uint32_t a, uint32_t b);
+
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* Jobs in threads, what they make handed over in order. */
+#ifndef LRCSI_WORKERS_H
+#define LRCSI_WORKERS_H
+
+#include <signal.h>
+
+#include "host/fail.h"
+
+typedef struct lrcsi_workers {
+    uint64_t first, count; /* jobs */
+    uint32_t members;      /* threads, the calling one among them; >= 1 */
+    size_t slot_size;      /* bytes that a job makes */
+    void *context;
+    /* does a job; several at a time, each with a member number and a slot of its own */
+    void (*work)(void *context, uint32_t member, uint64_t index, void *slot);
+    /* takes what it made, on the calling thread, in order; not LRCS_OK ends the work */
+    int (*take)(void *context, uint64_t index, const void *slot);
+    const volatile sig_atomic_t *cancel; /* or NULL; looked at by the calling thread alone */
+} lrcsi_workers;
+
+/* Returned: done, the number of jobs taken.
+   Status: LRCS_OK; LRCS_E_CANCELLED; LRCS_E_SYSTEM (memory); as take. */
+int lrcsi_workers_run(const lrcsi_workers *workers, uint64_t *done, lrcs_host_error *error);
+
+#endif

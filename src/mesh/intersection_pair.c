@@ -1,0 +1,455 @@
+/* SPDX-License-Identifier: MIT */
+/* Contacts of two facets, by signs of determinants of the given vertices alone: no intersection
+   point is ever computed. First, rounded and with a bound on the error: does a plane separate the
+   two but for corners that they have in common? The plane of either is tried, and one through a
+   side of either along the axis on which the first is seen most broadly. Then they meet in corners
+   of both or along a side of both, if at all. What that leaves is decided exactly.
+
+   The exact predicates, for F with corners a_0 a_1 a_2 and T with corners p_0 p_1 p_2:
+   1. Signs of the corners of each against the plane of the other. Where those that are not corners
+      of both are all positive or all negative, again the two meet in what both have.
+   2. All zero: one plane. Seen along an axis on which they are not edge-on, neither meets the
+   inside of the other exactly where the line of a side has the one facet on its one side, the other
+   on its other side or on it (separating axes of convex polygons). If it is a side of F, T meets F
+      on that side at most; if only one of T, F has but one corner on it.
+   3. Else T cuts the plane of F in a segment or a point, whose ends are where lines u w through
+      corners of T cross that plane: u on the plane or across from w, w off the plane. The end X
+      lies on the inner side of a side a b of F exactly where the sign of
+          det(w - u, a - u, b - u) = (w - u) . ((a - X) x (b - X))
+      is that of w against the plane. The segment misses the inside of F exactly if it is all
+      outside of (or on) one side's line, or if F is on one side of the segment's own line
+      (separating axes again); and that line is the cut of the two planes, so there the signs
+      of a_k against the plane of T tell. The other way round the determinants are the same.
+   4. A side of F crosses the plane of T in one point. It is in T where these determinants, of that
+      side and the three of T, are nowhere of opposite signs. Where all ends of the cut of T are
+      outside of one side of F, there is nothing in common at all. */
+#include "mesh/intersection_pair.h"
+
+#include <math.h>
+
+#include "base/exact.h"
+
+static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+/* 10 u. Of a plane's height: with n the computed normal at corner a and w_k = |p_i q_j| + |p_j
+   q_i|, each component of n errs by at most 5 u w_k (base/exact.c), a difference x - a by u of
+   itself, and the sum of three products by 3 u of its terms; |n_k| <= (1 + 4 u) w_k. Of a turn: 4 u
+   of its two products. */
+#define TOUCH_FILTER (10.0 * 0x1p-53)
+
+/* A sign that is not known. */
+enum { UNSURE = 2 };
+
+/* The axis is another one only where the facet may be edge-on along the first. */
+void lrcsi_touch_plane(lrcsi_touch_facet *f)
+{
+    const double *a = f->x[0];
+    const double *b = f->x[1];
+    const double *c = f->x[2];
+    const double p[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const double q[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    const double plus[3] = {p[1] * q[2], p[2] * q[0], p[0] * q[1]};
+    const double minus[3] = {p[2] * q[1], p[0] * q[2], p[1] * q[0]};
+    int best = 0;
+    for (int k = 0; k < 3; k++) {
+        f->normal[k] = plus[k] - minus[k];
+        f->weight[k] = fabs(plus[k]) + fabs(minus[k]);
+        best = fabs(f->normal[k]) > fabs(f->normal[best]) ? k : best;
+    }
+    f->axis = best;
+    f->turn = 0;
+    if (fabs(f->normal[best]) > TOUCH_FILTER * f->weight[best]) {
+        f->turn = f->normal[best] > 0.0 ? 1 : -1;
+    }
+    for (int k = 0; k < 3 && f->turn == 0; k++) {
+        f->axis = (best + k) % 3;
+        f->turn = lrcsi_exact_turn(a, b, c, unit_axis[f->axis]);
+    }
+}
+
+static int is_corner_of(const lrcsi_touch_facet *f, const double *p)
+{
+    return p == f->x[0] || p == f->x[1] || p == f->x[2];
+}
+
+/* ---- proved apart, rounded ---- */
+
+/* The side of F's plane on which p is proved to lie; 0 for a corner of F, UNSURE where it is not
+   proved. */
+static int rounded_side(const lrcsi_touch_facet *f, const double *p)
+{
+    const double *a = f->x[0];
+    if (is_corner_of(f, p)) {
+        return 0;
+    }
+    double x = p[0] - a[0];
+    double y = p[1] - a[1];
+    double z = p[2] - a[2];
+    double height = (f->normal[0] * x + f->normal[1] * y) + f->normal[2] * z;
+    double error =
+        TOUCH_FILTER * ((f->weight[0] * fabs(x) + f->weight[1] * fabs(y)) + f->weight[2] * fabs(z));
+    return height > error ? 1 : height < -error ? -1 : UNSURE;
+}
+
+/* Given the sides of T's corners: are those that are not corners of F all strictly on one side, and
+   are there any? Then T meets the plane in corners of F or between them at most. */
+static int plane_separates(const int side[3])
+{
+    int above = side[0] == 1 || side[1] == 1 || side[2] == 1;
+    int below = side[0] == -1 || side[1] == -1 || side[2] == -1;
+    int unsure = side[0] == UNSURE || side[1] == UNSURE || side[2] == UNSURE;
+    return above != below && !unsure;
+}
+
+/* Seen along an axis along which F turns by `turn`: has the line of a side of F all corners of T
+   proved to be outside, but those that are ends of the side? Then they meet in these or between
+   them at most. */
+static int line_separates(const lrcsi_touch_facet *f, int turn, const lrcsi_touch_facet *t,
+                          int axis)
+{
+    const int i = axis == 2 ? 0 : axis + 1;
+    const int j = axis == 0 ? 2 : axis - 1;
+    for (int k = 0; k < 3; k++) {
+        const double *a = f->x[k];
+        const double *b = f->x[k < 2 ? k + 1 : 0];
+        const double along[2] = {turn * (b[i] - a[i]), turn * (b[j] - a[j])};
+        int corner = 0;
+        for (; corner < 3; corner++) {
+            const double *p = t->x[corner];
+            double plus = along[0] * (p[j] - a[j]);
+            double minus = along[1] * (p[i] - a[i]);
+            if (p != a && p != b && !(plus - minus < -TOUCH_FILTER * (fabs(plus) + fabs(minus)))) {
+                break;
+            }
+        }
+        if (corner == 3) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Are two facets, seen along F's axis, separated by the line of a side? */
+static int lines_separate(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t)
+{
+    if (line_separates(f, f->turn, t, f->axis)) {
+        return 1;
+    }
+    const int i = f->axis == 2 ? 0 : f->axis + 1;
+    const int j = f->axis == 0 ? 2 : f->axis - 1;
+    const double *a = t->x[0];
+    double plus = (t->x[1][i] - a[i]) * (t->x[2][j] - a[j]);
+    double minus = (t->x[1][j] - a[j]) * (t->x[2][i] - a[i]);
+    double error = TOUCH_FILTER * (fabs(plus) + fabs(minus));
+    int turn = (plus - minus > error) - (plus - minus < -error);
+    return turn != 0 && line_separates(t, turn, f, f->axis);
+}
+
+/* ---- exact ---- */
+
+/* Do points, all on the line a b, or what is between them, meet the open segment a b? Seen along
+   the axis. */
+static int line_covers_segment(const double *a, const double *b, const double *const *on, int count,
+                               const double *axis)
+{
+    int k = 0;
+    while (k < 2 && (axis[k] != 0 || a[k] == b[k])) {
+        k++;
+    }
+    int below = 0;
+    int above = 0;
+    for (int i = 0; i < count; i++) {
+        below += on[i][k] <= (a[k] < b[k] ? a[k] : b[k]);
+        above += on[i][k] >= (a[k] < b[k] ? b[k] : a[k]);
+    }
+    return count > 0 && below != count && above != count;
+}
+
+/* Does T meet the open segment a b, which is in its plane? */
+static int segment_meets_flat(const lrcsi_touch_facet *t, const double *a, const double *b)
+{
+    const double *axis = unit_axis[t->axis];
+    const double *on[3];
+    int count = 0;
+    int left = 0;
+    int right = 0;
+    for (int k = 0; k < 3; k++) {
+        int turn = lrcsi_exact_turn(a, b, t->x[k], axis);
+        left |= turn > 0;
+        right |= turn < 0;
+        if (turn == 0) {
+            on[count++] = t->x[k];
+        }
+    }
+    if (!(left && right)) {
+        return line_covers_segment(a, b, on, count, axis);
+    }
+    /* The line meets the inside of T: so does the segment, unless a side has all of it outside. */
+    for (int k = 0; k < 3; k++) {
+        const double *p = t->x[k];
+        const double *q = t->x[(k + 1) % 3];
+        if (t->turn * lrcsi_exact_turn(p, q, a, axis) <= 0 &&
+            t->turn * lrcsi_exact_turn(p, q, b, axis) <= 0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Step 1: makes what is unsure of the sides of F's plane exact. Returned: whether a corner of T
+   that is not one of F lies on the plane. */
+static int exact_sides(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t, int side[3])
+{
+    int on = 0;
+    for (int k = 0; k < 3; k++) {
+        if (side[k] == UNSURE) {
+            side[k] = lrcsi_exact_side(f->x[0], f->x[1], f->x[2], t->x[k]);
+            on |= side[k] == 0;
+        }
+    }
+    return on;
+}
+
+/* Step 2: the first side of f (which turns by `turn`) whose line has all of g outside or on it,
+   seen along the axis; -1 for none. */
+static int separating_side(const lrcsi_touch_facet *f, int turn, const lrcsi_touch_facet *g,
+                           const double *axis)
+{
+    for (int k = 0; k < 3; k++) {
+        const double *a = f->x[k];
+        const double *b = f->x[(k + 1) % 3];
+        int i = 0;
+        while (i < 3 && turn * lrcsi_exact_turn(a, b, g->x[i], axis) <= 0) {
+            i++;
+        }
+        if (i == 3) {
+            return k;
+        }
+    }
+    return -1;
+}
+
+/* Does T meet side k of F, which is in its plane, its ends excluded, other than by having it too?
+ */
+static int flat_side_is_met(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t, int k)
+{
+    const double *a = f->x[k];
+    const double *b = f->x[(k + 1) % 3];
+    return !(is_corner_of(t, a) && is_corner_of(t, b)) && segment_meets_flat(t, a, b);
+}
+
+/* Step 2. */
+static void meet_flat(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t,
+                      lrcsi_touch_result *result)
+{
+    const double *axis = unit_axis[f->axis];
+    int turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], axis);
+    int of_f = separating_side(f, f->turn, t, axis);
+    int of_t = separating_side(t, turn, f, axis);
+    if (of_f < 0 && of_t < 0) {
+        *result = (lrcsi_touch_result){{LRCSI_INTERSECTION_COPLANAR, LRCSI_INTERSECTION_COPLANAR},
+                                       {1, 1}};
+        return;
+    }
+    result->rim[0] = of_f >= 0 && flat_side_is_met(f, t, of_f);
+    result->rim[1] = of_t >= 0 && flat_side_is_met(t, f, of_t);
+}
+
+/* Two facets, f[0] and f[1], whose planes cut: of[i][k], where corner k of f[i] lies against the
+   plane of the other; cross[j][k], the sign of the determinant of side j of f[0] and side k of
+   f[1], or UNSURE where it has not been asked for. */
+typedef struct touch_cross {
+    const lrcsi_touch_facet *f[2];
+    const int *of[2];
+    int cross[3][3];
+} touch_cross;
+
+/* The determinant of side j of f[i] and side k of the other: the same either way round. */
+static int cross_sign(touch_cross *c, int i, int j, int k)
+{
+    int *sign = i == 0 ? &c->cross[j][k] : &c->cross[k][j];
+    if (*sign == UNSURE) {
+        const double *u = c->f[i]->x[j];
+        const double *w = c->f[i]->x[(j + 1) % 3];
+        const double *a = c->f[!i]->x[k];
+        const double *b = c->f[!i]->x[(k + 1) % 3];
+        *sign = u == a || u == b || w == a || w == b ? 0 : lrcsi_exact_side(u, w, a, b);
+    }
+    return *sign;
+}
+
+/* Step 3. Where f[i] is cut by the plane of the other: the one or two ends of that, and how they
+   lie to each side of the other. Returned: 1 where they have an end inside of every side, and so
+   the cut meets the open inside of the other if the other's corners are on either side of the plane
+   of f[i], or the cut is but a point; 0 where not; -1 where one side has all strictly outside. */
+static int cut_meets(touch_cross *c, int i)
+{
+    const int *side = c->of[i];
+    const int *other = c->of[!i];
+    int along[2]; /* the sides of f[i] that lead to its ends, and which way they go through the
+                     plane */
+    int up[2];
+    int ends = 0;
+    for (int k = 0; k < 3; k++) {
+        int next = (k + 1) % 3;
+        int last = (k + 2) % 3;
+        if (side[k] == 0 && side[next] == 0) { /* an end in a corner, by the side before it */
+            along[ends] = last;
+            up[ends++] = -side[last];
+        } else if (side[k] == 0 || side[k] == -side[next]) {
+            along[ends] = k;
+            up[ends++] = side[next];
+        }
+    }
+    int inside = 1;
+    for (int k = 0; k < 3; k++) {
+        int inner = 0;
+        int outer = 0;
+        for (int e = 0; e < ends && !inner; e++) {
+            int sign = up[e] * cross_sign(c, i, along[e], k);
+            inner |= sign > 0;
+            outer += sign < 0;
+        }
+        if (outer == ends) {
+            return -1;
+        }
+        inside &= inner;
+    }
+    int above = other[0] > 0 || other[1] > 0 || other[2] > 0;
+    int below = other[0] < 0 || other[1] < 0 || other[2] < 0;
+    return inside && (ends == 1 || (above && below));
+}
+
+/* Step 4: does f[i] meet side k of the other, its ends excluded, other than by having it too? */
+static int side_is_met(touch_cross *c, int i, int k)
+{
+    int at_a = c->of[!i][k];
+    int at_b = c->of[!i][(k + 1) % 3];
+    if (at_a == 0 && at_b == 0) {
+        return flat_side_is_met(c->f[!i], c->f[i], k);
+    }
+    int left = 0;
+    int right = 0;
+    for (int j = 0; j < 3 && at_a == -at_b && !(left && right); j++) {
+        int sign = cross_sign(c, i, j, k);
+        left |= sign > 0;
+        right |= sign < 0;
+    }
+    return at_a == -at_b && !(left && right);
+}
+
+/* Steps 3 and 4. */
+static void meet_across(touch_cross *c, lrcsi_touch_result *result)
+{
+    int meets[2];
+    for (int i = 0; i < 2; i++) {
+        meets[i] = cut_meets(c, i);
+        if (meets[i] < 0) {
+            return;
+        }
+    }
+    for (int i = 0; i < 2; i++) { /* what f[i] does to the other */
+        result->kind[i] = meets[i] ? LRCSI_INTERSECTION_CROSS : LRCSI_INTERSECTION_NONE;
+        result->rim[i] =
+            meets[i] || side_is_met(c, i, 0) || side_is_met(c, i, 1) || side_is_met(c, i, 2);
+    }
+}
+
+int lrcsi_touch_meet(const lrcsi_touch_facet *f, lrcsi_touch_facet *t, lrcsi_touch_result *result)
+{
+    int of_t[3];
+    int of_f[3];
+    *result = (lrcsi_touch_result){{LRCSI_INTERSECTION_NONE, LRCSI_INTERSECTION_NONE}, {0, 0}};
+    of_t[0] = rounded_side(f, t->x[0]);
+    int flat = of_t[0] == UNSURE; /* in one plane, as it seems: then lines are likelier to tell */
+    if (flat && lines_separate(f, t)) {
+        return 0;
+    }
+    of_t[1] = rounded_side(f, t->x[1]);
+    of_t[2] = rounded_side(f, t->x[2]);
+    if (plane_separates(of_t)) {
+        return 0;
+    }
+    lrcsi_touch_plane(t);
+    for (int k = 0; k < 3; k++) {
+        of_f[k] = rounded_side(t, f->x[k]);
+    }
+    if (plane_separates(of_f) || (!flat && lines_separate(f, t))) {
+        return 0;
+    }
+    int on_f = exact_sides(f, t, of_t);
+    if (!on_f && plane_separates(of_t)) {
+        return 0;
+    }
+    if (of_t[0] == 0 && of_t[1] == 0 && of_t[2] == 0) {
+        meet_flat(f, t, result);
+    } else {
+        int on_t = exact_sides(t, f, of_f);
+        if (!on_t && plane_separates(of_f)) {
+            return 0;
+        }
+        touch_cross c = {
+            {t, f},
+            {of_t, of_f},
+            {{UNSURE, UNSURE, UNSURE}, {UNSURE, UNSURE, UNSURE}, {UNSURE, UNSURE, UNSURE}}};
+        meet_across(&c, result);
+    }
+    return result->rim[0] || result->rim[1];
+}
+
+int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+{
+    lrcsi_touch_facet f;
+    lrcsi_touch_facet t;
+    for (int k = 0; k < 3; k++) {
+        f.x[k] = vertex[facet.corner[k]].x;
+        t.x[k] = vertex[other.corner[k]].x;
+    }
+    for (int i = 0; i < 9; i++) { /* corners in one place are one corner */
+        const double *a = f.x[i / 3];
+        const double *b = t.x[i % 3];
+        if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) {
+            t.x[i % 3] = a;
+        }
+    }
+    lrcsi_touch_result result;
+    lrcsi_touch_plane(&f);
+    lrcsi_touch_meet(&f, &t, &result);
+    return result.kind[0];
+}
+
+/* Is p on the segment a b, which is longer than 0, and not at its ends? */
+static int is_inside_segment(const double *a, const double *b, const double *p)
+{
+    int at_end = 0;
+    for (int k = 0; k < 3; k++) {
+        double low = a[k] < b[k] ? a[k] : b[k];
+        double high = a[k] < b[k] ? b[k] : a[k];
+        if (p[k] < low || p[k] > high) {
+            return 0;
+        }
+        at_end |= low != high && (p[k] == low || p[k] == high);
+    }
+    return !at_end && lrcsi_exact_collinear(a, b, p);
+}
+
+/* Does a corner of t lie inside a side of f? */
+static int touches_side(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t)
+{
+    for (int i = 0; i < 3; i++) {
+        if (is_corner_of(f, t->x[i])) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            if (is_inside_segment(f->x[k], f->x[(k + 1) % 3], t->x[i])) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+int lrcsi_touch_on_side(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t)
+{
+    return touches_side(f, t) || touches_side(t, f);
+}

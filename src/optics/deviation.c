@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: MIT */
+/* How far F = f_r cos^2 strays over the normals of a curved patch from its value at the facet's
+   normal: the proved tessellation error of one facet. It knows the patch by four numbers only.
+
+   On the sphere of normals F(n) = G(theta), theta the angle between n and s_hat. Along the geodesic
+   from the facet's normal by the turn vector t
+       F = F_i + grad F_i . t + R,  |R| <= |t|^2/2 sup |Hess F|,
+   the eigenvalues of the Hessian being G'' and cot(theta) G'; G is once continuously
+   differentiable, also across 90 deg where it becomes 0, and its second derivative is bounded,
+   which is all that this needs. Integrated over the patch, per unit of facet area, with the numbers
+   of lrcs_curvature (a = area_error) and each supremum taken over angles within `turn` of theta_i:
+       second   a F_i + bias |G'_i| + spread^2/2 sup max(|G''|, |cot G'|)
+       first    a F_i + sqrt(1 + a) spread sup |G'|        (Cauchy-Schwarz on the integral of |t|)
+       range    a F_i + (1 + a) max(sup G - F_i, F_i)      (inf G >= 0)
+   and the least of the three holds. At single points |F - F_i| is at most turn sup |G'|, and at
+   most max(sup G - F_i, F_i). Over any part of the patch h = F - F_i integrates to at most the
+   integral of its positive part, or of its negative one: with h = g . t + R, either is within (Int
+   |g . t| + |Int g . t|)/2 + Int |R|, that is |G'_i| (sqrt(1 + a) spread + bias)/2 + spread^2/2 sup
+   of the bend. Where both sides of a surface reflect, F continues as G(180 deg - theta) beyond 90
+   deg: once continuously differentiable there too, with the same suprema, so that each bound holds
+   also where some points beyond 90 deg count and others do not.
+
+   With u = tan^2 theta, w = 1 + u, E = exp(-u/s^2), nu = m + 2:
+       glint/A    G = w^2 E                              G' = 2 sqrt(u) (2 w^2 - w^3/s^2) E
+           cot G' = (4 w^2 - 2 w^3/s^2) E
+           G'' = (4 w^3 + 16 u w^2 + 4 u w^4/s^4 - (2 w^4 + 20 u w^3)/s^2) E
+       diffuse/B  G = w^(-nu/2)   G' = -nu sqrt(u) w^(-nu/2)   cot G' = -nu w^(-nu/2)
+           G'' = -nu w^(-nu/2) + nu (nu - 1) u w^(-nu/2)
+   A difference of positive terms is at most the greater of their sums. Each glint term
+   u^a w^b E / s^(2c) is unimodal in u (its logarithm is concave in u, E included), so its supremum
+   over an interval is its value at the clamped peak, the root of u^2 + (1 - (a + b) s^2) u = a s^2.
+   Terms are evaluated as the exponential of a sum of logarithms, none of them above 1e4 where the
+   result is in double range: relative error below 1e4 * 2^-50, which MARGIN covers. */
+#include "base/constant.h"
+#include "optics/reflect.h"
+
+#include <math.h>
+
+#include "base/elementary.h"
+
+#define HALF_PI_BELOW 1.57079632679489655800 /* the double below pi/2 */
+#define STRAY_MARGIN  (1.0 + 1e-10)
+#define EXPONENT_LOW  (-700.0)
+#define STRAY_TINY    0x1p-1009 /* above e^-700: stands for what is below it */
+#define SLOPE_HUGE    1e75      /* s beyond: peaks lie past every finite u met here */
+
+/* A u = tan^2(theta), and the logarithms of it that every term there is made of: taken when first
+   asked for, for they are most of the work. */
+typedef struct tan2_point {
+    double u, log_u, log_w;
+    int known;
+} tan2_point;
+
+/* An interval of u; high may be infinite. */
+typedef struct tan2_range {
+    tan2_point low, high;
+} tan2_range;
+
+/* Bounds on |.| of G and its derivatives, at the facet's normal and over the patch. */
+typedef struct deviation_size {
+    double value, slope;                 /* at the facet's normal */
+    double value_most, slope_most, bend; /* over the patch */
+} deviation_size;
+
+/* An upper bound on e^x, but for the margin. */
+static double exp_above(double x)
+{
+    return x < EXPONENT_LOW ? STRAY_TINY : lrcsi_exp(x);
+}
+
+/* 0 times infinity is 0 here. */
+static double times(double a, double b)
+{
+    return a > 0.0 && b > 0.0 ? a * b : 0.0;
+}
+
+static tan2_point tan2_at(double u)
+{
+    return (tan2_point){u, 0.0, 0.0, 0};
+}
+
+/* At a finite u; log_u is 0 where u is. */
+static void point_know(tan2_point *at)
+{
+    if (!at->known) {
+        at->log_w = lrcsi_log1p(at->u).hi;
+        at->log_u = at->u > 0.0 ? lrcsi_log(at->u).hi : 0.0;
+        at->known = 1;
+    }
+}
+
+/* The point of a range that is nearest to u: one of its ends, or *inside. */
+static tan2_point *range_nearest(tan2_range *range, double u, tan2_point *inside)
+{
+    if (!(u > range->low.u)) {
+        return &range->low;
+    }
+    if (!(u < range->high.u)) {
+        return &range->high;
+    }
+    *inside = tan2_at(u);
+    return inside;
+}
+
+/* The glint's slope, and the logarithm of it where that is asked for. */
+typedef struct glint_slope {
+    double s, log_s;
+} glint_slope;
+
+/* u^a w^b exp(-u/s^2) / s^(2c) at a finite u. */
+static double glint_term(double a, double b, double c, const glint_slope *slope, tan2_point *at)
+{
+    if (at->u == 0.0 && a > 0.0) {
+        return 0.0;
+    }
+    point_know(at);
+    double x = b * at->log_w - at->u / slope->s / slope->s - 2.0 * c * slope->log_s;
+    return exp_above(x + a * at->log_u);
+}
+
+/* Its supremum over a range. */
+static double glint_sup(double a, double b, double c, const glint_slope *slope, tan2_range *range)
+{
+    double peak = HUGE_VAL;
+    if (slope->s < SLOPE_HUGE) {
+        double s2 = slope->s * slope->s;
+        double beta = (a + b) * s2 - 1.0;
+        double root = sqrt(beta * beta + 4.0 * a * s2);
+        peak = beta > 0.0 ? 0.5 * (beta + root) : a > 0.0 ? 2.0 * a * s2 / (root - beta) : 0.0;
+    }
+    tan2_point inside;
+    tan2_point *at = range_nearest(range, peak, &inside);
+    return isfinite(at->u) ? glint_term(a, b, c, slope, at) : HUGE_VAL;
+}
+
+static deviation_size glint_size(double s, int front, tan2_point *here, tan2_range *range)
+{
+    const glint_slope slope = {s, lrcsi_log(s).hi};
+    deviation_size size = {0.0, 0.0, 0.0, 0.0, 0.0};
+    if (front && isfinite(here->u)) {
+        double up = 4.0 * glint_term(0.5, 2.0, 0.0, &slope, here);
+        double down = 2.0 * glint_term(0.5, 3.0, 1.0, &slope, here);
+        double more = fmax(up, down);
+        size.value = glint_term(0.0, 2.0, 0.0, &slope, here);
+        size.slope = isfinite(more) ? fabs(up - down) + 1e-10 * more : more;
+    }
+    size.value_most = glint_sup(0.0, 2.0, 0.0, &slope, range);
+    size.slope_most = fmax(4.0 * glint_sup(0.5, 2.0, 0.0, &slope, range),
+                           2.0 * glint_sup(0.5, 3.0, 1.0, &slope, range));
+    double level = fmax(4.0 * size.value_most, 2.0 * glint_sup(0.0, 3.0, 1.0, &slope, range));
+    double up = 4.0 * glint_sup(0.0, 3.0, 0.0, &slope, range) +
+                16.0 * glint_sup(1.0, 2.0, 0.0, &slope, range) +
+                4.0 * glint_sup(1.0, 4.0, 2.0, &slope, range);
+    double down = 2.0 * glint_sup(0.0, 4.0, 1.0, &slope, range) +
+                  20.0 * glint_sup(1.0, 3.0, 1.0, &slope, range);
+    size.bend = fmax(level, fmax(up, down));
+    return size;
+}
+
+/* u^a w^(-nu/2). */
+static double diffuse_term(double a, double nu, tan2_point *at)
+{
+    if (at->u == 0.0 && a > 0.0) {
+        return 0.0;
+    }
+    if (!isfinite(at->u)) {
+        return 1.0; /* a <= 1 <= nu/2: u^a <= w^(nu/2) */
+    }
+    point_know(at);
+    return exp_above(a * at->log_u - 0.5 * nu * at->log_w);
+}
+
+/* Its supremum over a range: its peak is at u = a / (nu/2 - a), for a = 0 at 0. */
+static double diffuse_sup(double a, double nu, tan2_range *range)
+{
+    tan2_point inside;
+    double peak = a > 0.0 ? a / (0.5 * nu - a) : 0.0;
+    return diffuse_term(a, nu, range_nearest(range, peak, &inside));
+}
+
+static deviation_size diffuse_size(double m, int front, tan2_point *here, tan2_range *range)
+{
+    double nu = m + 2.0;
+    deviation_size size = {0.0, 0.0, 0.0, 0.0, 0.0};
+    if (front && isfinite(here->u)) {
+        size.value = diffuse_term(0.0, nu, here);
+        size.slope = nu * diffuse_term(0.5, nu, here);
+    }
+    size.value_most = diffuse_sup(0.0, nu, range);
+    size.slope_most = nu * diffuse_sup(0.5, nu, range);
+    size.bend = fmax(nu * size.value_most, nu * (nu - 1.0) * diffuse_sup(1.0, nu, range));
+    return size;
+}
+
+static void size_add(deviation_size *sum, double amplitude, const deviation_size *part)
+{
+    sum->value += times(amplitude, part->value);
+    sum->slope += times(amplitude, part->slope);
+    sum->value_most += times(amplitude, part->value_most);
+    sum->slope_most += times(amplitude, part->slope_most);
+    sum->bend += times(amplitude, part->bend);
+}
+
+/* tan^2 over the angles within `turn` of theta that face the laser; 0 where none does. */
+static int range_around(double theta, double turn, tan2_range *range)
+{
+    double slack = 8.0 * LRCSI_U * (theta + turn);
+    double low = theta - turn - slack;
+    double high = theta + turn + slack;
+    if (low > HALF_PI_BELOW) {
+        return 0;
+    }
+    double near = low > 0.0 ? tan(low) : 0.0;
+    double far = high < HALF_PI_BELOW ? tan(high) : HUGE_VAL;
+    range->low = tan2_at(near * near * (1.0 - 8.0 * LRCSI_U));
+    range->high = tan2_at(far * far * (1.0 + 8.0 * LRCSI_U));
+    return 1;
+}
+
+/* The least of the three bounds, and what holds of every single point of the patch. */
+static lrcsi_deviation stray_of(const deviation_size *all, const lrcs_curvature *c)
+{
+    double second = times(c->bias, all->slope) + times(0.5 * c->spread * c->spread, all->bend);
+    double first = times(c->spread * sqrt(1.0 + c->area_error), all->slope_most);
+    double range = fmax(all->value_most - all->value, all->value);
+    double slope = times(c->turn, all->slope_most);
+    double half = 0.5 * times(c->spread * sqrt(1.0 + c->area_error) + c->bias, all->slope) +
+                  times(0.5 * c->spread * c->spread, all->bend);
+    double least = fmin(second, first);
+    double apart = slope;
+    if (isfinite(all->value_most)) {
+        least = fmin(least, times(1.0 + c->area_error, range));
+        apart = fmin(slope, range);
+    }
+    return (lrcsi_deviation){(times(c->area_error, all->value) + least) * STRAY_MARGIN,
+                             apart * STRAY_MARGIN,
+                             fmin(half, times(1.0 + c->area_error, apart)) * STRAY_MARGIN,
+                             all->value * STRAY_MARGIN, all->value_most * STRAY_MARGIN};
+}
+
+lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
+                                     const lrcs_curvature *curvature)
+{
+    if (cos_theta < -(curvature->turn + 0x1p-40)) { /* below -sin(turn): all of it faces away */
+        return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0};
+    }
+    int front = cos_theta > 0.0;
+    double angle = atan(sqrt(tan2));
+    tan2_range range;
+    if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, curvature->turn, &range)) {
+        return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0};
+    }
+    tan2_point here = tan2_at(tan2);
+    deviation_size all = {0.0, 0.0, 0.0, 0.0, 0.0};
+    if (brdf->A > 0.0) {
+        deviation_size part = glint_size(brdf->s, front, &here, &range);
+        size_add(&all, brdf->A, &part);
+    }
+    if (brdf->B > 0.0) {
+        deviation_size part = diffuse_size(brdf->m, front, &here, &range);
+        size_add(&all, brdf->B, &part);
+    }
+    return stray_of(&all, curvature);
+}
+
+double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double tan2,
+                               const lrcs_curvature *curvature)
+{
+    const lrcs_curvature *c = curvature;
+    if (c->turn == 0.0 && c->area_error == 0.0 && c->bias == 0.0 && c->spread == 0.0) {
+        return 0.0;
+    }
+    return lrcsi_deviation_make(brdf, cos_theta, tan2, curvature).whole;
+}
+
+/* f_r cos is w^(5/2) E, of the family of glint terms, and w^(-(m+1)/2), which only falls. */
+lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn)
+{
+    lrcsi_reflection most = {0.0, 0.0, 0.0};
+    tan2_range range;
+    if (!range_around(theta, turn, &range)) {
+        return most;
+    }
+    if (brdf->A > 0.0) {
+        const glint_slope slope = {brdf->s, 0.0}; /* a term with c = 0 asks for no logarithm */
+        most.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, &slope, &range) * STRAY_MARGIN;
+    }
+    if (brdf->B > 0.0) {
+        most.diffuse = brdf->B * diffuse_sup(0.0, brdf->m + 1.0, &range) * STRAY_MARGIN;
+    }
+    return most;
+}

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT */
+/* Slack between parts and the facets within it. Why these distances suffice stands in
+   visibility/proximity_band.h. Shares are rounded outward: coordinates here are below 1 and doubles
+   good to 2^-48 of that, so every distance is widened by LRCSI_NEAR_OFF. */
+#include "scene/proximity.h"
+
+#include <math.h>
+
+#include "base/range.h"
+#include "base/work.h"
+#include "mesh/slice.h"
+#include "mesh/tree.h"
+#include "scene/prepare.h"
+
+/* See scene/solid.c: beyond this the rounding of vertices cannot turn a facet over. */
+#define NEAR_GRAZE 16.0
+
+int lrcsi_proximity_closed(const lrcs_prepared *p, uint32_t part)
+{
+    return p->scene->part[part].solid;
+}
+
+/* An open piece of a convex surface: neither closed nor flat. */
+static int part_is_open(const lrcs_prepared *p, uint32_t part)
+{
+    int kind = p->scene->part[part].kind;
+    return !lrcsi_proximity_closed(p, part) && kind != LRCS_SHAPE_PLATE && kind != LRCS_SHAPE_DISC;
+}
+
+double lrcsi_proximity_slack(const lrcs_prepared *p, uint32_t part, uint32_t other)
+{
+    double own = p->proximity.reach[part];
+    double theirs = p->proximity.reach[other];
+    if (own == 0 && theirs == 0) {
+        return 0;
+    }
+    return theirs + (part_is_open(p, other) ? lrcsi_most(own, theirs) : own) + LRCSI_NEAR_OFF;
+}
+
+/* --- one pair --------------------------------------------------------------------------------- */
+
+double lrcsi_proximity_longest(const lrcs_prepared *p, uint32_t facet)
+{
+    double most = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *a = lrcsi_prepared_corner(p, facet, k);
+        const double *b = lrcsi_prepared_corner(p, facet, (k + 1) % 3);
+        double square = 0;
+        for (int i = 0; i < 3; i++) {
+            square += (b[i] - a[i]) * (b[i] - a[i]);
+        }
+        most = lrcsi_most(most, sqrt(square));
+    }
+    return most;
+}
+
+/* The share of a facet within `slack` of the prism over `other`: between two planes that far from
+   other's, and between three that far outside its sides. */
+static double near_share(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+{
+    const lrcsi_normal *normal = &p->normal[other];
+    lrcsi_slice slice =
+        lrcsi_slice_start(lrcsi_prepared_corner(p, facet, 0), lrcsi_prepared_corner(p, facet, 1),
+                          lrcsi_prepared_corner(p, facet, 2));
+    double n[3];
+    double down[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = normal->high[k] / normal->length;
+        down[k] = -n[k];
+    }
+    lrcsi_slice_cut(&slice, n, lrcsi_prepared_corner(p, other, 0), slack);
+    lrcsi_slice_cut(&slice, down, lrcsi_prepared_corner(p, other, 0), slack);
+    for (int side = 0; side < 3 && slice.count > 0; side++) {
+        const double *a = lrcsi_prepared_corner(p, other, side);
+        const double *b = lrcsi_prepared_corner(p, other, (side + 1) % 3);
+        const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+        double out[3];
+        for (int k = 0; k < 3; k++) {
+            out[k] = along[(k + 1) % 3] * n[(k + 2) % 3] - along[(k + 2) % 3] * n[(k + 1) % 3];
+        }
+        double size = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
+        lrcsi_slice_cut(&slice, out, a, slack * size);
+    }
+    return lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length,
+                             lrcsi_proximity_longest(p, facet));
+}
+
+/* --- all pairs -------------------------------------------------------------------------------- */
+
+/* Entries are taken one by one, and lie one behind the other. */
+_Static_assert(sizeof(lrcsi_near) % LRCS_WORK_ALIGN == 0, "no gaps between entries");
+
+static int near_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work *work)
+{
+    lrcsi_proximity *proximity = &p->proximity;
+    const uint32_t *part = p->scene->facet_part;
+    double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
+    double share = near_share(p, facet, other, slack);
+    if (!(share > 0)) {
+        return LRCS_OK;
+    }
+    lrcsi_near *near = lrcsi_work_take(work, 1, sizeof *near);
+    if (!near) {
+        return LRCS_E_MEMORY;
+    }
+    *near = (lrcsi_near){facet, other, share};
+    proximity->near = proximity->near ? proximity->near : near;
+    proximity->count++;
+    return LRCS_OK;
+}
+
+/* The pairs of a facet of a curved part with all of other parts, either way round; where both are
+   curved each comes up by itself. */
+static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree, lrcs_work *work)
+{
+    const lrcs_scene *scene = p->scene;
+    uint32_t part = scene->facet_part[facet];
+    double within = 2 * (p->proximity.reach[part] + p->proximity.most) + LRCSI_NEAR_OFF;
+    lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
+    for (int k = 0; k < 3; k++) {
+        box.low[k] -= within;
+        box.high[k] += within;
+    }
+    lrcsi_tree_walk walk = lrcsi_tree_within(tree, &box, part);
+    int status = LRCS_OK;
+    uint32_t place;
+    while (status == LRCS_OK && (place = lrcsi_tree_next(&walk)) != LRCS_NONE) {
+        uint32_t other = tree->order[place];
+        if (scene->facet_part[other] == part) {
+            continue;
+        }
+        status = near_add(p, facet, other, work);
+        if (status == LRCS_OK && p->proximity.reach[scene->facet_part[other]] == 0) {
+            status = near_add(p, other, facet, work);
+        }
+    }
+    return status;
+}
+
+/* The list grows above the tree and moves down at the end. */
+static int nears_find(lrcs_prepared *p, lrcs_work *work)
+{
+    lrcsi_proximity *proximity = &p->proximity;
+    const lrcs_scene *scene = p->scene;
+    lrcsi_tree tree;
+    size_t mark = work->used;
+    int status = lrcsi_tree_make(p->vertex, scene->facet, scene->facet_count, p->skip,
+                                 scene->facet_part, 0, work, &tree);
+    for (uint32_t f = 0; f < scene->facet_count && status == LRCS_OK; f++) {
+        if (!p->skip[f] && p->proximity.reach[scene->facet_part[f]] > 0) {
+            status = near_around(p, f, &tree, work);
+        }
+    }
+    work->used = mark;
+    if (status == LRCS_OK) {
+        const lrcsi_near *above = proximity->near;
+        proximity->near = lrcsi_work_take(work, proximity->count, sizeof *proximity->near);
+        status = proximity->near ? LRCS_OK : LRCS_E_MEMORY;
+        for (size_t i = 0; i < proximity->count && status == LRCS_OK; i++) {
+            proximity->near[i] = above[i];
+        }
+    }
+    return status;
+}
+
+/* --- parts ------------------------------------------------------------------------------------ */
+
+/* 0 where the curvature of some part is not known, or rounding left a curved part's facet without
+   area: what the part hides can then not be told from its other facets. */
+static int parts_known(const lrcs_prepared *p)
+{
+    const lrcs_scene *scene = p->scene;
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        const lrcs_part *part = &scene->part[scene->facet_part[f]];
+        if (!lrcsi_prepared_material(p, f)->omitted &&
+            (!part->curvature_known || (part->reach > 0 && p->topology.degenerate[f]))) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* A facet of a convex part whose vertices are off by `off` keeps facing as it does, and in its
+   place among the part's others, where |cos(theta)| exceeds 16 off over its least altitude
+   (scene/solid.c). */
+static void parts_fill(lrcs_prepared *p)
+{
+    lrcsi_proximity *proximity = &p->proximity;
+    const lrcs_scene *scene = p->scene;
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        proximity->reach[i] = ldexp(scene->part[i].reach, -p->exponent);
+        proximity->most = lrcsi_most(proximity->most, proximity->reach[i]);
+        proximity->grazing_cos[i] = 0;
+    }
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        uint32_t i = scene->facet_part[f];
+        if (p->skip[f] || proximity->reach[i] == 0) {
+            continue;
+        }
+        double off = ldexp(scene->part[i].misplaced, -p->exponent) + 4 * 0x1p-53;
+        double altitude = p->normal[f].length / lrcsi_proximity_longest(p, f);
+        proximity->grazing_cos[i] =
+            lrcsi_most(proximity->grazing_cos[i], NEAR_GRAZE * off / altitude);
+    }
+}
+
+size_t lrcsi_proximity_need(const lrcs_scene *scene)
+{
+    size_t need = 0;
+    for (uint32_t i = 0; i < scene->part_count && need == 0; i++) {
+        if (scene->part[i].reach > 0) {
+            need = lrcsi_work_bytes(4 * (size_t)scene->facet_count + 64, sizeof(lrcsi_near));
+            need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(scene->part_count, sizeof(double)));
+        }
+    }
+    return need;
+}
+
+int lrcsi_proximity_make(lrcs_prepared *p, lrcs_work *work)
+{
+    if (!parts_known(p)) {
+        return LRCS_OK;
+    }
+    p->proximity.reach = lrcsi_work_take(work, p->scene->part_count, sizeof *p->proximity.reach);
+    p->proximity.grazing_cos =
+        lrcsi_work_take(work, p->scene->part_count, sizeof *p->proximity.grazing_cos);
+    if (!p->proximity.reach || !p->proximity.grazing_cos) {
+        return LRCS_E_MEMORY;
+    }
+    parts_fill(p);
+    return nears_find(p, work);
+}

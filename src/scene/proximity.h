@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* Where curved shapes stand among other parts: how far each part's true surface may be from its
+   facets, and which facets come so near to one of another part that the truth may have them in
+   another order. It does not depend on direction. */
+#ifndef LRCSI_PROXIMITY_H
+#define LRCSI_PROXIMITY_H
+
+#include <lrcs/run.h>
+
+/* Every slack is widened by this: coordinates are below 1, and doubles good to 2^-48 of that. */
+#define LRCSI_NEAR_OFF 0x1p-44
+
+/* At most this share of the facet's area is as near to `other` as their parts' slack. */
+typedef struct lrcsi_near {
+    uint32_t facet, other;
+    double share;
+} lrcsi_near;
+
+typedef struct lrcsi_proximity {
+    double *reach; /* part: lrcs_part.reach, scaled; NULL where this was not asked for, or some
+                      part's curvature is not known */
+    double *
+        grazing_cos; /* part: a facet with |cos(theta)| above this keeps its side of its own part */
+    double most;     /* of reach */
+    lrcsi_near *near; /* in no order */
+    size_t count;
+} lrcsi_proximity;
+
+/* How near a facet of `part` must come to one of `other`, or in projection to its rims and
+   contours, before the truth may differ there: 0 where both parts' facets are the truth. */
+double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint32_t other);
+
+/* 1 where a part is a closed outward solid by construction: its back sides are never what hides. */
+int lrcsi_proximity_closed(const lrcs_prepared *prepared, uint32_t part);
+
+/* A facet's longest side, scaled. */
+double lrcsi_proximity_longest(const lrcs_prepared *prepared, uint32_t facet);
+
+/* Bytes for ordinary scenes; 0 where no shape is curved. */
+size_t lrcsi_proximity_need(const lrcs_scene *scene);
+
+/* Fills prepared->proximity, in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
+int lrcsi_proximity_make(lrcs_prepared *prepared, lrcs_work *work);
+
+#endif

@@ -1,0 +1,394 @@
+/* SPDX-License-Identifier: MIT */
+/* Finding event edges and the facets that they cross. Why this suffices stands in the header; what
+   undecided facets show of themselves is decided elsewhere. */
+#include "visibility/classify.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/exact.h"
+#include "base/sort.h"
+#include "base/work.h"
+#include "visibility/sample.h"
+
+/* How many listed events are examined at most to tell whether any crosses a facet. One facet in
+   100,000 of real models needs more. Where facets are long and narrow, or stand in a stack, a grid
+   separates little: without a limit the search would take quadratic time. A facet that is still
+   undecided then counts as undecided, which is never wrong. */
+#define MOST_ASKED 512u
+
+/* --- crossings -------------------------------------------------------------------------------- */
+
+/* A segment of the view: where it starts, where it leads, and how far either may be off. */
+typedef struct contest_side {
+    double at[2], to[2];
+    double length; /* of `to`, in the 1-norm */
+    double at_err; /* of `at`, in each coordinate, */
+    double to_err; /* and of `to` */
+} contest_side;
+
+/* A facet that asks which event edges cross it. */
+typedef struct contest_ask {
+    uint32_t facet;
+    int facing;
+    const uint32_t *corner;
+    contest_side side[3]; /* from corner k to k + 1 */
+} contest_ask;
+
+/* A sign that plain doubles do not tell. */
+enum { TURN_UNSURE = 2 };
+
+/* Which way vertices a, b, c turn: from view coordinates where their error allows, else exactly. Of
+   three vertices that far away is not taken as the one from which both others are seen: it would
+   blur what the others tell. Differences are off by e and f at most, rounding included
+   (lrcsi_view_off), so p x q by e |q| + f |p| + 2 e f in the 1-norm, and by 2 u |p| |q| more, below
+   a fifth of that. */
+static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
+{
+    if (c == a || c == b) {
+        return 0;
+    }
+    double off[3] = {lrcsi_view_off(view->point[a].x), lrcsi_view_off(view->point[b].x),
+                     lrcsi_view_off(view->point[c].x)};
+    if (off[0] > off[1] + off[2]) {
+        uint32_t far = a;
+        double far_off = off[0];
+        a = b;
+        b = c;
+        c = far;
+        off[0] = off[1];
+        off[1] = off[2];
+        off[2] = far_off;
+    }
+    const double *at = view->point[a].x;
+    const double p[2] = {view->point[b].x[0] - at[0], view->point[b].x[1] - at[1]};
+    const double q[2] = {view->point[c].x[0] - at[0], view->point[c].x[1] - at[1]};
+    double turn = p[0] * q[1] - p[1] * q[0];
+    double e = off[0] + off[1];
+    double f = off[0] + off[2];
+    if (fabs(turn) >
+        1.5 * (e * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * (fabs(p[0]) + fabs(p[1])))) {
+        return turn > 0 ? 1 : -1;
+    }
+    const lrcs_point *v = view->prepared->vertex;
+    return lrcsi_exact_turn(v[a].x, v[b].x, v[c].x, view->direction);
+}
+
+static contest_side contest_side_of(const lrcsi_view *view, uint32_t a, uint32_t b)
+{
+    const double *p = view->point[a].x;
+    const double *q = view->point[b].x;
+    double err = lrcsi_view_off(p);
+    contest_side side = {{p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}, 0, err, err + lrcsi_view_off(q)};
+    side.length = fabs(side.to[0]) + fabs(side.to[1]);
+    return side;
+}
+
+/* Which way a side and a point x, which is off by err, turn; TURN_UNSURE where vertex_turn is to
+   tell. The same bound. */
+static inline int contest_side_turn(const contest_side *side, const double *x, double err)
+{
+    const double q[2] = {x[0] - side->at[0], x[1] - side->at[1]};
+    double turn = side->to[0] * q[1] - side->to[1] * q[0];
+    double f = side->at_err + err;
+    double off = 1.5 * (side->to_err * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * side->length);
+    return turn > off ? 1 : turn < -off ? -1 : TURN_UNSURE;
+}
+
+/* Does the segment p q cross the open inside of the facet, in projection? Two convex figures of
+   the plane are apart just if some line along a side of either parts them. *along: it lies on the
+   line of a side that parts them. */
+static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t p, uint32_t q,
+                           int *along)
+{
+    const double *x = view->point[p].x;
+    const double *y = view->point[q].x;
+    double x_err = lrcsi_view_off(x);
+    double y_err = lrcsi_view_off(y);
+    for (int k = 0; k < 3; k++) {
+        uint32_t a = ask->corner[k];
+        uint32_t b = ask->corner[(k + 1) % 3];
+        int of_p = ask->facing * contest_side_turn(&ask->side[k], x, x_err);
+        int of_q = ask->facing * contest_side_turn(&ask->side[k], y, y_err);
+        if (of_p == 1 || of_q == 1) {
+            continue;
+        }
+        of_p = of_p == -1 ? -1 : ask->facing * vertex_turn(view, a, b, p);
+        of_q = of_q == -1 ? -1 : ask->facing * vertex_turn(view, a, b, q);
+        if (of_p <= 0 && of_q <= 0) {
+            *along |= of_p == 0 && of_q == 0;
+            return 0;
+        }
+    }
+    const contest_side line = contest_side_of(view, p, q);
+    int left = 0;
+    int right = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *corner = view->point[ask->corner[k]].x;
+        int side = contest_side_turn(&line, corner, ask->side[k].at_err);
+        side = side != TURN_UNSURE ? side : vertex_turn(view, p, q, ask->corner[k]);
+        left |= side > 0;
+        right |= side < 0;
+    }
+    return left && right;
+}
+
+/* Is the vertex nearer the laser than the facet's plane? The facet's own are not. */
+static int vertex_nearer(const lrcsi_view *view, const contest_ask *ask, uint32_t vertex)
+{
+    return vertex != ask->corner[0] && vertex != ask->corner[1] && vertex != ask->corner[2] &&
+           lrcsi_sample_above(view, ask->facet, view->prepared->vertex[vertex].x) > 0;
+}
+
+static int edge_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t edge, int *along)
+{
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t *own = p->topology.facet_edge[ask->facet].corner;
+    const lrcsi_edge *e = &p->topology.edge[edge];
+    if (edge == own[0] || edge == own[1] || edge == own[2]) {
+        return 0;
+    }
+    return (vertex_nearer(view, ask, e->low) || vertex_nearer(view, ask, e->high)) &&
+           segment_crosses(view, ask, e->low, e->high, along);
+}
+
+static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
+{
+    contest_ask ask = {.facet = facet, .facing = view->facing[facet]};
+    ask.corner = view->prepared->scene->facet[facet].corner;
+    for (int k = 0; k < 3; k++) {
+        ask.side[k] = contest_side_of(view, ask.corner[k], ask.corner[(k + 1) % 3]);
+    }
+    return ask;
+}
+
+/* Finds at most `most` of them: one suffices to know that there are any. Examines at most *steps
+   listed events, and leaves in *steps how many more it might have examined. Finds fewer also where
+   the meter is spent. Events whose box lies beside the facet's do not cross it. A cell lists events
+   in the order of their nearest points: after the first one that lies behind all of the facet, no
+   other comes nearer than the facet. */
+static uint32_t contest_find(lrcsi_classification *classification, uint32_t facet, uint32_t most,
+                             uint32_t *steps)
+{
+    const lrcsi_view *view = classification->view;
+    const lrcsi_grid *grid = &classification->grid;
+    const contest_ask ask = contest_ask_of(view, facet);
+    lrcsi_view_box box = classification->box[facet];
+    lrcsi_cells cells = classification->cells[facet];
+    uint32_t count = 0;
+    classification->asked++;
+    classification->along = 0;
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        const uint32_t *row = grid->first + (size_t)y * grid->size;
+        for (uint32_t x = cells.x0; x < cells.x1; x++) {
+            for (uint32_t i = row[x]; i < row[x + 1] && count < most; i++) {
+                lrcsi_event_box *event = &classification->event[grid->item[i]];
+                if (*steps == 0 || !lrcsi_meter_take(view->meter, 1)) {
+                    return count;
+                }
+                *steps -= *steps != LRCS_NONE;
+                if (lrcsi_view_box_behind(&event->box, &box)) {
+                    break;
+                }
+                if (lrcsi_view_box_beside(&event->box, &box) ||
+                    event->asked == classification->asked) {
+                    continue;
+                }
+                event->asked = classification->asked;
+                if (edge_crosses(view, &ask, event->edge, &classification->along)) {
+                    classification->crossing[count++] = event->edge;
+                }
+            }
+        }
+    }
+    return count;
+}
+
+uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t facet)
+{
+    if (classification->crossed != facet) {
+        uint32_t steps = LRCS_NONE; /* no limit */
+        classification->crossings = contest_find(classification, facet, LRCS_NONE, &steps);
+        classification->crossed =
+            lrcsi_meter_spent(classification->view->meter) ? LRCS_NONE : facet;
+    }
+    return classification->crossings;
+}
+
+void lrcsi_classify_recall(lrcsi_classification *classification, uint32_t facet,
+                           const uint32_t *crossing, uint32_t count)
+{
+    memcpy(classification->crossing, crossing, count * sizeof *crossing);
+    classification->crossings = count;
+    classification->crossed = facet;
+}
+
+/* --- contacts --------------------------------------------------------------------------------- */
+
+int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
+                             const lrcsi_intersection *touch)
+{
+    return lrcsi_grid_casts(view, touch->other) && !(touch->kind == LRCSI_INTERSECTION_COPLANAR &&
+                                                     lrcsi_sample_beats(view, facet, touch->other));
+}
+
+static int intersection_divides(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcsi_intersections *intersections = &view->prepared->intersections;
+    for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
+        if (lrcsi_intersection_hides(view, facet, &intersections->touch[i])) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* --- all facets ------------------------------------------------------------------------------- */
+
+/* How many events their grid lists at most. */
+static size_t events_most(const lrcs_prepared *prepared)
+{
+    return 8 * (size_t)prepared->topology.edge_count;
+}
+
+/* Orders floats from the largest to the least: z nearest to the laser comes first. */
+static uint64_t depth_key(float z)
+{
+    uint32_t bits;
+    memcpy(&bits, &z, sizeof bits);
+    return bits >> 31 ? bits : ~bits & 0x7fffffff;
+}
+
+/* Sorts the events by their nearest points. Takes 20 bytes an event for the time being; the grid
+   made afterwards may take 32 (events_most), so that the need does not grow. */
+static int contest_sort(lrcsi_classification *c, lrcs_work *work)
+{
+    size_t mark = work->used;
+    const lrcsi_view *view = c->view;
+    uint32_t count = c->events.count;
+    uint64_t *key = lrcsi_work_take(work, count, sizeof *key);
+    uint64_t *key_spare = lrcsi_work_take(work, count, sizeof *key_spare);
+    uint32_t *spare = lrcsi_work_take(work, count, sizeof *spare);
+    if (!key || !key_spare || !spare) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
+        const uint32_t ends[2] = {edge->low, edge->high};
+        key[i] = depth_key(lrcsi_view_box_of(view, ends, 2).high[2]);
+    }
+    lrcsi_sort_pairs(key, c->events.edge, key_spare, spare, count);
+    work->used = mark;
+    return LRCS_OK;
+}
+
+/* Events where they lie, and their grid. */
+static int contest_events(lrcsi_classification *c, lrcs_work *work)
+{
+    const lrcsi_view *view = c->view;
+    uint32_t count = c->events.count;
+    if (contest_sort(c, work) != LRCS_OK) {
+        return LRCS_E_MEMORY;
+    }
+    c->event = lrcsi_work_take(work, count, sizeof *c->event);
+    c->crossing = lrcsi_work_take(work, count, sizeof *c->crossing);
+    if (!c->event || !c->crossing) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        lrcsi_event_box *event = &c->event[i];
+        const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
+        const uint32_t ends[2] = {edge->low, edge->high};
+        *event = (lrcsi_event_box){lrcsi_view_box_of(view, ends, 2), c->events.edge[i], 0};
+    }
+    return lrcsi_grid_edges(c->events.edge, count, events_most(view->prepared), work, &c->grid,
+                            c->cells);
+}
+
+/* Which way the facets face that can hide something, where they stand, and which cells they touch.
+ */
+static void contest_cast(lrcsi_classification *c)
+{
+    const lrcsi_view *view = c->view;
+    uint32_t count = view->prepared->scene->facet_count;
+    for (uint32_t f = 0; f < count; f++) {
+        c->joinable[f] = 0;
+        if (lrcsi_grid_casts(view, f)) {
+            c->box[f] = lrcsi_view_box_of(view, view->prepared->scene->facet[f].corner, 3);
+            c->cells[f] = lrcsi_grid_cells(&c->grid, &c->box[f]);
+            c->joinable[f] = view->facing[f];
+        }
+    }
+    c->joinable[count] = 0;
+    lrcsi_grid_fit(&c->grid, c->cells);
+}
+
+/* Which facets are undecided, and which of the others are alone in their region. */
+static void contest_decide(lrcsi_classification *c)
+{
+    const lrcs_prepared *p = c->view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (c->joinable[f] != 0) {
+            uint32_t steps = MOST_ASKED;
+            c->along = 0;
+            c->undecided[f] =
+                intersection_divides(c->view, f) ||
+                (lrcsi_grid_any(&c->grid, c->cells[f]) && contest_find(c, f, 1, &steps) > 0) ||
+                steps == 0 || lrcsi_meter_spent(c->view->meter);
+            c->undecided_count += c->undecided[f];
+            if (c->undecided[f] || c->along || p->intersections.rim[f]) {
+                c->joinable[f] = 0;
+            }
+        }
+    }
+}
+
+void lrcsi_classify_regions(const lrcsi_classification *classification)
+{
+    lrcsi_events_join(classification->view, classification->joinable, classification->region);
+}
+
+size_t lrcsi_classify_need(const lrcs_prepared *prepared)
+{
+    size_t edges = prepared->topology.edge_count;
+    size_t facets = prepared->scene->facet_count;
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_view_box)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells)));
+    need = lrcsi_work_add(need, lrcsi_events_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_event_box)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, events_most(prepared)));
+}
+
+/* Grids have a cell or so for every facet that faces either way, unless facets are large: then most
+   facets meet no event's cell, and need no further look. */
+int lrcsi_classify_make(const lrcsi_view *view, lrcs_work *work,
+                        lrcsi_classification *classification)
+{
+    size_t mark = work->used;
+    uint32_t count = view->prepared->scene->facet_count;
+    lrcsi_classification c = {.view = view, .crossed = LRCS_NONE};
+    c.grid = lrcsi_grid_empty(view, view->front + view->back);
+    c.undecided = lrcsi_work_take_zero(work, count, 1);
+    c.joinable = lrcsi_work_take(work, (size_t)count + 1, 1);
+    c.component = lrcsi_work_take(work, count, sizeof *c.component);
+    c.region = lrcsi_work_take(work, count, sizeof *c.region);
+    c.grid.box = c.box = lrcsi_work_take(work, count, sizeof *c.box);
+    c.cells = lrcsi_work_take(work, count, sizeof *c.cells);
+    int status = LRCS_E_MEMORY;
+    if (c.undecided && c.joinable && c.component && c.region && c.box && c.cells) {
+        contest_cast(&c);
+        status = lrcsi_events_make(view, c.joinable, work, &c.events);
+        status = status == LRCS_OK ? contest_events(&c, work) : status;
+    }
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    lrcsi_events_join(view, c.joinable, c.component);
+    contest_decide(&c);
+    *classification = c;
+    return LRCS_OK;
+}

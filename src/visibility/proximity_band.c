@@ -1,0 +1,430 @@
+/* SPDX-License-Identifier: MIT */
+/* Adding up, facet by facet, the shares near event edges and near facets of other parts. It decides
+   nothing exactly: every distance is widened by the errors of what it is between. What doubt costs
+   in sigma is decided in integrate/tessellation.c. */
+#include "visibility/proximity_band.h"
+
+#include <math.h>
+
+#include "base/join.h"
+#include "base/range.h"
+#include "base/work.h"
+#include "mesh/slice.h"
+
+/* What is computed of coordinates is off by as much as they are, or less: so many times that. */
+#define OFF_MARGIN 8.0
+/* Rounding of a facet's cosine, generously. */
+#define COS_MARGIN 1e-9
+
+/* What one run needs; the edges' grid lists events by index. */
+typedef struct margin_job {
+    const lrcsi_view *view;
+    double *share;
+    uint32_t *edge, *part; /* event: its topology edge, the part for which it is one */
+    uint32_t *seen;        /* event: the facet + 1 that last met it */
+    uint32_t count;
+    lrcsi_grid grid;
+    double low[3], high[3]; /* bounds of the curved parts in the view */
+} margin_job;
+
+static uint32_t margin_part(const margin_job *job, uint32_t facet)
+{
+    return job->view->prepared->scene->facet_part[facet];
+}
+
+/* --- events of one part ------------------------------------------------------------------------
+ */
+
+/* Is an edge an event of a part: do not exactly two of its facets continue each other there? */
+static int part_event(const margin_job *job, const lrcsi_edge *edge, uint32_t part)
+{
+    const lrcsi_edge_use *use = job->view->prepared->topology.use + edge->first_use;
+    uint32_t count = 0;
+    uint32_t forward = 0;
+    int facing = 0;
+    for (uint32_t i = 0; i < edge->uses; i++) {
+        if (margin_part(job, use[i].facet) == part && !job->view->prepared->skip[use[i].facet]) {
+            count++;
+            forward += use[i].forward;
+            facing += job->view->facing[use[i].facet];
+        }
+    }
+    return count != 0 && !(count == 2 && forward == 1 && (facing == 2 || facing == -2));
+}
+
+/* Lists (edge, part) once each, or only counts them where job->edge is NULL. */
+static void list_events(margin_job *job)
+{
+    const lrcsi_topology *topology = &job->view->prepared->topology;
+    job->count = 0;
+    for (uint32_t e = 0; e < topology->edge_count; e++) {
+        const lrcsi_edge *edge = &topology->edge[e];
+        const lrcsi_edge_use *use = topology->use + edge->first_use;
+        for (uint32_t i = 0; i < edge->uses; i++) {
+            uint32_t part = margin_part(job, use[i].facet);
+            int met = 0;
+            for (uint32_t k = 0; k < i && !met; k++) {
+                met = margin_part(job, use[k].facet) == part;
+            }
+            if (met || !part_event(job, edge, part)) {
+                continue;
+            }
+            if (job->edge) {
+                job->edge[job->count] = e;
+                job->part[job->count] = part;
+            }
+            job->count++;
+        }
+    }
+}
+
+static int margin_events(margin_job *job, lrcs_work *work)
+{
+    list_events(job);
+    uint32_t *edge = lrcsi_work_take(work, job->count, sizeof *edge);
+    job->part = lrcsi_work_take(work, job->count, sizeof *job->part);
+    job->seen = lrcsi_work_take_zero(work, job->count, sizeof *job->seen);
+    if (!edge || !job->part || !job->seen) {
+        return LRCS_E_MEMORY;
+    }
+    job->edge = edge;
+    list_events(job);
+    job->grid = lrcsi_grid_empty(job->view, job->count);
+    return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid,
+                            NULL);
+}
+
+/* --- one facet and one edge --------------------------------------------------------------------
+ */
+
+/* The farthest that a corner of a facet may be off, and what is computed of it. */
+static double facet_off(const margin_job *job, uint32_t facet)
+{
+    const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
+    double off = 0;
+    for (int k = 0; k < 3; k++) {
+        off = lrcsi_most(off, lrcsi_view_off(job->view->point[corner[k]].x));
+    }
+    return OFF_MARGIN * off;
+}
+
+/* The share of a facet within `slack` of an edge in projection: in the rectangle about it. What the
+   edge is off at a share t of its length is linear in t. A point of it that is near the facet is no
+   farther from its end a than the facet's farthest corner and the width are, t length <= far +
+   wide, and what b is off counts for t of itself. */
+static double edge_share(const margin_job *job, uint32_t facet, const lrcsi_edge *edge,
+                         double slack)
+{
+    const lrcsi_view *view = job->view;
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t *corner = p->scene->facet[facet].corner;
+    const double *a = view->point[edge->low].x;
+    const double *b = view->point[edge->high].x;
+    if (lrcsi_view_off(a) > lrcsi_view_off(b)) {
+        a = view->point[edge->high].x;
+        b = view->point[edge->low].x;
+    }
+    double along[3] = {b[0] - a[0], b[1] - a[1], 0};
+    double length = sqrt(along[0] * along[0] + along[1] * along[1]);
+    double first = OFF_MARGIN * lrcsi_view_off(a);
+    double last = OFF_MARGIN * lrcsi_view_off(b);
+    double off = facet_off(job, facet);
+    double far = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *x = view->point[corner[k]].x;
+        far = lrcsi_most(far, fabs(x[0] - a[0]) + fabs(x[1] - a[1]));
+    }
+    double wide = slack + off + first;
+    double end = wide + last;
+    if (length > 2 * (first + last)) {
+        along[0] /= length;
+        along[1] /= length;
+        wide += last * lrcsi_least(1, 2 * (far + wide) / length);
+    } else { /* of no length: a square about it */
+        along[0] = 1;
+        along[1] = 0;
+        end += length;
+        wide = end;
+    }
+    const double aside[3] = {-along[1], along[0], 0};
+    const double back[3] = {-along[0], -along[1], 0};
+    const double other[3] = {along[1], -along[0], 0};
+    lrcsi_slice slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
+                                          view->point[corner[2]].x);
+    lrcsi_slice_cut(&slice, aside, a, wide);
+    lrcsi_slice_cut(&slice, other, a, wide);
+    lrcsi_slice_cut(&slice, along, b, end);
+    lrcsi_slice_cut(&slice, back, a, wide);
+    return lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length,
+                             lrcsi_proximity_longest(p, facet));
+}
+
+/* Does all of an edge lie so far behind a facet's plane that no point of it, seen within `slack` of
+   a point of the facet, is less than 2 slack behind that one? */
+static int edge_behind(const margin_job *job, uint32_t facet, const lrcsi_edge *edge, double slack)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const lrcsi_normal *n = &p->normal[facet];
+    const double *a = lrcsi_prepared_corner(p, facet, 0);
+    const uint32_t end[2] = {edge->low, edge->high};
+    double off = facet_off(job, facet);
+    int behind = job->view->facing[facet] != 0;
+    for (int i = 0; i < 2 && behind; i++) {
+        double height = 0;
+        for (int k = 0; k < 3; k++) {
+            height += job->view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
+        }
+        double end_off = OFF_MARGIN * lrcsi_view_off(job->view->point[end[i]].x);
+        behind = height < -(3 * slack + off + end_off) * n->length;
+    }
+    return behind;
+}
+
+/* Is an edge of a part's own a rim beyond which its wall faces the laser, or may? Where the meter
+   is spent, perhaps. */
+static int own_rim(const margin_job *job, const lrcsi_edge *edge, uint32_t part)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
+    uint32_t count = 0;
+    int facing = 0;
+    if (!lrcsi_meter_take(job->view->meter, edge->uses)) {
+        return 1;
+    }
+    for (uint32_t i = 0; i < edge->uses; i++) {
+        if (margin_part(job, use[i].facet) != part || p->skip[use[i].facet]) {
+            continue;
+        }
+        const lrcsi_normal *n = &p->normal[use[i].facet];
+        const double *d = job->view->direction;
+        double cosine = (n->high[0] * d[0] + n->high[1] * d[1] + n->high[2] * d[2]) /
+                        (n->length * job->view->length);
+        count++;
+        facing |= cosine > -(p->scene->part[part].curvature.turn + COS_MARGIN);
+    }
+    return count == 1 && facing;
+}
+
+/* How near an event must come to matter to a facet; 0 where it cannot. */
+static double event_slack(const margin_job *job, uint32_t facet, uint32_t event)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
+    uint32_t part = margin_part(job, facet);
+    if (job->part[event] == part) {
+        int inside = job->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part);
+        return inside && own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
+    }
+    double slack = lrcsi_proximity_slack(p, part, job->part[event]);
+    return slack > 0 && edge_behind(job, facet, edge, slack) ? 0 : slack;
+}
+
+/* --- one facet -------------------------------------------------------------------------------- */
+
+/* Those near what the box may hold; all of it where the meter is spent. */
+static double event_shares(margin_job *job, uint32_t facet, const double low[3],
+                           const double high[3])
+{
+    const lrcsi_edge *edge = job->view->prepared->topology.edge;
+    lrcsi_view_box box = lrcsi_view_box_round(job->view, low, high);
+    lrcsi_cells cells = lrcsi_grid_cells(&job->grid, &box);
+    double share = 0;
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        uint32_t i = job->grid.first[(size_t)y * job->grid.size + cells.x0];
+        uint32_t end = job->grid.first[(size_t)y * job->grid.size + cells.x1];
+        if (!lrcsi_meter_take(job->view->meter, (uint64_t)1 + end - i)) {
+            return 1;
+        }
+        for (; i < end && share < 1; i++) {
+            uint32_t event = job->grid.item[i];
+            if (job->seen[event] == facet + 1) {
+                continue;
+            }
+            job->seen[event] = facet + 1;
+            double slack = event_slack(job, facet, event);
+            share += slack > 0 ? edge_share(job, facet, &edge[job->edge[event]], slack) : 0;
+        }
+    }
+    return share;
+}
+
+static int facet_matters(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcs_prepared *p = view->prepared;
+    return !p->skip[facet] && (lrcsi_view_reflects(view, facet) ||
+                               p->proximity.reach[p->scene->facet_part[facet]] > 0);
+}
+
+static void facet_share(margin_job *job, uint32_t facet)
+{
+    const lrcsi_view *view = job->view;
+    const lrcs_prepared *p = view->prepared;
+    double reach = p->proximity.reach[margin_part(job, facet)];
+    double wide = 2 * (reach + p->proximity.most) + facet_off(job, facet) + LRCSI_NEAR_OFF;
+    double low[3];
+    double high[3];
+    lrcsi_view_bounds(view, p->scene->facet[facet].corner, 3, low, high);
+    for (int k = 0; k < 3; k++) {
+        low[k] -= wide;
+        high[k] += wide;
+    }
+    if (reach == 0 && (low[0] > job->high[0] || low[1] > job->high[1] || high[0] < job->low[0] ||
+                       high[1] < job->low[1])) {
+        return;
+    }
+    job->share[facet] += event_shares(job, facet, low, high);
+    if (reach > 0 &&
+        fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
+            p->proximity.grazing_cos[margin_part(job, facet)] + COS_MARGIN * COS_MARGIN) {
+        job->share[facet] = 1;
+    }
+}
+
+/* --- all facets ------------------------------------------------------------------------------- */
+
+/* The shares near facets of other parts. Facets seen edge-on never hide, nor do back sides of what
+   is closed. */
+static void margin_contacts(margin_job *job)
+{
+    const lrcsi_view *view = job->view;
+    const lrcs_prepared *p = view->prepared;
+    for (size_t i = 0; i < p->proximity.count; i++) {
+        const lrcsi_near *near = &p->proximity.near[i];
+        int facing = view->facing[near->other];
+        int shut = p->solid || lrcsi_proximity_closed(p, margin_part(job, near->other));
+        if (facing > 0 || (facing < 0 && !shut)) {
+            job->share[near->facet] += near->share;
+        }
+    }
+}
+
+static void margin_box(margin_job *job)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    for (int k = 0; k < 3; k++) {
+        job->low[k] = HUGE_VAL;
+        job->high[k] = -HUGE_VAL;
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (p->skip[f] || p->proximity.reach[margin_part(job, f)] == 0) {
+            continue;
+        }
+        double low[3];
+        double high[3];
+        lrcsi_view_bounds(job->view, p->scene->facet[f].corner, 3, low, high);
+        for (int k = 0; k < 3; k++) {
+            job->low[k] = lrcsi_least(job->low[k], low[k]);
+            job->high[k] = lrcsi_most(job->high[k], high[k]);
+        }
+    }
+}
+
+/* --- regions ---------------------------------------------------------------------------------- */
+
+static void margin_regions(const lrcsi_proximity_band *margin)
+{
+    const lrcs_prepared *p = margin->classification->view->prepared;
+    const uint32_t *part = p->scene->facet_part;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        margin->region[f] = f;
+    }
+    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
+        const lrcsi_edge *edge = &p->topology.edge[e];
+        const lrcsi_edge_use *use = p->topology.use + edge->first_use;
+        for (uint32_t i = 1; i < edge->uses; i++) {
+            uint32_t a = use[i - 1].facet;
+            uint32_t b = use[i].facet;
+            if (part[a] == part[b] && p->proximity.reach[part[a]] > 0 && margin->share[a] == 0 &&
+                margin->share[b] == 0) {
+                lrcsi_join(margin->region, a, b);
+            }
+        }
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        margin->region[f] = lrcsi_join_root(margin->region, f);
+    }
+}
+
+/* A region is hidden all over or nowhere: so a front of which less is seen than half is hidden. */
+void lrcsi_proximity_band_settle(const lrcsi_proximity_band *margin, const lrcsi_visible *visible)
+{
+    const lrcsi_view *view = margin->classification->view;
+    const lrcs_prepared *p = view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        margin->hidden[f] = 0;
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (view->facing[f] > 0 && p->proximity.reach[p->scene->facet_part[f]] > 0 &&
+            margin->share[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f)) {
+            margin->hidden[margin->region[f]] = 1;
+        }
+    }
+}
+
+/* Edges, each for every part that has a facet on it; some counted twice, perhaps. */
+static size_t margin_edges(const lrcs_prepared *p)
+{
+    const lrcsi_topology *topology = &p->topology;
+    const uint32_t *part = p->scene->facet_part;
+    size_t count = topology->edge_count;
+    for (uint32_t e = 0; e < topology->edge_count; e++) {
+        const lrcsi_edge_use *use = topology->use + topology->edge[e].first_use;
+        for (uint32_t i = 1; i < topology->edge[e].uses; i++) {
+            count += part[use[i].facet] != part[use[i - 1].facet];
+        }
+    }
+    return count;
+}
+
+size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
+{
+    if (!p->proximity.reach) {
+        return 0;
+    }
+    size_t edges = margin_edges(p);
+    size_t need = lrcsi_work_bytes(p->scene->facet_count, sizeof(double));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
+    need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges));
+}
+
+/* Scratch goes as the shares are done. */
+static int margin_shares(margin_job *job, lrcs_work *work)
+{
+    size_t mark = work->used;
+    int status = margin_events(job, work);
+    if (status == LRCS_OK) {
+        margin_contacts(job);
+        margin_box(job);
+        for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
+            if (facet_matters(job->view, f)) {
+                facet_share(job, f);
+            }
+            job->share[f] = lrcsi_least(1, job->share[f]);
+        }
+    }
+    work->used = mark;
+    return status;
+}
+
+int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_work *work,
+                              lrcsi_proximity_band *margin)
+{
+    const lrcsi_view *view = classification->view;
+    uint32_t facets = view->prepared->scene->facet_count;
+    size_t mark = work->used;
+    lrcsi_proximity_band m = {.classification = classification};
+    m.share = lrcsi_work_take_zero(work, facets, sizeof *m.share);
+    m.region = lrcsi_work_take(work, facets, sizeof *m.region);
+    m.hidden = lrcsi_work_take_zero(work, facets, 1);
+    margin_job job = {.view = view, .share = m.share};
+    int status = m.share && m.region && m.hidden ? margin_shares(&job, work) : LRCS_E_MEMORY;
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    margin_regions(&m);
+    *margin = m;
+    return LRCS_OK;
+}
