@@ -26,53 +26,53 @@ static const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {4, 4}};
 static const lrcs_shape box = {.kind = LRCS_SHAPE_BOX, .size = {1, 1, 1}};
 
 typedef struct clear_case {
-    lrcs_shape first, other;
+    const lrcs_shape *first, *other;
     double at[3];        /* of the other */
     double direction[3]; /* in the frame in which the first stands upright at the origin */
     int clear;           /* the first */
 } clear_case;
 
 static const clear_case clear_cases[] = {
-    {ball, plate, {0, 0, -1}, {0.1, 0.2, 1}, 1},
-    {ball, plate, {0, 0, -1}, {0.1, 0.2, -1}, 0},
-    {ball, plate, {0, 0, 1}, {0.1, 0.2, 1}, 0},
-    {ball, plate, {0, 0, -0.5}, {0.1, 0.2, 1}, 1}, /* it rests there */
-    {ball, plate, {0, 0, -0.5}, {1, 0.2, 0x1p-40}, 1},
-    {ball, plate, {0, 0, -0.5}, {1, 0.2, -0.01}, 0},
-    {ball, plate, {0, 0, -0.499}, {0.1, 0.2, 1}, 0}, /* it is sunk in */
-    {post, plate, {0, 0, 0}, {0.1, 0.2, 1}, 1},
-    {post, plate, {0, 0, 0}, {1, 0.2, 0}, 1},
-    {post, plate, {0, 0, 0}, {0.1, 0.2, -1}, 0},
-    {post, plate, {0, 0, 0.5}, {0.1, 0.2, 1}, 0},
-    {post, plate, {0, 0, 1}, {0.1, 0.2, -1}, 1},
-    {cone, box, {0, 0, -0.5}, {1, 1, 1}, 1},
-    {cone, box, {0, 0, -0.5}, {1, 1, -1}, 0},
-    {dome, box, {0, 0, -0.5}, {1, 0, 0}, 1},
-    {horn, box, {0, 0, -0.5}, {1, 0, 0.001}, 1},
-    {dish, box, {0, 0, -0.5}, {0, 0, 1}, 1},
-    {dish, box, {0, 0, 0.7}, {0, 0, 1}, 0},
-    {dish, ball, {0, 0, 0.7}, {1, 0, 0.1}, 0}, /* sunk in */
-    {post, post, {3, 0, 0}, {0, 0, 1}, 1},
-    {post, post, {3, 0, 0}, {0.3, 1, 0.3}, 1},
-    {post, post, {3, 0, 0}, {1, 0, 0}, 0},
-    {post, post, {3, 0, 0}, {-1, 0, 0}, 1},
-    {post, post, {3, 0, 0}, {1, 0, 3}, 1}, /* the shadow is shorter */
-    {post, post, {3, 0, 0}, {1, 0, 0.25}, 0},
-    {post, post, {0, 0, 1}, {1, 1, 1}, 0},
-    {post, post, {0, 0, 1}, {1, 1, -1}, 1},
-    {post, post, {0.5, 0, 0}, {0, 1, 0}, 0}, /* side by side they touch along a line */
-    {ball, ball, {1, 0, 0}, {0, 1, 0}, 1},
-    {ball, ball, {1, 0, 0}, {1, 1, 0}, 0},
-    {ball, ball, {0.25, 0, 0}, {0, 1, 0}, 0},
-    {ball, ball, {0, 0, 0}, {0, 1, 0}, 0},
+    {&ball, &plate, {0, 0, -1}, {0.1, 0.2, 1}, 1},
+    {&ball, &plate, {0, 0, -1}, {0.1, 0.2, -1}, 0},
+    {&ball, &plate, {0, 0, 1}, {0.1, 0.2, 1}, 0},
+    {&ball, &plate, {0, 0, -0.5}, {0.1, 0.2, 1}, 1}, /* it rests there */
+    {&ball, &plate, {0, 0, -0.5}, {1, 0.2, 0x1p-40}, 1},
+    {&ball, &plate, {0, 0, -0.5}, {1, 0.2, -0.01}, 0},
+    {&ball, &plate, {0, 0, -0.499}, {0.1, 0.2, 1}, 0}, /* it is sunk in */
+    {&post, &plate, {0, 0, 0}, {0.1, 0.2, 1}, 1},
+    {&post, &plate, {0, 0, 0}, {1, 0.2, 0}, 1},
+    {&post, &plate, {0, 0, 0}, {0.1, 0.2, -1}, 0},
+    {&post, &plate, {0, 0, 0.5}, {0.1, 0.2, 1}, 0},
+    {&post, &plate, {0, 0, 1}, {0.1, 0.2, -1}, 1},
+    {&cone, &box, {0, 0, -0.5}, {1, 1, 1}, 1},
+    {&cone, &box, {0, 0, -0.5}, {1, 1, -1}, 0},
+    {&dome, &box, {0, 0, -0.5}, {1, 0, 0}, 1},
+    {&horn, &box, {0, 0, -0.5}, {1, 0, 0.001}, 1},
+    {&dish, &box, {0, 0, -0.5}, {0, 0, 1}, 1},
+    {&dish, &box, {0, 0, 0.7}, {0, 0, 1}, 0},
+    {&dish, &ball, {0, 0, 0.7}, {1, 0, 0.1}, 0}, /* sunk in */
+    {&post, &post, {3, 0, 0}, {0, 0, 1}, 1},
+    {&post, &post, {3, 0, 0}, {0.3, 1, 0.3}, 1},
+    {&post, &post, {3, 0, 0}, {1, 0, 0}, 0},
+    {&post, &post, {3, 0, 0}, {-1, 0, 0}, 1},
+    {&post, &post, {3, 0, 0}, {1, 0, 3}, 1}, /* the shadow is shorter */
+    {&post, &post, {3, 0, 0}, {1, 0, 0.25}, 0},
+    {&post, &post, {0, 0, 1}, {1, 1, 1}, 0},
+    {&post, &post, {0, 0, 1}, {1, 1, -1}, 1},
+    {&post, &post, {0.5, 0, 0}, {0, 1, 0}, 0}, /* side by side they touch along a line */
+    {&ball, &ball, {1, 0, 0}, {0, 1, 0}, 1},
+    {&ball, &ball, {1, 0, 0}, {1, 1, 0}, 0},
+    {&ball, &ball, {0.25, 0, 0}, {0, 1, 0}, 0},
+    {&ball, &ball, {0, 0, 0}, {0, 1, 0}, 0},
 };
 
 /* Is part 0 of two, both turned by R, clear, seen along R d? */
 static int clear_run(const clear_case *c, const double R[3][3], double shift)
 {
     lrcs_recipe_part part[2] = {
-        {.name = "a", .shape = c->first, .place = lrcs_place_default(), .wears = -1},
-        {.name = "b", .shape = c->other, .place = lrcs_place_default(), .wears = -1}};
+        {.name = "a", .shape = *c->first, .place = lrcs_place_default(), .wears = -1},
+        {.name = "b", .shape = *c->other, .place = lrcs_place_default(), .wears = -1}};
     lrcs_recipe recipe = {.part = part, .part_count = 2};
     const lrcs_build_options build = {1e-1, 1u << 11, LRCS_NORMALS_FLAT, 0};
     lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
