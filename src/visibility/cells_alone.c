@@ -22,8 +22,8 @@
 
    A needle in the view may be no wider than all this. It is done in the frame of its shares
    (visibility/needle.h), where it is as wide as long: its corners are exact but for the
-   frame's position error, segments come clipped to a box that reaches 3 at most, and sides of other facets are told
-   in double-double. Areas are counted in units of twice its projection. */
+   frame's position error, segments come clipped to a box that reaches 3 at most, and sides of other
+   facets are told in double-double. Areas are counted in units of twice its projection. */
 #include "visibility/cells_alone.h"
 
 #include <math.h>
