@@ -46,6 +46,9 @@ printf '[[part]]\nname = "p"\nshape = "plate"\nsize = [1, 1]\n' >dark.toml
 run report dark.toml --azel 0,0 --material 0,0,0.2,0 $quick -o dark.html
 same a_page_of_nothing_is_written "$rc" 0
 plates_scene >plates.toml
+# shellcheck disable=SC2086
+run report plates.toml $quick --method zbuffer --resolution 16 -o - --azel 10,50
+same no_tolerance_is_spoken_of_where_none_is_in_force "$rc $(printf '%s\n' "$out" | grep -c 'the tolerance of')" "0 0"
 run report plates.toml $quick --method zbuffer --resolution 16 --tolerance 1e-9 -o - --azel 10,50
 printf '%s' "$out" >stdout.html
 same a_missed_tolerance_exits_3 "$rc" 3

@@ -133,7 +133,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
 
 static void agree_print(const agree_way *way, int directions)
 {
-    printf("    %-8s %llu facets, %llu in uncertainty, %llu apart (worst gap %.3g); widths %.3g, "
+    printf("    %-8s %llu facets, %llu in doubt, %llu apart (worst gap %.3g); widths %.3g, "
            "clipped "
            "%.3g; %.2f ms a pose\n",
            way->name, (unsigned long long)way->asked, (unsigned long long)way->left,

@@ -62,6 +62,10 @@ static void lead_sigma(FILE *out, const report_job *job)
         cli_page_bound(out, NULL, r->bound_m2 / r->sigma_m2, 2);
         fputs(" of \xcf\x83", out);
     }
+    if (!cli_tolerance_judged(job->args, &job->options)) {
+        fputs(".", out);
+        return;
+    }
     fputs("; the tolerance of ", out);
     cli_page_number(out, NULL, job->options.tolerance, 3);
     fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>."
