@@ -3,104 +3,35 @@
 #include "visibility/reference/clip.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/range.h"
 
-double ref_clip_side(const ref_clip_line *line, const double p[2])
-{
-    return line->to[0] * (p[1] - line->at[1]) - line->to[1] * (p[0] - line->at[0]);
-}
-
 /* At least the length of a line's direction, and at most 1.42 times that. */
-static double line_length(const ref_clip_line *line)
+static double line_length(const lrcsi_clip_line *line)
 {
     return fabs(line->to[0]) + fabs(line->to[1]);
 }
 
-static ref_clip_line polygon_side(const ref_clip_polygon *polygon, uint32_t i)
+static lrcsi_clip_line polygon_side(const lrcsi_clip_polygon *polygon, uint32_t i)
 {
     const double *p = polygon->corner[i];
     const double *q = polygon->corner[i + 1 < polygon->count ? i + 1 : 0];
-    return (ref_clip_line){{p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}};
+    return (lrcsi_clip_line){{p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}};
 }
 
-static void polygon_add(ref_clip_polygon *polygon, double x, double y)
-{
-    if (polygon->count < REF_CLIP_SIDES) {
-        polygon->corner[polygon->count][0] = x;
-        polygon->corner[polygon->count][1] = y;
-    }
-    polygon->count++;
-}
-
-int ref_clip_split(const ref_clip_polygon *from, const ref_clip_line *line, ref_clip_polygon *left,
-                   ref_clip_polygon *right)
-{
-    left->count = right->count = 0;
-    const double *p = from->corner[from->count - 1];
-    double side = ref_clip_side(line, p);
-    for (uint32_t i = 0; i < from->count; i++) {
-        const double *q = from->corner[i];
-        double next = ref_clip_side(line, q);
-        if ((side < 0 && next > 0) || (side > 0 && next < 0)) {
-            double t = side / (side - next);
-            double x = p[0] + t * (q[0] - p[0]);
-            double y = p[1] + t * (q[1] - p[1]);
-            polygon_add(left, x, y);
-            polygon_add(right, x, y);
-        }
-        if (next >= 0) {
-            polygon_add(left, q[0], q[1]);
-        }
-        if (next <= 0) {
-            polygon_add(right, q[0], q[1]);
-        }
-        p = q;
-        side = next;
-    }
-    return left->count <= REF_CLIP_SIDES && right->count <= REF_CLIP_SIDES;
-}
-
-void ref_clip_triangle(const double corner[3][2], ref_clip_polygon *polygon)
-{
-    memcpy(polygon->corner, corner, 3 * sizeof *corner);
-    polygon->count = 3;
-}
-
-void ref_clip_box(const ref_clip_polygon *polygon, double low[2], double high[2])
-{
-    for (int k = 0; k < 2; k++) {
-        low[k] = high[k] = polygon->corner[0][k];
-        for (uint32_t i = 1; i < polygon->count; i++) {
-            double x = polygon->corner[i][k];
-            low[k] = x < low[k] ? x : low[k];
-            high[k] = x > high[k] ? x : high[k];
-        }
-    }
-}
-
-double ref_clip_perimeter(const ref_clip_polygon *polygon)
+lrcsi_clip_line ref_clip_halving(const lrcsi_clip_polygon *polygon)
 {
     double low[2];
     double high[2];
-    ref_clip_box(polygon, low, high);
-    return 2 * ((high[0] - low[0]) + (high[1] - low[1]));
-}
-
-ref_clip_line ref_clip_halving(const ref_clip_polygon *polygon)
-{
-    double low[2];
-    double high[2];
-    ref_clip_box(polygon, low, high);
+    lrcsi_clip_box(polygon, low, high);
     int wide = high[0] - low[0] > high[1] - low[1];
-    return (ref_clip_line){{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])},
-                           {wide ? 0 : 1, wide ? 1 : 0}};
+    return (lrcsi_clip_line){{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])},
+                             {wide ? 0 : 1, wide ? 1 : 0}};
 }
 
 /* Every direction in which all corners lie beyond the segment parts them; tried are the two across
    it, and the two along it. */
-int ref_clip_meets(const ref_clip_polygon *polygon, const ref_clip_line *segment, double width)
+int ref_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment, double width)
 {
     const double *to = segment->to;
     double clear = width * line_length(segment);
@@ -111,7 +42,7 @@ int ref_clip_meets(const ref_clip_polygon *polygon, const ref_clip_line *segment
     int behind = 1;
     for (uint32_t i = 0; i < polygon->count; i++) {
         const double *p = polygon->corner[i];
-        double side = ref_clip_side(segment, p);
+        double side = lrcsi_clip_side(segment, p);
         double along = to[0] * (p[0] - segment->at[0]) + to[1] * (p[1] - segment->at[1]);
         least = lrcsi_least(least, side);
         most = lrcsi_most(most, side);
@@ -129,15 +60,16 @@ static void range_grow(double range[2], double x)
     range[1] = lrcsi_most(range[1], x);
 }
 
-double ref_clip_within(const ref_clip_polygon *polygon, const ref_clip_line *segment, double width)
+double ref_clip_within(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
+                       double width)
 {
     const double *to = segment->to;
     double square = to[0] * to[0] + to[1] * to[1];
     double strip = width * line_length(segment);
     double range[2] = {HUGE_VAL, -HUGE_VAL};
     for (uint32_t i = 0; i < polygon->count; i++) {
-        ref_clip_line edge = polygon_side(polygon, i);
-        double from = ref_clip_side(segment, edge.at);
+        lrcsi_clip_line edge = polygon_side(polygon, i);
+        double from = lrcsi_clip_side(segment, edge.at);
         double along =
             to[0] * (edge.at[0] - segment->at[0]) + to[1] * (edge.at[1] - segment->at[1]);
         double rise = to[0] * edge.to[1] - to[1] * edge.to[0];
@@ -156,7 +88,7 @@ double ref_clip_within(const ref_clip_polygon *polygon, const ref_clip_line *seg
     return within > 0 ? within / sqrt(square) : 0;
 }
 
-void ref_clip_middle(const ref_clip_polygon *polygon, double middle[2])
+void ref_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2])
 {
     middle[0] = middle[1] = 0;
     for (uint32_t i = 0; i < polygon->count; i++) {
@@ -170,50 +102,19 @@ void ref_clip_middle(const ref_clip_polygon *polygon, double middle[2])
 /* Corners that rounding has put next to each other have sides between them that point anywhere. The
    nearest point of the rim may lie on such a side; then it is as near, but for their lengths, to
    the end of one that counts: one so long that rounding turns it by 1 % at most. */
-double ref_clip_clear(const ref_clip_polygon *polygon, const double at[2])
+double ref_clip_clear(const lrcsi_clip_polygon *polygon, const double at[2])
 {
-    double counts = 0x1p-44 * ref_clip_perimeter(polygon);
+    double counts = 0x1p-44 * lrcsi_clip_perimeter(polygon);
     double short_ones = 0;
     double clear = HUGE_VAL;
     for (uint32_t i = 0; i < polygon->count; i++) {
-        ref_clip_line side = polygon_side(polygon, i);
+        lrcsi_clip_line side = polygon_side(polygon, i);
         double length = line_length(&side);
         if (length > counts) {
-            clear = lrcsi_least(clear, ref_clip_side(&side, at) / length);
+            clear = lrcsi_least(clear, lrcsi_clip_side(&side, at) / length);
         } else {
             short_ones += length;
         }
     }
     return 0.98 * clear - short_ones;
-}
-
-double ref_clip_area(const ref_clip_polygon *polygon)
-{
-    const double(*c)[2] = (const double(*)[2])polygon->corner;
-    double area = 0;
-    for (uint32_t j = 2; j < polygon->count; j++) {
-        area += 0.5 * ((c[j - 1][0] - c[0][0]) * (c[j][1] - c[0][1]) -
-                       (c[j - 1][1] - c[0][1]) * (c[j][0] - c[0][0]));
-    }
-    return area;
-}
-
-double ref_clip_box_area(const double corner[3][2], const double low[2])
-{
-    const ref_clip_line side[4] = {{{low[0], low[1]}, {1, 0}},
-                                   {{low[0] + 1, low[1]}, {0, 1}},
-                                   {{low[0] + 1, low[1] + 1}, {-1, 0}},
-                                   {{low[0], low[1] + 1}, {0, -1}}};
-    ref_clip_polygon inside;
-    ref_clip_polygon left;
-    ref_clip_polygon right;
-    ref_clip_triangle(corner, &inside);
-    for (int k = 0; k < 4; k++) {
-        ref_clip_split(&inside, &side[k], &left, &right);
-        if (left.count < 3) {
-            return 0;
-        }
-        inside = left;
-    }
-    return ref_clip_area(&inside);
 }

@@ -170,7 +170,7 @@ static void sides_place(const lrcsi_target *t, uint32_t facet, ref_cover_sides *
     for (int k = 0; k < 3; k++) {
         int next = k == 2 ? 0 : k + 1;
         int near = reach[k] <= reach[next] ? k : next;
-        ref_clip_line *side = &c->side[k];
+        lrcsi_clip_line *side = &c->side[k];
         for (int i = 0; i < 2; i++) {
             side->at[i] = corner[near][i];
             side->to[i] = corner[next][i] - corner[k][i];
@@ -200,7 +200,7 @@ static int line_meets_about(const cover_line *line, const ref_cover_facet *c)
     const ref_cover_sides *sides = sides_of(line, c->facet);
     int inside = 1;
     for (int k = 0; k < 3; k++) {
-        double left = ref_clip_side(&sides->side[k], line->at);
+        double left = lrcsi_clip_side(&sides->side[k], line->at);
         double clear = line->way == LINE_GUESSED ? 0 : sides->clear[k];
         if (left < -clear) {
             return -1;
@@ -261,7 +261,7 @@ static int line_hidden(const cover_line *line, ref_cover_facet *c)
     }
     if (c->order < line->cuts->count) {
         const ref_cut *cut = &line->cuts->cut[c->order];
-        double left = ref_clip_side(&cut->line, line->at);
+        double left = lrcsi_clip_side(&cut->line, line->at);
         double off = line->way == LINE_GUESSED ? 0 : cut->width + line->off;
         double clear = off * (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
         return left > clear ? 1 : left < -clear ? -1 : 0;

@@ -24,8 +24,8 @@ typedef struct ref_cover_facet {
 /* The sides of a candidate in the target's frame, kept for lines to come. */
 typedef struct ref_cover_sides {
     uint32_t facet, ask; /* whose they are, in which search */
-    ref_clip_line side[3];
-    double clear[3]; /* how far ref_clip_side may be off of each */
+    lrcsi_clip_line side[3];
+    double clear[3]; /* how far lrcsi_clip_side may be off of each */
 } ref_cover_sides;
 
 /* So many are kept at a time, each in the place that its facet's number tells. */

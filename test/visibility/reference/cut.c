@@ -206,12 +206,12 @@ int ref_cut_ends(const ref_cut *e, uint32_t component)
            (e->components > 1 && e->component[1] == component);
 }
 
-uint32_t ref_cuts_keep(ref_cuts *cuts, const ref_clip_polygon *shape, uint32_t count)
+uint32_t ref_cuts_keep(ref_cuts *cuts, const lrcsi_clip_polygon *shape, uint32_t count)
 {
     double low[2];
     double high[2];
     uint32_t kept = 0;
-    ref_clip_box(shape, low, high);
+    lrcsi_clip_box(shape, low, high);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t index = cuts->list[i];
         const ref_cut *e = &cuts->cut[index];

@@ -14,7 +14,7 @@
 #define REF_CUT_SHEETS 2
 
 typedef struct ref_cut {
-    ref_clip_line line; /* its direction never 0 */
+    lrcsi_clip_line line; /* its direction never 0 */
     double low[2], high[2];
     double width; /* by which the segment may be off, or told to be on a wrong side */
     uint32_t component[REF_CUT_SHEETS]; /* whose surface ends, or passes through the facet, there */
@@ -40,7 +40,7 @@ int ref_cuts_make(lrcsi_classification *classification, const lrcsi_target *targ
                   ref_cuts *cuts);
 
 /* Puts those of list[0 .. count) that may come near the shape first. Returns how many. */
-uint32_t ref_cuts_keep(ref_cuts *cuts, const ref_clip_polygon *shape, uint32_t count);
+uint32_t ref_cuts_keep(ref_cuts *cuts, const lrcsi_clip_polygon *shape, uint32_t count);
 
 /* Does a component end at a cut, or may it? */
 int ref_cut_ends(const ref_cut *cut, uint32_t component);

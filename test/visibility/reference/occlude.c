@@ -116,7 +116,7 @@ static int cell_look(ref_occluding *o, ref_occlude_cell *cell, uint32_t *compone
    cost, if it is thin. */
 static void cell_charge(ref_occluding *o, const ref_occlude_cell *cell, double area)
 {
-    double perimeter = ref_clip_perimeter(&cell->shape);
+    double perimeter = lrcsi_clip_perimeter(&cell->shape);
     double clear = ref_clip_clear(&cell->shape, cell->at) - cell_off(o);
     if (!(clear > THIN * perimeter)) {
         o->off += lrcsi_least(area, cell->cuts * cell->inset * perimeter);
@@ -124,14 +124,14 @@ static void cell_charge(ref_occluding *o, const ref_occlude_cell *cell, double a
 }
 
 /* The cell as a piece. In a needle its corners are rounded to the frame of the view axes. */
-static void cell_piece(ref_occluding *o, const ref_clip_polygon *shape)
+static void cell_piece(ref_occluding *o, const lrcsi_clip_polygon *shape)
 {
     o->piece = *shape;
     if (o->frame.needle) {
         for (uint32_t i = 0; i < shape->count; i++) {
             lrcsi_target_unrefine(&o->frame, shape->corner[i], o->piece.corner[i]);
         }
-        o->bent += 4 * U * o->target.reach * ref_clip_perimeter(&o->piece);
+        o->bent += 4 * U * o->target.reach * lrcsi_clip_perimeter(&o->piece);
     }
 }
 
@@ -170,8 +170,8 @@ static void cell_drop(ref_occluding *o, ref_occlude_cell *cell, uint32_t which, 
 }
 
 /* Puts a part of a cell on the stack. */
-static void cell_push(ref_occluding *o, const ref_occlude_cell *cell, const ref_clip_polygon *shape,
-                      int lit)
+static void cell_push(ref_occluding *o, const ref_occlude_cell *cell,
+                      const lrcsi_clip_polygon *shape, int lit)
 {
     if (shape->count >= 3) {
         ref_occlude_cell *part = &o->stack[o->top++];
@@ -183,17 +183,17 @@ static void cell_push(ref_occluding *o, const ref_occlude_cell *cell, const ref_
 
 /* Puts both sides of a line through a cell on the stack in its stead, that with the sample on top.
    0 where there is no room. */
-static int cell_split(ref_occluding *o, const ref_occlude_cell *cell, const ref_clip_line *line)
+static int cell_split(ref_occluding *o, const ref_occlude_cell *cell, const lrcsi_clip_line *line)
 {
-    ref_clip_polygon left;
-    ref_clip_polygon right;
+    lrcsi_clip_polygon left;
+    lrcsi_clip_polygon right;
     if (o->cells == 0 || o->top + 2 > MOST_WAITING ||
-        !ref_clip_split(&cell->shape, line, &left, &right)) {
+        !lrcsi_clip_split(&cell->shape, line, &left, &right)) {
         return 0;
     }
-    int on_left = ref_clip_side(line, cell->at) > 0;
+    int on_left = lrcsi_clip_side(line, cell->at) > 0;
     o->cells--;
-    o->off += 8 * U * o->frame.diameter * ref_clip_perimeter(&cell->shape);
+    o->off += 8 * U * o->frame.diameter * lrcsi_clip_perimeter(&cell->shape);
     cell_push(o, cell, on_left ? &right : &left, 0);
     cell_push(o, cell, on_left ? &left : &right, cell->lit);
     return 1;
@@ -201,7 +201,7 @@ static int cell_split(ref_occluding *o, const ref_occlude_cell *cell, const ref_
 
 static int cell_halve(ref_occluding *o, ref_occlude_cell *cell)
 {
-    ref_clip_line line = ref_clip_halving(&cell->shape);
+    lrcsi_clip_line line = ref_clip_halving(&cell->shape);
     cell->depth++;
     return cell->depth <= MOST_DEPTH && cell_split(o, cell, &line);
 }
@@ -216,7 +216,7 @@ static uint32_t cell_choose(const ref_occluding *o, const ref_occlude_cell *cell
     for (uint32_t i = 0; i < cell->count; i++) {
         const ref_cut *cut = &o->cuts.cut[o->cuts.list[i]];
         if (component == LRCS_NONE || ref_cut_ends(cut, component)) {
-            double far = fabs(ref_clip_side(&cut->line, cell->at)) /
+            double far = fabs(lrcsi_clip_side(&cut->line, cell->at)) /
                          (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
             best = far < nearest ? i : best;
             nearest = lrcsi_least(far, nearest);
@@ -239,7 +239,7 @@ static int cell_cut(ref_occluding *o, const ref_occlude_cell *cell, uint32_t whi
 static int cell_divide(ref_occluding *o, ref_occlude_cell *cell, uint32_t component, double area)
 {
     int halves = cell->count > LEAF_CUTS && !cell->slice;
-    if (ref_clip_perimeter(&cell->shape) < TINY_MARGINS * cell_margin(o, cell->inset)) {
+    if (lrcsi_clip_perimeter(&cell->shape) < TINY_MARGINS * cell_margin(o, cell->inset)) {
         return 0;
     }
     return (halves && cell_halve(o, cell)) ||
@@ -276,7 +276,7 @@ static int cell_do(ref_occluding *o, ref_occlude_cell *cell, double area)
         }
         cell->sure = 0;
     } else if (!cell->sure && o->cells > o->spare &&
-               area > NARROW * cell_margin(o, cell->inset) * ref_clip_perimeter(&cell->shape) &&
+               area > NARROW * cell_margin(o, cell->inset) * lrcsi_clip_perimeter(&cell->shape) &&
                cell_halve(o, cell)) {
         return 0;
     }
@@ -296,7 +296,7 @@ static int occlude_cells(ref_occluding *o)
     lrcsi_meter *meter = o->classification->view->meter;
     while (o->top > 0) {
         ref_occlude_cell cell = o->stack[--o->top];
-        double area = ref_clip_area(&cell.shape);
+        double area = lrcsi_clip_area(&cell.shape);
         if (!(area > 0)) {
             continue; /* no area, or less than the splits' error already holds: nothing */
         }
@@ -324,7 +324,7 @@ static int cells_open(ref_occluding *o, uint32_t facet)
         o->cells = PARTS_MOST + (uint64_t)PARTS_A_CUT * o->cuts.count;
         o->spare = o->cells / 2;
         o->stack[0] = (ref_occlude_cell){.count = o->cuts.count};
-        ref_clip_triangle((const double(*)[2])o->frame.corner, &o->stack[0].shape);
+        lrcsi_clip_triangle((const double(*)[2])o->frame.corner, &o->stack[0].shape);
         o->top = 1;
     }
     return status;
@@ -393,7 +393,7 @@ int ref_occlude_next(ref_occluding *o)
     }
     o->whole = 0;
     lrcsi_target_make(o->classification->view, o->target.facet, &o->target);
-    ref_clip_triangle((const double(*)[2])o->target.corner, &o->piece);
+    lrcsi_clip_triangle((const double(*)[2])o->target.corner, &o->piece);
     return 1;
 }
 

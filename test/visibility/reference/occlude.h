@@ -11,7 +11,7 @@
 
 /* A part of the facet that is yet to be done. */
 typedef struct ref_occlude_cell {
-    ref_clip_polygon shape;
+    lrcsi_clip_polygon shape;
     uint32_t count; /* the cuts that may divide it are among the first so many of the list */
     int slice;      /* it was last relieved by a cut, not by halving, or should be */
     uint32_t depth; /* halvings in all */
@@ -31,13 +31,13 @@ typedef struct ref_occluding {
     ref_occlude_cell *stack; /* of `top` cells yet to be done */
     uint32_t top;
 
-    size_t mark;            /* of the work area, before the facet */
-    lrcsi_target target;    /* of an undecided facet; of others once a piece has been asked for */
-    lrcsi_target frame;     /* the same in the frame in which it is divided */
-    lrcsi_needle needle;    /* that of a needle */
-    ref_cuts cuts;          /* what may divide it */
-    ref_clip_polygon piece; /* the piece last found */
-    lrcsi_visible answer;   /* of a facet that is not undecided */
+    size_t mark;              /* of the work area, before the facet */
+    lrcsi_target target;      /* of an undecided facet; of others once a piece has been asked for */
+    lrcsi_target frame;       /* the same in the frame in which it is divided */
+    lrcsi_needle needle;      /* that of a needle */
+    ref_cuts cuts;            /* what may divide it */
+    lrcsi_clip_polygon piece; /* the piece last found */
+    lrcsi_visible answer;     /* of a facet that is not undecided */
     int undecided;
     int whole;             /* all of it is visible, and no piece has been asked for yet */
     uint64_t cells;        /* that may yet be divided */
