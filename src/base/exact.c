@@ -22,10 +22,11 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 
 /* 10 u */
-#define EXACT_FILTER (10.0 * 0x1p-53)
+#define EXACT_FILTER (10.0 * LRCSI_U)
 
 #define EXACT_UNDECIDED 2
 

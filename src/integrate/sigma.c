@@ -292,7 +292,7 @@ static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
 
 /* Which facets are undecided, and what curved shapes may show otherwise: once. Where back sides are
    left out of a scene that shows some, its true curves are not known. */
-static int run_contest(sigma_run *run)
+static int run_classify(sigma_run *run)
 {
     const lrcs_prepared *p = run->view.prepared;
     if (run->undecided) {
@@ -351,7 +351,7 @@ static int run_sums_alone(const sigma_run *run)
 static int run_exact(sigma_run *run)
 {
     lrcsi_curving how = run_curving(run);
-    int status = run_contest(run);
+    int status = run_classify(run);
     if (status == LRCS_OK) {
         status = run->curved
                      ? lrcsi_curve_pieces(&run->classification, &how, 0, run->work, run->visible,
@@ -396,7 +396,7 @@ static int raster_ends(const sigma_run *run, const lrcs_run_options *options, in
 /* What exact queries tell of facets, which takes no steps. */
 static int run_known(sigma_run *run, lrcsi_known *known)
 {
-    int status = run_contest(run);
+    int status = run_classify(run);
     if (status == LRCS_OK) {
         run->view.meter = NULL;
         status = lrcsi_visible_known(&run->classification, run->work, known);
@@ -438,7 +438,7 @@ static int run_clip_within(sigma_run *run, const lrcsi_cost *cost, double ns)
     size_t mark = run->work->used;
     int result = CLIP_GIVEN_UP;
     run->meter.most = run->meter.taken + (steps < left ? steps : left);
-    if (run_contest(run) != LRCS_OK || run->meter.spent) {
+    if (run_classify(run) != LRCS_OK || run->meter.spent) {
         run->undecided = before.undecided;
         run->doubt = before.doubt;
     } else if (lrcsi_cost_clip(cost, run->classification.undecided_count) > ns) {
@@ -524,7 +524,7 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
         }
     }
     if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run_samples_only(run, options)) {
-        status = run_contest(run);
+        status = run_classify(run);
     }
     if (status != LRCS_OK || run->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;

@@ -21,6 +21,7 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "mesh/profile.h"
 #include "optics/reflect.h"
 
@@ -112,7 +113,7 @@ static double share_lost(const lrcsi_view *view, uint32_t facet, const lrcsi_vis
     lrcsi_incidence incidence = lrcsi_view_incidence(view, facet);
     double hidden = 0;
     if (margin->classification->undecided[facet] || !(visible[facet].low > 0)) {
-        hidden = 1 + incidence.error + 8 * 0x1p-53 - visible[facet].low / incidence.projected;
+        hidden = 1 + incidence.error + 8 * LRCSI_U - visible[facet].low / incidence.projected;
     }
     return hidden >= 0 ? fmin(1, margin->share[facet] + hidden) : 1;
 }

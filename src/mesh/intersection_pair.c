@@ -27,6 +27,7 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/exact.h"
 
 static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -35,7 +36,7 @@ static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
    q_i|, each component of n errs by at most 5 u w_k (base/exact.c), a difference x - a by u of
    itself, and the sum of three products by 3 u of its terms; |n_k| <= (1 + 4 u) w_k. Of a turn: 4 u
    of its two products. */
-#define TOUCH_FILTER (10.0 * 0x1p-53)
+#define TOUCH_FILTER (10.0 * LRCSI_U)
 
 /* A sign that is not known. */
 enum { UNSURE = 2 };

@@ -38,11 +38,12 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/exact.h"
 #include "base/work.h"
 
 /* 10 u */
-#define RING_FILTER (10.0 * 0x1p-53)
+#define RING_FILTER (10.0 * LRCSI_U)
 
 /* The point of a smaller ring is no apex. */
 enum { FAN_FACETS = 32 };

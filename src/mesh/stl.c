@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/bytes.h"
+#include "base/constant.h"
 #include "base/text.h"
 #include "base/where.h"
 #include "base/work.h"
@@ -43,7 +44,7 @@ static int stl_opposed(double corner[3][3], const double normal[3])
         sum += normal[i] * (ej * fk - ek * fj);
         size += fabs(normal[i]) * (fabs(ej * fk) + fabs(ek * fj));
     }
-    return sum < -8.0 * 0x1p-53 * size;
+    return sum < -8.0 * LRCSI_U * size;
 }
 
 /* The vertex at a position, added where it is new. -0 becomes 0, so that equal positions have

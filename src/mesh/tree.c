@@ -31,6 +31,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/ieee.h"
 #include "base/length.h"
 #include "base/sort.h"
@@ -45,7 +46,7 @@ enum { MORTON_LEAST = 8, MORTON_MOST = 21 };
 enum { CELL_FACETS = 64, SCALES = 96 };
 
 /* See above: 64 u. */
-#define SLAB_FILTER (64.0 * 0x1p-53)
+#define SLAB_FILTER (64.0 * LRCSI_U)
 #define CONE_MARGIN 0x1p-44
 
 static lrcsi_box empty_box(void)

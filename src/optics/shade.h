@@ -8,6 +8,7 @@
 
 #include <lrcs/brdf.h>
 
+#include "base/constant.h"
 #include "base/elementary.h"
 
 /* The constants of a material for its blocks. */
@@ -37,7 +38,7 @@ typedef struct lrcsi_shades {
    4 pi f_r cos(theta) area to within error times LRCSI_SHADE_UNIT times that area. The area is
    either a visible projected area, whose own error is to be added, or S cos(theta) with an S
    accurate to 3 u and the cosine as returned, whose errors are included. */
-#define LRCSI_SHADE_UNIT (0x1p-53 * (1 + 0x1p-10))
+#define LRCSI_SHADE_UNIT (LRCSI_U * (1 + 0x1p-10))
 void lrcsi_shade(const lrcsi_lobes *lobes, const double d[3], const double d_low[3],
                  lrcsi_shades *shades);
 

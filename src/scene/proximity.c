@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/slice.h"
@@ -197,7 +198,7 @@ static void parts_fill(lrcs_prepared *p)
         if (p->skip[f] || proximity->reach[i] == 0) {
             continue;
         }
-        double off = ldexp(scene->part[i].misplaced, -p->exponent) + 4 * 0x1p-53;
+        double off = ldexp(scene->part[i].misplaced, -p->exponent) + 4 * LRCSI_U;
         double altitude = p->normal[f].length / lrcsi_proximity_longest(p, f);
         proximity->grazing_cos[i] =
             lrcsi_most(proximity->grazing_cos[i], NEAR_GRAZE * off / altitude);

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/degrees.h"
 #include "mesh/profile.h"
 #include "mesh/tessellate.h"
@@ -65,7 +66,7 @@ double lrcsi_shaped_extent(const lrcs_mesh *mesh)
    (16 + rings) u (src/mesh/profile.c), but for what underflows. */
 static double misplacement(double most, const lrcs_divisions *divisions, const lrcsi_placer *placer)
 {
-    double error = (17.0 + (double)divisions->along) * 0x1p-53 * most + 0x1p-1022;
+    double error = (17.0 + (double)divisions->along) * LRCSI_U * most + 0x1p-1022;
     return lrcsi_placer_error(placer, most + error, error);
 }
 

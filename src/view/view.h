@@ -8,6 +8,7 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/meter.h"
 #include "base/range.h"
 #include "scene/prepare.h"
@@ -62,7 +63,7 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
    of the same sum, is for adding it to a coordinate, or for a difference of two coordinates. */
 static inline double lrcsi_view_off(const double x[3])
 {
-    return 10 * 0x1p-53 * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
+    return 10 * LRCSI_U * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
 }
 
 /* Bounds of the true view coordinates of some vertices. Written out, for compilers leave short

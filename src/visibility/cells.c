@@ -34,8 +34,6 @@
 #include "visibility/cells_cut.h"
 #include "visibility/cells_open.h"
 
-/* Corners above which a cell is halved. */
-#define MANY_CORNERS 20u
 /* Steps that a block may take: so many, for each facet and segment in it, and for each cell that is
    decided. Ordinary scenes take a tenth of this, or less. */
 #define STEPS_LEAST   65536u
@@ -149,19 +147,6 @@ static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
     return best;
 }
 
-/* What strips beyond the ends of segments may cost in a cell whose sample is near to a side: it is
-   thin. Any facet in it may be off by that. */
-static double thin_doubt(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                         const lrcsi_cells_sides *s, double clear)
-{
-    if (!(clear < LRCSI_CELLS_THIN * s->perimeter)) {
-        return 0;
-    }
-    double strips =
-        2 * ((double)cell->struck + c->borders) * (cell->inset + c->off + s->g) * s->perimeter;
-    return lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s->g * s->perimeter);
-}
-
 /* The nearest facet at the sample, there, and how far inside the cell that is. */
 typedef struct cells_seen {
     uint32_t best;
@@ -170,8 +155,8 @@ typedef struct cells_seen {
 } cells_seen;
 
 /* Drops what is behind surfaces that cover the cell. 1 where the component around the nearest facet
-   does; else the segment of the component at which to cut, if it has one. *doubt: what any facet of
-   a thin cell may be off by. */
+   does; else the segment of the component at which to cut, if it has one. *uncertainty: what any
+   facet of a thin cell may be off by. */
 static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const cells_seen *seen, double *uncertainty, const lrcsi_cells_segment **cut)
 {
@@ -179,7 +164,7 @@ static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_
     uint32_t screen = lrcsi_cells_screen(c, cell, s, seen->at);
     if (screen != LRCS_NONE) {
         lrcsi_cells_component_of(c, screen);
-        *uncertainty = thin_doubt(c, cell, s, seen->clear);
+        *uncertainty = lrcsi_cells_thin(cell, s, seen->clear, cell->struck + c->borders, c->off);
         lrcsi_cells_drop(c, cell, s, screen == seen->best ? NULL : seen->at, *uncertainty);
         if (screen == seen->best) {
             return 1;
@@ -195,7 +180,7 @@ static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_
     for (uint32_t i = 0; i < c->borders; i++) {
         lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
     }
-    *uncertainty = thin_doubt(c, cell, s, seen->clear);
+    *uncertainty = lrcsi_cells_thin(cell, s, seen->clear, cell->struck + c->borders, c->off);
     lrcsi_cells_drop(c, cell, s, NULL, *uncertainty);
     return 1;
 }
@@ -232,12 +217,7 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
             return 1;
         }
     }
-    int done = 0;
-    if (cut && cell->cuts < LRCSI_CELLS_CUTS) {
-        done = cell->shape.count > MANY_CORNERS ? lrcsi_cells_halve(c, cell, &s)
-                                                : lrcsi_cells_cut(c, cell, &s, cut->line, cut);
-    }
-    if (!done) {
+    if (!cut || !lrcsi_cells_divide(c, cell, &s, cut)) {
         cells_leave(c, cell);
     }
     return 0;
@@ -283,10 +263,7 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
     c->stack[0] = cell;
     c->top = 1;
     while (c->top > 0) {
-        cell = c->stack[--c->top];
-        if (cell.both[0] > 0 || cell.both[1] > 0) {
-            lrcsi_cells_settle(c, &cell);
-        }
+        cell = lrcsi_cells_take(c);
         uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
         if (steps > most || !lrcsi_meter_take(meter, steps)) {
             block_leave(c, block);

@@ -33,6 +33,7 @@
 #include "base/length.h"
 #include "base/range.h"
 #include "base/work.h"
+#include "view/side.h"
 #include "visibility/cells_charge.h"
 #include "visibility/cells_cover.h"
 #include "visibility/cells_cut.h"
@@ -43,8 +44,6 @@
 /* Cells that a facet may be cut into: so many, and so many a segment. */
 #define PARTS_MOST      4096u
 #define PARTS_A_SEGMENT 256u
-/* Corners above which a cell is halved. */
-#define MANY_CORNERS 20u
 /* A facet that reaches so many times as far as its nearest corner is away and f reaches. */
 #define FAR_FACET 64
 /* A cell without place for a sample whose area is more than so many margins wide is only odd in
@@ -140,9 +139,7 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
     return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
 }
 
-/* Does one side of f have all of another facet beyond it? In view coordinates: differences are off
-   by e and g at most, rounding included, so p x q by e |q| + g |p| + 2 e g in the 1-norm, and by 2
-   u |p| |q| more, below a fifth of that (visibility/classify.c). */
+/* Does one side of f have all of another facet beyond it? */
 static int facet_apart(const lrcsi_alone *a, uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
@@ -150,19 +147,12 @@ static int facet_apart(const lrcsi_alone *a, uint32_t other)
     const uint32_t *its = view->prepared->scene->facet[other].corner;
     int apart = 0;
     for (int k = 0; k < 3 && !apart; k++) {
-        const double *at = view->point[own[k]].x;
-        const double *to = view->point[own[k == 2 ? 0 : k + 1]].x;
-        const double p[2] = {to[0] - at[0], to[1] - at[1]};
-        double off = lrcsi_view_off(at);
-        double e = off + lrcsi_view_off(to);
+        const lrcsi_view_side side = lrcsi_view_side_of(view, own[k], own[k == 2 ? 0 : k + 1]);
         apart = 1;
         for (int i = 0; i < 3 && apart; i++) {
             const double *x = view->point[its[i]].x;
-            const double q[2] = {x[0] - at[0], x[1] - at[1]};
-            double g = off + lrcsi_view_off(x);
-            double turn = view->facing[a->facet] * (p[0] * q[1] - p[1] * q[0]);
-            apart = turn <
-                    -1.5 * (e * (fabs(q[0]) + fabs(q[1]) + 2 * g) + g * (fabs(p[0]) + fabs(p[1])));
+            apart =
+                view->facing[a->facet] * lrcsi_view_side_turn(&side, x, lrcsi_view_off(x)) == -1;
         }
     }
     return apart;
@@ -367,25 +357,15 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     c->top = 1;
 }
 
-/* --- components
- * -----------------------------------------------------------------------------------
+/* --- surface components ------------------------------------------------------------------------
  */
 
 /* Does a component end at a segment, or meet f there? */
 static int component_ends(const lrcsi_alone *a, const lrcsi_cells_segment *e, uint32_t component)
 {
     const uint32_t *of = a->classification->component;
-    const lrcsi_topology *t = &a->cells.view->prepared->topology;
-    if ((!e->contact && of[e->owner[0]] == component) ||
-        (e->owner[1] != LRCS_NONE && of[e->owner[1]] == component)) {
-        return 1;
-    }
-    for (uint32_t i = 0; e->edge != LRCS_NONE && i < t->edge[e->edge].uses; i++) {
-        if (of[t->use[t->edge[e->edge].first_use + i].facet] == component) {
-            return 1;
-        }
-    }
-    return 0;
+    return e->contact ? of[e->owner[1]] == component
+                      : lrcsi_cells_segment_of(a->cells.view->prepared, e, of, component);
 }
 
 /* Of a cell's segments, or of those at which a component ends where one is told, that whose line
@@ -604,20 +584,6 @@ static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
 
 /* --- one cell --------------------------------------------------------------------------------- */
 
-/* Charges what a cell that is told may be wrong by beside: in a thin one, along all that was
-   struck. */
-static void cell_charge(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                        double clear)
-{
-    double strips = 0;
-    if (clear < LRCSI_CELLS_THIN * s->perimeter) {
-        double most = lrcsi_clip_area(&cell->shape) + s->g * s->perimeter;
-        double wide = cell->inset + alone_off(a) + s->g;
-        strips = lrcsi_least(most, 2.0 * cell->struck * wide * s->perimeter);
-    }
-    a->cells.area[a->facet].uncertainty += cell->uncertainty + strips;
-}
-
 /* The cell as a piece. In a needle its corners are rounded to the frame of the view axes. */
 static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
 {
@@ -634,17 +600,14 @@ static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_
                                                (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
 }
 
-/* Cuts a cell along a segment, or halves it. 0 where that is not possible. */
+/* Cuts a cell along a segment, or halves one without that is only odd in shape. 0 where that is not
+   possible. */
 static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const lrcsi_cells_segment *cut)
 {
     double margin = cell->inset + alone_off(a) + s->g;
-    if (cell->cuts >= LRCSI_CELLS_CUTS) {
-        return 0;
-    }
-    return cut && cell->shape.count <= MANY_CORNERS
-               ? lrcsi_cells_cut(&a->cells, cell, s, cut->line, cut)
-               : (cut || lrcsi_clip_area(&cell->shape) > NARROW * margin * s->perimeter) &&
+    return cut ? lrcsi_cells_divide(&a->cells, cell, s, cut)
+               : lrcsi_clip_area(&cell->shape) > NARROW * margin * s->perimeter &&
                      lrcsi_cells_halve(&a->cells, cell, s);
 }
 
@@ -666,7 +629,8 @@ static int cell_do(lrcsi_alone *a, lrcsi_cells_cell *cell)
 
     /* 2. Where no segment is left that matters, all of the cell is as it is there. */
     if (hidden >= 0 && place.ends == 0) {
-        cell_charge(a, cell, &s, place.clear);
+        c->area[a->facet].uncertainty +=
+            cell->uncertainty + lrcsi_cells_thin(cell, &s, place.clear, cell->struck, alone_off(a));
         a->hidden |= hidden;
         if (!hidden) {
             cell_show(a, cell, &s);
@@ -688,10 +652,7 @@ int lrcsi_alone_next(lrcsi_alone *a)
 {
     lrcsi_cells_work *c = &a->cells;
     while (c->top > 0) {
-        lrcsi_cells_cell cell = c->stack[--c->top];
-        if (cell.both[0] > 0 || cell.both[1] > 0) {
-            lrcsi_cells_settle(c, &cell);
-        }
+        lrcsi_cells_cell cell = lrcsi_cells_take(c);
         uint64_t steps = (uint64_t)1 + a->count + cell.segments;
         if (a->parts == 0 || !lrcsi_meter_take(c->view->meter, steps)) {
             facet_leave(a, lrcsi_clip_area(&cell.shape));

@@ -39,7 +39,7 @@
 
 #include "base/range.h"
 
-/* 4 / LRCSI_CELLS_THIN (visibility/cells_cover.h). */
+/* 4 / LRCSI_CELLS_THIN. */
 #define CELLS_FAR 0x1p34
 /* A cell that is no wider than so many strips may be charged whole. */
 #define SLIVER 8
@@ -161,6 +161,16 @@ void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, dou
         c->area[index].cut += lrcsi_most(0, length);
     }
     c->area[index].uncertainty += lrcsi_most(0, wide) * lrcsi_most(0, length);
+}
+
+double lrcsi_cells_thin(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s, double clear,
+                        uint32_t segments, double off)
+{
+    if (!(clear < LRCSI_CELLS_THIN * s->perimeter)) {
+        return 0;
+    }
+    double strips = 2 * (double)segments * (cell->inset + off + s->g) * s->perimeter;
+    return lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s->g * s->perimeter);
 }
 
 int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,

@@ -6,6 +6,9 @@
 
 #include "visibility/cells_state.h"
 
+/* The clearance of a sample in a cell that is not thin, of the perimeter. */
+#define LRCSI_CELLS_THIN 0x1p-32
+
 /* The strip along a segment at which a cell is cut, so wide on both sides. Distances along it from
    its first end. */
 typedef struct lrcsi_cells_strip {
@@ -24,6 +27,11 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
    from the line between `low` and `high`, as computed. */
 void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double high,
                             const lrcsi_cells_strip *strip);
+
+/* What strips beyond the ends of so many segments, whose lines are off by at most `off`, may cost
+   in a cell whose sample is near to a side: it is thin. Any facet in it may be off by that. */
+double lrcsi_cells_thin(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s, double clear,
+                        uint32_t segments, double off);
 
 /* Charges all of a cell that has no room for a sample, where it is a sliver; 0 where it is none. */
 int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,

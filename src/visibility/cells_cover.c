@@ -231,20 +231,17 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     return whole;
 }
 
-/* Is any facet of an edge, or of a contact, marked by the look at hand? Given: c->joined or
-   c->listed. */
-static int segment_marked(const lrcsi_cells_work *c, const lrcsi_cells_segment *e,
-                          const uint32_t *mark)
+int lrcsi_cells_segment_of(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
+                           const uint32_t *mark, uint32_t value)
 {
-    if (mark[e->owner[0]] == c->look ||
-        (e->owner[1] != LRCS_NONE && mark[e->owner[1]] == c->look)) {
+    if (mark[e->owner[0]] == value || (e->owner[1] != LRCS_NONE && mark[e->owner[1]] == value)) {
         return 1;
     }
     if (e->edge != LRCS_NONE) {
-        const lrcsi_topology *t = &c->view->prepared->topology;
+        const lrcsi_topology *t = &prepared->topology;
         const lrcsi_edge_use *use = t->use + t->edge[e->edge].first_use;
         for (uint32_t i = 0; i < t->edge[e->edge].uses; i++) {
-            if (mark[use[i].facet] == c->look) {
+            if (mark[use[i].facet] == value) {
                 return 1;
             }
         }
@@ -254,16 +251,17 @@ static int segment_marked(const lrcsi_cells_work *c, const lrcsi_cells_segment *
 
 int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
 {
-    return segment_marked(c, e, c->joined);
+    return lrcsi_cells_segment_of(c->view->prepared, e, c->joined, c->look);
 }
 
-int lrcsi_cells_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
+/* Is none of the facets of an edge in the list any more, or one of a contact? */
+static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
 {
     if (e->contact) {
         return c->listed[e->owner[0]] != c->look || e->owner[1] == LRCS_NONE ||
                c->listed[e->owner[1]] != c->look;
     }
-    return !segment_marked(c, e, c->listed);
+    return !lrcsi_cells_segment_of(c->view->prepared, e, c->listed, c->look);
 }
 
 /* Is the part of an edge in the cell behind the component, which covers the cell? Where one facet
@@ -367,7 +365,7 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
-        if (!lrcsi_cells_idle(c, e) &&
+        if (!segment_idle(c, e) &&
             (e->contact || !segment_behind(c, cell, s, e, e->off + s->g, low))) {
             lrcsi_cells_keep(c->segments, i, kept++);
         }

@@ -6,9 +6,6 @@
 
 #include "visibility/cells_state.h"
 
-/* The clearance of a sample in a cell that is not thin, of the perimeter. */
-#define LRCSI_CELLS_THIN 0x1p-32
-
 /* Samples that may be tried in a cell, and where. */
 #define LRCSI_CELLS_TRIES 3
 void lrcsi_cells_spot(const lrcsi_cells_cell *cell, int number, double at[2]);
@@ -31,11 +28,12 @@ uint32_t lrcsi_cells_screen(const lrcsi_cells_work *c, const lrcsi_cells_cell *c
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, uint32_t best);
 
+/* Is any facet of an edge, or of a contact, marked with a value? */
+int lrcsi_cells_segment_of(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
+                           const uint32_t *mark, uint32_t value);
+
 /* Is any facet of a segment in the component? */
 int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
-
-/* Whether none of the facets of an edge is in the list any more, or one of a contact. */
-int lrcsi_cells_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
 
 /* The component is one facet, that covers the cell. */
 void lrcsi_cells_component_of(lrcsi_cells_work *c, uint32_t facet);

@@ -10,6 +10,9 @@
 #include "base/range.h"
 #include "visibility/cells_charge.h"
 
+/* Corners above which a cell is halved. */
+#define MANY_CORNERS 20u
+
 /* Does a segment that met the cell which this one was cut from meet it too? If not, its own line or
    that of the cut parts them. */
 static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment *e, double w)
@@ -136,7 +139,8 @@ static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, uint
     right->both[1] = end;
 }
 
-void lrcsi_cells_settle(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+/* Finds what belongs to a cell that has waited. */
+static void cell_settle(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
     double g = lrcsi_cells_reach(c, cell);
     uint32_t kept = 0;
@@ -163,7 +167,17 @@ void lrcsi_cells_settle(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     cell->both[0] = cell->both[1] = 0;
 }
 
-int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+lrcsi_cells_cell lrcsi_cells_take(lrcsi_cells_work *c)
+{
+    lrcsi_cells_cell cell = c->stack[--c->top];
+    if (cell.both[0] > 0 || cell.both[1] > 0) {
+        cell_settle(c, &cell);
+    }
+    return cell;
+}
+
+/* Along a line, that of a segment where one is told. */
+static int cell_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                     const double line[3], const lrcsi_cells_segment *along)
 {
     uint32_t struck = along ? (uint32_t)(along - c->segment) : LRCS_NONE;
@@ -176,7 +190,8 @@ int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
         strip.from = part.from * along->length;
         strip.to = part.to * along->length;
     }
-    if (cell->shape.count + 2 > LRCSI_CLIP_SIDES || c->top + 2 > LRCSI_CELLS_WAITING) {
+    if (cell->cuts >= LRCSI_CELLS_CUTS || cell->shape.count + 2 > LRCSI_CLIP_SIDES ||
+        c->top + 2 > LRCSI_CELLS_WAITING) {
         return 0;
     }
     lrcsi_cells_cell left = *cell;
@@ -207,5 +222,12 @@ int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const l
     int wide = s->high[0] - s->low[0] > s->high[1] - s->low[1];
     const double line[3] = {
         wide, !wide, wide ? -0.5 * (s->low[0] + s->high[0]) : -0.5 * (s->low[1] + s->high[1])};
-    return lrcsi_cells_cut(c, cell, s, line, NULL);
+    return cell_cut(c, cell, s, line, NULL);
+}
+
+int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                       const lrcsi_cells_sides *s, const lrcsi_cells_segment *along)
+{
+    return cell->shape.count > MANY_CORNERS ? lrcsi_cells_halve(c, cell, s)
+                                            : cell_cut(c, cell, s, along->line, along);
 }

@@ -8,17 +8,17 @@
 /* Strikes segments that are apart from the cell, or only at its border, which is charged. */
 void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s);
 
-/* Cuts a cell along a line, that of a segment where one is told: it is struck, and its strip
-   charged. The part on the left comes next, the one on the right waits. 0 where there is no room.
- */
-int lrcsi_cells_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                    const double line[3], const lrcsi_cells_segment *along);
+/* Divides a cell along the line of a segment, which is struck, and its strip charged; a cell with
+   many corners is halved instead. The part on the left comes next, the one on the right waits. 0
+   where there is no room. */
+int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                       const lrcsi_cells_sides *s, const lrcsi_cells_segment *along);
 
-/* Cuts a cell across the longer side of its box. */
+/* Divides a cell across the longer side of its box, likewise. */
 int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                       const lrcsi_cells_sides *s);
 
-/* Finds what belongs to a cell that has waited. */
-void lrcsi_cells_settle(lrcsi_cells_work *c, lrcsi_cells_cell *cell);
+/* The cell that comes next, with what belongs to it if it has waited. */
+lrcsi_cells_cell lrcsi_cells_take(lrcsi_cells_work *c);
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef LRCSI_CELLS_STATE_H
 #define LRCSI_CELLS_STATE_H
 
+#include "base/constant.h"
 #include "visibility/cells_block.h"
 #include "visibility/cells_facet.h"
 #include "visibility/cells_join.h"
@@ -94,7 +95,7 @@ static inline void lrcsi_cells_keep(uint32_t *list, uint32_t i, uint32_t kept)
    the largest coordinate for distances from lines. */
 static inline double lrcsi_cells_reach(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
-    return 16 * 0x1p-53 * c->reach + cell->drift;
+    return 16 * LRCSI_U * c->reach + cell->drift;
 }
 
 #endif

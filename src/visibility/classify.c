@@ -9,6 +9,7 @@
 #include "base/exact.h"
 #include "base/sort.h"
 #include "base/work.h"
+#include "view/side.h"
 #include "visibility/sample.h"
 
 /* How many listed events are examined at most to tell whether any crosses a facet. One facet in
@@ -19,30 +20,17 @@
 
 /* --- crossings -------------------------------------------------------------------------------- */
 
-/* A segment of the view: where it starts, where it leads, and how far either may be off. */
-typedef struct contest_side {
-    double at[2], to[2];
-    double length; /* of `to`, in the 1-norm */
-    double at_err; /* of `at`, in each coordinate, */
-    double to_err; /* and of `to` */
-} contest_side;
-
 /* A facet that asks which event edges cross it. */
-typedef struct contest_ask {
+typedef struct crossing_ask {
     uint32_t facet;
     int facing;
     const uint32_t *corner;
-    contest_side side[3]; /* from corner k to k + 1 */
-} contest_ask;
-
-/* A sign that plain doubles do not tell. */
-enum { TURN_UNSURE = 2 };
+    lrcsi_view_side side[3]; /* from corner k to k + 1 */
+} crossing_ask;
 
 /* Which way vertices a, b, c turn: from view coordinates where their error allows, else exactly. Of
    three vertices that far away is not taken as the one from which both others are seen: it would
-   blur what the others tell. Differences are off by e and f at most, rounding included
-   (lrcsi_view_off), so p x q by e |q| + f |p| + 2 e f in the 1-norm, and by 2 u |p| |q| more, below
-   a fifth of that. */
+   blur what the others tell. The bound is that of view/side.h. */
 static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
 {
     if (c == a || c == b) {
@@ -74,31 +62,10 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
     return lrcsi_exact_turn(v[a].x, v[b].x, v[c].x, view->direction);
 }
 
-static contest_side contest_side_of(const lrcsi_view *view, uint32_t a, uint32_t b)
-{
-    const double *p = view->point[a].x;
-    const double *q = view->point[b].x;
-    double err = lrcsi_view_off(p);
-    contest_side side = {{p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}, 0, err, err + lrcsi_view_off(q)};
-    side.length = fabs(side.to[0]) + fabs(side.to[1]);
-    return side;
-}
-
-/* Which way a side and a point x, which is off by err, turn; TURN_UNSURE where vertex_turn is to
-   tell. The same bound. */
-static inline int contest_side_turn(const contest_side *side, const double *x, double err)
-{
-    const double q[2] = {x[0] - side->at[0], x[1] - side->at[1]};
-    double turn = side->to[0] * q[1] - side->to[1] * q[0];
-    double f = side->at_err + err;
-    double off = 1.5 * (side->to_err * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * side->length);
-    return turn > off ? 1 : turn < -off ? -1 : TURN_UNSURE;
-}
-
 /* Does the segment p q cross the open inside of the facet, in projection? Two convex figures of
    the plane are apart just if some line along a side of either parts them. *along: it lies on the
    line of a side that parts them. */
-static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t p, uint32_t q,
+static int segment_crosses(const lrcsi_view *view, const crossing_ask *ask, uint32_t p, uint32_t q,
                            int *along)
 {
     const double *x = view->point[p].x;
@@ -108,8 +75,8 @@ static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint3
     for (int k = 0; k < 3; k++) {
         uint32_t a = ask->corner[k];
         uint32_t b = ask->corner[(k + 1) % 3];
-        int of_p = ask->facing * contest_side_turn(&ask->side[k], x, x_err);
-        int of_q = ask->facing * contest_side_turn(&ask->side[k], y, y_err);
+        int of_p = ask->facing * lrcsi_view_side_turn(&ask->side[k], x, x_err);
+        int of_q = ask->facing * lrcsi_view_side_turn(&ask->side[k], y, y_err);
         if (of_p == 1 || of_q == 1) {
             continue;
         }
@@ -120,13 +87,13 @@ static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint3
             return 0;
         }
     }
-    const contest_side line = contest_side_of(view, p, q);
+    const lrcsi_view_side line = lrcsi_view_side_of(view, p, q);
     int left = 0;
     int right = 0;
     for (int k = 0; k < 3; k++) {
         const double *corner = view->point[ask->corner[k]].x;
-        int side = contest_side_turn(&line, corner, ask->side[k].at_err);
-        side = side != TURN_UNSURE ? side : vertex_turn(view, p, q, ask->corner[k]);
+        int side = lrcsi_view_side_turn(&line, corner, ask->side[k].at_err);
+        side = side != LRCSI_VIEW_UNSURE ? side : vertex_turn(view, p, q, ask->corner[k]);
         left |= side > 0;
         right |= side < 0;
     }
@@ -134,13 +101,13 @@ static int segment_crosses(const lrcsi_view *view, const contest_ask *ask, uint3
 }
 
 /* Is the vertex nearer the laser than the facet's plane? The facet's own are not. */
-static int vertex_nearer(const lrcsi_view *view, const contest_ask *ask, uint32_t vertex)
+static int vertex_nearer(const lrcsi_view *view, const crossing_ask *ask, uint32_t vertex)
 {
     return vertex != ask->corner[0] && vertex != ask->corner[1] && vertex != ask->corner[2] &&
            lrcsi_sample_above(view, ask->facet, view->prepared->vertex[vertex].x) > 0;
 }
 
-static int edge_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t edge, int *along)
+static int edge_crosses(const lrcsi_view *view, const crossing_ask *ask, uint32_t edge, int *along)
 {
     const lrcs_prepared *p = view->prepared;
     const uint32_t *own = p->topology.facet_edge[ask->facet].corner;
@@ -152,12 +119,12 @@ static int edge_crosses(const lrcsi_view *view, const contest_ask *ask, uint32_t
            segment_crosses(view, ask, e->low, e->high, along);
 }
 
-static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
+static crossing_ask crossing_ask_of(const lrcsi_view *view, uint32_t facet)
 {
-    contest_ask ask = {.facet = facet, .facing = view->facing[facet]};
+    crossing_ask ask = {.facet = facet, .facing = view->facing[facet]};
     ask.corner = view->prepared->scene->facet[facet].corner;
     for (int k = 0; k < 3; k++) {
-        ask.side[k] = contest_side_of(view, ask.corner[k], ask.corner[(k + 1) % 3]);
+        ask.side[k] = lrcsi_view_side_of(view, ask.corner[k], ask.corner[(k + 1) % 3]);
     }
     return ask;
 }
@@ -167,12 +134,12 @@ static contest_ask contest_ask_of(const lrcsi_view *view, uint32_t facet)
    the meter is spent. Events whose box lies beside the facet's do not cross it. A cell lists events
    in the order of their nearest points: after the first one that lies behind all of the facet, no
    other comes nearer than the facet. */
-static uint32_t contest_find(lrcsi_classification *classification, uint32_t facet, uint32_t most,
-                             uint32_t *steps)
+static uint32_t crossings_find(lrcsi_classification *classification, uint32_t facet, uint32_t most,
+                               uint32_t *steps)
 {
     const lrcsi_view *view = classification->view;
     const lrcsi_grid *grid = &classification->grid;
-    const contest_ask ask = contest_ask_of(view, facet);
+    const crossing_ask ask = crossing_ask_of(view, facet);
     lrcsi_view_box box = classification->box[facet];
     lrcsi_cells cells = classification->cells[facet];
     uint32_t count = 0;
@@ -208,7 +175,7 @@ uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t
 {
     if (classification->crossed != facet) {
         uint32_t steps = LRCS_NONE; /* no limit */
-        classification->crossings = contest_find(classification, facet, LRCS_NONE, &steps);
+        classification->crossings = crossings_find(classification, facet, LRCS_NONE, &steps);
         classification->crossed =
             lrcsi_meter_spent(classification->view->meter) ? LRCS_NONE : facet;
     }
@@ -261,7 +228,7 @@ static uint64_t depth_key(float z)
 
 /* Sorts the events by their nearest points. Takes 20 bytes an event for the time being; the grid
    made afterwards may take 32 (events_most), so that the need does not grow. */
-static int contest_sort(lrcsi_classification *c, lrcs_work *work)
+static int events_sort(lrcsi_classification *c, lrcs_work *work)
 {
     size_t mark = work->used;
     const lrcsi_view *view = c->view;
@@ -283,11 +250,11 @@ static int contest_sort(lrcsi_classification *c, lrcs_work *work)
 }
 
 /* Events where they lie, and their grid. */
-static int contest_events(lrcsi_classification *c, lrcs_work *work)
+static int events_file(lrcsi_classification *c, lrcs_work *work)
 {
     const lrcsi_view *view = c->view;
     uint32_t count = c->events.count;
-    if (contest_sort(c, work) != LRCS_OK) {
+    if (events_sort(c, work) != LRCS_OK) {
         return LRCS_E_MEMORY;
     }
     c->event = lrcsi_work_take(work, count, sizeof *c->event);
@@ -307,7 +274,7 @@ static int contest_events(lrcsi_classification *c, lrcs_work *work)
 
 /* Which way the facets face that can hide something, where they stand, and which cells they touch.
  */
-static void contest_cast(lrcsi_classification *c)
+static void facets_cast(lrcsi_classification *c)
 {
     const lrcsi_view *view = c->view;
     uint32_t count = view->prepared->scene->facet_count;
@@ -324,7 +291,7 @@ static void contest_cast(lrcsi_classification *c)
 }
 
 /* Which facets are undecided, and which of the others are alone in their region. */
-static void contest_decide(lrcsi_classification *c)
+static void facets_decide(lrcsi_classification *c)
 {
     const lrcs_prepared *p = c->view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -333,7 +300,7 @@ static void contest_decide(lrcsi_classification *c)
             c->along = 0;
             c->undecided[f] =
                 intersection_divides(c->view, f) ||
-                (lrcsi_grid_any(&c->grid, c->cells[f]) && contest_find(c, f, 1, &steps) > 0) ||
+                (lrcsi_grid_any(&c->grid, c->cells[f]) && crossings_find(c, f, 1, &steps) > 0) ||
                 steps == 0 || lrcsi_meter_spent(c->view->meter);
             c->undecided_count += c->undecided[f];
             if (c->undecided[f] || c->along || p->intersections.rim[f]) {
@@ -379,16 +346,16 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcs_work *work,
     c.cells = lrcsi_work_take(work, count, sizeof *c.cells);
     int status = LRCS_E_MEMORY;
     if (c.undecided && c.joinable && c.component && c.region && c.box && c.cells) {
-        contest_cast(&c);
+        facets_cast(&c);
         status = lrcsi_events_make(view, c.joinable, work, &c.events);
-        status = status == LRCS_OK ? contest_events(&c, work) : status;
+        status = status == LRCS_OK ? events_file(&c, work) : status;
     }
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
     lrcsi_events_join(view, c.joinable, c.component);
-    contest_decide(&c);
+    facets_decide(&c);
     *classification = c;
     return LRCS_OK;
 }

@@ -105,8 +105,8 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcs_work *work, lr
     return status;
 }
 
-/* Contested facets: many all together, then one by one what that left open. */
-static int occlude_contested(lrcsi_occluding *o, lrcs_work *work, unsigned char *open,
+/* Undecided facets: many all together, then one by one what that left open. */
+static int occlude_undecided(lrcsi_occluding *o, lrcs_work *work, unsigned char *open,
                              lrcsi_visible *visible)
 {
     lrcsi_classification *classification = o->classification;
@@ -150,7 +150,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcs_work *work,
             visible[f] = answered_area(&o, f);
         }
     }
-    status = status == LRCS_OK ? occlude_contested(&o, work, open, visible) : status;
+    status = status == LRCS_OK ? occlude_undecided(&o, work, open, visible) : status;
     /* What the answers tell. They move down to where the work area was, if not there yet. */
     work->used = mark;
     if (status == LRCS_OK && answer) {
