@@ -176,7 +176,8 @@ int cli_has_curved_shapes(const lrcs_scene *scene);
    open object: the files; title, materials worn and options given. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 const char *cli_material_source(const lrcs_material *material);
-const char *cli_base_name(const char *path);
+const char *cli_base_name(const char *path);                     /* without its folders */
+void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */
 int cli_materials_open(const lrcs_scene *scene); /* illustrative or default ones are worn */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);

@@ -57,6 +57,14 @@ void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
+void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json)
+{
+    lrcs_host_json_number(json, "A", brdf->A);
+    lrcs_host_json_number(json, "B", brdf->B);
+    lrcs_host_json_number(json, "s", brdf->s);
+    lrcs_host_json_number(json, "m", brdf->m);
+}
+
 static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
 {
     lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
@@ -71,10 +79,7 @@ static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
         }
         lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
         lrcs_host_json_text(json, "name", material->name);
-        lrcs_host_json_number(json, "A", material->brdf.A);
-        lrcs_host_json_number(json, "B", material->brdf.B);
-        lrcs_host_json_number(json, "s", material->brdf.s);
-        lrcs_host_json_number(json, "m", material->brdf.m);
+        cli_brdf_json(&material->brdf, json);
         lrcs_host_json_bool(json, "two_sided", material->two_sided);
         lrcs_host_json_text(json, "source", cli_material_source(material));
         lrcs_host_json_count(json, "facets", facets);

@@ -176,14 +176,15 @@ lrcsi_cells_cell lrcsi_cells_take(lrcsi_cells_work *c)
     return cell;
 }
 
-/* Along a line, that of a segment where one is told. */
+/* Divides a cell along a line: that of segment number struck, or any if struck is LRCS_NONE. */
 static int cell_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                    const double line[3], const lrcsi_cells_segment *along)
+                    const double line[3], uint32_t struck)
 {
-    uint32_t struck = along ? (uint32_t)(along - c->segment) : LRCS_NONE;
-    lrcsi_cells_strip strip = {along, 0, 0, 0, s->g};
-    if (along) {
+    lrcsi_cells_strip strip = {NULL, 0, 0, 0, s->g};
+    if (struck != LRCS_NONE) {
+        const lrcsi_cells_segment *along = &c->segment[struck];
         lrcsi_cells_part part = {0, 1, 0};
+        strip.along = along;
         strip.width = along->line_off + cell->drift + 12 * LRCSI_U * c->reach;
         lrcsi_cells_place_of(&cell->shape, s, along->end[0], along->end[1], along->line,
                              along->off + s->g, along->off + s->g, &part);
@@ -205,7 +206,7 @@ static int cell_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     left.sign = 1;
     right.sign = -1;
     left.cuts = right.cuts = cell->cuts + 1;
-    left.struck = right.struck = cell->struck + (along != NULL);
+    left.struck = right.struck = cell->struck + (struck != LRCS_NONE);
     left.inset = right.inset = lrcsi_most(cell->inset, 2 * strip.width);
     left.drift = right.drift = cell->drift + drift;
     left.strip = right.strip = strip.width;
@@ -222,12 +223,13 @@ int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const l
     int wide = s->high[0] - s->low[0] > s->high[1] - s->low[1];
     const double line[3] = {
         wide, !wide, wide ? -0.5 * (s->low[0] + s->high[0]) : -0.5 * (s->low[1] + s->high[1])};
-    return cell_cut(c, cell, s, line, NULL);
+    return cell_cut(c, cell, s, line, LRCS_NONE);
 }
 
 int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                        const lrcsi_cells_sides *s, const lrcsi_cells_segment *along)
 {
-    return cell->shape.count > MANY_CORNERS ? lrcsi_cells_halve(c, cell, s)
-                                            : cell_cut(c, cell, s, along->line, along);
+    return cell->shape.count > MANY_CORNERS
+               ? lrcsi_cells_halve(c, cell, s)
+               : cell_cut(c, cell, s, along->line, (uint32_t)(along - c->segment));
 }

@@ -4,7 +4,6 @@
 #include "cli/converge/converge.h"
 
 #include <math.h>
-#include <string.h>
 
 #define CHART_SERIES (3 * CONVERGE_DIALS)
 
@@ -145,11 +144,9 @@ static double chart_floor(const converge_job *job)
 /* The scene without its folders; where the truth is from, and the laser. */
 static void chart_words(const converge_job *job, char title[256], char note[256])
 {
-    const char *slash = strrchr(job->args->operand, '/');
     const double *d = job->pose.direction;
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    snprintf(title, 256, "What accuracy costs in time: %s",
-             slash && slash[1] ? slash + 1 : job->args->operand);
+    snprintf(title, 256, "What accuracy costs in time: %s", cli_base_name(job->args->operand));
     snprintf(note, 256, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)", job->truth.text,
              job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
 }

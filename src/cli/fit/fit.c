@@ -136,8 +136,7 @@ static int fit_read(fit_job *job)
 /* The file's name without folders and ending, in memory that the caller frees. */
 static char *stem_make(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *name = slash ? slash + 1 : path;
+    const char *name = cli_base_name(path);
     const char *dot = strrchr(name, '.');
     size_t size = dot && dot != name ? (size_t)(dot - name) : strlen(name);
     char *stem = malloc(size + 1);

@@ -55,10 +55,7 @@ static void json_materials(const cli_info *info, lrcs_host_json *json)
         lrcs_host_json_count(json, "facets", info->material[i].facets);
         lrcs_host_json_number(json, "area_m2", cli_sum_value(&info->material[i].area));
         lrcs_host_json_begin(json, "brdf", LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_number(json, "A", material->brdf.A);
-        lrcs_host_json_number(json, "B", material->brdf.B);
-        lrcs_host_json_number(json, "s", material->brdf.s);
-        lrcs_host_json_number(json, "m", material->brdf.m);
+        cli_brdf_json(&material->brdf, json);
         lrcs_host_json_end(json);
         lrcs_host_json_end(json);
     }

@@ -3,7 +3,6 @@
 #include "cli/report/report.h"
 
 #include <math.h>
-#include <string.h>
 
 static const struct {
     const char *id, *name;
@@ -14,12 +13,6 @@ static const struct {
                    {"peaks", "Peaks"},     {"accuracy", "Accuracy"},
                    {"again", "Reproduce"}};
 
-static const char *scene_name(const report_job *job)
-{
-    const char *slash = strrchr(job->args->operand, '/');
-    return slash && slash[1] ? slash + 1 : job->args->operand;
-}
-
 static void page_head(FILE *out, const report_job *job)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
@@ -27,7 +20,7 @@ static void page_head(FILE *out, const report_job *job)
           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n"
           "<meta name=\"color-scheme\" content=\"light dark\" />\n<title>",
           out);
-    cli_page_text(out, scene_name(job));
+    cli_page_text(out, cli_base_name(job->args->operand));
     fputs(": laser radar cross-section</title>\n<style>\n", out);
     cli_report_style(out);
     fputs("</style>\n</head>\n<body>\n", out);
@@ -96,7 +89,7 @@ static void lead_direction(FILE *out, const report_job *job)
 static void page_lead(FILE *out, const report_job *job)
 {
     fputs("<header>\n<p class=\"kind\">Laser radar cross-section</p>\n<h1>", out);
-    cli_page_text(out, scene_name(job));
+    cli_page_text(out, cli_base_name(job->args->operand));
     fputs("</h1>\n", out);
     lead_sigma(out, job);
     lead_direction(out, job);

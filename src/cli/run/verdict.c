@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FOUR_PI 12.566370614359172954
-
 /* From this share of sigma on a single facet's own glint is said to dominate. */
 #define GLINT_DOMINATES 0.5
 
@@ -26,7 +24,7 @@ static void backs_find(const run_job *job, run_open *open)
         const lrcs_material *material = &scene->material[scene->facet_material[i]];
         if (record->cos_theta < 0.0 && !material->two_sided && record->visible_area_m2 > 0.0) {
             double f = lrcs_brdf_eval(&material->brdf, -record->cos_theta);
-            more += FOUR_PI * f * -record->cos_theta * record->visible_area_m2;
+            more += 4.0 * CLI_PI * f * -record->cos_theta * record->visible_area_m2;
         }
     }
     open->back_area_m2 = job->result.back_side_area_m2;
@@ -160,14 +158,17 @@ static void materials_say(const run_job *job)
     static const char *const words[] = {"illustrative, of the library: not measured",
                                         "none bound, A=1, B=0.25, s=0.2, m=0.5 taken", "as given"};
     const lrcs_scene *scene = &job->scene.scene;
-    for (int k = 0; k < 3; k++) {
-        uint32_t facets = 0;
-        for (uint32_t i = 0; i < scene->facet_count; i++) {
-            const lrcs_material *material = &scene->material[scene->facet_material[i]];
-            facets += !material->omitted && strcmp(cli_material_source(material), source[k]) == 0;
+    uint32_t facets[3] = {0, 0, 0};
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        const lrcs_material *material = &scene->material[scene->facet_material[i]];
+        const char *found = cli_material_source(material);
+        for (int k = 0; k < 3 && !material->omitted; k++) {
+            facets[k] += strcmp(found, source[k]) == 0;
         }
-        if (facets > 0) {
-            printf("  %-10s %lu facets: %s\n", "materials", (unsigned long)facets, words[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        if (facets[k] > 0) {
+            printf("  %-10s %lu facets: %s\n", "materials", (unsigned long)facets[k], words[k]);
         }
     }
 }

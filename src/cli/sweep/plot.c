@@ -369,9 +369,8 @@ static int sheet_make(const cli_args *args, const sweep_plot *plot, const sweep_
     sheet->y = sheet->x + plot->x.count;
     sheet->z = sheet->y + plot->y.count;
     sheet_fill(sheet);
-    const char *name = strrchr(args->operand, '/');
     snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section of %.200s",
-             name ? name + 1 : args->operand);
+             cli_base_name(args->operand));
     plot_note(args, plot, plan, sheet->note);
     axis_title(plot->x.name, sheet->x_name);
     axis_title(plot->y.name, sheet->y_name);

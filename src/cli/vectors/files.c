@@ -93,10 +93,7 @@ static void materials_json(lrcs_host_json *json)
         const vectors_material *material = &cli_vectors_materials[i];
         lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
         lrcs_host_json_text(json, "name", material->name);
-        lrcs_host_json_number(json, "A", material->brdf.A);
-        lrcs_host_json_number(json, "B", material->brdf.B);
-        lrcs_host_json_number(json, "s", material->brdf.s);
-        lrcs_host_json_number(json, "m", material->brdf.m);
+        cli_brdf_json(&material->brdf, json);
         lrcs_host_json_bool(json, "two_sided", material->two_sided);
         lrcs_host_json_end(json);
     }

@@ -80,10 +80,7 @@ static void case_json(const verify_case *one, lrcs_host_json *json)
     lrcs_host_json_text(json, "shape", one->shape);
     lrcs_host_json_number(json, "aspect_deg", one->aspect_deg);
     lrcs_host_json_begin(json, "material", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(json, "A", one->brdf->A);
-    lrcs_host_json_number(json, "B", one->brdf->B);
-    lrcs_host_json_number(json, "s", one->brdf->s);
-    lrcs_host_json_number(json, "m", one->brdf->m);
+    cli_brdf_json(one->brdf, json);
     lrcs_host_json_end(json);
     lrcs_host_json_number(json, "engine_m2", one->engine);
     lrcs_host_json_number(json, "closed_form_m2", one->closed);
