@@ -16,6 +16,9 @@ typedef struct lrcs_material {
     unsigned char two_sided;
     unsigned char omitted; /* fully transparent: its facets are left out of the scene */
     unsigned char bound;   /* 0: no binding applies, brdf is lrcs_brdf_default */
+    lrcs_brdf_error error; /* of brdf; all zero where none was stated */
+    uint32_t source; /* materials of equal source > 0 got the same numbers from one place: their
+                        errors are one and the same; 0: from the library or the default */
 } lrcs_material;
 
 /* place = translate * rotate * scale, applied after the joint. */
@@ -56,6 +59,7 @@ typedef struct lrcs_recipe_material {
     lrcs_brdf brdf;
     int two_sided; /* -1: keeps what the model says */
     uint32_t line;
+    lrcs_brdf_error error; /* of brdf */
 } lrcs_recipe_material;
 
 /* Which material a model's facets get: the first of these that applies:
@@ -80,9 +84,11 @@ typedef struct lrcs_binding {
     const char *name;     /* for the NAME kinds */
     unsigned char rgb[3]; /* for the COLOUR kinds */
     lrcs_brdf brdf;
-    int two_sided;        /* -1: keeps what the model says */
-    const char *material; /* the recipe's or library's name for brdf; NULL for plain numbers */
-    uint32_t line;        /* where the scene file names the material; 0 elsewhere */
+    int two_sided;         /* -1: keeps what the model says */
+    const char *material;  /* the recipe's or library's name for brdf; NULL for plain numbers */
+    uint32_t line;         /* where the scene file names the material; 0 elsewhere */
+    lrcs_brdf_error error; /* of brdf */
+    uint32_t wears;        /* 1 + the index of the recipe's material that it assigns; 0: none */
 } lrcs_binding;
 
 typedef struct lrcs_recipe {
