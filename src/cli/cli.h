@@ -55,9 +55,9 @@ enum cli_exit {
     }
 #define CLI_SCENE_HELP                                                                             \
     "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"    \
-    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name or '#RRGGBB', all else if\n"  \
-    "                        missing; BRDF is A,B,s,m (1/sr, 1/sr, slope, exponent) or a "         \
-    "library\n"                                                                                    \
+    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name (* and ? serve) or "          \
+    "'#RRGGBB',\n"                                                                                 \
+    "                        all else if missing; BRDF is A,B,s,m (A, B in 1/sr) or a library\n"   \
     "                        material\n"                                                           \
     "  --two-sided WHAT      reflects from both sides: all, open (what is no closed surface), a "  \
     "part\n"                                                                                       \

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* From a path to a scene, and on to sigma. It decides what kind of file a path holds, where the
    files that it names lie, and which notices are due; the geometry is the core's. */
+#include "host/binding.h"
 #include "host/demo.h"
 #include "host/input.h"
 #include "host/model.h"
@@ -304,6 +305,9 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
         status = models_read(scene, path, &file, error);
     }
     lrcs_host_file_free(&file);
+    if (status == LRCS_OK) {
+        status = lrcsi_host_bindings_expand(scene, error);
+    }
     if (status == LRCS_OK) {
         status = scene_from_recipe(scene, path, &options->build, error);
     }
