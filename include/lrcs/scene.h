@@ -15,7 +15,8 @@ typedef struct lrcs_material {
     unsigned char has_colour;
     unsigned char two_sided;
     unsigned char omitted; /* fully transparent: its facets are left out of the scene */
-    unsigned char bound;   /* 0: no binding applies, brdf is lrcs_brdf_default */
+    unsigned char bound;   /* 0: nobody gives its numbers: brdf is lrcs_brdf_default, or what a
+                              scene file calls assumed */
     lrcs_brdf_error error; /* of brdf; all zero where none was stated */
     uint32_t source; /* materials of equal source > 0 got the same numbers from one place: their
                         errors are one and the same; 0: from the library or the default */
@@ -59,6 +60,7 @@ typedef struct lrcs_recipe_material {
     lrcs_brdf brdf;
     int two_sided; /* -1: keeps what the model says */
     uint32_t line;
+    int assumed; /* the numbers are nobody's: facets are as if unbound, but for the numbers */
     lrcs_brdf_error error; /* of brdf */
 } lrcs_recipe_material;
 
@@ -87,8 +89,10 @@ typedef struct lrcs_binding {
     int two_sided;         /* -1: keeps what the model says */
     const char *material;  /* the recipe's or library's name for brdf; NULL for plain numbers */
     uint32_t line;         /* where the scene file names the material; 0 elsewhere */
+    int assumed;           /* as in lrcs_recipe_material */
     lrcs_brdf_error error; /* of brdf */
-    uint32_t wears;        /* 1 + the index of the recipe's material that it assigns; 0: none */
+    uint32_t source; /* bindings of equal source > 0 give the same numbers from one place, 1 + i
+                        being the recipe's material i; 0: its own */
 } lrcs_binding;
 
 typedef struct lrcs_recipe {

@@ -146,30 +146,30 @@ int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, 
     return *worn == LRCS_NONE ? LRCS_E_NAME : LRCS_OK;
 }
 
-/* Puts on a BRDF with its errors; a two_sided below 0 keeps what is there. `source` is that of
-   <lrcs/scene.h>. */
+/* Puts on a BRDF with its errors; a two_sided below 0 keeps what is there. Assumed numbers bind
+   nothing. `source` is that of <lrcs/scene.h>. */
 static void dress(lrcs_material *material, const lrcs_brdf *brdf, const lrcs_brdf_error *error,
-                  uint32_t source, int two_sided)
+                  uint32_t source, int two_sided, int assumed)
 {
     static const lrcs_brdf_error exact = {0, 0, 0, 0, {0, 0, 0, 0, 0, 0}};
     material->brdf = *brdf;
     material->error = error ? *error : exact;
     material->source = source;
-    material->bound = 1;
+    material->bound = !assumed;
     if (two_sided >= 0) {
         material->two_sided = two_sided != 0;
     }
 }
 
 /* The recipe's materials are sources 1, 2, ...; after them the bindings, except for those that
-   assign one of the recipe's materials. */
+   have a source of their own. */
 static void dress_by(const lrcsi_binder *binder, const lrcs_binding *binding,
                      lrcs_material *material)
 {
     const lrcs_recipe *recipe = binder->recipe;
     uint32_t own = 1 + recipe->material_count + (uint32_t)(binding - recipe->binding);
-    dress(material, &binding->brdf, &binding->error, binding->wears != 0 ? binding->wears : own,
-          binding->two_sided);
+    dress(material, &binding->brdf, &binding->error, binding->source != 0 ? binding->source : own,
+          binding->two_sided, binding->assumed);
 }
 
 /* The command line's word on a material of this name, which a scene file put on. */
@@ -188,11 +188,11 @@ static void wear(const lrcsi_binder *binder, uint32_t worn, lrcs_material *mater
     if (worn < recipe->material_count) {
         name = recipe->material[worn].name;
         dress(material, &recipe->material[worn].brdf, &recipe->material[worn].error, worn + 1,
-              recipe->material[worn].two_sided);
+              recipe->material[worn].two_sided, recipe->material[worn].assumed);
     } else {
         const lrcs_brdf_entry *entry = lrcs_brdf_library(worn - recipe->material_count);
         name = entry->name;
-        dress(material, &entry->brdf, NULL, 0, -1);
+        dress(material, &entry->brdf, NULL, 0, -1, 0);
     }
     override_named(binder, name, material);
     material->name = material->name ? material->name : name;
@@ -241,7 +241,7 @@ static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
     if (map) {
         apply(binder, map, material);
     } else if (entry) {
-        dress(material, &entry->brdf, NULL, 0, -1);
+        dress(material, &entry->brdf, NULL, 0, -1, 0);
     } else {
         apply_default(binder, material);
     }

@@ -68,6 +68,7 @@ static const schema_row schema[] = {
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_CORRELATION, LRCSI_TOML_ARRAY, 6, 6, "correlation",
      "six numbers, [AB, As, Am, Bs, Bm, sm]"},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_TWO_SIDED, TRUTH, "two_sided", IS_TRUTH},
+    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_ASSUMED, TRUTH, "assumed", IS_TRUTH},
     {LRCSI_TABLE_MAP, LRCSI_KEY_NAME, TEXT, "name", IS_TEXT},
     {LRCSI_TABLE_MAP, LRCSI_KEY_COLOUR, TEXT, "colour", IS_TEXT},
     {LRCSI_TABLE_MAP, LRCSI_KEY_MATERIAL, TEXT, "material", IS_TEXT},
@@ -82,7 +83,8 @@ static const char *const table_keys[LRCSI_TABLES] = {
     "one of schema, name, unit, keep_transparent, default_material",
     part_keys,
     "one of axis, origin, angle_deg",
-    "one of name, like, A, B, s, m, A_error, B_error, s_error, m_error, correlation, two_sided",
+    "one of name, like, A, B, s, m, A_error, B_error, s_error, m_error, correlation, two_sided, "
+    "assumed",
     "one of name, colour, material",
 };
 
