@@ -53,8 +53,10 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
    are those of sigma, and rounding adds less than 1e-12 of the sum of their terms without signs. So
    are those of curved normals, up to the error of the cubature (curvature_estimate_m2). Those of
    shapes by their closed forms (LRCS_METHOD_CLOSED) in s and m are differences of order 8 of the
-   closed form, good to about 1e-9 of themselves. An effect left out (lrcs_run_options.without) has
-   derivative 0. ds and dm are 0 where A or B is 0, and ds is 0 at s = 0.
+   closed form, good to about 1e-9 of
+   themselves and 1e-11 of the term. An effect left out (lrcs_run_options.without) has
+   derivative 0. ds and dm are 0 where A or B is 0; at s = 0 dA
+   and ds are 0, the limit from above.
    2. First order: the square root of g' C g, summed over sources (lrcs_material.source): the
    materials of one source are off together, those of different sources independently.
    3. The sample draws each source's four numbers from the normal distribution with its covariance.
@@ -64,7 +66,8 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
    mean is more than a tenth of that off sigma (and both by more than three standard errors of the
    sample): sigma is then not linear in the parameters over their errors. The same seed gives the
    same sample on every machine. sigma at drawn s and m is interpolated between 17 nodes (9 with
-   curved normals) by cubics with the exact slopes. */
+   curved normals) by
+   cubics in its logarithm, with the exact slopes. */
 int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                          const lrcs_run_options *options, const lrcs_uncertainty_options *how,
                          lrcs_work *work, lrcs_result *result, lrcs_sensitivity *sensitivity,

@@ -3,7 +3,7 @@
    u = tan^2(theta) the two terms of f_r cos^2 at amplitude 1 are
        g = (1 + u)^2 exp(-u / s^2)      and      d = (1 + u)^(-m/2 - 1),
    so that dg/ds = g 2 u / s^3 and dd/dm = -d log(1 + u) / 2. Limits: as s -> 0, g and dg/ds vanish
-   but for u = 0 exactly, where g = 1 and dg/ds = 0 for every s; as u -> infinity all four vanish.
+   but for u = 0 exactly, and count as 0 at s = 0; as u -> infinity all four vanish.
    Nothing else of sigma depends on materials: which areas are visible does not.
    Called: lrcsi_view_incidence, lrcsi_reflect; lrcsi_shape_response. */
 #include "integrate/sensitivity.h"
@@ -31,8 +31,8 @@ static double visible_share(const lrcsi_view *view, const lrcsi_areas *areas, ui
 }
 
 /* A flat facet. */
-static void facet_add(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t facet, double share,
-                      double u, lrcsi_response *response)
+static void response_add_facet(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t facet,
+                               double share, double u, lrcsi_response *response)
 {
     double weight = FOUR_PI * 0.5 * view->prepared->normal[facet].length * share;
     if (!isfinite(u)) {
@@ -40,16 +40,16 @@ static void facet_add(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t fa
     }
     const lrcs_brdf unit = {brdf->s > 0 ? 1 : 0, 1, brdf->s, brdf->m};
     lrcsi_reflection at = lrcsi_reflect(&unit, u, 0);
-    double glint = brdf->s > 0 ? at.glint : u == 0 ? 1 : 0;
-    double slope = glint > 0 && u > 0 ? glint * (2 * (u / brdf->s / brdf->s) / brdf->s) : 0;
-    lrcsi_sum_add(&response->glint, weight * glint);
+    double slope = at.glint > 0 ? at.glint * (2 * (u / brdf->s / brdf->s) / brdf->s) : 0;
+    lrcsi_sum_add(&response->glint, weight * at.glint);
     lrcsi_sum_add(&response->glint_s, weight * slope);
     lrcsi_sum_add(&response->diffuse, weight * at.diffuse);
     lrcsi_sum_add(&response->diffuse_m, weight * (at.diffuse * (-0.5 * lrcsi_log1p(u).hi)));
 }
 
 /* One with curved normals. */
-static void curved_add(const lrcs_brdf *brdf, const lrcsi_curved *curved, lrcsi_response *response)
+static void response_add_curved(const lrcs_brdf *brdf, const lrcsi_curved *curved,
+                                lrcsi_response *response)
 {
     double s = brdf->s;
     lrcsi_sum_add(&response->glint, curved->glint);
@@ -75,9 +75,10 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         double share = visible_share(view, areas, f, incidence.projected);
         if (curved && lrcsi_curve_wanted(view, f)) {
-            curved_add(&brdf[material], &curved[f], &response[material]);
+            response_add_curved(&brdf[material], &curved[f], &response[material]);
         } else if (share > 0) {
-            facet_add(view, &brdf[material], f, share, incidence.tan2, &response[material]);
+            response_add_facet(view, &brdf[material], f, share, incidence.tan2,
+                               &response[material]);
         }
     }
     for (uint32_t i = 0; clear && clear->count > 0 && i < scene->part_count; i++) {

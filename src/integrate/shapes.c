@@ -106,8 +106,8 @@ static double term_slope(double value, double moved, double step)
    f' = sum c_k (f(s + k h s) - f(s - k h s)) / (h s) with an error of h^8 f(9) / 630. Where
    log f has slope L in log s, h = 0.05 / (1 + L) leaves some (0.05)^8 of f', and the closed form's
    own rounding over h L / (1 + L) some 1e-12. */
-static double glint_slope(const lrcs_shape *shape, const lrcsi_dd direction[3], double s, double m,
-                          double value)
+static double shape_glint_s(const lrcs_shape *shape, const lrcsi_dd direction[3], double s,
+                            double m, double value)
 {
     static const double c[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
     double high[2];
@@ -124,15 +124,14 @@ static double glint_slope(const lrcs_shape *shape, const lrcsi_dd direction[3], 
 }
 
 /* The derivative of the diffuse part in m: a forward difference of order 8, for m may be 0, with an
-   error of h^8 f(9) / 9. */
-static double diffuse_slope(const lrcs_shape *shape, const lrcsi_dd direction[3], double s,
-                            double m, double value)
+   error of h^8 f(9) / 9, below 1e-10 of f'; rounding adds some 1e-12 of f. */
+static double shape_diffuse_m(const lrcs_shape *shape, const lrcsi_dd direction[3], double s,
+                              double m, double value)
 {
     static const double c[8] = {8, -14, 56.0 / 3, -35.0 / 2, 56.0 / 5, -14.0 / 3, 8.0 / 7, -0.125};
     double at[2];
     unit_terms(shape, direction, s, m + 1e-3, at);
-    double h = 0.05 / (1e-2 + term_slope(value, at[1], 1e-3));
-    h = h < 0.2 ? h : 0.2;
+    double h = 0.05 / (1 + term_slope(value, at[1], 1e-3));
     double slope = 0;
     for (int k = 1; k <= 8; k++) { /* the weights of all nine add up to 0 */
         unit_terms(shape, direction, s, m + k * h, at);
@@ -155,10 +154,10 @@ lrcsi_shape_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t 
     unit_terms(&placed->shape, direction, s, brdf->m, term);
     lrcsi_shape_response out = {scale * term[0], scale * term[1], 0, 0};
     if (term[0] > 0) {
-        out.glint_s = scale * glint_slope(&placed->shape, direction, s, brdf->m, term[0]);
+        out.glint_s = scale * shape_glint_s(&placed->shape, direction, s, brdf->m, term[0]);
     }
     if (term[1] > 0) {
-        out.diffuse_m = scale * diffuse_slope(&placed->shape, direction, s, brdf->m, term[1]);
+        out.diffuse_m = scale * shape_diffuse_m(&placed->shape, direction, s, brdf->m, term[1]);
     }
     return out;
 }

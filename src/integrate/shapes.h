@@ -25,7 +25,7 @@ typedef struct lrcsi_shape_response {
 
 /* Given: such a part; the s and m to use. Beyond the slopes that closed forms serve (2^-333 ..
    2^333) the glint is 0. The derivatives are differences of order 8, good to about 1e-9 of
-   themselves. */
+   themselves and 1e-11 of the term. */
 lrcsi_shape_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t part,
                                                const lrcs_brdf *brdf);
 

@@ -813,8 +813,12 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     status = status == LRCS_OK ? run_check(options, NULL) : status;
     status = status == LRCS_OK ? errors_check(scene) : status;
     status = status == LRCS_OK ? room_take(work, nodes, scene->material_count, &room) : status;
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
     size_t start = work->used;
-    status = status == LRCS_OK ? run_stages(&run, prepared, pose, options) : status;
+    status = run_stages(&run, prepared, pose, options);
     if (status == LRCS_OK && !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse +
                                        run.total.curvature)) {
         status = LRCS_E_NUMBER;

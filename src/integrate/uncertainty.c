@@ -18,7 +18,7 @@
 /* Nodes reach so many deviations to either side, and so do draws. */
 #define REACH 4.0
 /* The least s, as a share of the material's own: sigma changes little below. */
-#define SLOPE_LEAST 0.0625
+#define DRAWN_SLOPE_LEAST 0.0625
 /* First order is reported up to this relative difference from the sample's deviation, and while the
    sample's mean is off sigma by no more than this share of it. Smaller differences than three
    standard errors of a sample are chance. */
@@ -30,6 +30,8 @@
 #define QUANTILE_HIGH 0.84134474606854295
 /* Of each two uniform deviates pi / 4 serve; so many pairs never fail to give one. */
 #define POLAR_TRIES 64
+/* Below this a response has no logarithm to interpolate. */
+#define RESPONSE_LEAST 1e-250
 
 static void deviations(const lrcs_brdf_error *error, double out[4])
 {
@@ -88,8 +90,8 @@ lrcs_brdf lrcsi_uncertainty_node(const lrcs_material *material, uint32_t k, uint
     lrcs_brdf at = material->brdf;
     const lrcs_brdf_error *e = &material->error;
     if (count > 1) {
-        at.s = node_at(node_low(at.s, e->s, SLOPE_LEAST * at.s), at.s, node_high(at.s, e->s), k,
-                       count);
+        at.s = node_at(node_low(at.s, e->s, DRAWN_SLOPE_LEAST * at.s), at.s, node_high(at.s, e->s),
+                       k, count);
         at.m = node_at(node_low(at.m, e->m, 0), at.m, node_high(at.m, e->m), k, count);
     }
     return at;
@@ -233,6 +235,18 @@ static double hermite(double f0, double f1, double g0, double g1, double step, d
     return f0 + t * (f1 - f0) + t * (1 - t) * ((1 - t) * a + t * b);
 }
 
+/* A response between two nodes: its logarithm by the cubic, for on the flank of a glint it varies
+   by orders of magnitude; the response itself where it underflows. */
+static double interpolate(double f0, double f1, double g0, double g1, double step, double t)
+{
+    if (!(f0 > RESPONSE_LEAST) || !(f1 > RESPONSE_LEAST)) {
+        return lrcsi_most(0, hermite(f0, f1, g0, g1, step, t));
+    }
+    double low = lrcsi_log(f0).hi;
+    double high = lrcsi_log(f1).hi;
+    return lrcsi_exp(hermite(low, high, g0 / f0, g1 / f1, step, t));
+}
+
 /* Of which interval of nodes, and at what share of it, is x? */
 static uint32_t interval_find(double low, double value, double high, uint32_t count, double x,
                               double *t)
@@ -256,13 +270,13 @@ static double source_sigma(const source *one, uint32_t count, const lrcs_brdf *a
     double diffuse = node[count / 2].diffuse;
     double t = 0;
     if (count > 1 && e->s > 0) {
-        double low = node_low(own->s, e->s, SLOPE_LEAST * own->s);
+        double low = node_low(own->s, e->s, DRAWN_SLOPE_LEAST * own->s);
         double high = node_high(own->s, e->s);
         uint32_t k = interval_find(low, own->s, high, count, at->s, &t);
         double step =
             node_at(low, own->s, high, k + 1, count) - node_at(low, own->s, high, k, count);
-        glint = hermite(node[k].glint, node[k + 1].glint, node[k].glint_s, node[k + 1].glint_s,
-                        step, t);
+        glint = interpolate(node[k].glint, node[k + 1].glint, node[k].glint_s, node[k + 1].glint_s,
+                            step, t);
     }
     if (count > 1 && e->m > 0) {
         double low = node_low(own->m, e->m, 0);
@@ -270,10 +284,10 @@ static double source_sigma(const source *one, uint32_t count, const lrcs_brdf *a
         uint32_t k = interval_find(low, own->m, high, count, at->m, &t);
         double step =
             node_at(low, own->m, high, k + 1, count) - node_at(low, own->m, high, k, count);
-        diffuse = hermite(node[k].diffuse, node[k + 1].diffuse, node[k].diffuse_m,
-                          node[k + 1].diffuse_m, step, t);
+        diffuse = interpolate(node[k].diffuse, node[k + 1].diffuse, node[k].diffuse_m,
+                              node[k + 1].diffuse_m, step, t);
     }
-    return at->A * lrcsi_most(0, glint) + at->B * lrcsi_most(0, diffuse);
+    return at->A * glint + at->B * diffuse;
 }
 
 /* One draw of a source's numbers, in their domain. */
@@ -294,7 +308,7 @@ static lrcs_brdf source_draw(const source *one, uint64_t *state)
         off[i] = lrcsi_least(REACH, lrcsi_most(-REACH, off[i]));
     }
     return (lrcs_brdf){lrcsi_most(0, own->A + off[0] * e->A), lrcsi_most(0, own->B + off[1] * e->B),
-                       lrcsi_most(SLOPE_LEAST * own->s, own->s + off[2] * e->s),
+                       lrcsi_most(DRAWN_SLOPE_LEAST * own->s, own->s + off[2] * e->s),
                        lrcsi_most(0, own->m + off[3] * e->m)};
 }
 
