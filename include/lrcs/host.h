@@ -378,6 +378,9 @@ typedef struct lrcs_host_map {
     const double *z;                      /* z[row * columns + column]; not finite: grey */
     double deep;      /* the colour scale covers at most this range below the largest; 0: all */
     int x_deg, y_deg; /* these are angles, deg */
+    int mollweide;    /* drawn in Mollweide's equal-area projection, 0 deg in the middle: x is the
+                         azimuth or longitude, deg, over at most 360; y is -90 .. 90 */
+    int cells;        /* without contours */
 } lrcs_host_map;
 
 /* As for charts. If there are more points than can be resolved, several are averaged.

@@ -256,6 +256,7 @@ extern const cli_command cli_verify_command;
 extern const cli_command cli_converge_command;
 extern const cli_command cli_sweep_command;
 extern const cli_command cli_merge_command;
+extern const cli_command cli_plot_command;
 extern const cli_command cli_fit_command;
 extern const cli_command cli_report_command;
 extern const cli_command cli_vectors_command;
