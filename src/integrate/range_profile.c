@@ -163,7 +163,7 @@ static void corner_bins(const profile_job *job, lrcsi_dd range, double err, uint
     }
 }
 
-static void facet_place(const profile_job *job, uint32_t facet, profile_facet *f)
+static void facet_ranges(const profile_job *job, uint32_t facet, profile_facet *f)
 {
     f->first = job->count;
     f->last = 0;
@@ -337,7 +337,7 @@ static void facet_profile(profile_job *job, uint32_t facet, lrcsi_occluding *o)
                        .diffuse = terms.diffuse / incidence.projected,
                        .rounding = terms.rounding / incidence.projected};
     f.most = f.glint + f.diffuse + f.rounding;
-    facet_place(job, facet, &f);
+    facet_ranges(job, facet, &f);
     double additions = job->additions;
     double doubt = pieces_add(job, &f, facet, &incidence, o);
     for (uint32_t i = f.first; doubt > 0 && i <= f.last; i++) {

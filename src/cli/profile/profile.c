@@ -85,7 +85,7 @@ static int files_read(profile_job *job)
 static int options_read(profile_job *job)
 {
     const cli_args *args = job->args;
-    lrcs_run_options options;
+    lrcs_run_options options = lrcs_run_options_default();
     int code = cli_pose_read(args, &job->pose);
     code = code ? code : length_read(args, "bin", &job->bin_m);
     if (code == 0 && !(job->bin_m > 0.0)) {

@@ -152,7 +152,7 @@ static void row_print(const profile_job *job, const profile_row *row)
 /* All bins, or of many the strongest. */
 static void rows_print(const profile_job *job)
 {
-    const profile_row **sorted = malloc(((size_t)job->rows + 1) * sizeof *sorted);
+    const profile_row **sorted = calloc((size_t)job->rows + 1, sizeof *sorted);
     printf("  %12s %12s %14s %9s %12s%s\n", "from (m)", "to (m)", "sigma (m2)", "bound", "m2 per m",
            job->fwhm_m > 0.0 ? "   pulse (m2/m)     bound" : "");
     for (uint32_t i = 0; i < job->rows; i++) {
@@ -163,7 +163,7 @@ static void rows_print(const profile_job *job)
         }
     }
     if (job->rows > TABLE_ROWS && sorted) {
-        qsort(sorted, job->rows, sizeof(profile_row *), by_falling_sigma);
+        qsort(sorted, job->rows, sizeof *sorted, by_falling_sigma);
         for (uint32_t i = 0; i < TABLE_ROWS / 2; i++) {
             row_print(job, sorted[i]);
         }
