@@ -130,8 +130,8 @@ void cli_profile_json(const profile_job *job)
 
 static int by_falling_sigma(const void *a, const void *b)
 {
-    double left = cli_profile_sigma(&(*(const profile_row *const *)a)->bin);
-    double right = cli_profile_sigma(&(*(const profile_row *const *)b)->bin);
+    double left = cli_profile_sigma(&((const profile_row *)a)->bin);
+    double right = cli_profile_sigma(&((const profile_row *)b)->bin);
     return left < right ? 1 : left > right ? -1 : 0;
 }
 
@@ -152,20 +152,20 @@ static void row_print(const profile_job *job, const profile_row *row)
 /* All bins, or of many the strongest. */
 static void rows_print(const profile_job *job)
 {
-    const profile_row **sorted = calloc((size_t)job->rows + 1, sizeof *sorted);
+    profile_row *sorted = calloc((size_t)job->rows + 1, sizeof *sorted);
     printf("  %12s %12s %14s %9s %12s%s\n", "from (m)", "to (m)", "sigma (m2)", "bound", "m2 per m",
            job->fwhm_m > 0.0 ? "   pulse (m2/m)     bound" : "");
     for (uint32_t i = 0; i < job->rows; i++) {
         if (job->rows <= TABLE_ROWS || !sorted) {
             row_print(job, &job->row[i]);
         } else {
-            sorted[i] = &job->row[i];
+            sorted[i] = job->row[i];
         }
     }
     if (job->rows > TABLE_ROWS && sorted) {
         qsort(sorted, job->rows, sizeof *sorted, by_falling_sigma);
         for (uint32_t i = 0; i < TABLE_ROWS / 2; i++) {
-            row_print(job, sorted[i]);
+            row_print(job, &sorted[i]);
         }
         printf("  the strongest %lu of %lu bins; --csv and --json give all\n",
                (unsigned long)(TABLE_ROWS / 2), (unsigned long)job->rows);
