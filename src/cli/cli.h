@@ -250,12 +250,14 @@ int cli_output_write(const char *path, cli_writer *write, const void *context);
 /* The commands. */
 extern const cli_command cli_run_command;
 extern const cli_command cli_image_command;
+extern const cli_command cli_profile_command;
 extern const cli_command cli_info_command;
 extern const cli_command cli_shape_command;
 extern const cli_command cli_verify_command;
 extern const cli_command cli_converge_command;
 extern const cli_command cli_sweep_command;
 extern const cli_command cli_merge_command;
+extern const cli_command cli_plot_command;
 extern const cli_command cli_fit_command;
 extern const cli_command cli_report_command;
 extern const cli_command cli_vectors_command;
