@@ -82,6 +82,38 @@ check("derivatives_in_attitude", abs(y["m2_per_deg"] / want - 1) < 1e-5, y)
 check("with_their_errors", 0 < y["bound_m2_per_deg"] < 1e-10 and 0 < y["estimate_m2_per_deg"] < 1e-5, y)
 END
 
+# What a fit knows goes through a scene file into the uncertainty of sigma, correlations included.
+python3 - >noisy.csv <<END
+import math, random
+random.seed(3)
+print("angle_deg,value")
+for a in range(0, 80, 2):
+    c = math.cos(math.radians(a))
+    f = c ** -6 * math.exp(-math.tan(math.radians(a)) ** 2 / 0.04) + 0.25 * c ** 0.5
+    print(f"{a},{f + random.gauss(0, 0.01):.5f}")
+END
+run fit noisy.csv
+{ printf '[[part]]\nname = "p"\nshape = "plate"\nsize = [1, 1]\nmaterial = "noisy"\n'; printf '%s\n' "$out" | sed -n '/^\[\[material/,$p'; } >fitted.toml
+option=$(printf '%s\n' "$out" | sed -n "s/^--material '\(.*\)'$/\1/p")
+run fit noisy.csv --json
+fit=$out
+run run fitted.toml --azel 0,75 --json --sensitivity
+same a_fitted_scene_runs "$rc" 0
+python3 - <<END
+from tap import check
+import json, math
+fit = json.loads("""$fit""")["fits"][0]
+r = json.loads("""$out""")
+d = [r["sensitivity"]["materials"][0][k] for k in ("dA_m2_sr", "dB_m2_sr", "ds_m2", "dm_m2")]
+v = [d[i] * fit["parameters"][k]["std_error"] for i, k in enumerate("ABsm")]
+c = fit["correlation"]
+want = math.sqrt(sum(v[i] * c[i][j] * v[j] for i in range(4) for j in range(4)))
+u = r["material_uncertainty"]
+check("with_the_fits_covariance", abs(u["first_order_m2"] / want - 1) < 0.01, (u, want))
+END
+run run exact.toml --azel 0,75 --json --material "foil=${option#*=}"
+same the_option_of_a_fit_has_its_errors "$(printf '%s\n' "$out" | grep -c '"material_uncertainty": {')" 1
+
 run run negative.toml
 same a_negative_error_is_refused "$rc $(printf '%s\n' "$err" | grep -c 'A_error.*0 or more')" "1 1"
 run run impossible.toml
