@@ -53,13 +53,13 @@ static int joint_read(track_reader *reader, sweep_track *track, uint32_t column)
 {
     const lrcs_host_field *field = &reader->table.field[column];
     const size_t begin = sizeof SWEEP_JOINT - 1;
-    char *name = track->joint_name[track->joints];
-    if (track->joints == SWEEP_JOINTS) {
+    if (track->joints >= SWEEP_JOINTS) {
         return track_fault(reader, "at most 8 columns may turn joints");
     }
     if (field->size <= begin || field->size - begin >= 100) {
         return track_fault(reader, "expected joint:PART with the name of a part");
     }
+    char *name = track->joint_name[track->joints];
     snprintf(name, sizeof track->joint_name[0], "%s%.*s", SWEEP_JOINT, (int)(field->size - begin),
              field->text + begin);
     for (uint32_t i = 0; i < track->joints; i++) {
@@ -178,7 +178,8 @@ static int date_read(const lrcs_host_field *field, int64_t *seconds, double *par
          lrcs_host_number_read(t + size, field->size - size - 1, part) != LRCS_OK)) {
         return -1;
     }
-    *seconds = 86400 * days_of(year, month, day) + 3600 * hour + 60 * minute + second;
+    *seconds =
+        86400 * days_of(year, month, day) + (INT64_C(3600) * hour + INT64_C(60) * minute + second);
     return 0;
 }
 
@@ -278,7 +279,7 @@ int cli_track_read(const char *path, sweep_track *track)
 {
     lrcs_host_error error;
     lrcs_host_file file;
-    track_reader reader;
+    track_reader reader = {.dates = 0};
     if (lrcs_host_file_read(path, &file, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
