@@ -33,6 +33,18 @@ void lrcs_host_number_text(double value, char text[LRCS_HOST_NUMBER_SIZE]);
    Status: LRCS_OK; LRCS_E_SYNTAX; LRCS_E_NUMBER (beyond double range). */
 int lrcs_host_number_read(const char *text, size_t size, double *value);
 
+/* ---- names ---- */
+
+/* How far a name is from what was typed: 0 if it begins with the text, else the number of edits
+   (letters added, dropped, replaced, neighbours swapped) in the first 64 bytes. */
+unsigned lrcs_host_name_distance(const char *text, const char *name);
+
+/* The names most like what was typed, best first, each once: those that contain the text or are
+   contained in it, then those with the fewest edits, upper and lower case alike.
+   Given: name[count]; most, the size of `near`. Returned: near, pointers into name; how many. */
+uint32_t lrcs_host_names_near(const char *text, const char *const *name, uint32_t count,
+                              const char **near, uint32_t most);
+
 /* ---- files ---- */
 
 typedef struct lrcs_host_file {
@@ -124,6 +136,10 @@ typedef struct lrcs_host_scene {
 /* Loads a scene: a model file (3DS, OBJ with its MTL, STL), a scene file, or "demo", which is
    built in. Paths of model files in a scene file are relative to the scene file's folder; a
    material file is read from the folder of its OBJ file.
+   NAME and MAP_NAME bindings: a name that no material has may stand for several, which replace it
+   in scene->recipe.binding: with * (any characters) and ? (one character), or else, with a notice,
+   in letters of the other case (A to Z). Full names take precedence over names that differ in
+   case, and these over patterns.
    Returned: scene->scene, and notices about what was found. The caller decides whether
    scene.unmatched is an error: it indexes scene->recipe.binding.
    Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_ARGUMENT (a unit for a scene file, which states its
@@ -194,6 +210,16 @@ typedef struct lrcs_host_polygons {
 int lrcs_host_polygons_make(const lrcs_host_scene *scene, const lrcs_pose *pose,
                             lrcs_host_polygons *polygons, lrcs_host_error *error);
 void lrcs_host_polygons_free(lrcs_host_polygons *polygons);
+
+/* The range profile of a pose, in memory of its own: lrcs_profile_run, and its release.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_profile_run. */
+typedef struct lrcs_host_profile {
+    lrcs_profile list;
+    void *blocks; /* memory owned */
+} lrcs_host_profile;
+int lrcs_host_profile_make(const lrcs_host_scene *scene, const lrcs_pose *pose, double bin_m,
+                           lrcs_host_profile *profile, lrcs_host_error *error);
+void lrcs_host_profile_free(lrcs_host_profile *profile);
 
 /* Whether the mesh of a curved body is fine enough for the glint of its material. An ESTIMATE. The
    turn is the median angle between neighbouring facets that share a smoothing group; in a scene
@@ -362,6 +388,9 @@ typedef struct lrcs_host_map {
     const double *z;                      /* z[row * columns + column]; not finite: grey */
     double deep;      /* the colour scale covers at most this range below the largest; 0: all */
     int x_deg, y_deg; /* these are angles, deg */
+    int mollweide;    /* drawn in Mollweide's equal-area projection, 0 deg in the middle: x is the
+                         azimuth or longitude, deg, over at most 360; y is -90 .. 90 */
+    int cells;        /* without contours */
 } lrcs_host_map;
 
 /* As for charts. If there are more points than can be resolved, several are averaged.

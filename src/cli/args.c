@@ -45,44 +45,11 @@ int cli_finish(int code)
     return code;
 }
 
-static unsigned least_of(unsigned a, unsigned b)
-{
-    return a < b ? a : b;
-}
-
-/* Levenshtein's distance, with neighbours swapped counted once (optimal string alignment). */
-static unsigned edit_distance(const char *a, const char *b)
-{
-    unsigned row[3][NAME_MOST + 1];
-    size_t na = strlen(a) < NAME_MOST ? strlen(a) : NAME_MOST;
-    size_t nb = strlen(b) < NAME_MOST ? strlen(b) : NAME_MOST;
-    for (unsigned k = 0; k <= nb; k++) {
-        row[0][k] = k;
-    }
-    for (size_t i = 1; i <= na; i++) {
-        unsigned *now = row[i % 3];
-        const unsigned *last = row[(i - 1) % 3];
-        now[0] = (unsigned)i;
-        for (size_t k = 1; k <= nb; k++) {
-            now[k] =
-                least_of(least_of(last[k], now[k - 1]) + 1, last[k - 1] + (a[i - 1] != b[k - 1]));
-            if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1]) {
-                now[k] = least_of(now[k], row[(i - 2) % 3][k - 2] + 1);
-            }
-        }
-    }
-    return row[na % 3][nb];
-}
-
-/* A beginning counts as nearer than any misspelling. */
-static unsigned name_distance(const char *text, const char *name)
-{
-    return text[0] && strncmp(text, name, strlen(text)) == 0 ? 0 : edit_distance(text, name);
-}
-
 const char *cli_nearest(const char *text, const char *best, const char *candidate)
 {
-    return !best || name_distance(text, candidate) < name_distance(text, best) ? candidate : best;
+    return !best || lrcs_host_name_distance(text, candidate) < lrcs_host_name_distance(text, best)
+               ? candidate
+               : best;
 }
 
 const char *cli_dashes(const char *name)

@@ -149,29 +149,79 @@ const char *cli_material_name(const lrcs_material *material)
     return material->name[0] ? material->name : "(default)";
 }
 
-/* A --material that no facet answers to: the message names what there is. */
+#define NEAR_MOST ((size_t)5) /* names that an error tells */
+
+/* The colours of the scene nearest to one, by the sum of squares of the channels' differences. */
+static void colours_near(const lrcs_scene *scene, const unsigned char rgb[3],
+                         char list[NEAR_MOST * 12])
+{
+    unsigned char taken[NEAR_MOST][3];
+    size_t used = 0;
+    list[0] = '\0';
+    for (size_t n = 0; n < NEAR_MOST; n++) {
+        const lrcs_material *best = NULL;
+        long least = 0;
+        for (uint32_t i = 0; i < scene->material_count; i++) {
+            const lrcs_material *one = &scene->material[i];
+            long sum = 0;
+            int known = !one->has_colour;
+            for (int k = 0; k < 3; k++) {
+                sum += (long)(one->rgb[k] - rgb[k]) * (one->rgb[k] - rgb[k]);
+            }
+            for (size_t k = 0; k < n && !known; k++) {
+                known = memcmp(taken[k], one->rgb, sizeof taken[k]) == 0;
+            }
+            if (!known && (!best || sum < least)) {
+                best = one;
+                least = sum;
+            }
+        }
+        if (!best) {
+            return;
+        }
+        memcpy(taken[n], best->rgb, sizeof taken[n]);
+        used += (size_t)snprintf(list + used, NEAR_MOST * 12 - used, "%s#%02X%02X%02X",
+                                 n > 1   ? ", "
+                                 : n > 0 ? ", then "
+                                         : "",
+                                 best->rgb[0], best->rgb[1], best->rgb[2]);
+    }
+}
+
+/* A --material that no facet answers to: the message names what is most like it. */
 static int unmatched_binding(const cli_command *command, const lrcs_host_scene *host)
 {
     const lrcs_scene *scene = &host->scene;
     const lrcs_binding *binding = &host->recipe.binding[scene->unmatched];
+    const char *near[NEAR_MOST];
+    char list[NEAR_MOST * 80] = "";
+    size_t used = 0;
     if (binding->kind != LRCS_BIND_NAME) {
+        colours_near(scene, binding->rgb, list);
         return cli_usage(command,
-                         "--material: no material of the scene has the colour #%02X%02X%02X",
-                         binding->rgb[0], binding->rgb[1], binding->rgb[2]);
+                         "--material: no material of the scene has the colour #%02X%02X%02X; %s%s",
+                         binding->rgb[0], binding->rgb[1], binding->rgb[2],
+                         list[0] ? "the nearest is " : "none has a colour", list);
     }
-    const char *best = NULL;
+    const char **name = calloc((size_t)scene->material_count + 1, sizeof *name);
+    if (!name) {
+        return cli_out_of_memory();
+    }
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        if (scene->material[i].name[0]) {
-            best = cli_nearest(binding->name, best, scene->material[i].name);
-        }
+        name[i] = scene->material[i].name;
     }
-    if (!best) {
-        return cli_usage(command, "--material: the scene has no material named '%s', nor any other",
-                         binding->name);
+    uint32_t found =
+        lrcs_host_names_near(binding->name, name, scene->material_count, near, (uint32_t)NEAR_MOST);
+    free(name);
+    for (uint32_t i = 0; i < found; i++) {
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s'%.60s'",
+                                 i > 1   ? ", "
+                                 : i > 0 ? ", then "
+                                         : "",
+                                 near[i]);
     }
-    return cli_usage(command,
-                     "--material: the scene has no material named '%s'; the nearest is '%s'",
-                     binding->name, best);
+    return cli_usage(command, "--material: the scene has no material named '%s'%s%s", binding->name,
+                     found > 0 ? "; the nearest is " : ", nor any other", list);
 }
 
 int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene)

@@ -4,6 +4,8 @@
    nothing. */
 #include "host/notes.h"
 
+#include "host/binding.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -109,6 +111,28 @@ static int models_answer(const lrcs_host_scene *host, const lrcs_binding *bindin
     return 0;
 }
 
+#define NEAR_MOST 4u /* names told */
+
+static void map_name_note(lrcs_host_scene *host, const char *name)
+{
+    const char *near[NEAR_MOST];
+    char list[400] = "";
+    size_t used = 0;
+    uint32_t count = 0;
+    const char *const *names = lrcsi_host_binding_names(host, LRCS_BIND_MAP_NAME, &count);
+    uint32_t found = names ? lrcs_host_names_near(name, names, count, near, NEAR_MOST) : 0;
+    for (uint32_t i = 0; i < found; i++) {
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s'%.60s'",
+                                 i > 1   ? ", "
+                                 : i > 0 ? ", then "
+                                         : "; the nearest is ",
+                                 near[i]);
+    }
+    lrcsi_host_note(&host->notices,
+                    "[[map]] name = \"%.200s\": no material of a model has that name%s", name,
+                    list);
+}
+
 static void map_note(lrcs_host_scene *host, const lrcs_binding *binding)
 {
     char colour[8];
@@ -116,11 +140,14 @@ static void map_note(lrcs_host_scene *host, const lrcs_binding *binding)
     if ((!named && binding->kind != LRCS_BIND_MAP_COLOUR) || models_answer(host, binding)) {
         return;
     }
+    if (named) {
+        map_name_note(host, binding->name);
+        return;
+    }
     snprintf(colour, sizeof colour, "#%02X%02X%02X", binding->rgb[0], binding->rgb[1],
              binding->rgb[2]);
-    lrcsi_host_note(&host->notices, "[[map]] %s = \"%s\": no material of a model has that %s",
-                    named ? "name" : "colour", named ? binding->name : colour,
-                    named ? "name" : "colour");
+    lrcsi_host_note(&host->notices,
+                    "[[map]] colour = \"%s\": no material of a model has that colour", colour);
 }
 
 void lrcsi_host_scene_notes(lrcs_host_scene *host)

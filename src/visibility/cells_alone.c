@@ -56,6 +56,7 @@ enum alone_order {
     ORDER_FRONT,            /* nearer, wherever a line meets both */
     ORDER_BEHIND,           /* farther */
     ORDER_ASKED,            /* it cannot be told but on a line that meets both */
+    ORDER_APART,            /* a side of f has all of it beyond: no candidate */
     ORDER_UNKNOWN           /* they touch, in a line that is not known */
 };
 
@@ -64,7 +65,13 @@ enum alone_order {
 /* The error of f's corners and sides. */
 static double alone_off(const lrcsi_alone *a)
 {
-    return a->cells.facet[a->facet].off;
+    return a->shape.off;
+}
+
+/* May a facet be in front of f? */
+static int alone_listed(const lrcsi_alone *a, uint32_t other)
+{
+    return a->met[other] == a->cells.look && a->order[other] != ORDER_APART;
 }
 
 /* How far a segment of a needle's frame may be off whose ends are off by so much: the box reaches
@@ -167,6 +174,7 @@ static int alone_facets(lrcsi_alone *a)
     lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
     a->count = 0;
     a->met[a->facet] = c->look;
+    a->order[a->facet] = ORDER_APART;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
         uint32_t end = grid->first[(size_t)y * grid->size + cells.x1];
@@ -181,13 +189,14 @@ static int alone_facets(lrcsi_alone *a)
                 continue;
             }
             a->met[other] = c->look;
-            if (facet_apart(a, other)) {
-                continue;
+            a->order[other] = ORDER_APART;
+            if (!facet_apart(a, other)) {
+                a->order[other] = ORDER_NEW;
+                if (a->count < a->side_room) {
+                    a->side[a->count][0].clear = -1; /* not made yet */
+                }
+                a->candidate[a->count++] = other;
             }
-            a->order[other] = ORDER_NEW;
-            a->side[other][0].clear = -1; /* not made yet */
-            c->listed[other] = c->look;
-            a->candidate[a->count++] = other;
         }
     }
     return 1;
@@ -209,7 +218,7 @@ static int edge_idle(lrcsi_alone *a, const uint32_t owner[2])
 {
     int idle = 1;
     for (int i = 0; i < 2 && idle; i++) {
-        if (owner[i] != LRCS_NONE && a->cells.listed[owner[i]] == a->cells.look) {
+        if (owner[i] != LRCS_NONE && alone_listed(a, owner[i])) {
             uint32_t *order = &a->order[owner[i]];
             *order = *order == ORDER_NEW ? order_of(a, owner[i]) : *order;
             idle = *order == ORDER_BEHIND;
@@ -290,8 +299,8 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
     for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
         const lrcsi_intersection *touch = &intersections->touch[i];
-        if (c->listed[touch->other] == c->look &&
-            lrcsi_intersection_hides(c->view, a->facet, touch) && !alone_contact(a, touch->other)) {
+        if (alone_listed(a, touch->other) && lrcsi_intersection_hides(c->view, a->facet, touch) &&
+            !alone_contact(a, touch->other)) {
             return 0;
         }
     }
@@ -317,10 +326,10 @@ static void facet_leave(lrcsi_alone *a, double area)
 static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
-    lrcsi_cells_facet *f = &c->facet[a->facet];
+    lrcsi_cells_facet *f = &a->shape;
     const lrcsi_target *frame = &a->frame;
     double off = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
-    *f = (lrcsi_cells_facet){.off = off, .line_off = off};
+    *f = (lrcsi_cells_facet){.off = off, .line_off = off, .number = a->facet};
     lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell->shape);
     lrcsi_clip_box(&cell->shape, f->low, f->high);
     c->reach = lrcsi_most(lrcsi_most(-f->low[0], -f->low[1]), lrcsi_most(f->high[0], f->high[1]));
@@ -330,7 +339,6 @@ static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
     a->rim = frame->perimeter * (off + 16 * LRCSI_U * c->reach);
-    c->facets[0] = a->facet;
     cell->facets = 1;
     return lrcsi_clip_area(&cell->shape) > 8 * off * frame->diameter;
 }
@@ -342,10 +350,15 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     a->facet = facet;
     a->uncertainty[0] = a->uncertainty[1] = a->rim = a->bent = 0;
     a->hidden = 0;
+    a->open = 1;
+    a->number = 0;
     lrcsi_target_make(c->view, facet, &a->target);
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
-    c->area[facet] = (lrcsi_cells_found){.seen = 0};
-    c->open[facet] = 1;
+    a->area = (lrcsi_cells_found){.seen = 0};
+    c->facet = &a->shape;
+    c->area = &a->area;
+    c->open = &a->open;
+    c->facets = &a->number;
     c->segment_count = c->top = 0;
     c->look++;
     if (!alone_shape(a, &cell) || !alone_facets(a) || !alone_segments(a, &cell)) {
@@ -457,11 +470,13 @@ static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32
     return inside || !guess ? inside : -1;
 }
 
-/* 1 a facet surely covers the place, -1 surely not, or it is behind f, 0 it passes too near a side.
-   Most are told apart by their boxes; what else they need is found for those that are left. */
-static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
+/* 1 a candidate surely covers the place, -1 surely not, or it is behind f, 0 it passes too near a
+   side. Most are told apart by their boxes; what else they need is found for those that are left,
+   and kept as far as there is room. */
+static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t candidate, double g)
 {
     const double *at = place->at;
+    uint32_t other = a->candidate[candidate];
     if (lrcsi_view_box_beside(&place->box, &a->grid.box[other])) {
         return -1;
     }
@@ -477,13 +492,15 @@ static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t othe
     if (place->way == WAY_EXACT) {
         return lrcsi_sample_covers(a->cells.view, other, place->point) ? 1 : -1;
     }
-    if (a->side[other][0].clear < 0) {
-        sides_make(a, other, a->side[other]);
+    lrcsi_alone_side made[3] = {{.clear = -1}};
+    lrcsi_alone_side *sides = candidate < a->side_room ? a->side[candidate] : made;
+    if (sides[0].clear < 0) {
+        sides_make(a, other, sides);
     }
     int inside = 1;
     int guess = place->way == WAY_GUESSED;
     for (int k = 0; k < 3; k++) {
-        const lrcsi_alone_side *side = &a->side[other][k];
+        const lrcsi_alone_side *side = &sides[k];
         double left = lrcsi_line_at(side->line, at[0], at[1]);
         double clear = guess ? 0 : side->clear + g;
         if (left < -clear) {
@@ -524,7 +541,7 @@ static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
     place->ends = LRCS_NONE;
     for (uint32_t i = 0; i < a->count && place->ends > 0; i++) {
         uint32_t other = a->candidate[i];
-        int covered = place_covered(a, place, other, s->g);
+        int covered = place_covered(a, place, i, s->g);
         int front = covered >= 0 ? place_front(a, place, other, s->g) : -1;
         uint32_t component = a->classification->component[other];
         if (front < 0 || (answer > 0 && component == last)) {
@@ -587,7 +604,7 @@ static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
 /* The cell as a piece. In a needle its corners are rounded to the frame of the view axes. */
 static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
 {
-    lrcsi_cells_found *area = &a->cells.area[a->facet];
+    lrcsi_cells_found *area = &a->area;
     a->piece = cell->shape;
     if (a->frame.needle) {
         for (uint32_t i = 0; i < cell->shape.count; i++) {
@@ -629,7 +646,7 @@ static int cell_do(lrcsi_alone *a, lrcsi_cells_cell *cell)
 
     /* 2. Where no segment is left that matters, all of the cell is as it is there. */
     if (hidden >= 0 && place.ends == 0) {
-        c->area[a->facet].uncertainty +=
+        a->area.uncertainty +=
             cell->uncertainty + lrcsi_cells_thin(cell, &s, place.clear, cell->struck, alone_off(a));
         a->hidden |= hidden;
         if (!hidden) {
@@ -668,7 +685,7 @@ int lrcsi_alone_next(lrcsi_alone *a)
 
 lrcsi_visible lrcsi_alone_close(lrcsi_alone *a)
 {
-    const lrcsi_cells_found *found = &a->cells.area[a->facet];
+    const lrcsi_cells_found *found = &a->area;
     lrcsi_incidence incidence = lrcsi_view_incidence(a->cells.view, a->facet);
     double whole = incidence.projected;
     double unit = a->frame.unit;
@@ -678,36 +695,38 @@ lrcsi_visible lrcsi_alone_close(lrcsi_alone *a)
                       ? lrcsi_least(whole, unit * (found->seen + a->uncertainty[1]))
                       : whole;
     off += a->frame.needle ? incidence.error * whole : 0;
-    a->cells.open[a->facet] = 0;
     return (lrcsi_visible){seen, lrcsi_most(0, seen - unit * a->uncertainty[1] - off),
                            lrcsi_least(whole, seen + unit * a->uncertainty[0] + off), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Each edge may cross a facet, and each of its contacts may bring three sides along. */
-static size_t alone_segments_most(const lrcs_prepared *p)
+/* Room for the sides of so many candidates. */
+#define SIDES_MOST 65536u
+
+static uint32_t sides_room(const lrcs_prepared *p)
+{
+    return p->scene->facet_count < SIDES_MOST ? p->scene->facet_count : SIDES_MOST;
+}
+
+/* Each of the events may cross a facet, and each of its contacts may bring three sides along. */
+static size_t segments_most(const lrcs_prepared *p, size_t events)
 {
     size_t most = 0;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         size_t count = lrcsi_intersection_of(&p->intersections, f);
         most = count > most ? count : most;
     }
-    return p->topology.edge_count + 3 * most;
+    return events + 3 * most;
 }
 
 size_t lrcsi_alone_need(const lrcs_prepared *p)
 {
-    size_t facets = p->scene->facet_count;
-    size_t need =
-        lrcsi_work_add(lrcsi_work_bytes(facets, 1), lrcsi_work_bytes(1, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 3 * sizeof(lrcsi_alone_side)));
-    need = lrcsi_work_add(need, 4 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(alone_segments_most(p), sizeof(uint32_t)));
-    need =
-        lrcsi_work_add(need, lrcsi_work_bytes(alone_segments_most(p), sizeof(lrcsi_cells_segment)));
+    size_t segments = segments_most(p, p->topology.edge_count);
+    size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_alone_side));
+    need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
 }
 
@@ -716,23 +735,18 @@ int lrcsi_alone_make(lrcsi_classification *classification, const lrcsi_grid *gri
 {
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
-    *a = (lrcsi_alone){.classification = classification, .grid = *grid};
+    *a = (lrcsi_alone){.classification = classification, .grid = *grid, .side_room = sides_room(p)};
     lrcsi_cells_work c = {.view = classification->view};
-    c.segment_room = (uint32_t)alone_segments_most(p);
-    c.open = lrcsi_work_take_zero(work, count, 1);
-    c.facet = lrcsi_work_take(work, count, sizeof *c.facet);
-    c.area = lrcsi_work_take(work, count, sizeof *c.area);
-    c.listed = lrcsi_work_take_zero(work, count, sizeof *c.listed);
-    a->side = lrcsi_work_take(work, count, sizeof *a->side);
+    c.segment_room = (uint32_t)segments_most(p, classification->events.count);
+    a->side = lrcsi_work_take(work, a->side_room, sizeof *a->side);
     a->met = lrcsi_work_take_zero(work, count, sizeof *a->met);
     a->order = lrcsi_work_take(work, count, sizeof *a->order);
-    c.facets = lrcsi_work_take(work, 1, sizeof *c.facets);
     a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
     c.segments = lrcsi_work_take(work, c.segment_room, sizeof *c.segments);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c.stack);
-    if (!c.open || !c.facet || !c.area || !c.listed || !a->side || !a->met || !a->order ||
-        !c.facets || !a->candidate || !c.segments || !c.segment || !c.stack) {
+    if (!a->side || !a->met || !a->order || !a->candidate || !c.segments || !c.segment ||
+        !c.stack) {
         return LRCS_E_MEMORY;
     }
     a->cells = c;

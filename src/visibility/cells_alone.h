@@ -16,12 +16,17 @@ typedef struct lrcsi_alone_side {
 typedef struct lrcsi_alone {
     lrcsi_classification *classification;
     lrcsi_grid grid;             /* of facets */
-    lrcsi_cells_work cells;      /* in the frame of the facet at hand */
+    lrcsi_cells_work cells;      /* of one facet, in its frame: the one at hand, f; of that */
+    lrcsi_cells_facet shape;     /* its sides, */
+    lrcsi_cells_found area;      /* what is found, */
+    unsigned char open;          /* 1, */
+    uint32_t number;             /* and 0, its number in `cells` */
     uint32_t *candidate;         /* facets that may hide it, */
-    uint32_t count;              /* so many; of each */
-    lrcsi_alone_side (*side)[3]; /* facet: its sides */
-    uint32_t *met;               /* facet: the search that last met it */
-    uint32_t *order;             /* facet that may hide it: how they stand to each other */
+    uint32_t count;              /* so many */
+    lrcsi_alone_side (*side)[3]; /* sides of the first side_room candidates */
+    uint32_t side_room;
+    uint32_t *met;   /* facet: the search that last met it */
+    uint32_t *order; /* facet that was met: how they stand to each other */
     uint32_t facet;
     lrcsi_target target;      /* its frame */
     lrcsi_target frame;       /* the same in which it is divided */

@@ -149,7 +149,7 @@ void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, dou
     double beyond = CELLS_FAR * strip->width + far;
     double along[2];
     double wide = lrcsi_least(high + far, strip->width) - lrcsi_most(low - far, -strip->width);
-    if (!e->contact && (e->owner[0] == index || e->owner[1] == index)) {
+    if (!e->contact && (e->owner[0] == f->number || e->owner[1] == f->number)) {
         wide = lrcsi_least(wide, strip->width);
     }
     corners_along(f, e->line, e->end[0], along);

@@ -172,6 +172,7 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     const lrcsi_cells_point *p[3];
     double z[3];
+    f->number = facet;
     f->off = f->z_err = f->line_off = 0;
     for (int k = 0; k < 3; k++) {
         p[k] = lrcsi_cells_vertex(c, corner[view->facing[facet] > 0 ? k : (3 - k) % 3]);

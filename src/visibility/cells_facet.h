@@ -21,6 +21,7 @@ typedef struct lrcsi_cells_facet {
     double line_off;        /* of its sides within the block, but for 16 u b */
     double z_err;           /* of their z */
     uint32_t next[3];       /* who continues it across each side (visibility/cells_join.h) */
+    uint32_t number;        /* the scene's */
     int thin;               /* its sides are those of a band */
 } lrcsi_cells_facet;
 

@@ -97,8 +97,9 @@ static void words_make(const report_job *job, int kind, report_sweep *sweep)
 static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
 {
     words_make(job, kind, sweep);
-    int code = cli_plan_read(&sweep->args, &sweep->plan);
+    int code = cli_plan_read(&sweep->args, NULL, &sweep->plan);
     code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
+    sweep->plot.title = cli_base_name(job->args->operand);
     sweep->plot.open = cli_materials_open(&job->scene.scene);
     sweep->plot.map = kind == REPORT_MAP; /* however few rows it has */
     return code;
@@ -202,7 +203,7 @@ static int sweep_draw(report_sweep *sweep)
     if (!out) {
         return CLI_FAILED;
     }
-    int code = cli_plot_svg(out, &sweep->args, &sweep->plot, &sweep->plan);
+    int code = cli_plot_svg(out, &sweep->plot);
     int ended = cli_report_bytes_end(out);
     return code ? code : ended;
 }
