@@ -120,7 +120,7 @@ void cli_run_emulation_table(const run_job *job);
    in words, the last lines of a table. */
 int cli_run_open(run_job *job);
 void cli_run_open_json(const run_job *job, lrcs_host_json *json);
-void cli_run_verdict(const run_job *job);
+void cli_run_verdict(const run_job *job, FILE *out);
 
 /* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
    for people. */
