@@ -22,7 +22,9 @@ int cli_report_verdict_make(report_job *job)
     run->scene = job->scene;
     run->result = job->result;
     run->records = job->records;
-    int code = cli_run_open(run);
+    run->sampling = lrcs_uncertainty_options_default();
+    int code = cli_run_materials(run);
+    code = code ? code : cli_run_open(run);
     FILE *out = code == 0 ? cli_report_bytes_begin(&job->verdict) : NULL;
     if (out) {
         cli_run_verdict(run, out);
@@ -30,6 +32,7 @@ int cli_report_verdict_make(report_job *job)
     } else if (code == 0) {
         code = CLI_FAILED;
     }
+    free(run->sensitivity);
     free(run);
     return code;
 }

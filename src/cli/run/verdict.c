@@ -204,4 +204,5 @@ void cli_run_verdict(const run_job *job, FILE *out)
     backs_say(job, out);
     glint_say(job, out);
     materials_say(job, out);
+    cli_run_materials_verdict(job, out);
 }
