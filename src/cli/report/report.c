@@ -189,6 +189,7 @@ static int report_command(const cli_args *args)
     code = code ? code : report_measure(job);
     code = code ? code : cli_output_write(job->path, cli_report_page, job);
     if (code == 0) {
+        cli_watch_end();
         cli_notices_print(stderr, &job->scene.notices);
         code = cli_accuracy_code(args, &job->options, job->result.flags);
     }
