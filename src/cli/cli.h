@@ -256,6 +256,7 @@ int cli_output_write(const char *path, cli_writer *write, const void *context);
 /* The commands. */
 extern const cli_command cli_run_command;
 extern const cli_command cli_image_command;
+extern const cli_command cli_profile_command;
 extern const cli_command cli_info_command;
 extern const cli_command cli_shape_command;
 extern const cli_command cli_verify_command;

@@ -6,10 +6,10 @@
 #include <string.h>
 
 static const cli_command *const main_commands[] = {
-    &cli_run_command,     &cli_image_command,  &cli_info_command,     &cli_scene_command,
-    &cli_shape_command,   &cli_verify_command, &cli_converge_command, &cli_sweep_command,
-    &cli_merge_command,   &cli_plot_command,   &cli_report_command,   &cli_fit_command,
-    &cli_vectors_command, &cli_compare_command};
+    &cli_run_command,   &cli_image_command,   &cli_profile_command, &cli_info_command,
+    &cli_scene_command, &cli_shape_command,   &cli_verify_command,  &cli_converge_command,
+    &cli_sweep_command, &cli_merge_command,   &cli_plot_command,    &cli_report_command,
+    &cli_fit_command,   &cli_vectors_command, &cli_compare_command};
 
 #define MAIN_COMMANDS (sizeof main_commands / sizeof main_commands[0])
 
@@ -21,6 +21,7 @@ static const char main_help[] =
     "  scene MODEL     a scene file to edit: its materials, and what is assumed of them\n"
     "  run SCENE       sigma from a pose, its bound, what was simulated\n"
     "  image SCENE     what the laser sees: pictures, vector graphics, VTK for ParaView\n"
+    "  profile SCENE   which part of sigma comes from which range, in bins, and to a pulse\n"
     "  info SCENE      what a model holds: parts, materials, area, volume, defects\n"
     "  shape KIND      sigma of a simple body from its closed form\n"
     "  verify          the engine against closed forms, or on hard cases, on this machine\n"
