@@ -52,8 +52,7 @@ static const char sweep_help[] =
     "examples\n"
     "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
     "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy --brightest 10 --stats\n"
-    "  lrcs sweep demo --sphere 1000 --stats\n"
-    "  lrcs sweep demo --poses track.csv -o track.jsonl --resume\n"
+    "  lrcs sweep demo --poses track.csv -o t.jsonl --resume\n"
     "  lrcs sweep demo --az 0:360:1 --el -90:90:1 --shard 3/16 -o map.3.csv\n";
 
 static const cli_option sweep_options[] = {CLI_POSE_OPTIONS,     CLI_ACCURACY_OPTIONS,
