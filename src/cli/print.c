@@ -40,6 +40,7 @@ void cli_column(const char *text, int width)
 
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices)
 {
+    cli_watch_clear();
     for (uint32_t i = 0; i < notices->count; i++) {
         fprintf(out, "notice: %s\n", notices->text[i]);
     }

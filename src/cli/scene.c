@@ -468,6 +468,7 @@ static int scene_command(const cli_args *args)
     code = code ? code : worn_count(&job);
     code = code ? code : scene_make(&job);
     code = code ? code : cli_output_write(job.path, text_write, &job);
+    cli_watch_end();
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);
     }

@@ -219,6 +219,7 @@ static int report_command(const cli_args *args)
                 : cli_output_write(job->path, explore ? cli_report_explore_page : cli_report_page,
                                    job);
     if (code == 0) {
+        cli_watch_end();
         cli_notices_print(stderr, &job->scene.notices);
         code = cli_accuracy_code(args, &job->options, job->result.flags);
     }

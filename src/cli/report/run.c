@@ -64,14 +64,19 @@ int cli_report_run(report_job *job)
     if (!job->records) {
         return cli_out_of_memory();
     }
+    cli_watch_stage("preparing", &job->scene);
     int status = lrcs_host_scene_prepare(&job->scene, &error);
     if (status == LRCS_OK) {
+        cli_watch_stage("pose", NULL);
+        job->options.progress = cli_watch_run();
         status = lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result,
                                      job->records, NULL, &job->pose_s, &error);
     }
     if (status != LRCS_OK) {
         return cli_failed(&error);
     }
+    job->options.progress = NULL; /* sweeps have threads */
+    cli_watch_stage("pictures", NULL);
     int code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
                                &job->shares);
     for (int kind = 0; kind < REPORT_PICTURES && code == 0; kind++) {
