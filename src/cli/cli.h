@@ -209,6 +209,7 @@ void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
 
 /* Text on stdout, blanks after it up to `width`, control characters as '?'. */
 void cli_column(const char *text, int width);
+void cli_column_to(FILE *out, const char *text, int width); /* the same on `out` */
 
 /* Seconds on a clock that only goes forward. */
 double cli_seconds(void);

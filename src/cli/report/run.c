@@ -8,11 +8,14 @@
 static lrcs_host_picture picture_of(const report_job *job, int kind, int white)
 {
     static const int look[REPORT_PICTURES] = {LRCS_HOST_BY_SIGMA, LRCS_HOST_BY_MATERIAL};
+    const char *name = cli_scene_title(job->args, &job->scene);
     return (lrcs_host_picture){.scene = &job->scene.scene,
                                .pose = &job->pose,
                                .records = job->records,
+                               .title = name == job->args->operand ? cli_base_name(name) : name,
                                .colouring = look[kind],
-                               .white = white};
+                               .white = white,
+                               .annotated = 1};
 }
 
 static int picture_draw(report_job *job, const lrcs_host_picture *picture, report_bytes *bytes)
