@@ -359,8 +359,9 @@ typedef struct total_batch {
     int back_reflects, back_shows; /* back sides do, or may */
     int seen;                      /* one that reflects shows */
     lrcsi_shades shades;
-    double area[LRCSI_LANES]; /* visible; by method facet S, then S cos(theta) */
-    double most[LRCSI_LANES]; /* that may be visible; unused by method facet */
+    double area[LRCSI_LANES]; /* visible; of one that is visible whole S, then S cos(theta) */
+    double most[LRCSI_LANES]; /* that may be visible; of one that is visible whole 0 at first */
+    int whole[LRCSI_LANES];
     uint32_t facet[LRCSI_LANES], count;
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
@@ -392,7 +393,6 @@ static void block_run(total_job *job, total_batch *batch)
 {
     const lrcsi_view *view = job->view;
     lrcsi_shades *shades = &batch->shades;
-    const double *most = job->visible ? batch->most : batch->area;
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
     for (uint32_t i = batch->count; i < LRCSI_LANES; i++) {
@@ -400,12 +400,12 @@ static void block_run(total_job *job, total_batch *batch)
             shades->normal[k][i] = view->unit[k];
         }
         batch->area[i] = batch->most[i] = 0;
+        batch->whole[i] = 1;
     }
     lrcsi_shade(&batch->lobes, view->unit, view->unit_low, shades);
-    if (!job->visible) {
-        for (int i = 0; i < LRCSI_LANES; i++) {
-            batch->area[i] *= shades->cosine[i];
-        }
+    for (int i = 0; i < LRCSI_LANES; i++) {
+        batch->area[i] *= batch->whole[i] ? shades->cosine[i] : 1;
+        batch->most[i] = lrcsi_most(batch->most[i], batch->area[i]);
     }
     for (int i = 0; i < LRCSI_LANES; i++) {
         glint[i] = shades->glint[i] * batch->area[i];
@@ -413,7 +413,7 @@ static void block_run(total_job *job, total_batch *batch)
     }
     for (int i = 0; i < LRCSI_LANES; i += LRCSI_SUM_LANES) {
         for (int k = 0; k < LRCSI_SUM_LANES; k++) {
-            batch->error[k] += shades->error[i + k] * most[i + k];
+            batch->error[k] += shades->error[i + k] * batch->most[i + k];
         }
     }
     lrcsi_sum_lanes_add(&batch->glint, glint);
@@ -480,10 +480,11 @@ static void batch_gather(total_job *job, total_batch *batch, uint32_t place, con
             batch->area[i] = b->area[at];
             batch->facet[i] = b->facet[at];
         }
-        for (uint32_t i = batch->count; job->visible && i < batch->count + take; i++) {
+        for (uint32_t i = batch->count; i < batch->count + take; i++) {
             uint32_t f = batch->facet[i];
-            batch->area[i] = facet_area(job, f);
-            batch->most[i] = facet_answered(job, f) ? batch->area[i] : job->visible[f].high;
+            batch->whole[i] = !job->visible || facet_answered(job, f);
+            batch->area[i] = batch->whole[i] ? batch->area[i] : job->visible[f].area;
+            batch->most[i] = batch->whole[i] ? 0 : job->visible[f].high;
         }
         batch->seen = 1;
         batch->count += take;
