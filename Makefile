@@ -89,7 +89,7 @@ tsan: cmocka
 	    $(BUILD)/tsan/test/host/test_sweep
 	$(BUILD)/tsan/test/host/test_sweep
 
-lint: $(BUILD)/demo.inc
+lint: $(BUILD)/demo.inc $(BUILD)/explore.inc
 	sh test/lint.sh $(BUILD)
 
 purity: $(LIB)
@@ -322,7 +322,7 @@ $(BUILD)/lrcs.pc: include/lrcs/status.h Makefile
 $(BUILD)/src/cli/%.o: src/cli/%.c
 	@mkdir -p $(@D)
 	$(call say,cc)
-	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
 
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
@@ -355,13 +355,16 @@ $(FLIGHT)/task.elf: $(wildcard examples/flight/*) $(JOINED)/lrcs.c
 	    -T examples/flight/board_m7.ld -o $@ examples/flight/task.c examples/flight/main.c \
 	    examples/flight/board_m7.c $(JOINED)/lrcs.c -lm
 
-# The built-in scene, as the bytes of a C array.
+# The built-in scene and the explorer's script, as the bytes of C arrays.
 $(BUILD)/demo.inc: examples/satellite.toml
+$(BUILD)/explore.inc: src/cli/report/explore.js
+$(BUILD)/demo.inc $(BUILD)/explore.inc:
 	@mkdir -p $(@D)
 	$(call say,gen)
 	$(Q)od -An -v -td1 $< | sed 's/-*[0-9][0-9]*/&,/g' >$@
 
 $(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
+$(BUILD)/src/cli/report/explore.o: $(BUILD)/explore.inc
 
 $(BUILD)/src/%.o: src/%.c
 	@mkdir -p $(@D)

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Lines and branches of the core that the tests run, as gcov counts them: a table by file and the
-# total on stdout; branches never taken with their lines in BUILD/untaken.txt. These are compared
-# with test/coverage.md, which says why: it fails where either has one that the other has not.
+# total on stdout; branches never taken with their functions and lines in BUILD/untaken.txt. The
+# functions are compared with those of test/coverage.md, which says why: it fails if either names one
+# that the other does not.
 # usage: coverage.sh BUILD    (in the root; BUILD was compiled with --coverage, and its tests ran)
 build=$1
 counted=$(find "$build"/src/base "$build"/src/mesh "$build"/src/optics "$build"/src/scene \
@@ -20,7 +21,14 @@ gcov -b -c -t $counted 2>/dev/null | awk -v untaken="$build/untaken.txt" '
         sub(/:.*/, "", number)
         sub(/^[^:]*:[^:]*: */, "", text)
         place = file ":" number
-        told[place] = text
+        name = $0
+        sub(/^[^:]*:[^:]*:/, "", name)
+        if (name ~ /^[a-z][^;]*\(/) { # the head of a function starts its line
+            sub(/\(.*/, "", name)
+            sub(/.*[ *]/, "", name)
+            within[file] = name
+        }
+        told[place] = within[file] ": " text
         if (count !~ /-/) ran[place] += count ~ /[0-9]/
     }
     ours && /^branch / { taken[place, $2] += / taken [1-9]/ }
@@ -58,8 +66,10 @@ gcov -b -c -t $counted 2>/dev/null | awk -v untaken="$build/untaken.txt" '
             100 - 100 * sum[4] / sum[3]
     }' || exit 1
 
-sed 's/:[0-9]*:/: /' "$build/untaken.txt" | LC_ALL=C sort >"$build/untaken"
+cut -d: -f1,3 "$build/untaken.txt" | sed 's/:/: /' | LC_ALL=C sort -u >"$build/untaken"
 sed -n 's/^    src/src/p' test/coverage.md | LC_ALL=C sort >"$build/listed"
-LC_ALL=C comm -23 "$build/untaken" "$build/listed" | sed 's/^/not taken, and not in the list: /'
-LC_ALL=C comm -13 "$build/untaken" "$build/listed" | sed 's/^/in the list, but taken or gone: /'
+LC_ALL=C comm -23 "$build/untaken" "$build/listed" |
+    sed "s|^|a branch is never taken, and test/coverage.md does not say why: |"
+LC_ALL=C comm -13 "$build/untaken" "$build/listed" |
+    sed 's/^/listed in test\/coverage.md, but every branch is taken: /'
 cmp -s "$build/untaken" "$build/listed"

@@ -211,6 +211,16 @@ int lrcs_host_polygons_make(const lrcs_host_scene *scene, const lrcs_pose *pose,
                             lrcs_host_polygons *polygons, lrcs_host_error *error);
 void lrcs_host_polygons_free(lrcs_host_polygons *polygons);
 
+/* The range profile of a pose, in memory of its own: lrcs_profile_run, and its release.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_profile_run. */
+typedef struct lrcs_host_profile {
+    lrcs_profile list;
+    void *blocks; /* memory owned */
+} lrcs_host_profile;
+int lrcs_host_profile_make(const lrcs_host_scene *scene, const lrcs_pose *pose, double bin_m,
+                           lrcs_host_profile *profile, lrcs_host_error *error);
+void lrcs_host_profile_free(lrcs_host_profile *profile);
+
 /* Whether the mesh of a curved body is fine enough for the glint of its material. An ESTIMATE. The
    turn is the median angle between neighbouring facets that share a smoothing group; in a scene
    built with curved normals, for facets in no group, between the normals at their corners; for
@@ -378,6 +388,9 @@ typedef struct lrcs_host_map {
     const double *z;                      /* z[row * columns + column]; not finite: grey */
     double deep;      /* the colour scale covers at most this range below the largest; 0: all */
     int x_deg, y_deg; /* these are angles, deg */
+    int mollweide;    /* drawn in Mollweide's equal-area projection, 0 deg in the middle: x is the
+                         azimuth or longitude, deg, over at most 360; y is -90 .. 90 */
+    int cells;        /* without contours */
 } lrcs_host_map;
 
 /* As for charts. If there are more points than can be resolved, several are averaged.

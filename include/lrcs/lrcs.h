@@ -7,6 +7,7 @@
 #include <lrcs/mesh.h>
 #include <lrcs/polygon.h>
 #include <lrcs/pose.h>
+#include <lrcs/profile.h>
 #include <lrcs/read.h>
 #include <lrcs/run.h>
 #include <lrcs/scene.h>

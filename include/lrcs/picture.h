@@ -12,8 +12,9 @@ enum lrcs_host_colouring {
     LRCS_HOST_BY_THETA,     /* incidence angle, deg */
     LRCS_HOST_BY_RANGE,     /* m towards the laser, from the centre of the scene's box */
     LRCS_HOST_BY_FACET,     /* neighbouring facets have different colours */
-    LRCS_HOST_BY_MATERIAL,  /* the model's own colour where it has one */
-    LRCS_HOST_BY_SHADE      /* as BY_MATERIAL, a matt surface lit by a lamp beside the laser */
+    LRCS_HOST_BY_MATERIAL,  /* false colours that tell 64 materials apart, named in the legend */
+    LRCS_HOST_BY_SHADE      /* the model's own colours, a matt surface lit by a lamp beside the
+                               laser */
 };
 
 /* The name of a colour mapping ("sigma", "theta", "range", "facet", "material", "shaded"), or

@@ -15,7 +15,8 @@ typedef struct lrcs_material {
     unsigned char has_colour;
     unsigned char two_sided;
     unsigned char omitted; /* fully transparent: its facets are left out of the scene */
-    unsigned char bound;   /* 0: no binding applies, brdf is lrcs_brdf_default */
+    unsigned char bound;   /* 0: nobody gives its numbers: brdf is lrcs_brdf_default, or what a
+                              scene file calls assumed */
 } lrcs_material;
 
 /* place = translate * rotate * scale, applied after the joint. */
@@ -56,6 +57,7 @@ typedef struct lrcs_recipe_material {
     lrcs_brdf brdf;
     int two_sided; /* -1: keeps what the model says */
     uint32_t line;
+    int assumed; /* the numbers are nobody's: facets are as if unbound, but for the numbers */
 } lrcs_recipe_material;
 
 /* Which material a model's facets get: the first of these that applies:
@@ -83,6 +85,7 @@ typedef struct lrcs_binding {
     int two_sided;        /* -1: keeps what the model says */
     const char *material; /* the recipe's or library's name for brdf; NULL for plain numbers */
     uint32_t line;        /* where the scene file names the material; 0 elsewhere */
+    int assumed;          /* as in lrcs_recipe_material */
 } lrcs_binding;
 
 typedef struct lrcs_recipe {

@@ -172,8 +172,9 @@ int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_
 int cli_has_curved_shapes(const lrcs_scene *scene);
 
 /* What a result was made from: the scene's title, or the operand; where a material's numbers come
-   from, "given", "illustrative" (the library) or "default"; a path's last name; and as keys of an
-   open object: the files; title, materials worn and options given. */
+   from, "given", "illustrative" (the library), "default" or "assumed" (so says the scene file); a
+   path's last name; and as keys of an open object: the files; title, materials worn and options
+   given. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */
@@ -249,15 +250,18 @@ int cli_output_write(const char *path, cli_writer *write, const void *context);
 /* The commands. */
 extern const cli_command cli_run_command;
 extern const cli_command cli_image_command;
+extern const cli_command cli_profile_command;
 extern const cli_command cli_info_command;
 extern const cli_command cli_shape_command;
 extern const cli_command cli_verify_command;
 extern const cli_command cli_converge_command;
 extern const cli_command cli_sweep_command;
 extern const cli_command cli_merge_command;
+extern const cli_command cli_plot_command;
 extern const cli_command cli_fit_command;
 extern const cli_command cli_report_command;
 extern const cli_command cli_vectors_command;
 extern const cli_command cli_compare_command;
+extern const cli_command cli_scene_command;
 
 #endif

@@ -6,9 +6,10 @@
 #include <string.h>
 
 static const cli_command *const main_commands[] = {
-    &cli_run_command,    &cli_image_command,    &cli_info_command,    &cli_shape_command,
-    &cli_verify_command, &cli_converge_command, &cli_sweep_command,   &cli_merge_command,
-    &cli_report_command, &cli_fit_command,      &cli_vectors_command, &cli_compare_command};
+    &cli_run_command,   &cli_image_command,   &cli_profile_command, &cli_info_command,
+    &cli_scene_command, &cli_shape_command,   &cli_verify_command,  &cli_converge_command,
+    &cli_sweep_command, &cli_merge_command,   &cli_plot_command,    &cli_report_command,
+    &cli_fit_command,   &cli_vectors_command, &cli_compare_command};
 
 #define MAIN_COMMANDS (sizeof main_commands / sizeof main_commands[0])
 
@@ -17,14 +18,17 @@ static const char main_help[] =
     "\n"
     "usage: lrcs COMMAND [operand] [options]\n"
     "\n"
+    "  scene MODEL     a scene file to edit: its materials, and what is assumed of them\n"
     "  run SCENE       sigma from a pose, its bound, what was simulated\n"
     "  image SCENE     what the laser sees: pictures, vector graphics, VTK for ParaView\n"
+    "  profile SCENE   which part of sigma comes from which range, in bins, and to a pulse\n"
     "  info SCENE      what a model holds: parts, materials, area, volume, defects\n"
     "  shape KIND      sigma of a simple body from its closed form\n"
     "  verify          the engine against closed forms, or on hard cases, on this machine\n"
     "  converge SCENE  what accuracy costs in time: every method against the truth\n"
     "  sweep SCENE     sigma over attitudes, joints, materials: tables and maps, in threads\n"
     "  merge FILE...   the shards of a sweep made whole\n"
+    "  plot FILE...    sweeps drawn again from their files, several together; statistics\n"
     "  report SCENE    all of it on one page of HTML, with pictures and charts inside\n"
     "  fit DATA.csv    a material's A, B, s, m from measured BRDF against angle\n"
     "  vectors DIR     a conformance kit for other implementations: scenes, attitudes, truth\n"

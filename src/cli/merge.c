@@ -37,31 +37,6 @@ static int shard_refuse(const merge_shard *shard, const char *what)
     return CLI_FAILED;
 }
 
-/* Where its rows stand; they must follow one another, whole to the checksum. */
-static int shard_rows(merge_shard *shard)
-{
-    sweep_text text = shard->text;
-    sweep_row row;
-    const char *line;
-    size_t size;
-    int more;
-    while ((more = cli_text_next(&text, NULL, &row, &line, &size)) == 1) {
-        shard->first = shard->rows == 0 ? row.index : shard->first;
-        if (row.index != shard->first + shard->rows) {
-            return shard_refuse(shard, "its rows are not in order");
-        }
-        shard->rows++;
-    }
-    int end = more == 0 ? cli_text_end(&text) : -1;
-    if (end < 0) {
-        fprintf(stderr, "lrcs: %s: is damaged: %s\n", shard->path, text.fault);
-        return CLI_FAILED;
-    }
-    return end == 1 ? 0
-                    : shard_refuse(shard, "ends without its checksum: was its sweep stopped? "
-                                          "--resume goes on with it");
-}
-
 static int shard_read(merge_shard *shard, const merge_shard *first)
 {
     lrcs_host_error error;
@@ -76,7 +51,7 @@ static int shard_read(merge_shard *shard, const merge_shard *first)
         return shard_refuse(shard, "is of another sweep (its first lines differ from those of the "
                                    "first file)");
     }
-    return shard_rows(shard);
+    return cli_text_rows(shard->path, &shard->text, NULL, NULL, NULL, &shard->first, &shard->rows);
 }
 
 static int by_first(const void *a, const void *b)

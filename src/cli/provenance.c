@@ -10,16 +10,20 @@ const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene)
     return scene->recipe.name && scene->recipe.name[0] ? scene->recipe.name : args->operand;
 }
 
+static int brdf_same(const lrcs_brdf *a, const lrcs_brdf *b)
+{
+    return a->A == b->A && a->B == b->B && a->s == b->s && a->m == b->m;
+}
+
 const char *cli_material_source(const lrcs_material *material)
 {
     const lrcs_brdf_entry *entry;
+    const lrcs_brdf other = lrcs_brdf_default();
     if (!material->bound) {
-        return "default";
+        return brdf_same(&material->brdf, &other) ? "default" : "assumed";
     }
     for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-        const lrcs_brdf *brdf = &material->brdf;
-        if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
-            entry->brdf.m == brdf->m) {
+        if (brdf_same(&material->brdf, &entry->brdf)) {
             return "illustrative";
         }
     }

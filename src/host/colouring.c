@@ -7,6 +7,7 @@
 #include "host/palette.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define SCALE_DB    40.0 /* what the scale of sigma spans at most */
@@ -189,32 +190,46 @@ static uint32_t material_find(const lrcsi_colouring *colouring, uint32_t materia
 {
     const lrcs_material *all = colouring->picture->scene->material;
     uint32_t i = 0;
-    while (i < colouring->materials && material != colouring->material[i] &&
-           !material_alike(&all[colouring->material[i]], &all[material])) {
+    while (i < colouring->materials && material != colouring->material[i]) {
         i++;
+    }
+    for (uint32_t k = 0; i == colouring->materials && k < colouring->materials; k++) {
+        i = material_alike(&all[colouring->material[k]], &all[material]) ? k : i;
     }
     return i;
 }
 
+/* Is there a material before this one that is used and looks like it? */
+static int material_repeats(const lrcs_scene *scene, const unsigned char *used, uint32_t material)
+{
+    for (uint32_t i = 0; i < material; i++) {
+        if (used[i] && material_alike(&scene->material[i], &scene->material[material])) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* What facets wear, in the order of the scene's list, each with a colour of its own. */
 static void materials_list(lrcsi_colouring *colouring)
 {
     const lrcs_scene *scene = colouring->picture->scene;
-    uint32_t last = LRCS_NONE;
-    for (uint32_t f = 0; f < scene->facet_count; f++) {
-        uint32_t material = scene->facet_material[f];
-        if (material == last || scene->material[material].omitted) {
-            continue;
-        }
-        last = material;
-        if (material_find(colouring, material) < colouring->materials) {
+    unsigned char *used = calloc((size_t)scene->material_count + 1, 1);
+    for (uint32_t f = 0; used && f < scene->facet_count; f++) {
+        used[scene->facet_material[f]] = !scene->material[scene->facet_material[f]].omitted;
+    }
+    for (uint32_t i = 0; used && i < scene->material_count; i++) {
+        if (!used[i] || material_repeats(scene, used, i)) {
             continue;
         }
         if (colouring->materials < LRCSI_LOOK_MATERIALS) {
-            colouring->material[colouring->materials++] = material;
+            colouring->material[colouring->materials++] = i;
         } else {
-            colouring->more = 1;
+            colouring->more++;
         }
     }
+    free(used);
+    lrcsi_palette_apart(colouring->materials, colouring->hue);
 }
 
 const char *lrcsi_colouring_material_name(const lrcsi_colouring *colouring, uint32_t material)
@@ -225,12 +240,8 @@ const char *lrcsi_colouring_material_name(const lrcsi_colouring *colouring, uint
 
 uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t material)
 {
-    const lrcs_material *m = &colouring->picture->scene->material[material];
-    if (m->has_colour) {
-        return (uint32_t)m->rgb[0] << 16 | (uint32_t)m->rgb[1] << 8 | m->rgb[2];
-    }
     uint32_t place = material_find(colouring, material);
-    return place < 7 ? lrcsi_palette_named((int)place + 1) : lrcsi_palette_distinct(material);
+    return place < colouring->materials ? colouring->hue[place] : lrcsi_palette_distinct(material);
 }
 
 /* ---- the look ---- */
@@ -298,9 +309,9 @@ static uint32_t look_shaded(const lrcsi_colouring *colouring, uint32_t facet)
 {
     const lrcs_material *material = facet_wears(colouring, facet);
     double light = 0.12 + 0.88 * fmin(fabs(colouring->picture->records[facet].cos_theta), 1.0);
-    uint32_t own = colouring->picture->scene->facet_material[facet];
-    return lrcsi_palette_shade(
-        material->has_colour ? lrcsi_colouring_material(colouring, own) : LOOK_PLAIN, light);
+    uint32_t own = (uint32_t)material->rgb[0] << 16 | (uint32_t)material->rgb[1] << 8 |
+                   (uint32_t)material->rgb[2];
+    return lrcsi_palette_shade(material->has_colour ? own : LOOK_PLAIN, light);
 }
 
 /* Nothing to show is -HUGE_VAL. */

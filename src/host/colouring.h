@@ -8,7 +8,7 @@
 
 #include "host/axis.h"
 
-#define LRCSI_LOOK_MATERIALS 24u
+#define LRCSI_LOOK_MATERIALS 64u
 
 typedef struct lrcsi_colouring {
     const lrcs_host_picture *picture;
@@ -17,7 +17,8 @@ typedef struct lrcsi_colouring {
     double centre[3];                        /* of the box round the facets, body frame */
     uint32_t materials;                      /* that look apart; by material only */
     uint32_t material[LRCSI_LOOK_MATERIALS]; /* one of each */
-    int more;                                /* there are more than these */
+    uint32_t hue[LRCSI_LOOK_MATERIALS];      /* its false colour */
+    uint32_t more;                           /* how many there are beside these */
 } lrcsi_colouring;
 
 /* Without records, what does not depend on them: all but the scale. */
@@ -34,7 +35,7 @@ const char *lrcsi_colouring_name(const lrcsi_colouring *colouring);
 uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet,
                                 const double view[2]);
 
-/* The colour of a material, and its name for people. */
+/* The false colour of a material, and its name for people. */
 uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t material);
 const char *lrcsi_colouring_material_name(const lrcsi_colouring *colouring, uint32_t material);
 

@@ -9,7 +9,12 @@
 
 #include "base/fnv.h"
 #include "host/file.h"
-#include "host/model.h"
+
+const char *lrcsi_host_basename(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
 
 int lrcsi_host_input_read(lrcs_host_scene *scene, const char *path, lrcs_host_file *file,
                           lrcs_host_error *error)

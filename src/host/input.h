@@ -5,6 +5,9 @@
 
 #include "host/memory.h"
 
+/* The part of a path after its last slash. */
+const char *lrcsi_host_basename(const char *path);
+
 /* lrcs_host_file_read for a scene, which remembers the file. */
 int lrcsi_host_input_read(lrcs_host_scene *scene, const char *path, lrcs_host_file *file,
                           lrcs_host_error *error);

@@ -154,7 +154,7 @@ typedef struct legend_grid {
 static legend_grid grid_make(const lrcsi_colouring *colouring, double width, double most)
 {
     legend_grid grid = {.columns = 1, .column = width - 2.0 * LEGEND_MARGIN};
-    double widest = colouring->more ? lrcsi_letters_width("and more") : 0.0;
+    double widest = colouring->more > 0 ? lrcsi_letters_width("and 100 more") : 0.0;
     for (uint32_t i = 0; i < colouring->materials; i++) {
         widest = fmax(widest, lrcsi_letters_width(lrcsi_colouring_material_name(
                                   colouring, colouring->material[i])));
@@ -176,12 +176,14 @@ static legend_grid grid_make(const lrcsi_colouring *colouring, double width, dou
 static void materials_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
                            const legend_grid *grid, double top, uint32_t ink)
 {
-    int more = colouring->more || grid->shown < colouring->materials;
-    for (uint32_t i = 0; grid->rows > 0 && i < grid->shown + (uint32_t)more; i++) {
+    uint32_t more = colouring->more + colouring->materials - grid->shown;
+    char others[32];
+    snprintf(others, sizeof others, "and %lu more", (unsigned long)more);
+    for (uint32_t i = 0; grid->rows > 0 && i < grid->shown + (more > 0); i++) {
         double x = LEGEND_MARGIN + grid->column * (i % grid->columns);
         uint32_t row = i / grid->columns;
         double y = top + LEGEND_ROW * row;
-        lrcsi_words words = {.text = "and more",
+        lrcsi_words words = {.text = others,
                              .at = {x + LEGEND_SWATCH + 7.0, y + 10.5},
                              .size = LEGEND_TYPE,
                              .colour = ink};

@@ -227,12 +227,19 @@ static void material_notes(lrcs_host_notices *notices, const lrcs_material *mate
     }
 }
 
+static int is_default(const lrcs_brdf *brdf)
+{
+    const lrcs_brdf other = lrcs_brdf_default();
+    return brdf->A == other.A && brdf->B == other.B && brdf->s == other.s && brdf->m == other.m;
+}
+
 /* Facets by material: omitted and unbound ones are counted, worn ones checked. */
 static void scene_notes(lrcs_host_scene *host, const uint32_t *worn)
 {
     const lrcs_scene *scene = &host->scene;
     uint64_t omitted = 0;
     uint64_t unbound = 0;
+    uint64_t assumed = 0;
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
         if (worn[i] == 0) {
@@ -242,7 +249,7 @@ static void scene_notes(lrcs_host_scene *host, const uint32_t *worn)
             omitted += worn[i];
             continue;
         }
-        unbound += material->bound ? 0 : worn[i];
+        *(is_default(&material->brdf) ? &unbound : &assumed) += material->bound ? 0 : worn[i];
         material_notes(&host->notices, material);
     }
     if (omitted > 0) {
@@ -256,6 +263,11 @@ static void scene_notes(lrcs_host_scene *host, const uint32_t *worn)
                         "%llu of %lu facets have no material bound: they wear A=1, B=0.25, s=0.2, "
                         "m=0.5 (--material binds one)",
                         (unsigned long long)unbound, (unsigned long)scene->facet_count);
+    }
+    if (assumed > 0) {
+        lrcsi_host_note(&host->notices,
+                        "%llu of %lu facets have a material that the scene file calls assumed",
+                        (unsigned long long)assumed, (unsigned long)scene->facet_count);
     }
     if (scene->facet_count == 0) {
         lrcsi_host_note(&host->notices, "the scene holds no facets");

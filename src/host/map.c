@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A map from its description: which points share a cell, which colour each has, where contours run
    and where everything stands. */
+#include "base/constant.h"
 #include "host/axis.h"
 #include "host/canvas.h"
 #include "host/letters.h"
@@ -18,6 +19,14 @@
 #define MAP_LAP     1.0 /* cells reach that far under the next: no gaps shine through */
 #define MAP_NOTHING 0xbdbdbdu
 #define MAP_TEXTS   9.0
+
+/* Mollweide's ellipse: twice as wide as high. */
+#define ELLIPSE_X     (0.5 * (LRCSI_CHART_LEFT + MAP_RIGHT))
+#define ELLIPSE_Y     (0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM))
+#define ELLIPSE_WIDE  (0.5 * (MAP_RIGHT - LRCSI_CHART_LEFT)) /* half of it */
+#define ELLIPSE_HIGH  (0.5 * ELLIPSE_WIDE)
+#define ELLIPSE_STRIP 3.0 /* deg: a meridian is straight over so much */
+#define ELLIPSE_EMPTY 0xf0f0f0u
 
 typedef struct map_plan {
     const lrcs_host_map *map;
@@ -82,6 +91,140 @@ static void box_fill(lrcsi_plotter *plotter, double x0, double y0, double x1, do
     plotter->area(plotter, corner, 4, colour);
 }
 
+/* ---- Mollweide's projection ---- */
+
+/* The height of a latitude, -1 .. 1: sin(t) where 2 t + sin(2 t) = pi sin(latitude), by Newton's
+   method, whose derivative 2 + 2 cos(2 t) vanishes only at the poles; 1e-9 is far below a pixel.
+   Source: J. P. Snyder, Map Projections: A Working Manual, USGS PP 1395 (1987) 251. */
+static double ellipse_height(double degrees)
+{
+    double want = LRCSI_PI * sin(degrees * LRCSI_PI / 180.0);
+    double t = degrees * LRCSI_PI / 180.0;
+    if (fabs(degrees) >= 90.0) {
+        return degrees > 0.0 ? 1.0 : -1.0;
+    }
+    for (int i = 0; i < 60; i++) {
+        double step = (2.0 * t + sin(2.0 * t) - want) / (2.0 + 2.0 * cos(2.0 * t));
+        t -= step;
+        if (fabs(step) < 1e-9) {
+            break;
+        }
+    }
+    return fmax(-1.0, fmin(1.0, sin(t)));
+}
+
+/* Of a longitude in -180 .. 180 at a height. */
+static lrcsi_spot ellipse_spot(double longitude, double height)
+{
+    double narrow = sqrt(fmax(1.0 - height * height, 0.0));
+    return (lrcsi_spot){ELLIPSE_X + ELLIPSE_WIDE * narrow * longitude / 180.0,
+                        ELLIPSE_Y - ELLIPSE_HIGH * height};
+}
+
+/* What brings a longitude into -180 .. 180. */
+static double ellipse_turn(double longitude)
+{
+    return -360.0 * floor((longitude + 180.0) / 360.0);
+}
+
+/* A piece of a row of cells; each reaches a little under the next, to the right and above. */
+static void ellipse_piece(const map_plan *plan, double west, double east, const double height[2],
+                          uint32_t colour)
+{
+    double low = height[0];
+    double high = fmin(height[1] + MAP_LAP / ELLIPSE_HIGH, 1.0);
+    double lap = 180.0 * MAP_LAP / ELLIPSE_WIDE;
+    east = fmin(east + lap, 180.0);
+    const lrcsi_spot corner[4] = {ellipse_spot(west, low), ellipse_spot(east, low),
+                                  ellipse_spot(east, high), ellipse_spot(west, high)};
+    plan->plotter->area(plan->plotter, corner, 4, colour);
+}
+
+/* Cells of one colour between two longitudes and two latitudes: cut where the map ends at 180
+   degrees, in strips whose sides are straight. */
+static void ellipse_cells(const map_plan *plan, double west, double east, const double latitude[2],
+                          uint32_t colour)
+{
+    int strips = (int)ceil((latitude[1] - latitude[0]) / ELLIPSE_STRIP);
+    double turn = ellipse_turn(west);
+    west += turn;
+    east += turn;
+    for (int i = 0; i < strips; i++) {
+        double each = (latitude[1] - latitude[0]) / strips;
+        const double height[2] = {ellipse_height(latitude[0] + i * each),
+                                  ellipse_height(latitude[0] + (i + 1) * each)};
+        ellipse_piece(plan, west, fmin(east, 180.0), height, colour);
+        if (east > 180.0) {
+            ellipse_piece(plan, -180.0, east - 360.0, height, colour);
+        }
+    }
+}
+
+static void ellipse_line(const map_plan *plan, double longitude, uint32_t colour, double width)
+{
+    lrcsi_spot spot[61];
+    const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
+    for (int i = 0; i <= 60; i++) {
+        spot[i] = ellipse_spot(longitude, sin(LRCSI_PI * (i - 30) / 60.0));
+    }
+    plan->plotter->line(plan->plotter, spot, 61, &ink);
+}
+
+/* What is not covered, below the cells. */
+static void ellipse_ground(const map_plan *plan)
+{
+    lrcsi_spot spot[120];
+    for (int i = 0; i < 120; i++) {
+        double t = LRCSI_PI * i / 60.0;
+        spot[i] =
+            (lrcsi_spot){ELLIPSE_X + ELLIPSE_WIDE * cos(t), ELLIPSE_Y - ELLIPSE_HIGH * sin(t)};
+    }
+    plan->plotter->area(plan->plotter, spot, 120, ELLIPSE_EMPTY);
+}
+
+static void ellipse_number(const map_plan *plan, int degrees, lrcsi_spot at, int anchor)
+{
+    char text[16];
+    snprintf(text, sizeof text, "%d", degrees);
+    const lrcsi_words words = {.text = text,
+                               .at = {at.x, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
+                               .size = LRCSI_CHART_SMALL,
+                               .anchor = anchor,
+                               .colour = LRCSI_COLOUR_TEXT};
+    if (anchor == LRCSI_ANCHOR_MIDDLE) { /* on the map */
+        double half = 0.5 * LRCSI_CHART_SMALL * lrcsi_letters_width(text) + 2.0;
+        const lrcsi_spot corner[4] = {{at.x - half, at.y - 7.0},
+                                      {at.x + half, at.y - 7.0},
+                                      {at.x + half, at.y + 7.0},
+                                      {at.x - half, at.y + 7.0}};
+        plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_PAPER);
+    }
+    plan->plotter->text(plan->plotter, &words);
+}
+
+/* Meridians and parallels every 30 degrees, with numbers along the equator and on the left. */
+static void ellipse_graticule(const map_plan *plan)
+{
+    for (int degrees = -150; degrees <= 150; degrees += 30) {
+        ellipse_line(plan, degrees, 0x777777u, 0.5);
+    }
+    for (int degrees = -60; degrees <= 60; degrees += 30) {
+        double height = ellipse_height(degrees);
+        lrcsi_spot left = ellipse_spot(-180.0, height);
+        lrcsi_spot right = ellipse_spot(180.0, height);
+        lrcsi_chart_stroke(plan->plotter, left.x, left.y, right.x, right.y, 0x777777u, 0.5);
+        left.x -= 8.0;
+        ellipse_number(plan, degrees, left, LRCSI_ANCHOR_RIGHT);
+    }
+    for (int degrees = -120; degrees <= 120; degrees += 60) {
+        ellipse_number(plan, degrees, ellipse_spot(degrees, 0.0), LRCSI_ANCHOR_MIDDLE);
+    }
+    ellipse_line(plan, -180.0, LRCSI_COLOUR_TEXT, 0.9);
+    ellipse_line(plan, 180.0, LRCSI_COLOUR_TEXT, 0.9);
+}
+
+/* ---- rows of cells ---- */
+
 /* In steps, so that neighbours that look alike are one. */
 static uint32_t cell_colour_of(const map_plan *plan, uint32_t column, uint32_t row)
 {
@@ -96,18 +239,25 @@ static uint32_t cell_colour_of(const map_plan *plan, uint32_t column, uint32_t r
 static void row_draw(const map_plan *plan, uint32_t row)
 {
     const lrcs_host_map *map = plan->map;
-    double low = map_y(plan, cell_begin(map->y, row, plan->high, map->rows));
-    double high = map_y(plan, cell_begin(map->y, row + 1, plan->high, map->rows));
+    const double side[2] = {cell_begin(map->y, row, plan->high, map->rows),
+                            cell_begin(map->y, row + 1, plan->high, map->rows)};
+    double low = map_y(plan, side[0]);
+    double high = map_y(plan, side[1]);
     double top = fmax(high - MAP_LAP, map_y(plan, map->y[map->rows - 1]));
     double end = map_x(plan, map->x[map->columns - 1]);
     for (uint32_t column = 0; column < plan->columns;) {
         uint32_t colour = cell_colour_of(plan, column, row);
-        double x = map_x(plan, cell_begin(map->x, column, plan->wide, map->columns));
+        double from = cell_begin(map->x, column, plan->wide, map->columns);
         do {
             column++;
         } while (column < plan->columns && cell_colour_of(plan, column, row) == colour);
-        double to = map_x(plan, cell_begin(map->x, column, plan->wide, map->columns));
-        box_fill(plan->plotter, x, top, fmin(to + MAP_LAP, end), low, colour);
+        double to = cell_begin(map->x, column, plan->wide, map->columns);
+        if (map->mollweide) {
+            ellipse_cells(plan, from, to, side, colour);
+        } else {
+            box_fill(plan->plotter, map_x(plan, from), top, fmin(map_x(plan, to) + MAP_LAP, end),
+                     low, colour);
+        }
     }
 }
 
@@ -153,14 +303,17 @@ static void contours_between(const map_plan *plan, uint32_t column, uint32_t row
     const lrcs_host_map *map = plan->map;
     lrcsi_spot corner[4];
     double z[4];
+    double turn = ellipse_turn(cell_place(map->x, column, plan->wide, map->columns));
     for (int k = 0; k < 4; k++) {
         uint32_t c = column + step[k][0];
         uint32_t r = row + step[k][1];
+        double x = cell_place(map->x, c, plan->wide, map->columns);
+        double y = cell_place(map->y, r, plan->high, map->rows);
         z[k] = cell_value(plan, c, r);
-        corner[k].x = map_x(plan, cell_place(map->x, c, plan->wide, map->columns));
-        corner[k].y = map_y(plan, cell_place(map->y, r, plan->high, map->rows));
-        if (!isfinite(z[k])) {
-            return;
+        corner[k] = map->mollweide ? ellipse_spot(x + turn, ellipse_height(y))
+                                   : (lrcsi_spot){map_x(plan, x), map_y(plan, y)};
+        if (!isfinite(z[k]) || (map->mollweide && x + turn > 180.0)) {
+            return; /* nothing there, or on both sides of the map */
         }
     }
     for (uint32_t i = 0; i < plan->z.count; i++) {
@@ -207,9 +360,9 @@ static void map_scale(const map_plan *plan)
     lrcsi_chart_words(plan->plotter, name, high);
 }
 
-static void map_say(const map_plan *plan)
+/* Frame and numbers of a map in a rectangle. */
+static void map_frame(const map_plan *plan)
 {
-    const lrcs_host_map *map = plan->map;
     lrcsi_chart_box(plan->plotter, LRCSI_CHART_LEFT, MAP_RIGHT);
     for (uint32_t i = 0; i < plan->x.count; i++) {
         const lrcsi_tick *tick = &plan->x.tick[i];
@@ -220,6 +373,16 @@ static void map_say(const map_plan *plan)
         const lrcsi_tick *tick = &plan->y.tick[i];
         const lrcsi_spot at = {LRCSI_CHART_LEFT, map_y(plan, tick->value)};
         lrcsi_chart_tick(plan->plotter, tick, at, 1);
+    }
+}
+
+static void map_say(const map_plan *plan)
+{
+    const lrcs_host_map *map = plan->map;
+    if (map->mollweide) {
+        ellipse_graticule(plan);
+    } else {
+        map_frame(plan);
     }
     lrcsi_chart_title(plan->plotter, map->title, map->note);
     lrcsi_chart_names(plan->plotter, map->x_name, 0.5 * (LRCSI_CHART_LEFT + MAP_RIGHT),
@@ -257,10 +420,13 @@ static map_plan map_place(const lrcs_host_map *map, lrcsi_plotter *plotter)
 static void map_draw(const lrcs_host_map *map, lrcsi_plotter *plotter)
 {
     map_plan plan = map_place(map, plotter);
+    if (map->mollweide) {
+        ellipse_ground(&plan);
+    }
     for (uint32_t row = 0; row < plan.rows; row++) {
         row_draw(&plan, row);
     }
-    for (uint32_t row = 0; row + 1 < plan.rows; row++) {
+    for (uint32_t row = 0; row + 1 < plan.rows && !map->cells; row++) {
         for (uint32_t column = 0; column + 1 < plan.columns; column++) {
             contours_between(&plan, column, row);
         }

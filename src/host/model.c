@@ -10,12 +10,6 @@
 
 #include "host/input.h"
 
-const char *lrcsi_host_basename(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 char *lrcsi_host_beside(lrcs_host_scene *scene, const char *beside, const char *name)
 {
     size_t folder = name[0] == '/' ? 0 : (size_t)(lrcsi_host_basename(beside) - beside);

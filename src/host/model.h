@@ -10,9 +10,6 @@
 int lrcsi_host_model_read(lrcs_host_scene *scene, const char *path, const lrcs_host_file *file,
                           lrcs_mesh *mesh, lrcs_host_error *error);
 
-/* The part of a path after its last slash. */
-const char *lrcsi_host_basename(const char *path);
-
 /* "FOLDER/NAME", FOLDER being the one that `beside` lies in; NAME itself where it is absolute.
    Owned by the scene; NULL where there is no memory. */
 char *lrcsi_host_beside(lrcs_host_scene *scene, const char *beside, const char *name);

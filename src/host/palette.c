@@ -14,6 +14,11 @@ static const unsigned char palette_viridis[LRCSI_PALETTE_KNOTS][3] = {
     {68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
     {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
 
+#define APART_SIDE  9u   /* candidates a channel */
+#define APART_DARK  38.0 /* the least and the most L* of a candidate */
+#define APART_LIGHT 90.0
+#define APART_ALL   (APART_SIDE * APART_SIDE * APART_SIDE)
+
 static uint32_t palette_join(const double rgb[3])
 {
     uint32_t colour = 0;
@@ -52,6 +57,69 @@ uint32_t lrcsi_palette_distinct(uint32_t number)
         rgb[k] = 115.0 + 0.6 * pale + (105.0 - 0.4 * pale) * wave;
     }
     return palette_join(rgb);
+}
+
+/* CIE 1976 L*, a*, b* of an sRGB colour under D65 (IEC 61966-2-1, CIE 15): equal distances look
+   about equally different. */
+static void palette_lab(uint32_t colour, double lab[3])
+{
+    static const double xyz[3][3] = {
+        {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
+    static const double white[3] = {0.9505, 1.0, 1.089};
+    double linear[3];
+    double f[3];
+    for (int k = 0; k < 3; k++) {
+        double c = (colour >> (16 - 8 * k) & 255u) / 255.0;
+        linear[k] = c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+    }
+    for (int k = 0; k < 3; k++) {
+        double t =
+            (xyz[k][0] * linear[0] + xyz[k][1] * linear[1] + xyz[k][2] * linear[2]) / white[k];
+        f[k] = t > 216.0 / 24389.0 ? cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0;
+    }
+    lab[0] = 116.0 * f[1] - 16.0;
+    lab[1] = 500.0 * (f[0] - f[1]);
+    lab[2] = 200.0 * (f[1] - f[2]);
+}
+
+static uint32_t apart_candidate(uint32_t i)
+{
+    uint32_t step = 255u / (APART_SIDE - 1u);
+    return i % APART_SIDE * step << 16 | i / APART_SIDE % APART_SIDE * step << 8 |
+           i / (APART_SIDE * APART_SIDE) * step;
+}
+
+static double lab_distance(const double a[3], const double b[3])
+{
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+/* The first seven are Okabe and Ito's; each one after them is the colour of a 9 x 9 x 9 grid that
+   is farthest from all before it and from the grounds that pictures have. */
+void lrcsi_palette_apart(uint32_t count, uint32_t *colour)
+{
+    static const uint32_t ground[] = {0xffffffu, 0x0d111cu, 0x787878u};
+    double away[APART_ALL]; /* of a candidate from all that are taken */
+    double candidate[APART_ALL][3];
+    double lab[3];
+    for (uint32_t i = 0; i < APART_ALL; i++) {
+        palette_lab(apart_candidate(i), candidate[i]);
+        away[i] = candidate[i][0] >= APART_DARK && candidate[i][0] <= APART_LIGHT ? HUGE_VAL : -1.0;
+    }
+    for (uint32_t n = 0; n < count + 3; n++) {
+        uint32_t best = 0;
+        for (uint32_t i = 0; n >= 10 && i < APART_ALL; i++) {
+            best = away[i] > away[best] ? i : best;
+        }
+        uint32_t taken = n < 3 ? ground[n] : n < 10 ? palette_names[n - 2] : apart_candidate(best);
+        palette_lab(taken, lab);
+        for (uint32_t i = 0; i < APART_ALL; i++) {
+            away[i] = fmin(away[i], lab_distance(lab, candidate[i]));
+        }
+        if (n >= 3) {
+            colour[n - 3] = taken;
+        }
+    }
 }
 
 uint32_t lrcsi_palette_shade(uint32_t colour, double light)

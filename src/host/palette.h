@@ -15,6 +15,10 @@ uint32_t lrcsi_palette_even(double value);
 /* A colour for each number; those of neighbours differ. */
 uint32_t lrcsi_palette_distinct(uint32_t number);
 
+/* Colours that are told apart on either ground of a picture, and from the grey of what returns
+   nothing. O(count). */
+void lrcsi_palette_apart(uint32_t count, uint32_t *colour);
+
 /* The same colour in less light, 0 .. 1. */
 uint32_t lrcsi_palette_shade(uint32_t colour, double light);
 

@@ -27,10 +27,6 @@
 
 #define FOUR_PI 12.566370614359172954
 
-/* What a facet's terms may lose to underflow, scaled: some 30 operations, of 2^-1075 each, and
-   nothing that comes after makes any of them larger than its term. */
-#define FACET_UNDERFLOW 0x1p-1070
-
 /* The relative error of a visible area that is all of a facet not near grazing: that of
    lrcsi_incidence.projected (8 u), and a product. */
 #define AREA_ERROR (10 * LRCSI_U)
@@ -125,12 +121,6 @@ static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
     sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
 }
 
-/* What one facet adds, scaled. */
-typedef struct total_terms {
-    double glint, diffuse, rounding;
-    double per_area; /* glint + diffuse for each unit of visible area */
-} total_terms;
-
 /* Of nearly all facets the whole is visible: no quotient, then. */
 static double share_of(double part, double whole)
 {
@@ -140,19 +130,21 @@ static double share_of(double part, double whole)
 /* One facet that reflects towards the laser, precisely. Rounding: S, 4 pi, two products and the
    share, 8 u; the relative error of areas; what f_r cos^2 is off by, over all that may be visible.
  */
-static total_terms facet_terms(const total_job *job, uint32_t facet,
-                               const lrcsi_incidence *incidence, const lrcsi_visible *visible)
+lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
+                                         uint32_t facet, const lrcsi_incidence *incidence,
+                                         const lrcsi_visible *visible)
 {
-    const lrcs_prepared *p = job->view->prepared;
-    lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, facet));
-    lrcsi_reflection at = reflection_planned(&brdf, job->plan, incidence->tan2);
+    const lrcs_prepared *p = view->prepared;
+    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, facet));
+    lrcsi_reflection at = reflection_planned(&brdf, plan, incidence->tan2);
     double whole = FOUR_PI * 0.5 * p->normal[facet].length;
     double share = share_of(visible->area, incidence->projected);
     double most = share_of(visible->high, incidence->projected);
-    total_terms terms = {.glint = whole * at.glint * share, .diffuse = whole * at.diffuse * share};
+    lrcsi_facet_terms terms = {.glint = whole * at.glint * share,
+                               .diffuse = whole * at.diffuse * share};
     terms.rounding = (terms.glint + terms.diffuse) * (incidence->error + 8 * LRCSI_U) +
                      whole * most * (at.error + reflection_uncertainty(&brdf, incidence, &at)) +
-                     (brdf.A > 0 || brdf.B > 0 ? FACET_UNDERFLOW : 0);
+                     (brdf.A > 0 || brdf.B > 0 ? LRCSI_FACET_UNDERFLOW : 0);
     terms.per_area = whole * (at.glint + at.diffuse) / incidence->projected;
     return terms;
 }
@@ -171,7 +163,7 @@ static void add_curved(total_sums *sums, const lrcsi_curved *curved)
     lrcsi_sum_add(&sums->glint, curved->glint);
     lrcsi_sum_add(&sums->diffuse, curved->diffuse);
     sums->visibility += curved->visibility;
-    sums->rounding += curved->rounding + FACET_UNDERFLOW;
+    sums->rounding += curved->rounding + LRCSI_FACET_UNDERFLOW;
     sums->likely = lrcsi_length_flat(sums->likely, curved->likely);
     sums->curvature += curved->estimate;
 }
@@ -199,7 +191,7 @@ static void count_shown(lrcsi_total *total, double projected, const lrcsi_visibl
 
 /* A bound in square metres. Where that is no normal double its rounding is made up for, and that of
    the two values that it may hold for: half of 2^-1074 each. */
-static double bound_area(const lrcs_prepared *p, double scaled)
+double lrcsi_bound_area(const lrcs_prepared *p, double scaled)
 {
     double area = lrcsi_prepared_area(p, scaled);
     return scaled > 0 && area < DBL_MIN ? area + 0x1p-1073 : area;
@@ -219,10 +211,11 @@ static void total_finish(total_job *job)
     total->diffuse = lrcsi_prepared_area(p, diffuse);
     total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));
     total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
-    total->visibility = bound_area(p, sums->visibility * outward);
-    total->tessellation = sums->tessellation < 0 ? -1 : bound_area(p, sums->tessellation * outward);
+    total->visibility = lrcsi_bound_area(p, sums->visibility * outward);
+    total->tessellation =
+        sums->tessellation < 0 ? -1 : lrcsi_bound_area(p, sums->tessellation * outward);
     double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
-    total->rounding = bound_area(p, (sums->rounding + adding) * outward);
+    total->rounding = lrcsi_bound_area(p, (sums->rounding + adding) * outward);
     double likely = lrcsi_length_flat(sums->likely, sums->bias);
     total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
     total->curvature = lrcsi_prepared_area(p, sums->curvature);
@@ -279,7 +272,8 @@ static void sum_precisely(total_job *job, uint32_t facet)
         record_sigma(job, facet, job->curved[facet].glint, job->curved[facet].diffuse);
         return;
     }
-    total_terms terms = facet_terms(job, facet, &incidence, &visible);
+    lrcsi_facet_terms terms =
+        lrcsi_facet_terms_make(job->view, job->plan, facet, &incidence, &visible);
     lrcsi_sum_add(&sums->glint, terms.glint);
     lrcsi_sum_add(&sums->diffuse, terms.diffuse);
     sums->rounding += terms.rounding;
@@ -426,7 +420,7 @@ static void block_run(total_job *job, total_batch *batch)
         block_doubts(job, batch);
     }
     if (batch->lobes.A > 0 || batch->lobes.B > 0) {
-        job->sums.rounding += batch->count * FACET_UNDERFLOW;
+        job->sums.rounding += batch->count * LRCSI_FACET_UNDERFLOW;
     }
     batch->count = 0;
 }
@@ -681,7 +675,8 @@ static lrcsi_shape_terms shape_records(const total_job *job, const lrcs_part *pa
         lrcsi_incidence incidence = lrcsi_view_incidence(job->view, f);
         lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
         if (job->view->facing[f] > 0) {
-            total_terms terms = facet_terms(job, f, &incidence, &whole);
+            lrcsi_facet_terms terms =
+                lrcsi_facet_terms_make(job->view, job->plan, f, &incidence, &whole);
             job->records[f].sigma_glint_m2 = terms.glint;
             job->records[f].sigma_m2 = terms.diffuse;
             all.glint += terms.glint;

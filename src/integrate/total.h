@@ -18,6 +18,25 @@ typedef struct lrcsi_total {
     uint32_t seen; /* effects that some facet calls for which may be seen: GLINT, DIFFUSE bits */
 } lrcsi_total;
 
+/* What one flat facet adds, scaled, with the 4 pi. */
+typedef struct lrcsi_facet_terms {
+    double glint, diffuse;
+    double rounding; /* a bound: of glint + diffuse, for areas up to visible->high */
+    double per_area; /* glint + diffuse for each unit of visible area */
+} lrcsi_facet_terms;
+
+/* Given: a facet that reflects towards the laser, its incidence, what is visible of it. */
+lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
+                                         uint32_t facet, const lrcsi_incidence *incidence,
+                                         const lrcsi_visible *visible);
+
+/* A scaled bound on areas or on sigma in square metres, rounded outward where it underflows. */
+double lrcsi_bound_area(const lrcs_prepared *p, double scaled);
+
+/* What a facet's terms may lose to underflow, scaled: some 30 operations, of 2^-1075 each, and
+   nothing that comes after makes any of them larger than its term. */
+#define LRCSI_FACET_UNDERFLOW 0x1p-1070
+
 /* The visible areas of facets: all, or nothing, of those whose answer[] is LRCSI_QUERY_VISIBLE or
    LRCSI_QUERY_HIDDEN; visible[] has those of the others, and of all where answer is NULL. */
 typedef struct lrcsi_areas {

@@ -9,7 +9,6 @@
 
 #include "base/exact.h"
 #include "base/work.h"
-#include "mesh/intersection_pair.h"
 #include "mesh/ring.h"
 #include "mesh/tree.h"
 
@@ -100,13 +99,13 @@ static int append_found(touch_search *search, touch_found found)
 }
 
 /* The facet at a place. */
-static lrcsi_touch_facet facet_of_place(const touch_search *search, uint32_t place)
+static lrcsi_pair_facet facet_of_place(const touch_search *search, uint32_t place)
 {
     const touch_leaf *leaf = &search->leaf[place / LEAF_LANES];
     uint32_t lane = place % LEAF_LANES;
-    return (lrcsi_touch_facet){.x = {search->vertex[leaf->corner[0][lane]].x,
-                                     search->vertex[leaf->corner[1][lane]].x,
-                                     search->vertex[leaf->corner[2][lane]].x}};
+    return (lrcsi_pair_facet){.x = {search->vertex[leaf->corner[0][lane]].x,
+                                    search->vertex[leaf->corner[1][lane]].x,
+                                    search->vertex[leaf->corner[2][lane]].x}};
 }
 
 /* Do segments a b and p q lie on one line, with more than a point in common? */
@@ -127,7 +126,7 @@ static int segments_overlap(const double *a, const double *b, const double *p, c
 }
 
 /* The sides of f that lie along a part of a side of t, a bit each; not those that both have. */
-static unsigned sides_along(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t)
+static unsigned sides_along(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
 {
     unsigned sides = 0;
     for (int n = 0; n < 9; n++) {
@@ -142,8 +141,8 @@ static unsigned sides_along(const lrcsi_touch_facet *f, const lrcsi_touch_facet 
 }
 
 /* Files how a pair meets. */
-static int file_pair(touch_search *search, uint32_t facet, const lrcsi_touch_facet *f,
-                     uint32_t other, const lrcsi_touch_facet *t, const lrcsi_touch_result *result)
+static int file_pair(touch_search *search, uint32_t facet, const lrcsi_pair_facet *f,
+                     uint32_t other, const lrcsi_pair_facet *t, const lrcsi_pair_result *result)
 {
     lrcsi_intersections *intersections = search->intersections;
     const uint32_t *piece = search->piece;
@@ -159,7 +158,7 @@ static int file_pair(touch_search *search, uint32_t facet, const lrcsi_touch_fac
     if (piece && !intersections->self && piece[facet] == piece[other]) {
         intersections->self = result->kind[0] != LRCSI_INTERSECTION_NONE ||
                               result->kind[1] != LRCSI_INTERSECTION_NONE ||
-                              lrcsi_touch_on_side(f, t);
+                              lrcsi_pair_on_side(f, t);
     }
     return status;
 }
@@ -204,14 +203,14 @@ static int meet_lanes(touch_search *search, uint32_t place, uint32_t leaf, unsig
     if (lanes == 0) {
         return LRCS_OK;
     }
-    lrcsi_touch_facet f = facet_of_place(search, place);
+    lrcsi_pair_facet f = facet_of_place(search, place);
     int status = LRCS_OK;
-    lrcsi_touch_plane(&f);
+    lrcsi_pair_plane(&f);
     for (; lanes != 0 && status == LRCS_OK; lanes &= lanes - 1) {
         uint32_t at = leaf * LEAF_LANES + lrcsi_tree_lane(lanes);
-        lrcsi_touch_facet t = facet_of_place(search, at);
-        lrcsi_touch_result result;
-        if (lrcsi_touch_meet(&f, &t, &result)) {
+        lrcsi_pair_facet t = facet_of_place(search, at);
+        lrcsi_pair_result result;
+        if (lrcsi_pair_meet(&f, &t, &result)) {
             status = file_pair(search, tree->order[place], &f, tree->order[at], &t, &result);
         }
     }

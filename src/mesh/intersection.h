@@ -5,13 +5,8 @@
 #ifndef LRCSI_INTERSECTION_H
 #define LRCSI_INTERSECTION_H
 
+#include "mesh/intersection_pair.h"
 #include "mesh/topology.h"
-
-enum lrcsi_touch_kind {
-    LRCSI_INTERSECTION_NONE = -1,   /* no contact */
-    LRCSI_INTERSECTION_CROSS = 0,   /* not in one plane: `other` meets the open inside of `facet` */
-    LRCSI_INTERSECTION_COPLANAR = 1 /* exactly in one plane, and their open insides overlap */
-};
 
 /* `other` (closed) meets the relative interior of `facet`. Directed: a strut standing on a plate
    touches the plate's inside, but the plate only the strut's rim: then there is an entry for the
@@ -45,10 +40,6 @@ static inline int lrcsi_intersection_along(const lrcsi_intersections *intersecti
 {
     return (intersections->rim[facet] >> (k + 1) & 1) != 0;
 }
-
-/* How `other` (closed) meets the relative interior of `facet`: a lrcsi_touch_kind. Neither may be
-   degenerate. */
-int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other);
 
 /* Finds all of them. Facets marked in `skip` (degenerate, omitted) neither touch nor are touched.
    `piece`, unless NULL, names the piece of surface that each facet belongs to: then `self` is told

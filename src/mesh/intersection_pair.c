@@ -42,7 +42,7 @@ static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 enum { UNSURE = 2 };
 
 /* The axis is another one only where the facet may be edge-on along the first. */
-void lrcsi_touch_plane(lrcsi_touch_facet *f)
+void lrcsi_pair_plane(lrcsi_pair_facet *f)
 {
     const double *a = f->x[0];
     const double *b = f->x[1];
@@ -68,7 +68,7 @@ void lrcsi_touch_plane(lrcsi_touch_facet *f)
     }
 }
 
-static int is_corner_of(const lrcsi_touch_facet *f, const double *p)
+static int is_corner_of(const lrcsi_pair_facet *f, const double *p)
 {
     return p == f->x[0] || p == f->x[1] || p == f->x[2];
 }
@@ -77,7 +77,7 @@ static int is_corner_of(const lrcsi_touch_facet *f, const double *p)
 
 /* The side of F's plane on which p is proved to lie; 0 for a corner of F, UNSURE where it is not
    proved. */
-static int rounded_side(const lrcsi_touch_facet *f, const double *p)
+static int rounded_side(const lrcsi_pair_facet *f, const double *p)
 {
     const double *a = f->x[0];
     if (is_corner_of(f, p)) {
@@ -105,8 +105,7 @@ static int plane_separates(const int side[3])
 /* Seen along an axis along which F turns by `turn`: has the line of a side of F all corners of T
    proved to be outside, but those that are ends of the side? Then they meet in these or between
    them at most. */
-static int line_separates(const lrcsi_touch_facet *f, int turn, const lrcsi_touch_facet *t,
-                          int axis)
+static int line_separates(const lrcsi_pair_facet *f, int turn, const lrcsi_pair_facet *t, int axis)
 {
     const int i = axis == 2 ? 0 : axis + 1;
     const int j = axis == 0 ? 2 : axis - 1;
@@ -131,7 +130,7 @@ static int line_separates(const lrcsi_touch_facet *f, int turn, const lrcsi_touc
 }
 
 /* Are two facets, seen along F's axis, separated by the line of a side? */
-static int lines_separate(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t)
+static int lines_separate(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
 {
     if (line_separates(f, f->turn, t, f->axis)) {
         return 1;
@@ -167,7 +166,7 @@ static int line_covers_segment(const double *a, const double *b, const double *c
 }
 
 /* Does T meet the open segment a b, which is in its plane? */
-static int segment_meets_flat(const lrcsi_touch_facet *t, const double *a, const double *b)
+static int segment_meets_flat(const lrcsi_pair_facet *t, const double *a, const double *b)
 {
     const double *axis = unit_axis[t->axis];
     const double *on[3];
@@ -199,7 +198,7 @@ static int segment_meets_flat(const lrcsi_touch_facet *t, const double *a, const
 
 /* Step 1: makes what is unsure of the sides of F's plane exact. Returned: whether a corner of T
    that is not one of F lies on the plane. */
-static int exact_sides(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t, int side[3])
+static int exact_sides(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, int side[3])
 {
     int on = 0;
     for (int k = 0; k < 3; k++) {
@@ -213,7 +212,7 @@ static int exact_sides(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t, i
 
 /* Step 2: the first side of f (which turns by `turn`) whose line has all of g outside or on it,
    seen along the axis; -1 for none. */
-static int separating_side(const lrcsi_touch_facet *f, int turn, const lrcsi_touch_facet *g,
+static int separating_side(const lrcsi_pair_facet *f, int turn, const lrcsi_pair_facet *g,
                            const double *axis)
 {
     for (int k = 0; k < 3; k++) {
@@ -232,7 +231,7 @@ static int separating_side(const lrcsi_touch_facet *f, int turn, const lrcsi_tou
 
 /* Does T meet side k of F, which is in its plane, its ends excluded, other than by having it too?
  */
-static int flat_side_is_met(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t, int k)
+static int flat_side_is_met(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, int k)
 {
     const double *a = f->x[k];
     const double *b = f->x[(k + 1) % 3];
@@ -240,16 +239,16 @@ static int flat_side_is_met(const lrcsi_touch_facet *f, const lrcsi_touch_facet 
 }
 
 /* Step 2. */
-static void meet_flat(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t,
-                      lrcsi_touch_result *result)
+static void meet_flat(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t,
+                      lrcsi_pair_result *result)
 {
     const double *axis = unit_axis[f->axis];
     int turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], axis);
     int of_f = separating_side(f, f->turn, t, axis);
     int of_t = separating_side(t, turn, f, axis);
     if (of_f < 0 && of_t < 0) {
-        *result = (lrcsi_touch_result){{LRCSI_INTERSECTION_COPLANAR, LRCSI_INTERSECTION_COPLANAR},
-                                       {1, 1}};
+        *result =
+            (lrcsi_pair_result){{LRCSI_INTERSECTION_COPLANAR, LRCSI_INTERSECTION_COPLANAR}, {1, 1}};
         return;
     }
     result->rim[0] = of_f >= 0 && flat_side_is_met(f, t, of_f);
@@ -260,7 +259,7 @@ static void meet_flat(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t,
    plane of the other; cross[j][k], the sign of the determinant of side j of f[0] and side k of
    f[1], or UNSURE where it has not been asked for. */
 typedef struct touch_cross {
-    const lrcsi_touch_facet *f[2];
+    const lrcsi_pair_facet *f[2];
     const int *of[2];
     int cross[3][3];
 } touch_cross;
@@ -340,7 +339,7 @@ static int side_is_met(touch_cross *c, int i, int k)
 }
 
 /* Steps 3 and 4. */
-static void meet_across(touch_cross *c, lrcsi_touch_result *result)
+static void meet_across(touch_cross *c, lrcsi_pair_result *result)
 {
     int meets[2];
     for (int i = 0; i < 2; i++) {
@@ -356,11 +355,11 @@ static void meet_across(touch_cross *c, lrcsi_touch_result *result)
     }
 }
 
-int lrcsi_touch_meet(const lrcsi_touch_facet *f, lrcsi_touch_facet *t, lrcsi_touch_result *result)
+int lrcsi_pair_meet(const lrcsi_pair_facet *f, lrcsi_pair_facet *t, lrcsi_pair_result *result)
 {
     int of_t[3];
     int of_f[3];
-    *result = (lrcsi_touch_result){{LRCSI_INTERSECTION_NONE, LRCSI_INTERSECTION_NONE}, {0, 0}};
+    *result = (lrcsi_pair_result){{LRCSI_INTERSECTION_NONE, LRCSI_INTERSECTION_NONE}, {0, 0}};
     of_t[0] = rounded_side(f, t->x[0]);
     int flat = of_t[0] == UNSURE; /* in one plane, as it seems: then lines are likelier to tell */
     if (flat && lines_separate(f, t)) {
@@ -371,7 +370,7 @@ int lrcsi_touch_meet(const lrcsi_touch_facet *f, lrcsi_touch_facet *t, lrcsi_tou
     if (plane_separates(of_t)) {
         return 0;
     }
-    lrcsi_touch_plane(t);
+    lrcsi_pair_plane(t);
     for (int k = 0; k < 3; k++) {
         of_f[k] = rounded_side(t, f->x[k]);
     }
@@ -398,10 +397,10 @@ int lrcsi_touch_meet(const lrcsi_touch_facet *f, lrcsi_touch_facet *t, lrcsi_tou
     return result->rim[0] || result->rim[1];
 }
 
-int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
+int lrcsi_intersection_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)
 {
-    lrcsi_touch_facet f;
-    lrcsi_touch_facet t;
+    lrcsi_pair_facet f;
+    lrcsi_pair_facet t;
     for (int k = 0; k < 3; k++) {
         f.x[k] = vertex[facet.corner[k]].x;
         t.x[k] = vertex[other.corner[k]].x;
@@ -413,9 +412,9 @@ int lrcsi_touch_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet othe
             t.x[i % 3] = a;
         }
     }
-    lrcsi_touch_result result;
-    lrcsi_touch_plane(&f);
-    lrcsi_touch_meet(&f, &t, &result);
+    lrcsi_pair_result result;
+    lrcsi_pair_plane(&f);
+    lrcsi_pair_meet(&f, &t, &result);
     return result.kind[0];
 }
 
@@ -435,7 +434,7 @@ static int is_inside_segment(const double *a, const double *b, const double *p)
 }
 
 /* Does a corner of t lie inside a side of f? */
-static int touches_side(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t)
+static int touches_side(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
 {
     for (int i = 0; i < 3; i++) {
         if (is_corner_of(f, t->x[i])) {
@@ -450,7 +449,7 @@ static int touches_side(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t)
     return 0;
 }
 
-int lrcsi_touch_on_side(const lrcsi_touch_facet *f, const lrcsi_touch_facet *t)
+int lrcsi_pair_on_side(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
 {
     return touches_side(f, t) || touches_side(t, f);
 }

@@ -146,11 +146,11 @@ int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, 
     return *worn == LRCS_NONE ? LRCS_E_NAME : LRCS_OK;
 }
 
-/* Puts on a BRDF; a two_sided below 0 keeps what is there. */
-static void dress(lrcs_material *material, const lrcs_brdf *brdf, int two_sided)
+/* Puts on a BRDF; a two_sided below 0 keeps what is there. Assumed numbers bind nothing. */
+static void dress(lrcs_material *material, const lrcs_brdf *brdf, int two_sided, int assumed)
 {
     material->brdf = *brdf;
-    material->bound = 1;
+    material->bound = !assumed;
     if (two_sided >= 0) {
         material->two_sided = two_sided != 0;
     }
@@ -161,7 +161,7 @@ static void override_named(const lrcsi_binder *binder, const char *name, lrcs_ma
 {
     const lrcs_binding *binding = name ? find_named(binder, LRCS_BIND_NAME, name) : NULL;
     if (binding) {
-        dress(material, &binding->brdf, binding->two_sided);
+        dress(material, &binding->brdf, binding->two_sided, 0);
     }
 }
 
@@ -171,11 +171,12 @@ static void wear(const lrcsi_binder *binder, uint32_t worn, lrcs_material *mater
     const char *name;
     if (worn < recipe->material_count) {
         name = recipe->material[worn].name;
-        dress(material, &recipe->material[worn].brdf, recipe->material[worn].two_sided);
+        dress(material, &recipe->material[worn].brdf, recipe->material[worn].two_sided,
+              recipe->material[worn].assumed);
     } else {
         const lrcs_brdf_entry *entry = lrcs_brdf_library(worn - recipe->material_count);
         name = entry->name;
-        dress(material, &entry->brdf, -1);
+        dress(material, &entry->brdf, -1, 0);
     }
     override_named(binder, name, material);
     material->name = material->name ? material->name : name;
@@ -184,7 +185,7 @@ static void wear(const lrcsi_binder *binder, uint32_t worn, lrcs_material *mater
 /* A scene file's map, or a default. */
 static void apply(const lrcsi_binder *binder, const lrcs_binding *binding, lrcs_material *material)
 {
-    dress(material, &binding->brdf, binding->two_sided);
+    dress(material, &binding->brdf, binding->two_sided, binding->assumed);
     override_named(binder, binding->material, material);
 }
 
@@ -224,7 +225,7 @@ static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
     if (map) {
         apply(binder, map, material);
     } else if (entry) {
-        dress(material, &entry->brdf, -1);
+        dress(material, &entry->brdf, -1, 0);
     } else {
         apply_default(binder, material);
     }
@@ -248,7 +249,7 @@ lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,
         !binder->recipe->keep_transparent && surface->transparency >= TRANSPARENCY_OMITTED;
     if (name || colour) {
         const lrcs_binding *binding = name ? name : colour;
-        dress(&material, &binding->brdf, binding->two_sided);
+        dress(&material, &binding->brdf, binding->two_sided, 0);
     } else if (worn != LRCS_NONE) {
         wear(binder, worn, &material);
     } else {

@@ -62,6 +62,7 @@ static const schema_row schema[] = {
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_S, NUMBER, "s", IS_NUMBER},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_M, NUMBER, "m", IS_NUMBER},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_TWO_SIDED, TRUTH, "two_sided", IS_TRUTH},
+    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_ASSUMED, TRUTH, "assumed", IS_TRUTH},
     {LRCSI_TABLE_MAP, LRCSI_KEY_NAME, TEXT, "name", IS_TEXT},
     {LRCSI_TABLE_MAP, LRCSI_KEY_COLOUR, TEXT, "colour", IS_TEXT},
     {LRCSI_TABLE_MAP, LRCSI_KEY_MATERIAL, TEXT, "material", IS_TEXT},
@@ -76,7 +77,7 @@ static const char *const table_keys[LRCSI_TABLES] = {
     "one of schema, name, unit, keep_transparent, default_material",
     part_keys,
     "one of axis, origin, angle_deg",
-    "one of name, like, A, B, s, m, two_sided",
+    "one of name, like, A, B, s, m, two_sided, assumed",
     "one of name, colour, material",
 };
 

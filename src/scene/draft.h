@@ -46,6 +46,7 @@ enum lrcsi_key {
     LRCSI_KEY_S,
     LRCSI_KEY_M,
     LRCSI_KEY_TWO_SIDED,
+    LRCSI_KEY_ASSUMED,
     LRCSI_KEY_COLOUR,
     LRCSI_KEYS
 };

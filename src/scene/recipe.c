@@ -132,11 +132,13 @@ static int finish_material(recipe_reader *reader)
 {
     const lrcsi_draft *draft = &reader->draft;
     const lrcsi_toml_event *two_sided = lrcsi_draft_find(draft, LRCSI_KEY_TWO_SIDED);
+    const lrcsi_toml_event *assumed = lrcsi_draft_find(draft, LRCSI_KEY_ASSUMED);
     lrcs_recipe_material *material = &reader->recipe.material[reader->recipe.material_count];
     memset(material, 0, sizeof *material);
     material->name = lrcsi_draft_text(draft, LRCSI_KEY_NAME);
     material->two_sided = two_sided ? two_sided->truth : -1;
     material->line = draft->header.line;
+    material->assumed = assumed ? assumed->truth : 0;
     if (!material->name || material->name[0] == '\0') {
         return lrcsi_draft_refuse(draft, LRCS_E_NAME, "name = \"...\"");
     }
@@ -296,7 +298,7 @@ static int resolve_name(const recipe_reader *reader, const lrcsi_index *names, c
         return refuse_name(reader, line, "material",
                            "the name of a [[material]] or of one of the library", name);
     }
-    *material = (lrcs_recipe_material){entry->name, entry->brdf, -1, 0};
+    *material = (lrcs_recipe_material){entry->name, entry->brdf, -1, 0, 0};
     return LRCS_OK;
 }
 
@@ -312,6 +314,7 @@ static int resolve_materials(recipe_reader *reader, const lrcsi_index *names)
         if (status == LRCS_OK) {
             binding->brdf = material.brdf;
             binding->two_sided = material.two_sided;
+            binding->assumed = material.assumed;
         }
     }
     for (uint32_t i = 0; status == LRCS_OK && i < recipe->part_count; i++) {

@@ -256,8 +256,8 @@ int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
         return order;
     }
     const lrcs_scene *scene = view->prepared->scene;
-    return lrcsi_touch_pair(view->prepared->vertex, scene->facet[first], scene->facet[second]) ==
-                   LRCSI_INTERSECTION_CROSS
+    return lrcsi_intersection_pair(view->prepared->vertex, scene->facet[first],
+                                   scene->facet[second]) == LRCSI_INTERSECTION_CROSS
                ? sample_steeper(view, first, second, sense, f.bottom, s.bottom)
                : sample_corner(view, first, second);
 }

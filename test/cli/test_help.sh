@@ -13,7 +13,7 @@ same short_help_is_the_same "$out" "$whole"
 run --version
 same version_is_one_line "$(printf '%s\n' "$out" | grep -cE '^lrcs [0-9]+\.[0-9]+\.[0-9]+$')" 1
 
-for command in run image info shape verify converge sweep merge report fit vectors compare; do
+for command in run image profile info shape verify converge sweep merge report fit vectors compare; do
     run "$command" --help
     text=$out
     same "help_of_${command}_exits_0" "$rc" 0

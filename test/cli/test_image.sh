@@ -46,12 +46,20 @@ failure a_folder_that_is_not_there "none/p.vtk" image demo --vtk none/p.vtk
 rm m.png m.svg
 same the_inputs_are_intact "$(cksum m.obj m.mtl pair.toml)" "$(cat before)"
 
+python3 - 2>/dev/null <<'END'
+cells = [(i % 10, i // 10) for i in range(70)]
+with open("many.obj", "w") as out:
+    for x, y in cells: out.write("".join("v %d %d 0\n" % (x + a, y + b) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))))
+    for i in range(70): out.write("usemtl material %02d\nf %d %d %d %d\n" % (i, 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4))
+END
 for colouring in sigma theta range facet material shaded; do
     run image pair.toml --by $colouring --size 192 -o $colouring.png --visible $colouring.svg
     same "by_${colouring}_is_drawn" "$rc" 0
 done
 run image pair.toml --azel 0,30 --by theta --size 192 -o slant.png
 run image m.obj --by material --size 192 --ground white -o coloured.png --visible coloured.svg
+run image m.obj --by shaded --size 192 --ground white -o own.png
+[ ! -s many.obj ] || run image many.obj --by material --visible many.svg
 run image m.obj --size 48 -o small.png
 same a_small_picture_has_no_legend "$rc" 0
 run run demo --azel 50,40 --tolerance 0.01 --image run.png
@@ -81,18 +89,19 @@ def viridis(t):
 def like(a, b, most=1.01):
     return all(abs(x - y) <= most for x, y in zip(a, b))
 
-png = {k: pixels(k + ".png") for k in "sigma theta range facet material shaded slant coloured small".split()}
+png = {k: pixels(k + ".png") for k in "sigma theta range facet material shaded slant coloured small own".split()}
 # Plates at -0.5 and 0.5 m of the box's centre, on a scale from -0.6 to 0.6.
 check("range_of_the_low_plate", like(at(png["range"], 0.25, 0.25), viridis(1 / 12)))
 check("range_of_the_high_plate", like(at(png["range"], 0.75, 0.75), viridis(11 / 12)))
 check("head_on_theta_is_0", like(at(png["theta"], 0.25, 0.25), viridis(0)))
 check("slant_theta_is_60", like(at(png["slant"], 0.4, 0.2), viridis(60 / 90)))
 check("two_facets_have_two_colours", at(png["facet"], 0.3, 0.1) != at(png["facet"], 0.1, 0.3))
+check("shaded_surfaces_have_the_models_own_colours", at(png["own"], 0.3, 0.5) == (255, 0, 0) and at(png["own"], 0.7, 0.5) == (0, 51, 153))
 check("a_plain_plate_head_on_is_lit", like(at(png["shaded"], 0.25, 0.25), (200, 200, 200)))
-check("materials_have_their_colours", at(png["coloured"], 0.3, 0.5, 192 - 12 - 66) == (255, 0, 0) and
-      at(png["coloured"], 0.7, 0.5, 192 - 12 - 66) == (0, 51, 153))
+check("materials_have_false_colours", at(png["coloured"], 0.3, 0.5, 192 - 12 - 66) == (0xe6, 0x9f, 0) and
+      at(png["coloured"], 0.7, 0.5, 192 - 12 - 66) == (0x56, 0xb4, 0xe9))
 check("white_ground_is_white", png["coloured"][0][0] == (255, 255, 255))
-check("the_legend_names_colours", sum(row.count((0, 51, 153)) for row in png["coloured"][192 - 66:]) >= 100)
+check("the_legend_names_colours", sum(row.count((0x56, 0xb4, 0xe9)) for row in png["coloured"][192 - 66:]) >= 100)
 check("small_pictures_are_drawing", len(png["small"]) == 48 and png["small"][24][24] != png["small"][0][0])
 
 NS = "{http://www.w3.org/2000/svg}"
@@ -116,8 +125,14 @@ for colouring in "sigma theta range facet material shaded".split():
     bar = next(w for w in words if re.fullmatch(r"[0-9.]+ m", w))
     ends = [[float(s.split(",")[0]) for s in e.get("points").split()] for e in root.iter(NS + "polyline")]
     check(colouring + "_svg_bar_has_its_length", any(abs(abs(p[0] - p[-1]) - float(bar[:-2]) * matrix[0]) < 0.02 for p in ends))
+root, group, matrix, areas = svg("many.svg")
+fills = [p.get("fill") for p in group.iter(NS + "path")]
+check("sixty_four_materials_have_colours_of_their_own", len(set(fills[:128])) == 64, len(set(fills[:128])))
+names = [t.text for t in root.iter(NS + "text")]
+listed = [n for n in names if re.match("material ", n or "")]
+check("the_legend_says_how_many_more", "and %d more" % (70 - len(listed)) in names and len(listed) >= 20, names)
 root, group, matrix, areas = svg("coloured.svg")
-check("svg_has_the_colours_of_materials", [p.get("fill") for p in group.iter(NS + "path")] == ["#ff0000"] * 2 + ["#003399"] * 2)
+check("svg_has_the_colours_of_materials", [p.get("fill") for p in group.iter(NS + "path")] == ["#e69f00"] * 2 + ["#56b4e9"] * 2)
 check("svg_names_materials", {"red", "sea"} <= {t.text for t in root.iter(NS + "text")})
 
 table = list(csv.DictReader(open("demo.csv")))

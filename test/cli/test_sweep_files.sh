@@ -239,7 +239,7 @@ failure a_shard_missing "row 28 of 50 is in none of the files" merge part.[1-4].
 failure a_shard_twice "part.2.csv: holds rows that another file holds" merge part.*.csv ./part.2.csv -o x.csv
 failure a_shard_of_another_sweep "half.1.csv: is of another sweep" merge part.1.csv half.1.csv -o x.csv
 failure a_shard_of_another_form "part.2.jsonl: is of another sweep" merge part.1.csv part.2.jsonl -o x.csv
-head -c 300 part.2.csv >torn.csv
+head -c 400 part.2.csv >torn.csv
 failure a_torn_shard "torn.csv: ends without its checksum" merge part.1.csv torn.csv -o x.csv
 failure what_is_no_sweep "box.toml: expected rows of lrcs sweep" merge box.toml -o x.csv
 failure a_shard_that_is_not_there "none.csv: cannot open" merge none.csv -o x.csv

@@ -11,7 +11,7 @@ cut="sweep box.toml --tolerance 0.01 --az 0:90:2 --el 10"
 usage_error a_plot_is_svg_or_png "--plot: expected FILE.svg or FILE.png, found 'x.pdf'" $cut --plot x.pdf
 usage_error dbsm_wants_a_plot "--dbsm needs --plot" $cut --dbsm
 usage_error polar_wants_a_plot "--polar needs --plot" $cut --polar
-usage_error a_sphere_has_no_axis "--plot: the directions of --sphere stand on no axis" sweep box.toml --sphere 10 --plot x.svg
+usage_error a_sphere_is_a_map "--plot draws the directions of --sphere as a map" sweep box.toml --sphere 10 --plot x.svg --polar
 usage_error a_shard_is_not_whole "--plot draws whole sweeps: not with --shard" $cut --shard 1/2 --plot x.svg
 usage_error three_things_are_too_many "--plot draws one or two things that vary, found 3" \
     sweep box.toml --az 0:4:2 --el 0:4:2 --vary bus.size_x:1:2:1 --plot x.svg

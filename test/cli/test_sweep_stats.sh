@@ -21,5 +21,74 @@ for part in least:1 '5 %:25' '50 %:250' '99 %:495' most:500; do
 done
 run sweep box.toml --az 0:90:10 --stats
 same without_a_file_stdout_is_for_rows "$(printf '%s\n' "$out" | grep -c statistics) $(printf '%s\n' "$err" | grep -c '^statistics   10 rows')" "0 1"
+run sweep box.toml --az 0 --el -90:270:30 --stats
+same a_cut_is_weighed_alike "$(printf '%s\n' "$err" | grep -c 'rows, all alike: a cut stands for no solid angle')" 1
+usage_error a_statistics_file_has_a_form "--stats-file: expected FILE.json, .csv, .svg or .png, found 'x.pdf'" sweep box.toml --sphere 9 --stats-file x.pdf
+usage_error rows_and_statistics_are_two_files "name the same file" sweep box.toml --sphere 9 -o x.csv --stats-file ./x.csv
 usage_error of_a_shard_nothing_is_known "--stats is of whole sweeps" sweep box.toml --az 0:90:10 --shard 1/2 --stats
+
+# A ball returns the same everywhere; a plate returns 4 pi B cos^2 on one half of all directions, of
+# which cos is spread evenly: a share (1 + sqrt(sigma / 4 pi B)) / 2 is at most sigma.
+printf '[[part]]\nname = "ball"\nshape = "sphere"\nradius = 1\n' >sphere.toml
+printf '[[part]]\nname = "plate"\nshape = "plate"\nsize = [1, 1]\n' >plate.toml
+run sweep sphere.toml --material 1,0.25,0.2,0.5 --sphere 50 -o s.csv --stats-file s.json --stats-file s.svg
+run sweep plate.toml --material 0,0.25,0.2,0 --sphere 4000 -o p.csv --stats-file p.json --stats-file p.csv.csv
+run sweep plate.toml --azel 0,-90 --rotate z:0:90:30 --stats-file dark.svg
+same nothing_is_drawn_of_nothing "$rc $(ls dark.svg 2>/dev/null) $(printf '%s\n' "$err" | grep -c 'sigma of every row is 0')" "1  1"
+pair_scene >pair.toml
+run sweep pair.toml --az -180:180:30 --el -90:90:15 --method zbuffer --resolution 32 -o z.csv --stats-file z.json --stats-file z.csv.csv --stats-file z.png
+run sweep pair.toml --az -180:180:30 --el -90:90:15 --tolerance 1e-6 -o exact.csv
+command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
+python3 - <<'END' || not_ok the_python_ends_well
+import csv, json, math
+from tap import check
+def rows(path):
+    return [{k: float(v) for k, v in r.items() if k != "flags" and v} for r in csv.DictReader(l for l in open(path) if l[0] != "#")]
+s, p, z = (json.load(open(f + ".json")) for f in "spz")
+ball = 7.24989628827
+check("a_ball_is_the_same_everywhere", all(abs(v / ball - 1) < 1e-11 for v in
+      [s["mean_m2"]["value"], s["least"]["sigma_m2"], s["most"]["sigma_m2"]] + [q["sigma_m2"]["value"] for q in s["percentiles"]]))
+check("its_distribution_is_one_step", [c["share"]["value"] for c in s["cdf"]] == [0.0, 1.0])
+check("a_ball_lies_between_its_ends", all(q["sigma_m2"]["least"] <= ball * (1 + 1e-11) and ball * (1 - 1e-11) <= q["sigma_m2"]["most"] for q in s["percentiles"]))
+most = math.pi  # 4 pi B
+check("a_plate_has_its_mean", abs(p["mean_m2"]["value"] / (most / 6) - 1) < 1e-3)
+check("a_plate_has_its_percentiles", all(abs(q["sigma_m2"]["value"] - most * max(0, 2 * q["percent"] / 100 - 1) ** 2) < 4 * most / 4000 for q in p["percentiles"]))
+check("a_plate_has_its_distribution", len(p["cdf"]) > 5 and all(abs(c["share"]["value"] - min(1, 0.5 + 0.5 * math.sqrt(c["sigma_m2"] / most))) < 1.5 / 4000 for c in p["cdf"]))
+table = [{k: float(v) for k, v in r.items()} for r in csv.DictReader(l for l in open("p.csv.csv") if l[0] != "#")]
+check("the_table_is_the_same", [(r["to_m2"], r["cdf"], r["cdf_least"], r["cdf_most"]) for r in table] ==
+      [(c["sigma_m2"], c["share"]["value"], c["share"]["least"], c["share"]["most"]) for c in p["cdf"]])
+check("shares_add_up", abs(sum(r["share"] for r in table) - 1) < 1e-12)
+check("provenance_is_that_of_the_rows", s["schema"] == 1 and s["lrcs"] == "statistics" and "sphere.toml" in s["sweep"]["files"] and s["sweep"]["sphere"] == "50")
+# a map by solid angle, computed again from its rows
+def weight(r):
+    half = math.radians(7.5)
+    el = math.radians(r["el_deg"])
+    band = math.sin(min(el + half, math.pi / 2)) - math.sin(max(el - half, -math.pi / 2))
+    return band * (0.5 if abs(r["az_deg"]) == 180 else 1)
+data = rows("z.csv")
+whole = sum(map(weight, data))
+mean = sum(weight(r) * r["sigma_m2"] for r in data) / whole
+within = sum(weight(r) * r["bound_m2"] for r in data) / whole
+check("a_map_has_its_mean_and_bound", abs(z["mean_m2"]["value"] / mean - 1) < 1e-12 and
+      abs((z["mean_m2"]["most"] - mean) / within - 1) < 1e-9 and within > 0)
+def percentile(value, part, slack):
+    below = 0.0
+    for v, w in sorted((value(r), weight(r)) for r in data):
+        below += w
+        if below >= part * whole * (1 + slack): return v
+near = lambda a, b: abs(a - b) <= 1e-12 * abs(b)
+# where a sum of weights meets a percentage exactly, rounding decides between two neighbours
+check("a_map_has_its_percentiles", all(any(near(q["sigma_m2"]["value"], percentile(lambda r: r["sigma_m2"], q["percent"] / 100, e)) for e in (-1e-12, 1e-12)) for q in z["percentiles"]))
+check("and_their_ends", all(q["sigma_m2"]["least"] <= percentile(lambda r: max(r["sigma_m2"] - r["bound_m2"], 0), q["percent"] / 100, 1e-12) * (1 + 1e-12) and
+      q["sigma_m2"]["most"] >= percentile(lambda r: r["sigma_m2"] + r["bound_m2"], q["percent"] / 100, -1e-12) * (1 - 1e-12) for q in z["percentiles"]))
+# the truth of the same rows lies between the ends
+truth = {(r["az_deg"], r["el_deg"]): r for r in rows("exact.csv")}
+data = [dict(truth[r["az_deg"], r["el_deg"]]) for r in data]
+check("the_truth_lies_between_the_ends", all(q["sigma_m2"]["least"] <= percentile(lambda r: r["sigma_m2"], q["percent"] / 100, 1e-12) * (1 + 2e-6) and
+      percentile(lambda r: r["sigma_m2"], q["percent"] / 100, -1e-12) * (1 - 2e-6) <= q["sigma_m2"]["most"] for q in z["percentiles"]))
+mean = sum(weight(r) * r["sigma_m2"] for r in data) / whole
+check("the_true_mean_too", z["mean_m2"]["least"] <= mean * (1 + 1e-6) and mean * (1 - 1e-6) <= z["mean_m2"]["most"] and z["mean_m2"]["most"] > z["mean_m2"]["least"])
+share = lambda x, e: sum(weight(r) for r in data if r["sigma_m2"] <= x * (1 + e)) / whole
+check("true_shares_too", all(c["share"]["least"] - 1e-12 <= share(c["sigma_m2"], 2e-6) and share(c["sigma_m2"], -2e-6) <= c["share"]["most"] + 1e-12 for c in z["cdf"]))
+END
 finish

@@ -48,7 +48,7 @@ done
 # ---- ignored input ----
 printf '[[part]]\nname = "p"\nfile = "plate.obj"\nunit = "m"\n[[map]]\nname = "skin"\nmaterial = "paint-white"\n[[map]]\nname = "skins"\nmaterial = "paint-white"\n[[map]]\ncolour = "#102030"\nmaterial = "paint-white"\n' >map.toml
 run run map.toml
-same maps_that_match_nothing_are_told "$(printf '%s\n' "$err" | grep '\[\[map\]\]' | tr '\n' ' ')" 'notice: [[map]] name = "skins": no material of a model has that name notice: [[map]] colour = "#102030": no material of a model has that colour '
+same maps_that_match_nothing_are_told "$(printf '%s\n' "$err" | grep '\[\[map\]\]' | tr '\n' ' ')" "notice: [[map]] name = \"skins\": no material of a model has that name; the nearest is 'skin' notice: [[map]] colour = \"#102030\": no material of a model has that colour "
 
 # ---- back sides ----
 # A plate of 2 m2 from behind at cos = 0.8, B = 0.5, m = 1: 4 pi 0.5 0.8 0.8 (2 0.8) = 6.43398175455.

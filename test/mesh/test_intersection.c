@@ -43,8 +43,8 @@ static void check_kinds(const lrcs_point *v, const pair_case *c)
         uint32_t i = turn % 3;
         uint32_t j = turn < 3 ? (i + 1) % 3 : (i + 2) % 3; /* both windings */
         const lrcs_facet b = {{3 + i, 3 + j, 3 + (3 - i - j)}};
-        assert_int_equal(lrcsi_touch_pair(v, first_three, b), c->b_in_a);
-        assert_int_equal(lrcsi_touch_pair(v, b, first_three), c->a_in_b);
+        assert_int_equal(lrcsi_intersection_pair(v, first_three, b), c->b_in_a);
+        assert_int_equal(lrcsi_intersection_pair(v, b, first_three), c->a_in_b);
     }
 }
 
@@ -142,7 +142,7 @@ static void check_facet(uint32_t f, uint32_t facets, const unsigned char *skip,
         }
         contacts_facet other = contacts_facet_make(vertex, &facet[g]);
         int kind = contacts_kind(&own, &other);
-        assert_int_equal(lrcsi_touch_pair(vertex, facet[f], facet[g]), kind);
+        assert_int_equal(lrcsi_intersection_pair(vertex, facet[f], facet[g]), kind);
         rim |= kind != LRCSI_INTERSECTION_NONE || contacts_rim(&own, &other);
         *self |= piece[f] == piece[g] &&
                  (kind != LRCSI_INTERSECTION_NONE || contacts_on_side(&own, &other));
@@ -291,8 +291,8 @@ static void a_strut_touches_the_plate_and_not_the_other_way(void **state)
     (void)state;
     const lrcs_point v[6] = {{{0, 0, 0}}, {{9, 0, 0}}, {{0, 9, 0}},
                              {{2, 2, 0}}, {{3, 2, 0}}, {{2, 2, 5}}};
-    assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_INTERSECTION_CROSS);
-    assert_int_equal(lrcsi_touch_pair(v, last_three, first_three), LRCSI_INTERSECTION_NONE);
+    assert_int_equal(lrcsi_intersection_pair(v, first_three, last_three), LRCSI_INTERSECTION_CROSS);
+    assert_int_equal(lrcsi_intersection_pair(v, last_three, first_three), LRCSI_INTERSECTION_NONE);
 }
 
 static void a_plate_one_ulp_above_another_does_not_touch(void **state)
@@ -300,12 +300,14 @@ static void a_plate_one_ulp_above_another_does_not_touch(void **state)
     (void)state;
     lrcs_point v[6] = {{{0, 0, 0.1}}, {{9, 0, 0.1}}, {{0, 9, 0.1}},
                        {{1, 1, 0.1}}, {{3, 1, 0.1}}, {{1, 3, 0.1}}};
-    assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_INTERSECTION_COPLANAR);
-    assert_int_equal(lrcsi_touch_pair(v, last_three, first_three), LRCSI_INTERSECTION_COPLANAR);
+    assert_int_equal(lrcsi_intersection_pair(v, first_three, last_three),
+                     LRCSI_INTERSECTION_COPLANAR);
+    assert_int_equal(lrcsi_intersection_pair(v, last_three, first_three),
+                     LRCSI_INTERSECTION_COPLANAR);
     v[3].x[2] = nextafter(0.1, 1.0);
-    assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_INTERSECTION_CROSS);
+    assert_int_equal(lrcsi_intersection_pair(v, first_three, last_three), LRCSI_INTERSECTION_CROSS);
     v[4].x[2] = v[5].x[2] = nextafter(0.1, 1.0);
-    assert_int_equal(lrcsi_touch_pair(v, first_three, last_three), LRCSI_INTERSECTION_NONE);
+    assert_int_equal(lrcsi_intersection_pair(v, first_three, last_three), LRCSI_INTERSECTION_NONE);
 }
 
 static void folded_neighbours_in_one_plane_touch(void **state)
@@ -315,8 +317,8 @@ static void folded_neighbours_in_one_plane_touch(void **state)
     const lrcs_facet a = {{0, 1, 2}};
     const lrcs_facet b = {{1, 0, 3}};
     const lrcs_facet c = {{0, 2, 1}};
-    assert_int_equal(lrcsi_touch_pair(v, a, b), LRCSI_INTERSECTION_COPLANAR);
-    assert_int_equal(lrcsi_touch_pair(v, a, c), LRCSI_INTERSECTION_COPLANAR);
+    assert_int_equal(lrcsi_intersection_pair(v, a, b), LRCSI_INTERSECTION_COPLANAR);
+    assert_int_equal(lrcsi_intersection_pair(v, a, c), LRCSI_INTERSECTION_COPLANAR);
 }
 
 /* Sides that lie along part of another's, in another plane; not that which both have, nor one that

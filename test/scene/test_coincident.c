@@ -352,7 +352,7 @@ static void twins_have_the_contacts_of_both_sides(void **state)
                 }
                 int live = p->redundant[f] != LRCSI_REDUNDANT && p->redundant[g] != LRCSI_REDUNDANT;
                 int want = g != f && live && !(p->twin && p->twin[f] == g) &&
-                           lrcsi_touch_pair(p->vertex, scene.facet[f], scene.facet[g]) !=
+                           lrcsi_intersection_pair(p->vertex, scene.facet[f], scene.facet[g]) !=
                                LRCSI_INTERSECTION_NONE;
                 assert_int_equal(listed, want);
                 met += listed;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static double facet_area(const lrcs_scene *scene, uint32_t facet)
+double cli_facet_area(const lrcs_scene *scene, uint32_t facet)
 {
     const uint32_t *corner = scene->facet[facet].corner;
     const double *a = scene->vertex[corner[0]].x;
@@ -32,7 +32,7 @@ static int materials_count(cli_info *info)
     for (uint32_t i = 0; i < scene->facet_count; i++) {
         info_material *material = &info->material[scene->facet_material[i]];
         material->facets++;
-        cli_sum_add(&material->area, facet_area(scene, i));
+        cli_sum_add(&material->area, cli_facet_area(scene, i));
     }
     return 0;
 }

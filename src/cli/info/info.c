@@ -148,8 +148,10 @@ static void table_materials(const cli_info *info)
         printf(" %-8s %9lu %12.6g  %g,%g,%g,%g%s%s%s\n", colour,
                (unsigned long)info->material[i].facets, cli_sum_value(&info->material[i].area),
                material->brdf.A, material->brdf.B, material->brdf.s, material->brdf.m,
-               material->bound ? "" : "  (unbound)", material->two_sided ? "  two-sided" : "",
-               material->omitted ? "  left out" : "");
+               material->bound                                    ? ""
+               : strcmp(cli_material_source(material), "default") ? "  (assumed)"
+                                                                  : "  (unbound)",
+               material->two_sided ? "  two-sided" : "", material->omitted ? "  left out" : "");
     }
 }
 

@@ -40,6 +40,9 @@ void cli_info_free(cli_info *info);
 int cli_coarse_glint(const lrcs_host_scene *base, const lrcs_build_options *build,
                      lrcs_host_glint **list, uint32_t *count);
 
+/* The area of a facet, m2. */
+double cli_facet_area(const lrcs_scene *scene, uint32_t facet);
+
 /* Whether a material is worth a line: the default is not when nothing wears it. */
 int cli_info_shows(const cli_info *info, uint32_t material);
 

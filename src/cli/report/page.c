@@ -105,7 +105,7 @@ static void page_pictures(FILE *out, const report_job *job)
     cli_page_figure_end(out);
     cli_page_picture(out, job->picture[REPORT_BY_MATERIAL],
                      "What the laser sees, coloured by material");
-    fputs("The same by material, in the model\xe2\x80\x99s own colours where it has any.", out);
+    fputs("The same by material, in false colours.", out);
     cli_page_figure_end(out);
     fputs("</div>\n", out);
 }

@@ -20,6 +20,9 @@ static const char report_help[] =
     "  -o FILE.html          the page ('-': standard output)\n"
     "\n"
     "options\n"
+    "  --explore             the page is interactive instead: the body turns, and a map says what\n"
+    "                        sigma is there; it holds its script, and loads nothing. Above 20000\n"
+    "                        facets the body is drawn reduced\n"
     "  --seconds S           time for cuts, map and comparison, about (40): it decides\n"
     "                        their steps and is exceeded where a pose takes seconds\n"
     "  --cut-step DEG        of the cuts, a divisor of 90, in place of what time allows\n"
@@ -40,7 +43,7 @@ static const char report_help[] =
 static const cli_option report_options[] = {
     CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS,  {"o", CLI_FILE, 0},
     {"seconds", 1, 0}, {"cut-step", 1, 0},   {"map-step", 1, 0}, {"jobs", 1, 0},
-    {"help", 0, 0},    {NULL, 0, 0}};
+    {"explore", 0, 0}, {"help", 0, 0},       {NULL, 0, 0}};
 
 #define REPORT_SECONDS   40.0
 #define REPORT_COMPARE   0.25 /* of the time is for the comparison */
@@ -81,6 +84,9 @@ static int time_read(report_job *job)
     if (code == 0 && !(job->seconds > 0.0)) {
         return cli_usage(args->command, "--seconds: expected a time > 0, found '%s'",
                          cli_value(args, "seconds"));
+    }
+    if (code == 0 && cli_value(args, "explore") && cli_value(args, "cut-step")) {
+        return cli_usage(args->command, "--cut-step: there are no cuts with --explore");
     }
     code = code ? code : step_read(args, "cut-step", &job->cut_step);
     code = code ? code : step_read(args, "map-step", &job->map_step);
@@ -152,6 +158,18 @@ static int report_measure(report_job *job)
     return code ? code : report_compare(job);
 }
 
+static int explore_measure(report_job *job)
+{
+    const cli_output file = {"o", job->path};
+    lrcs_host_error error;
+    int code = cli_scene_read(job->args, &job->load, &job->scene);
+    code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->scene);
+    if (code == 0 && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
+        code = cli_failed(&error);
+    }
+    return code ? code : cli_report_map(job);
+}
+
 static void report_free(report_job *job)
 {
     for (int i = 0; i < REPORT_SWEEPS; i++) {
@@ -186,8 +204,11 @@ static int report_command(const cli_args *args)
     }
     job->args = args;
     int code = report_read(job);
-    code = code ? code : report_measure(job);
-    code = code ? code : cli_output_write(job->path, cli_report_page, job);
+    int explore = cli_value(args, "explore") != NULL;
+    code = code ? code : explore ? explore_measure(job) : report_measure(job);
+    code = code ? code
+                : cli_output_write(job->path, explore ? cli_report_explore_page : cli_report_page,
+                                   job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
         code = cli_accuracy_code(args, &job->options, job->result.flags);

@@ -70,6 +70,9 @@ int cli_report_run(report_job *job);
 /* The sweeps, their drawings and peaks. */
 int cli_report_sweeps(report_job *job);
 
+/* The map alone, in all of the time, of a scene that is prepared. */
+int cli_report_map(report_job *job);
+
 /* Writes into memory: begin, write to the stream, end. NULL and -1 without memory. */
 FILE *cli_report_bytes_begin(report_bytes *bytes);
 int cli_report_bytes_end(FILE *out);
@@ -78,6 +81,9 @@ int cli_report_bytes_end(FILE *out);
 
 /* All of it: a cli_writer. */
 cli_writer cli_report_page;
+
+/* The interactive page: a cli_writer. */
+cli_writer cli_report_explore_page;
 
 /* Its style sheet. */
 void cli_report_style(FILE *out);

@@ -16,14 +16,20 @@
 
 static const struct {
     uint32_t cut, map; /* deg */
-} sweep_steps[] = {{1, 5}, {2, 10}, {3, 15}, {5, 15}, {5, 18}, {10, 18}, {15, 30}, {30, 30}};
+} sweep_steps[] = {{1, 1},  {1, 2},  {1, 3},   {1, 5},   {2, 10}, {3, 15},
+                   {5, 15}, {5, 18}, {10, 18}, {15, 30}, {30, 30}};
 
 #define SWEEP_STEPS (sizeof sweep_steps / sizeof sweep_steps[0])
 
 /* Directions that differ. */
+static double map_poses(uint32_t map)
+{
+    return (360.0 / map) * (180.0 / map - 1.0) + 2.0;
+}
+
 static double steps_poses(uint32_t cut, uint32_t map)
 {
-    return 3.0 * (360.0 / cut) + (360.0 / map) * (180.0 / map - 1.0) + 2.0;
+    return 3.0 * (360.0 / cut) + map_poses(map);
 }
 
 /* The time of a processor that a pose takes in the scene of the sweeps: of the second run, since
@@ -43,17 +49,25 @@ static int pose_measure(report_job *job, const lrcs_host_scene *scene, double *s
     return 0;
 }
 
-static int steps_choose(report_job *job, const lrcs_host_scene *scene)
+/* How many poses a time is enough for, about. */
+static int poses_count(report_job *job, const lrcs_host_scene *scene, double time, double *poses)
 {
     double seconds = 0.0;
+    int code = pose_measure(job, scene, &seconds);
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    double threads = job->threads > 0 ? job->threads : processors > 0 ? (double)processors : 1.0;
+    *poses = time * threads / fmax(seconds, 1e-6);
+    return code;
+}
+
+static int steps_choose(report_job *job, const lrcs_host_scene *scene)
+{
+    double poses = 0.0;
     size_t i = 0;
     if (job->cut_step > 0 && job->map_step > 0) {
         return 0;
     }
-    int code = pose_measure(job, scene, &seconds);
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    double threads = job->threads > 0 ? job->threads : processors > 0 ? (double)processors : 1.0;
-    double poses = SWEEP_PART * job->seconds * threads / fmax(seconds, 1e-6);
+    int code = poses_count(job, scene, SWEEP_PART * job->seconds, &poses);
     while (i + 1 < SWEEP_STEPS && steps_poses(sweep_steps[i].cut, sweep_steps[i].map) > poses) {
         i++;
     }
@@ -97,8 +111,9 @@ static void words_make(const report_job *job, int kind, report_sweep *sweep)
 static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
 {
     words_make(job, kind, sweep);
-    int code = cli_plan_read(&sweep->args, &sweep->plan);
+    int code = cli_plan_read(&sweep->args, NULL, &sweep->plan);
     code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
+    sweep->plot.title = cli_base_name(job->args->operand);
     sweep->plot.open = cli_materials_open(&job->scene.scene);
     sweep->plot.map = kind == REPORT_MAP; /* however few rows it has */
     return code;
@@ -202,7 +217,7 @@ static int sweep_draw(report_sweep *sweep)
     if (!out) {
         return CLI_FAILED;
     }
-    int code = cli_plot_svg(out, &sweep->args, &sweep->plot, &sweep->plan);
+    int code = cli_plot_svg(out, &sweep->plot);
     int ended = cli_report_bytes_end(out);
     return code ? code : ended;
 }
@@ -235,6 +250,28 @@ static int peaks_run(report_job *job, lrcs_host_scene *scene)
         code = cli_row_shares(&map->plan, job->peak[i], scene, &job->sweep_options,
                               &job->sweep_load.build, &job->peak_shares[i]);
     }
+    return code;
+}
+
+int cli_report_map(report_job *job)
+{
+    static const uint32_t steps[] = {1, 2, 3, 5, 6, 9, 10, 15, 18, 30};
+    lrcs_host_scene *scene = NULL;
+    double poses = 0.0;
+    int code = scene_choose(job, &scene);
+    if (code == 0 && job->map_step == 0) {
+        size_t i = 0;
+        code = poses_count(job, scene, job->seconds, &poses);
+        while (i + 1 < sizeof steps / sizeof steps[0] && map_poses(steps[i]) > poses) {
+            i++;
+        }
+        job->map_step = steps[i];
+    }
+    sweep_progress progress = cli_progress_make(0, code ? 0 : (uint64_t)map_poses(job->map_step));
+    sweep_walk walk = {.progress = &progress, .sweep = &job->sweep[REPORT_MAP]};
+    code = code ? code : sweep_plan_make(job, REPORT_MAP, walk.sweep);
+    code = code ? code : sweep_run(job, scene, &walk);
+    cli_progress_clear(&progress);
     return code;
 }
 

@@ -113,15 +113,15 @@ static double double_at(const unsigned char *bytes)
 
 /* The last line of a head: counts of rows that no map tells. 0, or -1 where it is none, or not that
    of these bytes. */
-static int map_tally_read(const lrcs_host_file *head, size_t begin, const lrcs_host_file *map,
-                          sweep_tally *tally)
+static int map_tally_read(sweep_map *map)
 {
     static const char *const key[] = {"; missed=", "; starved=", "; estimated=", "; unjudged="};
+    sweep_tally *tally = &map->tally;
     uint64_t *count[] = {&tally->missed, &tally->starved, &tally->estimated, &tally->unjudged};
     char line[200] = "";
     char expected[200] = "";
-    size_t size = head->size - begin;
-    memcpy(line, head->bytes + begin, size < sizeof line ? size : 0);
+    size_t size = (size_t)(map->text.end - map->text.at);
+    memcpy(line, map->text.at, size < sizeof line ? size : 0);
     for (int i = 0; i < 4; i++) {
         const char *at = strstr(line, key[i]);
         *count[i] = at ? strtoull(at + strlen(key[i]), NULL, 10) : 0;
@@ -130,45 +130,65 @@ static int map_tally_read(const lrcs_host_file *head, size_t begin, const lrcs_h
     if (!out) {
         return -1;
     }
-    map_sum(out, map, tally);
+    map_sum(out, &map->file, tally);
     fclose(out);
     return strcmp(line, expected) == 0 ? 0 : -1;
+}
+
+int cli_map_open(const char *path, sweep_map *map)
+{
+    char beside[4096];
+    memset(map, 0, sizeof *map);
+    if ((size_t)snprintf(beside, sizeof beside, "%s" MAP_HEAD, path) >= sizeof beside ||
+        lrcs_host_file_read(beside, &map->beside, NULL) != LRCS_OK ||
+        lrcs_host_file_read(path, &map->file, NULL) != LRCS_OK ||
+        cli_text_open((const char *)map->beside.bytes, map->beside.size, &map->text) != 0 ||
+        map_tally_read(map) != 0) {
+        return -1;
+    }
+    const lrcs_host_file *file = &map->file;
+    size_t skip = file->size > 10 ? 10u + file->bytes[8] + 256u * file->bytes[9] : file->size;
+    size_t room = file->size > skip ? (file->size - skip) / map->text.rows : 0;
+    map->value = file->bytes + skip;
+    map->numbers = (uint32_t)(room / 8);
+    return room == 16 || room == 24 ? 0 : -1;
+}
+
+void cli_map_row(const sweep_map *map, uint64_t index, sweep_row *row)
+{
+    const unsigned char *at = map->value + index * 8 * map->numbers;
+    *row = (sweep_row){.index = index, .sigma_m2 = double_at(at), .bound_m2 = double_at(at + 8)};
+}
+
+void cli_map_close(sweep_map *map)
+{
+    lrcs_host_file_free(&map->file);
+    lrcs_host_file_free(&map->beside);
 }
 
 int cli_map_recover(sweep_file *file, const sweep_plan *plan, const char *const head[2],
                     const size_t head_size[2])
 {
-    lrcs_host_file map = {NULL, 0};
-    lrcs_host_file beside = {NULL, 0};
-    sweep_tally tally = {0};
-    char path[4096];
-    int same = -1;
-    if ((size_t)snprintf(path, sizeof path, "%s" MAP_HEAD, file->path) >= sizeof path ||
-        lrcs_host_file_read(path, &beside, NULL) != LRCS_OK ||
-        lrcs_host_file_read(file->path, &map, NULL) != LRCS_OK) {
-        lrcs_host_file_free(&beside);
-        return -1;
-    }
-    for (int i = 0; i < 2 && same != 0; i++) { /* a merged map's rows were either */
-        same = beside.size > head_size[i] && memcmp(beside.bytes, head[i], head_size[i]) == 0
-                   ? map_tally_read(&beside, head_size[i], &map, &tally)
+    sweep_map map;
+    int same = cli_map_open(file->path, &map);
+    if (same == 0) { /* a merged map's rows were either */
+        int format = map.text.format;
+        same = map.text.head_size == head_size[format] &&
+                       memcmp(map.text.head, head[format], head_size[format]) == 0
+                   ? 0
                    : -1;
     }
-    size_t skip = map.size > 10 ? 10u + map.bytes[8] + 256u * map.bytes[9] : map.size;
-    size_t room = map.size > skip ? (map.size - skip) / plan->rows : 0;
-    same = room == 16 || room == 24 ? same : -1;
     for (uint64_t i = 0; same == 0 && i < plan->rows; i++) {
-        const unsigned char *at = map.bytes + skip + i * room;
-        sweep_row row = {.index = i, .sigma_m2 = double_at(at), .bound_m2 = double_at(at + 8)};
+        sweep_row row;
+        cli_map_row(&map, i, &row);
         cli_file_take(file, &row);
     }
     if (same == 0) {
-        file->tally.missed = tally.missed;
-        file->tally.starved = tally.starved;
-        file->tally.estimated = tally.estimated;
-        file->tally.unjudged = tally.unjudged;
+        file->tally.missed = map.tally.missed;
+        file->tally.starved = map.tally.starved;
+        file->tally.estimated = map.tally.estimated;
+        file->tally.unjudged = map.tally.unjudged;
     }
-    lrcs_host_file_free(&map);
-    lrcs_host_file_free(&beside);
+    cli_map_close(&map);
     return same;
 }

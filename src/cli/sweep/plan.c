@@ -149,10 +149,16 @@ static int track_poses(const cli_args *args, sweep_plan *plan)
     return code;
 }
 
-static int poses_read(const cli_args *args, sweep_plan *plan)
+static int poses_read(const cli_args *args, const sweep_track *track, sweep_plan *plan)
 {
     plan->poses = 1;
     plan->base = lrcs_pose_default();
+    if (track) {
+        plan->kind = SWEEP_TRACK;
+        plan->track = *track;
+        plan->poses = track->count;
+        return 0;
+    }
     if (cli_value(args, "az") || cli_value(args, "el")) {
         return azel_axes(args, plan);
     }
@@ -233,12 +239,12 @@ static int shard_read(const cli_args *args, sweep_plan *plan)
     return 0;
 }
 
-int cli_plan_read(const cli_args *args, sweep_plan *plan)
+int cli_plan_read(const cli_args *args, const sweep_track *track, sweep_plan *plan)
 {
     memset(plan, 0, sizeof *plan);
     int code = ways_check(args);
     code = code ? code : cli_scene_axes_read(args, plan);
-    code = code ? code : poses_read(args, plan);
+    code = code ? code : poses_read(args, track, plan);
     code = code ? code : rows_count(args, plan);
     code = code ? code : shard_read(args, plan);
     columns_name(plan);

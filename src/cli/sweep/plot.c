@@ -7,10 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PLOT_CURVES 7u   /* more values than that, both ways, make a map */
-#define PLOT_MARKS  40u  /* fewer points are marked */
-#define PLOT_DEEP   60.0 /* dB that a map's colours span at most */
-#define PLOT_ROWS   ((uint64_t)1 << 28)
+#define PLOT_MARKS 40u  /* fewer points are marked */
+#define PLOT_DEEP  60.0 /* dB that a map's colours span at most */
+#define PLOT_ROWS  ((uint64_t)1 << 28)
 
 /* ---- words ---- */
 
@@ -105,7 +104,49 @@ static void plot_choose(const plot_axis *axis, uint32_t count, sweep_plot *plot)
         plot->x = axis[1];
         plot->y = axis[0];
     }
-    plot->map = plot->y.count > PLOT_CURVES && !plot->polar;
+    if (plot->mollweide && count == 2 && strcmp(plot->x.name, "az_deg") != 0) {
+        plot_axis el = plot->x;
+        plot->x = plot->y;
+        plot->y = el;
+        plot->swapped = !plot->swapped;
+    }
+    plot->map = plot->mollweide || (plot->y.count > PLOT_CURVES && !plot->polar);
+}
+
+/* Directions all around, with a step that three of make the distance between them: a map over
+   azimuth and elevation. */
+static void sphere_choose(const sweep_plan *plan, sweep_plot *plot)
+{
+    static const uint32_t step[] = {1, 2, 3, 5};
+    double apart = CLI_DEGREES * sqrt(4.0 * (180.0 / CLI_DEGREES) / (double)plan->rows);
+    uint32_t i = 0;
+    while (i < 3 && 3.0 * step[i + 1] <= apart) {
+        i++;
+    }
+    plot->x = (plot_axis){0, 360 / step[i] + 1, "az_deg"};
+    plot->y = (plot_axis){0, 180 / step[i] + 1, "el_deg"};
+    plot->map = 1;
+}
+
+/* Azimuth of at most a turn, elevation from pole to pole at most. */
+static int mollweide_fits(const sweep_plan *plan, const sweep_plot *plot)
+{
+    static const double most[2] = {360.0, 90.0};
+    for (int k = 0; k < 2 && plan->kind != SWEEP_SPHERE; k++) {
+        const plot_axis *axis = k == 0 ? &plot->x : &plot->y;
+        if (plan->kind != SWEEP_AZEL || axis->count < 2 || axis->column >= plan->axes ||
+            strcmp(axis->name, k == 0 ? "az_deg" : "el_deg") != 0) {
+            return 0;
+        }
+        const sweep_range *range = &plan->axis[axis->column].range;
+        double first = cli_range_at(range, 0);
+        double last = cli_range_at(range, range->count - 1);
+        if (!(k == 0 ? fabs(last - first) <= most[0]
+                     : fabs(first) <= most[1] && fabs(last) <= most[1])) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 /* Can it be drawn about a pole, or as a map, if it is to be? */
@@ -122,6 +163,11 @@ static int kind_check(const cli_args *args, const sweep_plan *plan, const sweep_
     if (plot->map && !track_ascends(plan)) {
         return cli_usage(args->command, "--plot: a map wants poses whose time ascends");
     }
+    if (plot->mollweide && !mollweide_fits(plan, plot)) {
+        return cli_usage(args->command,
+                         "--projection mollweide draws a map over azimuth and elevation, of at "
+                         "most a turn and within -90 .. 90 deg, or --sphere");
+    }
     return 0;
 }
 
@@ -129,14 +175,14 @@ static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *
 {
     plot_axis axis[SWEEP_AXES + 1];
     uint32_t count = varying_list(plan, axis);
-    if (plan->kind == SWEEP_SPHERE) {
-        return cli_usage(args->command, "--plot: the directions of --sphere stand on no axis; give "
-                                        "--az and --el");
+    if (plan->kind == SWEEP_SPHERE && (count > 0 || plot->polar)) {
+        return cli_usage(args->command, "--plot draws the directions of --sphere as a map, of one "
+                                        "scene");
     }
     if (cli_value(args, "shard")) {
         return cli_usage(args->command, "--plot draws whole sweeps: not with --shard");
     }
-    if (count < 1 || count > 2) {
+    if (plan->kind != SWEEP_SPHERE && (count < 1 || count > 2)) {
         return cli_usage(args->command, "--plot draws one or two things that vary, found %lu",
                          (unsigned long)count);
     }
@@ -144,61 +190,76 @@ static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *
         return cli_usage(args->command, "--plot: at most 2^28 rows, found %llu",
                          (unsigned long long)plan->rows);
     }
-    plot_choose(axis, count, plot);
+    if (plan->kind == SWEEP_SPHERE) {
+        sphere_choose(plan, plot);
+    } else {
+        plot_choose(axis, count, plot);
+    }
     return kind_check(args, plan, plot);
 }
 
 /* ---- options ---- */
 
-static int is_plot(const cli_given *given)
+static int is_plot(const sweep_plot *plot, const cli_given *given)
 {
-    return strcmp(given->name, "plot") == 0;
+    return strcmp(given->name, plot->option) == 0;
 }
 
 int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
 {
-    *plot = (sweep_plot){.dbsm = cli_value(args, "dbsm") != NULL,
-                         .polar = cli_value(args, "polar") != NULL};
+    const char *projection = cli_value(args, "projection");
+    *plot = (sweep_plot){.option = args->command == &cli_sweep_command ? "plot" : "o",
+                         .dbsm = cli_value(args, "dbsm") != NULL,
+                         .polar = cli_value(args, "polar") != NULL,
+                         .mollweide = projection && strcmp(projection, "mollweide") == 0,
+                         .accept = cli_value(args, "accept"),
+                         .plan = plan};
+    if (projection && !plot->mollweide && strcmp(projection, "flat") != 0) {
+        return cli_usage(args->command, "--projection: expected flat or mollweide, found '%s'",
+                         projection);
+    }
+    if (plot->mollweide && plot->polar) {
+        return cli_usage(args->command, "--polar draws curves, --projection maps: give one");
+    }
     for (int i = 0; i < args->given_count; i++) {
         const char *path = args->given[i].value;
-        if (!is_plot(&args->given[i])) {
+        if (!is_plot(plot, &args->given[i])) {
             continue;
         }
         if (!cli_extension(path, ".svg") && !cli_extension(path, ".png")) {
-            return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'",
-                             path);
+            return cli_usage(args->command, "%s%s: expected FILE.svg or FILE.png, found '%s'",
+                             cli_dashes(plot->option), plot->option, path);
         }
         plot->asked = 1;
     }
-    if (!plot->asked && (plot->dbsm || plot->polar)) {
-        return cli_usage(args->command, "--%s needs --plot FILE.svg or FILE.png",
-                         plot->dbsm ? "dbsm" : "polar");
+    if (!plot->asked && (plot->dbsm || plot->polar || plot->mollweide)) {
+        return cli_usage(args->command, "--%s needs %s%s FILE.svg or FILE.png",
+                         plot->dbsm    ? "dbsm"
+                         : plot->polar ? "polar"
+                                       : "projection",
+                         cli_dashes(plot->option), plot->option);
     }
     return plot->asked ? plot_check(args, plan, plot) : 0;
 }
 
-/* One plot against what is read, the rows, and the plots given before it. */
-static int plot_spares(const cli_args *args, int index, const sweep_file *file,
-                       const lrcs_host_scene *scene)
-{
-    const cli_output plot = {"plot", args->given[index].value};
-    const cli_output rows[2] = {{"o", file->path}, plot};
-    const cli_output poses[2] = {{"poses", cli_value(args, "poses")}, plot};
-    int code = cli_outputs_spare(args->command, &plot, 1, scene);
-    code = code ? code : cli_outputs_apart(args->command, rows, 2);
-    code = code ? code : cli_outputs_apart(args->command, poses, 2);
-    for (int i = 0; i < index && code == 0; i++) {
-        const cli_output pair[2] = {{"plot", args->given[i].value}, plot};
-        code = is_plot(&args->given[i]) ? cli_outputs_apart(args->command, pair, 2) : 0;
-    }
-    return code;
-}
-
-int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_host_scene *scene)
+int cli_plot_spares(const cli_args *args, const sweep_plot *plot, const sweep_file *file,
+                    const lrcs_host_scene *scene)
 {
     int code = 0;
     for (int i = 0; i < args->given_count && code == 0; i++) {
-        code = is_plot(&args->given[i]) ? plot_spares(args, i, file, scene) : 0;
+        if (!is_plot(plot, &args->given[i])) {
+            continue;
+        }
+        const cli_output one = {plot->option, args->given[i].value};
+        const cli_output rows[2] = {{"o", file->path}, one};
+        const cli_output poses[2] = {{"poses", cli_value(args, "poses")}, one};
+        code = cli_outputs_spare(args->command, &one, 1, scene);
+        code = code ? code : cli_outputs_apart(args->command, rows, 2);
+        code = code ? code : cli_outputs_apart(args->command, poses, 2);
+        for (int k = 0; k < i && code == 0; k++) {
+            const cli_output pair[2] = {{plot->option, args->given[k].value}, one};
+            code = is_plot(plot, &args->given[k]) ? cli_outputs_apart(args->command, pair, 2) : 0;
+        }
     }
     return code;
 }
@@ -206,41 +267,79 @@ int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_hos
 /* ---- notes ---- */
 
 /* Below the title: what stayed as it was, and how well sigma is known. */
-static void plot_note(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan,
-                      char note[512])
+static void plot_note(const sweep_plot *plots, uint32_t count, char note[512])
 {
-    const char *accept = cli_value(args, "accept");
+    const sweep_plan *plan = plots->plan;
+    const char *accept = NULL;
     char bound[CLI_BOUND_SIZE];
     double worst = 0.0;
     int dark = 0;
+    int open = 0;
     int used = 0;
     note[0] = '\0';
-    for (uint32_t i = 0; i < plan->axes && used < 300; i++) {
+    for (uint32_t i = 0; i < plan->axes && used < 300 && count == 1; i++) {
         if (plan->axis[i].range.count == 1) {
             char text[192];
             value_text(plan->column[i], cli_range_at(&plan->axis[i].range, 0), text);
             used += snprintf(note + used, 512 - (size_t)used, "%s; ", text);
         }
     }
-    for (uint64_t i = 0; i < plan->rows; i++) {
-        worst = fmax(worst, plot->row[i][1]);
-        dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
+    for (uint32_t k = 0; k < count; k++) {
+        const sweep_plot *plot = &plots[k];
+        for (uint64_t i = 0; i < plot->plan->rows; i++) {
+            worst = fmax(worst, plot->row[i][1]);
+            dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
+        }
+        open |= plot->open;
+        accept = plot->accept && strcmp(plot->accept, "bound") != 0 ? plot->accept : accept;
     }
     cli_bound_text(worst, 2, bound);
     snprintf(note + used, 512 - (size_t)used,
-             "each sigma is proved to within %s m2 or better%s%s%s%s", bound,
-             plot->open ? " for its materials, which are illustrative" : "",
-             accept && strcmp(accept, "bound") != 0 ? "; accepted by " : "",
-             accept && strcmp(accept, "bound") != 0 ? accept : "",
-             !dark       ? ""
-             : plot->map ? "; grey: sigma is 0"
-                         : "; gaps: sigma is 0");
+             "each sigma is proved to within %s m2 or better%s%s%s%s%s", bound,
+             open ? " for its materials, which are illustrative" : "",
+             accept ? "; accepted by " : "", accept ? accept : "",
+             !dark        ? ""
+             : plots->map ? "; grey: sigma is 0"
+                          : "; gaps: sigma is 0",
+             plan->kind == SWEEP_SPHERE ? "; each place shows the nearest direction" : "");
 }
 
 /* ---- data ---- */
 
+/* The direction of a Fibonacci lattice nearest to an azimuth and elevation: rows descend in z, and
+   only those within a chord of 4 / sqrt(N) of its z can be nearest (the lattice leaves no gap of
+   that radius). */
+static uint64_t sphere_nearest(const sweep_plan *plan, double az, double el)
+{
+    lrcs_pose pose = lrcs_pose_default();
+    double n = (double)plan->rows;
+    double reach = 4.0 / sqrt(n);
+    uint64_t best = 0;
+    double most = -2.0;
+    lrcs_pose_from_azel(az, el, &pose);
+    double z = pose.direction[2];
+    uint64_t first = (uint64_t)fmax(0.0, floor(0.5 * n * (1.0 - z - reach)));
+    uint64_t end = (uint64_t)fmin(n, ceil(0.5 * n * (1.0 - z + reach)) + 1.0);
+    for (uint64_t i = first; i < end; i++) {
+        double direction[SWEEP_COLUMNS];
+        cli_plan_values(plan, i, direction);
+        double dot = direction[0] * pose.direction[0] + direction[1] * pose.direction[1] +
+                     direction[2] * pose.direction[2];
+        if (dot > most) {
+            most = dot;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* The row at a place along both axes. */
 static uint64_t plot_row(const sweep_plot *plot, uint64_t x, uint64_t y)
 {
+    if (plot->plan->kind == SWEEP_SPHERE) {
+        double step = 360.0 / (double)(plot->x.count - 1);
+        return sphere_nearest(plot->plan, (double)x * step - 180.0, (double)y * step - 90.0);
+    }
     return plot->swapped || plot->y.count == 1 ? y * plot->x.count + x : x * plot->y.count + y;
 }
 
@@ -251,21 +350,42 @@ static double plot_sigma(const sweep_plot *plot, uint64_t x, uint64_t y)
 }
 
 /* The value of an axis at one of its places. */
-static double axis_value(const sweep_plan *plan, const plot_axis *axis, uint64_t place)
+static double axis_value(const sweep_plot *plot, const plot_axis *axis, uint64_t place)
 {
+    const sweep_plan *plan = plot->plan;
+    if (plan->kind == SWEEP_SPHERE) {
+        double first = axis == &plot->x ? -180.0 : -90.0;
+        return first * (1.0 - 2.0 * (double)place / (double)(axis->count - 1));
+    }
     return axis->column == plan->axes ? plan->track.row[place][0]
                                       : cli_range_at(&plan->axis[axis->column].range, place);
 }
 
 /* ---- drawing ---- */
 
+/* The numbers of one sweep. */
+typedef struct plot_values {
+    double *x, *y, *z; /* values along both axes, and sigma: z[y][x]; x is allocated */
+} plot_values;
+
 typedef struct plot_sheet {
     const sweep_plot *plot;
-    const sweep_plan *plan;
-    double *x, *y, *z; /* values along both axes, and sigma: z[y][x] */
+    uint32_t count; /* of sweeps */
+    plot_values values[PLOT_CURVES];
     char title[256], note[512], x_name[192], y_name[192];
     int png;
 } plot_sheet;
+
+/* The name of a curve: of its sweep, of its value along y, or both. */
+static void curve_name(const sweep_plot *plot, double y, char name[400])
+{
+    char value[192] = "";
+    if (plot->y.count > 1) {
+        value_text(plot->y.name, y, value);
+    }
+    snprintf(name, 400, "%.200s%s%s", plot->name ? plot->name : "",
+             plot->name && value[0] ? ", " : "", value);
+}
 
 static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *error)
 {
@@ -274,18 +394,23 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *err
                                             LRCS_HOST_BLACK};
     const sweep_plot *plot = sheet->plot;
     lrcs_host_series series[PLOT_CURVES];
-    char name[PLOT_CURVES][192];
-    for (uint32_t i = 0; i < plot->y.count; i++) {
-        value_text(plot->y.name, sheet->y[i], name[i]);
-        series[i] =
-            (lrcs_host_series){.name = plot->y.count > 1 ? name[i] : NULL,
-                               .count = (uint32_t)plot->x.count,
-                               .x = sheet->x,
-                               .y = sheet->z + i * plot->x.count,
-                               .colour = colour[i],
-                               .marker = plot->x.count < PLOT_MARKS ? (int)(i % LRCS_HOST_NO_MARKER)
-                                                                    : LRCS_HOST_NO_MARKER,
-                               .dash = (int)(i % 2 ? LRCS_HOST_DASHED : LRCS_HOST_SOLID)};
+    char name[PLOT_CURVES][400];
+    uint32_t curves = 0;
+    for (uint32_t k = 0; k < sheet->count; k++) {
+        const sweep_plot *one = &sheet->plot[k];
+        const plot_values *values = &sheet->values[k];
+        for (uint32_t i = 0; i < one->y.count; i++, curves++) {
+            int marked = one->x.count < PLOT_MARKS;
+            curve_name(one, values->y[i], name[curves]);
+            series[curves] = (lrcs_host_series){
+                .name = name[curves][0] ? name[curves] : NULL,
+                .count = (uint32_t)one->x.count,
+                .x = values->x,
+                .y = values->z + i * one->x.count,
+                .colour = colour[curves],
+                .marker = marked ? (int)(curves % LRCS_HOST_NO_MARKER) : LRCS_HOST_NO_MARKER,
+                .dash = (int)(curves % 2 ? LRCS_HOST_DASHED : LRCS_HOST_SOLID)};
+        }
     }
     const lrcs_host_chart chart = {.title = sheet->title,
                                    .note = sheet->note,
@@ -295,7 +420,7 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *err
                                    .y_from_0 = !plot->dbsm,
                                    .polar = plot->polar,
                                    .series = series,
-                                   .series_count = (uint32_t)plot->y.count};
+                                   .series_count = curves};
     if (sheet->png) {
         return lrcs_host_chart_png(out, &chart, error);
     }
@@ -313,12 +438,14 @@ static int sheet_map(FILE *out, const plot_sheet *sheet, lrcs_host_error *error)
                                .z_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
                                .columns = (uint32_t)plot->x.count,
                                .rows = (uint32_t)plot->y.count,
-                               .x = sheet->x,
-                               .y = sheet->y,
-                               .z = sheet->z,
+                               .x = sheet->values->x,
+                               .y = sheet->values->y,
+                               .z = sheet->values->z,
                                .deep = plot->dbsm ? PLOT_DEEP : 0.0,
                                .x_deg = is_angle(&plot->x),
-                               .y_deg = is_angle(&plot->y)};
+                               .y_deg = is_angle(&plot->y),
+                               .mollweide = plot->mollweide,
+                               .cells = plot->plan->kind == SWEEP_SPHERE};
     if (sheet->png) {
         return lrcs_host_map_png(out, &map, error);
     }
@@ -333,75 +460,84 @@ static int sheet_write(FILE *out, const void *context, lrcs_host_error *error)
 }
 
 /* Values along both axes in ascending order, as a map needs them, and sigma with them: ranges that
-   descend are turned round. */
-static void sheet_fill(plot_sheet *sheet)
+   descend are turned round. 0 or CLI_FAILED. */
+static int values_fill(const sweep_plot *plot, plot_values *values)
 {
-    const sweep_plot *plot = sheet->plot;
     const plot_axis *along[2] = {&plot->x, &plot->y};
     int back[2];
+    uint64_t cells = plot->x.count * plot->y.count;
+    values->x = malloc((cells + plot->x.count + plot->y.count) * sizeof(double));
+    if (!values->x) {
+        return cli_out_of_memory();
+    }
+    values->y = values->x + plot->x.count;
+    values->z = values->y + plot->y.count;
     for (int k = 0; k < 2; k++) {
         uint64_t last = along[k]->count - 1;
-        double *value = k == 0 ? sheet->x : sheet->y;
-        back[k] = last > 0 &&
-                  axis_value(sheet->plan, along[k], last) < axis_value(sheet->plan, along[k], 0);
+        double *value = k == 0 ? values->x : values->y;
+        back[k] = last > 0 && axis_value(plot, along[k], last) < axis_value(plot, along[k], 0);
         for (uint64_t i = 0; i <= last; i++) {
-            value[i] = last == 0 ? 0.0 : axis_value(sheet->plan, along[k], back[k] ? last - i : i);
+            value[i] = last == 0 ? 0.0 : axis_value(plot, along[k], back[k] ? last - i : i);
         }
     }
     for (uint64_t y = 0; y < plot->y.count; y++) {
         for (uint64_t x = 0; x < plot->x.count; x++) {
-            sheet->z[y * plot->x.count + x] = plot_sigma(plot, back[0] ? plot->x.count - 1 - x : x,
-                                                         back[1] ? plot->y.count - 1 - y : y);
+            values->z[y * plot->x.count + x] = plot_sigma(plot, back[0] ? plot->x.count - 1 - x : x,
+                                                          back[1] ? plot->y.count - 1 - y : y);
         }
     }
-}
-
-/* Values and words of a drawing; x is to be freed. 0 or CLI_FAILED. */
-static int sheet_make(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan,
-                      plot_sheet *sheet)
-{
-    uint64_t room = plan->rows + plot->x.count + plot->y.count;
-    *sheet = (plot_sheet){.plot = plot, .plan = plan, .x = malloc(room * sizeof(double))};
-    if (!sheet->x) {
-        cli_out_of_memory();
-        return CLI_FAILED;
-    }
-    sheet->y = sheet->x + plot->x.count;
-    sheet->z = sheet->y + plot->y.count;
-    sheet_fill(sheet);
-    snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section of %.200s",
-             cli_base_name(args->operand));
-    plot_note(args, plot, plan, sheet->note);
-    axis_title(plot->x.name, sheet->x_name);
-    axis_title(plot->y.name, sheet->y_name);
     return 0;
 }
 
-int cli_plot_svg(FILE *out, const cli_args *args, const sweep_plot *plot, const sweep_plan *plan)
+static void sheet_free(plot_sheet *sheet)
 {
-    plot_sheet sheet;
-    int code = sheet_make(args, plot, plan, &sheet);
-    if (code == 0) {
-        sheet_write(out, &sheet, NULL);
-        free(sheet.x);
+    for (uint32_t k = 0; k < sheet->count; k++) {
+        free(sheet->values[k].x);
     }
+}
+
+/* Values and words of a drawing; freed in any case. 0 or CLI_FAILED. */
+static int sheet_make(const sweep_plot *plot, uint32_t count, plot_sheet *sheet)
+{
+    int code = 0;
+    int alike = 1;
+    memset(sheet, 0, sizeof *sheet);
+    sheet->plot = plot;
+    sheet->count = count;
+    for (uint32_t k = 0; k < count && code == 0; k++) {
+        code = values_fill(&plot[k], &sheet->values[k]);
+        alike &= strcmp(plot[k].title, plot->title) == 0;
+    }
+    snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section%s%.200s",
+             alike ? " of " : "", alike ? plot->title : "");
+    plot_note(plot, count, sheet->note);
+    axis_title(plot->x.name, sheet->x_name);
+    axis_title(plot->y.name, sheet->y_name);
     return code;
 }
 
-int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan)
+int cli_plot_svg(FILE *out, const sweep_plot *plot)
 {
     plot_sheet sheet;
-    int code = sheet_make(args, plot, plan, &sheet);
-    if (code != 0) {
-        return code;
+    int code = sheet_make(plot, 1, &sheet);
+    if (code == 0) {
+        sheet_write(out, &sheet, NULL);
     }
+    sheet_free(&sheet);
+    return code;
+}
+
+int cli_plot_write(const cli_args *args, const sweep_plot *plot, uint32_t count)
+{
+    plot_sheet sheet;
+    int code = sheet_make(plot, count, &sheet);
     for (int i = 0; i < args->given_count && code == 0; i++) {
         const char *path = args->given[i].value;
-        if (is_plot(&args->given[i])) {
+        if (is_plot(plot, &args->given[i])) {
             sheet.png = cli_extension(path, ".png");
             code = cli_output_write(path, sheet_write, &sheet);
         }
     }
-    free(sheet.x);
+    sheet_free(&sheet);
     return code;
 }

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs sweep --stats: how sigma is spread over the rows. It decides what a row weighs: in a grid of
-   azimuth and elevation the solid angle it stands for, the ends of a full turn by half; elsewhere
-   all alike. */
+/* How sigma is spread over the rows of a sweep: weights, mean, percentiles, histogram and
+   cumulative distribution. A map of azimuth and elevation weighs each row by the solid angle of its
+   cell; all other rows weigh the same (for --sphere that is the solid angle). Statistics are those
+   of the rows: how sigma varies between them is not known. How they are written is stats_write's.
+ */
 #include "cli/sweep/sweep.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct stats_row {
-    double sigma, weight;
-    uint64_t index;
-} stats_row;
+#define STATS_DEEP 100.0 /* dB that the histogram reaches below the most */
+
+const int cli_stats_percent[STATS_PERCENTS] = {1, 5, 10, 25, 50, 75, 90, 95, 99};
 
 static int by_sigma(const void *a, const void *b)
 {
@@ -21,15 +23,28 @@ static int by_sigma(const void *a, const void *b)
     return order ? order : (x->index > y->index) - (x->index < y->index);
 }
 
-/* Of a row, along one axis of azimuth or elevation. */
+/* ---- weights ---- */
+
+/* Are both azimuth and elevation varied, the latter from pole to pole at most? */
+static int is_map(const sweep_plan *plan)
+{
+    int varied = plan->kind == SWEEP_AZEL;
+    for (uint32_t i = plan->scene_axes; i < plan->axes && varied; i++) {
+        const sweep_range *range = &plan->axis[i].range;
+        varied = range->count > 1 && (plan->axis[i].option[0] == 'a' ||
+                                      (fabs(cli_range_at(range, 0)) <= 90.0 &&
+                                       fabs(cli_range_at(range, range->count - 1)) <= 90.0));
+    }
+    return varied;
+}
+
+/* The width of a cell along one axis of a map: of azimuth, the same for all but the ends of a full
+   turn, which are one direction; of elevation, the difference of sines, cut off at the poles. */
 static double axis_weight(const sweep_plan *plan, uint64_t row, uint32_t axis)
 {
     const sweep_axis *along = &plan->axis[axis];
     uint64_t place = cli_plan_place(plan, row, axis);
     uint64_t last = along->range.count - 1;
-    if (last == 0) {
-        return 1.0;
-    }
     double first = cli_range_at(&along->range, 0);
     double here = cli_range_at(&along->range, place);
     double half = 0.5 * fabs(cli_range_at(&along->range, 1) - first);
@@ -43,66 +58,160 @@ static double axis_weight(const sweep_plan *plan, uint64_t row, uint32_t axis)
 static double row_weight(const sweep_plan *plan, uint64_t row)
 {
     double weight = 1.0;
-    for (uint32_t i = plan->scene_axes; plan->kind == SWEEP_AZEL && i < plan->axes; i++) {
+    for (uint32_t i = plan->scene_axes; i < plan->axes; i++) {
         weight *= fmax(axis_weight(plan, row, i), 0.0);
     }
     return weight;
 }
 
-static void sigma_print(FILE *out, const char *label, double sigma)
+static const char *weights_text(const sweep_plan *plan, int map)
 {
-    fprintf(out, "  %-10s %.9g m2", label, sigma);
-    if (sigma > 0.0) {
-        fprintf(out, "   %.4f dBsm", cli_dbsm(sigma));
+    return map                          ? "each by the solid angle that it stands for"
+           : plan->kind == SWEEP_SPHERE ? "all alike: each stands for the same solid angle"
+           : plan->kind == SWEEP_AZEL   ? "all alike: a cut stands for no solid angle"
+                                        : "all alike";
+}
+
+/* ---- percentiles ---- */
+
+/* The first of ascending rows at which `part` of the weight is reached. `slack` of the weight is
+   left for the rounding of sums. */
+static uint64_t row_at(const stats_row *row, uint64_t rows, double part, double slack)
+{
+    double below = 0.0;
+    uint64_t at = 0;
+    while (at + 1 < rows && below + row[at].weight < part + slack) {
+        below += row[at++].weight;
+    }
+    return at;
+}
+
+/* Percentiles of sigma moved to one end of its bound: -1 below, 1 above. Sigma of every row lies
+   between its ends, and a percentile grows with every sigma, so that the percentiles of the ends
+   enclose it. Where weights are not whole numbers, two sums of n weights differ by at most 2 n u of
+   the whole, u = DBL_EPSILON / 2. */
+static void percentiles_at(sweep_stats *stats, stats_row *end, int side)
+{
+    int whole = stats->whole == (double)stats->rows; /* all weights are 1, and sums exact */
+    double slack = whole ? 0.0 : side * (double)stats->rows * DBL_EPSILON * stats->whole;
+    for (uint64_t i = 0; i < stats->rows; i++) {
+        end[i] = stats->row[i];
+        if (end[i].bound > 0.0 && side != 0) {
+            double moved = end[i].sigma + side * end[i].bound;
+            end[i].sigma = fmax(nextafter(moved, side * HUGE_VAL), 0.0);
+        }
+    }
+    qsort(end, stats->rows, sizeof *end, by_sigma);
+    for (int k = 0; k < STATS_PERCENTS; k++) {
+        stats_value *value = &stats->percentile[k];
+        double part = cli_stats_percent[k] * stats->whole / 100.0;
+        double sigma = end[row_at(end, stats->rows, part, slack)].sigma;
+        *(side < 0 ? &value->least : side > 0 ? &value->most : &value->value) = sigma;
+    }
+    double below = 0.0;
+    uint64_t at = 0;
+    for (uint32_t i = 0; i <= stats->bins; i++) {
+        stats_value *value = &stats->cdf[i];
+        for (; at < stats->rows && end[at].sigma <= stats->edge_m2[i]; at++) {
+            below += end[at].weight;
+        }
+        double share = at == stats->rows ? 1.0 : below / stats->whole;
+        share += whole || at == 0 || at == stats->rows ? 0.0 : -slack / stats->whole;
+        share = fmax(fmin(share, 1.0), 0.0);
+        *(side < 0 ? &value->most : side > 0 ? &value->least : &value->value) = share;
     }
 }
 
-static void place_print(FILE *out, const char *label, const sweep_plan *plan, const stats_row *row)
-{
-    double value[SWEEP_COLUMNS];
-    cli_plan_values(plan, row->index, value);
-    sigma_print(out, label, row->sigma);
-    for (uint32_t i = 0; i < plan->columns; i++) {
-        fprintf(out, "%s%s = %.9g", i == 0 ? " at " : ", ", plan->column[i], value[i]);
-    }
-    fputc('\n', out);
-}
+/* ---- mean ---- */
 
-int cli_stats_print(FILE *out, const sweep_plan *plan, const double (*row)[2])
+/* The weighted mean, and that of the bounds. Products and the division round by u each and the
+   compensated sums by less than 2 u, all terms being positive: 8 u of the mean is more than that,
+   and 16 u of the bound. */
+static void mean_make(sweep_stats *stats)
 {
-    static const int percent[] = {1, 5, 10, 25, 50, 75, 90, 95, 99};
-    stats_row *all = calloc(plan->rows, sizeof *all);
     cli_sum mean = {0.0, 0.0};
     cli_sum total = {0.0, 0.0};
     cli_sum bound = {0.0, 0.0};
-    if (!all) {
+    sweep_tally tally = {0};
+    for (uint64_t i = 0; i < stats->rows; i++) {
+        const stats_row *row = &stats->row[i];
+        const sweep_row one = {.sigma_m2 = row->sigma, .bound_m2 = row->bound};
+        cli_sum_add(&mean, row->weight * row->sigma);
+        cli_sum_add(&bound, row->weight * row->bound);
+        cli_sum_add(&total, row->weight);
+        cli_tally_add(&tally, &one);
+    }
+    stats->whole = cli_sum_value(&total);
+    double value = cli_sum_value(&mean) / stats->whole;
+    double within = cli_sum_value(&bound) / stats->whole * (1.0 + 8.0 * DBL_EPSILON) +
+                    4.0 * DBL_EPSILON * value;
+    stats->mean = (stats_value){fmax(value - within, 0.0), value, value + within};
+    stats->standard_error = cli_plan_has_mean(stats->plan) ? cli_tally_error(&tally) : (double)NAN;
+}
+
+/* ---- histogram ---- */
+
+/* The narrowest bins in round numbers of dB of which there are few enough, from the least sigma
+   above 0 to the most. */
+static void bins_choose(sweep_stats *stats)
+{
+    static const int tenths[] = {1, 2, 5, 10, 20, 50};
+    double most = stats->row[stats->rows - 1].sigma;
+    uint64_t at = 0;
+    while (at < stats->rows && !(stats->row[at].sigma > 0.0)) {
+        at++;
+    }
+    if (at == stats->rows) {
+        return; /* nothing returns anything */
+    }
+    double high = cli_dbsm(most);
+    double low = fmax(cli_dbsm(stats->row[at].sigma), high - STATS_DEEP);
+    int k = 0;
+    while (k < 5 && (high - low) * 10.0 / tenths[k] > STATS_BINS - 3) {
+        k++;
+    }
+    double first = ceil(low * 10.0 / tenths[k]) - 1.0;
+    double last = fmax(ceil(high * 10.0 / tenths[k]), first + 1.0);
+    /* edges in m2 round: the most lies in the last bin even so */
+    last += pow(10.0, 0.1 * (last * tenths[k] / 10.0)) < most;
+    stats->bins = (uint32_t)(last - first);
+    for (uint32_t i = 0; i <= stats->bins; i++) {
+        stats->edge_dbsm[i] = (first + i) * tenths[k] / 10.0;
+        stats->edge_m2[i] = pow(10.0, 0.1 * stats->edge_dbsm[i]);
+    }
+}
+
+/* ---- all of it ---- */
+
+int cli_stats_make(const sweep_plan *plan, const sweep_head *head, const double (*row)[2],
+                   sweep_stats *stats)
+{
+    int map = is_map(plan);
+    stats_row *end = calloc(plan->rows, sizeof *end);
+    *stats = (sweep_stats){.plan = plan,
+                           .head = head,
+                           .rows = plan->rows,
+                           .row = calloc(plan->rows, sizeof *stats->row),
+                           .weights = weights_text(plan, map)};
+    if (!stats->row || !end) {
+        free(end);
         return cli_out_of_memory();
     }
     for (uint64_t i = 0; i < plan->rows; i++) {
-        all[i] = (stats_row){row[i][0], row_weight(plan, i), i};
-        cli_sum_add(&mean, all[i].weight * row[i][0]);
-        cli_sum_add(&bound, all[i].weight * row[i][1]);
-        cli_sum_add(&total, all[i].weight);
+        stats->row[i] = (stats_row){row[i][0], row[i][1], map ? row_weight(plan, i) : 1.0, i};
     }
-    qsort(all, plan->rows, sizeof *all, by_sigma);
-    double whole = cli_sum_value(&total);
-    fprintf(out, "statistics   %llu rows, %s\n", (unsigned long long)plan->rows,
-            plan->kind == SWEEP_AZEL ? "each by the solid angle that it stands for" : "all alike");
-    sigma_print(out, "mean", cli_sum_value(&mean) / whole);
-    fprintf(out, ", known to %.2g m2 for these rows\n", cli_sum_value(&bound) / whole);
-    place_print(out, "least", plan, &all[0]);
-    double below = 0.0;
-    uint64_t at = 0;
-    for (size_t k = 0; k < sizeof percent / sizeof percent[0]; k++) {
-        char label[16];
-        snprintf(label, sizeof label, "%d %%", percent[k]);
-        while (at + 1 < plan->rows && below + all[at].weight < 0.01 * percent[k] * whole) {
-            below += all[at++].weight;
-        }
-        sigma_print(out, label, all[at].sigma);
-        fprintf(out, "%s\n", percent[k] == 50 ? "   median" : "");
+    mean_make(stats);
+    qsort(stats->row, plan->rows, sizeof *stats->row, by_sigma);
+    bins_choose(stats);
+    for (int side = -1; side <= 1; side++) {
+        percentiles_at(stats, end, side);
     }
-    place_print(out, "most", plan, &all[plan->rows - 1]);
-    free(all);
+    free(end);
     return 0;
+}
+
+void cli_stats_free(sweep_stats *stats)
+{
+    free(stats->row);
+    stats->row = NULL;
 }

@@ -10,12 +10,12 @@
 static const char sweep_help[] =
     "usage: lrcs sweep SCENE WHAT [options]\n"
     "\n"
-    "Computes sigma (m2) and its bound for every combination of what varies, the last axis\n"
+    "Computes sigma (m2) and its bound for all combinations of what varies, the last axis\n"
     "fastest. Rows are the same bytes for any number of threads.\n"
     "\n"
     "what varies: RANGE is A:B:STEP, both ends included, or one number; steps do not drift\n"
     "  --az RANGE, --el RANGE  azimuth and elevation of the laser, deg, body frame\n"
-    "  --euler SEQ:a,b,c     deg, each a RANGE; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c)\n"
+    "  --euler SEQ:a,b,c     deg, each a RANGE; XYZ: R = Rx(a) Ry(b) Rz(c)\n"
     "  --rotate AXIS:RANGE   turns about the body's x, y, z or u,v,w, deg; from the pose of\n"
     "                        --direction, --azel, --euler or --quaternion, else laser on +z\n"
     "  --sphere N            N near-uniform directions, and their mean with its standard error\n"
@@ -24,44 +24,50 @@ static const char sweep_help[] =
     "  --joint PART:RANGE    the joint's angle, deg; several as NAME,NAME or '*' turn together\n"
     "  --vary MATERIAL.KEY:RANGE  A, B, s or m of a material\n"
     "  --vary PART.KEY:RANGE   of a shape: size_x, size_y, size_z, radius, radius2, length (m) or\n"
-    "                        half_angle_deg; shapes are tessellated anew for every value\n"
+    "                        half_angle_deg\n"
     "\n"
     "output\n"
-    "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: shape of the map, then "
-    "sigma\n"
-    "                        and bound; FILE.npy.head says of what); without it CSV on stdout\n"
+    "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: sigma, bound; with\n"
+    "                        FILE.npy.head); without it CSV on stdout\n"
     "  --json                JSON lines on stdout\n"
     "  --resume              go on with FILE.partial, its rows checked; never replaces a whole "
     "FILE\n"
     "  --shard K/N           only the K-th of N parts of the rows; lrcs merge joins the files\n"
     "  --jobs N              threads (one for each processor; fewer where memory is short)\n"
-    "  --plot FILE           FILE.svg or FILE.png, repeatable: up to 7 curves, or a map\n"
+    "  --plot FILE           FILE.svg or .png, repeatable: up to 7 curves, or a map (lrcs plot)\n"
     "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
-    "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
-    "  --stats               mean by solid angle, percentiles, least and most\n"
-    "  --brightest N         with -o FILE: the N brightest peaks, who makes each, on stdout; a\n"
-    "                        peak outshines the rows one step away (--sphere: those around)\n"
+    "  --polar               curves about a pole, the angle counter-clockwise\n"
+    "  --projection KIND     of a map: flat (default), or mollweide, which keeps areas\n"
+    "  --stats               mean by solid angle, percentiles, least and most, histogram\n"
+    "  --stats-file FILE     the same as FILE.json, .csv, .svg or .png; repeatable\n"
+    "  --brightest N         with -o FILE: the N brightest peaks (rows that outshine those one\n"
+    "                        step away) and who makes each, on stdout\n"
     "\n"
     "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
     "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, sigma_glint_m2,\n"
-    "sigma_diffuse_m2, flags; last a checksum, a comment in CSV; JSON lines without an index are\n"
-    "no rows. Exit 3 where a row misses the tolerance; stderr says how many. With --accept\n"
-    "estimate or any, .npy has a third number: 1 by estimate, 2 by any, 0 by bound, -1 missed.\n"
+    "sigma_diffuse_m2, flags; last a checksum; JSON lines without an index are no rows. Exit 3\n"
+    "where rows miss the tolerance. With --accept estimate or any, .npy has a third number: 1\n"
+    "by estimate, 2 by any, 0 by bound, -1 missed.\n"
     "\n"
     "examples\n"
     "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
     "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy --brightest 10 --stats\n"
-    "  lrcs sweep demo --sphere 1000 --accept estimate\n"
+    "  lrcs sweep demo --sphere 1000 --stats\n"
     "  lrcs sweep demo --poses track.csv -o track.jsonl --resume\n"
     "  lrcs sweep demo --az 0:360:1 --el -90:90:1 --shard 3/16 -o map.3.csv\n";
 
-static const cli_option sweep_options[] = {
-    CLI_POSE_OPTIONS, CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS,   {"az", 1, 0},
-    {"el", 1, 0},     {"joint", 1, 1},      {"vary", 1, 1},      {"rotate", 1, 0},
-    {"sphere", 1, 0}, {"poses", 1, 0},      {"o", CLI_FILE, 0},  {"json", 0, 0},
-    {"resume", 0, 0}, {"shard", 1, 0},      {"jobs", 1, 0},      {"plot", CLI_FILE, 1},
-    {"dbsm", 0, 0},   {"polar", 0, 0},      {"brightest", 1, 0}, {"stats", 0, 0},
-    {"help", 0, 0},   {NULL, 0, 0}};
+static const cli_option sweep_options[] = {CLI_POSE_OPTIONS,     CLI_ACCURACY_OPTIONS,
+                                           CLI_SCENE_OPTIONS,    {"az", 1, 0},
+                                           {"el", 1, 0},         {"joint", 1, 1},
+                                           {"vary", 1, 1},       {"rotate", 1, 0},
+                                           {"sphere", 1, 0},     {"poses", 1, 0},
+                                           {"o", CLI_FILE, 0},   {"json", 0, 0},
+                                           {"resume", 0, 0},     {"shard", 1, 0},
+                                           {"jobs", 1, 0},       {"plot", CLI_FILE, 1},
+                                           {"dbsm", 0, 0},       {"polar", 0, 0},
+                                           {"brightest", 1, 0},  {"stats", 0, 0},
+                                           {"projection", 1, 0}, {"stats-file", CLI_FILE, 1},
+                                           {"help", 0, 0},       {NULL, 0, 0}};
 
 #define JOBS_MOST 1024.0
 
@@ -129,10 +135,10 @@ static int job_read(sweep_job *job)
     code = code ? code : cli_accuracy_read(args, &job->options);
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);
-    code = code ? code : cli_plan_read(args, &job->plan);
+    code = code ? code : cli_plan_read(args, NULL, &job->plan);
     code = code ? code : cli_plot_read(args, &job->plan, &job->plot);
     code = code ? code : cli_brightest_read(args, &job->plan, &job->file, &job->brightest);
-    job->stats = cli_value(args, "stats") != NULL;
+    code = code ? code : cli_stats_read(args, &job->stats);
     if (code == 0 && job->stats && cli_value(args, "shard")) {
         return cli_usage(args->command, "--stats is of whole sweeps: not with --shard");
     }
@@ -159,7 +165,7 @@ static int job_files_check(const sweep_job *job)
             return cli_usage(job->args->command, "-o %s: would overwrite the poses", path);
         }
     }
-    return cli_plot_spares(job->args, &job->file, &job->scene);
+    return cli_plot_spares(job->args, &job->plot, &job->file, &job->scene);
 }
 
 /* ---- the rows ---- */
@@ -301,10 +307,12 @@ static int job_room(sweep_job *job)
 
 static int job_show(sweep_job *job)
 {
-    int code = job->plot.asked ? cli_plot_write(job->args, &job->plot, &job->plan) : 0;
+    int code = job->plot.asked ? cli_plot_write(job->args, &job->plot, 1) : 0;
     if (code == 0 && job->stats) { /* stdout is for rows where no file is */
-        code = cli_stats_print(job->file.path ? stdout : stderr, &job->plan,
-                               (const double(*)[2])job->row);
+        sweep_stats stats;
+        code = cli_stats_make(&job->plan, &job->head, (const double(*)[2])job->row, &stats);
+        code = code ? code : cli_stats_write(job->args, job->file.path ? stdout : stderr, &stats);
+        cli_stats_free(&stats);
     }
     return code == 0 && job->brightest > 0
                ? cli_brightest_print(&job->plan, (const double(*)[2])job->row, job->brightest,
@@ -373,6 +381,7 @@ static int sweep_command(const cli_args *args)
     if (code == 0) {
         coarse_say(job);
         job->plot.open = cli_materials_open(&job->scene.scene);
+        job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
         code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
         code = code ? code : job_rows(job);
     }

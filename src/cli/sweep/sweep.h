@@ -75,8 +75,10 @@ typedef struct sweep_plan {
     const char *column[SWEEP_COLUMNS];
 } sweep_plan;
 
-/* 0, CLI_FAILED or CLI_USAGE with the message printed. The caller frees it in any case. */
-int cli_plan_read(const cli_args *args, sweep_plan *plan);
+/* The plan that options ask for; with the poses of `track` (or NULL), which becomes the plan's,
+   instead of those that options give. 0, CLI_FAILED or CLI_USAGE with the message printed. The
+   caller frees the plan in any case. */
+int cli_plan_read(const cli_args *args, const sweep_track *track, sweep_plan *plan);
 void cli_plan_free(sweep_plan *plan);
 
 /* The values of a row, and its pose. */
@@ -190,6 +192,13 @@ int cli_text_next(sweep_text *text, const sweep_plan *plan, sweep_row *row, cons
    something else follows. */
 int cli_text_end(sweep_text *text);
 
+/* Reads all rows of a text that follow one another, through to the checksum; `path` is for
+   messages, a plan may be NULL as may `take`, which gets each row. Says which is the first and how
+   many there are. 0, or CLI_FAILED with the message printed. */
+typedef void sweep_take(void *context, const sweep_row *row);
+int cli_text_rows(const char *path, const sweep_text *text, const sweep_plan *plan,
+                  sweep_take *take, void *context, uint64_t *first, uint64_t *rows);
+
 /* ---- maps ---- */
 
 /* Writes FILE.npy, a NumPy array of shape (.., 2), sigma and bound, or (.., 3), where
@@ -199,6 +208,22 @@ int cli_text_end(sweep_text *text);
    row; 0: the end; else it has failed and said so). 0 or CLI_FAILED. */
 typedef int sweep_next(void *context, sweep_row *row);
 int cli_map_write(const char *path, const sweep_text *text, sweep_next *next, void *context);
+
+/* FILE.npy and FILE.npy.head in memory: the first lines, what all rows say together, and where the
+   numbers of the rows begin, `numbers` of them each. */
+typedef struct sweep_map {
+    lrcs_host_file file, beside;
+    sweep_text text;
+    sweep_tally tally;
+    const unsigned char *value;
+    uint32_t numbers;
+} sweep_map;
+
+/* 0; -1 where a file is missing, or the map is not that of its head's checksum. Closed in any
+   case. */
+int cli_map_open(const char *path, sweep_map *map);
+void cli_map_row(const sweep_map *map, uint64_t index, sweep_row *row);
+void cli_map_close(sweep_map *map);
 
 /* ---- files ---- */
 
@@ -249,6 +274,33 @@ int cli_map_recover(sweep_file *file, const sweep_plan *plan, const char *const 
 int cli_lock_take(sweep_file *file);
 void cli_lock_drop(sweep_file *file);
 
+/* ---- a sweep read back ---- */
+
+/* A whole sweep from its file: plan, first lines, sigma and bound of every row. */
+typedef struct sweep_data {
+    const char *path;
+    sweep_plan plan;
+    sweep_head head; /* its options; hash and rows are the text's */
+    double (*row)[2];
+    sweep_tally tally;
+    sweep_text text;
+    /* what these stand on */
+    lrcs_host_file file;
+    sweep_map map;
+    char *words;
+    const char *column[SWEEP_COLUMNS];
+    char scene_text[SWEEP_COLUMNS][320];
+    cli_given given[SWEEP_COLUMNS + 16];
+    cli_args args;
+} sweep_data;
+
+/* 0, or CLI_FAILED or CLI_USAGE with the message printed. Freed in any case. */
+int cli_data_read(const char *path, const cli_command *command, sweep_data *data);
+void cli_data_free(sweep_data *data);
+
+/* The text of a key in the first lines, or NULL. */
+const char *cli_head_text(const sweep_head *head, const char *key);
+
 /* ---- plots ---- */
 
 /* One of the things that vary. */
@@ -258,21 +310,30 @@ typedef struct plot_axis {
     const char *name;
 } plot_axis;
 
-/* --plot: curves along x, one for each value of y, or a map. */
+/* What is drawn of a sweep: curves along x, one for each value of y, or a map. */
 typedef struct sweep_plot {
-    int asked, dbsm, polar, map;
-    int open;         /* materials are illustrative or assumed: no bound holds what that costs */
-    plot_axis x, y;   /* y: one value where only one thing varies */
-    int swapped;      /* x is the faster of two */
+    const char *option; /* that names the files: "plot", "o" */
+    int asked, dbsm, polar, map, mollweide;
+    int open;           /* materials are illustrative or assumed: no bound holds what that costs */
+    const char *accept; /* as --accept, or NULL */
+    const char *title;  /* of what: the scene's, or its file */
+    const char *name;   /* in the legend, of all curves, or NULL */
+    plot_axis x, y;     /* y: one value where only one thing varies */
+    int swapped;        /* x is the faster of two */
+    const sweep_plan *plan;
     double (*row)[2]; /* sigma and bound, m2 */
 } sweep_plot;
 
-/* What --plot, --dbsm and --polar ask for; that no plot replaces anything; 0 or CLI_USAGE. Then the
-   drawing, as 0 or CLI_FAILED; and one drawing as SVG, titled after args->operand. */
+#define PLOT_CURVES 7u /* more values than that, both ways, make a map */
+
+/* What --plot (or -o of lrcs plot), --dbsm, --polar and --projection ask for; that no plot replaces
+   anything; 0 or CLI_USAGE. Then the drawing, of one sweep or the curves of several along the same
+   axis, as 0 or CLI_FAILED; and one drawing as SVG. title and row are the caller's to set. */
 int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot);
-int cli_plot_spares(const cli_args *args, const sweep_file *file, const lrcs_host_scene *scene);
-int cli_plot_write(const cli_args *args, const sweep_plot *plot, const sweep_plan *plan);
-int cli_plot_svg(FILE *out, const cli_args *args, const sweep_plot *plot, const sweep_plan *plan);
+int cli_plot_spares(const cli_args *args, const sweep_plot *plot, const sweep_file *file,
+                    const lrcs_host_scene *scene);
+int cli_plot_write(const cli_args *args, const sweep_plot *plot, uint32_t count);
+int cli_plot_svg(FILE *out, const sweep_plot *plot);
 
 /* ---- peaks ---- */
 
@@ -299,8 +360,49 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
 
 /* ---- statistics ---- */
 
-/* --stats: mean, percentiles, least and most of sigma over all rows. 0 or CLI_FAILED. */
-int cli_stats_print(FILE *out, const sweep_plan *plan, const double (*row)[2]);
+#define STATS_PERCENTS 9
+#define STATS_BINS     30
+
+/* A row and what it weighs. */
+typedef struct stats_row {
+    double sigma, bound, weight;
+    uint64_t index;
+} stats_row;
+
+/* A number with the interval that holds it whatever sigma of each row is within its bound. */
+typedef struct stats_value {
+    double least, value, most;
+} stats_value;
+
+/* How sigma is spread over the rows. Shares are of the weight of all rows. */
+typedef struct sweep_stats {
+    const sweep_plan *plan;
+    const sweep_head *head;
+    uint64_t rows;
+    stats_row *row;      /* ascending in sigma */
+    double whole;        /* the weight of all rows */
+    const char *weights; /* how rows are weighted, in words */
+    stats_value mean;
+    double standard_error; /* of --sphere, an estimate; else NAN */
+    stats_value percentile[STATS_PERCENTS];
+    uint32_t bins; /* of equal width in dB; bin i is (edge[i], edge[i + 1]] */
+    double edge_dbsm[STATS_BINS + 1], edge_m2[STATS_BINS + 1];
+    stats_value cdf[STATS_BINS + 1]; /* the share of rows of at most edge_m2 */
+} sweep_stats;
+
+extern const int cli_stats_percent[STATS_PERCENTS];
+
+/* --stats and --stats-file: are statistics asked for, and do the files' names fit? 0 or
+   CLI_USAGE. */
+int cli_stats_read(const cli_args *args, int *asked);
+
+/* Sums up; freed in any case. 0 or CLI_FAILED. */
+int cli_stats_make(const sweep_plan *plan, const sweep_head *head, const double (*row)[2],
+                   sweep_stats *stats);
+void cli_stats_free(sweep_stats *stats);
+
+/* The table for people, where --stats is given; and every --stats-file. 0 or CLI_FAILED. */
+int cli_stats_write(const cli_args *args, FILE *out, const sweep_stats *stats);
 
 /* ---- progress ---- */
 

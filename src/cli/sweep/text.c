@@ -66,9 +66,10 @@ static uint32_t head_columns(const char *head)
         return count > SWEEP_FIELDS ? count - SWEEP_FIELDS : 0;
     }
     for (at = at ? strchr(at, '[') + 1 : ""; *at && (*at != ']' || quoted); at++) {
-        at += *at == '\\' && at[1] != '\0';
-        quoted ^= *at == '"';
-        count += *at == '"' && quoted;
+        int escaped = *at == '\\' && at[1] != '\0';
+        at += escaped;
+        quoted ^= *at == '"' && !escaped;
+        count += *at == '"' && quoted && !escaped;
     }
     return count;
 }
@@ -365,4 +366,36 @@ int cli_text_end(sweep_text *text)
     snprintf(found, sizeof found, "%.*s", (int)strcspn(text->at, "\n"), text->at);
     expected[size - 1] = '\0';
     return text_refuse(text, "the last line", found, expected);
+}
+
+int cli_text_rows(const char *path, const sweep_text *text, const sweep_plan *plan,
+                  sweep_take *take, void *context, uint64_t *first, uint64_t *rows)
+{
+    sweep_text left = *text;
+    sweep_row row;
+    const char *line;
+    size_t size;
+    int more;
+    *first = *rows = 0;
+    while ((more = cli_text_next(&left, plan, &row, &line, &size)) == 1) {
+        *first = *rows == 0 ? row.index : *first;
+        if (row.index != *first + *rows) {
+            fprintf(stderr, "lrcs: %s: its rows are not in order\n", path);
+            return CLI_FAILED;
+        }
+        if (take) {
+            take(context, &row);
+        }
+        ++*rows;
+    }
+    int end = more == 0 ? cli_text_end(&left) : -1;
+    if (end < 0) {
+        fprintf(stderr, "lrcs: %s: is damaged: %s\n", path, left.fault);
+    } else if (end == 0) {
+        fprintf(stderr,
+                "lrcs: %s: ends without its checksum: was its sweep stopped? --resume goes on with "
+                "it\n",
+                path);
+    }
+    return end == 1 ? 0 : CLI_FAILED;
 }

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs plot: what sweeps wrote, drawn again without computing: one file as lrcs sweep --plot draws
+   it, or the curves of several together. It decides which files fit together; sweep/plot.c draws.
+ */
+#include "cli/sweep/sweep.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char plot_help[] =
+    "usage: lrcs plot FILE... -o OUT [options]\n"
+    "\n"
+    "Draws what lrcs sweep wrote, without computing: FILE.csv, FILE.jsonl, or FILE.npy with its\n"
+    "FILE.npy.head. Files are checked as sweep --resume checks them: one that is damaged, or a\n"
+    "shard (lrcs merge), is refused. Curves of several files along the same axis are drawn\n"
+    "together; where the files differ in scene, options or version, a notice says in what.\n"
+    "\n"
+    "options\n"
+    "  -o OUT                OUT.svg or OUT.png, repeatable: up to 7 curves, or a map\n"
+    "  --dbsm                sigma in dBsm (default: m2); sigma 0 is left out, or grey\n"
+    "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
+    "  --projection KIND     of a map over azimuth and elevation: flat (default), or mollweide,\n"
+    "                        which keeps areas; 0 deg is in the middle\n"
+    "  --stats               of one file: mean by solid angle, percentiles, least and most,\n"
+    "                        histogram, as a table on stdout\n"
+    "  --stats-file OUT      the same as OUT.json, .csv, .svg or .png; repeatable\n"
+    "\n"
+    "Directions of sweep --sphere are drawn as a map: each place shows the nearest of them.\n"
+    "Statistics are those of the rows. Each number stands with the least and most that it can be\n"
+    "where sigma of every row is within its bound.\n"
+    "\n"
+    "examples\n"
+    "  lrcs plot map.npy -o sky.svg --projection mollweide --dbsm\n"
+    "  lrcs plot before.csv after.csv -o both.svg --dbsm\n"
+    "  lrcs plot ball.csv --stats --stats-file ball.json --stats-file ball.svg\n";
+
+static const cli_option plot_options[] = {{"o", CLI_FILE, 1}, {"dbsm", 0, 0},
+                                          {"polar", 0, 0},    {"projection", 1, 0},
+                                          {"stats", 0, 0},    {"stats-file", CLI_FILE, 1},
+                                          {"help", 0, 0},     {NULL, 0, 0}};
+
+typedef struct plot_job {
+    const cli_args *args;
+    uint32_t count;
+    sweep_data *data;
+    sweep_plot *plot;
+    int stats;
+} plot_job;
+
+/* No output replaces a file that is read. */
+static int outputs_check(const plot_job *job)
+{
+    const cli_args *args = job->args;
+    int code = 0;
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        int written =
+            strcmp(args->given[i].name, "o") == 0 || strcmp(args->given[i].name, "stats-file") == 0;
+        for (uint32_t k = 0; k < job->count && written && code == 0; k++) {
+            if (lrcs_host_output_same(args->given[i].value, job->data[k].path)) {
+                code = cli_usage(args->command, "%s%s %s: would overwrite what is read",
+                                 cli_dashes(args->given[i].name), args->given[i].name,
+                                 args->given[i].value);
+            }
+        }
+    }
+    return code;
+}
+
+/* Says in what a file differs from the first. */
+static void differences_say(const plot_job *job, uint32_t k)
+{
+    const sweep_data *first = &job->data[0];
+    const sweep_data *other = &job->data[k];
+    char list[800] = "";
+    size_t used = 0;
+    if (first->head.scene_hash != other->head.scene_hash) {
+        used += (size_t)snprintf(list, sizeof list, "scene");
+    }
+    for (int side = 0; side < 2; side++) {
+        const sweep_head *head = side == 0 ? &first->head : &other->head;
+        const sweep_head *against = side == 0 ? &other->head : &first->head;
+        for (uint32_t i = 0; i < head->options && used < 600; i++) {
+            const char *key = head->option[i].key;
+            const char *text = cli_head_text(against, key);
+            if (side == 1 ? !text : !text || strcmp(text, head->option[i].text) != 0) {
+                used += (size_t)snprintf(list + used, sizeof list - used, "%s%s",
+                                         used > 0 ? ", " : "", key);
+            }
+        }
+    }
+    if (used > 0) {
+        fprintf(stderr, "notice: %s differs from %s in %s\n", other->path, first->path, list);
+    }
+}
+
+/* Curves of several files: along one axis, no more than there are colours. */
+static int overlay_check(const plot_job *job)
+{
+    const cli_args *args = job->args;
+    const sweep_plot *first = &job->plot[0];
+    uint64_t curves = 0;
+    for (uint32_t k = 0; k < job->count; k++) {
+        const sweep_plot *plot = &job->plot[k];
+        if (plot->map) {
+            return cli_usage(args->command, "%s is a map: maps are drawn one by one",
+                             job->data[k].path);
+        }
+        if (strcmp(plot->x.name, first->x.name) != 0) {
+            return cli_usage(args->command,
+                             "%s runs along '%s' and %s along '%s': they do not fit "
+                             "in one chart",
+                             job->data[0].path, first->x.name, job->data[k].path, plot->x.name);
+        }
+        curves += plot->y.count;
+    }
+    return curves <= PLOT_CURVES
+               ? 0
+               : cli_usage(args->command, "at most %u curves in one chart, found %llu", PLOT_CURVES,
+                           (unsigned long long)curves);
+}
+
+/* Legends: titles where all differ, else the names of the files. */
+static void names_choose(plot_job *job)
+{
+    int differ = 1;
+    for (uint32_t i = 0; i < job->count; i++) {
+        for (uint32_t k = 0; k < i; k++) {
+            differ &= strcmp(job->plot[i].title, job->plot[k].title) != 0;
+        }
+    }
+    for (uint32_t i = 0; i < job->count && job->count > 1; i++) {
+        job->plot[i].name = differ ? job->plot[i].title : cli_base_name(job->data[i].path);
+    }
+}
+
+static int job_read(plot_job *job)
+{
+    const cli_args *args = job->args;
+    int code = cli_stats_read(args, &job->stats);
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        if (args->given[i].name[0] != '\0') {
+            continue;
+        }
+        sweep_data *data = &job->data[job->count];
+        sweep_plot *plot = &job->plot[job->count++];
+        code = cli_data_read(args->given[i].value, args->command, data);
+        code = code ? code : cli_plot_read(args, &data->plan, plot);
+        const char *title = cli_head_text(&data->head, "title");
+        plot->title = title ? title : cli_base_name(data->path);
+        plot->accept = cli_head_text(&data->head, "accept");
+        plot->open = cli_head_text(&data->head, "materials") != NULL;
+        plot->row = data->row;
+    }
+    return code;
+}
+
+static int job_run(plot_job *job)
+{
+    const cli_args *args = job->args;
+    int code = job_read(job);
+    code = code ? code : outputs_check(job);
+    if (code == 0 && !job->plot[0].asked && !job->stats) {
+        return cli_usage(args->command, "nothing to do: give -o OUT.svg, --stats or --stats-file");
+    }
+    if (code == 0 && job->stats && job->count > 1) {
+        return cli_usage(args->command, "--stats are of one file, found %lu",
+                         (unsigned long)job->count);
+    }
+    if (code == 0 && job->plot[0].asked) {
+        code = job->count > 1 ? overlay_check(job) : 0;
+        names_choose(job);
+        for (uint32_t k = 1; k < job->count && code == 0; k++) {
+            differences_say(job, k);
+        }
+        code = code ? code : cli_plot_write(args, job->plot, job->count);
+    }
+    if (code == 0 && job->stats) {
+        sweep_stats stats;
+        code = cli_stats_make(&job->data->plan, &job->data->head,
+                              (const double(*)[2])job->data->row, &stats);
+        code = code ? code : cli_stats_write(args, stdout, &stats);
+        cli_stats_free(&stats);
+    }
+    return code;
+}
+
+static int plot_command(const cli_args *args)
+{
+    size_t room = (size_t)args->given_count + 1;
+    plot_job job = {args, 0, calloc(room, sizeof *job.data), calloc(room, sizeof *job.plot), 0};
+    int code = job.data && job.plot ? job_run(&job) : cli_out_of_memory();
+    for (uint32_t k = 0; k < job.count; k++) {
+        cli_data_free(&job.data[k]);
+    }
+    free(job.data);
+    free(job.plot);
+    return code;
+}
+
+const cli_command cli_plot_command = {"plot",    "FILE...",    "give files that lrcs sweep wrote",
+                                      plot_help, plot_options, plot_command};

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs profile --plot: the density of sigma over range as steps, one a bin, and a pulse's response
+   as a curve. */
+#include "cli/profile/profile.h"
+
+#include <stdlib.h>
+
+/* More bins are drawn in groups, each with its mean density. */
+#define CHART_STEPS 4000u
+
+/* Two points for each group of bins. Returns their count. */
+static uint32_t steps_take(const profile_job *job, uint32_t group, double *x, double *y)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->rows; i += group) {
+        uint32_t end = job->rows - i < group ? job->rows : i + group;
+        double sigma = 0.0;
+        for (uint32_t k = i; k < end; k++) {
+            sigma += cli_profile_sigma(&job->row[k].bin);
+        }
+        double density = sigma / (job->row[end - 1].far_m - job->row[i].near_m);
+        x[count] = job->row[i].near_m;
+        x[count + 1] = job->row[end - 1].far_m;
+        y[count] = y[count + 1] = density;
+        count += 2;
+    }
+    return count;
+}
+
+static uint32_t pulse_take(const profile_job *job, uint32_t group, double *x, double *y)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->rows; i += group) {
+        x[count] = 0.5 * job->row[i].near_m + 0.5 * job->row[i].far_m;
+        y[count] = job->row[i].pulse_m;
+        count++;
+    }
+    return count;
+}
+
+static int chart_draw(const profile_job *job, double *number, size_t room, int png, FILE *out,
+                      lrcs_host_error *error)
+{
+    uint32_t group = 1 + job->rows / CHART_STEPS;
+    const lrcs_profile *p = &job->profile.list;
+    char title[256];
+    char note[256];
+    lrcs_host_series series[2] = {{.name = "bins",
+                                   .x = number,
+                                   .y = number + room,
+                                   .colour = LRCS_HOST_BLUE,
+                                   .marker = LRCS_HOST_NO_MARKER},
+                                  {.name = "pulse",
+                                   .x = number + 2 * room,
+                                   .y = number + 3 * room,
+                                   .colour = LRCS_HOST_VERMILION,
+                                   .marker = LRCS_HOST_NO_MARKER}};
+    series[0].count = steps_take(job, group, number, number + room);
+    series[1].count =
+        job->fwhm_m > 0.0 ? pulse_take(job, group, number + 2 * room, number + 3 * room) : 0;
+    snprintf(title, sizeof title, "Range profile of %.180s",
+             cli_scene_title(job->args, &job->scene));
+    int used = snprintf(note, sizeof note, "sigma %.6g m\xc2\xb2 in all; bins of %g m",
+                        p->sigma_glint_m2 + p->sigma_diffuse_m2, job->bin_m);
+    if (job->fwhm_m > 0.0) {
+        used += snprintf(note + used, sizeof note - (size_t)used, "; pulse of %g m (FWHM)",
+                         job->fwhm_m);
+    }
+    if (cli_materials_open(&job->scene.scene)) {
+        snprintf(note + used, sizeof note - (size_t)used, "; materials illustrative or default");
+    }
+    const lrcs_host_chart chart = {.title = title,
+                                   .note = note,
+                                   .x_name =
+                                       "range from the body's origin, away from the laser (m)",
+                                   .y_name = "sigma per range (m\xc2\xb2/m)",
+                                   .y_from_0 = 1,
+                                   .series = series,
+                                   .series_count = series[1].count > 0 ? 2 : 1};
+    if (png) {
+        return lrcs_host_chart_png(out, &chart, error);
+    }
+    lrcs_host_chart_svg(out, &chart);
+    return LRCS_OK;
+}
+
+int cli_profile_chart(const profile_job *job, int png, FILE *out, lrcs_host_error *error)
+{
+    size_t room = 2 * (size_t)job->rows + 2;
+    double *number = malloc(4 * room * sizeof *number);
+    if (!number) {
+        snprintf(error->text, sizeof error->text, "out of memory");
+        return LRCS_E_SYSTEM;
+    }
+    int status = chart_draw(job, number, room, png, out, error);
+    free(number);
+    return status;
+}

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs profile: how much of sigma comes from which range. It reads the options, runs the profile
+   and the pulse, and lists the rows; the core divides sigma among bins. */
+#include "cli/profile/profile.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Bins in a pulse's width, from which its response is computed: the error is 1e-5 of it. */
+#define PULSE_BINS 256.0
+
+/* A response is listed so many widths beyond the bins: there it is 3e-8 of its peak. */
+#define PULSE_WIDTHS 2.5
+
+static const char profile_help[] =
+    "usage: lrcs profile SCENE [pose] --bin W [options]\n"
+    "\n"
+    "Computes the range profile of SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo':\n"
+    "which part of sigma (m2) comes from which range, in bins along the line of sight, by exact\n"
+    "visibility, each bin with its proved bound. The bins add up to sigma.\n"
+    "Range (m) is 0 at the origin of the body frame and grows away from the laser. Bin k holds\n"
+    "k W <= range < (k + 1) W. A face normal to the line of sight is in one bin, on an edge in "
+    "the\n"
+    "farther one.\n"
+    "\n" CLI_POSE_HELP "\n"
+    "options\n"
+    "  --bin W               width of the bins, m\n"
+    "  --pulse-fwhm W        adds what a Gaussian laser pulse returns: the density of sigma over\n"
+    "                        range (m2/m) convolved with it, at the centre of each bin, and its "
+    "bound.\n"
+    "                        W is its full width at half maximum in range, m: the light path is "
+    "twice\n"
+    "                        that; a pulse of 1 ns is 0.15 m\n"
+    "  --json                everything as JSON, one line for each bin\n"
+    "  --csv FILE.csv        one row for each bin ('-': instead of the table)\n"
+    "  --plot FILE           FILE.svg or FILE.png: density over range, and the pulse's response\n"
+    "  --tolerance REL       relative error that shapes are meshed for (1e-4); if given, exit 3 "
+    "where\n"
+    "                        the bound of all bins together exceeds it\n" CLI_SCENE_HELP "\n"
+    "examples\n"
+    "  lrcs profile demo --azel 50,40 --bin 0.1\n"
+    "  lrcs profile demo --azel 50,40 --bin 0.05 --pulse-fwhm 0.3 --plot profile.svg\n"
+    "  lrcs profile aura.3ds --unit in --azel 30,20 --bin 0.02 --csv profile.csv\n";
+
+static const cli_option profile_options[] = {
+    CLI_POSE_OPTIONS, CLI_SCENE_OPTIONS,    {"bin", 1, 0},         {"pulse-fwhm", 1, 0},
+    {"json", 0, 0},   {"csv", CLI_FILE, 0}, {"plot", CLI_FILE, 0}, {"tolerance", 1, 0},
+    {"help", 0, 0},   {NULL, 0, 0}};
+
+double cli_profile_sigma(const lrcs_profile_bin *bin)
+{
+    return bin->sigma_glint_m2 + bin->sigma_diffuse_m2;
+}
+
+/* ---- options ---- */
+
+/* A length > 0; 0 where it was not given. */
+static int length_read(const cli_args *args, const char *name, double *length)
+{
+    int code = cli_number(args, name, length);
+    if (code == 0 && cli_value(args, name) && !(*length > 0.0)) {
+        return cli_usage(args->command, "--%s: expected a length > 0, m, found '%s'", name,
+                         cli_value(args, name));
+    }
+    return code;
+}
+
+static int files_read(profile_job *job)
+{
+    const cli_args *args = job->args;
+    job->csv = cli_value(args, "csv");
+    job->plot = cli_value(args, "plot");
+    const cli_output file[2] = {{"csv", job->csv}, {"plot", job->plot}};
+    if (job->plot && !cli_extension(job->plot, ".svg") && !cli_extension(job->plot, ".png")) {
+        return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'",
+                         job->plot);
+    }
+    if (job->csv && strcmp(job->csv, "-") == 0 && cli_value(args, "json")) {
+        return cli_usage(args->command, "--csv - and --json both want standard output");
+    }
+    return cli_outputs_apart(args->command, file, 2);
+}
+
+static int options_read(profile_job *job)
+{
+    const cli_args *args = job->args;
+    lrcs_run_options options = lrcs_run_options_default();
+    int code = cli_pose_read(args, &job->pose);
+    code = code ? code : length_read(args, "bin", &job->bin_m);
+    if (code == 0 && !(job->bin_m > 0.0)) {
+        return cli_usage(args->command, "give the width of the bins: --bin W, m");
+    }
+    code = code ? code : length_read(args, "pulse-fwhm", &job->fwhm_m);
+    code = code ? code : cli_accuracy_read(args, &options);
+    code = code ? code : files_read(job);
+    code = code ? code : cli_scene_options_read(args, &job->load);
+    job->load.build.tolerance = options.tolerance;
+    job->load.build.facets_only = 1;
+    job->asked = cli_value(args, "tolerance") ? options.tolerance : 0.0;
+    return code;
+}
+
+/* ---- the run ---- */
+
+/* Responses at the centres of all rows, from a profile with finer bins. */
+static int pulse_run(profile_job *job)
+{
+    const lrcs_profile *coarse = &job->profile.list;
+    lrcs_host_error error = {""};
+    lrcs_host_profile own = {{0}, NULL};
+    const lrcs_profile *fine = coarse;
+    double parts = ceil(job->bin_m * PULSE_BINS / job->fwhm_m);
+    double most = floor(LRCS_PROFILE_BINS / (2.0 * coarse->count + 4.0));
+    parts = fmin(parts, fmax(most, 1.0));
+    int status = LRCS_OK;
+    if (parts > 1.0) {
+        status = lrcs_host_profile_make(&job->scene, &job->pose, job->bin_m / parts, &own, &error);
+        fine = &own.list;
+    }
+    for (uint32_t i = 0; i < job->rows && status == LRCS_OK; i++) {
+        profile_row *row = &job->row[i];
+        status = lrcs_profile_pulse(fine, job->fwhm_m, 0.5 * row->near_m + 0.5 * row->far_m,
+                                    &row->pulse_m, &row->pulse_bound_m);
+    }
+    if (status != LRCS_OK && error.text[0] == '\0') {
+        snprintf(error.text, sizeof error.text, "pulse of %g m: %s", job->fwhm_m,
+                 lrcs_status_text(status));
+    }
+    lrcs_host_profile_free(&own);
+    return status == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+/* The bins, and those beyond them that a pulse reaches. */
+static int rows_list(profile_job *job)
+{
+    const lrcs_profile *p = &job->profile.list;
+    double more = ceil(PULSE_WIDTHS * job->fwhm_m / job->bin_m);
+    if (p->count + 2.0 * more > LRCS_PROFILE_BINS) {
+        fprintf(stderr,
+                "lrcs: a pulse of %g m reaches over more bins of %g m than the %lu that a "
+                "profile may have\n",
+                job->fwhm_m, job->bin_m, (unsigned long)LRCS_PROFILE_BINS);
+        return CLI_FAILED;
+    }
+    uint32_t beyond = p->count > 0 ? (uint32_t)more : 0;
+    job->rows = p->count + 2 * beyond;
+    job->row = calloc((size_t)job->rows + 1, sizeof *job->row);
+    if (!job->row) {
+        return cli_out_of_memory();
+    }
+    for (uint32_t i = 0; i < job->rows; i++) {
+        profile_row *row = &job->row[i];
+        double k = (double)(p->first - beyond + i);
+        row->near_m = k * job->bin_m;
+        row->far_m = (k + 1.0) * job->bin_m;
+        if (i >= beyond && i - beyond < p->count) {
+            row->bin = p->bin[i - beyond];
+        }
+    }
+    return job->fwhm_m > 0.0 ? pulse_run(job) : 0;
+}
+
+static int profile_run(profile_job *job)
+{
+    lrcs_host_error error;
+    cli_watch_stage("preparing", &job->scene);
+    int status = lrcs_host_scene_prepare(&job->scene, &error);
+    cli_watch_stage("range profile", NULL);
+    if (status == LRCS_OK) {
+        status = lrcs_host_profile_make(&job->scene, &job->pose, job->bin_m, &job->profile, &error);
+    }
+    if (status != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    const lrcs_profile *p = &job->profile.list;
+    job->met = p->bound_m2 <= job->asked * (p->sigma_glint_m2 + p->sigma_diffuse_m2);
+    return rows_list(job);
+}
+
+/* ---- the command ---- */
+
+static int csv_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    (void)error;
+    cli_profile_csv(context, out);
+    return LRCS_OK;
+}
+
+static int plot_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const profile_job *job = context;
+    return cli_profile_chart(job, cli_extension(job->plot, ".png"), out, error);
+}
+
+static int outputs_write(const profile_job *job)
+{
+    int code = job->csv ? cli_output_write(job->csv, csv_write, job) : 0;
+    code = code == 0 && job->plot ? cli_output_write(job->plot, plot_write, job) : code;
+    if (code != 0) {
+        return code;
+    }
+    if (cli_value(job->args, "json")) {
+        cli_profile_json(job);
+    } else {
+        cli_notices_print(stderr, &job->scene.notices);
+        if (!job->csv || strcmp(job->csv, "-") != 0) {
+            cli_profile_table(job);
+        }
+    }
+    return job->asked > 0.0 && !job->met ? CLI_DEGRADED : CLI_DONE;
+}
+
+static int profile_command(const cli_args *args)
+{
+    profile_job job;
+    memset(&job, 0, sizeof job);
+    job.args = args;
+    int code = options_read(&job);
+    const cli_output file[2] = {{"csv", job.csv}, {"plot", job.plot}};
+    cli_watch_begin();
+    code = code ? code : cli_scene_read(args, &job.load, &job.scene);
+    code = code ? code : cli_outputs_spare(args->command, file, 2, &job.scene);
+    code = code ? code : profile_run(&job);
+    cli_watch_end();
+    code = code ? code : outputs_write(&job);
+    free(job.row);
+    lrcs_host_profile_free(&job.profile);
+    lrcs_host_scene_free(&job.scene);
+    cli_scene_options_free(&job.load);
+    return code;
+}
+
+const cli_command cli_profile_command = {
+    "profile",    "SCENE",         "give a .3ds, .obj or .stl model, a scene file, or demo",
+    profile_help, profile_options, profile_command};

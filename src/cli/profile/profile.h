@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* A range profile between its command and its outputs. */
+#ifndef LRCS_CLI_PROFILE_H
+#define LRCS_CLI_PROFILE_H
+
+#include "cli/cli.h"
+
+/* A row of the tables: a bin, or what a pulse returns beyond all bins. */
+typedef struct profile_row {
+    double near_m, far_m; /* the bin's edges */
+    lrcs_profile_bin bin;
+    double pulse_m, pulse_bound_m; /* response at the bin's centre, m^2/m */
+} profile_row;
+
+typedef struct profile_job {
+    const cli_args *args;
+    lrcs_pose pose;
+    lrcs_host_options load;
+    double bin_m, fwhm_m; /* fwhm_m: 0: no pulse */
+    double asked;         /* tolerance; 0: none */
+    int met;
+    const char *csv, *plot;
+    lrcs_host_scene scene;
+    lrcs_host_profile profile;
+    profile_row *row;
+    uint32_t rows;
+} profile_job;
+
+/* Of both terms of the BRDF. */
+double cli_profile_sigma(const lrcs_profile_bin *bin);
+
+/* The tables on stdout, and CSV and chart as files. */
+void cli_profile_table(const profile_job *job);
+void cli_profile_json(const profile_job *job);
+void cli_profile_csv(const profile_job *job, FILE *out);
+int cli_profile_chart(const profile_job *job, int png, FILE *out, lrcs_host_error *error);
+
+#endif

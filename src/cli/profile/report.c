@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: MIT */
+/* What lrcs profile writes: a table for people, JSON, CSV. */
+#include "cli/profile/profile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* More bins than this are left to --csv and --json: the table shows the strongest. */
+#define TABLE_ROWS 40u
+
+/* The direction with length 1. */
+static void unit_direction(const lrcs_pose *pose, double s_hat[3])
+{
+    const double *d = pose->direction;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int k = 0; k < 3; k++) {
+        s_hat[k] = d[k] / length;
+    }
+}
+
+static double total_sigma(const profile_job *job)
+{
+    return job->profile.list.sigma_glint_m2 + job->profile.list.sigma_diffuse_m2;
+}
+
+/* ---- CSV ---- */
+
+static void fields_write(FILE *out, const double *value, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char text[LRCS_HOST_NUMBER_SIZE];
+        lrcs_host_number_text(value[i], text);
+        fprintf(out, "%s%s", i > 0 ? "," : "", text);
+    }
+}
+
+void cli_profile_csv(const profile_job *job, FILE *out)
+{
+    fputs("near_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);
+    fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m\n" : "\n", out);
+    for (uint32_t i = 0; i < job->rows; i++) {
+        const profile_row *row = &job->row[i];
+        double sigma = cli_profile_sigma(&row->bin);
+        const double value[9] = {row->near_m,
+                                 row->far_m,
+                                 sigma,
+                                 row->bin.bound_m2,
+                                 row->bin.sigma_glint_m2,
+                                 row->bin.sigma_diffuse_m2,
+                                 sigma / job->bin_m,
+                                 row->pulse_m,
+                                 row->pulse_bound_m};
+        fields_write(out, value, job->fwhm_m > 0.0 ? 9 : 7);
+        putc('\n', out);
+    }
+}
+
+/* ---- JSON ---- */
+
+static void json_head(const profile_job *job, lrcs_host_json *json)
+{
+    const lrcs_profile *p = &job->profile.list;
+    double s_hat[3];
+    char hash[17];
+    unit_direction(&job->pose, s_hat);
+    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
+    lrcs_host_json_text(json, "version", lrcs_version());
+    lrcs_host_json_text(json, "scene_hash", hash);
+    cli_files_json(&job->scene, json);
+    lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
+    lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
+    for (int k = 0; k < 3; k++) {
+        lrcs_host_json_number(json, NULL, s_hat[k]);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_number(json, "bin_m", job->bin_m);
+    lrcs_host_json_number(json, "pulse_fwhm_m", job->fwhm_m > 0.0 ? job->fwhm_m : (double)NAN);
+    lrcs_host_json_number(json, "sigma_m2", total_sigma(job));
+    lrcs_host_json_number(json, "sigma_glint_m2", p->sigma_glint_m2);
+    lrcs_host_json_number(json, "sigma_diffuse_m2", p->sigma_diffuse_m2);
+    lrcs_host_json_number(json, "bound_m2", p->bound_m2);
+    lrcs_host_json_text(json, "bound_refers_to",
+                        cli_has_curved_shapes(&job->scene.scene)
+                            ? "the facets, also those that stand for curved shapes"
+                            : "the facets");
+    lrcs_host_json_begin(json, "tolerance", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(json, "asked", job->asked > 0.0 ? job->asked : (double)NAN);
+    if (job->asked > 0.0) {
+        lrcs_host_json_bool(json, "met", job->met);
+    } else {
+        lrcs_host_json_text(json, "met", NULL);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < job->scene.notices.count; i++) {
+        lrcs_host_json_text(json, NULL, job->scene.notices.text[i]);
+    }
+    lrcs_host_json_end(json);
+}
+
+void cli_profile_json(const profile_job *job)
+{
+    lrcs_host_json json = lrcs_host_json_make(stdout);
+    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    json_head(job, &json);
+    cli_provenance_json(job->args, &job->scene, &json);
+    lrcs_host_json_begin(&json, "bins", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < job->rows; i++) {
+        const profile_row *row = &job->row[i];
+        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_number(&json, "near_m", row->near_m);
+        lrcs_host_json_number(&json, "far_m", row->far_m);
+        lrcs_host_json_number(&json, "sigma_m2", cli_profile_sigma(&row->bin));
+        lrcs_host_json_number(&json, "bound_m2", row->bin.bound_m2);
+        lrcs_host_json_number(&json, "sigma_glint_m2", row->bin.sigma_glint_m2);
+        lrcs_host_json_number(&json, "sigma_diffuse_m2", row->bin.sigma_diffuse_m2);
+        lrcs_host_json_number(&json, "density_m", cli_profile_sigma(&row->bin) / job->bin_m);
+        if (job->fwhm_m > 0.0) {
+            lrcs_host_json_number(&json, "pulse_m", row->pulse_m);
+            lrcs_host_json_number(&json, "pulse_bound_m", row->pulse_bound_m);
+        }
+        lrcs_host_json_end(&json);
+    }
+    lrcs_host_json_end(&json);
+    lrcs_host_json_end(&json);
+}
+
+/* ---- the table ---- */
+
+static int by_falling_sigma(const void *a, const void *b)
+{
+    double left = cli_profile_sigma(&((const profile_row *)a)->bin);
+    double right = cli_profile_sigma(&((const profile_row *)b)->bin);
+    return left < right ? 1 : left > right ? -1 : 0;
+}
+
+static void row_print(const profile_job *job, const profile_row *row)
+{
+    char bound[CLI_BOUND_SIZE];
+    double sigma = cli_profile_sigma(&row->bin);
+    cli_bound_text(row->bin.bound_m2, 2, bound);
+    printf("  %12.6g %12.6g %14.8g %9s %12.6g", row->near_m, row->far_m, sigma, bound,
+           sigma / job->bin_m);
+    if (job->fwhm_m > 0.0) {
+        cli_bound_text(row->pulse_bound_m, 2, bound);
+        printf(" %14.8g %9s", row->pulse_m, bound);
+    }
+    putchar('\n');
+}
+
+/* All bins, or of many the strongest. */
+static void rows_print(const profile_job *job)
+{
+    profile_row *sorted = calloc((size_t)job->rows + 1, sizeof *sorted);
+    printf("  %12s %12s %14s %9s %12s%s\n", "from (m)", "to (m)", "sigma (m2)", "bound", "m2 per m",
+           job->fwhm_m > 0.0 ? "   pulse (m2/m)     bound" : "");
+    for (uint32_t i = 0; i < job->rows; i++) {
+        if (job->rows <= TABLE_ROWS || !sorted) {
+            row_print(job, &job->row[i]);
+        } else {
+            sorted[i] = job->row[i];
+        }
+    }
+    if (job->rows > TABLE_ROWS && sorted) {
+        qsort(sorted, job->rows, sizeof *sorted, by_falling_sigma);
+        for (uint32_t i = 0; i < TABLE_ROWS / 2; i++) {
+            row_print(job, &sorted[i]);
+        }
+        printf("  the strongest %lu of %lu bins; --csv and --json give all\n",
+               (unsigned long)(TABLE_ROWS / 2), (unsigned long)job->rows);
+    }
+    free(sorted);
+}
+
+static void verdict_print(const profile_job *job)
+{
+    const lrcs_profile *p = &job->profile.list;
+    char bin[CLI_BOUND_SIZE];
+    char all[CLI_BOUND_SIZE];
+    double worst = 0.0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        worst = fmax(worst, p->bin[i].bound_m2);
+    }
+    cli_bound_text(total_sigma(job) > 0.0 ? worst / total_sigma(job) : worst, 2, bin);
+    cli_bound_text(total_sigma(job) > 0.0 ? p->bound_m2 / total_sigma(job) : p->bound_m2, 2, all);
+    printf("verdict      each bin is proved to %s of sigma or better, their sum to %s.\n", bin,
+           all);
+    if (worst > p->bound_m2 && worst > 1e-6 * total_sigma(job)) {
+        printf("             A face within rounding of a bin's edge may be on either side of it\n");
+    }
+    if (cli_has_curved_shapes(&job->scene.scene)) {
+        printf("             Left open: how far curved shapes are from the facets that stand for "
+               "them\n");
+    }
+    if (cli_materials_open(&job->scene.scene)) {
+        printf("             Left open: materials, which are illustrative or default ones\n");
+    }
+}
+
+void cli_profile_table(const profile_job *job)
+{
+    const lrcs_profile *p = &job->profile.list;
+    double s_hat[3];
+    char bound[CLI_BOUND_SIZE];
+    unit_direction(&job->pose, s_hat);
+    printf("scene        ");
+    cli_column(cli_scene_title(job->args, &job->scene), 0);
+    printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+    printf("direction    %.10g, %.10g, %.10g   to the laser, body frame\n", s_hat[0], s_hat[1],
+           s_hat[2]);
+    cli_bound_text(p->bound_m2, 3, bound);
+    printf("sigma        %.10g m2, the sum of all bins; bound %s m2", total_sigma(job), bound);
+    if (job->asked > 0.0) {
+        printf("; tolerance %g %s", job->asked, job->met ? "met" : "NOT met");
+    }
+    printf("\nrange        m from the body's origin, away from the laser; %lu bins of %g m\n",
+           (unsigned long)p->count, job->bin_m);
+    if (job->fwhm_m > 0.0) {
+        printf("pulse        Gaussian, %g m wide at half maximum in range\n", job->fwhm_m);
+    }
+    rows_print(job);
+    if (job->csv) {
+        printf("rows         %s\n", job->csv);
+    }
+    if (job->plot) {
+        printf("chart        %s\n", job->plot);
+    }
+    verdict_print(job);
+}

@@ -1,0 +1,475 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs scene: a scene file to begin with, made from a model: its parts, its materials with their
+   colours, and every number that is assumed for them, ready to edit. As it is written it means what
+   the model alone means: the same facets, materials and sigma. */
+#include "cli/info/info.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+static const char scene_help[] =
+    "usage: lrcs scene MODEL -o FILE.toml [options]\n"
+    "\n"
+    "Writes a scene file for MODEL, a .3ds, .obj or .stl model, to edit: the model as a part,\n"
+    "its unit, every material with its colour, facets and area, and its numbers A, B, s, m.\n"
+    "What nobody has given is marked as assumed and stands at its default. lrcs run takes\n"
+    "the file as it is, and finds the same sigma as for MODEL.\n"
+    "\n"
+    "output\n"
+    "  -o FILE.toml          the scene file, a new one ('-': standard output)\n"
+    "\n"
+    "options\n"
+    "  --unit U              of the model: mm, cm, m (default), in, ft or metres per unit\n"
+    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name (* and ? serve) or "
+    "'#RRGGBB',\n"
+    "                        all else if missing; BRDF is A,B,s,m (A, B in 1/sr) or a library\n"
+    "                        material\n"
+    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "\n"
+    "examples\n"
+    "  lrcs scene aura.3ds --unit in -o aura.toml\n"
+    "  lrcs scene lander.obj --material 'gold*=mli-gold' -o lander.toml\n";
+
+static const cli_option scene_options[] = {{"unit", 1, 0},     {"material", 1, 1},
+                                           {"o", CLI_FILE, 0}, {"keep-transparent", 0, 0},
+                                           {"help", 0, 0},     {NULL, 0, 0}};
+
+typedef struct scene_job {
+    const cli_args *args;
+    const char *path;
+    lrcs_host_options load;
+    lrcs_host_scene scene;
+    uint32_t *facets; /* of each material */
+    double *area;     /* m2, likewise */
+    char *text;       /* the scene file */
+    size_t size;
+} scene_job;
+
+/* ---- TOML ---- */
+
+/* A basic string. */
+static void string_put(FILE *out, const char *text)
+{
+    putc('"', out);
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c < 0x20 || *c == 0x7f) {
+            fprintf(out, "\\u%04X", *c);
+        } else {
+            fprintf(out, *c == '"' || *c == '\\' ? "\\%c" : "%c", *c);
+        }
+    }
+    putc('"', out);
+}
+
+/* Text in a comment: one line, no control characters. */
+static void comment_put(FILE *out, const char *text)
+{
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        putc(*c < 0x20 || *c == 0x7f ? '?' : *c, out);
+    }
+}
+
+/* A number with as few digits as mean it. */
+static void number_put(FILE *out, const char *key, double value)
+{
+    char text[LRCS_HOST_NUMBER_SIZE];
+    double back = 0.0;
+    for (int digits = 6; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+        if (lrcs_host_number_read(text, strlen(text), &back) == LRCS_OK && back == value) {
+            break;
+        }
+    }
+    fprintf(out, "%s = %s\n", key, text);
+}
+
+/* ---- paths ---- */
+
+/* The model's path as seen from the scene file's folder; the caller frees it. An absolute path
+   stays as it is. */
+static char *path_from(const char *model, const char *scene)
+{
+    char *folder = strdup(scene);
+    char *slash = folder ? strrchr(folder, '/') : NULL;
+    if (!folder || model[0] == '/' || strcmp(scene, "-") == 0 || (!slash && !strchr(model, '/'))) {
+        free(folder);
+        return strdup(model);
+    }
+    if (slash) {
+        slash[1] = '\0';
+    } else {
+        strcpy(folder, ".");
+    }
+    char *from = realpath(folder, NULL);
+    char *to = realpath(model, NULL);
+    char *path = NULL;
+    size_t same = 0; /* bytes of the folders that both are in */
+    size_t ups = 0;
+    for (size_t i = 0; from && to && from[i] == to[i] && to[i]; i++) {
+        same = to[i] == '/' ? i + 1 : same;
+        if (from[i + 1] == '\0' && to[i + 1] == '/') {
+            same = i + 2;
+        }
+    }
+    for (size_t i = same; from && same < strlen(from) + 1 && from[i]; i++) {
+        ups += i == same || from[i] == '/';
+    }
+    if (from && to && (path = malloc(3 * ups + strlen(to + same) + 1)) != NULL) {
+        path[0] = '\0';
+        for (size_t i = 0; i < ups; i++) {
+            strcat(path, "../");
+        }
+        strcat(path, to + same);
+    }
+    free(folder);
+    free(from);
+    free(to);
+    return path;
+}
+
+/* ---- what a name suggests ---- */
+
+static int contains(const char *text, const char *word)
+{
+    size_t size = strlen(word);
+    for (; *text; text++) {
+        if (strncasecmp(text, word, size) == 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The library's material that a name makes one think of, or NULL. */
+static const char *suggestion(const char *name)
+{
+    static const char *const word[][2] = {
+        {"solar", "solar-cell"},    {"cell", "solar-cell"},
+        {"gold", "mli-gold"},       {"mli", "mli-gold"},
+        {"kapton", "mli-gold"},     {"foil", "mli-silver"},
+        {"silver", "mli-silver"},   {"white", "paint-white"},
+        {"black", "paint-black"},   {"anod", "aluminium-anodised"},
+        {"alu", "aluminium-bare"},  {"chrom", "aluminium-bare"},
+        {"metal", "aluminium-bare"}};
+    for (size_t i = 0; i < sizeof word / sizeof word[0]; i++) {
+        if (contains(name, word[i][0])) {
+            return word[i][1];
+        }
+    }
+    return NULL;
+}
+
+/* ---- the parts of the file ---- */
+
+static int worn_count(scene_job *job)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    job->facets = calloc((size_t)scene->material_count + 1, sizeof *job->facets);
+    job->area = calloc((size_t)scene->material_count + 1, sizeof *job->area);
+    for (uint32_t i = 0; job->facets && job->area && i < scene->facet_count; i++) {
+        job->facets[scene->facet_material[i]]++;
+        job->area[scene->facet_material[i]] += cli_facet_area(scene, i);
+    }
+    return job->facets && job->area ? 0 : cli_out_of_memory();
+}
+
+static void head_put(const scene_job *job, const char *unnamed, FILE *out)
+{
+    const lrcs_recipe_part *part = &job->scene.recipe.part[0];
+    fputs("# ", out);
+    comment_put(out, cli_base_name(job->args->operand));
+    fprintf(out, " as a scene, to edit: made by lrcs scene, version %s.\n", lrcs_version());
+    fputs(
+        "# As it stands it means what the model alone means. What nobody has given is marked as a "
+        "GUESS.\nschema = 1\nname = ",
+        out);
+    string_put(out, cli_base_name(job->args->operand));
+    fprintf(out,
+            "\n%skeep_transparent = true   # keep facets that the file calls fully transparent\n",
+            job->load.keep_transparent ? "" : "# ");
+    if (unnamed) {
+        fputs("default_material = ", out);
+        string_put(out, unnamed);
+        fputs("   # of facets without a material\n", out);
+    }
+    fputs("\n[[part]]\nname = ", out);
+    string_put(out, part->name);
+    fputs("\nfile = ", out);
+    char *path = path_from(job->args->operand, job->path);
+    string_put(out, path ? path : job->args->operand);
+    free(path);
+    const char *unit = cli_value(job->args, "unit");
+    double metres = 0.0;
+    if (!unit) {
+        fputs("\n# GUESS: ", out);
+        for (uint32_t i = 0; i < job->scene.notices.count; i++) {
+            if (strstr(job->scene.notices.text[i], "no unit is stated")) {
+                comment_put(out, job->scene.notices.text[i]);
+            }
+        }
+        fputs("\n# unit = \"m\"              # mm, cm, m, in, ft, or metres per unit\n", out);
+    } else if (lrcs_host_number_read(unit, strlen(unit), &metres) == LRCS_OK) {
+        putc('\n', out);
+        number_put(out, "unit", metres);
+    } else {
+        fprintf(out, "\nunit = \"%s\"\n", unit);
+    }
+    fputs("# translate = [0, 0, 0]   # m; rotate_euler = \"XYZ\" with rotate_deg = [0, 0, 0] turns "
+          "it\n",
+          out);
+}
+
+/* The objects of the model: names that --two-sided takes; their facets go where the part goes. */
+static void objects_put(const scene_job *job, FILE *out)
+{
+    const lrcs_mesh *model = &job->scene.model[0];
+    if (model->part_count == 0) {
+        return;
+    }
+    fprintf(out, "#\n# The model's %lu object%s (run --two-sided takes these names):\n",
+            (unsigned long)model->part_count, model->part_count > 1 ? "s" : "");
+    uint32_t *count = calloc(model->part_count, sizeof *count);
+    for (uint32_t i = 0; count && i < model->facet_count; i++) {
+        count[model->facet_part[i]]++;
+    }
+    for (uint32_t k = 0; count && k < model->part_count; k++) {
+        fprintf(out, "#   %8lu facets  ", (unsigned long)count[k]);
+        comment_put(out, model->part[k]);
+        putc('\n', out);
+    }
+    free(count);
+}
+
+static void brdf_put(const lrcs_material *material, FILE *out)
+{
+    const lrcs_brdf *brdf = &material->brdf;
+    const lrcs_brdf_entry *entry = NULL;
+    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
+        if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
+            entry->brdf.m == brdf->m) {
+            fprintf(out, "like = \"%s\"   # GUESS: A=%g, B=%g, s=%g, m=%g, illustrative\n",
+                    entry->name, brdf->A, brdf->B, brdf->s, brdf->m);
+            return;
+        }
+    }
+    if (!material->bound) {
+        const char *like = suggestion(material->name);
+        fputs("assumed = true    # GUESS: A to m are the default; delete this line with your own",
+              out);
+        if (like) {
+            fprintf(out, "\n# like = \"%s\"   # may suit that name better, in place of A to m",
+                    like);
+        }
+        putc('\n', out);
+    }
+    number_put(out, "A", brdf->A);
+    number_put(out, "B", brdf->B);
+    number_put(out, "s", brdf->s);
+    number_put(out, "m", brdf->m);
+}
+
+/* The first material of each name: a name stands for all that have it. */
+static int is_first(const lrcs_scene *scene, uint32_t index)
+{
+    uint32_t i = 0;
+    while (i < index && strcmp(scene->material[i].name, scene->material[index].name) != 0) {
+        i++;
+    }
+    return i == index;
+}
+
+/* Are all materials of a name two-sided? The key would make them so. */
+static int two_sided_all(const lrcs_scene *scene, const char *name)
+{
+    int all = 1;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        all &= strcmp(scene->material[i].name, name) != 0 || scene->material[i].two_sided;
+    }
+    return all;
+}
+
+/* A material of the model, with a map from its name; `unnamed`, instead of a map, for facets
+   without a name. */
+static void material_put(const scene_job *job, uint32_t index, const char *unnamed, FILE *out)
+{
+    const lrcs_material *material = &job->scene.scene.material[index];
+    const char *name = unnamed ? unnamed : material->name;
+    fprintf(out, "\n# %lu facets, %.4g m2", (unsigned long)job->facets[index], job->area[index]);
+    if (material->has_colour) {
+        fprintf(out, ", colour #%02X%02X%02X", material->rgb[0], material->rgb[1],
+                material->rgb[2]);
+    }
+    fputs(material->omitted ? ", fully transparent: left out\n[[material]]\nname = "
+                            : "\n[[material]]\nname = ",
+          out);
+    string_put(out, name);
+    putc('\n', out);
+    brdf_put(material, out);
+    fputs(two_sided_all(&job->scene.scene, material->name)
+              ? "two_sided = true  # as the model says\n"
+              : "# two_sided = true   # if its back reflects, too\n",
+          out);
+    if (!unnamed) {
+        fputs("[[map]]\nname = ", out);
+        string_put(out, name);
+        fputs("\nmaterial = ", out);
+        string_put(out, name);
+        putc('\n', out);
+    }
+}
+
+/* A name for what has none, unlike all others. */
+static void unnamed_choose(const lrcs_scene *scene, char name[32])
+{
+    int taken = 1;
+    for (unsigned n = 1; taken; n++) {
+        snprintf(name, 32, n > 1 ? "default %u" : "default", n);
+        taken = 0;
+        for (uint32_t i = 0; i < scene->material_count; i++) {
+            taken |= strcmp(scene->material[i].name, name) == 0;
+        }
+    }
+}
+
+static void scene_put(const scene_job *job, FILE *out)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    char unnamed[32];
+    int any = 0;
+    unnamed_choose(scene, unnamed);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        any |= !scene->material[i].name[0] && job->facets[i] > 0;
+    }
+    head_put(job, any ? unnamed : NULL, out);
+    objects_put(job, out);
+    fputs(
+        "\n# Materials: f_r = A / cos^6 exp(-tan^2 / s^2) + B cos^m, A and B in 1/sr. Names of the "
+        "library,\n# which is illustrative:",
+        out);
+    const lrcs_brdf_entry *entry;
+    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
+        fprintf(out, "%s %s", i == 0 ? "" : i % 6 == 5 ? ",\n#" : ",", entry->name);
+    }
+    putc('\n', out);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        int nameless = !scene->material[i].name[0];
+        if ((!nameless || job->facets[i] > 0) && is_first(scene, i)) {
+            material_put(job, i, nameless ? unnamed : NULL, out);
+        }
+    }
+}
+
+/* ---- the command ---- */
+
+/* Materials of one name have one map: colours cannot tell them apart. 0 or CLI_USAGE. */
+static int names_check(const scene_job *job)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_material *one = &scene->material[i];
+        for (uint32_t k = 0; k < i; k++) {
+            const lrcs_material *other = &scene->material[k];
+            if (strcmp(one->name, other->name) == 0 &&
+                memcmp(&one->brdf, &other->brdf, sizeof one->brdf) != 0) {
+                return cli_usage(job->args->command,
+                                 "--material: two materials are named '%s', which a scene file "
+                                 "cannot give different numbers",
+                                 one->name);
+            }
+        }
+    }
+    return 0;
+}
+
+static int scene_read(scene_job *job)
+{
+    const cli_args *args = job->args;
+    job->path = cli_value(args, "o");
+    if (!job->path) {
+        return cli_usage(args->command, "give -o FILE.toml");
+    }
+    if (strcmp(job->path, "-") != 0 && !cli_extension(job->path, ".toml")) {
+        return cli_usage(args->command, "-o: expected FILE.toml, found '%s'", job->path);
+    }
+    if (strcmp(job->path, "-") != 0 && access(job->path, F_OK) == 0) {
+        return cli_usage(args->command,
+                         "-o: '%s' is there, and may have been edited: give a new name", job->path);
+    }
+    int code = cli_scene_options_read(args, &job->load);
+    code = code ? code : cli_scene_read(args, &job->load, &job->scene);
+    if (code == 0 && (job->scene.recipe.part_count != 1 || job->scene.recipe.part[0].line != 0)) {
+        return cli_usage(args->command,
+                         "expected a model, found a scene file: '%s' can be edited as "
+                         "it is",
+                         args->operand);
+    }
+    return code;
+}
+
+/* What was made is read back before it is written: no model's names make a file that lrcs refuses.
+ */
+static int scene_check(const scene_job *job)
+{
+    lrcs_recipe recipe;
+    lrcs_where where;
+    size_t need = lrcs_recipe_need(job->size);
+    void *bytes = malloc(need);
+    if (!bytes) {
+        return cli_out_of_memory();
+    }
+    lrcs_work work = lrcs_work_make(bytes, need);
+    int status = lrcs_recipe_read(job->text, job->size, &work, &recipe, &where);
+    free(bytes);
+    if (status != LRCS_OK) {
+        fprintf(stderr,
+                "lrcs: %s: cannot be written as a scene file: %s, found '%s', expected %s\n",
+                job->args->operand, where.item, where.found, where.expected);
+        return CLI_FAILED;
+    }
+    return 0;
+}
+
+static int text_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const scene_job *job = context;
+    (void)error;
+    fwrite(job->text, 1, job->size, out);
+    return LRCS_OK;
+}
+
+static int scene_make(scene_job *job)
+{
+    FILE *out = open_memstream(&job->text, &job->size);
+    if (!out) {
+        return cli_out_of_memory();
+    }
+    scene_put(job, out);
+    int failed = ferror(out);
+    return fclose(out) != 0 || failed ? cli_out_of_memory() : scene_check(job);
+}
+
+static int scene_command(const cli_args *args)
+{
+    scene_job job;
+    memset(&job, 0, sizeof job);
+    job.args = args;
+    int code = scene_read(&job);
+    code = code ? code : names_check(&job);
+    code = code ? code : worn_count(&job);
+    code = code ? code : scene_make(&job);
+    code = code ? code : cli_output_write(job.path, text_write, &job);
+    if (code == 0) {
+        cli_notices_print(stderr, &job.scene.notices);
+    }
+    free(job.text);
+    free(job.facets);
+    free(job.area);
+    lrcs_host_scene_free(&job.scene);
+    cli_scene_options_free(&job.load);
+    return code;
+}
+
+const cli_command cli_scene_command = {"scene",    "MODEL",       "give a .3ds, .obj or .stl model",
+                                       scene_help, scene_options, scene_command};

@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: MIT */
+/* Statistics of a sweep as a table for people, JSON, CSV and a chart. */
+#include "cli/sweep/sweep.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CHART_POINTS 2000u /* of the cumulative distribution */
+#define TEXT_BAR     40
+
+static const char *const stats_extension[] = {".json", ".csv", ".svg", ".png"};
+
+static int is_stats_file(const cli_given *given)
+{
+    return strcmp(given->name, "stats-file") == 0;
+}
+
+int cli_stats_read(const cli_args *args, int *asked)
+{
+    *asked = cli_value(args, "stats") != NULL;
+    for (int i = 0; i < args->given_count; i++) {
+        const char *path = args->given[i].value;
+        int known = 0;
+        for (int k = 0; k < 4 && is_stats_file(&args->given[i]); k++) {
+            known |= cli_extension(path, stats_extension[k]);
+        }
+        if (is_stats_file(&args->given[i]) && !known) {
+            return cli_usage(args->command,
+                             "--stats-file: expected FILE.json, .csv, .svg or .png, found '%s'",
+                             path);
+        }
+        *asked |= known;
+        for (int k = 0; k < i && known; k++) {
+            const cli_output pair[2] = {{args->given[k].name, args->given[k].value},
+                                        {"stats-file", path}};
+            const char *name = pair[0].option;
+            int code = is_stats_file(&args->given[k]) || strcmp(name, "plot") == 0 ||
+                               strcmp(name, "o") == 0
+                           ? cli_outputs_apart(args->command, pair, 2)
+                           : 0;
+            if (code != 0) {
+                return code;
+            }
+        }
+    }
+    return 0;
+}
+
+/* ---- for people ---- */
+
+static void sigma_print(FILE *out, const char *label, double sigma)
+{
+    fprintf(out, "  %-10s %.9g m2", label, sigma);
+    if (sigma > 0.0) {
+        fprintf(out, "   %.4f dBsm", cli_dbsm(sigma));
+    }
+}
+
+static void place_print(FILE *out, const char *label, const sweep_plan *plan, const stats_row *row)
+{
+    double value[SWEEP_COLUMNS];
+    cli_plan_values(plan, row->index, value);
+    sigma_print(out, label, row->sigma);
+    for (uint32_t i = 0; i < plan->columns; i++) {
+        fprintf(out, "%s%s = %.9g", i == 0 ? " at " : ", ", plan->column[i], value[i]);
+    }
+    fputc('\n', out);
+}
+
+/* How far a value may be off, rounded up. */
+static void within_print(FILE *out, const stats_value *value)
+{
+    char text[CLI_BOUND_SIZE];
+    cli_bound_text(fmax(value->most - value->value, value->value - value->least), 2, text);
+    fprintf(out, "%s m2", text);
+}
+
+static void histogram_print(FILE *out, const sweep_stats *stats)
+{
+    double fullest = 0.0;
+    for (uint32_t i = 0; i < stats->bins; i++) {
+        fullest = fmax(fullest, stats->cdf[i + 1].value - stats->cdf[i].value);
+    }
+    fprintf(out, "  share of rows by sigma in dBsm, and of all up to there\n");
+    if (stats->bins == 0 || stats->cdf[0].value > 0.0) {
+        fprintf(out, "  %8s %7s  %7.2f %%  %7.2f %%\n", stats->bins ? "less" : "sigma 0", "",
+                stats->bins ? 100.0 * stats->cdf[0].value : 100.0,
+                stats->bins ? 100.0 * stats->cdf[0].value : 100.0);
+    }
+    for (uint32_t i = 0; i < stats->bins; i++) {
+        double share = stats->cdf[i + 1].value - stats->cdf[i].value;
+        int bar = (int)lround(share / fullest * TEXT_BAR);
+        fprintf(out, "  %7.1f .. %5.1f  %7.2f %%  %7.2f %%  %.*s\n", stats->edge_dbsm[i],
+                stats->edge_dbsm[i + 1], 100.0 * share, 100.0 * stats->cdf[i + 1].value, bar,
+                "########################################");
+    }
+}
+
+static void stats_print(FILE *out, const sweep_stats *stats)
+{
+    fprintf(out, "statistics   %llu rows, %s\n", (unsigned long long)stats->rows, stats->weights);
+    sigma_print(out, "mean", stats->mean.value);
+    fprintf(out, ", known to ");
+    within_print(out, &stats->mean);
+    fprintf(out, " for these rows\n");
+    place_print(out, "least", stats->plan, &stats->row[0]);
+    double worst = 0.0;
+    for (int k = 0; k < STATS_PERCENTS; k++) {
+        const stats_value *value = &stats->percentile[k];
+        char label[16];
+        snprintf(label, sizeof label, "%d %%", cli_stats_percent[k]);
+        sigma_print(out, label, value->value);
+        fprintf(out, "%s\n", cli_stats_percent[k] == 50 ? "   median" : "");
+        worst = fmax(worst, fmax(value->most - value->value, value->value - value->least));
+    }
+    place_print(out, "most", stats->plan, &stats->row[stats->rows - 1]);
+    char text[CLI_BOUND_SIZE];
+    cli_bound_text(worst, 2, text);
+    fprintf(out, "  percentiles are known to %s m2 or better for these rows\n", text);
+    histogram_print(out, stats);
+}
+
+/* ---- JSON ---- */
+
+static void value_json(lrcs_host_json *json, const char *key, const stats_value *value)
+{
+    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(json, "value", value->value);
+    lrcs_host_json_number(json, "least", value->least);
+    lrcs_host_json_number(json, "most", value->most);
+    lrcs_host_json_end(json);
+}
+
+static void row_json(lrcs_host_json *json, const char *key, const sweep_stats *stats,
+                     const stats_row *row)
+{
+    double value[SWEEP_COLUMNS];
+    cli_plan_values(stats->plan, row->index, value);
+    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(json, "sigma_m2", row->sigma);
+    lrcs_host_json_number(json, "bound_m2", row->bound);
+    lrcs_host_json_count(json, "index", row->index);
+    for (uint32_t i = 0; i < stats->plan->columns; i++) {
+        lrcs_host_json_number(json, stats->plan->column[i], value[i]);
+    }
+    lrcs_host_json_end(json);
+}
+
+static int stats_json(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const sweep_stats *stats = context;
+    const sweep_head *head = stats->head;
+    char text[24];
+    (void)error;
+    lrcs_host_json json = lrcs_host_json_make(out);
+    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    lrcs_host_json_text(&json, "lrcs", "statistics");
+    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
+    lrcs_host_json_text(&json, "version", lrcs_version());
+    snprintf(text, sizeof text, "%016llx", (unsigned long long)head->scene_hash);
+    lrcs_host_json_text(&json, "scene_hash", text);
+    lrcs_host_json_count(&json, "rows", stats->rows);
+    lrcs_host_json_text(&json, "weights", stats->weights);
+    value_json(&json, "mean_m2", &stats->mean);
+    lrcs_host_json_number(&json, "standard_error_m2", stats->standard_error);
+    row_json(&json, "least", stats, &stats->row[0]);
+    row_json(&json, "most", stats, &stats->row[stats->rows - 1]);
+    lrcs_host_json_begin(&json, "percentiles", LRCS_HOST_ARRAY);
+    for (int k = 0; k < STATS_PERCENTS; k++) {
+        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_count(&json, "percent", (uint64_t)cli_stats_percent[k]);
+        value_json(&json, "sigma_m2", &stats->percentile[k]);
+        lrcs_host_json_end(&json);
+    }
+    lrcs_host_json_end(&json);
+    lrcs_host_json_begin(&json, "cdf", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i <= stats->bins && stats->bins > 0; i++) {
+        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_number(&json, "sigma_dbsm", stats->edge_dbsm[i]);
+        lrcs_host_json_number(&json, "sigma_m2", stats->edge_m2[i]);
+        value_json(&json, "share", &stats->cdf[i]);
+        lrcs_host_json_end(&json);
+    }
+    lrcs_host_json_end(&json);
+    lrcs_host_json_begin(&json, "sweep", LRCS_HOST_OBJECT);
+    for (uint32_t i = 0; i < head->options; i++) {
+        lrcs_host_json_text(&json, head->option[i].key, head->option[i].text);
+    }
+    lrcs_host_json_end(&json);
+    lrcs_host_json_end(&json);
+    return LRCS_OK;
+}
+
+/* ---- CSV ---- */
+
+static void number_put(FILE *out, double value, const char *after)
+{
+    char text[LRCS_HOST_NUMBER_SIZE];
+    lrcs_host_number_text(value, text);
+    fprintf(out, "%s%s", text, after);
+}
+
+/* The histogram: one row for each bin, the first for all that is less. */
+static int stats_csv(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const sweep_stats *stats = context;
+    (void)error;
+    fprintf(out, "# lrcs %s statistics; scene_hash=%016llx; rows=%llu; weights=%s", lrcs_version(),
+            (unsigned long long)stats->head->scene_hash, (unsigned long long)stats->rows,
+            stats->weights);
+    for (uint32_t i = 0; i < stats->head->options; i++) {
+        fprintf(out, "; %s=%s", stats->head->option[i].key, stats->head->option[i].text);
+    }
+    fputs("\nto_dbsm,to_m2,share,cdf,cdf_least,cdf_most\n", out);
+    for (uint32_t i = 0; i <= stats->bins && stats->bins > 0; i++) {
+        const stats_value *cdf = &stats->cdf[i];
+        number_put(out, stats->edge_dbsm[i], ",");
+        number_put(out, stats->edge_m2[i], ",");
+        number_put(out, cdf->value - (i > 0 ? cdf[-1].value : 0.0), ",");
+        number_put(out, cdf->value, ",");
+        number_put(out, cdf->least, ",");
+        number_put(out, cdf->most, "\n");
+    }
+    return LRCS_OK;
+}
+
+/* ---- the chart ---- */
+
+typedef struct stats_chart {
+    const sweep_stats *stats;
+    double *x, *y; /* of the cumulative distribution */
+    uint32_t count;
+    double bin_x[2 * STATS_BINS + 2], bin_y[2 * STATS_BINS + 2]; /* the histogram's outline */
+    double fullest;
+    int png;
+} stats_chart;
+
+static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const stats_chart *from = context;
+    const sweep_stats *stats = from->stats;
+    const char *title = cli_head_text(stats->head, "title");
+    char words[300], note[300], bars[80];
+    double least[STATS_BINS + 1], most[STATS_BINS + 1];
+    double wide = 0.0;
+    for (uint32_t i = 0; i <= stats->bins; i++) {
+        least[i] = stats->cdf[i].least;
+        most[i] = stats->cdf[i].most;
+        wide = fmax(wide, most[i] - least[i]);
+    }
+    snprintf(words, sizeof words, "Distribution of sigma of %.200s", title ? title : "");
+    snprintf(note, sizeof note, "%llu rows, %s; mean %.4g m2, median %.4g m2",
+             (unsigned long long)stats->rows, stats->weights, stats->mean.value,
+             stats->percentile[4].value);
+    snprintf(bars, sizeof bars, "histogram: 1 is %.3g %% in %.3g dB", 100.0 * from->fullest,
+             stats->edge_dbsm[1] - stats->edge_dbsm[0]);
+    const lrcs_host_series series[] = {
+        {bars, 2 * stats->bins + 2, from->bin_x, from->bin_y, NULL, LRCS_HOST_ORANGE,
+         LRCS_HOST_NO_MARKER, LRCS_HOST_SOLID, 0},
+        {"cumulative", from->count, from->x, from->y, NULL, LRCS_HOST_BLUE, LRCS_HOST_NO_MARKER,
+         LRCS_HOST_SOLID, 0},
+        {"at least, by bound", stats->bins + 1, stats->edge_dbsm, least, NULL, LRCS_HOST_SKY_BLUE,
+         LRCS_HOST_TRIANGLE, LRCS_HOST_NO_LINE, 0},
+        {"at most, by bound", stats->bins + 1, stats->edge_dbsm, most, NULL, LRCS_HOST_PURPLE,
+         LRCS_HOST_CROSS, LRCS_HOST_NO_LINE, 0}};
+    const lrcs_host_chart chart = {.title = words,
+                                   .note = note,
+                                   .x_name = "sigma (dBsm)",
+                                   .y_name = "share of all rows",
+                                   .y_from_0 = 1,
+                                   .series = series,
+                                   .series_count = wide > 0.02 ? 4 : 2};
+    if (from->png) {
+        return lrcs_host_chart_png(out, &chart, error);
+    }
+    lrcs_host_chart_svg(out, &chart);
+    return LRCS_OK;
+}
+
+/* The cumulative distribution as steps at the rows from the first edge on, of many rows some; and
+   the outline of the histogram. 0 or CLI_FAILED; x is the caller's to free. */
+static int chart_make(const sweep_stats *stats, stats_chart *chart)
+{
+    uint64_t each = stats->rows / CHART_POINTS + 1;
+    uint64_t room = 2 * (stats->rows / each + 3);
+    double below = 0.0;
+    *chart = (stats_chart){.stats = stats, .x = malloc(2 * room * sizeof(double))};
+    if (!chart->x) {
+        return cli_out_of_memory();
+    }
+    chart->y = chart->x + room;
+    for (uint64_t i = 0; i < stats->rows; i++) {
+        double before = below / stats->whole;
+        double sigma = stats->row[i].sigma;
+        int drawn =
+            (i % each == 0 || i + 1 == stats->rows) && stats->bins > 0 && sigma > stats->edge_m2[0];
+        below += stats->row[i].weight;
+        if (drawn) {
+            chart->x[chart->count] = chart->x[chart->count + 1] = cli_dbsm(sigma);
+            chart->y[chart->count] = before;
+            chart->y[chart->count + 1] = i + 1 == stats->rows ? 1.0 : below / stats->whole;
+            chart->count += 2;
+        }
+    }
+    for (uint32_t i = 0; i < stats->bins; i++) {
+        chart->fullest = fmax(chart->fullest, stats->cdf[i + 1].value - stats->cdf[i].value);
+    }
+    for (size_t i = 0; i <= stats->bins; i++) {
+        double left = i > 0 ? stats->cdf[i].value - stats->cdf[i - 1].value : 0.0;
+        double right = i < stats->bins ? stats->cdf[i + 1].value - stats->cdf[i].value : 0.0;
+        chart->bin_x[2 * i] = chart->bin_x[2 * i + 1] = stats->edge_dbsm[i];
+        chart->bin_y[2 * i] = left / chart->fullest;
+        chart->bin_y[2 * i + 1] = right / chart->fullest;
+    }
+    return 0;
+}
+
+/* ---- all of them ---- */
+
+static int file_write(const char *path, const sweep_stats *stats)
+{
+    if (cli_extension(path, ".json") || cli_extension(path, ".csv")) {
+        return cli_output_write(path, cli_extension(path, ".csv") ? stats_csv : stats_json, stats);
+    }
+    stats_chart chart;
+    int code = chart_make(stats, &chart);
+    if (code == 0 && stats->bins == 0) {
+        fprintf(stderr, "lrcs: %s: nothing to draw: sigma of every row is 0\n", path);
+        code = CLI_FAILED;
+    }
+    chart.png = cli_extension(path, ".png");
+    code = code ? code : cli_output_write(path, chart_write, &chart);
+    free(chart.x);
+    return code;
+}
+
+int cli_stats_write(const cli_args *args, FILE *out, const sweep_stats *stats)
+{
+    int code = 0;
+    if (cli_value(args, "stats")) {
+        stats_print(out, stats);
+    }
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        if (is_stats_file(&args->given[i])) {
+            code = file_write(args->given[i].value, stats);
+        }
+    }
+    return code;
+}

@@ -1,0 +1,548 @@
+/* SPDX-License-Identifier: MIT */
+/* sigma over range. What is visible is decided in visibility/occlude.c, what a facet reflects in
+   integrate/total.c; here, how a facet's visible projected area divides among bins of range, and
+   what that may be off by.
+
+   Let s be a facet's sigma per visible projected area, constant on a flat facet, and P one of the
+   triangles that its visible pieces are fanned into. The computed range z~ is linear over P, from
+   the computed ranges at its corners. The area of P with z~ below z has a density over z that rises
+   linearly from the nearest corner to the middle one and falls to the farthest: its integral over a
+   bin is a sum of at most two trapezia.
+
+   Error of a bin, each part times the largest s:
+     (1) what s may be off by: lrcsi_facet_terms;
+     (2) the area D by which the pieces differ from what is visible, which may lie anywhere on the
+   facet: all of it is charged to every bin that the facet reaches into;
+     (3) the true range z of a point is within e of z~, so the true and the computed part of P in a
+   bin differ only where z~ is within e of one of the bin's edges. There P has at most e 4 / (z2 -
+   z0) of its area, z0 and z2 being its least and its largest range: the density is nowhere above
+   2 / (z2 - z0). This area is charged to the bins on both sides of the edge;
+     (4) rounding of the trapezia: some ten operations on terms of one sign, 16 u.
+   (3) applies only to edges between bins that the facet reaches into. Those bins are found from its
+   corners' ranges in double-double, so that a facet normal to the line of sight is in one bin.
+   The sum of all bins has only (1), (2) and (4).
+
+   e: a corner's range is rounded once, 1.01 u |z|; a point of a piece is a sum of corners with
+   weights that add up to 1 within 4 u and three roundings, 7 u |z|; it projects to within 100 u of
+   the reach, which is tan(theta) times as much in range (visibility/target.h).
+   Called: lrcsi_view_make, lrcsi_classify_make, lrcsi_occlude_make; for each facet
+   lrcsi_facet_terms_make, lrcsi_occlude_open, _next, _close. */
+#include <lrcs/profile.h>
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/constant.h"
+#include "base/dd.h"
+#include "base/range.h"
+#include "base/sum.h"
+#include "base/work.h"
+#include "integrate/total.h"
+#include "view/frame.h"
+#include "visibility/occlude.h"
+
+/* Relative error of the part of a triangle in a bin. */
+#define PART_ERROR (16 * LRCSI_U)
+
+/* Relative error of a range in double-double, for each unit of |x| + |y| + |z|: the components of
+   the unit vector are accurate to 2^-97, three products and two sums add 16 u^2. */
+#define RANGE_DD_ERROR 0x1p-96
+
+typedef struct bin_sums {
+    lrcsi_sum glint, diffuse, moment;
+    double bound;
+} bin_sums;
+
+/* What the bins are and hold, scaled but for bin_m. */
+typedef struct profile_job {
+    const lrcs_prepared *prepared;
+    const lrcsi_view *view;
+    lrcsi_plan plan;
+    double bin_m, width; /* width: bin_m scaled */
+    int64_t first;
+    uint32_t count;
+    bin_sums *bin;
+    uint32_t low, high; /* bins low <= i < high may hold something */
+    lrcsi_sum glint, diffuse;
+    double bound, additions, range_err;
+} profile_job;
+
+/* A facet: where its corners are, which bins it reaches into, and what it reflects for each unit
+   of visible projected area. */
+typedef struct profile_facet {
+    double range[3], range_most; /* at its corners; the largest |range| */
+    double extent;               /* no two of its points are farther apart in range */
+    uint32_t first, last;
+    double glint, diffuse, rounding, most; /* most: no less than its true sigma */
+} profile_facet;
+
+/* --- bins ------------------------------------------------------------------------------------- */
+
+static double edge_of(const profile_job *job, uint32_t i)
+{
+    return ldexp((double)(job->first + i) * job->bin_m, -job->prepared->exponent);
+}
+
+static double centre_of(const profile_job *job, uint32_t i)
+{
+    return ldexp(((double)(job->first + i) + 0.5) * job->bin_m, -job->prepared->exponent);
+}
+
+/* The bin of a range, the nearest one for a range beyond all. The quotient is off by a few units in
+   its last place, at most one bin. */
+static uint32_t bin_of(const profile_job *job, double range)
+{
+    double k = floor(range / job->width) - (double)job->first;
+    uint32_t i = k <= 0 ? 0 : k >= job->count ? job->count - 1 : (uint32_t)k;
+    while (i > 0 && edge_of(job, i) > range) {
+        i--;
+    }
+    while (i + 1 < job->count && edge_of(job, i + 1) <= range) {
+        i++;
+    }
+    return i;
+}
+
+static uint32_t bin_within(const profile_job *job, const profile_facet *f, double range)
+{
+    uint32_t i = bin_of(job, range);
+    return i < f->first ? f->first : i > f->last ? f->last : i;
+}
+
+/* Adds a projected area, with its first moment about the bin's centre. */
+static void bin_add(profile_job *job, const profile_facet *f, uint32_t i, double area,
+                    double moment)
+{
+    bin_sums *bin = &job->bin[i];
+    lrcsi_sum_add(&bin->glint, f->glint * area);
+    lrcsi_sum_add(&bin->diffuse, f->diffuse * area);
+    lrcsi_sum_add(&bin->moment, (f->glint + f->diffuse) * moment);
+    lrcsi_sum_add(&job->glint, f->glint * area);
+    lrcsi_sum_add(&job->diffuse, f->diffuse * area);
+    double rounding = f->rounding * area + f->most * PART_ERROR * area + LRCSI_FACET_UNDERFLOW;
+    bin->bound += rounding;
+    job->bound += rounding;
+    job->additions++;
+}
+
+/* --- ranges ----------------------------------------------------------------------------------- */
+
+/* The range of a scene point. Along an axis it is exact, and *err is 0. */
+static lrcsi_dd range_of(const lrcsi_view *view, const double x[3], double *err)
+{
+    const double *d = view->direction;
+    lrcsi_dd sum = {0, 0};
+    double size = 0;
+    for (int k = 0; k < 3; k++) {
+        if (d[(k + 1) % 3] == 0 && d[(k + 2) % 3] == 0) {
+            *err = 0;
+            return (lrcsi_dd){d[k] > 0 ? -x[k] : x[k], 0};
+        }
+        lrcsi_dd unit = {-view->unit[k], -view->unit_low[k]};
+        sum = lrcsi_dd_add(sum, lrcsi_dd_scale(unit, x[k]));
+        size += fabs(x[k]);
+    }
+    *err = RANGE_DD_ERROR * size;
+    return sum;
+}
+
+/* The bins that the range of a corner may be in: two where it cannot be told from their edge. */
+static void corner_bins(const profile_job *job, lrcsi_dd range, double err, uint32_t *low,
+                        uint32_t *high)
+{
+    *low = *high = bin_of(job, lrcsi_dd_value(range));
+    double below = lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){edge_of(job, *low), 0}));
+    double above = lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){edge_of(job, *high + 1), 0}));
+    if (*low > 0 && below < 2 * err) {
+        *low -= 1;
+        *high -= err == 0 || below < -2 * err ? 1 : 0;
+    } else if (*high + 1 < job->count && above >= -2 * err) {
+        *high += 1;
+        *low += err == 0 || above > 2 * err ? 1 : 0;
+    }
+}
+
+static void facet_ranges(const profile_job *job, uint32_t facet, profile_facet *f)
+{
+    f->first = job->count;
+    f->last = 0;
+    f->range_most = 0;
+    for (int k = 0; k < 3; k++) {
+        double err;
+        uint32_t low;
+        uint32_t high;
+        lrcsi_dd range = range_of(job->view, lrcsi_prepared_corner(job->prepared, facet, k), &err);
+        corner_bins(job, range, err, &low, &high);
+        f->range[k] = lrcsi_dd_value(range);
+        f->range_most = lrcsi_most(f->range_most, fabs(f->range[k]));
+        f->first = low < f->first ? low : f->first;
+        f->last = high > f->last ? high : f->last;
+    }
+    const double *z = f->range;
+    f->extent = lrcsi_most(z[0], lrcsi_most(z[1], z[2])) -
+                lrcsi_least(z[0], lrcsi_least(z[1], z[2])) + 8 * LRCSI_U * f->range_most;
+}
+
+/* --- one triangle ----------------------------------------------------------------------------- */
+
+/* A triangle of a piece: its area, and the ranges of its corners in ascending order. */
+typedef struct profile_triangle {
+    double area, z[3];
+} profile_triangle;
+
+static void swap_up(double *a, double *b)
+{
+    double least = lrcsi_least(*a, *b);
+    *b = lrcsi_most(*a, *b);
+    *a = least;
+}
+
+/* The area and moment about `centre` of what lies between two ranges on one side of the middle
+   corner. The density is that at the middle corner times a share that is linear between the ends.
+ */
+static void part_add(const profile_triangle *t, double from, double to, double centre, double *area,
+                     double *moment)
+{
+    if (!(from < to)) {
+        return;
+    }
+    int rising = to <= t->z[1];
+    double length = rising ? t->z[1] - t->z[0] : t->z[2] - t->z[1];
+    double first = (rising ? from - t->z[0] : t->z[2] - from) / length;
+    double last = (rising ? to - t->z[0] : t->z[2] - to) / length;
+    double scale = t->area / (t->z[2] - t->z[0]) * (to - from);
+    double half = 0.5 * (to - from);
+    double part = scale * (first + last);
+    *area += part;
+    *moment +=
+        part * (0.5 * (from - centre) + 0.5 * (to - centre)) + scale * (last - first) * half / 3;
+}
+
+/* (3): edges that some of the triangle may lie on the other side of. */
+static void edges_charge(profile_job *job, const profile_facet *f, const profile_triangle *t,
+                         double range_err)
+{
+    double extent = t->z[2] - t->z[0];
+    double charge =
+        f->most * t->area * (4 * range_err < extent ? lrcsi_least(1, 4 * range_err / extent) : 1);
+    uint32_t begin = bin_within(job, f, t->z[0] - range_err);
+    uint32_t end = bin_within(job, f, t->z[2] + range_err);
+    for (uint32_t i = begin + 1; i <= end; i++) {
+        job->bin[i - 1].bound += charge;
+        job->bin[i].bound += charge;
+        job->additions++;
+    }
+    job->range_err = lrcsi_most(job->range_err, lrcsi_least(range_err, f->extent));
+}
+
+/* Adds a triangle whose corners' ranges are known to within range_err. */
+static void triangle_add(profile_job *job, const profile_facet *f, double area,
+                         const double range[3], double range_err)
+{
+    profile_triangle t = {area, {range[0], range[1], range[2]}};
+    swap_up(&t.z[0], &t.z[1]);
+    swap_up(&t.z[1], &t.z[2]);
+    swap_up(&t.z[0], &t.z[1]);
+    uint32_t begin = bin_within(job, f, t.z[0]);
+    uint32_t end = bin_within(job, f, t.z[2]);
+    if (begin == end) {
+        double centre = centre_of(job, begin);
+        double mean = ((t.z[0] - centre) + (t.z[1] - centre) + (t.z[2] - centre)) / 3;
+        bin_add(job, f, begin, area, area * mean);
+    }
+    for (uint32_t i = begin; begin < end && i <= end; i++) {
+        double from = i == begin ? t.z[0] : edge_of(job, i);
+        double to = i == end ? t.z[2] : edge_of(job, i + 1);
+        double middle = lrcsi_least(to, lrcsi_most(from, t.z[1]));
+        double part = 0;
+        double moment = 0;
+        part_add(&t, from, middle, centre_of(job, i), &part, &moment);
+        part_add(&t, middle, to, centre_of(job, i), &part, &moment);
+        bin_add(job, f, i, part, moment);
+    }
+    edges_charge(job, f, &t, range_err);
+}
+
+/* --- one facet -------------------------------------------------------------------------------- */
+
+/* A piece, fanned from its first corner. Returns what its area may be off by. */
+static double fan_add(profile_job *job, const profile_facet *f, const lrcsi_target *target,
+                      const lrcsi_clip_polygon *piece, double range_err)
+{
+    double range[3] = {0, 0, 0}; /* of corners 0, i - 1, i */
+    double off = 0;
+    for (uint32_t i = 0; i < piece->count; i++) {
+        double weight[3];
+        lrcsi_target_weights(target, piece->corner[i], weight);
+        range[i < 2 ? i : 2] =
+            weight[0] * f->range[0] + weight[1] * f->range[1] + weight[2] * f->range[2];
+        if (i < 2) {
+            continue;
+        }
+        const double *c = piece->corner[0];
+        const double u[2] = {piece->corner[i - 1][0] - c[0], piece->corner[i - 1][1] - c[1]};
+        const double v[2] = {piece->corner[i][0] - c[0], piece->corner[i][1] - c[1]};
+        double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
+        if (area > 0) {
+            triangle_add(job, f, area, range, range_err);
+        }
+        off += lrcsi_most(0, -area) + 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
+        range[1] = range[2];
+    }
+    return off;
+}
+
+/* Returns the area D of the comment above, and adds what is known to be visible. On a surface that
+   is convex by construction fronts are visible without clipping, but for the grazing ones. */
+static double pieces_add(profile_job *job, const profile_facet *f, uint32_t facet,
+                         const lrcsi_incidence *incidence, lrcsi_occluding *o)
+{
+    double rounded = 2 * LRCSI_U * f->range_most;
+    if (job->plan.unshadowed && job->view->facing[facet] > 0) {
+        lrcsi_visible known = lrcsi_visible_unshadowed(incidence, job->plan.grazing_cos);
+        triangle_add(job, f, known.area, f->range, rounded);
+        return known.high - known.low;
+    }
+    double off = 0;
+    lrcsi_occlude_open(o, facet);
+    while (lrcsi_occlude_next(o)) {
+        const lrcsi_target *target = &o->alone.target;
+        double slope = sqrt(incidence->tan2) * (1 + incidence->tan2_err);
+        double range_err = 9 * LRCSI_U * f->range_most + 101 * LRCSI_U * target->reach * slope;
+        if (o->undecided) {
+            off += fan_add(job, f, target, &o->alone.piece, range_err);
+        } else {
+            triangle_add(job, f, incidence->projected, f->range, rounded);
+        }
+    }
+    lrcsi_visible visible = lrcsi_occlude_close(o);
+    if (o->undecided) {
+        const lrcsi_target *target = &o->alone.target;
+        off += 20 * LRCSI_U * target->reach * target->perimeter + o->alone.bent;
+    }
+    if (job->prepared->solid && job->view->facing[facet] < 0) {
+        visible.low = 0;
+    }
+    return visible.high - visible.low + off;
+}
+
+static void facet_profile(profile_job *job, uint32_t facet, lrcsi_occluding *o)
+{
+    lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
+    lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
+    lrcsi_facet_terms terms =
+        lrcsi_facet_terms_make(job->view, &job->plan, facet, &incidence, &whole);
+    profile_facet f = {.glint = terms.glint / incidence.projected,
+                       .diffuse = terms.diffuse / incidence.projected,
+                       .rounding = terms.rounding / incidence.projected};
+    f.most = f.glint + f.diffuse + f.rounding;
+    facet_ranges(job, facet, &f);
+    double additions = job->additions;
+    double doubt = pieces_add(job, &f, facet, &incidence, o);
+    for (uint32_t i = f.first; doubt > 0 && i <= f.last; i++) {
+        job->bin[i].bound += f.most * doubt;
+        job->additions++;
+    }
+    job->bound += f.most * doubt;
+    if (job->additions > additions) {
+        job->low = f.first < job->low ? f.first : job->low;
+        job->high = f.last + 1 > job->high ? f.last + 1 : job->high;
+    }
+}
+
+/* --- all facets ------------------------------------------------------------------------------- */
+
+/* Bins that a scene may take in any pose. */
+static size_t bins_room(const lrcs_prepared *prepared, double bin_m)
+{
+    double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent);
+    double bins = depth / bin_m + 4;
+    return bins < LRCS_PROFILE_BINS ? (size_t)bins + 1 : (size_t)LRCS_PROFILE_BINS + 4;
+}
+
+size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
+{
+    size_t bins = bins_room(prepared, bin_m);
+    size_t need = lrcsi_work_bytes(bins, sizeof(lrcs_profile_bin));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(bin_sums)));
+    need = lrcsi_work_add(need, lrcsi_view_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
+    return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
+}
+
+/* Numbers the bins from one before the nearest vertex to one beyond the farthest. */
+static int bins_number(profile_job *job)
+{
+    const lrcs_prepared *p = job->prepared;
+    double least = HUGE_VAL;
+    double most = -HUGE_VAL;
+    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
+        double err;
+        if (p->referenced[v]) {
+            double range = lrcsi_dd_value(range_of(job->view, p->vertex[v].x, &err));
+            least = lrcsi_least(least, range);
+            most = lrcsi_most(most, range);
+        }
+    }
+    if (!(least <= most)) {
+        return LRCS_OK;
+    }
+    double first = floor(least / job->width) - 1;
+    double last = floor(most / job->width) + 1;
+    if (!(first >= -LRCS_PROFILE_INDEX && last <= LRCS_PROFILE_INDEX &&
+          last - first < LRCS_PROFILE_BINS)) {
+        return LRCS_E_LIMIT;
+    }
+    job->first = (int64_t)first;
+    job->count = (uint32_t)(last - first) + 1;
+    return LRCS_OK;
+}
+
+/* 1. The view, and which facets are undecided. 2. The bins. 3. Every facet that reflects. */
+static int profile_sum(profile_job *job, lrcsi_view *view, const lrcs_pose *pose, lrcs_work *work)
+{
+    const lrcs_prepared *p = job->prepared;
+    const lrcs_run_options options = {.method = LRCS_METHOD_EXACT};
+    const lrcsi_clear clear = {0};
+    lrcsi_classification classification;
+    lrcsi_occluding o;
+    int status = lrcsi_view_make(p, pose, work, view);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    lrcsi_plan_backs(&options, view);
+    job->view = view;
+    job->plan = lrcsi_plan_make(view, &clear, &options);
+    status = bins_number(job);
+    if (status == LRCS_OK) {
+        job->bin = lrcsi_work_take_zero(work, job->count, sizeof *job->bin);
+        job->low = job->count;
+        status = job->bin ? lrcsi_classify_make(view, work, &classification) : LRCS_E_MEMORY;
+    }
+    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, work, &o) : status;
+    for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
+        if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&
+            lrcsi_grid_casts(view, facet)) {
+            facet_profile(job, facet, &o);
+        }
+    }
+    return status;
+}
+
+/* To square metres, rounded outward: the sums' own errors join the bounds. */
+static void profile_finish(const profile_job *job, lrcs_profile *profile)
+{
+    const lrcs_prepared *p = job->prepared;
+    double count = job->additions;
+    double outward = 1 + 1e-9 + 2 * count * LRCSI_U;
+    double adding = 4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U);
+    for (uint32_t i = 0; i < profile->count; i++) {
+        const bin_sums *sums = &job->bin[job->low + i];
+        double glint = lrcsi_sum_value(&sums->glint);
+        double diffuse = lrcsi_sum_value(&sums->diffuse);
+        double moment = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->moment));
+        profile->bin[i] = (lrcs_profile_bin){
+            lrcsi_prepared_area(p, glint), lrcsi_prepared_area(p, diffuse),
+            lrcsi_bound_area(p, (sums->bound + (glint + diffuse) * adding) * outward),
+            ldexp(moment, p->exponent)};
+    }
+    double glint = lrcsi_sum_value(&job->glint);
+    double diffuse = lrcsi_sum_value(&job->diffuse);
+    profile->bin_m = job->bin_m;
+    profile->first = profile->count > 0 ? job->first + job->low : 0;
+    profile->sigma_glint_m2 = lrcsi_prepared_area(p, glint);
+    profile->sigma_diffuse_m2 = lrcsi_prepared_area(p, diffuse);
+    profile->bound_m2 = lrcsi_bound_area(p, (job->bound + (glint + diffuse) * adding) * outward);
+    profile->range_err_m = ldexp(job->range_err, p->exponent);
+}
+
+int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, double bin_m,
+                     lrcs_work *work, lrcs_profile *profile)
+{
+    size_t mark = work->used;
+    lrcsi_view view;
+    lrcs_profile result = {0};
+    profile_job job = {.prepared = prepared, .bin_m = bin_m};
+    job.width = ldexp(bin_m, -prepared->exponent);
+    if (!(bin_m > 0 && bin_m <= DBL_MAX) || !(job.width >= DBL_MIN && job.width <= DBL_MAX)) {
+        return LRCS_E_ARGUMENT;
+    }
+    int status = prepared->smooth ? LRCS_E_UNSUPPORTED : profile_sum(&job, &view, pose, work);
+    if (status == LRCS_OK) {
+        result.count = job.low < job.high ? job.high - job.low : 0;
+        result.bin = lrcsi_work_take(work, result.count, sizeof *result.bin);
+        status = result.bin ? LRCS_OK : LRCS_E_MEMORY;
+    }
+    if (status == LRCS_OK) {
+        profile_finish(&job, &result);
+        status = isfinite(result.sigma_glint_m2 + result.sigma_diffuse_m2 + result.bound_m2)
+                     ? LRCS_OK
+                     : LRCS_E_NUMBER;
+    }
+    work->used = mark;
+    if (status == LRCS_OK) { /* the bins sink to the bottom */
+        lrcs_profile_bin *bin = lrcsi_work_take(work, result.count, sizeof *bin);
+        memmove(bin, result.bin, result.count * sizeof *bin);
+        result.bin = bin;
+        *profile = result;
+    }
+    return status;
+}
+
+/* --- a pulse ---------------------------------------------------------------------------------- */
+
+/* So many standard deviations from its peak the pulse counts as 0, and e^-72 of it as the error. */
+#define PULSE_FAR      12.0
+#define PULSE_FAR_LEFT 5.4e-32 /* above e^-72 */
+
+/* The full width at half maximum is 2 sqrt(2 ln 2) standard deviations. */
+#define FWHM_DEVIATIONS 2.3548200450309493
+
+/* With g the pulse, z the range asked for and c the centre of a bin that holds the points x,
+       g(z - x) = g(z - c) - (x - c) g'(z - c) + R,  |R| <= (x - c)^2 / 2 sup |g''|,
+   |x - c| being at most half the bin. With t in standard deviations d, g' = -t g / d and
+   g'' = (t^2 - 1) g / d^2, and over a bin g is at most that at its point nearest to z, and |t^2 -
+   1| at most the larger of 1 and t^2 - 1 at its farthest. What the bin's sigma is off by counts at
+   most g there; points whose range is off by e count e |g'| more. Rounding: t is off by 4 u of
+   (|z| + |c|) / d, as if z were off by 4 u (|z| + |c|), which joins e; the rest is below 64 u. */
+int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_m,
+                       double *density_m, double *bound_m)
+{
+    double d = fwhm_m / FWHM_DEVIATIONS;
+    double peak = 1 / (d * sqrt(2 * LRCSI_PI));
+    lrcsi_sum density = {0, 0};
+    double bound = 0;
+    if (!(fwhm_m > 0) || !(d >= DBL_MIN && peak <= DBL_MAX)) {
+        return LRCS_E_ARGUMENT;
+    }
+    for (uint32_t i = 0; i < profile->count; i++) {
+        const lrcs_profile_bin *bin = &profile->bin[i];
+        double centre = ((double)(profile->first + i) + 0.5) * profile->bin_m;
+        double sigma = bin->sigma_glint_m2 + bin->sigma_diffuse_m2;
+        double err = profile->range_err_m + 4 * LRCSI_U * (fabs(range_m) + fabs(centre));
+        double t = (range_m - centre) / d;
+        double half = (0.5 * profile->bin_m + err) / d * (1 + 8 * LRCSI_U);
+        double nearest = lrcsi_most(0, fabs(t) - half);
+        double farthest = fabs(t) + half;
+        if (nearest > PULSE_FAR) {
+            bound += peak * PULSE_FAR_LEFT * (bin->bound_m2 + sigma);
+            continue;
+        }
+        double g = peak * lrcsi_exp(-0.5 * t * t);
+        double most = peak * lrcsi_exp(-0.5 * nearest * nearest);
+        double bend = lrcsi_most(1, farthest * farthest - 1);
+        double remainder = 0.5 * half * half * bend + err / d * farthest;
+        lrcsi_sum_add(&density, g * sigma);
+        lrcsi_sum_add(&density, g * (t / d) * bin->moment_m3);
+        bound += most * (bin->bound_m2 + remainder * sigma);
+        bound += 64 * LRCSI_U * most * (1 + farthest * farthest) * sigma;
+    }
+    bound *= 1 + 1e-9 + 4 * LRCSI_U * profile->count;
+    if (!isfinite(lrcsi_sum_value(&density) + bound)) {
+        return LRCS_E_NUMBER;
+    }
+    *density_m = lrcsi_sum_value(&density);
+    *bound_m = bound + (bound > 0 && bound < DBL_MIN ? 0x1p-1073 : 0);
+    return LRCS_OK;
+}

@@ -1,0 +1,164 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# lrcs profile: tables, JSON, chart, options; and its bins against Python's, which cuts the visible
+# polygons of lrcs run in fractions and convolves them with mpmath.
+. "$(dirname "$0")/check.sh"
+cd "$scratch" || exit 1
+plates_scene >pair.toml
+pair_scene >boxes.toml
+
+run profile pair.toml --bin 0.5
+same a_table_comes "$rc $(printf '%s\n' "$out" | grep -c '^verdict')" "0 1"
+same two_plates_have_two_ranges "$(printf '%s\n' "$out" | awk '/^  +-?[0-9.]+ +-?[0-9.]+ / && $3 > 0 { printf "%s ", $1 }')" "-1 0 "
+run profile pair.toml --bin 0.5 --csv - --azel 20,30
+same rows_have_a_header "$(printf '%s\n' "$out" | head -1)" "near_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m"
+run profile pair.toml --bin 0.5 --csv rows.csv --azel 20,30 --plot chart.svg --pulse-fwhm 0.3
+same csv_and_chart_are_written "$rc $(head -1 rows.csv | tr ',' '\n' | tail -2 | tr '\n' ' ')$(grep -c '</svg>' chart.svg)" "0 pulse_m pulse_bound_m 1"
+run profile pair.toml --bin 0.5 --plot chart.png
+same a_png_is_one "$rc $(head -c 4 chart.png | tail -c 3)" "0 PNG"
+run profile pair.toml --bin 0.5 --json --pulse-fwhm 0.3
+same json_has_its_keys "$(keys)" "schema version scene_hash files unit direction bin_m pulse_fwhm_m sigma_m2 sigma_glint_m2 sigma_diffuse_m2 bound_m2 bound_refers_to tolerance notices title materials options bins "
+run profile pair.toml --azel 0,-90 --bin 0.5
+same what_shows_only_backs_has_no_bins "$rc $(printf '%s\n' "$out" | grep -c '; 0 bins of')" "0 1"
+
+usage_error bins_need_a_width "give the width of the bins: --bin W, m" profile demo
+usage_error no_width_of_0 "--bin: expected a length > 0, m, found '0'" profile demo --bin 0
+usage_error no_negative_width "--bin: expected a length > 0, m, found '-1'" profile demo --bin -1
+usage_error no_width_that_is_no_number "--bin" profile demo --bin nan
+usage_error no_pulse_of_0 "--pulse-fwhm: expected a length > 0, m, found '0'" profile demo --bin 1 --pulse-fwhm 0
+usage_error no_chart_of_another_kind "--plot: expected FILE.svg or FILE.png, found 'a.pdf'" profile demo --bin 1 --plot a.pdf
+usage_error not_twice_to_stdout "--csv - and --json both want standard output" profile demo --bin 1 --csv - --json
+usage_error not_over_the_scene "--csv pair.toml: would overwrite pair.toml" profile pair.toml --bin 1 --csv pair.toml
+usage_error not_two_files_of_one_name "name the same file" profile demo --bin 1 --csv a.svg --plot a.svg
+failure not_too_many_bins "more than the 1048576 that a profile may have" profile demo --bin 1e-7
+failure not_a_pulse_over_too_many "pulse of 1e+06 m reaches over more bins" profile demo --bin 1 --pulse-fwhm 1e6
+run profile pair.toml --azel 50,40 --bin 0.1 --tolerance 1e-30 --json
+same a_tolerance_given_and_missed_is_exit_3 "$rc $(printf '%s\n' "$out" | grep -c '"met": false')" "3 1"
+run profile demo --azel 50,40 --bin 0.1 --json
+same no_tolerance_no_judgement "$rc $(printf '%s\n' "$out" | grep -c '"asked": null')" "0 1"
+
+if ! python3 -c 'import mpmath' 2>/dev/null; then
+    skip the_bins_are_those_of_fractions 'no python3 with mpmath'
+    finish
+    exit
+fi
+for scene in boxes.toml pair.toml; do
+    for pose in 0,90 50,40 -120,15; do
+        name=$(basename $scene .toml)_$pose
+        "$tool" run $scene --azel=$pose --method exact --polygons "$name.rings" --facets "$name.facets" --json >"$name.run" 2>/dev/null
+        "$tool" profile $scene --azel=$pose --bin 0.05 --json >"$name.fine" 2>/dev/null
+        "$tool" profile $scene --azel=$pose --bin 0.1 --pulse-fwhm 0.3 --json >"$name.json" 2>/dev/null
+    done
+done
+cat >check.py <<'END'
+import csv, glob, json
+from fractions import Fraction as F
+from mpmath import mp, mpf, sqrt, erf, exp, log, pi
+from tap import check
+mp.dps = 40
+
+
+def ranges_of(points, direction):
+    """Exact up to 1e-40: the direction's length as a fraction."""
+    d = [F(x) for x in direction]
+    length = F(str(mp.nstr(sqrt(mpf(1) * sum(mpf(x.numerator) / x.denominator * mpf(x.numerator) / x.denominator for x in d)), 45)))
+    return [-(d[0] * p[0] + d[1] * p[1] + d[2] * p[2]) / length for p in points]
+
+
+def cut(polygon, z, sign):
+    """What of a polygon, corners (u, v, range), has sign * (range - z) >= 0."""
+    out = []
+    for a, b in zip(polygon, polygon[1:] + polygon[:1]):
+        s, t = sign * (a[2] - z), sign * (b[2] - z)
+        if s >= 0:
+            out.append(a)
+        if (s > 0 and t < 0) or (s < 0 and t > 0):
+            share = s / (s - t)
+            out.append(tuple(x + share * (y - x) for x, y in zip(a, b)))
+    return out
+
+
+def area(polygon):
+    return sum((a[0] * b[1] - a[1] * b[0] for a, b in zip(polygon, polygon[1:] + polygon[:1])), F(0)) / 2
+
+
+for name in sorted(glob.glob("*.run")):
+    base = name[:-4]
+    run, fine, bins = (json.load(open(base + end)) for end in (".run", ".fine", ".json"))
+    rate = {}
+    for row in csv.DictReader(open(base + ".facets")):
+        seen = float(row["visible_area_m2"])
+        if float(row["sigma_m2"]) > 0 and seen > 0:
+            rate[int(row["facet"])] = F(float(row["sigma_m2"])) / F(seen)
+    rings = {}
+    for row in csv.DictReader(open(base + ".rings")):
+        if int(row["facet"]) in rate:
+            ring = rings.setdefault((int(row["facet"]), int(row["ring"])), ([], []))
+            ring[0].append([F(float(row[k])) for k in ("x_m", "y_m", "z_m")])
+            ring[1].append([F(float(row[k])) for k in ("u_m", "v_m")])
+    pieces = []
+    for (facet, _), (body, view) in rings.items():
+        # the facet's own plane is flat to rounding only: a fan of triangles
+        z = ranges_of(body, run["direction"])
+        corners = [(u, v, r) for (u, v), r in zip(view, z)]
+        for i in range(2, len(corners)):
+            pieces.append((rate[facet], [corners[0], corners[i - 1], corners[i]]))
+    # what rounding of the rings' points and of facets.csv may add
+    slack = 1e-12 * (run["sigma_m2"] + 1)
+
+    def in_bin(near, far):
+        total = F(0)
+        for factor, triangle in pieces:
+            low, high = min(c[2] for c in triangle), max(c[2] for c in triangle)
+            if high < near or low >= far:
+                continue
+            part = cut(cut(triangle, near, 1), far, -1)
+            if low == high:  # normal to the beam: wholly here
+                part = triangle
+            total += factor * area(part) if len(part) > 2 else 0
+        return float(total)
+
+    worst = ""
+    sums = {}
+    for b in fine["bins"]:
+        want = in_bin(F(b["near_m"]), F(b["far_m"]))
+        if abs(want - b["sigma_m2"]) > b["bound_m2"] + slack:
+            worst = f"{base} {b['near_m']}: {b['sigma_m2']} +- {b['bound_m2']}, want {want}"
+        k = round(b["near_m"] / 0.05) // 2
+        sums.setdefault(k, []).append(b)
+    check(f"the_bins_are_those_of_fractions_{base}", not worst and len(fine["bins"]) > 0, worst)
+    total = sum(b["sigma_m2"] for b in fine["bins"])
+    check(f"they_add_up_to_sigma_{base}",
+          abs(total - run["sigma_m2"]) <= run["bound_m2"] + sum(b["bound_m2"] for b in fine["bins"])
+          and abs(fine["sigma_m2"] - run["sigma_m2"]) <= run["bound_m2"] + fine["bound_m2"],
+          f"{total} {fine['sigma_m2']} {run['sigma_m2']}")
+    worst = ""
+    for b in bins["bins"]:
+        halves = sums.get(round(b["near_m"] / 0.1), [])
+        got = sum(h["sigma_m2"] for h in halves)
+        if abs(got - b["sigma_m2"]) > b["bound_m2"] + sum(h["bound_m2"] for h in halves) + 1e-15:
+            worst = f"{b} against {halves}"
+    check(f"a_bin_is_the_sum_of_its_halves_{base}", not worst, worst)
+
+    # The pulse: exact bins of 1/16 of its deviation, each as a uniform density; what that is off by
+    # falls with the square of their width, and is allowed for beside the bound.
+    d = 0.3 / (2 * sqrt(2 * log(2)))
+    step = F(1, 128)
+    low = min(c[2] for _, t in pieces for c in t) // step
+    high = max(c[2] for _, t in pieces for c in t) // step
+    cells = [(mpf(int(k)) / 128, mpf(in_bin(k * step, (k + 1) * step))) for k in range(int(low), int(high) + 1)]
+    worst = ""
+    peak = max(b["pulse_m"] for b in bins["bins"])
+    for b in bins["bins"][::5]:
+        z = (mpf(b["near_m"]) + mpf(b["far_m"])) / 2
+        want = sum(s * 128 / 2 * (erf((z - x) / d / sqrt(2)) - erf((z - x - mpf(1) / 128) / d / sqrt(2)))
+                   for x, s in cells if abs(z - x) < 2)
+        allowed = b["pulse_bound_m"] + (0.03 if base.endswith("0,90") else 1e-3) * peak
+        if abs(want - b["pulse_m"]) > allowed:
+            worst = f"{base} at {z}: {b['pulse_m']} +- {b['pulse_bound_m']}, want {want}"
+        if b["pulse_bound_m"] > 1e-4 * peak:
+            worst = f"bound {b['pulse_bound_m']} of {peak}"
+    check(f"the_pulse_is_the_one_of_mpmath_{base}", not worst, worst)
+END
+python3 check.py || not_ok python_ran
+finish
