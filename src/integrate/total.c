@@ -6,7 +6,7 @@
    bright lobe of a narrow glint, or with curved normals go one by one through double-double
    incidence (view/view.h) and optics/reflect.h. What each adds to the bounds stands beside each
    step; the bounds themselves are widened by 1e-9 and 2 u a facet for their own rounding.
-   Called: lrcsi_view_dots, lrcsi_shade, lrcsi_sum_lanes_add; lrcsi_view_incidence, lrcsi_reflect;
+   Called: lrcsi_view_dot, lrcsi_shade, lrcsi_sum_lanes_add; lrcsi_view_incidence, lrcsi_reflect;
    lrcsi_tessellation_error. */
 #include "integrate/total.h"
 
@@ -352,28 +352,73 @@ typedef struct total_batch {
     lrcsi_lobes lobes;
     int back_reflects, back_shows; /* back sides do, or may */
     int seen;                      /* one that reflects shows */
+    uint32_t waiting;              /* places of facets that wait for a block to fill up */
+    uint32_t place[2 * LRCSI_LANES];
+    double side[2 * LRCSI_LANES]; /* 1; where back sides reflect, -1 for those */
     lrcsi_shades shades;
     double area[LRCSI_LANES]; /* visible; of one that is visible whole S, then S cos(theta) */
     double most[LRCSI_LANES]; /* that may be visible; of one that is visible whole 0 at first */
-    int whole[LRCSI_LANES];
-    uint32_t facet[LRCSI_LANES], count;
+    int whole[LRCSI_LANES];   /* all of it is visible, or by method facet counts as that */
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
 } total_batch;
 
+/* Unit normals towards the laser, and areas, of the first facets that wait. Empty lanes get the
+   direction for a normal, and no area. */
+static void block_gather(const total_job *job, total_batch *batch, uint32_t count)
+{
+    const lrcsi_view *view = job->view;
+    const lrcsi_batches *b = &view->prepared->batches;
+    const double *x = b->normal[0];
+    const double *y = b->normal[1];
+    const double *z = b->normal[2];
+    const double *area = b->area;
+    lrcsi_shades *shades = &batch->shades;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t at = batch->place[i];
+        shades->normal[0][i] = x[at];
+        shades->normal[1][i] = y[at];
+        shades->normal[2][i] = z[at];
+        batch->area[i] = area[at];
+    }
+    for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
+        shades->normal[0][i] *= batch->side[i];
+        shades->normal[1][i] *= batch->side[i];
+        shades->normal[2][i] *= batch->side[i];
+    }
+    for (uint32_t i = 0; i < LRCSI_LANES; i++) {
+        batch->most[i] = 0;
+        batch->whole[i] = 1;
+    }
+    for (uint32_t i = 0; job->visible && i < count; i++) {
+        uint32_t facet = b->facet[batch->place[i]];
+        if (!facet_answered(job, facet)) {
+            batch->area[i] = job->visible[facet].area;
+            batch->most[i] = job->visible[facet].high;
+            batch->whole[i] = 0;
+        }
+    }
+    for (uint32_t i = count; i < LRCSI_LANES; i++) {
+        for (int k = 0; k < 3; k++) {
+            shades->normal[k][i] = view->unit[k];
+        }
+        batch->area[i] = 0;
+    }
+}
+
 /* Facets that are seen in part, or may be; by method facet, all whose cosine may be below the
    plan's threshold. */
-static void block_doubts(total_job *job, const total_batch *batch)
+static void block_doubts(total_job *job, const total_batch *batch, uint32_t count)
 {
     const lrcsi_shades *shades = &batch->shades;
-    for (uint32_t i = 0; i < batch->count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         double per_area = shades->glint[i] + shades->diffuse[i];
         if (!job->visible) {
             int sure = shades->cosine[i] > job->plan->grazing_cos + 0x1p-40;
             job->sums.visibility += sure ? 0 : per_area * batch->area[i];
             continue;
         }
-        uint32_t facet = batch->facet[i];
+        uint32_t facet = job->view->prepared->batches.facet[batch->place[i]];
         const lrcsi_visible *visible = &job->visible[facet];
         if (!facet_answered(job, facet) && visible->low < visible->high) {
             add_doubt(&job->sums, per_area, visible);
@@ -382,20 +427,21 @@ static void block_doubts(total_job *job, const total_batch *batch)
     }
 }
 
-/* Adds up what has been gathered. Empty places get the direction for a normal, and no area. */
+/* Eq. 2 for one block, the first LRCSI_LANES facets that wait:
+   1. normals and visible areas;
+   2. 4 pi f_r cos(theta), with errors;
+   3. of those that are visible whole all of S cos(theta) is;
+   4. each product with the area joins the sums;
+   5. records, and what is doubtful about visible areas. */
 static void block_run(total_job *job, total_batch *batch)
 {
     const lrcsi_view *view = job->view;
     lrcsi_shades *shades = &batch->shades;
+    uint32_t count = batch->waiting < LRCSI_LANES ? batch->waiting : LRCSI_LANES;
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
-    for (uint32_t i = batch->count; i < LRCSI_LANES; i++) {
-        for (int k = 0; k < 3; k++) {
-            shades->normal[k][i] = view->unit[k];
-        }
-        batch->area[i] = batch->most[i] = 0;
-        batch->whole[i] = 1;
-    }
+    double error[LRCSI_LANES];
+    block_gather(job, batch, count);
     lrcsi_shade(&batch->lobes, view->unit, view->unit_low, shades);
     for (int i = 0; i < LRCSI_LANES; i++) {
         batch->area[i] *= batch->whole[i] ? shades->cosine[i] : 1;
@@ -404,25 +450,24 @@ static void block_run(total_job *job, total_batch *batch)
     for (int i = 0; i < LRCSI_LANES; i++) {
         glint[i] = shades->glint[i] * batch->area[i];
         diffuse[i] = shades->diffuse[i] * batch->area[i];
-    }
-    for (int i = 0; i < LRCSI_LANES; i += LRCSI_SUM_LANES) {
-        for (int k = 0; k < LRCSI_SUM_LANES; k++) {
-            batch->error[k] += shades->error[i + k] * batch->most[i + k];
-        }
+        error[i] = shades->error[i] * batch->most[i];
     }
     lrcsi_sum_lanes_add(&batch->glint, glint);
     lrcsi_sum_lanes_add(&batch->diffuse, diffuse);
     lrcsi_sum_lanes_add(&batch->projected, batch->area);
-    for (uint32_t i = 0; job->records && i < batch->count; i++) {
-        record_sigma(job, batch->facet[i], glint[i], diffuse[i]);
+    lrcsi_lanes_add(batch->error, error);
+    for (uint32_t i = 0; job->records && i < count; i++) {
+        record_sigma(job, view->prepared->batches.facet[batch->place[i]], glint[i], diffuse[i]);
     }
     if (job->visible || (job->plan->grazing_cos > 0 && job->plan->grazing_cos < 1)) {
-        block_doubts(job, batch);
+        block_doubts(job, batch, count);
     }
     if (batch->lobes.A > 0 || batch->lobes.B > 0) {
-        job->sums.rounding += batch->count * LRCSI_FACET_UNDERFLOW;
+        job->sums.rounding += count * LRCSI_FACET_UNDERFLOW;
     }
-    batch->count = 0;
+    batch->waiting -= count;
+    memcpy(batch->place, batch->place + LRCSI_LANES, sizeof batch->place / 2);
+    memcpy(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
 }
 
 /* Does a facet that is seen from that side show? Of redundant ones another is seen instead. */
@@ -432,153 +477,164 @@ static inline int side_shows(const total_job *job, uint32_t facet, double side)
     return job->visible ? area_shows(job, facet) : job->view->prepared->redundant[facet] < most;
 }
 
-/* Of facets that reflect, those that show stay listed; ones with curved normals are summed at once.
-   Returns how many stay. */
-static uint32_t batch_filter(total_job *job, uint32_t place, uint32_t *list, uint32_t count,
-                             double side)
+/* Of places listed, all of facets that reflect, those stay that blocks serve: not those of clear
+   shapes, none that is hidden, none with curved normals, which are summed at once. Returns how many
+   stay. */
+static uint32_t places_filter(total_job *job, uint32_t *list, uint32_t count, double side)
 {
-    const uint32_t *facet = job->view->prepared->batches.facet + place;
-    uint32_t kept = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        uint32_t i = list[k];
-        list[kept] = i;
-        kept += (uint32_t)side_shows(job, facet[i], side);
-    }
-    job->total.hidden += count - kept;
-    count = kept;
-    kept = 0;
-    for (uint32_t k = 0; job->curved && k < count; k++) {
-        if (lrcsi_curve_wanted(job->view, facet[list[k]])) {
-            sum_precisely(job, facet[list[k]]);
-        } else {
-            list[kept++] = list[k];
-        }
-    }
-    return job->curved ? kept : count;
-}
-
-/* Facets listed join the block, which is run whenever it is full. Given: 1, or -1 where they face
-   away. */
-static void batch_gather(total_job *job, total_batch *batch, uint32_t place, const uint32_t *list,
-                         uint32_t count, double side)
-{
-    const lrcsi_batches *b = &job->view->prepared->batches;
-    while (count > 0) {
-        uint32_t room = LRCSI_LANES - batch->count;
-        uint32_t take = count < room ? count : room;
-        for (uint32_t i = batch->count; i < batch->count + take; i++) {
-            uint32_t at = place + *list++;
-            batch->shades.normal[0][i] = side * b->normal[0][at];
-            batch->shades.normal[1][i] = side * b->normal[1][at];
-            batch->shades.normal[2][i] = side * b->normal[2][at];
-            batch->area[i] = b->area[at];
-            batch->facet[i] = b->facet[at];
-        }
-        for (uint32_t i = batch->count; i < batch->count + take; i++) {
-            uint32_t f = batch->facet[i];
-            batch->whole[i] = !job->visible || facet_answered(job, f);
-            batch->area[i] = batch->whole[i] ? batch->area[i] : job->visible[f].area;
-            batch->most[i] = batch->whole[i] ? 0 : job->visible[f].high;
-        }
-        batch->seen = 1;
-        batch->count += take;
-        count -= take;
-        if (batch->count == LRCSI_LANES) {
-            block_run(job, batch);
-        }
-    }
-}
-
-/* Those listed and seen from that side go into blocks. */
-static void batch_add(total_job *job, total_batch *batch, uint32_t place, uint32_t *list,
-                      uint32_t count, double side)
-{
-    if (job->visible || job->curved || job->view->prepared->batches.redundant) {
-        count = batch_filter(job, place, list, count, side);
-    }
-    batch_gather(job, batch, place, list, count, side);
-}
-
-/* Those listed that belong to clear shapes leave the list. Returns how many stay. */
-static uint32_t batch_leave_shapes(total_job *job, uint32_t place, uint32_t *list, uint32_t count)
-{
-    const uint32_t *facet = job->view->prepared->batches.facet + place;
-    uint32_t kept = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        if (is_in_shape(job, facet[list[k]])) {
-            sum_in_shape(job, facet[list[k]]);
-        } else {
-            list[kept++] = list[k];
-        }
-    }
-    return kept;
-}
-
-/* Adds the areas of back sides that show: by method facet of all among LRCSI_LANES places, else of
-   those listed. */
-static void batch_backs(total_job *job, total_batch *batch, uint32_t place, const double *dot,
-                        const uint32_t *back, uint32_t count)
-{
-    const lrcsi_batches *b = &job->view->prepared->batches;
-    double area[LRCSI_LANES];
-    if (job->visible || b->redundant) {
-        memset(area, 0, sizeof area);
+    const uint32_t *facet = job->view->prepared->batches.facet;
+    uint32_t left = count;
+    if (job->clear) {
+        left = 0;
         for (uint32_t k = 0; k < count; k++) {
-            uint32_t facet = b->facet[place + back[k]];
-            if (side_shows(job, facet, -1)) {
-                area[k] = job->visible ? facet_area(job, facet)
-                                       : -dot[back[k]] * b->area[place + back[k]];
+            if (is_in_shape(job, facet[list[k]])) {
+                sum_in_shape(job, facet[list[k]]);
+            } else {
+                list[left++] = list[k];
             }
-            job->total.back_sides += area[k] > 0;
+        }
+    }
+    count = left;
+    left = 0;
+    for (uint32_t k = 0; k < count; k++) { /* without branches */
+        uint32_t at = list[k];
+        list[left] = at;
+        left += (uint32_t)side_shows(job, facet[at], side);
+    }
+    job->total.hidden += count - left;
+    if (job->curved) {
+        count = left;
+        left = 0;
+        for (uint32_t k = 0; k < count; k++) {
+            if (lrcsi_curve_wanted(job->view, facet[list[k]])) {
+                sum_precisely(job, facet[list[k]]);
+            } else {
+                list[left++] = list[k];
+            }
+        }
+    }
+    return left;
+}
+
+/* Places from `place` on of facets that reflect on the side towards the laser, which is 1, or -1
+   for their back: those that are picked and show wait for a block, which is run once it is full. */
+static void batch_add(total_job *job, total_batch *batch, uint32_t place,
+                      const uint64_t pick[LRCSI_LANES], double side)
+{
+    uint32_t *list = batch->place + batch->waiting;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < LRCSI_LANES; i++) { /* without branches: facings follow no pattern */
+        list[count] = place + i;
+        count += (uint32_t)(pick[i] >> 63);
+    }
+    if (job->visible || job->curved || job->clear || job->view->prepared->batches.redundant) {
+        count = places_filter(job, list, count, side);
+    }
+    for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
+        batch->side[batch->waiting + i] = side;
+    }
+    batch->waiting += count;
+    batch->seen |= count > 0;
+    if (batch->waiting >= LRCSI_LANES) {
+        block_run(job, batch);
+    }
+}
+
+/* Adds the areas of the back sides picked that show and do not reflect. */
+static void batch_backs(total_job *job, total_batch *batch, uint32_t place, const double *dot,
+                        const uint64_t pick[LRCSI_LANES])
+{
+    const lrcsi_batches *b = &job->view->prepared->batches;
+    const double *whole = b->area + place;
+    double area[LRCSI_LANES] = {0};
+    uint32_t count = 0;
+    if (job->visible || b->redundant) {
+        for (uint32_t i = 0; i < LRCSI_LANES; i++) {
+            if (pick[i] >> 63) {
+                uint32_t facet = b->facet[place + i];
+                if (side_shows(job, facet, -1)) {
+                    area[count] = job->visible ? facet_area(job, facet) : -dot[i] * whole[i];
+                }
+                job->total.back_sides += area[count++] > 0;
+            }
         }
     } else {
-        const double *whole = b->area + place;
         for (int i = 0; i < LRCSI_LANES; i++) {
-            uint64_t behind = lrcsi_bits_negative(dot[i] + batch->lobes.low);
-            area[i] = lrcsi_bits_masked(-dot[i] * whole[i], behind);
+            area[i] = lrcsi_bits_masked(-dot[i] * whole[i], ~((pick[i] >> 63) - 1));
+            count += (uint32_t)(pick[i] >> 63);
         }
         job->total.back_sides += count;
     }
     lrcsi_sum_lanes_add(&batch->back_side, area);
 }
 
-/* Up to LRCSI_LANES facets from a place on: those that blocks serve, back sides that do not
-   reflect, and the rest one by one. Lists are made without branches, for facings follow no pattern.
- */
+/* Which of LRCSI_LANES places hold facets that blocks serve, as sign bits: those that show their
+   front, and their back, to the laser. */
+typedef struct total_pick {
+    double dot[LRCSI_LANES];
+    uint64_t front[LRCSI_LANES], back[LRCSI_LANES];
+    uint64_t any_front, any_back, any_other; /* none where the sign bit is clear */
+} total_pick;
+
+/* a - b is negative where a < b. */
+static void places_pick(const total_job *job, const total_batch *batch, uint32_t place,
+                        uint32_t count, total_pick *restrict pick)
+{
+    const lrcsi_batches *b = &job->view->prepared->batches;
+    const double *x = b->normal[0] + place;
+    const double *y = b->normal[1] + place;
+    const double *z = b->normal[2] + place;
+    const double d[3] = {job->view->unit[0], job->view->unit[1], job->view->unit[2]};
+    const double low = batch->lobes.low;
+    const double high = batch->lobes.high;
+    const double far = batch->back_reflects ? high : 2;
+    uint64_t fronts = 0;
+    uint64_t backs = 0;
+    uint64_t others = 0;
+    for (int i = 0; i < LRCSI_LANES; i++) {
+        double dot = lrcsi_view_dot(x[i], y[i], z[i], d);
+        uint64_t front = lrcsi_bits_of(low - dot) & lrcsi_bits_of(dot - high);
+        uint64_t back = lrcsi_bits_of(low + dot) & lrcsi_bits_of(-far - dot);
+        pick->dot[i] = dot;
+        pick->front[i] = front;
+        pick->back[i] = back;
+        fronts |= front;
+        backs |= back;
+        others |= ~(front | back);
+    }
+    for (uint32_t i = count; i < LRCSI_LANES; i++) { /* of other materials */
+        pick->front[i] = pick->back[i] = 0;
+    }
+    pick->any_front = fronts;
+    pick->any_back = backs;
+    pick->any_other = others;
+}
+
+/* Up to LRCSI_LANES facets from a place on:
+   1. which of them blocks serve;
+   2. front sides wait for a block;
+   3. back sides too where they reflect, or their areas are added up;
+   4. the others, near grazing or in the bright lobe of a narrow glint, are summed one by one. */
 static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint32_t count)
 {
-    double dot[LRCSI_LANES];
-    uint32_t front[LRCSI_LANES];
-    uint32_t back[LRCSI_LANES];
-    uint32_t fronts = 0;
-    uint32_t backs = 0;
-    double low = batch->lobes.low;
-    lrcsi_view_dots(job->view, place, dot);
-    for (uint32_t i = count; i < LRCSI_LANES; i++) {
-        dot[i] = 0;
+    total_pick pick;
+    places_pick(job, batch, place, count, &pick);
+    if (pick.any_front >> 63) {
+        batch_add(job, batch, place, pick.front, 1);
     }
-    double far = batch->back_reflects ? batch->lobes.high : 2;
-    for (uint32_t i = 0; i < count; i++) {
-        front[fronts] = back[backs] = i;
-        fronts += (dot[i] > low) & (dot[i] < batch->lobes.high);
-        backs += (dot[i] < -low) & (dot[i] > -far);
-    }
-    uint32_t listed = fronts + backs;
-    if (job->clear) {
-        fronts = batch_leave_shapes(job, place, front, fronts);
-        backs = batch->back_reflects ? batch_leave_shapes(job, place, back, backs) : backs;
-    }
-    batch_add(job, batch, place, front, fronts, 1);
-    if (batch->back_reflects && batch->back_shows) {
-        batch_add(job, batch, place, back, backs, -1);
+    if (!(pick.any_back >> 63)) {
+        /* nothing */
+    } else if (batch->back_reflects && batch->back_shows) {
+        batch_add(job, batch, place, pick.back, -1);
     } else if (batch->back_shows) {
-        batch_backs(job, batch, place, dot, back, backs);
+        batch_backs(job, batch, place, pick.dot, pick.back);
     } else if (batch->back_reflects) {
-        job->total.hidden += backs;
+        for (uint32_t i = 0; i < count; i++) {
+            job->total.hidden += (uint32_t)(pick.back[i] >> 63);
+        }
     }
-    for (uint32_t i = 0; listed < count && i < count; i++) {
-        double end = dot[i] > 0 ? batch->lobes.high : far;
-        if (!(fabs(dot[i]) > low && fabs(dot[i]) < end)) {
+    for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
+        if (!((pick.front[i] | pick.back[i]) >> 63)) {
             sum_facet(job, job->view->prepared->batches.facet[place + i]);
         }
     }
@@ -588,7 +644,7 @@ static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint3
    what, all of it may be hidden. */
 static void batch_finish(total_job *job, total_batch *batch)
 {
-    if (batch->count > 0) {
+    if (batch->waiting > 0) {
         block_run(job, batch);
     }
     total_sums *sums = &job->sums;

@@ -143,12 +143,18 @@ static void lobe_glint(const lrcsi_lobes *restrict lobes, const shade_chord *res
     double x[LRCSI_LANES];
     double e[LRCSI_LANES];
     uint64_t keep[LRCSI_LANES];
+    uint64_t any = 0;
     for (int i = 0; i < LRCSI_LANES; i++) {
         double q = chord->q[i];
         double square = chord->inverse[i] * chord->inverse[i];
         double exponent = (q * (1 - 0.25 * q)) * square * lobes->inverse_s2;
         keep[i] = lrcsi_bits_negative(exponent - SHADE_EXPONENT);
         x[i] = -lrcsi_bits_masked(exponent, keep[i]);
+        any |= keep[i];
+    }
+    if (!any) {
+        memset(shades->glint, 0, sizeof shades->glint);
+        return;
     }
     lrcsi_exp_lanes(x, e);
     for (int i = 0; i < LRCSI_LANES; i++) {

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/constant.h"
 #include "base/exact.h"
 #include "base/ieee.h"
@@ -202,51 +203,45 @@ double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
     return LRCSI_U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
 }
 
-/* With 1.01 u for each component of n, u for d's, u for each product and sum: at most 5.1 u
-   sum |n_k d_k|, which is at most 1. LRCSI_DOT_ERROR is 12 u. */
-void lrcsi_view_dots(const lrcsi_view *view, uint32_t place, double dot[restrict LRCSI_LANES])
-{
-    const lrcsi_batches *b = &view->prepared->batches;
-    const double *x = b->normal[0] + place;
-    const double *y = b->normal[1] + place;
-    const double *z = b->normal[2] + place;
-    const double *d = view->unit;
-    for (int i = 0; i < LRCSI_LANES; i++) {
-        dot[i] = (x[i] * d[0] + y[i] * d[1]) + z[i] * d[2];
-    }
-}
-
-/* By the sign of the dot product of unit vectors, or where that does not decide exactly. */
+/* By the sign of the dot product of unit vectors. Where its error may hide the sign, which is rare,
+   exactly: one test serves a block. */
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcsi_batches *b = &p->batches;
+    const uint64_t magnitude = UINT64_MAX >> 1;
+    const uint64_t error = lrcsi_bits_of(LRCSI_DOT_ERROR);
+    const double d[3] = {view->unit[0], view->unit[1], view->unit[2]};
     memset(view->facing, 0, p->scene->facet_count);
     for (uint32_t place = 0; place < b->count; place += LRCSI_LANES) {
         const uint32_t *facet = b->facet + place;
+        const double *x = b->normal[0] + place;
+        const double *y = b->normal[1] + place;
+        const double *z = b->normal[2] + place;
         uint32_t count = b->count - place < LRCSI_LANES ? b->count - place : LRCSI_LANES;
-        uint32_t unsure[LRCSI_LANES] = {0};
-        uint32_t unsures = 0;
         uint32_t back = 0;
+        uint64_t unsure = 0; /* sign bit: some |dot| is at most the error */
         double dot[LRCSI_LANES];
-        lrcsi_view_dots(view, place, dot);
+        for (int i = 0; i < LRCSI_LANES; i++) {
+            dot[i] = lrcsi_view_dot(x[i], y[i], z[i], d);
+            unsure |= (lrcsi_bits_of(dot[i]) & magnitude) - error - 1;
+        }
         for (uint32_t i = 0; i < count; i++) {
-            int behind = dot[i] < 0;
-            view->facing[facet[i]] = (signed char)(1 - 2 * behind);
-            back += (uint32_t)behind;
-            unsure[unsures] = i;
-            unsures += fabs(dot[i]) <= LRCSI_DOT_ERROR;
+            uint32_t behind = (uint32_t)(lrcsi_bits_of(dot[i]) >> 63);
+            view->facing[facet[i]] = (signed char)(1 | -(int)behind);
+            back += behind;
         }
         view->back += back;
         view->front += count - back;
-        for (uint32_t k = 0; k < unsures; k++) {
-            uint32_t f = facet[unsure[k]];
-            signed char facing = facing_of(view, f);
-            view->front -= view->facing[f] > 0;
-            view->back -= view->facing[f] < 0;
-            view->front += facing > 0;
-            view->back += facing < 0;
-            view->facing[f] = facing;
+        for (uint32_t i = 0; unsure >> 63 && i < count; i++) {
+            if (fabs(dot[i]) <= LRCSI_DOT_ERROR) {
+                signed char facing = facing_of(view, facet[i]);
+                view->front -= view->facing[facet[i]] > 0;
+                view->back -= view->facing[facet[i]] < 0;
+                view->front += facing > 0;
+                view->back += facing < 0;
+                view->facing[facet[i]] = facing;
+            }
         }
     }
 }

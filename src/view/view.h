@@ -104,11 +104,14 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
                            lrcsi_incidence *incidence);
 
-/* n . d of the facets at `place` and after it in the scene's batches, n and d being unit vectors:
-   absolute error at most LRCSI_DOT_ERROR. Returned: dot[], that of places beyond the last being 0.
- */
+/* n . d of a unit normal and a unit direction, both rounded: absolute error at most
+   LRCSI_DOT_ERROR. With 1.01 u for each component of n, u for d's, u for each product and sum: at
+   most 5.1 u sum |n_k d_k|, which is at most 1. LRCSI_DOT_ERROR is 12 u. */
 #define LRCSI_DOT_ERROR 0x1.8p-51
-void lrcsi_view_dots(const lrcsi_view *view, uint32_t place, double dot[LRCSI_LANES]);
+static inline double lrcsi_view_dot(double x, double y, double z, const double d[3])
+{
+    return (x * d[0] + y * d[1]) + z * d[2];
+}
 
 /* View coordinates of a scene point. */
 void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3]);

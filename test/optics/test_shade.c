@@ -35,6 +35,13 @@ static lrcsi_view view_of(const struct vector *v)
     return view;
 }
 
+/* n . d of the facet at a place of the batches. */
+static double dot_at(const lrcsi_view *view, uint32_t place)
+{
+    double *const *n = view->prepared->batches.normal;
+    return lrcsi_view_dot(n[0][place], n[1][place], n[2][place], view->unit);
+}
+
 /* The facet alone in one lane, others turned elsewhere. */
 static void shade_lane(const lrcsi_view *view, const lrcsi_lobes *lobes, uint32_t lane,
                        lrcsi_shades *shades)
@@ -66,12 +73,11 @@ static void facets_stay_within_the_error_of_their_block(void **state)
         const struct vector *v = &vectors[n];
         lrcsi_view view = view_of(v);
         const lrcsi_batches *b = &view.prepared->batches;
-        double dot[LRCSI_LANES];
-        lrcsi_view_dots(&view, b->first[1], dot);
+        double dot = dot_at(&view, b->first[1]);
         for (int parts = 1; parts <= 3; parts++) {
             const lrcs_brdf brdf = {parts & 1 ? v->A : 0, parts & 2 ? v->B : 0, v->s, v->m};
             lrcsi_lobes lobes = lrcsi_lobes_make(&brdf, brdf.A > 0, brdf.B > 0);
-            if (!(dot[0] > lobes.low && dot[0] < lobes.high)) {
+            if (!(dot > lobes.low && dot < lobes.high)) {
                 continue;
             }
             uint32_t lane = (uint32_t)n % LRCSI_LANES;
@@ -117,10 +123,9 @@ static void bounds_of_ordinary_materials_are_small(void **state)
         lrcsi_view view = view_of(v);
         const lrcs_brdf brdf = {v->A, v->B, v->s, v->m};
         lrcsi_lobes lobes = lrcsi_lobes_make(&brdf, brdf.A > 0, brdf.B > 0);
-        double dot[LRCSI_LANES];
-        lrcsi_view_dots(&view, view.prepared->batches.first[1], dot);
-        double x = (1 / dot[0] / dot[0] - 1) / v->s / v->s;
-        if (v->s >= 0.05 && v->s <= 0.3 && v->m <= 2 && dot[0] > 0.5 && x < 12) {
+        double dot = dot_at(&view, view.prepared->batches.first[1]);
+        double x = (1 / dot / dot - 1) / v->s / v->s;
+        if (v->s >= 0.05 && v->s <= 0.3 && v->m <= 2 && dot > 0.5 && x < 12) {
             shade_lane(&view, &lobes, 0, &shades);
             double both = shades.glint[0] + shades.diffuse[0];
             check_most(shades.error[0], (60 + 55 * x) * both);

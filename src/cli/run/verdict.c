@@ -199,4 +199,5 @@ void cli_run_verdict(const run_job *job)
     backs_say(job);
     glint_say(job);
     materials_say(job);
+    cli_run_materials_verdict(job);
 }
