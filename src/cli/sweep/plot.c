@@ -275,6 +275,7 @@ static void plot_note(const sweep_plot *plots, uint32_t count, char note[512])
     double worst = 0.0;
     int dark = 0;
     int open = 0;
+    int banded = 0;
     int used = 0;
     note[0] = '\0';
     for (uint32_t i = 0; i < plan->axes && used < 300 && count == 1; i++) {
@@ -291,12 +292,14 @@ static void plot_note(const sweep_plot *plots, uint32_t count, char note[512])
             dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
         }
         open |= plot->open;
+        banded |= plot->band && !plot->map && !plot->polar;
         accept = plot->accept && strcmp(plot->accept, "bound") != 0 ? plot->accept : accept;
     }
     cli_bound_text(worst, 2, bound);
     snprintf(note + used, 512 - (size_t)used,
-             "each sigma is proved to within %s m2 or better%s%s%s%s%s", bound,
+             "each sigma is proved to within %s m2 or better%s%s%s%s%s%s", bound,
              open ? " for its materials, which are illustrative" : "",
+             banded ? "; shaded: 68 % by the errors of materials" : "",
              accept ? "; accepted by " : "", accept ? accept : "",
              !dark        ? ""
              : plots->map ? "; grey: sigma is 0"
@@ -343,9 +346,8 @@ static uint64_t plot_row(const sweep_plot *plot, uint64_t x, uint64_t y)
     return plot->swapped || plot->y.count == 1 ? y * plot->x.count + x : x * plot->y.count + y;
 }
 
-static double plot_sigma(const sweep_plot *plot, uint64_t x, uint64_t y)
+static double plot_shown(const sweep_plot *plot, double sigma)
 {
-    double sigma = plot->row[plot_row(plot, x, y)][0];
     return plot->dbsm ? cli_dbsm(sigma) : sigma; /* of 0: not finite, and not drawn */
 }
 
@@ -379,7 +381,8 @@ static void time_title(const sweep_plot *plot, const plot_axis *axis, char text[
 
 /* The numbers of one sweep. */
 typedef struct plot_values {
-    double *x, *y, *z; /* values along both axes, and sigma: z[y][x]; x is allocated */
+    double *x, *y, *z;  /* values along both axes, and sigma: z[y][x]; x is allocated */
+    double *low, *high; /* the ends of bands, as z; NULL: none */
 } plot_values;
 
 typedef struct plot_sheet {
@@ -421,6 +424,8 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *err
                 .count = (uint32_t)one->x.count,
                 .x = values->x,
                 .y = values->z + i * one->x.count,
+                .low = values->low ? values->low + i * one->x.count : NULL,
+                .high = values->high ? values->high + i * one->x.count : NULL,
                 .colour = colour[curves],
                 .marker = marked ? (int)(curves % LRCS_HOST_NO_MARKER) : LRCS_HOST_NO_MARKER,
                 .dash = (int)(curves % 2 ? LRCS_HOST_DASHED : LRCS_HOST_SOLID)};
@@ -480,12 +485,14 @@ static int values_fill(const sweep_plot *plot, plot_values *values)
     const plot_axis *along[2] = {&plot->x, &plot->y};
     int back[2];
     uint64_t cells = plot->x.count * plot->y.count;
-    values->x = malloc((cells + plot->x.count + plot->y.count) * sizeof(double));
+    values->x = malloc((3 * cells + plot->x.count + plot->y.count) * sizeof(double));
     if (!values->x) {
         return cli_out_of_memory();
     }
     values->y = values->x + plot->x.count;
     values->z = values->y + plot->y.count;
+    values->low = plot->band ? values->z + cells : NULL;
+    values->high = plot->band ? values->z + 2 * cells : NULL;
     for (int k = 0; k < 2; k++) {
         uint64_t last = along[k]->count - 1;
         double *value = k == 0 ? values->x : values->y;
@@ -496,8 +503,13 @@ static int values_fill(const sweep_plot *plot, plot_values *values)
     }
     for (uint64_t y = 0; y < plot->y.count; y++) {
         for (uint64_t x = 0; x < plot->x.count; x++) {
-            values->z[y * plot->x.count + x] = plot_sigma(plot, back[0] ? plot->x.count - 1 - x : x,
-                                                          back[1] ? plot->y.count - 1 - y : y);
+            uint64_t row = plot_row(plot, back[0] ? plot->x.count - 1 - x : x,
+                                    back[1] ? plot->y.count - 1 - y : y);
+            uint64_t at = y * plot->x.count + x;
+            values->z[at] = plot_shown(plot, plot->row[row][0]);
+            for (int k = 0; k < 2 && plot->band; k++) {
+                (k == 0 ? values->low : values->high)[at] = plot_shown(plot, plot->band[row][k]);
+            }
         }
     }
     return 0;

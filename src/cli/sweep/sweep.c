@@ -81,6 +81,7 @@ typedef struct sweep_job {
     uint32_t brightest;
     int stats;
     double (*row)[2]; /* sigma and bound of every row, for these two */
+    double (*band)[2];
     lrcs_run_options options;
     lrcs_host_options load;
     lrcs_host_scene scene;
@@ -314,7 +315,14 @@ static int job_room(sweep_job *job)
             return cli_out_of_memory();
         }
     }
+    if (job->plot.asked && job->plan.extras > 0) {
+        job->band = calloc(job->plan.rows, sizeof *job->band);
+        if (!job->band) {
+            return cli_out_of_memory();
+        }
+    }
     job->file.row = job->plot.row = job->row;
+    job->file.band = job->plot.band = job->band;
     return 0;
 }
 
@@ -402,6 +410,7 @@ static int sweep_command(const cli_args *args)
         code = code ? code : job_rows(job);
     }
     free(job->row);
+    free(job->band);
     free(job->coarse);
     cli_file_free(&job->file);
     cli_plan_free(&job->plan);

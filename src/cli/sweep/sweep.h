@@ -257,8 +257,9 @@ typedef struct sweep_file {
     uint64_t size, sum; /* bytes in FILE.partial before its checksum, and that */
     uint64_t next;      /* the first row that is still to come */
     sweep_tally tally;
-    double flushed;   /* when rows were last handed to the system, s */
-    double (*row)[2]; /* sigma and bound of every row, or NULL; whoever made it frees it */
+    double flushed;    /* when rows were last handed to the system, s */
+    double (*row)[2];  /* sigma and bound of every row, or NULL; whoever made it frees it */
+    double (*band)[2]; /* the interval of its material uncertainty, likewise */
 } sweep_file;
 
 /* What -o and --json ask for; 0 or CLI_USAGE. */
@@ -298,6 +299,7 @@ typedef struct sweep_data {
     sweep_plan plan;
     sweep_head head; /* its options; hash and rows are the text's */
     double (*row)[2];
+    double (*band)[2]; /* as of sweep_plot */
     sweep_tally tally;
     sweep_text text;
     /* what these stand on */
@@ -337,7 +339,8 @@ typedef struct sweep_plot {
     plot_axis x, y;     /* y: one value where only one thing varies */
     int swapped;        /* x is the faster of two */
     const sweep_plan *plan;
-    double (*row)[2]; /* sigma and bound, m2 */
+    double (*row)[2];  /* sigma and bound, m2 */
+    double (*band)[2]; /* the interval of its material uncertainty, m2; NULL: none */
 } sweep_plot;
 
 #define PLOT_CURVES 7u /* more values than that, both ways, make a map */
