@@ -189,6 +189,9 @@ void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json);
 int cli_errors_stated(const lrcs_scene *scene);  /* some material has errors */
 int cli_materials_open(const lrcs_scene *scene); /* illustrative or default ones are worn */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
+/* The same in one line for pictures: version, scene hash, files, materials, options. NULL without
+   memory; the caller frees it. */
+char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
 
 /* The name of a scene's material for people: "(default)" where it has none. */

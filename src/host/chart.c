@@ -353,7 +353,8 @@ static void drawing_of(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
 
 void lrcs_host_chart_svg(FILE *out, const lrcs_host_chart *chart)
 {
-    lrcsi_svg svg = lrcsi_svg_begin(out, LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, chart->title);
+    lrcsi_svg svg =
+        lrcsi_svg_begin(out, LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, chart->title, chart->about);
     drawing_of(chart, &svg.plotter);
     lrcsi_svg_end(&svg);
 }
@@ -365,7 +366,7 @@ int lrcs_host_chart_png(FILE *out, const lrcs_host_chart *chart, lrcs_host_error
                                    &canvas, error);
     if (status == LRCS_OK) {
         drawing_of(chart, &canvas.plotter);
-        status = lrcsi_canvas_end(&canvas, out, error);
+        status = lrcsi_canvas_end(&canvas, out, chart->about, error);
     }
     return status;
 }

@@ -152,6 +152,7 @@ static int job_read(plot_job *job)
         plot->open = cli_head_text(&data->head, "materials") != NULL;
         plot->row = data->row;
         plot->band = data->band;
+        plot->head = &data->head;
     }
     return code;
 }

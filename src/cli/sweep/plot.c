@@ -389,7 +389,7 @@ typedef struct plot_sheet {
     const sweep_plot *plot;
     uint32_t count; /* of sweeps */
     plot_values values[PLOT_CURVES];
-    char title[256], note[512], x_name[192], y_name[192];
+    char title[256], note[512], x_name[192], y_name[192], about[4000];
     int png;
 } plot_sheet;
 
@@ -438,6 +438,7 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *err
                                    .x_deg = is_angle(&plot->x),
                                    .y_from_0 = !plot->dbsm && plot->plan->kind != SWEEP_TRACK,
                                    .polar = plot->polar,
+                                   .about = plot->head ? sheet->about : NULL,
                                    .series = series,
                                    .series_count = curves};
     if (sheet->png) {
@@ -464,6 +465,7 @@ static int sheet_map(FILE *out, const plot_sheet *sheet, lrcs_host_error *error)
                                .x_deg = is_angle(&plot->x),
                                .y_deg = is_angle(&plot->y),
                                .mollweide = plot->mollweide,
+                               .about = plot->head ? sheet->about : NULL,
                                .cells = plot->plan->kind == SWEEP_SPHERE};
     if (sheet->png) {
         return lrcs_host_map_png(out, &map, error);
@@ -522,6 +524,19 @@ static void sheet_free(plot_sheet *sheet)
     }
 }
 
+/* What the sweeps were made from, for the file. */
+static void plot_about(const sweep_plot *plots, uint32_t count, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "lrcs %s sweep", lrcs_version());
+    for (uint32_t k = 0; k < count; k++) {
+        const sweep_head *head = plots[k].head;
+        for (uint32_t i = 0; head && i < head->options && used < size; i++) {
+            used += (size_t)snprintf(text + used, size - used, "; %s=%s", head->option[i].key,
+                                     head->option[i].text);
+        }
+    }
+}
+
 /* Values and words of a drawing; freed in any case. 0 or CLI_FAILED. */
 static int sheet_make(const sweep_plot *plot, uint32_t count, plot_sheet *sheet)
 {
@@ -537,6 +552,7 @@ static int sheet_make(const sweep_plot *plot, uint32_t count, plot_sheet *sheet)
     snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section%s%.200s",
              alike ? " of " : "", alike ? plot->title : "");
     plot_note(plot, count, sheet->note);
+    plot_about(plot, count, sheet->about, sizeof sheet->about);
     time_title(plot, &plot->x, sheet->x_name);
     time_title(plot, &plot->y, sheet->y_name);
     return code;

@@ -404,6 +404,7 @@ static int sweep_command(const cli_args *args)
     if (code == 0) {
         coarse_say(job);
         job->plan.extras = cli_errors_stated(&job->scene.scene) ? SWEEP_EXTRAS : 0;
+        job->plot.head = &job->head;
         job->plot.open = cli_materials_open(&job->scene.scene);
         job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
         code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);

@@ -335,9 +335,10 @@ typedef struct sweep_plot {
     int open;           /* materials are illustrative or assumed: no bound holds what that costs */
     const char *accept; /* as --accept, or NULL */
     const char *title;  /* of what: the scene's, or its file */
-    const char *name;   /* in the legend, of all curves, or NULL */
-    plot_axis x, y;     /* y: one value where only one thing varies */
-    int swapped;        /* x is the faster of two */
+    const sweep_head *head; /* what it was made from; NULL: not told */
+    const char *name;       /* in the legend, of all curves, or NULL */
+    plot_axis x, y;         /* y: one value where only one thing varies */
+    int swapped;            /* x is the faster of two */
     const sweep_plan *plan;
     double (*row)[2];  /* sigma and bound, m2 */
     double (*band)[2]; /* the interval of its material uncertainty, m2; NULL: none */
