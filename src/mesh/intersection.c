@@ -194,12 +194,14 @@ static unsigned lanes_in_ring(const touch_search *search, uint32_t place, const 
     return lanes;
 }
 
-/* The facet at a place against those in some lanes of a leaf. */
+/* The facet at a place against those in some lanes of a leaf whose boxes meet its own, less those
+   of a common ring. */
 static int meet_lanes(touch_search *search, uint32_t place, uint32_t leaf, unsigned lanes)
 {
     const lrcsi_tree *tree = &search->tree;
     lrcsi_box box = lrcsi_tree_box(&tree->block[0][place / LEAF_LANES], place % LEAF_LANES);
     lanes &= lrcsi_tree_meets(&tree->block[0][leaf], &box);
+    lanes = lanes ? lanes & ~lanes_in_ring(search, place, &search->leaf[leaf]) : 0;
     if (lanes == 0) {
         return LRCS_OK;
     }
@@ -217,8 +219,16 @@ static int meet_lanes(touch_search *search, uint32_t place, uint32_t leaf, unsig
     return status;
 }
 
-/* The facets of two leaves that meet the other's box, against each other, less those of a common
-   ring; or, where it is one leaf, each of its facets against those after it. */
+/* How many bits a mask of lanes has. */
+static uint32_t count_lanes(unsigned mask)
+{
+    mask = (mask & 0x55u) + (mask >> 1 & 0x55u);
+    mask = (mask & 0x33u) + (mask >> 2 & 0x33u);
+    return (mask & 0x0fu) + (mask >> 4);
+}
+
+/* The facets of two leaves that meet the other's box, against each other, those of the leaf with
+   fewer of them one by one; or, where it is one leaf, each of its facets against those after it. */
 static int meet_leaves(touch_search *search, uint32_t first, uint32_t second)
 {
     const lrcsi_tree *tree = &search->tree;
@@ -228,18 +238,26 @@ static int meet_leaves(touch_search *search, uint32_t first, uint32_t second)
     if (first != second) {
         lrcsi_box box = lrcsi_tree_box(&tree->block[1][second / LEAF_LANES], second % LEAF_LANES);
         rows = lrcsi_tree_meets(&tree->block[0][first], &box);
-        box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
-        columns = rows ? lrcsi_tree_meets(&tree->block[0][second], &box) : 0;
+        if ((rows & (rows - 1)) != 0) { /* two or more: one compares its own box */
+            box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
+            columns = lrcsi_tree_meets(&tree->block[0][second], &box);
+        }
+        if (count_lanes(columns) < count_lanes(rows)) {
+            unsigned lanes = rows;
+            uint32_t leaf = first;
+            rows = columns;
+            columns = lanes;
+            first = second;
+            second = leaf;
+        }
     } else if (tree->count - first * LEAF_LANES < LEAF_LANES) {
         rows = columns = (1u << (tree->count - first * LEAF_LANES)) - 1;
     }
     for (; rows != 0 && columns != 0 && status == LRCS_OK; rows &= rows - 1) {
         uint32_t lane = lrcsi_tree_lane(rows);
         columns &= first == second ? ~1u << lane : ~0u;
-        uint32_t place = first * LEAF_LANES + lane;
-        unsigned lanes = columns & ~lanes_in_ring(search, place, &search->leaf[second]);
-        if (lanes != 0) {
-            status = meet_lanes(search, place, second, lanes);
+        if (columns != 0) {
+            status = meet_lanes(search, first * LEAF_LANES + lane, second, columns);
         }
     }
     return status;

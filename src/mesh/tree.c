@@ -97,6 +97,7 @@ typedef struct tree_sort {
     const uint32_t *apex; /* or NULL */
     uint32_t *order, *order_spare;
     uint64_t *key, *key_spare;
+    lrcs_point *centre; /* in the room of key_spare and order_spare, before these are used */
 } tree_sort;
 
 /* Twice the centre of a facet's box, or twice its apex. */
@@ -120,10 +121,10 @@ static void facet_centre(const tree_sort *s, const uint32_t *apex, uint32_t plac
 static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t first, uint32_t end)
 {
     lrcsi_box all = empty_box();
-    double centre[3];
+    lrcs_point *centre = s->centre;
     for (uint32_t i = first; i < end; i++) {
-        facet_centre(s, apex, i, centre);
-        grow_box(&all, centre, centre);
+        facet_centre(s, apex, i, centre[i - first].x);
+        grow_box(&all, centre[i - first].x, centre[i - first].x);
     }
     double side = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -139,9 +140,9 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t f
     const double scale = (double)((UINT64_C(1) << bits) - 1) / side;
     for (uint32_t i = first; i < end; i++) {
         uint64_t key = 0;
-        facet_centre(s, apex, i, centre);
         for (int k = 0; k < 3; k++) {
-            double cell = (centre[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
+            double cell =
+                (centre[i - first].x[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
             key |= spread_bits((uint64_t)cell) << k;
         }
         s->key[i] = key;
@@ -263,8 +264,8 @@ static void fill_block(const lrcsi_tree *tree, int level, uint32_t b)
 
 size_t lrcsi_tree_need(uint32_t facet_count)
 {
-    size_t scratch = lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
-                                    lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
+    size_t scratch = lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
+                                    lrcsi_work_bytes(facet_count, sizeof(lrcs_point)));
     size_t boxes = 0;
     uint32_t below = facet_count;
     for (int l = 0; l < LRCSI_TREE_LEVELS; l++) {
@@ -289,11 +290,12 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
     tree_sort s = {
         .vertex = vertex, .facet = facet, .apex = apexes ? label : NULL, .order = made.order};
     s.key = lrcsi_work_take(work, facet_count, sizeof *s.key);
-    s.key_spare = lrcsi_work_take(work, facet_count, sizeof *s.key_spare);
-    s.order_spare = lrcsi_work_take(work, facet_count, sizeof *s.order_spare);
+    s.centre = lrcsi_work_take(work, facet_count, sizeof *s.centre);
     work->used = stays;
     int status = LRCS_E_MEMORY;
-    if (s.order && s.key && s.key_spare && s.order_spare) {
+    if (s.order && s.key && s.centre) {
+        s.key_spare = (void *)s.centre;
+        s.order_spare = (void *)(s.key_spare + facet_count);
         for (uint32_t f = 0; f < facet_count; f++) {
             if (!skip || !skip[f]) {
                 made.order[made.count++] = f;
