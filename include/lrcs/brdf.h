@@ -15,6 +15,13 @@ typedef struct lrcs_brdf {
     double m; /* diffusivity coefficient, >= 0 */
 } lrcs_brdf;
 
+/* What is known of how far the four numbers may be off: one standard deviation of each, in its own
+   unit, and how they move together. All zero: the numbers are exact. */
+typedef struct lrcs_brdf_error {
+    double A, B, s, m;     /* >= 0 */
+    double correlation[6]; /* of A and B, A and s, A and m, B and s, B and m, s and m: [-1, 1] */
+} lrcs_brdf_error;
+
 /* The material of facets to which no binding applies: A=1, B=0.25, s=0.2, m=0.5. */
 lrcs_brdf lrcs_brdf_default(void);
 
@@ -31,6 +38,12 @@ enum lrcs_brdf_warning {
 /* Checks the four numbers: LRCS_E_NUMBER where they are not finite or outside the domain
    (A, B, m < 0; s < 0; s = 0 with A > 0), else warning bits, 0 for none. */
 int lrcs_brdf_check(const lrcs_brdf *brdf);
+
+/* Checks the errors of a brdf: LRCS_E_NUMBER where a number is not finite, a deviation is negative,
+   a correlation lies outside [-1, 1] or the six are not those of any four quantities (their matrix
+   has an eigenvalue below 0 by more than rounding); LRCS_E_ARGUMENT where A or s has an error and s
+   is 0: without a slope there is no glint to be uncertain of. Else LRCS_OK. */
+int lrcs_brdf_error_check(const lrcs_brdf *brdf, const lrcs_brdf_error *error);
 
 /* One sentence for one warning bit. Never NULL. */
 const char *lrcs_brdf_warning_text(int bit);

@@ -186,6 +186,18 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error);
 
+/* lrcs_uncertainty_run and lrcs_attitude_slope_run with memory from the heap.
+   Returned: result; sensitivity[material_count]; uncertainty; and slope.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_uncertainty_run and lrcs_attitude_slope_run. */
+int lrcs_host_scene_uncertainty(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                                const lrcs_run_options *options,
+                                const lrcs_uncertainty_options *how, lrcs_result *result,
+                                lrcs_sensitivity *sensitivity, lrcs_uncertainty *uncertainty,
+                                lrcs_host_error *error);
+int lrcs_host_scene_attitude_slope(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                                   const lrcs_run_options *options, lrcs_attitude_slope *slope,
+                                   lrcs_host_error *error);
+
 /* Runs a pose up to a stage (lrcs_host_pose_stage) and discards the results, to measure the time of
    single stages. options->method must not be AUTO, which may run stages more than once.
    Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_ARGUMENT (the method or the stage); as lrcs_sigma_run. */

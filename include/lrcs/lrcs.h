@@ -13,6 +13,7 @@
 #include <lrcs/scene.h>
 #include <lrcs/shape.h>
 #include <lrcs/status.h>
+#include <lrcs/uncertainty.h>
 #include <lrcs/work.h>
 
 #endif

@@ -17,6 +17,9 @@ typedef struct lrcs_material {
     unsigned char omitted; /* fully transparent: its facets are left out of the scene */
     unsigned char bound;   /* 0: nobody gives its numbers: brdf is lrcs_brdf_default, or what a
                               scene file calls assumed */
+    lrcs_brdf_error error; /* of brdf; all zero where none was stated */
+    uint32_t source; /* materials of equal source > 0 got the same numbers from one place: their
+                        errors are one and the same; 0: from the library or the default */
 } lrcs_material;
 
 /* place = translate * rotate * scale, applied after the joint. */
@@ -58,6 +61,7 @@ typedef struct lrcs_recipe_material {
     int two_sided; /* -1: keeps what the model says */
     uint32_t line;
     int assumed; /* the numbers are nobody's: facets are as if unbound, but for the numbers */
+    lrcs_brdf_error error; /* of brdf */
 } lrcs_recipe_material;
 
 /* Which material a model's facets get: the first of these that applies:
@@ -82,10 +86,13 @@ typedef struct lrcs_binding {
     const char *name;     /* for the NAME kinds */
     unsigned char rgb[3]; /* for the COLOUR kinds */
     lrcs_brdf brdf;
-    int two_sided;        /* -1: keeps what the model says */
-    const char *material; /* the recipe's or library's name for brdf; NULL for plain numbers */
-    uint32_t line;        /* where the scene file names the material; 0 elsewhere */
-    int assumed;          /* as in lrcs_recipe_material */
+    int two_sided;         /* -1: keeps what the model says */
+    const char *material;  /* the recipe's or library's name for brdf; NULL for plain numbers */
+    uint32_t line;         /* where the scene file names the material; 0 elsewhere */
+    int assumed;           /* as in lrcs_recipe_material */
+    lrcs_brdf_error error; /* of brdf */
+    uint32_t source; /* bindings of equal source > 0 give the same numbers from one place, 1 + i
+                        being the recipe's material i; 0: its own */
 } lrcs_binding;
 
 typedef struct lrcs_recipe {

@@ -57,8 +57,8 @@ enum cli_exit {
     "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"    \
     "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name (* and ? serve) or "          \
     "'#RRGGBB',\n"                                                                                 \
-    "                        all else if missing; BRDF is A,B,s,m (A, B in 1/sr) or a library\n"   \
-    "                        material\n"                                                           \
+    "                        all else if missing; BRDF is A,B,s,m (A, B in 1/sr), each with\n"     \
+    "                        +-DEVIATION or without, or a library material\n"                      \
     "  --two-sided WHAT      reflects from both sides: all, open (what is no closed surface), a "  \
     "part\n"                                                                                       \
     "                        or a material\n"                                                      \
@@ -159,6 +159,11 @@ int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uin
 int cli_brdf_read(const cli_command *command, const char *text, const char *option,
                   lrcs_brdf *brdf);
 
+/* The same with errors: A+-DA,B+-DB,s+-DS,m+-DM, each +- one standard deviation, of which any may
+   be missing. */
+int cli_brdf_error_read(const cli_command *command, const char *text, const char *option,
+                        lrcs_brdf *brdf, lrcs_brdf_error *error);
+
 /* Scene options shared by run and info: --material (repeatable), --unit, --keep-transparent.
    The bindings' array and names are the caller's to free (cli_scene_options_free). */
 int cli_scene_options_read(const cli_args *args, lrcs_host_options *options);
@@ -179,6 +184,8 @@ const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */
+/* The keys of errors, A_error and so on with their correlations; none where all are 0. */
+void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json);
 int cli_materials_open(const lrcs_scene *scene); /* illustrative or default ones are worn */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
@@ -202,15 +209,22 @@ void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
 
 /* Text on stdout, blanks after it up to `width`, control characters as '?'. */
 void cli_column(const char *text, int width);
+void cli_column_to(FILE *out, const char *text, int width); /* the same on `out` */
 
 /* Seconds on a clock that only goes forward. */
 double cli_seconds(void);
 
 /* Shows the stage of a command that takes more than two seconds, on stderr where that is a
-   terminal, and says what a Ctrl-C leaves. Begin, stages (constant texts; with a scene that is
-   being prepared, how many of its stages are done), end before anything is printed. */
-void cli_watch_begin(void);
+   terminal, and says what a Ctrl-C leaves. Every command is watched from its begin on; it names its
+   stages (texts that stay; with a scene that is being prepared, how many of its stages are done;
+   NULL: nothing is shown, for something else is), may say that it has done so many of so many
+   parts, or let a run say how far it is (lrcs_run_options.progress), and ends the watch before it
+   prints. */
+void cli_watch_begin(const char *stage);
 void cli_watch_stage(const char *stage, const lrcs_host_scene *scene);
+void cli_watch_clear(void); /* before a line is printed to stderr; the watch goes on */
+void cli_watch_count(uint64_t done, uint64_t total);
+lrcs_progress *cli_watch_run(void);
 void cli_watch_end(void);
 
 /* "notice: ..." for each, on `out`. */

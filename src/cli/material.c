@@ -16,15 +16,54 @@ static int brdf_fault(const cli_command *command, const char *option, const lrcs
     return cli_usage(command, "%s: %s (A, B, m >= 0 and s > 0)", option, fault);
 }
 
+/* Reads four numbers with commas between, each with its "+-" deviation or without; 0, or -1. */
+static int brdf_numbers(const char *text, double value[4], double deviation[4])
+{
+    for (int i = 0; i < 4; i++) {
+        size_t size = strcspn(text, ",");
+        const char *error = strstr(text, "+-");
+        int has_error = error && error < text + size;
+        size_t own = has_error ? (size_t)(error - text) : size;
+        deviation[i] = 0.0;
+        if ((text[size] == '\0') != (i == 3) ||
+            lrcs_host_number_read(text, own, &value[i]) != LRCS_OK ||
+            (has_error &&
+             lrcs_host_number_read(error + 2, size - own - 2, &deviation[i]) != LRCS_OK)) {
+            return -1;
+        }
+        text += size + 1;
+    }
+    return 0;
+}
+
 int cli_brdf_read(const cli_command *command, const char *text, const char *option, lrcs_brdf *brdf)
 {
+    lrcs_brdf_error error;
+    int code = cli_brdf_error_read(command, text, option, brdf, &error);
+    if (code == 0 && (error.A > 0.0 || error.B > 0.0 || error.s > 0.0 || error.m > 0.0)) {
+        return cli_usage(command, "%s: no errors (+-) here, found '%s'", option, text);
+    }
+    return code;
+}
+
+int cli_brdf_error_read(const cli_command *command, const char *text, const char *option,
+                        lrcs_brdf *brdf, lrcs_brdf_error *error)
+{
     double v[4];
-    if (cli_list(text, v, 4) == 0) {
+    double d[4];
+    memset(error, 0, sizeof *error);
+    if (brdf_numbers(text, v, d) == 0) {
         lrcs_brdf read = {v[0], v[1], v[2], v[3]};
+        lrcs_brdf_error off = {.A = d[0], .B = d[1], .s = d[2], .m = d[3]};
         if (lrcs_brdf_check(&read) < 0) {
             return brdf_fault(command, option, &read);
         }
+        if (lrcs_brdf_error_check(&read, &off) != LRCS_OK) {
+            return cli_usage(command, "%s: an error (+-) is %s, found '%s'", option,
+                             read.s == 0.0 ? "given for A or s, where s is 0" : "negative", text);
+        }
         *brdf = read;
+        *error = off;
         return 0;
     }
     const lrcs_brdf_entry *entry = lrcs_brdf_find(text);
@@ -87,7 +126,8 @@ static int binding_read(const cli_command *command, const char *text, lrcs_bindi
         name[size] = '\0';
         binding->name = name;
     }
-    return cli_brdf_read(command, equals ? equals + 1 : text, "--material", &binding->brdf);
+    return cli_brdf_error_read(command, equals ? equals + 1 : text, "--material", &binding->brdf,
+                               &binding->error);
 }
 
 static int unit_read(const cli_args *args, double *unit_m)

@@ -69,6 +69,22 @@ void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json)
     lrcs_host_json_number(json, "m", brdf->m);
 }
 
+void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
+{
+    if (!(error->A > 0.0 || error->B > 0.0 || error->s > 0.0 || error->m > 0.0)) {
+        return;
+    }
+    lrcs_host_json_number(json, "A_error", error->A);
+    lrcs_host_json_number(json, "B_error", error->B);
+    lrcs_host_json_number(json, "s_error", error->s);
+    lrcs_host_json_number(json, "m_error", error->m);
+    lrcs_host_json_begin(json, "correlation", LRCS_HOST_ROW_ARRAY);
+    for (int i = 0; i < 6; i++) {
+        lrcs_host_json_number(json, NULL, error->correlation[i]);
+    }
+    lrcs_host_json_end(json);
+}
+
 static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
 {
     lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
@@ -84,6 +100,7 @@ static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
         lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
         lrcs_host_json_text(json, "name", material->name);
         cli_brdf_json(&material->brdf, json);
+        cli_brdf_error_json(&material->error, json);
         lrcs_host_json_bool(json, "two_sided", material->two_sided);
         lrcs_host_json_text(json, "source", cli_material_source(material));
         lrcs_host_json_count(json, "facets", facets);

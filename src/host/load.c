@@ -104,7 +104,9 @@ static int bindings_add(lrcs_host_scene *scene, const lrcs_host_options *options
         all[used++] = recipe->binding[i];
     }
     for (uint32_t i = 0; i < options->binding_count; i++) {
-        all[used++] = options->binding[i];
+        all[used] = options->binding[i];
+        all[used].source = 1 + recipe->material_count + used; /* a pattern's names share it */
+        used++;
     }
     recipe->binding = all;
     recipe->binding_count = used;

@@ -123,6 +123,80 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
     return status;
 }
 
+typedef struct uncertainty_step {
+    const lrcs_prepared *prepared;
+    const lrcs_pose *pose;
+    const lrcs_run_options *options;
+    const lrcs_uncertainty_options *how;
+    lrcs_result *result;
+    lrcs_sensitivity *sensitivity;
+    lrcs_uncertainty *uncertainty;
+    int tries; /* as sigma_step */
+} uncertainty_step;
+
+static int run_uncertainty(void *context, lrcs_work *work)
+{
+    uncertainty_step *step = context;
+    int status = lrcs_uncertainty_run(step->prepared, step->pose, step->options, step->how, work,
+                                      step->result, step->sensitivity, step->uncertainty);
+    int degraded = status == LRCS_OK && (step->result->flags & LRCS_FLAG_MEMORY_FALLBACK) &&
+                   work->peak > work->size;
+    return degraded && step->tries-- > 0 && heap_holds(work) ? LRCS_E_MEMORY : status;
+}
+
+int lrcsi_host_uncertainty(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                           const lrcs_run_options *options, const lrcs_uncertainty_options *how,
+                           lrcsi_host_area *area, lrcs_result *result,
+                           lrcs_sensitivity *sensitivity, lrcs_uncertainty *uncertainty,
+                           lrcs_host_error *error)
+{
+    uncertainty_step step = {scene->prepared, pose,        options,     how,
+                             result,          sensitivity, uncertainty, 6};
+    size_t own = lrcs_uncertainty_need(scene->prepared, options, how) -
+                 lrcs_sigma_need(scene->prepared, options);
+    size_t need = sigma_room(scene, options, NULL, area) + own;
+    int status = lrcsi_host_area_run(area, need, run_uncertainty, &step, error);
+    return run_fail(error, status, "the uncertainty of sigma");
+}
+
+int lrcs_host_scene_uncertainty(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                                const lrcs_run_options *options,
+                                const lrcs_uncertainty_options *how, lrcs_result *result,
+                                lrcs_sensitivity *sensitivity, lrcs_uncertainty *uncertainty,
+                                lrcs_host_error *error)
+{
+    lrcsi_host_area area = {NULL, 0};
+    int status = lrcsi_host_uncertainty(scene, pose, options, how, &area, result, sensitivity,
+                                        uncertainty, error);
+    lrcsi_host_area_free(&area);
+    return status;
+}
+
+typedef struct slope_step {
+    const lrcs_prepared *prepared;
+    const lrcs_pose *pose;
+    const lrcs_run_options *options;
+    lrcs_attitude_slope *slope;
+} slope_step;
+
+static int run_slope(void *context, lrcs_work *work)
+{
+    slope_step *step = context;
+    return lrcs_attitude_slope_run(step->prepared, step->pose, step->options, work, step->slope);
+}
+
+int lrcs_host_scene_attitude_slope(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                                   const lrcs_run_options *options, lrcs_attitude_slope *slope,
+                                   lrcs_host_error *error)
+{
+    slope_step step = {scene->prepared, pose, options, slope};
+    lrcsi_host_area area = {NULL, 0};
+    size_t need = sigma_room(scene, options, NULL, &area);
+    int status = lrcsi_host_area_run(&area, need, run_slope, &step, error);
+    lrcsi_host_area_free(&area);
+    return run_fail(error, status, "the derivatives in attitude");
+}
+
 typedef struct until_step {
     const lrcs_prepared *prepared;
     const lrcs_pose *pose;

@@ -58,6 +58,7 @@
 /* A rule's sum over a cell. */
 typedef struct cube_value {
     double glint, diffuse, rounding;
+    double glint_u, diffuse_log; /* moments, where wanted */
 } cube_value;
 
 /* A convex polygon. Positions are relative to the first corner, so that they stay good to a few u
@@ -100,7 +101,7 @@ static double node_position_err(const lrcsi_cubature *sum, double u, double d, c
    good to 6 u, which is at most 2 u in theta and part of the position error. */
 static cube_value node_value(const lrcsi_cubature *sum, const double n[3])
 {
-    cube_value at = {0, 0, 0};
+    cube_value at = {0, 0, 0, 0, 0};
     if (!(n[2] > 0)) {
         return at;
     }
@@ -109,6 +110,10 @@ static cube_value node_value(const lrcsi_cubature *sum, const double n[3])
     double secant = sqrt(1 + u);
     at.glint = reflection.glint * secant;
     at.diffuse = reflection.diffuse * secant;
+    if (sum->moments) {
+        at.glint_u = at.glint > 0 ? at.glint * u : 0;
+        at.diffuse_log = at.diffuse > 0 ? at.diffuse * lrcsi_log1p(u).hi : 0;
+    }
     at.rounding = reflection.error * secant + 4 * LRCSI_U * (at.glint + at.diffuse) +
                   node_position_err(sum, u, sum->position_err / (n[2] * secant), &at);
     return at;
@@ -119,6 +124,8 @@ static void value_add(cube_value *sum, double weight, const cube_value *value)
     sum->glint += weight * value->glint;
     sum->diffuse += weight * value->diffuse;
     sum->rounding += weight * value->rounding;
+    sum->glint_u += weight * value->glint_u;
+    sum->diffuse_log += weight * value->diffuse_log;
 }
 
 /* What rounding may add to the area of the triangle of corners 0, i and i + 1, in units of the
@@ -144,7 +151,7 @@ static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cu
     const double *v = cell->at[i + 1];
     double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
     double slack = fan_slack(cell, i);
-    cube_value mean = {0, 0, 0};
+    cube_value mean = {0, 0, 0, 0, 0};
     for (int k = 0; k < 7 && area > 0; k++) {
         const double *node = rule[(k + 2) / 3]; /* the centroid once, the others three times */
         int odd = (k + 2) % 3;
@@ -163,7 +170,7 @@ static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cu
 
 static cube_value rule_value(const lrcsi_cubature *sum, const cube_cell *cell)
 {
-    cube_value value = {0, 0, 0};
+    cube_value value = {0, 0, 0, 0, 0};
     for (int i = 1; i + 1 < cell->count; i++) {
         rule_add(sum, cell, i, &value);
     }
@@ -420,6 +427,8 @@ static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell)
     lrcsi_sum_add(&sum->glint, cell->value.glint);
     lrcsi_sum_add(&sum->diffuse, cell->value.diffuse);
     sum->rounding += cell->value.rounding;
+    lrcsi_sum_add(&sum->glint_u, cell->value.glint_u);
+    lrcsi_sum_add(&sum->diffuse_log, cell->value.diffuse_log);
 }
 
 static double cube_shortest(const cube_cell *cell)
@@ -475,7 +484,7 @@ static void cube_give_up(lrcsi_cubature *sum, cube_cell *cell)
 static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_cell quarter[4],
                          int must)
 {
-    cube_value all = {0, 0, 0};
+    cube_value all = {0, 0, 0, 0, 0};
     for (int i = 0; i < 4; i++) {
         value_add(&all, 1, &quarter[i].value);
     }

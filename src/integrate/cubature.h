@@ -25,7 +25,9 @@ typedef struct lrcsi_cubature {
     double had;            /* f_r cos that other surfaces have to set against this one's: an error
                               of the tolerance times this, per area, is small enough */
     lrcsi_sum glint, diffuse;
-    double estimate; /* of the cubature's error */
+    int moments;                    /* 1: sum these too, at the same nodes; set by the caller */
+    lrcsi_sum glint_u, diffuse_log; /* f_r cos times tan^2, and times log(1 + tan^2) */
+    double estimate;                /* of the cubature's error */
     double left;     /* bound on the error where the meter left no steps to look closer */
     double rounding; /* bound on the error that rounding adds to the cubature's own sum */
     uint32_t splits;

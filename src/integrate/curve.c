@@ -78,6 +78,7 @@ static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
     job->sum.whole = job->incidence.projected;
     job->sum.position_err = SLIP_WHOLE;
     job->sum.meter = view->meter;
+    job->sum.moments = all->how->moments;
     job->sum.nothing = lrcsi_most(job->sum.nothing, all->nothing);
     job->sum.had =
         all->had > 0 ? all->had / all->projected + all->had / all->count / job->incidence.projected
@@ -120,9 +121,11 @@ static lrcsi_curved job_part(const curve_job *job, double share)
 {
     const lrcsi_cubature *sum = &job->sum;
     double factor = FOUR_PI * share;
-    lrcsi_curved part = {0, 0, 0, 0, 0, 0, 0};
+    lrcsi_curved part = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     part.glint = factor * lrcsi_sum_value(&sum->glint);
     part.diffuse = factor * lrcsi_sum_value(&sum->diffuse);
+    part.glint_u = factor * lrcsi_sum_value(&sum->glint_u);
+    part.diffuse_log = factor * lrcsi_sum_value(&sum->diffuse_log);
     part.rounding = factor * sum->rounding +
                     (job->incidence.error + 16 * LRCSI_U) * (part.glint + part.diffuse);
     part.estimate = factor * sum->estimate;
@@ -162,7 +165,8 @@ void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_curving *how,
     curve_job job;
     curve_all all = all_make(view, how);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
+        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
+        lrcsi_view_progress(view, LRCS_PROGRESS_INTEGRATE, f, view->prepared->scene->facet_count);
         if (lrcsi_curve_wanted(view, f)) {
             job_start(&job, &all, f);
             curved[f] = curve_share(&job, &visible[f]);
@@ -262,7 +266,9 @@ int lrcsi_curve_pieces(lrcsi_classification *classification, const lrcsi_curving
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         int wanted = lrcsi_curve_wanted(view, f);
         int parted = sampled && classification->undecided[f] && visible[f].low < visible[f].high;
-        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0};
+        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
+        lrcsi_view_progress(view, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f,
+                            view->prepared->scene->facet_count);
         if (wanted) {
             job_start(&job, &all, f);
         }

@@ -17,6 +17,9 @@ typedef struct lrcsi_curved {
     double likely;               /* likely error of a sampled share; 0: none */
     double most;                 /* bound on what all of the facet could add, were it seen */
     double estimate;             /* of the cubature's error */
+    /* where moments are wanted: the glint's integral with tan^2 in it, the diffuse part's with
+       log(1 + tan^2) */
+    double glint_u, diffuse_log;
 } lrcsi_curved;
 
 /* How to integrate: what the plan leaves of the BRDF, the relative error asked for, and room for
@@ -25,6 +28,7 @@ typedef struct lrcsi_curving {
     const lrcsi_plan *plan;
     double tolerance;
     lrcsi_cubature_cell *waiting;
+    int moments; /* 1: wanted */
 } lrcsi_curving;
 
 /* Does the facet have curved normals, and is it on its reflecting side? */

@@ -42,6 +42,18 @@ static void shape_turn(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcsi_amo
     amount->error[LRCSI_DIFFUSE] += 2 * AXES_OFF * (brdf->m + 2) * brdf->B * shape_surface(shape);
 }
 
+/* The laser in the shape's frame, as the part is placed. */
+static void shape_direction(const lrcsi_view *view, const lrcs_part *placed, lrcsi_dd direction[3])
+{
+    for (int i = 0; i < 3; i++) {
+        direction[i] = (lrcsi_dd){0, 0};
+        for (int k = 0; k < 3; k++) {
+            lrcsi_dd axis = {placed->axis[i][k], placed->axis_low[i][k]};
+            direction[i] = lrcsi_dd_add(direction[i], lrcsi_dd_scale(axis, view->direction[k]));
+        }
+    }
+}
+
 lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t part, double slab)
 {
@@ -50,13 +62,7 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
     lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, placed->first_facet));
     double unit = ldexp(placed->unit, -p->exponent);
     lrcsi_dd direction[3];
-    for (int i = 0; i < 3; i++) {
-        direction[i] = (lrcsi_dd){0, 0};
-        for (int k = 0; k < 3; k++) {
-            lrcsi_dd axis = {placed->axis[i][k], placed->axis_low[i][k]};
-            direction[i] = lrcsi_dd_add(direction[i], lrcsi_dd_scale(axis, view->direction[k]));
-        }
-    }
+    shape_direction(view, placed, direction);
     lrcsi_amount sum = {{0, 0}, {0, 0}};
     double silhouette = 0;
     if (lrcsi_closed_shape(&placed->shape, &brdf, direction, &sum, &silhouette) != LRCS_OK) {
@@ -73,4 +79,85 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
                                .rounding = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE],
                                .visibility = FOUR_PI * 1.000001 * slab * most,
                                .silhouette = silhouette * unit * unit};
+}
+
+/* --- derivatives --------------------------------------------------------------------------------
+ */
+
+/* The integrals of both terms at amplitudes of 1. */
+static void unit_terms(const lrcs_shape *shape, const lrcsi_dd direction[3], double s, double m,
+                       double out[2])
+{
+    const lrcs_brdf brdf = {s > 0 ? 1 : 0, 1, s, m};
+    lrcsi_amount sum = {{0, 0}, {0, 0}};
+    double silhouette = 0;
+    (void)lrcsi_closed_shape(shape, &brdf, direction, &sum, &silhouette); /* checked before */
+    out[0] = sum.value[LRCSI_GLINT];
+    out[1] = sum.value[LRCSI_DIFFUSE];
+}
+
+/* The logarithmic slope |change / value| / step, which sets the scale over which a term varies. */
+static double term_slope(double value, double moved, double step)
+{
+    return value > 0 && moved > 0 ? fabs(moved - value) / value / step : 0;
+}
+
+/* The derivative of the glint in s: a central difference of order 8 at steps h s,
+   f' = sum c_k (f(s + k h s) - f(s - k h s)) / (h s) with an error of h^8 f(9) / 630. Where
+   log f has slope L in log s, h = 0.05 / (1 + L) leaves some (0.05)^8 of f', and the closed form's
+   own rounding over h L / (1 + L) some 1e-12. */
+static double shape_glint_s(const lrcs_shape *shape, const lrcsi_dd direction[3], double s,
+                            double m, double value)
+{
+    static const double c[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+    double high[2];
+    double low[2];
+    unit_terms(shape, direction, s * (1 + 1e-4), m, high);
+    double h = 0.05 / (1 + term_slope(value, high[0], 1e-4));
+    double slope = 0;
+    for (int k = 1; k <= 4; k++) {
+        unit_terms(shape, direction, s * (1 + k * h), m, high);
+        unit_terms(shape, direction, s * (1 - k * h), m, low);
+        slope += c[k - 1] * (high[0] - low[0]);
+    }
+    return slope / h / s;
+}
+
+/* The derivative of the diffuse part in m: a forward difference of order 8, for m may be 0, with an
+   error of h^8 f(9) / 9, below 1e-10 of f'; rounding adds some 1e-12 of f. */
+static double shape_diffuse_m(const lrcs_shape *shape, const lrcsi_dd direction[3], double s,
+                              double m, double value)
+{
+    static const double c[8] = {8, -14, 56.0 / 3, -35.0 / 2, 56.0 / 5, -14.0 / 3, 8.0 / 7, -0.125};
+    double at[2];
+    unit_terms(shape, direction, s, m + 1e-3, at);
+    double h = 0.05 / (1 + term_slope(value, at[1], 1e-3));
+    double slope = 0;
+    for (int k = 1; k <= 8; k++) { /* the weights of all nine add up to 0 */
+        unit_terms(shape, direction, s, m + k * h, at);
+        slope += c[k - 1] * (at[1] - value);
+    }
+    return slope / h;
+}
+
+lrcsi_shape_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t part,
+                                               const lrcs_brdf *brdf)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_part *placed = &p->scene->part[part];
+    double unit = ldexp(placed->unit, -p->exponent);
+    double scale = FOUR_PI * unit * unit;
+    double s = brdf->s >= 0x1p-333 && brdf->s <= 0x1p333 ? brdf->s : 0;
+    double term[2];
+    lrcsi_dd direction[3];
+    shape_direction(view, placed, direction);
+    unit_terms(&placed->shape, direction, s, brdf->m, term);
+    lrcsi_shape_response out = {scale * term[0], scale * term[1], 0, 0};
+    if (term[0] > 0) {
+        out.glint_s = scale * shape_glint_s(&placed->shape, direction, s, brdf->m, term[0]);
+    }
+    if (term[1] > 0) {
+        out.diffuse_m = scale * shape_diffuse_m(&placed->shape, direction, s, brdf->m, term[1]);
+    }
+    return out;
 }

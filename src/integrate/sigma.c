@@ -11,6 +11,7 @@
 #include "integrate/image.h"
 #include "integrate/plan.h"
 #include "integrate/total.h"
+#include "integrate/uncertainty.h"
 #include "visibility/occlude.h"
 #include "visibility/preview.h"
 
@@ -37,6 +38,7 @@ typedef struct sigma_run {
     const unsigned char *answer;  /* of facets of which visible[] tells nothing, or NULL */
     lrcsi_curved *curved;         /* NULL: all facets are flat */
     lrcsi_cubature_cell *waiting; /* NULL: the same */
+    int moments;                  /* of curved normals: for derivatives */
     double tolerance;
     lrcsi_meter meter; /* of the view, but while samples look: those need every crossing */
     lrcsi_total total;
@@ -50,7 +52,7 @@ typedef struct sigma_run {
 
 lrcs_run_options lrcs_run_options_default(void)
 {
-    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0, LRCS_ACCEPT_BOUND};
+    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0, LRCS_ACCEPT_BOUND, NULL};
 }
 
 static int run_check(const lrcs_run_options *options, const lrcs_image *image)
@@ -157,13 +159,14 @@ static int run_image(sigma_run *run)
 static void run_total(sigma_run *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer};
+    lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
     run->total = lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->doubt,
                                   &run->clear, records);
 }
 
 static lrcsi_curving run_curving(const sigma_run *run)
 {
-    return (lrcsi_curving){&run->plan, run->tolerance, run->waiting};
+    return (lrcsi_curving){&run->plan, run->tolerance, run->waiting, run->moments};
 }
 
 /* Areas are written down for curved normals only: the sum takes them from the plan. */
@@ -298,6 +301,7 @@ static int run_classify(sigma_run *run)
     if (run->undecided) {
         return LRCS_OK;
     }
+    lrcsi_view_progress(&run->view, LRCS_PROGRESS_CLASSIFY, 0, 0);
     int status = lrcsi_classify_make(&run->view, run->work, &run->classification);
     if (status == LRCS_OK && p->proximity.reach && (run->view.backs_cast || p->solid)) {
         status = lrcsi_proximity_band_make(&run->classification, run->work, &run->margin);
@@ -529,6 +533,7 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
     if (status != LRCS_OK || run->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;
     }
+    lrcsi_view_progress(&run->view, LRCS_PROGRESS_VISIBILITY, 0, 0);
     status = run_method(run, options);
     if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
         run->plan.method == LRCS_METHOD_ZBUFFER && !run->meter.spent &&
@@ -606,6 +611,8 @@ static int run_stages(sigma_run *run, const lrcs_prepared *prepared, const lrcs_
     int status = lrcsi_view_face(prepared, pose, run->work, &run->view);
     if (status == LRCS_OK) {
         run->view.meter = &run->meter;
+        run->view.progress = options->progress;
+        lrcsi_view_progress(&run->view, LRCS_PROGRESS_VIEW, 0, 0);
         lrcsi_plan_backs(options, &run->view);
         status = options->method == LRCS_METHOD_AUTO
                      ? lrcsi_clear_make(&run->view, run->work, &run->clear)
@@ -662,6 +669,188 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
             run_total(&run, records);
         }
         result_fill(&run, options, result);
+    }
+    work->used = mark;
+    return status;
+}
+
+/* --- material uncertainty -----------------------------------------------------------------------
+ */
+
+#define DRAWS_MOST (1u << 20)
+
+lrcs_uncertainty_options lrcs_uncertainty_options_default(void)
+{
+    return (lrcs_uncertainty_options){4096, 1};
+}
+
+/* How many nodes of s and m a sample needs: none but the materials' own where sigma is linear in
+   all that is uncertain. */
+static uint32_t uncertainty_nodes(const lrcs_prepared *prepared,
+                                  const lrcs_uncertainty_options *how)
+{
+    return how->draws == 0 || !lrcsi_uncertainty_bends(prepared->scene) ? 1
+           : prepared->smooth                                           ? LRCSI_NODES_CURVED
+                                                                        : LRCSI_NODES;
+}
+
+size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_options *options,
+                             const lrcs_uncertainty_options *how)
+{
+    size_t count = prepared->scene->material_count;
+    size_t need = lrcs_sigma_need(prepared, options);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count * LRCSI_NODES, sizeof(lrcsi_node)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_brdf)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcsi_response)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_material)));
+    return lrcsi_work_add(need, lrcsi_uncertainty_need(prepared->scene, how));
+}
+
+/* Room for the responses of materials: at all nodes, and at one. */
+typedef struct response_room {
+    lrcsi_node *node; /* [nodes][material_count] */
+    lrcs_brdf *brdf;
+    lrcsi_response *response;
+    lrcs_material *material; /* a scene's own, with other numbers */
+} response_room;
+
+static int room_take(lrcs_work *work, uint32_t nodes, uint32_t materials, response_room *room)
+{
+    room->node = lrcsi_work_take(work, (size_t)nodes * materials, sizeof *room->node);
+    room->brdf = lrcsi_work_take(work, materials, sizeof *room->brdf);
+    room->response = lrcsi_work_take(work, materials, sizeof *room->response);
+    room->material = lrcsi_work_take(work, materials, sizeof *room->material);
+    return room->node && room->brdf && room->response && room->material ? LRCS_OK : LRCS_E_MEMORY;
+}
+
+/* The responses of a finished run's materials, with the numbers of room->brdf, as node k. */
+static void node_fill(const sigma_run *run, const response_room *room, uint32_t k)
+{
+    const lrcs_prepared *p = run->view.prepared;
+    const lrcsi_areas areas = {run->visible, run->answer};
+    uint32_t count = p->scene->material_count;
+    lrcsi_response_make(&run->view, &run->plan, &areas, run->curved, &run->clear, room->brdf,
+                        room->response);
+    for (uint32_t i = 0; i < count; i++) {
+        const lrcsi_response *at = &room->response[i];
+        room->node[(size_t)k * count + i] =
+            (lrcsi_node){lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint)),
+                         lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse)),
+                         lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint_s)),
+                         lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse_m))};
+    }
+}
+
+/* Node k of a scene with curved normals: the pose again, with these numbers at amplitudes of 1. */
+static int node_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                    const lrcs_run_options *options, lrcs_work *work, const response_room *room,
+                    uint32_t k)
+{
+    size_t mark = work->used;
+    lrcs_scene scene = *prepared->scene;
+    lrcs_prepared other = *prepared;
+    sigma_run run = {.work = work, .last = LRCSI_SIGMA_SUM, .moments = 1};
+    for (uint32_t i = 0; i < scene.material_count; i++) {
+        room->material[i] = prepared->scene->material[i];
+        room->material[i].brdf = room->brdf[i];
+        room->material[i].brdf.A = room->brdf[i].s > 0 ? 1 : 0;
+        room->material[i].brdf.B = 1;
+    }
+    scene.material = room->material;
+    other.scene = &scene;
+    int status = run_stages(&run, &other, pose, options);
+    if (status == LRCS_OK) {
+        node_fill(&run, room, k);
+    }
+    work->used = mark;
+    return status;
+}
+
+static int errors_check(const lrcs_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_material *m = &scene->material[i];
+        if (lrcs_brdf_error_check(&m->brdf, &m->error) != LRCS_OK) {
+            return LRCS_E_NUMBER;
+        }
+    }
+    return LRCS_OK;
+}
+
+/* The derivatives, from the materials' own node; and whether they are all numbers. */
+static int sensitivity_check(const lrcs_scene *scene, const lrcsi_node *own)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_brdf *brdf = &scene->material[i].brdf;
+        if (!isfinite(own[i].glint + own[i].diffuse + brdf->A * own[i].glint_s +
+                      brdf->B * own[i].diffuse_m)) {
+            return LRCS_E_NUMBER;
+        }
+    }
+    return LRCS_OK;
+}
+
+static void sensitivity_fill(const lrcs_scene *scene, const lrcsi_node *own, lrcs_sensitivity *out)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_brdf *brdf = &scene->material[i].brdf;
+        out[i] = (lrcs_sensitivity){own[i].glint, own[i].diffuse, brdf->A * own[i].glint_s,
+                                    brdf->B * own[i].diffuse_m};
+    }
+}
+
+/* Steps: 1. the pose, as lrcs_sigma_run; 2. the responses of materials at each node of s and m:
+   over the areas of that pose, or with curved normals from a pose each; 3. derivatives, first order
+   and sample. */
+int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                         const lrcs_run_options *options, const lrcs_uncertainty_options *how,
+                         lrcs_work *work, lrcs_result *result, lrcs_sensitivity *sensitivity,
+                         lrcs_uncertainty *uncertainty)
+{
+    const lrcs_scene *scene = prepared->scene;
+    uint32_t nodes = uncertainty_nodes(prepared, how);
+    size_t mark = work->used;
+    response_room room;
+    lrcs_result answer;
+    lrcs_uncertainty found;
+    sigma_run run = {.work = work, .last = LRCSI_SIGMA_SUM};
+    int status = how->draws == 1 || how->draws > DRAWS_MOST ? LRCS_E_ARGUMENT : LRCS_OK;
+    status = status == LRCS_OK ? run_check(options, NULL) : status;
+    status = status == LRCS_OK ? errors_check(scene) : status;
+    status = status == LRCS_OK ? room_take(work, nodes, scene->material_count, &room) : status;
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    size_t start = work->used;
+    status = run_stages(&run, prepared, pose, options);
+    if (status == LRCS_OK && !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse +
+                                       run.total.curvature)) {
+        status = LRCS_E_NUMBER;
+    }
+    if (status == LRCS_OK) {
+        result_fill(&run, options, &answer);
+    }
+    for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) {
+        for (uint32_t i = 0; i < scene->material_count; i++) {
+            room.brdf[i] = lrcsi_uncertainty_node(&scene->material[i], k, nodes);
+        }
+        if (prepared->smooth) {
+            work->used = start; /* what the pose left is done with */
+            status = node_run(prepared, pose, options, work, &room, k);
+        } else {
+            node_fill(&run, &room, k);
+        }
+    }
+    const lrcsi_node *own = room.node + (size_t)(nodes / 2) * scene->material_count;
+    work->used = status == LRCS_OK ? start : work->used;
+    status = status == LRCS_OK ? sensitivity_check(scene, own) : status;
+    status = status == LRCS_OK ? lrcsi_uncertainty_make(scene, room.node, nodes, how, work, &found)
+                               : status;
+    if (status == LRCS_OK) {
+        sensitivity_fill(scene, own, sensitivity);
+        *result = answer;
+        *uncertainty = found;
     }
     work->used = mark;
     return status;

@@ -59,6 +59,50 @@ int lrcs_brdf_check(const lrcs_brdf *brdf)
     return bits;
 }
 
+/* The matrix of correlations is positive semidefinite if and only if elimination meets no negative
+   pivot; a pivot of 0 is accepted where the rest of its row is 0, both to 1e-9, as fits print
+   them. */
+static int correlation_fits(const double correlation[6])
+{
+    const double *c = correlation;
+    double a[4][4] = {
+        {1, c[0], c[1], c[2]}, {c[0], 1, c[3], c[4]}, {c[1], c[3], 1, c[5]}, {c[2], c[4], c[5], 1}};
+    for (int k = 0; k < 4; k++) {
+        if (a[k][k] < -1e-9) {
+            return 0;
+        }
+        for (int i = k + 1; i < 4; i++) {
+            double factor = a[k][k] > 1e-9 ? a[i][k] / a[k][k] : 0.0;
+            if (!(a[k][k] > 1e-9) && fabs(a[i][k]) > 1e-4) {
+                return 0;
+            }
+            for (int j = k + 1; j < 4; j++) {
+                a[i][j] -= factor * a[k][j];
+            }
+        }
+    }
+    return 1;
+}
+
+int lrcs_brdf_error_check(const lrcs_brdf *brdf, const lrcs_brdf_error *error)
+{
+    const double deviation[4] = {error->A, error->B, error->s, error->m};
+    for (int i = 0; i < 4; i++) {
+        if (!(deviation[i] >= 0.0) || !isfinite(deviation[i])) {
+            return LRCS_E_NUMBER;
+        }
+    }
+    for (int i = 0; i < 6; i++) {
+        if (!(fabs(error->correlation[i]) <= 1.0)) {
+            return LRCS_E_NUMBER;
+        }
+    }
+    if (!correlation_fits(error->correlation)) {
+        return LRCS_E_NUMBER;
+    }
+    return brdf->s == 0.0 && (error->A > 0.0 || error->s > 0.0) ? LRCS_E_ARGUMENT : LRCS_OK;
+}
+
 const char *lrcs_brdf_warning_text(int bit)
 {
     switch (bit) {

@@ -146,14 +146,30 @@ int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, 
     return *worn == LRCS_NONE ? LRCS_E_NAME : LRCS_OK;
 }
 
-/* Puts on a BRDF; a two_sided below 0 keeps what is there. Assumed numbers bind nothing. */
-static void dress(lrcs_material *material, const lrcs_brdf *brdf, int two_sided, int assumed)
+/* Puts on a BRDF with its errors; a two_sided below 0 keeps what is there. Assumed numbers bind
+   nothing. `source` is that of <lrcs/scene.h>. */
+static void dress(lrcs_material *material, const lrcs_brdf *brdf, const lrcs_brdf_error *error,
+                  uint32_t source, int two_sided, int assumed)
 {
+    static const lrcs_brdf_error exact = {0, 0, 0, 0, {0, 0, 0, 0, 0, 0}};
     material->brdf = *brdf;
+    material->error = error ? *error : exact;
+    material->source = source;
     material->bound = !assumed;
     if (two_sided >= 0) {
         material->two_sided = two_sided != 0;
     }
+}
+
+/* The recipe's materials are sources 1, 2, ...; after them the bindings, except for those that
+   have a source of their own. */
+static void dress_by(const lrcsi_binder *binder, const lrcs_binding *binding,
+                     lrcs_material *material)
+{
+    const lrcs_recipe *recipe = binder->recipe;
+    uint32_t own = 1 + recipe->material_count + (uint32_t)(binding - recipe->binding);
+    dress(material, &binding->brdf, &binding->error, binding->source != 0 ? binding->source : own,
+          binding->two_sided, binding->assumed);
 }
 
 /* The command line's word on a material of this name, which a scene file put on. */
@@ -161,7 +177,7 @@ static void override_named(const lrcsi_binder *binder, const char *name, lrcs_ma
 {
     const lrcs_binding *binding = name ? find_named(binder, LRCS_BIND_NAME, name) : NULL;
     if (binding) {
-        dress(material, &binding->brdf, binding->two_sided, 0);
+        dress_by(binder, binding, material);
     }
 }
 
@@ -171,12 +187,12 @@ static void wear(const lrcsi_binder *binder, uint32_t worn, lrcs_material *mater
     const char *name;
     if (worn < recipe->material_count) {
         name = recipe->material[worn].name;
-        dress(material, &recipe->material[worn].brdf, recipe->material[worn].two_sided,
-              recipe->material[worn].assumed);
+        dress(material, &recipe->material[worn].brdf, &recipe->material[worn].error, worn + 1,
+              recipe->material[worn].two_sided, recipe->material[worn].assumed);
     } else {
         const lrcs_brdf_entry *entry = lrcs_brdf_library(worn - recipe->material_count);
         name = entry->name;
-        dress(material, &entry->brdf, -1, 0);
+        dress(material, &entry->brdf, NULL, 0, -1, 0);
     }
     override_named(binder, name, material);
     material->name = material->name ? material->name : name;
@@ -185,7 +201,7 @@ static void wear(const lrcsi_binder *binder, uint32_t worn, lrcs_material *mater
 /* A scene file's map, or a default. */
 static void apply(const lrcsi_binder *binder, const lrcs_binding *binding, lrcs_material *material)
 {
-    dress(material, &binding->brdf, binding->two_sided, binding->assumed);
+    dress_by(binder, binding, material);
     override_named(binder, binding->material, material);
 }
 
@@ -225,7 +241,7 @@ static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
     if (map) {
         apply(binder, map, material);
     } else if (entry) {
-        dress(material, &entry->brdf, -1, 0);
+        dress(material, &entry->brdf, NULL, 0, -1, 0);
     } else {
         apply_default(binder, material);
     }
@@ -249,7 +265,7 @@ lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,
         !binder->recipe->keep_transparent && surface->transparency >= TRANSPARENCY_OMITTED;
     if (name || colour) {
         const lrcs_binding *binding = name ? name : colour;
-        dress(&material, &binding->brdf, binding->two_sided, 0);
+        dress_by(binder, binding, &material);
     } else if (worn != LRCS_NONE) {
         wear(binder, worn, &material);
     } else {

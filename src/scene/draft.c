@@ -61,6 +61,12 @@ static const schema_row schema[] = {
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_B, NUMBER, "B", IS_NUMBER},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_S, NUMBER, "s", IS_NUMBER},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_M, NUMBER, "m", IS_NUMBER},
+    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_A_ERROR, NUMBER, "A_error", IS_NUMBER},
+    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_B_ERROR, NUMBER, "B_error", IS_NUMBER},
+    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_S_ERROR, NUMBER, "s_error", IS_NUMBER},
+    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_M_ERROR, NUMBER, "m_error", IS_NUMBER},
+    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_CORRELATION, LRCSI_TOML_ARRAY, 6, 6, "correlation",
+     "six numbers, [AB, As, Am, Bs, Bm, sm]"},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_TWO_SIDED, TRUTH, "two_sided", IS_TRUTH},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_ASSUMED, TRUTH, "assumed", IS_TRUTH},
     {LRCSI_TABLE_MAP, LRCSI_KEY_NAME, TEXT, "name", IS_TEXT},
@@ -77,7 +83,8 @@ static const char *const table_keys[LRCSI_TABLES] = {
     "one of schema, name, unit, keep_transparent, default_material",
     part_keys,
     "one of axis, origin, angle_deg",
-    "one of name, like, A, B, s, m, two_sided, assumed",
+    "one of name, like, A, B, s, m, A_error, B_error, s_error, m_error, correlation, two_sided, "
+    "assumed",
     "one of name, colour, material",
 };
 

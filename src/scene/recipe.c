@@ -128,6 +128,38 @@ static int read_brdf(const lrcsi_draft *draft, lrcs_brdf *brdf)
                       : LRCS_OK;
 }
 
+/* Their standard deviations and correlations, 0 where they are not given. */
+static int read_brdf_error(const lrcsi_draft *draft, const lrcs_brdf *brdf, lrcs_brdf_error *error)
+{
+    static const int key[4] = {LRCSI_KEY_A_ERROR, LRCSI_KEY_B_ERROR, LRCSI_KEY_S_ERROR,
+                               LRCSI_KEY_M_ERROR};
+    double value[4];
+    memset(error, 0, sizeof *error);
+    for (int i = 0; i < 4; i++) {
+        value[i] = lrcsi_draft_number(draft, key[i], 0.0) + 0.0;
+        if (!(value[i] >= 0.0)) {
+            return lrcsi_draft_refuse_value(draft, key[i], LRCS_E_NUMBER, "a number, 0 or more");
+        }
+    }
+    error->A = value[0];
+    error->B = value[1];
+    error->s = value[2];
+    error->m = value[3];
+    const lrcsi_toml_event *correlation = lrcsi_draft_find(draft, LRCSI_KEY_CORRELATION);
+    for (int i = 0; correlation && i < 6; i++) {
+        error->correlation[i] = correlation->number[i];
+    }
+    int status = lrcs_brdf_error_check(brdf, error);
+    if (status == LRCS_E_ARGUMENT) {
+        return lrcsi_draft_refuse(draft, status, "no A_error and no s_error where s is 0");
+    }
+    return status != LRCS_OK && correlation
+               ? lrcsi_draft_refuse_value(draft, LRCSI_KEY_CORRELATION, status,
+                                          "correlations of A and B, A and s, A and m, B and s, B "
+                                          "and m, s and m: a matrix without negative eigenvalues")
+               : status;
+}
+
 static int finish_material(recipe_reader *reader)
 {
     const lrcsi_draft *draft = &reader->draft;
@@ -143,7 +175,8 @@ static int finish_material(recipe_reader *reader)
         return lrcsi_draft_refuse(draft, LRCS_E_NAME, "name = \"...\"");
     }
     reader->recipe.material_count++;
-    return read_brdf(draft, &material->brdf);
+    int status = read_brdf(draft, &material->brdf);
+    return status == LRCS_OK ? read_brdf_error(draft, &material->brdf, &material->error) : status;
 }
 
 /* "#RRGGBB". */
@@ -298,7 +331,7 @@ static int resolve_name(const recipe_reader *reader, const lrcsi_index *names, c
         return refuse_name(reader, line, "material",
                            "the name of a [[material]] or of one of the library", name);
     }
-    *material = (lrcs_recipe_material){entry->name, entry->brdf, -1, 0, 0};
+    *material = (lrcs_recipe_material){.name = entry->name, .brdf = entry->brdf, .two_sided = -1};
     return LRCS_OK;
 }
 
@@ -315,6 +348,8 @@ static int resolve_materials(recipe_reader *reader, const lrcsi_index *names)
             binding->brdf = material.brdf;
             binding->two_sided = material.two_sided;
             binding->assumed = material.assumed;
+            binding->error = material.error;
+            binding->source = own != LRCS_NONE ? own + 1 : 0;
         }
     }
     for (uint32_t i = 0; status == LRCS_OK && i < recipe->part_count; i++) {

@@ -29,7 +29,7 @@ enum lrcsi_toml_type {
 };
 
 #define LRCSI_TOML_NAME    32u /* names of this many bytes or more are counted, not kept whole */
-#define LRCSI_TOML_NUMBERS 4u  /* so are numbers of an array beyond these */
+#define LRCSI_TOML_NUMBERS 6u  /* so are numbers of an array beyond these */
 
 typedef struct lrcsi_toml_name {
     size_t size; /* bytes, once unescaped */

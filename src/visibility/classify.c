@@ -129,44 +129,60 @@ static crossing_ask crossing_ask_of(const lrcsi_view *view, uint32_t facet)
     return ask;
 }
 
+/* How many of so many steps the meter allows. */
+static uint32_t steps_allowed(const lrcsi_meter *meter, uint32_t steps)
+{
+    uint64_t left = meter ? (meter->spent ? 0 : meter->most - meter->taken) : steps;
+    return left < steps ? (uint32_t)left : steps;
+}
+
 /* Finds at most `most` of them: one suffices to know that there are any. Examines at most *steps
-   listed events, and leaves in *steps how many more it might have examined. Finds fewer also where
-   the meter is spent. Events whose box lies beside the facet's do not cross it. A cell lists events
-   in the order of their nearest points: after the first one that lies behind all of the facet, no
-   other comes nearer than the facet. */
+   listed events, and leaves in *steps how many more it might have examined; LRCS_NONE: any number.
+   Finds fewer also where the meter is spent. Events whose box lies beside the facet's do not cross
+   it. A cell lists events in the order of their nearest points: after the first one that lies
+   behind all of the facet, no other comes nearer than the facet. Steps are counted in a register
+   and charged at the end. */
 static uint32_t crossings_find(lrcsi_classification *classification, uint32_t facet, uint32_t most,
                                uint32_t *steps)
 {
     const lrcsi_view *view = classification->view;
     const lrcsi_grid *grid = &classification->grid;
     const crossing_ask ask = crossing_ask_of(view, facet);
-    lrcsi_view_box box = classification->box[facet];
-    lrcsi_cells cells = classification->cells[facet];
+    const lrcsi_view_box box = classification->box[facet];
+    const lrcsi_cells cells = classification->cells[facet];
+    const uint32_t allowed = steps_allowed(view->meter, *steps);
+    const uint32_t asked = ++classification->asked;
+    uint32_t left = allowed;
     uint32_t count = 0;
-    classification->asked++;
+    int more = 0; /* an event was left out for want of steps */
     classification->along = 0;
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+    for (uint32_t y = cells.y0; y < cells.y1 && !more; y++) {
         const uint32_t *row = grid->first + (size_t)y * grid->size;
-        for (uint32_t x = cells.x0; x < cells.x1; x++) {
+        for (uint32_t x = cells.x0; x < cells.x1 && !more; x++) {
             for (uint32_t i = row[x]; i < row[x + 1] && count < most; i++) {
                 lrcsi_event_box *event = &classification->event[grid->item[i]];
-                if (*steps == 0 || !lrcsi_meter_take(view->meter, 1)) {
-                    return count;
+                more = left == 0;
+                if (more) {
+                    break;
                 }
-                *steps -= *steps != LRCS_NONE;
+                left--;
                 if (lrcsi_view_box_behind(&event->box, &box)) {
                     break;
                 }
-                if (lrcsi_view_box_beside(&event->box, &box) ||
-                    event->asked == classification->asked) {
+                if (lrcsi_view_box_beside(&event->box, &box) || event->asked == asked) {
                     continue;
                 }
-                event->asked = classification->asked;
+                event->asked = asked;
                 if (edge_crosses(view, &ask, event->edge, &classification->along)) {
                     classification->crossing[count++] = event->edge;
                 }
             }
         }
+    }
+    lrcsi_meter_take(view->meter, allowed - left);
+    *steps -= *steps != LRCS_NONE ? allowed - left : 0;
+    if (more && *steps != 0) {
+        lrcsi_meter_take(view->meter, 1); /* there is none left: it is spent */
     }
     return count;
 }

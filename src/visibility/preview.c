@@ -410,20 +410,20 @@ static void preview_shares(preview_job *job)
     }
 }
 
-/* The square of the likely error. Where a border of what is seen passes a pixel, a share that is as
-   good as any is taken for 0 or 1, whichever is nearer: that errs by half a pixel at most, and by 1
-   / 12 in the mean square. Pixels err by chance, of which this is sqrt(3) standard deviations, but
-   for those along a border that runs along a row or column, all of which err alike: so the longest
-   one counts again, as one. */
-#define LIKELY_SQUARE 0.25
+/* The square of the likely error: two standard deviations, which one error in twenty exceeds. Where
+   a border of what is seen passes a pixel, a share that is as good as any is taken for 0 or 1,
+   whichever is nearer: that errs by half a pixel at most, and by 1 / 12 in the mean square. Pixels
+   err by chance, but for those along a border that runs along a row or column, all of which err
+   alike: so the longest one counts again, as one. */
+#define LIKELY_SQUARE (4.0 / 12)
 
 /* What facets with few samples show in all can be computed in two ways: from their shares, and from
    all samples whose owners reflect, less the shares of facets with many. The second has no bias: it
    errs by chance only, along the outline of what reflects. So the shares are corrected towards it,
-   by d^3 / (d^2 + chance^2) where the two differ by d: by all of d where that is far more than
-   chance, by hardly any of it where it is not. What may be left of the bias is twice the standard
-   deviation that chance leaves, since one correction serves facets that reflect differently, and
-   what no facet has room for. */
+   by d^3 / (d^2 + chance^2) where the two differ by d and chance is the second's likely error: by
+   all of d where that is far more than chance, by hardly any of it where it is not. What may be
+   left of the bias is twice what chance leaves of it, since one correction serves facets that
+   reflect differently, and what no facet has room for. */
 typedef struct preview_lean {
     double less; /* the part of what a facet shows that is taken off */
     double more; /* the part of what it does not show, of one that shows some, that is added */

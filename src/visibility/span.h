@@ -6,6 +6,8 @@
 
 #include <stdint.h>
 
+#include "base/range.h"
+
 /* A facet's edge functions in pixel coordinates, positive inside: value = at + along x + up y. */
 typedef struct lrcsi_edges {
     double at[3], along[3], up[3];
@@ -37,10 +39,25 @@ typedef struct lrcsi_row {
                          the error of an edge function */
 } lrcsi_row;
 
-/* The x of segment a -> b where y lies between bottom and top, its ends beyond those cut off: both
-   widened already by `margin`, within which a rise is none and cuts nothing off. */
-void lrcsi_span_segment(const double *a, const double *b, double bottom, double top, double margin,
-                        double range[2]);
+/* A segment to be followed from row to row: all x that it may have in row y lie from from + slope y
+   to to + slope y, and from low to high. */
+typedef struct lrcsi_segment {
+    double slope, from, to, low, high;
+} lrcsi_segment;
+
+/* The segment a -> b; its ends are off by at most a fourth of `margin`, and the margin is at least
+   128 u of their coordinates. */
+lrcsi_segment lrcsi_span_segment(const double *a, const double *b, double margin);
+
+/* Narrows *x0 and *x1, pixels of row y, to x0 <= x < x1 for those that the segment may touch; none
+   are left where x0 >= x1. */
+static inline void lrcsi_span_follow(const lrcsi_segment *s, uint32_t y, uint32_t *x0, uint32_t *x1)
+{
+    double from = lrcsi_most(s->low, lrcsi_least(s->high, s->from + s->slope * y));
+    double to = lrcsi_most(s->low, lrcsi_least(s->high, s->to + s->slope * y));
+    *x0 = from > *x0 ? (uint32_t)lrcsi_least(from, *x1) : *x0;
+    *x1 = to < *x1 ? (uint32_t)lrcsi_most(to + 1, 0) : *x1;
+}
 
 /* Fills in over, near and far of edges whose other numbers are known. */
 void lrcsi_span_prepare(lrcsi_edges *edges);

@@ -42,6 +42,10 @@ typedef struct pixel_marks {
     double corner[3][2];  /* its corners, in pixels, counter-clockwise */
     lrcsi_row *row;       /* row of the raster, of those touched */
     unsigned char *mixed; /* pixel of the raster, of those touched: visibility may change in it */
+    /* Pixels of which nothing is known of a facet yet, one list behind the other in facet order: 2
+       at for pixel number `at`, + 1 where the facet covers all of it; each ends with LRCS_NONE. */
+    uint32_t *open;
+    size_t open_room, open_count, open_read;
 } pixel_marks;
 
 static size_t marks_at(const pixel_marks *m, uint32_t x, uint32_t y)
@@ -49,40 +53,49 @@ static size_t marks_at(const pixel_marks *m, uint32_t x, uint32_t y)
     return (size_t)y * m->raster->size + x;
 }
 
-static void marks_start(pixel_marks *m, uint32_t facet)
+/* The facet whose pixels are asked for. */
+static void marks_facet(pixel_marks *m, uint32_t facet)
 {
     const lrcsi_raster *r = m->raster;
     const uint32_t *corner = r->view->prepared->scene->facet[facet].corner;
-    lrcsi_edges e = m->edges = lrcsi_raster_edges(r, facet);
+    m->edges = lrcsi_raster_edges(r, facet);
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], m->corner[k]);
     }
+}
+
+/* The same, with all pixels that it may touch, none of them mixed. */
+static void marks_start(pixel_marks *m, uint32_t facet)
+{
+    marks_facet(m, facet);
+    const lrcsi_edges e = m->edges;
     for (uint32_t y = e.bottom; y < e.top; y++) {
         lrcsi_row row = m->row[y] = lrcsi_span_row(&e, y);
         memset(m->mixed + marks_at(m, row.touched.x0, y), 0, row.touched.x1 - row.touched.x0);
     }
 }
 
-static void mark_run(pixel_marks *m, uint32_t y, double from, double to)
+/* The first row from which on the segment may be marked, and one past the last. */
+static uint32_t mark_row(const pixel_marks *m, double y)
 {
-    double x0 = lrcsi_most(floor(from), m->row[y].touched.x0);
-    double x1 = lrcsi_least(floor(to) + 1, m->row[y].touched.x1);
-    if (x0 < x1) {
-        memset(m->mixed + marks_at(m, (uint32_t)x0, y), 1, (size_t)(x1 - x0));
-    }
+    return (uint32_t)lrcsi_least(lrcsi_most(y, m->edges.bottom), m->edges.top);
 }
 
 /* Marks every pixel that the segment a b may touch. Its ends are off by at most `off`; the same
-   margin widens the row and the range. */
+   margin widens rows and ranges. */
 static void mark_segment(pixel_marks *m, const double a[2], const double b[2], double off)
 {
     double margin = 4 * off;
-    double first = lrcsi_most(floor(lrcsi_least(a[1], b[1]) - margin), m->edges.bottom);
-    double last = lrcsi_least(floor(lrcsi_most(a[1], b[1]) + margin) + 1, m->edges.top);
-    for (double y = first; y < last; y++) {
-        double range[2];
-        lrcsi_span_segment(a, b, y - margin, y + 1 + margin, margin, range);
-        mark_run(m, (uint32_t)y, range[0] - margin, range[1] + margin);
+    lrcsi_segment s = lrcsi_span_segment(a, b, margin);
+    uint32_t first = mark_row(m, lrcsi_least(a[1], b[1]) - margin);
+    uint32_t last = mark_row(m, lrcsi_most(a[1], b[1]) + margin + 1);
+    for (uint32_t y = first; y < last; y++) {
+        uint32_t x0 = m->row[y].touched.x0;
+        uint32_t x1 = m->row[y].touched.x1;
+        lrcsi_span_follow(&s, y, &x0, &x1);
+        if (x0 < x1) {
+            memset(m->mixed + marks_at(m, x0, y), 1, x1 - x0);
+        }
     }
 }
 
@@ -234,8 +247,17 @@ typedef struct pixel_sums {
     double shown, hidden;
 } pixel_sums;
 
+/* Lists a pixel as open; where there is no room it is only counted. */
+static void open_add(pixel_marks *m, size_t at, uint32_t whole)
+{
+    if (m->open_count < m->open_room) {
+        m->open[m->open_count] = 2 * (uint32_t)at + whole;
+    }
+    m->open_count++;
+}
+
 /* Pixels that the facet touches and may not cover whole. */
-static void count_parts(const pixel_marks *m, uint32_t facet, uint32_t y, lrcsi_pixels part,
+static void count_parts(pixel_marks *m, uint32_t facet, uint32_t y, lrcsi_pixels part,
                         pixel_sums *sums)
 {
     const lrcsi_raster *r = m->raster;
@@ -244,27 +266,35 @@ static void count_parts(const pixel_marks *m, uint32_t facet, uint32_t y, lrcsi_
         int shows = 0;
         if ((r->pure[at] && r->owner[at] != facet) || pixel_known(m, facet, x, y, &shows)) {
             *(shows ? &sums->shown : &sums->hidden) += pixel_share(m, x, y);
+        } else {
+            open_add(m, at, 0);
         }
     }
 }
 
 /* Pixels that it covers whole, and so their samples, which tell: most of them, and cheap. */
-static void count_whole(const pixel_marks *m, uint32_t facet, uint32_t y, lrcsi_pixels whole,
+static void count_whole(pixel_marks *m, uint32_t facet, uint32_t y, lrcsi_pixels whole,
                         pixel_sums *sums)
 {
     size_t row = marks_at(m, 0, y);
     const uint32_t *owner = m->raster->owner + row;
-    const unsigned char *pure = m->raster->pure + row;
+    unsigned char *pure = m->raster->pure + row;
     const unsigned char *mixed = m->mixed + row;
     for (uint32_t x = whole.x0; x < whole.x1; x++) {
         uint32_t own = owner[x] == facet;
         uint32_t tells = mixed[x] == 0;
         sums->whole_shown += tells & own;
         sums->whole_hidden += (tells | pure[x]) & (own ^ 1);
+        pure[x] |= (unsigned char)(tells & own);
+        if ((tells | pure[x]) == 0) {
+            open_add(m, row + x, 1);
+        }
     }
 }
 
-static pixel_sums count_certain(const pixel_marks *m, uint32_t facet)
+/* Visits the pixels of a facet: counts those of which something is certain, lists the others, and
+   notes the pixels that it covers and is visible in, all of them, as pure. */
+static pixel_sums count_certain(pixel_marks *m, uint32_t facet)
 {
     pixel_sums sums = {0, 0, 0, 0};
     for (uint32_t y = m->edges.bottom; y < m->edges.top; y++) {
@@ -280,18 +310,6 @@ static pixel_sums count_certain(const pixel_marks *m, uint32_t facet)
     return sums;
 }
 
-/* The pixels that an undecided facet covers and is visible in. */
-static void mark_pure(pixel_marks *m, uint32_t facet)
-{
-    lrcsi_raster *r = m->raster;
-    for (uint32_t y = m->edges.bottom; y < m->edges.top; y++) {
-        for (uint32_t x = m->row[y].whole.x0; x < m->row[y].whole.x1; x++) {
-            size_t at = marks_at(m, x, y);
-            r->pure[at] |= r->owner[at] == facet && !m->mixed[at];
-        }
-    }
-}
-
 /* Puts the event edges that cross a facet into classification->crossing; returns how many they are.
  */
 static uint32_t known_crossings(const lrcsi_known *known, uint32_t facet)
@@ -305,9 +323,8 @@ static uint32_t known_crossings(const lrcsi_known *known, uint32_t facet)
     return count;
 }
 
-/* Marks where the visibility of an undecided facet may change. Returns how many event edges cross
-   it; they stand in classification->crossing. */
-static uint32_t mark_changes(pixel_marks *m, uint32_t facet)
+/* Marks where the visibility of an undecided facet may change. */
+static void mark_changes(pixel_marks *m, uint32_t facet)
 {
     marks_start(m, facet);
     uint32_t crossings = known_crossings(m->known, facet);
@@ -315,35 +332,93 @@ static uint32_t mark_changes(pixel_marks *m, uint32_t facet)
         mark_edge(m, m->known->classification->crossing[i]);
     }
     mark_touches(m, facet);
-    return crossings;
 }
 
-/* Pixel areas are side^2 / N^2 to a few roundings; 1e-12 of them is given away. */
-static lrcsi_visible undecided_area(const lrcsi_sharing *sharing, pixel_marks *marks,
-                                    uint32_t facet)
+/* Visits a facet that owns samples: what is certain of it is kept in *visible until
+   certain_finish, its pixels as open. Returns 0 where there is no room for these. */
+static int certain_begin(pixel_marks *m, uint32_t facet, lrcsi_visible *visible)
 {
-    lrcsi_classification *classification = sharing->known->classification;
+    size_t first = m->open_count;
+    mark_changes(m, facet);
+    pixel_sums sums = count_certain(m, facet);
+    if (m->open_count >= m->open_room) {
+        m->open_count = first;
+        return 0;
+    }
+    m->open[m->open_count++] = LRCS_NONE;
+    visible->low = sums.whole_shown + sums.shown;
+    visible->high = sums.hidden;
+    visible->likely = sums.whole_hidden;
+    return 1;
+}
+/* The sums of such a facet, once all pure pixels are known: of those open, the ones that show
+   another facet are hidden. */
+static pixel_sums certain_finish(pixel_marks *m, uint32_t facet, const lrcsi_visible *visible)
+{
+    const lrcsi_raster *r = m->raster;
+    pixel_sums sums = {0, (uint32_t)visible->likely, visible->low, visible->high};
+    int shaped = 0; /* the facet's shape is at hand */
+    uint32_t open;
+    while ((open = m->open[m->open_read++]) != LRCS_NONE) {
+        size_t at = open / 2;
+        if (!r->pure[at] || r->owner[at] == facet) {
+            continue;
+        }
+        if (open % 2 != 0) {
+            sums.whole_hidden++;
+            continue;
+        }
+        if (!shaped) {
+            marks_facet(m, facet);
+            shaped = 1;
+        }
+        sums.hidden += pixel_share(m, (uint32_t)(at % r->size), (uint32_t)(at / r->size));
+    }
+    return sums;
+}
+
+/* The sums of a facet of which nothing is kept. */
+static pixel_sums certain_sums(pixel_marks *m, uint32_t facet)
+{
+    size_t first = m->open_count;
+    mark_changes(m, facet);
+    pixel_sums sums = count_certain(m, facet);
+    m->open_count = first; /* nobody asks again */
+    return sums;
+}
+
+static lrcsi_sampling_error undecided_error(const lrcsi_sharing *sharing, uint32_t facet,
+                                            const lrcsi_visible_fraction *share)
+{
+    if (share->row) {
+        return lrcsi_sampling_error_row(sharing->raster, facet, share->longest, share->share);
+    }
+    uint32_t crossings = known_crossings(sharing->known, facet);
+    return lrcsi_sampling_error_facet(sharing->known->classification, crossings, sharing->raster,
+                                      facet);
+}
+
+/* Of a facet that certain_begin visited *v holds what it kept. Pixel areas are side^2 / N^2 to a
+   few roundings; 1e-12 of them is given away. */
+static void undecided_area(const lrcsi_sharing *sharing, pixel_marks *marks, uint32_t facet,
+                           int begun, lrcsi_visible *v)
+{
     const lrcsi_raster *raster = sharing->raster;
-    double area = lrcsi_view_projected(classification->view, facet);
+    double area = lrcsi_view_projected(raster->view, facet);
     double pixel = raster->pixel * raster->pixel;
     lrcsi_visible_fraction share = lrcsi_visible_fraction_facet(sharing, facet);
     pixel_sums sums = {0, 0, 0, 0};
     lrcsi_sampling_error sampling_error = {HUGE_VAL, 0};
     if (!raster->undecided[facet]) {
-        uint32_t crossings = mark_changes(marks, facet);
-        sampling_error = share.row
-                             ? lrcsi_sampling_error_row(raster, facet, share.longest, share.share)
-                             : lrcsi_sampling_error_facet(classification, crossings, raster, facet);
-        sums = count_certain(marks, facet);
+        sums = begun ? certain_finish(marks, facet, v) : certain_sums(marks, facet);
+        sampling_error = undecided_error(sharing, facet, &share);
     }
-    lrcsi_visible v;
-    v.low = lrcsi_least(area, (sums.whole_shown + sums.shown) * pixel * (1 - 1e-12));
-    v.high = lrcsi_most(v.low, area - (sums.whole_hidden + sums.hidden) * pixel * (1 - 1e-12));
-    lrcsi_visible_fraction_keep(sharing, facet, area, &share, &v);
-    double gap = v.high - v.low;
-    v.likely = lrcsi_least(gap, sqrt(sampling_error.square) * pixel);
-    v.bias = lrcsi_least(gap, lrcsi_most(-gap, sampling_error.bias * pixel));
-    return v;
+    v->low = lrcsi_least(area, (sums.whole_shown + sums.shown) * pixel * (1 - 1e-12));
+    v->high = lrcsi_most(v->low, area - (sums.whole_hidden + sums.hidden) * pixel * (1 - 1e-12));
+    lrcsi_visible_fraction_keep(sharing, facet, area, &share, v);
+    double gap = v->high - v->low;
+    v->likely = lrcsi_least(gap, sqrt(sampling_error.square) * pixel);
+    v->bias = lrcsi_least(gap, lrcsi_most(-gap, sampling_error.bias * pixel));
 }
 
 /* --- what is known ---------------------------------------------------------------------------- */
@@ -418,10 +493,17 @@ int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, l
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
+/* Room for open pixels: more than ordinary scenes have. Facets beyond it are visited twice. */
+static size_t open_room(const lrcs_prepared *prepared, uint32_t size)
+{
+    return lrcsi_work_add(lrcsi_work_square(size) / 2, 2 * (size_t)prepared->scene->facet_count);
+}
+
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
     size_t need = lrcsi_work_bytes((size_t)size * size, 1);
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(lrcsi_row)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(open_room(prepared, size), sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_visible_fraction_need(prepared));
     return lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
 }
@@ -464,16 +546,21 @@ static void visible_fill(const lrcsi_sharing *sharing, pixel_marks *marks, lrcsi
     lrcsi_raster *raster = marks->raster;
     uint32_t count = classification->view->prepared->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
-        if (classification->undecided[f] && raster->owned[f] != 0 && !raster->undecided[f]) {
-            mark_changes(marks, f);
-            mark_pure(marks, f);
+        if (classification->undecided[f] && raster->owned[f] != 0 && !raster->undecided[f] &&
+            !certain_begin(marks, f, &visible[f])) {
+            visible[f].likely = -1; /* no room */
         }
     }
     lrcsi_visible_answered(classification->view, known->answer, visible);
     for (uint32_t f = 0; f < count; f++) {
-        if (known->answer[f] == LRCSI_QUERY_UNDECIDED) {
-            visible[f] = classification->undecided[f] ? undecided_area(sharing, marks, f)
-                                                      : unknown_area(raster, f);
+        if (known->answer[f] != LRCSI_QUERY_UNDECIDED) {
+            continue;
+        }
+        if (classification->undecided[f]) {
+            int begun = raster->owned[f] != 0 && !raster->undecided[f] && visible[f].likely >= 0;
+            undecided_area(sharing, marks, f, begun, &visible[f]);
+        } else {
+            visible[f] = unknown_area(raster, f);
         }
     }
     lrcsi_visible_fraction_settle(sharing, visible);
@@ -491,8 +578,10 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
     pixel_marks marks = {.known = known, .raster = raster};
     marks.mixed = lrcsi_work_take(work, (size_t)size * size, 1);
     marks.row = lrcsi_work_take(work, size, sizeof *marks.row);
+    marks.open_room = open_room(known->classification->view->prepared, size);
+    marks.open = lrcsi_work_take(work, marks.open_room, sizeof *marks.open);
     lrcsi_sharing sharing;
-    if (!marks.mixed || !marks.row ||
+    if (!marks.mixed || !marks.row || !marks.open ||
         lrcsi_visible_fraction_make(known, raster, work, &sharing) != LRCS_OK) {
         work->used = mark;
         return LRCS_E_MEMORY;

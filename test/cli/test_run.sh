@@ -11,7 +11,7 @@ pair=$scratch/pair.toml
 run run demo --tolerance 0.01 --json
 same demo_runs "$((rc == 0 || rc == 3))" 1
 same json_leaves_stderr_empty "$err" ""
-same json_keys_in_order "$(keys)" "schema version scene_hash files unit sigma_m2 sigma_dbsm tolerance resolution normals estimate_m2 curvature_estimate_m2 notices sigma_glint_m2 sigma_diffuse_m2 bound_m2 budget_m2 projected_area_m2 method method_reason effects flags facets direction seconds box_min_m box_max_m back_sides coarse_glint title materials options "
+same json_keys_in_order "$(keys)" "schema version scene_hash files unit sigma_m2 sigma_dbsm tolerance resolution normals estimate_m2 curvature_estimate_m2 notices sigma_glint_m2 sigma_diffuse_m2 bound_m2 budget_m2 material_uncertainty projected_area_m2 method method_reason effects flags facets direction seconds box_min_m box_max_m back_sides coarse_glint title materials options "
 same budget_keys "$(value budget_m2 | grep -cE '^\{"visibility": [^,]+, "tessellation": [^,]+, "rounding": [^,]+\}$')" 1
 same tolerance_keys "$(value tolerance | grep -cE '^\{"asked": 0\.01, "met": (true, "accepted_by": "bound"|false, "accepted_by": null)\}$')" 1
 same facets_keys "$(value facets | grep -cE '^\{"total": [0-9]+, "front": [0-9]+, "hidden": [0-9]+, "partial": [0-9]+\}$')" 1

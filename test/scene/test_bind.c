@@ -34,7 +34,8 @@ static void check_who(const lrcs_material *material, int who)
     assert_int_equal(material->bound, 1);
 }
 
-static lrcs_recipe_material own_material = {"own", {0.0, 0.03, 0.0, 0.0}, -1, 1, 0};
+static lrcs_recipe_material own_material = {
+    .name = "own", .brdf = {0.0, 0.03, 0.0, 0.0}, .two_sided = -1, .line = 1};
 
 /* All bindings that speak of surface "skin", in the order of their rank. */
 static void make_recipe(lrcs_binding binding[5], uint32_t count, lrcs_recipe *recipe)
@@ -236,7 +237,8 @@ static void fully_transparent_surfaces_are_omitted_unless_kept(void **state)
 static void parts_wear_the_recipes_materials_before_the_librarys(void **state)
 {
     (void)state;
-    lrcs_recipe_material gold = {"mli-gold", mark(BY_PART), -1, 1, 0};
+    lrcs_recipe_material gold = {
+        .name = "mli-gold", .brdf = mark(BY_PART), .two_sided = -1, .line = 1};
     lrcs_recipe recipe = {.material = &gold, .material_count = 1};
     lrcs_recipe_part part = {.material = "mli-gold", .wears = -1};
     lrcsi_binder binder = lrcsi_binder_plain(&recipe);

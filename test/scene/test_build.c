@@ -168,7 +168,8 @@ static void materials_stand_once_for_each_surface_and_each_worn_one(void **state
     lrcs_mesh meshes[4] = {tetra(), {0}, {0}, tetra()};
     lrcs_recipe_part parts[4] = {model_part("a"), shape_part(LRCS_SHAPE_PLATE, 1.0, 1.0, 0.0),
                                  shape_part(LRCS_SHAPE_PLATE, 1.0, 1.0, 0.0), model_part("b")};
-    lrcs_recipe_material white = {"white", {0.0, 0.2, 0.0, 0.0}, 1, 5, 0};
+    lrcs_recipe_material white = {
+        .name = "white", .brdf = {0.0, 0.2, 0.0, 0.0}, .two_sided = 1, .line = 5};
     lrcs_recipe recipe = {.part = parts, .part_count = 4, .material = &white, .material_count = 1};
     lrcs_scene scene;
     void *area;

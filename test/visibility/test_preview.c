@@ -62,6 +62,9 @@ static lrcsi_view seen_from(int i)
 /* Shares of fewer samples are corrected together. */
 #define FEW 16
 
+/* Two standard deviations of what a pixel errs in which a border passes. */
+#define LIKELY sqrt(4.0 / 12)
+
 static void check_shares(const lrcsi_view *view, uint32_t size, unsigned *parted)
 {
     int undecided = 7;
@@ -86,7 +89,7 @@ static void check_shares(const lrcsi_view *view, uint32_t size, unsigned *parted
             }
             int parts = raster.owned[f] != 0 && raster.owned[f] != raster.covered[f];
             *parted += (unsigned)parts;
-            assert_true(parts || v->likely <= 0.5 * raster.pixel * raster.pixel * (1 + 1e-9));
+            assert_true(parts || v->likely <= LIKELY * raster.pixel * raster.pixel * (1 + 1e-9));
         }
     }
     work.used = mark;
@@ -168,7 +171,7 @@ static void facets_with_few_samples_show_together_what_the_samples_count(void **
                     outline += (lit[1] != lit[0]) + (lit[2] != lit[0]);
                 }
             }
-            double chance = 0.5 * sqrt(outline);
+            double chance = LIKELY * sqrt(outline);
             double left = fabs(sum / (raster.pixel * raster.pixel) - counted);
             assert_true(left <= 0.5 * chance * (1 + 1e-9));
             runs++;

@@ -143,12 +143,80 @@ static void what_is_within_the_error_is_not_sure(void **state)
     }
 }
 
+/* Does a segment with ends in eighths of a pixel meet a pixel, the sides of which belong to it? The
+   line meets it where its corners do not all lie on one side. */
+static int meets(const int a[2], const int b[2], int x, int y)
+{
+    const int low[2] = {8 * x, 8 * y};
+    int left = 0;
+    int right = 0;
+    for (int k = 0; k < 2; k++) {
+        if ((a[k] < low[k] && b[k] < low[k]) || (a[k] > low[k] + 8 && b[k] > low[k] + 8)) {
+            return 0;
+        }
+    }
+    for (int k = 0; k < 4; k++) {
+        long turn = (long)(b[0] - a[0]) * (low[1] + 8 * (k / 2) - a[1]) -
+                    (long)(b[1] - a[1]) * (low[0] + 8 * (k % 2) - a[0]);
+        left |= turn >= 0;
+        right |= turn <= 0;
+    }
+    return left && right;
+}
+
+/* In all rows, of segments that may leave the window; level, upright and short
+   ones are among them. Returns how many pixels are met. */
+static unsigned check_segment(const int a[2], const int b[2])
+{
+    const double from[2] = {a[0] / 8.0, a[1] / 8.0};
+    const double to[2] = {b[0] / 8.0, b[1] / 8.0};
+    lrcsi_segment s = lrcsi_span_segment(from, to, 0x1p-40);
+    unsigned met = 0;
+    int bottom = a[1] < b[1] ? a[1] : b[1];
+    int top = a[1] > b[1] ? a[1] : b[1];
+    for (int y = 0; y < N; y++) {
+        if (8 * y + 8 < bottom || 8 * y > top) {
+            continue; /* the rows are the caller's to choose */
+        }
+        uint32_t x0 = 3;
+        uint32_t x1 = N - 2;
+        lrcsi_span_follow(&s, (uint32_t)y, &x0, &x1);
+        for (int x = 3; x < N - 2; x++) {
+            int inside = (uint32_t)x >= x0 && (uint32_t)x < x1;
+            assert_int_equal(inside, meets(a, b, x, y));
+            met += (unsigned)inside;
+        }
+    }
+    return met;
+}
+
+static void segments_are_followed_through_the_pixels_they_meet(void **state)
+{
+    (void)state;
+    uint64_t seed = 9;
+    unsigned met = 0;
+    for (int i = 0; i < 4000; i++) {
+        int a[2];
+        int b[2];
+        for (int k = 0; k < 2; k++) {
+            a[k] = (int)scene_random(&seed, 8 * N + 64) - 32;
+            b[k] = i % 4 == 0 ? a[k] + (int)scene_random(&seed, 17) - 8
+                              : (int)scene_random(&seed, 8 * N + 64) - 32;
+        }
+        b[1] = i % 4 == 1 ? a[1] : b[1];
+        b[0] = i % 4 == 2 ? a[0] : b[0];
+        met += check_segment(a, b);
+    }
+    assert_true(met > 50000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spans_are_those_of_whole_numbers),
         cmocka_unit_test(sides_along_the_rows_are_told_by_the_row),
         cmocka_unit_test(what_is_within_the_error_is_not_sure),
+        cmocka_unit_test(segments_are_followed_through_the_pixels_they_meet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

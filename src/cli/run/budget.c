@@ -6,6 +6,7 @@
    same options give again. */
 #include "cli/run/run.h"
 
+#include <errno.h>
 #include <math.h>
 #include <poll.h>
 #include <signal.h>
@@ -229,7 +230,11 @@ static void race_watch(run_job *job, budget_racer racer[RACERS], budget_answer *
         for (int i = 0; i < RACERS; i++) { /* negative ones are skipped */
             wait[i] = (struct pollfd){.fd = racer[i].end, .events = POLLIN};
         }
-        if (poll(wait, RACERS, time_left(&job->budget)) <= 0) {
+        int ready = poll(wait, RACERS, time_left(&job->budget));
+        if (ready < 0 && errno == EINTR) {
+            continue; /* the watch */
+        }
+        if (ready <= 0) {
             break;
         }
         for (int i = 0; i < RACERS; i++) {
@@ -330,8 +335,8 @@ int cli_run_budget(run_job *job)
     if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    cli_watch_end(); /* it would wake the race */
-    fflush(NULL);    /* or both would write what is buffered */
+    cli_watch_stage("trying settings", NULL);
+    fflush(NULL); /* or both would write what is buffered */
     racer_start(job, rung, &racer[0], race_tolerances);
     racer_start(job, rung, &racer[1], race_rasters);
     race_watch(job, racer, &best);

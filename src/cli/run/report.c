@@ -217,6 +217,7 @@ static void table_sigma(const run_job *job)
         printf("curvature    %.3g m2   cubature, an estimate, not in the bound\n",
                r->curvature_estimate_m2);
     }
+    cli_run_materials_table(job);
     printf("silhouette   %.10g m2\n", r->projected_area_m2);
     if (job->emulation.asked) {
         cli_run_emulation_table(job);
@@ -237,6 +238,7 @@ void cli_run_json(const run_job *job)
     known_number(&json, "tessellation", result->budget.tessellation_m2);
     lrcs_host_json_number(&json, "rounding", result->budget.rounding_m2);
     lrcs_host_json_end(&json);
+    cli_run_materials_json(job, &json);
     lrcs_host_json_number(&json, "projected_area_m2", result->projected_area_m2);
     lrcs_host_json_text(&json, "method", lrcs_method_text(result->method));
     lrcs_host_json_text(&json, "method_reason", result->method_reason);
@@ -304,7 +306,7 @@ void cli_run_table(const run_job *job)
     if (job->explain) {
         cli_run_explain_table(job);
     }
-    cli_run_verdict(job);
+    cli_run_verdict(job, stdout);
 }
 
 void cli_run_notices(const run_job *job)

@@ -31,14 +31,15 @@ static const char run_help[] =
     "  --precision P         float32 or float64: graphics hardware emulated, a z-buffer of "
     "--resolution N\n"
     "                        (1024 if not given); sigma is what it gives, bound what method exact\n"
-    "                        proves of it, and a table says what sampling, precision, depth and a\n"
-    "                        running sum each cost. Of equal depths the first facet drawn wins\n"
+    "                        proves of it, with what sampling, precision, depth, sum each cost\n"
     "  --depth-bits B        16, 24 or 32 of its depth buffer (default: all that P holds); alone "
     "it\n"
     "                        means --precision float64\n"
     "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
     "                        where it is off; and what each stage of preparing and of the pose\n"
     "                        takes; runs the pose for some 2 s more, or once for each\n"
+    "  --sensitivity         derivatives in each material's A, B, s, m and in attitude\n"
+    "  --draws N, --seed N   sample that checks the material uncertainty, where errors are stated\n"
     "  --shares              who makes sigma: parts, materials, and the ten brightest facets\n"
     "  --json                the result as JSON, notices included\n"
     "  --facets FILE.csv     one row for every facet ('-': instead of the table)\n"
@@ -51,20 +52,29 @@ static const char run_help[] =
     "  lrcs run demo --image demo.png\n"
     "  lrcs run demo --azel 30,-20 --explain --shares\n"
     "  lrcs run demo --azel 30,-20 --time-budget 200\n"
-    "  lrcs run demo --azel 30,-20 --steps 20000\n"
-    "  lrcs run demo --azel 30,-20 --tolerance 1e-2 --accept estimate\n"
     "  lrcs run demo --azel 30,-20 --resolution 512 --precision float32 --depth-bits 24\n"
     "  lrcs run aura.3ds --unit in --direction 0,-1,0.2 --material solar=solar-cell\n"
     "  lrcs run part.stl --unit mm --material 0,0.3,0.2,1 --facets part.csv\n";
 
-static const cli_option run_options[] = {CLI_POSE_OPTIONS,        CLI_ACCURACY_OPTIONS,
-                                         CLI_SCENE_OPTIONS,       {"json", 0, 0},
-                                         {"facets", CLI_FILE, 0}, {"polygons", CLI_FILE, 0},
-                                         {"image", CLI_FILE, 0},  {"image-size", 1, 0},
-                                         {"explain", 0, 0},       {"time-budget", 1, 0},
-                                         {"shares", 0, 0},        {"precision", 1, 0},
-                                         {"depth-bits", 1, 0},    {"steps", 1, 0},
-                                         {"help", 0, 0},          {NULL, 0, 0}};
+static const cli_option run_options[] = {CLI_POSE_OPTIONS,
+                                         CLI_ACCURACY_OPTIONS,
+                                         CLI_SCENE_OPTIONS,
+                                         {"json", 0, 0},
+                                         {"facets", CLI_FILE, 0},
+                                         {"polygons", CLI_FILE, 0},
+                                         {"image", CLI_FILE, 0},
+                                         {"image-size", 1, 0},
+                                         {"explain", 0, 0},
+                                         {"time-budget", 1, 0},
+                                         {"shares", 0, 0},
+                                         {"precision", 1, 0},
+                                         {"depth-bits", 1, 0},
+                                         {"steps", 1, 0},
+                                         {"sensitivity", 0, 0},
+                                         {"draws", 1, 0},
+                                         {"seed", 1, 0},
+                                         {"help", 0, 0},
+                                         {NULL, 0, 0}};
 
 /* ---- options ---- */
 
@@ -82,6 +92,7 @@ static int options_read(run_job *job)
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
+    code = code ? code : cli_run_materials_read(job);
     job->asked = cli_tolerance_judged(args, &job->options) ? job->asked : 0.0;
     job->explain = cli_value(args, "explain") != NULL;
     job->shares_asked = cli_value(args, "shares") != NULL;
@@ -128,6 +139,7 @@ static int run_pose(run_job *job)
         return cli_failed(&error);
     }
     cli_watch_stage("pose", NULL);
+    job->options.progress = cli_watch_run();
     if (job->emulation.asked) {
         return cli_run_emulate(job);
     }
@@ -148,7 +160,7 @@ static int run_scene(run_job *job)
 {
     int searched = job->budget.asked_ms > 0.0;
     int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
-    cli_watch_begin();
+    cli_watch_stage("loading", NULL);
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
     code = code == 0 && searched ? cli_run_budget(job) : code;
@@ -156,6 +168,7 @@ static int run_scene(run_job *job)
         code = run_room(job);
         code = code ? code : run_pose(job);
     }
+    code = code ? code : cli_run_materials(job);
     return code == 0 && job->shares_asked
                ? cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
                                  &job->shares)
@@ -184,6 +197,7 @@ static int run_outputs(run_job *job)
     int code = cli_run_open(job);
     code = code ? code : cli_run_outputs_write(job);
     code = code == 0 && job->explain ? cli_run_explain(job) : code;
+    cli_watch_end();
     if (code != 0) {
         return code;
     }
@@ -209,13 +223,13 @@ static int run_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job);
     code = code ? code : run_scene(&job);
-    cli_watch_end();
     if (code == 0) {
         run_judge(&job);
         code = run_outputs(&job);
     }
     free(job.records);
     free(job.image.facet);
+    free(job.sensitivity);
     cli_shares_free(&job.shares);
     lrcs_host_polygons_free(&job.polygons);
     lrcs_host_scene_free(&job.scene);

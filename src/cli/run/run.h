@@ -76,6 +76,11 @@ typedef struct run_job {
     int shares_asked;
     cli_shares shares;
     run_open open;
+    int sensitivity_asked;
+    lrcs_uncertainty_options sampling;
+    lrcs_uncertainty uncertainty;  /* not stated: no material has errors */
+    lrcs_sensitivity *sensitivity; /* by material; NULL: not wanted */
+    lrcs_attitude_slope attitude;  /* where asked for */
 } run_job;
 
 /* The options of output files, as 0 or CLI_USAGE; once the scene is read, that none of them would
@@ -120,7 +125,16 @@ void cli_run_emulation_table(const run_job *job);
    in words, the last lines of a table. */
 int cli_run_open(run_job *job);
 void cli_run_open_json(const run_job *job, lrcs_host_json *json);
-void cli_run_verdict(const run_job *job);
+void cli_run_verdict(const run_job *job, FILE *out);
+
+/* --sensitivity, --draws and --seed: their values, as 0 or CLI_USAGE; the material uncertainty and
+   the derivatives, where they are wanted, 0 or CLI_FAILED; as keys of an open object; as lines of
+   the table; and of the verdict. */
+int cli_run_materials_read(run_job *job);
+int cli_run_materials(run_job *job);
+void cli_run_materials_json(const run_job *job, lrcs_host_json *json);
+void cli_run_materials_table(const run_job *job);
+void cli_run_materials_verdict(const run_job *job, FILE *out);
 
 /* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
    for people. */

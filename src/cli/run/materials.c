@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: MIT */
+/* What sigma owes to its materials: --sensitivity, and the material uncertainty where materials
+   state errors. It is no part of the bound. */
+#include "cli/run/run.h"
+
+#include <stdlib.h>
+
+#define DRAWS_MOST 1048576.0
+#define SEED_MOST  4294967295.0
+
+int cli_run_materials_read(run_job *job)
+{
+    uint32_t seed = 1;
+    job->sampling = lrcs_uncertainty_options_default();
+    job->sensitivity_asked = cli_value(job->args, "sensitivity") != NULL;
+    int code = cli_whole(job->args, "draws", 0.0, DRAWS_MOST, &job->sampling.draws);
+    code = code ? code : cli_whole(job->args, "seed", 0.0, SEED_MOST, &seed);
+    job->sampling.seed = seed;
+    if (code == 0 && job->sampling.draws == 1) {
+        return cli_usage(job->args->command, "--draws: one draw has no deviation");
+    }
+    return code;
+}
+
+static int errors_stated(const lrcs_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_brdf_error *e = &scene->material[i].error;
+        if (e->A > 0.0 || e->B > 0.0 || e->s > 0.0 || e->m > 0.0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int cli_run_materials(run_job *job)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    lrcs_host_error error;
+    lrcs_result again;
+    if (!job->sensitivity_asked && !errors_stated(scene)) {
+        return 0;
+    }
+    cli_watch_stage("material uncertainty", NULL);
+    job->sensitivity = calloc((size_t)scene->material_count + 1, sizeof *job->sensitivity);
+    if (!job->sensitivity) {
+        return cli_out_of_memory();
+    }
+    int status = lrcs_host_scene_uncertainty(&job->scene, &job->pose, &job->options, &job->sampling,
+                                             &again, job->sensitivity, &job->uncertainty, &error);
+    if (status == LRCS_OK && job->sensitivity_asked) {
+        cli_watch_stage("derivatives in attitude", NULL);
+        status = lrcs_host_scene_attitude_slope(&job->scene, &job->pose, &job->options,
+                                                &job->attitude, &error);
+    }
+    return status == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+/* Is a material assigned to some facet that counts? */
+static int is_assigned(const lrcs_scene *scene, uint32_t material)
+{
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        if (scene->facet_material[f] == material) {
+            return !scene->material[material].omitted;
+        }
+    }
+    return 0;
+}
+
+/* ---- as JSON ---- */
+
+static void uncertainty_json(const run_job *job, lrcs_host_json *json)
+{
+    const lrcs_uncertainty *u = &job->uncertainty;
+    lrcs_host_json_begin(json, "material_uncertainty", LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_number(json, "deviation_m2", u->deviation_m2);
+    lrcs_host_json_number(json, "low_m2", u->low_m2);
+    lrcs_host_json_number(json, "high_m2", u->high_m2);
+    lrcs_host_json_text(json, "by", u->sampled ? "sample" : "first_order");
+    lrcs_host_json_number(json, "first_order_m2", u->first_order_m2);
+    if (u->draws > 0) {
+        lrcs_host_json_number(json, "sample_m2", u->sample_m2);
+        lrcs_host_json_number(json, "sample_mean_m2", u->sample_mean_m2);
+    } else {
+        lrcs_host_json_text(json, "sample_m2", NULL);
+        lrcs_host_json_text(json, "sample_mean_m2", NULL);
+    }
+    lrcs_host_json_count(json, "draws", u->draws);
+    lrcs_host_json_count(json, "seed", job->sampling.seed);
+    lrcs_host_json_end(json);
+}
+
+static void sensitivity_json(const run_job *job, lrcs_host_json *json)
+{
+    static const char *const axis[2] = {"about_x", "about_y"};
+    const lrcs_scene *scene = &job->scene.scene;
+    lrcs_host_json_begin(json, "sensitivity", LRCS_HOST_OBJECT);
+    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_sensitivity *d = &job->sensitivity[i];
+        if (!is_assigned(scene, i)) {
+            continue;
+        }
+        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_text(json, "name", scene->material[i].name);
+        lrcs_host_json_number(json, "dA_m2_sr", d->dA);
+        lrcs_host_json_number(json, "dB_m2_sr", d->dB);
+        lrcs_host_json_number(json, "ds_m2", d->ds);
+        lrcs_host_json_number(json, "dm_m2", d->dm);
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_begin(json, "attitude", LRCS_HOST_OBJECT);
+    for (int i = 0; i < 2; i++) {
+        lrcs_host_json_begin(json, axis[i], LRCS_HOST_ROW_OBJECT);
+        lrcs_host_json_number(json, "m2_per_deg", job->attitude.per_deg_m2[i]);
+        lrcs_host_json_number(json, "bound_m2_per_deg", job->attitude.bound_m2[i]);
+        lrcs_host_json_number(json, "estimate_m2_per_deg", job->attitude.estimate_m2[i]);
+        lrcs_host_json_end(json);
+    }
+    lrcs_host_json_end(json);
+    lrcs_host_json_end(json);
+}
+
+void cli_run_materials_json(const run_job *job, lrcs_host_json *json)
+{
+    if (job->uncertainty.stated) {
+        uncertainty_json(job, json);
+    } else {
+        lrcs_host_json_text(json, "material_uncertainty", NULL);
+    }
+    if (job->sensitivity_asked) {
+        sensitivity_json(job, json);
+    }
+}
+
+/* ---- in words ---- */
+
+static double share(double part, double whole)
+{
+    return whole > 0.0 ? 100.0 * part / whole : 0.0;
+}
+
+void cli_run_materials_table(const run_job *job)
+{
+    static const char axis[2] = {'x', 'y'};
+    const lrcs_scene *scene = &job->scene.scene;
+    const lrcs_uncertainty *u = &job->uncertainty;
+    if (u->stated) {
+        printf("materials    +- %.4g m2   %.3g %% of sigma: one standard deviation, %s; not in the "
+               "bound\n  68 %%       %.6g .. %.6g m2\n",
+               u->deviation_m2, share(u->deviation_m2, job->result.sigma_m2),
+               u->sampled ? "from a sample" : "by first order", u->low_m2, u->high_m2);
+        if (u->draws > 0) {
+            printf("  sample     %lu draws, seed %lu: +- %.4g m2 about %.6g; first order +- %.4g\n",
+                   (unsigned long)u->draws, (unsigned long)job->sampling.seed, u->sample_m2,
+                   u->sample_mean_m2, u->first_order_m2);
+        }
+    }
+    if (!job->sensitivity_asked) {
+        return;
+    }
+    printf("derivatives  %12s %12s %12s %12s\n", "A, m2 sr", "B, m2 sr", "s, m2", "m, m2");
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_sensitivity *d = &job->sensitivity[i];
+        if (is_assigned(scene, i)) {
+            printf("  ");
+            cli_column(cli_material_name(&scene->material[i]), 10);
+            printf(" %12.5g %12.5g %12.5g %12.5g\n", d->dA, d->dB, d->ds, d->dm);
+        }
+    }
+    for (int i = 0; i < 2; i++) {
+        printf("  about %c    %.6g m2 per degree; proved to %.2g, step error some %.2g\n", axis[i],
+               job->attitude.per_deg_m2[i], job->attitude.bound_m2[i],
+               job->attitude.estimate_m2[i]);
+    }
+}
+
+void cli_run_materials_verdict(const run_job *job, FILE *out)
+{
+    const lrcs_uncertainty *u = &job->uncertainty;
+    if (u->stated) {
+        fprintf(out,
+                "             their stated errors leave sigma uncertain by %.3g %% (one standard "
+                "deviation)\n",
+                share(u->deviation_m2, job->result.sigma_m2));
+    }
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/* The derivatives of sigma in attitude: central differences of proved poses. A quotient over a step
+   h has the bounds of its two poses, divided by 2 h; how far it is from the derivative, the
+   quotient over 2 h estimates. (sigma is continuous and has a derivative but at kinks, where a
+   facet turns edge-on or an edge passes a corner.) */
+#include <lrcs/uncertainty.h>
+
+#include <math.h>
+
+#include "base/degrees.h"
+
+#define STEP_DEG 0.01
+
+/* The pose after the body is turned by `deg` about the observation axis x (0) or y (1):
+   v_obs' = Rx(deg) v_obs or Ry(deg) v_obs. */
+static void pose_turn(const lrcs_pose *pose, int axis, double deg, lrcs_pose *turned)
+{
+    const double *d = pose->direction;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double sine = 0;
+    double cosine = 1;
+    lrcsi_degrees_sincos(deg, &sine, &cosine);
+    *turned = *pose;
+    for (int k = 0; k < 3; k++) {
+        double z = d[k] / length;
+        double other = pose->R[1 - axis][k];
+        /* about x: y' = c y - s z, z' = s y + c z; about y: x' = c x + s z, z' = -s x + c z */
+        double sign = axis == 0 ? 1 : -1;
+        turned->R[1 - axis][k] = cosine * other - sign * sine * z;
+        turned->R[2][k] = turned->direction[k] = sign * sine * other + cosine * z;
+    }
+}
+
+int lrcs_attitude_slope_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                            const lrcs_run_options *options, lrcs_work *work,
+                            lrcs_attitude_slope *slope)
+{
+    lrcs_attitude_slope out = {{0, 0}, {0, 0}, {0, 0}};
+    for (int axis = 0; axis < 2; axis++) {
+        double quotient[2];
+        for (int wide = 0; wide < 2; wide++) {
+            double step = wide ? 2 * STEP_DEG : STEP_DEG;
+            lrcs_result end[2];
+            for (int i = 0; i < 2; i++) {
+                lrcs_pose turned;
+                pose_turn(pose, axis, i ? step : -step, &turned);
+                int status = lrcs_sigma_run(prepared, &turned, options, work, &end[i], NULL, NULL);
+                if (status != LRCS_OK) {
+                    return status;
+                }
+            }
+            quotient[wide] = (end[1].sigma_m2 - end[0].sigma_m2) / (2 * step);
+            if (!wide) {
+                out.bound_m2[axis] = (end[0].bound_m2 + end[1].bound_m2) / (2 * step);
+            }
+        }
+        out.per_deg_m2[axis] = quotient[0];
+        out.estimate_m2[axis] = fabs(quotient[1] - quotient[0]);
+    }
+    *slope = out;
+    return LRCS_OK;
+}
