@@ -150,20 +150,15 @@ static int report_compare(report_job *job)
 static int report_measure(report_job *job)
 {
     const cli_output file = {"o", job->path};
-    cli_watch_begin();
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->scene);
     code = code ? code : cli_info_make(job->args, &job->scene, &job->load.build, &job->info);
     cli_watch_stage("pose and pictures", &job->scene);
     code = code ? code : cli_report_run(job);
     code = code ? code : cli_report_verdict_make(job);
-    cli_watch_end();
     code = code ? code : cli_report_sweeps(job);
-    cli_watch_begin();
     cli_watch_stage("comparing accuracy", NULL);
-    code = code ? code : report_compare(job);
-    cli_watch_end();
-    return code;
+    return code ? code : report_compare(job);
 }
 
 static int explore_measure(report_job *job)
@@ -172,6 +167,7 @@ static int explore_measure(report_job *job)
     lrcs_host_error error;
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->scene);
+    cli_watch_stage("preparing", &job->scene);
     if (code == 0 && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         code = cli_failed(&error);
     }
