@@ -7,13 +7,16 @@
 
 #include <lrcs/run.h>
 
+#include "mesh/slice.h"
+
 /* Every slack is widened by this: coordinates are below 1, and doubles good to 2^-48 of that. */
 #define LRCSI_NEAR_OFF 0x1p-44
 
-/* At most this share of the facet's area is as near to `other` as their parts' slack. */
+/* At most this share of the facet's area is as near to `other` as their parts' slack, and at most
+   this share of its rows (lrcsi_proximity_rows) holds such points. Rounded up. */
 typedef struct lrcsi_near {
     uint32_t facet, other;
-    double share;
+    float share, rows;
 } lrcsi_near;
 
 typedef struct lrcsi_proximity {
@@ -32,6 +35,16 @@ double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint3
 
 /* 1 where a part is a closed outward solid by construction: its back sides are never what hides. */
 int lrcsi_proximity_closed(const lrcs_prepared *prepared, uint32_t part);
+
+/* The rows of a facet on the straight wall of a cylinder, cone or frustum are the lines parallel to
+   its side on one of the wall's two circles. With the facet's corners given in any coordinates:
+   the share of its rows, by height over that side, that a polygon within the facet may meet. 1
+   where the facet has no rows or none is left out for sure. */
+double lrcsi_proximity_rows(const lrcs_prepared *prepared, uint32_t facet,
+                            const double *const corner[3], const lrcsi_slice *slice);
+
+/* 1 where a facet has rows. */
+int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);
 
 /* A facet's longest side, scaled. */
 double lrcsi_proximity_longest(const lrcs_prepared *prepared, uint32_t facet);
