@@ -241,14 +241,17 @@ static int job_run(sweep_job *job)
 {
     lrcs_host_error error;
     int code = 0;
-    job->progress =
-        cli_progress_make(job->file.next - job->plan.first, job->plan.end - job->plan.first);
+    const uint64_t done = job->file.next - job->plan.first;
+    const uint64_t all = job->plan.end - job->plan.first;
     if (job->plan.scene_axes > 0 || job->plan.track.joints > 0) {
+        job->progress = cli_progress_make(done, all);
         code = job->plan.poses > 1 && job->plan.track.joints == 0
                    ? scenes_run(job)
                    : rows_run(job, NULL, job->plan.end);
     } else if (job->file.next < job->plan.end) {
+        cli_watch_stage("preparing", &job->scene);
         code = lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
+        job->progress = cli_progress_make(done, all);
         code = code ? code : rows_run(job, &job->scene, job->plan.end);
     }
     cli_progress_clear(&job->progress);
@@ -326,6 +329,7 @@ static int job_show(sweep_job *job)
 static int job_rows(sweep_job *job)
 {
     signals_watch(); /* before the rows that are there are read: that may take seconds */
+    cli_watch_stage("rows that are there", NULL);
     int code = job_room(job);
     code = code ? code : cli_file_open(job->args, &job->file, &job->head, &job->plan);
     if (code != 0) {
@@ -373,6 +377,7 @@ static int sweep_command(const cli_args *args)
     }
     job->args = args;
     int code = job_read(job);
+    cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job->load, &job->scene);
     code = code ? code : cli_scene_axes_check(args, &job->plan, &job->scene);
     code = code ? code : job_files_check(job);
