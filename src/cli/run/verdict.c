@@ -160,8 +160,7 @@ static void materials_say(const run_job *job, FILE *out)
     static const char *const source[] = {"illustrative", "published", "default", "assumed",
                                          "given"};
     static const char *const words[] = {"illustrative, of the library: not measured",
-                                        "of the library: published solar reflectance, Lambert's "
-                                        "law assumed",
+                                        "published reflectance; Lambert's law assumed",
                                         "none bound, A=1, B=0.25, s=0.2, m=0.5 taken",
                                         "assumed, as the scene file says", "as given"};
     const lrcs_scene *scene = &job->scene.scene;
