@@ -189,6 +189,7 @@ const char *cli_base_name(const char *path);                     /* without its 
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */
 /* The keys of errors, A_error and so on with their correlations; none where all are 0. */
 void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json);
+int cli_errors_stated(const lrcs_scene *scene);          /* some material has errors */
 int cli_materials_open(const lrcs_scene *scene);         /* illustrative or default ones are worn */
 void cli_version_json(lrcs_host_json *json);             /* schema and version */
 void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* of the scene */

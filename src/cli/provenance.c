@@ -30,6 +30,17 @@ const char *cli_material_source(const lrcs_material *material)
     return "given";
 }
 
+int cli_errors_stated(const lrcs_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_brdf_error *e = &scene->material[i].error;
+        if (e->A > 0.0 || e->B > 0.0 || e->s > 0.0 || e->m > 0.0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 int cli_materials_open(const lrcs_scene *scene)
 {
     for (uint32_t i = 0; i < scene->facet_count; i++) {

@@ -6,6 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+const char *const cli_row_extra[SWEEP_EXTRAS] = {"material_deviation_m2", "material_low_m2",
+                                                 "material_high_m2", "material_sampled"};
+
 void cli_tally_add(sweep_tally *tally, const sweep_row *row)
 {
     double off = row->sigma_m2 - tally->mean;
@@ -69,7 +72,11 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
         putc(',', out);
         csv_field(out, plan->column[i]);
     }
-    fputs(",sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2,flags\n", out);
+    fputs(",sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2", out);
+    for (uint32_t i = 0; i < plan->extras; i++) {
+        fprintf(out, ",%s", cli_row_extra[i]);
+    }
+    fputs(",flags\n", out);
 }
 
 static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
@@ -84,6 +91,9 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     number_put(out, ",", row->bound_m2);
     number_put(out, ",", row->sigma_glint_m2);
     number_put(out, ",", row->sigma_diffuse_m2);
+    for (uint32_t i = 0; i < plan->extras; i++) {
+        number_put(out, ",", row->extra[i]);
+    }
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
             fprintf(out, "%s%s", before, lrcs_flag_text((int)bit));
@@ -133,6 +143,9 @@ static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     lrcs_host_json_number(&json, "bound_m2", row->bound_m2);
     lrcs_host_json_number(&json, "sigma_glint_m2", row->sigma_glint_m2);
     lrcs_host_json_number(&json, "sigma_diffuse_m2", row->sigma_diffuse_m2);
+    for (uint32_t i = 0; i < plan->extras; i++) {
+        lrcs_host_json_number(&json, cli_row_extra[i], row->extra[i]);
+    }
     lrcs_host_json_begin(&json, "flags", LRCS_HOST_ROW_ARRAY);
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
