@@ -29,6 +29,8 @@ typedef struct lrcs_host_picture {
     const char *title;                /* title element of an SVG drawing */
     int colouring;                    /* lrcs_host_colouring */
     int white;                        /* 1: white background; 0: dark background */
+    int annotated; /* 1: PNG pictures have the title and the laser's azimuth and elevation above,
+                      and the body's axes in a corner */
 } lrcs_host_picture;
 
 /* Writes a picture of `size` x `size` pixels (16 .. 16384) as PNG, with a legend and a scale bar in

@@ -68,18 +68,37 @@ enum lrcs_effect_name {
     (1u << LRCS_EFFECT_SELF_SHADOWING | 1u << LRCS_EFFECT_BACK_FACE_CASTERS |                      \
      1u << LRCS_EFFECT_GLINT | 1u << LRCS_EFFECT_DIFFUSE | 1u << LRCS_EFFECT_TWO_SIDED)
 
+/* What a run is doing. */
+enum lrcs_progress_stage {
+    LRCS_PROGRESS_VIEW,       /* which facets face the laser, and where they are in the view */
+    LRCS_PROGRESS_CLASSIFY,   /* which facets are entirely visible or entirely hidden */
+    LRCS_PROGRESS_VISIBILITY, /* what is visible of the others */
+    LRCS_PROGRESS_INTEGRATE   /* curved normals; the sum */
+};
+
+/* The stage in words, or NULL. */
+const char *lrcs_progress_text(int stage);
+
+/* How far a run is: written by the run, for a signal handler or another thread of the caller's that
+   shows it. Nothing else depends on it. */
+typedef struct lrcs_progress {
+    volatile uint32_t stage;       /* lrcs_progress_stage */
+    volatile uint32_t done, total; /* of the facets or blocks of the stage; total 0: not known */
+} lrcs_progress;
+
 typedef struct lrcs_run_options {
     double tolerance; /* relative, > 0: the goal is bound <= tolerance * sigma, and for a cubature
                          over curved normals also curvature estimate <= tolerance * sigma */
     int method;       /* lrcs_method */
-    uint32_t resolution; /* raster N x N, at most 16384; 0: chosen from the tolerance */
-    uint32_t without;    /* effects to leave out, bits 1u << LRCS_EFFECT_...: note 1 */
-    uint32_t with;       /* effects to simulate even if redundant, not in `without`: note 2 */
-    uint64_t steps;      /* limit on the steps of the visibility computation, 0: none: note 3 */
-    int accept;          /* lrcs_accept: note 4 */
+    uint32_t resolution;     /* raster N x N, at most 16384; 0: chosen from the tolerance */
+    uint32_t without;        /* effects to leave out, bits 1u << LRCS_EFFECT_...: note 1 */
+    uint32_t with;           /* effects to simulate even if redundant, not in `without`: note 2 */
+    uint64_t steps;          /* limit on the steps of the visibility computation, 0: none: note 3 */
+    int accept;              /* lrcs_accept: note 4 */
+    lrcs_progress *progress; /* where the run says how far it is, or NULL */
 } lrcs_run_options;
 
-/* 1e-4, auto, 0, 0, 0, 0, bound.
+/* 1e-4, auto, 0, 0, 0, 0, bound, NULL.
 
    Notes: 1. `without` shows the influence and the cost of an effect; leaving out an effect that is
    off changes nothing. Without self-shadowing every run uses method facet, whatever the method

@@ -14,6 +14,7 @@
 int cli_usage(const cli_command *command, const char *format, ...)
 {
     va_list list;
+    cli_watch_end();
     fprintf(stderr, "lrcs%s%s: ", command ? " " : "", command ? command->name : "");
     va_start(list, format);
     vfprintf(stderr, format, list);
@@ -24,12 +25,14 @@ int cli_usage(const cli_command *command, const char *format, ...)
 
 int cli_out_of_memory(void)
 {
+    cli_watch_end();
     fprintf(stderr, "lrcs: out of memory\n");
     return CLI_FAILED;
 }
 
 int cli_failed(const lrcs_host_error *error)
 {
+    cli_watch_end();
     fprintf(stderr, "lrcs: %s\n", error->text);
     return CLI_FAILED;
 }

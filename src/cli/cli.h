@@ -209,15 +209,22 @@ void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
 
 /* Text on stdout, blanks after it up to `width`, control characters as '?'. */
 void cli_column(const char *text, int width);
+void cli_column_to(FILE *out, const char *text, int width); /* the same on `out` */
 
 /* Seconds on a clock that only goes forward. */
 double cli_seconds(void);
 
 /* Shows the stage of a command that takes more than two seconds, on stderr where that is a
-   terminal, and says what a Ctrl-C leaves. Begin, stages (constant texts; with a scene that is
-   being prepared, how many of its stages are done), end before anything is printed. */
-void cli_watch_begin(void);
+   terminal, and says what a Ctrl-C leaves. Every command is watched from its begin on; it names its
+   stages (texts that stay; with a scene that is being prepared, how many of its stages are done;
+   NULL: nothing is shown, for something else is), may say that it has done so many of so many
+   parts, or let a run say how far it is (lrcs_run_options.progress), and ends the watch before it
+   prints. */
+void cli_watch_begin(const char *stage);
 void cli_watch_stage(const char *stage, const lrcs_host_scene *scene);
+void cli_watch_clear(void); /* before a line is printed to stderr; the watch goes on */
+void cli_watch_count(uint64_t done, uint64_t total);
+lrcs_progress *cli_watch_run(void);
 void cli_watch_end(void);
 
 /* "notice: ..." for each, on `out`. */

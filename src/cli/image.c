@@ -170,6 +170,7 @@ static int image_run(image_job *job)
     cli_watch_stage("preparing", &job->scene);
     int status = lrcs_host_scene_prepare(&job->scene, &error);
     cli_watch_stage("pose", NULL);
+    job->options.progress = cli_watch_run();
     if (status == LRCS_OK) {
         status =
             lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
@@ -228,7 +229,7 @@ static int image_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     int code = image_read(&job);
-    cli_watch_begin();
+    cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
     code = code ? code : cli_outputs_spare(args->command, job.file, IMAGE_FILES, &job.scene);
     code = code ? code : image_run(&job);

@@ -141,7 +141,10 @@ int main(int count, char **word)
     int code = cli_args_read(command, count - 2, word + 2, &args);
     code = code ? code : cli_outputs_places(&args);
     if (code == 0) {
-        code = cli_finish(command->run(&args));
+        cli_watch_begin(command->name);
+        code = command->run(&args);
+        cli_watch_end();
+        code = cli_finish(code);
     }
     free(args.given);
     return code;

@@ -173,6 +173,7 @@ static int merge_shards(const cli_args *args, const sweep_file *file, merge_shar
     for (int i = 0; i < args->given_count && code == 0; i++) {
         if (args->given[i].name[0] == '\0') {
             shard[count].path = args->given[i].value;
+            cli_watch_stage(shard[count].path, NULL);
             code = shard_read(&shard[count], &shard[0]);
             count++;
         }
@@ -183,6 +184,7 @@ static int merge_shards(const cli_args *args, const sweep_file *file, merge_shar
     }
     qsort(shard, (size_t)count, sizeof *shard, by_first);
     code = shards_check(shard, count);
+    cli_watch_stage("writing", NULL);
     return code ? code : merge_write(file, shard, count);
 }
 

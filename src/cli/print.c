@@ -23,18 +23,24 @@ void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE])
 }
 
 /* Columns are counted in code points: every byte but the trailing ones of UTF-8. */
-void cli_column(const char *text, int width)
+void cli_column_to(FILE *out, const char *text, int width)
 {
     for (; *text; text++) {
         unsigned char byte = (unsigned char)*text;
-        putchar(byte < 0x20 || byte == 0x7f ? '?' : *text);
+        putc(byte < 0x20 || byte == 0x7f ? '?' : *text, out);
         width -= (byte & 0xc0) != 0x80;
     }
-    printf("%*s", width > 0 ? width : 0, "");
+    fprintf(out, "%*s", width > 0 ? width : 0, "");
+}
+
+void cli_column(const char *text, int width)
+{
+    cli_column_to(stdout, text, width);
 }
 
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices)
 {
+    cli_watch_clear();
     for (uint32_t i = 0; i < notices->count; i++) {
         fprintf(out, "notice: %s\n", notices->text[i]);
     }

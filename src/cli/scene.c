@@ -268,6 +268,14 @@ static void brdf_put(const lrcs_material *material, FILE *out)
     number_put(out, "B", brdf->B);
     number_put(out, "s", brdf->s);
     number_put(out, "m", brdf->m);
+    const char *const key[4] = {"A_error", "B_error", "s_error", "m_error"};
+    const double deviation[4] = {material->error.A, material->error.B, material->error.s,
+                                 material->error.m};
+    for (int i = 0; i < 4; i++) {
+        if (deviation[i] > 0.0) {
+            number_put(out, key[i], deviation[i]);
+        }
+    }
 }
 
 /* The first material of each name: a name stands for all that have it. */
@@ -460,6 +468,7 @@ static int scene_command(const cli_args *args)
     code = code ? code : worn_count(&job);
     code = code ? code : scene_make(&job);
     code = code ? code : cli_output_write(job.path, text_write, &job);
+    cli_watch_end();
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which stage a command is in, for people at a terminal: a line on stderr from two seconds on,
-   renewed each second by a signal, and what a Ctrl-C leaves. It decides what is shown; sweeps have
-   a bar of their own. */
+   renewed each second by a signal, and what a Ctrl-C leaves. It decides what is shown; what is to
+   be computed in many poses has a bar of its own (sweep/progress.c). */
 #include "cli/cli.h"
 
 #include <signal.h>
@@ -16,6 +16,12 @@ static const char *volatile watch_stage;
 static const lrcs_host_scene *volatile watch_scene;
 static volatile sig_atomic_t watch_shown;
 static volatile sig_atomic_t watch_seconds;
+static volatile sig_atomic_t watch_running; /* a pose, which says how far it is */
+static volatile unsigned watch_done, watch_total;
+static lrcs_progress watch_progress;
+
+static const char watch_blank[] =
+    "\r                                                                      \r";
 
 /* Adds text to a line, as a handler may. */
 static size_t line_add(char *line, size_t used, size_t room, const char *text)
@@ -38,33 +44,54 @@ static size_t line_number(char *line, size_t used, size_t room, unsigned number)
     return line_add(line, used, room, digits + at);
 }
 
-/* "preparing, 3 of 5 stages done, 12 s". */
+static size_t line_of(char *line, size_t used, size_t room, unsigned done, unsigned total)
+{
+    used = line_add(line, used, room, ", ");
+    used = line_number(line, used, room, done);
+    used = line_add(line, used, room, " of ");
+    return line_number(line, used, room, total);
+}
+
+/* "preparing, 3 of 5 stages done, 12 s"; "pose: visibility, 41 %, 12 s". */
 static void tick(int number)
 {
-    static const char blank[] = "\r                                                  \r";
-    char line[100];
+    char line[160];
     size_t used = 0;
     const lrcs_host_scene *scene = watch_scene;
+    const char *stage = watch_stage;
+    const char *part = lrcs_progress_text((int)watch_progress.stage);
+    unsigned total = watch_progress.total;
     (void)number;
     watch_seconds = watch_seconds == 0 ? WATCH_AFTER : watch_seconds + 1;
-    used = line_add(line, used, sizeof line, blank);
-    used = line_add(line, used, sizeof line, watch_stage);
+    if (!stage) {
+        return;
+    }
+    used = line_add(line, used, sizeof line, watch_blank);
+    used = line_add(line, used, sizeof line, stage);
+    if (watch_total > 0) {
+        used = line_of(line, used, sizeof line, watch_done, watch_total);
+    }
     if (scene && !scene->prepared) {
         unsigned done = 0;
         while (done < LRCS_HOST_PREPARE_STAGES && scene->seconds_stage[done] > 0.0) {
             done++;
         }
-        used = line_add(line, used, sizeof line, ", ");
-        used = line_number(line, used, sizeof line, done);
-        used = line_add(line, used, sizeof line, " of 5 stages done");
+        used = line_of(line, used, sizeof line, done, LRCS_HOST_PREPARE_STAGES);
+        used = line_add(line, used, sizeof line, " stages done");
+    } else if (watch_running && part) {
+        used = line_add(line, used, sizeof line, ": ");
+        used = line_add(line, used, sizeof line, part);
+        if (total > 0) {
+            used = line_add(line, used, sizeof line, ", ");
+            used = line_number(line, used, sizeof line,
+                               (unsigned)(100.0 * watch_progress.done / total));
+            used = line_add(line, used, sizeof line, " %");
+        }
     }
     used = line_add(line, used, sizeof line, ", ");
     used = line_number(line, used, sizeof line, (unsigned)watch_seconds);
     used = line_add(line, used, sizeof line, " s");
-    watch_shown = 1;
-    if (write(STDERR_FILENO, line, used) < 0) {
-        watch_shown = 0;
-    }
+    watch_shown = write(STDERR_FILENO, line, used) >= 0;
 }
 
 /* A file appears when it is whole: there is nothing to save. */
@@ -85,7 +112,7 @@ static void timer_set(int first, int period)
     setitimer(ITIMER_REAL, &timer, NULL);
 }
 
-void cli_watch_begin(void)
+void cli_watch_begin(const char *stage)
 {
     struct sigaction action;
     struct sigaction before;
@@ -98,25 +125,52 @@ void cli_watch_begin(void)
     if (!isatty(STDERR_FILENO)) {
         return;
     }
-    _Static_assert(LRCS_HOST_PREPARE_STAGES == 5, "what the line says");
-    watch_stage = "loading";
+    watch_stage = stage;
     action.sa_handler = tick;
     sigaction(SIGALRM, &action, NULL);
     timer_set(WATCH_AFTER, 1);
 }
 
+/* What is shown disappears: something else comes to the terminal. */
+void cli_watch_clear(void)
+{
+    if (watch_shown) {
+        fputs(watch_blank, stderr);
+        fflush(stderr);
+    }
+    watch_shown = 0;
+}
+
 void cli_watch_stage(const char *stage, const lrcs_host_scene *scene)
 {
+    watch_stage = NULL; /* the rest belongs together */
+    watch_done = watch_total = 0;
+    watch_running = 0;
     watch_scene = scene;
     watch_stage = stage;
+    if (!stage) {
+        cli_watch_clear();
+    }
+}
+
+void cli_watch_count(uint64_t done, uint64_t total)
+{
+    watch_done = (unsigned)done;
+    watch_total = (unsigned)total;
+}
+
+lrcs_progress *cli_watch_run(void)
+{
+    watch_progress.stage = LRCS_PROGRESS_VIEW;
+    watch_progress.total = 0;
+    watch_running = 1;
+    return &watch_progress;
 }
 
 void cli_watch_end(void)
 {
-    timer_set(0, 0);
-    watch_scene = NULL;
-    if (watch_shown) {
-        fprintf(stderr, "\r%50s\r", "");
+    if (watch_stage) {
+        timer_set(0, 0);
     }
-    watch_shown = 0;
+    cli_watch_stage(NULL, NULL);
 }

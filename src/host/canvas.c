@@ -11,7 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CANVAS_SLICES 4 /* of a pixel's height, in areas */
+#define CANVAS_SLICES 4   /* of a pixel's height, in areas */
+#define STROKE_MOST   64  /* spots of a stroke: the font's longest has 44 */
+#define STROKE_PIECES 5   /* straight pieces from spot to spot */
+#define STROKE_CORNER 0.6 /* the cosine of a turn that is a corner */
 
 static uint32_t canvas_clamp(double value, uint32_t most)
 {
@@ -158,28 +161,82 @@ static void canvas_area(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t
     canvas_settle(canvas, colour);
 }
 
+/* The direction in which a curve through three spots passes the middle one, times a length; zero
+   where they make a corner. */
+static lrcsi_spot stroke_tangent(lrcsi_spot a, lrcsi_spot b, lrcsi_spot c)
+{
+    double in = hypot(b.x - a.x, b.y - a.y);
+    double out = hypot(c.x - b.x, c.y - b.y);
+    double cosine = ((b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y)) / (in * out);
+    if (!(cosine > STROKE_CORNER)) {
+        return (lrcsi_spot){0.0, 0.0};
+    }
+    /* of the parabola through them, over lengths of chords */
+    return (lrcsi_spot){((b.x - a.x) * out / in + (c.x - b.x) * in / out) / (in + out),
+                        ((b.y - a.y) * out / in + (c.y - b.y) * in / out) / (in + out)};
+}
+
+/* A stroke of a letter: the font gives spots on a curve, which cubics join where they turn little,
+   and corners, which stay corners. A straight piece between two corners stays straight. */
+static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_spot *spot, uint32_t count, double half)
+{
+    int closed = count > 3 && spot[0].x == spot[count - 1].x && spot[0].y == spot[count - 1].y;
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        lrcsi_spot a = spot[i];
+        lrcsi_spot b = spot[i + 1];
+        lrcsi_spot before = i > 0 ? spot[i - 1] : closed ? spot[count - 2] : a;
+        lrcsi_spot after = i + 2 < count ? spot[i + 2] : closed ? spot[1] : b;
+        double chord = hypot(b.x - a.x, b.y - a.y);
+        lrcsi_spot ta = stroke_tangent(before, a, b);
+        lrcsi_spot tb = stroke_tangent(a, b, after);
+        /* where only one end is on a curve, the other goes straight for what the first leaves */
+        if (ta.x == 0.0 && ta.y == 0.0) {
+            ta = (lrcsi_spot){1.5 * (b.x - a.x) / chord - 0.5 * tb.x,
+                              1.5 * (b.y - a.y) / chord - 0.5 * tb.y};
+        }
+        if (tb.x == 0.0 && tb.y == 0.0) {
+            tb = (lrcsi_spot){1.5 * (b.x - a.x) / chord - 0.5 * ta.x,
+                              1.5 * (b.y - a.y) / chord - 0.5 * ta.y};
+        }
+        lrcsi_spot last = a;
+        for (int k = 1; k <= STROKE_PIECES && chord > 0.0; k++) {
+            double t = (double)k / STROKE_PIECES;
+            double fa = t * (1.0 - t) * (1.0 - t) * chord; /* Hermite's cubics */
+            double fb = t * t * (t - 1.0) * chord;
+            double to = t * t * (3.0 - 2.0 * t);
+            lrcsi_spot next = {a.x + to * (b.x - a.x) + fa * ta.x + fb * tb.x,
+                               a.y + to * (b.y - a.y) + fa * ta.y + fb * tb.y};
+            canvas_piece(canvas, last, next, half);
+            last = next;
+        }
+    }
+}
+
 /* One text from a spot on the base line, in pixels. */
 static void canvas_letters(lrcsi_canvas *canvas, const char *text, lrcsi_spot from, double size,
                            int upwards, double half)
 {
     lrcsi_letters letters = {text, NULL, 0.0};
-    lrcsi_spot last = from;
+    lrcsi_spot stroke[STROKE_MOST];
     lrcsi_spot at;
+    uint32_t count = 0;
     for (int move; (move = lrcsi_letters_next(&letters, &at)) != LRCSI_LETTERS_END;) {
-        lrcsi_spot next = {from.x + size * (upwards ? -at.y : at.x),
-                           from.y - size * (upwards ? at.x : at.y)};
-        if (move == LRCSI_LETTERS_DRAW) {
-            canvas_piece(canvas, last, next, half);
+        if (move == LRCSI_LETTERS_JUMP || count == STROKE_MOST) {
+            canvas_stroke(canvas, stroke, count, half);
+            stroke[0] = count == STROKE_MOST ? stroke[count - 1] : stroke[0];
+            count = count == STROKE_MOST && move == LRCSI_LETTERS_DRAW ? 1 : 0;
         }
-        last = next;
+        stroke[count++] = (lrcsi_spot){from.x + size * (upwards ? -at.y : at.x),
+                                       from.y - size * (upwards ? at.x : at.y)};
     }
+    canvas_stroke(canvas, stroke, count, half);
 }
 
 static void canvas_text(lrcsi_plotter *plotter, const lrcsi_words *words)
 {
     lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
     double size = words->size * canvas->scale;
-    double half = size * (words->bold ? 0.056 : 0.036);
+    double half = size * (words->bold ? 0.062 : 0.041);
     double width = size * lrcsi_letters_width(words->text);
     double raised = words->raised ? 0.75 * size * lrcsi_letters_width(words->raised) : 0.0;
     double back = 0.5 * words->anchor * (width + raised);

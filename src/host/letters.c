@@ -111,6 +111,9 @@ static const char *const letter_strokes[] = {
 
 #define LETTER_EM   29.0 /* capitals are 0.72 em high */
 #define LETTER_BASE 9
+/* The font was made for wide plotters: so narrow it is as wide as a common sans serif. */
+#define LETTER_NARROW 0.92
+#define LETTER_SPACE  0.33 /* em */
 
 /* What the font lacks is a question mark, once for all bytes of a UTF-8 sequence. */
 static const char *letter_find(char letter)
@@ -123,7 +126,9 @@ static const char *letter_find(char letter)
 
 static double letter_width(const char *strokes)
 {
-    return strokes ? (strokes[1] - strokes[0]) / LETTER_EM : 0.0;
+    return !strokes                       ? 0.0
+           : strokes == letter_strokes[0] ? LETTER_SPACE
+                                          : LETTER_NARROW * (strokes[1] - strokes[0]) / LETTER_EM;
 }
 
 double lrcsi_letters_width(const char *text)
@@ -148,7 +153,7 @@ int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_spot *spot)
             move = LRCSI_LETTERS_JUMP;
         }
         if (strokes && *letters->at) {
-            spot->x = letters->x + (letters->at[0] - strokes[0]) / LETTER_EM;
+            spot->x = letters->x + LETTER_NARROW * (letters->at[0] - strokes[0]) / LETTER_EM;
             spot->y = (LETTER_BASE - (letters->at[1] - 'R')) / LETTER_EM;
             letters->at += 2;
             return move;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The picture of a run as pixels: where the drawing stands among them, and how cells of the run's
    image become smooth. What colours mean is look.c, the strip below it legend.c. */
+#include "host/annotate.h"
 #include "host/canvas.h"
 #include "host/legend.h"
 #include "host/palette.h"
@@ -18,6 +19,7 @@ typedef struct picture_layout {
     uint32_t left, top, side; /* the drawing */
     double unit;              /* pixels a unit of the paper */
     double legend;            /* its height, units; 0: none */
+    double title;             /* likewise, above the drawing */
 } picture_layout;
 
 static picture_layout picture_place(const lrcs_host_picture *picture, uint32_t size)
@@ -31,11 +33,12 @@ static picture_layout picture_place(const lrcs_host_picture *picture, uint32_t s
         lrcsi_colouring colouring = lrcsi_colouring_make(&plain);
         double side = size / at.unit;
         at.legend = lrcsi_legend_height(&colouring, side, LEGEND_SHARE * side);
-        strip = (uint32_t)lround(at.legend * at.unit);
+        at.title = picture->annotated ? LRCSI_ANNOTATE_TITLE : 0.0;
+        strip = (uint32_t)lround((at.legend + at.title) * at.unit);
     }
     at.side = size - 2 * margin - strip;
     at.left = (size - at.side) / 2;
-    at.top = margin;
+    at.top = margin + (uint32_t)lround(at.title * at.unit);
     return at;
 }
 
@@ -92,6 +95,12 @@ static void picture_draw(const lrcsi_colouring *colouring, const lrcs_image *ima
             size_t pixel = (size_t)(at->top + y) * size + at->left + x;
             pixel_make(colouring, image, x, y, canvas->rgb + 3 * pixel);
         }
+    }
+    if (at->title > 0.0) {
+        const lrcsi_spot corner = {(at->left + 0.09 * at->side) / at->unit,
+                                   (at->top + 0.91 * at->side) / at->unit};
+        lrcsi_annotate(colouring, &canvas->plotter, size / at->unit, corner,
+                       0.06 * at->side / at->unit);
     }
     if (at->legend > 0.0) {
         double side = size / at->unit;

@@ -166,6 +166,7 @@ void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_curving *how,
     curve_all all = all_make(view, how);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
+        lrcsi_view_progress(view, LRCS_PROGRESS_INTEGRATE, f, view->prepared->scene->facet_count);
         if (lrcsi_curve_wanted(view, f)) {
             job_start(&job, &all, f);
             curved[f] = curve_share(&job, &visible[f]);
@@ -266,6 +267,8 @@ int lrcsi_curve_pieces(lrcsi_classification *classification, const lrcsi_curving
         int wanted = lrcsi_curve_wanted(view, f);
         int parted = sampled && classification->undecided[f] && visible[f].low < visible[f].high;
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
+        lrcsi_view_progress(view, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f,
+                            view->prepared->scene->facet_count);
         if (wanted) {
             job_start(&job, &all, f);
         }

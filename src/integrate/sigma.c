@@ -52,7 +52,7 @@ typedef struct sigma_run {
 
 lrcs_run_options lrcs_run_options_default(void)
 {
-    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0, LRCS_ACCEPT_BOUND};
+    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0, LRCS_ACCEPT_BOUND, NULL};
 }
 
 static int run_check(const lrcs_run_options *options, const lrcs_image *image)
@@ -159,6 +159,7 @@ static int run_image(sigma_run *run)
 static void run_total(sigma_run *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer};
+    lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
     run->total = lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->doubt,
                                   &run->clear, records);
 }
@@ -300,6 +301,7 @@ static int run_classify(sigma_run *run)
     if (run->undecided) {
         return LRCS_OK;
     }
+    lrcsi_view_progress(&run->view, LRCS_PROGRESS_CLASSIFY, 0, 0);
     int status = lrcsi_classify_make(&run->view, run->work, &run->classification);
     if (status == LRCS_OK && p->proximity.reach && (run->view.backs_cast || p->solid)) {
         status = lrcsi_proximity_band_make(&run->classification, run->work, &run->margin);
@@ -531,6 +533,7 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
     if (status != LRCS_OK || run->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;
     }
+    lrcsi_view_progress(&run->view, LRCS_PROGRESS_VISIBILITY, 0, 0);
     status = run_method(run, options);
     if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
         run->plan.method == LRCS_METHOD_ZBUFFER && !run->meter.spent &&
@@ -608,6 +611,8 @@ static int run_stages(sigma_run *run, const lrcs_prepared *prepared, const lrcs_
     int status = lrcsi_view_face(prepared, pose, run->work, &run->view);
     if (status == LRCS_OK) {
         run->view.meter = &run->meter;
+        run->view.progress = options->progress;
+        lrcsi_view_progress(&run->view, LRCS_PROGRESS_VIEW, 0, 0);
         lrcsi_plan_backs(options, &run->view);
         status = options->method == LRCS_METHOD_AUTO
                      ? lrcsi_clear_make(&run->view, run->work, &run->clear)

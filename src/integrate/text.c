@@ -36,6 +36,12 @@ int lrcs_accept_find(const char *name)
     return LRCS_E_NAME;
 }
 
+const char *lrcs_progress_text(int stage)
+{
+    static const char *const text[] = {"view", "classification", "visibility", "integration"};
+    return stage >= 0 && stage <= LRCS_PROGRESS_INTEGRATE ? text[stage] : NULL;
+}
+
 const char *lrcs_effect_text(int effect)
 {
     static const char *const text[LRCS_EFFECTS] = {

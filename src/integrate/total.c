@@ -356,8 +356,9 @@ typedef struct total_batch {
     uint32_t place[2 * LRCSI_LANES];
     double side[2 * LRCSI_LANES]; /* 1; where back sides reflect, -1 for those */
     lrcsi_shades shades;
-    double area[LRCSI_LANES]; /* visible; by method facet S, then S cos(theta) */
-    double most[LRCSI_LANES]; /* that may be visible; unused by method facet */
+    double area[LRCSI_LANES]; /* visible; of one that is visible whole S, then S cos(theta) */
+    double most[LRCSI_LANES]; /* that may be visible; of one that is visible whole 0 at first */
+    int whole[LRCSI_LANES];   /* all of it is visible, or by method facet counts as that */
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
 } total_batch;
@@ -385,16 +386,23 @@ static void block_gather(const total_job *job, total_batch *batch, uint32_t coun
         shades->normal[1][i] *= batch->side[i];
         shades->normal[2][i] *= batch->side[i];
     }
+    for (uint32_t i = 0; i < LRCSI_LANES; i++) {
+        batch->most[i] = 0;
+        batch->whole[i] = 1;
+    }
     for (uint32_t i = 0; job->visible && i < count; i++) {
         uint32_t facet = b->facet[batch->place[i]];
-        batch->area[i] = facet_area(job, facet);
-        batch->most[i] = facet_answered(job, facet) ? batch->area[i] : job->visible[facet].high;
+        if (!facet_answered(job, facet)) {
+            batch->area[i] = job->visible[facet].area;
+            batch->most[i] = job->visible[facet].high;
+            batch->whole[i] = 0;
+        }
     }
     for (uint32_t i = count; i < LRCSI_LANES; i++) {
         for (int k = 0; k < 3; k++) {
             shades->normal[k][i] = view->unit[k];
         }
-        batch->area[i] = batch->most[i] = 0;
+        batch->area[i] = 0;
     }
 }
 
@@ -422,29 +430,27 @@ static void block_doubts(total_job *job, const total_batch *batch, uint32_t coun
 /* Eq. 2 for one block, the first LRCSI_LANES facets that wait:
    1. normals and visible areas;
    2. 4 pi f_r cos(theta), with errors;
-   3. by method facet all of S cos(theta) is visible;
+   3. of those that are visible whole all of S cos(theta) is;
    4. each product with the area joins the sums;
    5. records, and what is doubtful about visible areas. */
 static void block_run(total_job *job, total_batch *batch)
 {
     const lrcsi_view *view = job->view;
     lrcsi_shades *shades = &batch->shades;
-    const double *most = job->visible ? batch->most : batch->area;
     uint32_t count = batch->waiting < LRCSI_LANES ? batch->waiting : LRCSI_LANES;
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
     double error[LRCSI_LANES];
     block_gather(job, batch, count);
     lrcsi_shade(&batch->lobes, view->unit, view->unit_low, shades);
-    if (!job->visible) {
-        for (int i = 0; i < LRCSI_LANES; i++) {
-            batch->area[i] *= shades->cosine[i];
-        }
+    for (int i = 0; i < LRCSI_LANES; i++) {
+        batch->area[i] *= batch->whole[i] ? shades->cosine[i] : 1;
+        batch->most[i] = lrcsi_most(batch->most[i], batch->area[i]);
     }
     for (int i = 0; i < LRCSI_LANES; i++) {
         glint[i] = shades->glint[i] * batch->area[i];
         diffuse[i] = shades->diffuse[i] * batch->area[i];
-        error[i] = shades->error[i] * most[i];
+        error[i] = shades->error[i] * batch->most[i];
     }
     lrcsi_sum_lanes_add(&batch->glint, glint);
     lrcsi_sum_lanes_add(&batch->diffuse, diffuse);

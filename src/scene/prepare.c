@@ -311,7 +311,8 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
     return status == LRCS_OK ? lrcsi_coincident_touches(p, work) : status;
 }
 
-/* Whether the scene is solid, and then convex: one piece of surface, as a convex body is. */
+/* Whether the scene is solid, and then convex: one piece of surface, as a convex body is. Then the
+   runs of its facets. */
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
     int status = LRCS_OK;
@@ -327,7 +328,7 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     if (status == LRCS_OK && p->curved) {
         status = lrcsi_extents_make(p, work);
     }
-    return status;
+    return status == LRCS_OK ? lrcsi_runs_make(p, work, &p->runs) : status;
 }
 
 /* Of the last stages only the largest counts: each gives back what it does not leave. Facets'
@@ -364,6 +365,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 1));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(contacts, sizeof(lrcsi_intersection)));
     need = lrcsi_work_add(need, search > proof ? search : proof);
+    need = lrcsi_work_add(need, lrcsi_runs_need(scene->facet_count));
     return need > coincident ? need : coincident;
 }
 

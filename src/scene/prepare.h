@@ -14,6 +14,7 @@
 #include "scene/batch.h"
 #include "scene/extent.h"
 #include "scene/proximity.h"
+#include "scene/runs.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
    (base/exact.h) ask for that. */
@@ -49,6 +50,7 @@ struct lrcs_prepared {
     lrcsi_across across;     /* across the sides of facets that are not redundant */
     lrcsi_intersections
         intersections;  /* between facets that are not redundant, but not between twins */
+    lrcsi_runs runs;    /* facets that follow one another */
     uint32_t *piece;    /* facet: its piece of surface (scene/solid.h), where all are closed;
                            else NULL */
     double centre[3];   /* of the box around the live facets */

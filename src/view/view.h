@@ -42,7 +42,19 @@ typedef struct lrcsi_view {
                              proved to show none, unless the options request them */
     int backs_reflect;    /* 1: they reflect if their material is two-sided */
     lrcsi_meter *meter;   /* limit on the steps of the visibility computation; NULL: none */
+    lrcs_progress *progress; /* where a run says how far it is; NULL: nowhere */
 } lrcsi_view;
+
+/* Says that a run has done so many of so many parts of a stage (lrcs_progress_stage). */
+static inline void lrcsi_view_progress(const lrcsi_view *view, int stage, uint32_t done,
+                                       uint32_t total)
+{
+    if (view->progress) {
+        view->progress->stage = (uint32_t)stage;
+        view->progress->done = done;
+        view->progress->total = total;
+    }
+}
 
 /* A view without coordinates (point, scale and the window), which method facet does not need;
    lrcsi_view_project adds them. Status: LRCS_OK; LRCS_E_MEMORY; those of lrcsi_frame_make;

@@ -713,7 +713,7 @@ static uint32_t sides_room(const lrcs_prepared *p)
 static size_t segments_most(const lrcs_prepared *p, size_t events)
 {
     size_t most = 0;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+    for (uint32_t f = 0; p->intersections.count > 0 && f < p->scene->facet_count; f++) {
         size_t count = lrcsi_intersection_of(&p->intersections, f);
         most = count > most ? count : most;
     }

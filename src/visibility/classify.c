@@ -147,9 +147,10 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
 {
     const lrcsi_view *view = classification->view;
     const lrcsi_grid *grid = &classification->grid;
-    const crossing_ask ask = crossing_ask_of(view, facet);
-    const lrcsi_view_box box = classification->box[facet];
-    const lrcsi_cells cells = classification->cells[facet];
+    crossing_ask ask; /* made where it is first needed */
+    int asking = 0;
+    const lrcsi_view_box box = classification->boxes.facet[facet];
+    const lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
     const uint32_t allowed = steps_allowed(view->meter, *steps);
     const uint32_t asked = ++classification->asked;
     uint32_t left = allowed;
@@ -173,6 +174,10 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
                     continue;
                 }
                 event->asked = asked;
+                if (!asking) {
+                    ask = crossing_ask_of(view, facet);
+                    asking = 1;
+                }
                 if (edge_crosses(view, &ask, event->edge, &classification->along)) {
                     classification->crossing[count++] = event->edge;
                 }
@@ -257,8 +262,10 @@ static int events_sort(lrcsi_classification *c, lrcs_work *work)
     }
     for (uint32_t i = 0; i < count; i++) {
         const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
-        const uint32_t ends[2] = {edge->low, edge->high};
-        key[i] = depth_key(lrcsi_view_box_of(view, ends, 2).high[2]);
+        const double *p = view->point[edge->low].x;
+        const double *q = view->point[edge->high].x;
+        double high = lrcsi_most(p[2] + lrcsi_view_off(p), q[2] + lrcsi_view_off(q));
+        key[i] = depth_key(lrcsi_view_box_float(high * view->scale)); /* as in their boxes */
     }
     lrcsi_sort_pairs(key, c->events.edge, key_spare, spare, count);
     work->used = mark;
@@ -284,46 +291,80 @@ static int events_file(lrcsi_classification *c, lrcs_work *work)
         const uint32_t ends[2] = {edge->low, edge->high};
         *event = (lrcsi_event_box){lrcsi_view_box_of(view, ends, 2), c->events.edge[i], 0};
     }
-    return lrcsi_grid_edges(c->events.edge, count, events_most(view->prepared), work, &c->grid,
-                            c->cells);
+    return LRCS_OK;
 }
 
-/* Which way the facets face that can hide something, where they stand, and which cells they touch.
- */
-static void facets_cast(lrcsi_classification *c)
+/* May no event cross any facet of a run? Where its box is in so many cells that asking each facet
+   costs less, or lists are long, that is not known. */
+static int run_clear(const lrcsi_classification *c, uint32_t run)
 {
-    const lrcsi_view *view = c->view;
-    uint32_t count = view->prepared->scene->facet_count;
-    for (uint32_t f = 0; f < count; f++) {
-        c->joinable[f] = 0;
-        if (lrcsi_grid_casts(view, f)) {
-            c->box[f] = lrcsi_view_box_of(view, view->prepared->scene->facet[f].corner, 3);
-            c->cells[f] = lrcsi_grid_cells(&c->grid, &c->box[f]);
-            c->joinable[f] = view->facing[f];
-        }
+    const lrcsi_grid *grid = &c->grid;
+    const lrcsi_view_box box = c->boxes.run[run];
+    lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+    uint32_t steps = MOST_ASKED;
+    if ((cells.x1 - cells.x0) * (cells.y1 - cells.y0) > (int)(LRCSI_RUN * LRCSI_GRID_FACET_CELLS)) {
+        return 0;
     }
-    c->joinable[count] = 0;
-    lrcsi_grid_fit(&c->grid, c->cells);
-}
-
-/* Which facets are undecided, and which of the others are alone in their region. */
-static void facets_decide(lrcsi_classification *c)
-{
-    const lrcs_prepared *p = c->view->prepared;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        if (c->joinable[f] != 0) {
-            uint32_t steps = MOST_ASKED;
-            c->along = 0;
-            c->undecided[f] =
-                intersection_divides(c->view, f) ||
-                (lrcsi_grid_any(&c->grid, c->cells[f]) && crossings_find(c, f, 1, &steps) > 0) ||
-                steps == 0 || lrcsi_meter_spent(c->view->meter);
-            c->undecided_count += c->undecided[f];
-            if (c->undecided[f] || c->along || p->intersections.rim[f]) {
-                c->joinable[f] = 0;
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        const uint32_t *row = grid->first + (size_t)y * grid->size;
+        for (uint32_t x = cells.x0; x < cells.x1; x++) {
+            for (uint32_t i = row[x]; i < row[x + 1]; i++) {
+                const lrcsi_view_box *event = &c->event[grid->item[i]].box;
+                if (steps-- == 0 || !lrcsi_meter_take(c->view->meter, 1)) {
+                    return 0;
+                }
+                if (lrcsi_view_box_behind(event, &box)) {
+                    break;
+                }
+                if (!lrcsi_view_box_beside(event, &box)) {
+                    return 0;
+                }
             }
         }
     }
+    return 1;
+}
+
+/* Whether a facet is undecided; and if not, whether it is alone in its region. */
+static void facet_decide(lrcsi_classification *c, uint32_t f)
+{
+    uint32_t steps = MOST_ASKED;
+    c->along = 0;
+    c->undecided[f] = intersection_divides(c->view, f) ||
+                      (lrcsi_grid_any(&c->grid, lrcsi_grid_cells(&c->grid, &c->boxes.facet[f])) &&
+                       crossings_find(c, f, 1, &steps) > 0) ||
+                      steps == 0 || lrcsi_meter_spent(c->view->meter);
+    c->undecided_count += c->undecided[f];
+    if (c->undecided[f] || c->along || c->view->prepared->intersections.rim[f]) {
+        c->joinable[f] = 0;
+    }
+}
+
+/* Which facets are undecided: none of a run that meets no contact and that no event may cross; of
+   others each is asked. The grid of events then has no more cells than serve those. */
+static int facets_decide(lrcsi_classification *c, lrcs_work *work)
+{
+    const lrcs_prepared *p = c->view->prepared;
+    size_t mark = work->used;
+    int status = lrcsi_grid_edges(c->events.edge, c->events.count, events_most(p), work, &c->grid);
+    for (uint32_t r = 0; r < p->runs.count && status == LRCS_OK; r++) {
+        if (c->boxes.state[r] == LRCSI_BOXES_RUN && (p->runs.run[r].touched || !run_clear(c, r))) {
+            lrcsi_boxes_open(&c->boxes, r);
+        }
+    }
+    if (status == LRCS_OK && lrcsi_grid_fit(&c->grid, &c->boxes)) {
+        work->used = mark;
+        status = lrcsi_grid_edges(c->events.edge, c->events.count, events_most(p), work, &c->grid);
+    }
+    for (uint32_t r = 0; r < p->runs.count && status == LRCS_OK; r++) {
+        uint32_t end = lrcsi_run_end(r * LRCSI_RUN, p->scene->facet_count);
+        for (uint32_t f = r * LRCSI_RUN; f < end && c->boxes.state[r] == LRCSI_BOXES_FACETS; f++) {
+            if (c->joinable[f] != 0) {
+                facet_decide(c, f);
+            }
+        }
+    }
+    return status;
 }
 
 void lrcsi_classify_regions(const lrcsi_classification *classification)
@@ -337,41 +378,44 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_view_box)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells)));
+    need = lrcsi_work_add(need, lrcsi_boxes_need(prepared));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_event_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_grid_need(facets, events_most(prepared)));
 }
 
-/* Grids have a cell or so for every facet that faces either way, unless facets are large: then most
-   facets meet no event's cell, and need no further look. */
+/* Grids have a cell or so for every facet that may cast, unless facets are large: then most facets
+   meet no event's cell, and need no further look. */
 int lrcsi_classify_make(const lrcsi_view *view, lrcs_work *work,
                         lrcsi_classification *classification)
 {
     size_t mark = work->used;
     uint32_t count = view->prepared->scene->facet_count;
     lrcsi_classification c = {.view = view, .crossed = LRCS_NONE};
-    c.grid = lrcsi_grid_empty(view, view->front + view->back);
+    c.grid = lrcsi_grid_empty(view, view->front + (view->backs_cast ? view->back : 0));
     c.undecided = lrcsi_work_take_zero(work, count, 1);
     c.joinable = lrcsi_work_take(work, (size_t)count + 1, 1);
     c.component = lrcsi_work_take(work, count, sizeof *c.component);
     c.region = lrcsi_work_take(work, count, sizeof *c.region);
-    c.grid.box = c.box = lrcsi_work_take(work, count, sizeof *c.box);
-    c.cells = lrcsi_work_take(work, count, sizeof *c.cells);
-    int status = LRCS_E_MEMORY;
-    if (c.undecided && c.joinable && c.component && c.region && c.box && c.cells) {
-        facets_cast(&c);
-        status = lrcsi_events_make(view, c.joinable, work, &c.events);
-        status = status == LRCS_OK ? events_file(&c, work) : status;
+    int status = c.undecided && c.joinable && c.component && c.region ? LRCS_OK : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        for (uint32_t f = 0; f < count; f++) {
+            c.joinable[f] = lrcsi_grid_casts(view, f) ? view->facing[f] : 0;
+        }
+        c.joinable[count] = 0;
+        status = lrcsi_boxes_make(view, c.joinable, work, &c.boxes);
+    }
+    status = status == LRCS_OK ? lrcsi_events_make(view, c.joinable, work, &c.events) : status;
+    status = status == LRCS_OK ? events_file(&c, work) : status;
+    if (status == LRCS_OK) {
+        lrcsi_events_join(view, c.joinable, c.component);
+        status = facets_decide(&c, work);
     }
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    lrcsi_events_join(view, c.joinable, c.component);
-    facets_decide(&c);
     *classification = c;
     return LRCS_OK;
 }

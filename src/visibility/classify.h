@@ -37,8 +37,7 @@ typedef struct lrcsi_classification {
     lrcsi_events events;
     lrcsi_event_box *event; /* one for each */
     lrcsi_grid grid;        /* of events */
-    lrcsi_view_box *box;    /* facet -> its box, if it casts */
-    lrcsi_cells *cells;     /* facet -> the cells of the grid that it touches, likewise */
+    lrcsi_boxes boxes;      /* of facets: of undecided ones, and of others that were asked about */
     uint32_t asked;         /* scratch: searches so far */
     int along;              /* scratch: the last search met an event along a side of the facet */
     uint32_t *crossing;     /* scratch: what crosses facet `crossed`, `crossings` of them */

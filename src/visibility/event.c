@@ -3,6 +3,8 @@
    What they cross is decided elsewhere. */
 #include "visibility/event.h"
 
+#include <string.h>
+
 #include "base/join.h"
 #include "base/work.h"
 #include "visibility/grid.h"
@@ -46,16 +48,33 @@ static void mark_edge_event(uint32_t *mark, uint32_t edge)
     mark[edge / MARK_BITS] |= (uint32_t)1 << edge % MARK_BITS;
 }
 
+/* Do the facets of a run all have the same value? */
+static int run_alike(const signed char *value, uint32_t start, uint32_t end)
+{
+    return memcmp(value + start, value + start + 1, end - start - 1) == 0;
+}
+
 /* Across a plain edge (scene/across.h) two facets continue each other where both cast and face the
-   same way; where one casts, it finds the event. */
+   same way. Within a run of facets that cast alike there are no events. */
 static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
 {
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        const uint32_t *across = p->across.facet[f].corner;
-        for (int k = 0; k < 3 && cast[f] != 0; k++) {
-            if (cast[across[k]] != cast[f]) {
-                mark_edge_event(mark, p->topology.facet_edge[f].corner[k]);
+    uint32_t count = p->scene->facet_count;
+    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
+        uint32_t end = lrcsi_run_end(start, count);
+        for (uint32_t f = start; f < end && !run_alike(cast, start, end); f++) {
+            for (int k = 0; k < 3; k++) {
+                uint32_t other = p->across.facet[f].corner[k];
+                if (other >= start && other < end && cast[f] != 0 && cast[other] != cast[f]) {
+                    mark_edge_event(mark, p->topology.facet_edge[f].corner[k]);
+                }
             }
+        }
+    }
+    const lrcsi_run_side *side = p->runs.side;
+    for (uint32_t i = p->runs.run[p->runs.count].first_side; i > 0; i--, side++) {
+        if (cast[side->facet] != cast[side->other] &&
+            (cast[side->facet] != 0 || side->other < side->facet)) {
+            mark_edge_event(mark, side->edge);
         }
     }
 }
@@ -117,12 +136,35 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t count = p->scene->facet_count;
-    for (uint32_t f = 0; f < count; f++) {
-        group[f] = f;
-        for (int k = 0; k < 3 && joinable[f] != 0; k++) {
-            uint32_t other = p->across.facet[f].corner[k];
-            if (other < f && joinable[other] == joinable[f] && group[other] != group[f]) {
-                lrcsi_join(group, other, f);
+    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
+        uint32_t end = lrcsi_run_end(start, count);
+        if (run_alike(joinable, start, end) && joinable[start] != 0) {
+            for (uint32_t f = start; f < end; f++) {
+                group[f] = start + p->runs.first[f];
+            }
+            continue;
+        }
+        for (uint32_t f = start; f < end; f++) {
+            group[f] = f;
+            for (int k = 0; k < 3 && joinable[f] != 0; k++) {
+                uint32_t other = p->across.facet[f].corner[k];
+                if (other >= start && other < f && joinable[other] == joinable[f]) {
+                    lrcsi_join(group, other, f);
+                }
+            }
+        }
+    }
+    const lrcsi_run_side *side = p->runs.side;
+    uint32_t last[2] = {0, 0}; /* the groups joined last: runs mostly meet along many sides */
+    for (uint32_t i = p->runs.run[p->runs.count].first_side; i > 0; i--, side++) {
+        if (side->other < side->facet && joinable[side->facet] != 0 &&
+            joinable[side->other] == joinable[side->facet]) {
+            uint32_t a = group[side->other];
+            uint32_t b = group[side->facet];
+            if (a != b && (a != last[0] || b != last[1])) {
+                lrcsi_join(group, a, b);
+                last[0] = a;
+                last[1] = b;
             }
         }
     }

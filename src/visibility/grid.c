@@ -57,20 +57,12 @@ lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells)
 /* Doubles the grid's cells; it has no lists then. Halving the scale is exact (but for numbers so
    small that they stand in cell 0 either way), so that coordinates find half their old cell,
    rounded down. */
-static void grid_coarsen(lrcsi_grid *grid, lrcsi_cells *cells)
+static void grid_coarsen(lrcsi_grid *grid)
 {
     grid->first = grid->item = NULL;
     grid->size = (grid->size + 1) / 2;
     grid->scale /= 2;
     grid->last = grid->size - 1.0;
-    for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count && cells; f++) {
-        if (lrcsi_grid_casts(grid->view, f)) {
-            cells[f] = (lrcsi_cells){.x0 = cells[f].x0 / 2u,
-                                     .x1 = (uint16_t)((cells[f].x1 + 1u) / 2),
-                                     .y0 = cells[f].y0 / 2u,
-                                     .y1 = (uint16_t)((cells[f].y1 + 1u) / 2)};
-        }
-    }
 }
 
 static size_t grid_count(const lrcsi_grid *grid)
@@ -224,14 +216,14 @@ static int grid_put_edges(lrcsi_grid *grid, const uint32_t *edge, uint32_t count
 
 /* In one cell each edge is listed once: that is not too often. */
 int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_work *work,
-                     lrcsi_grid *grid, lrcsi_cells *cells)
+                     lrcsi_grid *grid)
 {
     size_t mark = work->used;
     most = most > count ? most : count;
     int status = grid_start(grid, work);
     while (status == LRCS_OK && !grid_put_edges(grid, edge, count, most)) {
         work->used = mark;
-        grid_coarsen(grid, cells);
+        grid_coarsen(grid);
         status = grid_start(grid, work);
     }
     status = status == LRCS_OK ? grid_room(work, grid) : status;
@@ -244,27 +236,30 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* How many cells the facets fill that can hide something, counted once for each; and how many those
-   facets are. */
-static uint64_t cells_filled(const lrcsi_view *view, const lrcsi_cells *cells, uint32_t *facets)
+static uint64_t cells_count(lrcsi_cells cells)
 {
-    uint64_t filled = 0;
-    *facets = 0;
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        if (lrcsi_grid_casts(view, f)) {
-            filled += (uint64_t)(cells[f].x1 - cells[f].x0) * (cells[f].y1 - cells[f].y0);
-            *facets += 1;
-        }
-    }
-    return filled;
+    return (uint64_t)(cells.x1 - cells.x0) * (cells.y1 - cells.y0);
 }
 
 /* In one cell each facet is listed once, so that this ends. */
-void lrcsi_grid_fit(lrcsi_grid *grid, lrcsi_cells *cells)
+int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
 {
-    uint32_t facets;
-    while (cells_filled(grid->view, cells, &facets) > (uint64_t)LRCSI_GRID_FACET_CELLS * facets) {
-        grid_coarsen(grid, cells);
+    uint32_t count = grid->view->prepared->scene->facet_count;
+    for (int fits = 0;; fits++) {
+        uint64_t filled = 0;
+        uint64_t facets = 0;
+        for (uint32_t f = 0; f < count; f++) {
+            if (boxes->state[f / LRCSI_RUN] != LRCSI_BOXES_FACETS) {
+                f += LRCSI_RUN - 1;
+            } else if (lrcsi_grid_casts(grid->view, f)) {
+                filled += cells_count(lrcsi_grid_cells(grid, &boxes->facet[f]));
+                facets++;
+            }
+        }
+        if (filled <= LRCSI_GRID_FACET_CELLS * facets) {
+            return fits > 0;
+        }
+        grid_coarsen(grid);
     }
 }
 
@@ -312,31 +307,8 @@ static int want_meets(grid_want want, lrcsi_cells cells)
     return 0;
 }
 
-static void grid_put_facet(lrcsi_grid *grid, uint32_t facet, lrcsi_cells cells)
-{
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        grid_put(grid, y, cells.x0, cells.x1, facet);
-    }
-}
-
-static int grid_fill_facets(lrcsi_grid *grid, const lrcsi_cells *cells, grid_want want,
-                            lrcs_work *work)
-{
-    int status = grid_start(grid, work);
-    for (int pass = 0; pass < 2 && status == LRCS_OK; pass++) {
-        for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count; f++) {
-            if (lrcsi_grid_casts(grid->view, f) && (!want.bit || want_meets(want, cells[f]))) {
-                grid_put_facet(grid, f, cells[f]);
-            }
-        }
-        if (pass == 0) {
-            status = grid_room(work, grid);
-        }
-    }
-    return status;
-}
-
-static int want_make(const lrcsi_grid *grid, const lrcsi_cells *cells, const unsigned char *wanted,
+/* Finds the cells that are wanted. */
+static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes, const unsigned char *wanted,
                      lrcs_work *work, grid_want *want)
 {
     *want = (grid_want){NULL, (grid->size + WANT_BITS - 1) / WANT_BITS};
@@ -346,25 +318,67 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_cells *cells, const uns
     want->bit = lrcsi_work_take_zero(work, want->words * grid->size, sizeof *want->bit);
     for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count && want->bit; f++) {
         if (wanted[f] != 0 && lrcsi_grid_casts(grid->view, f)) {
-            want_facet(want, cells[f]);
+            lrcsi_boxes_open(boxes, f / LRCSI_RUN);
+            want_facet(want, lrcsi_grid_cells(grid, &boxes->facet[f]));
         }
     }
     return want->bit ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_cells *cells, const unsigned char *wanted,
+/* Counts the facets of runs that stand where they are wanted, or files them. Returns how often they
+   are listed. */
+static uint64_t grid_put_facets(lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_want want)
+{
+    uint64_t listed = 0;
+    uint32_t count = grid->view->prepared->scene->facet_count;
+    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
+        uint32_t run = start / LRCSI_RUN;
+        if (boxes->state[run] == LRCSI_BOXES_NONE ||
+            (want.bit && !want_meets(want, lrcsi_grid_cells(grid, &boxes->run[run])))) {
+            continue;
+        }
+        lrcsi_boxes_open(boxes, run);
+        uint32_t end = lrcsi_run_end(start, count);
+        for (uint32_t f = start; f < end; f++) {
+            if (!lrcsi_grid_casts(grid->view, f)) {
+                continue;
+            }
+            lrcsi_cells cells = lrcsi_grid_cells(grid, &boxes->facet[f]);
+            if (want.bit && !want_meets(want, cells)) {
+                continue;
+            }
+            for (uint32_t y = cells.y0; y < cells.y1; y++) {
+                listed += grid_put(grid, y, cells.x0, cells.x1, f);
+            }
+        }
+    }
+    return listed;
+}
+
+int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes, const unsigned char *wanted,
                       lrcs_work *work, lrcsi_grid *grid)
 {
     size_t mark = work->used;
+    const lrcsi_view *view = like->view;
+    uint64_t most = LRCSI_GRID_FACET_CELLS * ((uint64_t)view->front + view->back);
     lrcsi_grid g = *like;
-    g.first = g.item = NULL;
     grid_want want;
-    int status = want_make(&g, cells, wanted, work, &want);
-    status = status == LRCS_OK ? grid_fill_facets(&g, cells, want, work) : status;
+    g.box = boxes->facet;
+    g.first = g.item = NULL;
+    int status = want_make(&g, boxes, wanted, work, &want);
+    status = status == LRCS_OK ? grid_start(&g, work) : status;
+    while (status == LRCS_OK && grid_put_facets(&g, boxes, want) > most) {
+        work->used = mark;
+        grid_coarsen(&g);
+        status = want_make(&g, boxes, wanted, work, &want);
+        status = status == LRCS_OK ? grid_start(&g, work) : status;
+    }
+    status = status == LRCS_OK ? grid_room(work, &g) : status;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
+    grid_put_facets(&g, boxes, want);
     grid_finish(&g);
     *grid = g;
     return LRCS_OK;

@@ -8,8 +8,7 @@
 #define LRCSI_GRID_H
 
 #include "base/range.h"
-#include "view/box.h"
-#include "view/view.h"
+#include "visibility/boxes.h"
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
@@ -66,36 +65,26 @@ static inline int lrcsi_grid_any(const lrcsi_grid *grid, lrcsi_cells cells)
 lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells);
 
 /* Files edges in an empty grid: item i stands for topology edge `edge[i]`. Cells along the edge
-   only. Lists `most` items at most, or each once: until it does, the grid is made coarser, and with
-   it the cells[facet] of facets that can hide something, unless that is NULL.
+   only. Lists `most` items at most, or each once: until it does, the grid is made coarser.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
 int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_work *work,
-                     lrcsi_grid *grid, lrcsi_cells *cells);
+                     lrcsi_grid *grid);
 
 /* Bytes at most for a grid of so many cells that lists so many items. */
 size_t lrcsi_grid_need(size_t cells, size_t entries);
 
-/* Given the cells[facet] of an empty grid that each facet touches that can hide something: makes
-   both coarser until a grid of facets lists each LRCSI_GRID_FACET_CELLS times at most, on
-   average. */
-void lrcsi_grid_fit(lrcsi_grid *grid, lrcsi_cells *cells);
+/* Makes an empty grid coarser until the facets whose boxes are made touch LRCSI_GRID_FACET_CELLS
+   cells at most, on average. 1 where it had to be. */
+int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes);
 
-/* Bytes at most for a grid of facets, their cells fitted. */
+/* Bytes at most for a grid of facets. */
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 
-/* A grid of the facets that can hide something, in as many cells as a grid whose cells[facet] they
-   touch. Cells that no facet touches with wanted[facet] not 0 may list too few; wanted NULL: none
-   does. Status as above. */
-int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_cells *cells, const unsigned char *wanted,
+/* A grid of the facets that can hide something, in as many cells as another grid, or in fewer: it
+   lists each LRCSI_GRID_FACET_CELLS times at most, on average. Cells that no facet touches with
+   wanted[facet] not 0 may list too few; wanted NULL: none does. It makes the boxes of all that it
+   lists, and of those wanted. Status as above. */
+int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes, const unsigned char *wanted,
                       lrcs_work *work, lrcsi_grid *grid);
-
-/* Can a facet hide anything, and be seen? Not where it is redundant in this view. */
-static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
-{
-    int facing = view->facing[facet];
-    int redundant = view->prepared->redundant[facet];
-    return (facing > 0 && redundant < LRCSI_REDUNDANT) ||
-           (facing < 0 && redundant < LRCSI_REDUNDANT_FROM_BEHIND && view->backs_cast);
-}
 
 #endif

@@ -121,6 +121,7 @@ static int occlude_undecided(lrcsi_occluding *o, lrcs_work *work, unsigned char 
     }
     int status = lrcsi_alone_make(classification, &o->facets, work, &o->alone);
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
+        lrcsi_view_progress(classification->view, LRCS_PROGRESS_VISIBILITY, f, count);
         if (open[f]) {
             lrcsi_occlude_open(o, f);
             visible[f] = lrcsi_occlude_area(o);

@@ -90,8 +90,7 @@ static int margin_events(margin_job *job, lrcs_work *work)
     job->edge = edge;
     list_events(job);
     job->grid = lrcsi_grid_empty(job->view, job->count);
-    return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid,
-                            NULL);
+    return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid);
 }
 
 /* --- one facet and one edge --------------------------------------------------------------------

@@ -195,12 +195,12 @@ int lrcsi_query_uniform(const lrcsi_classification *classification, lrcs_work *w
         answer[f] = classification->undecided[f] || classification->region[f] == f;
     }
     int status =
-        lrcsi_grid_facets(&classification->grid, classification->cells, answer, work, facets);
+        lrcsi_grid_facets(&classification->grid, &classification->boxes, answer, work, facets);
     if (status != LRCS_OK || query_regions(classification, facets, answer) == 0) {
         return status;
     }
     work->used = mark;
-    status = lrcsi_grid_facets(&classification->grid, classification->cells, NULL, work, facets);
+    status = lrcsi_grid_facets(&classification->grid, &classification->boxes, NULL, work, facets);
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
         if (answer[f] == LRCSI_QUERY_UNDECIDED) {
             answer[f] = (unsigned char)lrcsi_query_facet(facets, f);

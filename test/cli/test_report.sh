@@ -68,6 +68,7 @@ same they_make_what_stands_on_the_page "$(ls -s facets.csv sigma.png material.pn
 same they_make_the_same_map "$(cmp map.csv first.csv && echo same)" same
 python3 - <<'END' || not_ok the_python_ends_well
 import base64, csv, html.parser, json, math, re, sys, xml.etree.ElementTree as tree
+from png_file import Png
 from tap import check
 H, S = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
 VOID = {"meta", "img", "source", "br", "link", "hr", "input"}
@@ -98,16 +99,27 @@ for name in ("page", "dark", "stdout"):
     ids = [e.get("id") for e in root.iter() if e.get("id")]
     check(name + "_ids_are_unique", len(ids) == len(set(ids)))
     check(name + "_links_lead_somewhere", all(v[1:] in ids for k, v in tags.links if k == "href"))
-    check(name + "_has_all_sections", [e.get("id") for e in root.iter(H + "h2")] == ["model", "materials", "notices", "sigma",
-          "effects", "shares", "cuts", "map", "peaks", "accuracy", "again"])
+    check(name + "_has_all_sections", [e.get("id") for e in root.iter(H + "h2")] == ["sigma", "notices", "map", "peaks", "cuts",
+          "shares", "model", "materials", "effects", "accuracy", "again"])
     check(name + "_pictures_are_told", all(e.get("alt") for e in root.iter(H + "img")) and
           all(e.get("role") == "img" and e.get("aria-label") for e in root.iter(S + "svg")))
+    head = root.find(".//%sheader" % H)
+    check(name + "_has_its_verdict_first", "Verdict" in "".join(head.itertext()))
+    check(name + "_tables_are_folded_but_two", len([t for d in root.iter(H + "details") for t in d.iter(H + "table")]) >= len(list(root.iter(H + "table"))) - 2 and
+          all(d[0].tag == H + "summary" and d.get("open") is None for d in root.iter(H + "details")))
     check(name + "_pictures_are_png", all(base64.b64decode(v.split(",", 1)[1], validate=True)[:4] == b"\x89PNG" for k, v in tags.links if v.startswith("data:")))
     check(name + "_has_pictures_for_light_and_dark", len([v for k, v in tags.links if v.startswith("data:")]) == 4)
     check(name + "_rows_have_their_columns", all(len({sum(1 for c in r) for r in t.iter(H + "tr")}) == 1 for t in root.iter(H + "table")))
     check(name + "_has_a_title", (root.find(".//%stitle" % H).text or "").endswith(": laser radar cross-section"))
 
+# Title and pose stand above the picture on white, the axes in its lower left corner.
 root = tree.parse("page.html").getroot()
+open("picture.png", "wb").write(base64.b64decode(next(root.iter(H + "img")).get("src").split(",", 1)[1]))
+rows = [[tuple(r[k:k + 3]) for k in range(0, len(r), 3)] for r in Png("picture.png").rows]
+check("pictures_have_a_title_and_a_pose", all(sum(min(p) < 120 for r in rows[a:b] for p in r) > 100 for a, b in ((8, 24), (28, 44))))
+near = lambda p, q: max(abs(x - y) for x, y in zip(p, q)) < 40
+corner = [p for r in rows[300:470] for p in r[:150]]
+check("pictures_have_axes", all(sum(near(p, q) for p in corner) >= 10 for q in ((0xd5, 0x5e, 0), (0, 0x9e, 0x73), (0, 0x72, 0xb2))))
 text = " ".join("".join(root.itertext()).split())
 run, info = json.load(open("run.json")), json.load(open("info.json"))
 def value(id): return float(root.find(".//%sdata[@id='%s']" % (H, id)).get("value"))

@@ -39,6 +39,7 @@ function ground(e, view) {
 }
 function look(frame) {
   const view = frame.contentWindow, page = frame.contentDocument, wide = view.innerWidth
+  for (const fold of page.querySelectorAll("details")) fold.open = true
   const out = {wide, scroll: page.documentElement.scrollWidth, paper: ground(page.body, view), beyond: [], cut: [], faint: [], empty: []}
   for (const e of page.body.querySelectorAll("*")) {
     const box = e.getBoundingClientRect(), style = view.getComputedStyle(e)

@@ -73,6 +73,8 @@ means a_model_in_inches deep/m.obj b.toml --unit in
 means a_model_of_another_unit deep/m.obj c.toml --unit 0.0123456789012345678
 means a_model_with_its_glass deep/m.obj d.toml --keep-transparent
 means a_model_with_materials deep/m.obj e.toml --material 'SOLAR*=0.1,0.2,0.30000000000000004,1e-7' --material 'gold*=mli-gold'
+means a_model_with_errors deep/m.obj err.toml --material 'SOLAR*=0.1+-0.01,0.2,0.3+-0.025,1'
+same errors_are_kept "$(grep -E '^[ABsm]_error' err.toml | tr '\n' ' ')" "A_error = 0.01 s_error = 0.025 "
 means a_scene_in_another_folder deep/m.obj other/f.toml
 means a_scene_further_down deep/m.obj deep/er/g.toml
 means a_scene_beside_it deep/m.obj deep/h.toml

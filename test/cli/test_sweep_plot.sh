@@ -47,7 +47,7 @@ run sweep box.toml --tolerance 0.01 --az 90:0:-5 --el -45:45:5 -o back.csv --plo
 run sweep plate.toml --tolerance 0.01 --azel 90,0 --rotate x:0:180:5 -o dark.csv --dbsm --plot dark.svg
 same a_plot_may_have_gaps "$rc" 0
 run sweep box.toml --tolerance 0.01 --poses track.csv -o track.out.csv --plot time.svg
-same a_track_is_drawn_over_time "$rc $(grep -c '>time<' time.svg)" "0 1"
+same a_track_is_drawn_over_time "$rc $(grep -c '>time (s)<' time.svg)" "0 1"
 
 command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 python3 - <<'END' || not_ok the_python_ends_well

@@ -17,14 +17,15 @@ shape = "plate"
 size = [1, 1]
 translate = [0.3, 0.2, 3]
 END
+# watch.py TOOL SECONDS TEXT WORDS...: runs WORDS at a terminal until a line of it matches TEXT, then stops it.
 cat >watch.py <<'END'
-import os, pty, signal, sys, time
-tool, seconds = sys.argv[1], float(sys.argv[2])
+import os, pty, re, signal, sys, time
+tool, seconds, wanted = sys.argv[1], float(sys.argv[2]), re.compile(sys.argv[3].encode())
 pid, terminal = pty.fork()
 if pid == 0:
-    os.execv(tool, [tool, "run", "ball.toml", "--tolerance", "1e-9", "--facets", "out.csv"])
+    os.execv(tool, [tool] + sys.argv[4:])
 seen, end = b"", time.time() + seconds
-while time.time() < end and b"stages done, " not in seen and b" s" not in seen.split(b"\r")[-1]:
+while time.time() < end and not wanted.search(seen):
     try:
         seen += os.read(terminal, 4096)
     except OSError:
@@ -39,12 +40,38 @@ try:
 except OSError:
     pass
 status = os.waitpid(pid, 0)[1]
-shown = any(w in seen for w in (b"loading, ", b"preparing, ", b"pose, "))
-print(shown, b"stopped: outputs that were complete are kept, none is half written" in seen,
+print(wanted.search(seen) is not None, b"stopped: outputs that were complete are kept, none is half written" in seen,
       os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGINT)
 END
-same a_stage_is_shown_and_a_stop_said "$(python3 -B watch.py "$tool" 120)" "True True True"
+watched() { # NAME TEXT WORDS...
+    name=$1
+    shift
+    same "$name" "$(python3 -B watch.py "$tool" 120 "$@")" "True True True"
+}
+watched a_stage_is_shown_and_a_stop_said '\r(preparing, [0-5] of 5 stages done|pose.*), [0-9]+ s' run ball.toml --tolerance 1e-9 --facets out.csv
+# a ball with curved normals behind slats: seconds in one pose, which says how far it is
+python3 -c '
+import math
+n, slats = 300, 200
+for i in range(slats):
+    x = -1 + 2 * i / slats
+    print("v", x, -1, 3, "\nv", x + 0.5 / slats, -1, 3, "\nv", x + 0.3 / slats, 1, 3)
+for i in range(n + 1):
+    for k in range(n):
+        a, b = math.pi * i / n, 2 * math.pi * k / n
+        print("v", math.sin(a) * math.cos(b), math.sin(a) * math.sin(b), math.cos(a))
+for i in range(slats):
+    print("f", 3 * i + 1, 3 * i + 2, 3 * i + 3)
+print("s 1")
+for i in range(n):
+    for k in range(n):
+        a, b = 3 * slats + 1 + n * i + k, 3 * slats + 1 + n * i + (k + 1) % n
+        print("f", a, a + n, b + n, b)' >ball.obj
+watched a_pose_says_how_far_it_is '\rpose: (visibility|integration), [0-9]+ %, [0-9]+ s' run ball.obj --normals smooth --method exact --tolerance 1e-9 --unit m
+watched a_comparison_names_its_settings '\r(zbuffer|facet|exact|by estimate|meshes|loading|converge)[^\r]*, [0-9]+ s' converge ball.obj --unit m
+watched a_report_names_its_stages '\r[a-z ]+(, [0-5] of 5 stages done|: [a-z]+)?[^\r]*, [0-9]+ s' report ball.obj --unit m -o ball.html
 same nothing_half_written "$(ls out.csv .lrcs* 2>/dev/null)" ""
+same no_page_half_written "$(ls ball.html 2>/dev/null)" ""
 run run ball.toml --tolerance 1e-2
 same no_terminal_no_stage "$(printf '%s' "$err" | grep -c 'stages done')" 0
 finish

@@ -248,6 +248,9 @@ static void names_and_numbers_go_both_ways(void **state)
     }
     assert_string_equal(lrcs_accept_text(LRCS_ACCEPT_ESTIMATE), "estimate");
     assert_null(lrcs_accept_text(3));
+    assert_string_equal(lrcs_progress_text(LRCS_PROGRESS_INTEGRATE), "integration");
+    assert_null(lrcs_progress_text(LRCS_PROGRESS_INTEGRATE + 1));
+    assert_null(lrcs_progress_text(-1));
     assert_null(lrcs_accept_text(-1));
     assert_int_equal(lrcs_accept_find("guess"), LRCS_E_NAME);
     assert_string_equal(lrcs_flag_text(LRCS_FLAG_ACCEPTED_BY_ESTIMATE), "accepted_by_estimate");

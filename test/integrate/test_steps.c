@@ -62,6 +62,15 @@ static void check_method(int method, uint32_t fine)
         curves = less;
     }
     check_part(&all, method, all.steps - 1);
+    /* saying how far it is changes nothing, and ends in the last stage */
+    lrcs_progress progress = {.total = 1};
+    options.progress = &progress;
+    lrcs_result shown = run(method, 0);
+    options.progress = NULL;
+    assert_memory_equal(&shown.sigma_m2, &all.sigma_m2, sizeof shown.sigma_m2);
+    assert_memory_equal(&shown.bound_m2, &all.bound_m2, sizeof shown.bound_m2);
+    assert_int_equal(progress.stage, LRCS_PROGRESS_INTEGRATE);
+    assert_true(progress.done <= progress.total);
     for (uint64_t more = 0; more < 2; more++) {
         lrcs_result same = run(method, all.steps + more);
         assert_memory_equal(&same.sigma_m2, &all.sigma_m2, sizeof same.sigma_m2);

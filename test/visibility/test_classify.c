@@ -21,7 +21,7 @@ static void look_from(double x, double y, double z)
     assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
     lrcsi_classify_regions(&classification);
     assert_int_equal(
-        lrcsi_grid_facets(&classification.grid, classification.cells, NULL, &work, &facets),
+        lrcsi_grid_facets(&classification.grid, &classification.boxes, NULL, &work, &facets),
         LRCS_OK);
 }
 
@@ -370,13 +370,14 @@ static void grids_serve_those_that_ask(void **state)
         }
         lrcs_work after = work;
         assert_int_equal(
-            lrcsi_grid_facets(&classification.grid, classification.cells, wanted, &after, &some),
+            lrcsi_grid_facets(&classification.grid, &classification.boxes, wanted, &after, &some),
             LRCS_OK);
         size_t cells = (size_t)some.size * some.size;
         assert_true(every == 1 || some.first[cells] < facets.first[cells]);
         for (uint32_t f = 0; f < scene.scene.facet_count; f += every) {
-            lrcsi_cells at =
-                lrcsi_grid_casts(&view, f) ? classification.cells[f] : (lrcsi_cells){0};
+            lrcsi_cells at = lrcsi_grid_casts(&view, f)
+                                 ? lrcsi_grid_cells(&some, &classification.boxes.facet[f])
+                                 : (lrcsi_cells){0};
             for (uint32_t y = at.y0; y < at.y1; y++) {
                 for (uint32_t x = at.x0; x < at.x1; x++) {
                     assert_true(lists_agree(&some, &facets, (size_t)y * some.size + x));

@@ -106,7 +106,7 @@ static uint32_t check_grids(void)
     lrcsi_grid facets;
     assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
     assert_int_equal(
-        lrcsi_grid_facets(&classification.grid, classification.cells, NULL, &work, &facets),
+        lrcsi_grid_facets(&classification.grid, &classification.boxes, NULL, &work, &facets),
         LRCS_OK);
     const lrcs_prepared *p = view.prepared;
     assert_true(listed(&facets) <= LRCSI_GRID_FACET_CELLS * p->scene->facet_count);
@@ -114,8 +114,7 @@ static uint32_t check_grids(void)
     double at[2];
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         lrcsi_view_box box = lrcsi_view_box_of(&view, p->scene->facet[f].corner, 3);
-        lrcsi_cells cells = lrcsi_grid_cells(&facets, &box);
-        assert_memory_equal(&cells, &classification.cells[f], sizeof cells);
+        assert_memory_equal(&box, &facets.box[f], sizeof box);
         for (int i = 0; i < 20; i++) {
             place_on(&view, p->scene->facet[f].corner, 3, at);
             assert_true(lists(&facets, at, f));
@@ -169,9 +168,7 @@ static void edges_are_listed_no_more_often_than_asked_for(void **state)
     for (uint64_t most = 100; most <= 12800; most *= 2) {
         size_t mark = work.used;
         lrcsi_grid grid = lrcsi_grid_empty(&view, 64 * 64);
-        lrcsi_cells cells[40];
-        memset(cells, 0, sizeof cells);
-        assert_int_equal(lrcsi_grid_edges(edge, 120, most, &work, &grid, cells), LRCS_OK);
+        assert_int_equal(lrcsi_grid_edges(edge, 120, most, &work, &grid), LRCS_OK);
         assert_true(listed(&grid) <= (most < 120 ? 120 : most));
         assert_true(grid.size >= before && (grid.size > 1) == (most > 200));
         before = grid.size;
@@ -186,31 +183,62 @@ static void edges_are_listed_no_more_often_than_asked_for(void **state)
     assert_int_equal(before, 64);
 }
 
-/* A box of cells made coarser is the box in the coarser grid, wherever it lies. */
-static void boxes_of_cells_grow_with_the_cells(void **state)
+/* The box of a run holds the corners of its facets, from every direction. */
+static void boxes_of_runs_hold_their_facets(void **state)
 {
     (void)state;
     lrcs_work work;
-    shards(1);
-    lrcsi_view view = view_of_scene(&work);
-    for (uint32_t size = 1; size <= 37; size++) {
-        for (int i = 0; i < 200; i++) {
-            lrcsi_grid grid = lrcsi_grid_empty(&view, size * size);
-            double low[3] = {0, 0, 0};
-            double high[3] = {0, 0, 0};
-            for (int k = 0; k < 2; k++) {
-                low[k] = view.low[k] + random_to(view.side);
-                high[k] = low[k] + random_to(view.low[k] + view.side - low[k]);
+    shards(100);
+    for (int i = 0; i < 50; i++) {
+        lrcs_pose pose;
+        lrcsi_view view;
+        const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+        const double direction[3] = {random_to(2) - 1, i % 5 == 0 ? 0 : random_to(2) - 1, 0.5};
+        assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+        assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+        lrcsi_boxes boxes;
+        signed char cast[101];
+        memset(cast, 1, sizeof cast);
+        assert_int_equal(lrcsi_boxes_make(&view, cast, &work, &boxes), LRCS_OK);
+        for (uint32_t f = 0; f < 100; f++) {
+            uint32_t run = f / LRCSI_RUN;
+            assert_true(boxes.state[run] != LRCSI_BOXES_NONE);
+            lrcsi_boxes_open(&boxes, run);
+            assert_int_equal(boxes.state[run], LRCSI_BOXES_FACETS);
+            for (int k = 0; k < 9; k++) {
+                double at = view.scale * view.point[scene.scene.facet[f].corner[k / 3]].x[k % 3];
+                assert_true(boxes.run[run].low[k % 3] <= (float)at);
+                assert_true(boxes.run[run].high[k % 3] >= (float)at);
             }
-            lrcsi_view_box box = lrcsi_view_box_round(&view, low, high);
-            lrcsi_cells cells = lrcsi_grid_cells(&grid, &box);
-            assert_int_equal(grid.size, size);
-            lrcsi_grid_fit(&grid, &cells);
-            lrcsi_cells want = lrcsi_grid_cells(&grid, &box);
-            assert_memory_equal(&cells, &want, sizeof want);
-            assert_true((cells.x1 - cells.x0) * (cells.y1 - cells.y0) <= 16);
         }
     }
+}
+
+/* Facets in so many cells make a grid coarser, until they are in 16 each on average. */
+static void grids_are_made_coarser_for_large_facets(void **state)
+{
+    (void)state;
+    lrcs_work work;
+    shards(40);
+    lrcsi_view view = view_of_scene(&work);
+    lrcsi_boxes boxes;
+    signed char cast[41];
+    memset(cast, 1, sizeof cast);
+    assert_int_equal(lrcsi_boxes_make(&view, cast, &work, &boxes), LRCS_OK);
+    lrcsi_grid grid = lrcsi_grid_empty(&view, 64 * 64);
+    assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 0);
+    assert_int_equal(grid.size, 64); /* no facet's box is made */
+    for (uint32_t r = 0; r < view.prepared->runs.count; r++) {
+        lrcsi_boxes_open(&boxes, r);
+    }
+    assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 1);
+    assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 0);
+    uint32_t cells = 0;
+    for (uint32_t f = 0; f < 40; f++) {
+        lrcsi_cells at = lrcsi_grid_cells(&grid, &boxes.facet[f]);
+        cells += (uint32_t)(at.x1 - at.x0) * (uint32_t)(at.y1 - at.y0);
+    }
+    assert_true(grid.size < 64 && cells <= LRCSI_GRID_FACET_CELLS * 40);
 }
 
 /* In so many bytes, and unharmed where they are too few. */
@@ -220,7 +248,7 @@ static int facets_in(const lrcsi_classification *classification, const unsigned 
     lrcsi_grid grid;
     lrcs_work work = lrcs_work_make(little, size);
     int status =
-        lrcsi_grid_facets(&classification->grid, classification->cells, wanted, &work, &grid);
+        lrcsi_grid_facets(&classification->grid, &classification->boxes, wanted, &work, &grid);
     assert_int_equal(status, work.peak <= size ? LRCS_OK : LRCS_E_MEMORY);
     assert_true(status == LRCS_OK || work.used == 0);
     return status;
@@ -275,7 +303,8 @@ int main(void)
         cmocka_unit_test(what_stands_in_a_cell_is_listed_there_and_not_too_often),
         cmocka_unit_test(cells_of_small_facets_are_as_many_as_those),
         cmocka_unit_test(edges_are_listed_no_more_often_than_asked_for),
-        cmocka_unit_test(boxes_of_cells_grow_with_the_cells),
+        cmocka_unit_test(boxes_of_runs_hold_their_facets),
+        cmocka_unit_test(grids_are_made_coarser_for_large_facets),
         cmocka_unit_test(grids_of_facets_fit_into_what_they_ask_for),
         cmocka_unit_test(contests_fit_into_what_they_ask_for),
     };

@@ -116,11 +116,18 @@ static int options_read(compare_job *job, const char **folder, cli_output output
 
 static int compare_make(compare_job *job, const char *folder)
 {
+    cli_watch_stage("the kit", NULL);
     int code = cli_compare_kit(folder, &job->kit);
+    cli_watch_stage("verdicts", NULL);
     code = code ? code : cli_compare_judge(job);
+    cli_watch_stage("causes", NULL);
     code = code ? code : cli_compare_explain(job);
+    cli_watch_stage("facets", NULL);
     code = code ? code : cli_compare_facets(job);
-    return code ? code : cli_compare_items(job);
+    cli_watch_stage("item buffers", NULL);
+    code = code ? code : cli_compare_items(job);
+    cli_watch_end();
+    return code;
 }
 
 static int to_stdout(const cli_output *output)

@@ -165,12 +165,14 @@ int cli_compare_explain(compare_job *job)
     search.passing = malloc(count * sizeof(compare_case *));
     search.answer = calloc(count, sizeof(double));
     search.room = calloc(count, sizeof(double));
-    int code = search.failing && search.passing && search.answer && search.room
+    search.holds = calloc(count, 1);
+    int code = search.failing && search.passing && search.answer && search.room && search.holds
                    ? findings_make(&search)
                    : cli_out_of_memory();
     free(search.failing);
     free(search.passing);
     free(search.answer);
     free(search.room);
+    free(search.holds);
     return code;
 }

@@ -21,6 +21,35 @@ compare_finding *cli_search_finding(compare_job *job, const char *name)
     return finding;
 }
 
+uint32_t cli_search_holds(const compare_search *search)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < search->failings; i++) {
+        count += search->holds[i];
+    }
+    return count;
+}
+
+compare_finding *cli_search_find(compare_search *search, const char *name, const char *format, ...)
+{
+    va_list list;
+    compare_finding *finding = cli_search_finding(search->job, name);
+    if (!finding) {
+        return NULL;
+    }
+    va_start(list, format);
+    vsnprintf(finding->text, sizeof finding->text, format, list);
+    va_end(list);
+    for (uint32_t i = 0; i < search->failings; i++) {
+        if (search->holds[i]) {
+            search->failing[i]->explained = (int)search->job->findings;
+        }
+    }
+    finding->explained = cli_search_holds(search);
+    cli_search_part(search);
+    return finding;
+}
+
 compare_mistake cli_mistake_both(const compare_mistake *first, const compare_mistake *second)
 {
     compare_mistake both = *first;

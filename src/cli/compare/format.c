@@ -4,6 +4,7 @@
 #include "cli/compare/search.h"
 
 #include <math.h>
+#include <string.h>
 
 #define MOST       0.9   /* of the failing cases, the share that a reason explains */
 #define LEAST      5u    /* failing cases, fewer prove nothing */
@@ -45,36 +46,31 @@ static int case_near(const compare_job *job, const compare_case *one, double sig
     return fabs(sigma_m2 - one->sigma_m2) <= cli_compare_allowed(one, job->grade, job->pixels);
 }
 
-/* Marks what a finding explains. */
-static void format_mark(compare_search *search, const char *name, const char *text, format_way *way,
-                        double at)
+/* Does the reason at hand explain most of what fails? */
+static int holds_most(const compare_search *search)
 {
-    compare_job *job = search->job;
-    compare_finding *finding = cli_search_finding(job, name);
-    for (uint32_t i = 0; finding && i < job->kit.cases; i++) {
-        compare_case *one = &job->kit.list[i];
-        if (one->given && cli_compare_failed(job, one) && case_near(job, one, way(job, one, at))) {
-            one->explained = (int)job->findings;
-            finding->explained++;
-        }
-    }
-    if (finding) {
-        snprintf(finding->text, sizeof finding->text, "%s", text);
-    }
-    cli_search_part(search);
+    uint32_t right = cli_search_holds(search);
+    return right >= LEAST && right >= MOST * search->failings;
 }
 
 /* Where most answers are right once they are read in another way, that is the finding. */
 static void format_say(compare_search *search, const char *name, const char *text, format_way *way,
                        double at)
 {
-    uint32_t right = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
         const compare_case *one = search->failing[i];
-        right += (uint32_t)case_near(search->job, one, way(search->job, one, at));
+        search->holds[i] = (unsigned char)case_near(search->job, one, way(search->job, one, at));
     }
-    if (right >= LEAST && right >= MOST * search->failings) {
-        format_mark(search, name, text, way, at);
+    compare_finding *finding =
+        holds_most(search) ? cli_search_find(search, name, "%s", text) : NULL;
+    for (uint32_t i = 0; finding && i < search->job->kit.cases; i++) {
+        compare_case *one = &search->job->kit.list[i]; /* what was no number may be one */
+        if (one->given && !isfinite(one->theirs_m2) && one->explained == 0 &&
+            cli_compare_failed(search->job, one) &&
+            case_near(search->job, one, way(search->job, one, at))) {
+            one->explained = (int)search->job->findings;
+            finding->explained++;
+        }
     }
 }
 
@@ -122,27 +118,14 @@ static int case_rounded(const compare_job *job, const compare_case *one, int dig
 /* Where all answers are that short, and what is cut off makes most failures. */
 static int digits_say(compare_search *search, int digits, int significant)
 {
-    compare_job *job = search->job;
-    uint32_t right = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
-        right += (uint32_t)case_rounded(job, search->failing[i], digits, significant);
+        search->holds[i] =
+            (unsigned char)case_rounded(search->job, search->failing[i], digits, significant);
     }
-    int most = right >= LEAST && right >= MOST * search->failings;
-    compare_finding *finding = most ? cli_search_finding(job, "few-digits") : NULL;
-    if (!finding) {
-        return 0;
-    }
-    for (uint32_t i = 0; i < search->failings; i++) {
-        if (case_rounded(job, search->failing[i], digits, significant)) {
-            search->failing[i]->explained = (int)job->findings;
-        }
-    }
-    finding->explained = right;
-    snprintf(finding->text, sizeof finding->text,
-             "few digits: every answer is rounded to %d %s%s: print %%.9g or more", digits,
-             significant ? "digit" : "decimal", digits == 1 ? "" : "s");
-    cli_search_part(search);
-    return 1;
+    return holds_most(search) &&
+           cli_search_find(search, "few-digits",
+                           "few digits: every answer is rounded to %d %s%s: print %%.9g or more",
+                           digits, significant ? "digit" : "decimal", digits == 1 ? "" : "s");
 }
 
 /* The fewest that all answers have. */
@@ -176,26 +159,13 @@ static int answers_blank(const compare_search *search)
     return given > 0 && search->failings > 0;
 }
 
-static void blank_say(compare_search *search)
-{
-    compare_job *job = search->job;
-    compare_finding *finding = cli_search_finding(job, "blank");
-    for (uint32_t i = 0; finding && i < search->failings; i++) {
-        search->failing[i]->explained = (int)job->findings;
-    }
-    if (finding) {
-        finding->explained = search->failings;
-        snprintf(finding->text, sizeof finding->text,
-                 "every answer is 0: nothing drawn, everything culled or outside the window, or "
-                 "the buffer never read back");
-        cli_search_part(search);
-    }
-}
-
 void cli_compare_format(compare_search *search)
 {
     if (answers_blank(search)) {
-        blank_say(search);
+        memset(search->holds, 1, search->failings);
+        cli_search_find(search, "blank",
+                        "every answer is 0: nothing drawn, everything culled or outside the "
+                        "window, or the buffer never read back");
         return;
     }
     if (search->job->decibels) {

@@ -10,10 +10,11 @@ typedef struct compare_search {
     compare_case **failing; /* not explained yet */
     compare_case **passing; /* some of them */
     uint32_t failings, passings;
-    int telling;    /* is an answer of those that fail not 0? */
-    double weight;  /* of how many passing cases each of them tells */
-    double *answer; /* of a mistake: the failing cases, then the passing ones */
-    double *room;   /* to sort in */
+    int telling;          /* is an answer of those that fail not 0? */
+    double weight;        /* of how many passing cases each of them tells */
+    double *answer;       /* of a mistake: the failing cases, then the passing ones */
+    double *room;         /* to sort in */
+    unsigned char *holds; /* of each failing case: does the reason at hand explain it? */
 } compare_search;
 
 /* How well a mistake explains. */
@@ -50,6 +51,14 @@ double cli_search_median(double *value, uint32_t count);
 
 /* The next finding, empty; NULL where there is no room for one. */
 compare_finding *cli_search_finding(compare_job *job, const char *name);
+
+/* How many failing cases the reason at hand explains (search->holds). */
+uint32_t cli_search_holds(const compare_search *search);
+
+/* Makes that reason a finding, with its sentence: its cases are marked, and fail unexplained no
+   more. NULL where there is no room for one. */
+__attribute__((format(printf, 3, 4))) compare_finding *
+cli_search_find(compare_search *search, const char *name, const char *format, ...);
 
 /* What shows in the table before any physics: nothing but zeros, another unit, rows moved, few
    digits. */

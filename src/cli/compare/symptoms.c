@@ -21,22 +21,12 @@
 /* The failing cases of a class. */
 static void class_say(compare_search *search, int grade, const char *name, const char *text)
 {
-    uint32_t count = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
-        count += search->failing[i]->grade == grade;
+        search->holds[i] = search->failing[i]->grade == grade;
     }
-    compare_finding *finding = count > 0 ? cli_search_finding(search->job, name) : NULL;
-    if (!finding) {
-        return;
+    if (cli_search_holds(search) > 0) {
+        cli_search_find(search, name, "%s", text);
     }
-    for (uint32_t i = 0; i < search->failings; i++) {
-        if (search->failing[i]->grade == grade) {
-            search->failing[i]->explained = (int)search->job->findings;
-        }
-    }
-    finding->explained = count;
-    snprintf(finding->text, sizeof finding->text, "%s", text);
-    cli_search_part(search);
 }
 
 /* ---- a coarser raster ---- */
@@ -68,25 +58,18 @@ static double raster_share(const compare_search *search, double pixels)
 /* Where all that fail would pass with fewer pixels, and the others look like that too. */
 static void coarse_say(compare_search *search)
 {
-    compare_job *job = search->job;
+    const compare_job *job = search->job;
     double pixels = job->grade == COMPARE_RASTER && search->failings > 0 ? job->pixels : 0.0;
     for (uint32_t i = 0; i < search->failings; i++) {
         pixels = fmin(pixels, floor(case_pixels(search->failing[i])));
     }
-    int coarse = pixels >= COARSEST && raster_share(search, pixels) >= COARSE_SHARE;
-    compare_finding *finding = coarse ? cli_search_finding(job, "coarse-raster") : NULL;
-    if (!finding) {
-        return;
+    if (pixels >= COARSEST && raster_share(search, pixels) >= COARSE_SHARE) {
+        memset(search->holds, 1, search->failings);
+        cli_search_find(search, "coarse-raster",
+                        "a raster of fewer than %lu x %lu pixels: all these pass as one of %.0f x "
+                        "%.0f or fewer: give --pixels N, or render finer",
+                        (unsigned long)job->pixels, (unsigned long)job->pixels, pixels, pixels);
     }
-    for (uint32_t i = 0; i < search->failings; i++) {
-        search->failing[i]->explained = (int)job->findings;
-    }
-    finding->explained = search->failings;
-    snprintf(finding->text, sizeof finding->text,
-             "a raster of fewer than %lu x %lu pixels: all these pass as one of %.0f x %.0f or "
-             "fewer: give --pixels N, or render finer",
-             (unsigned long)job->pixels, (unsigned long)job->pixels, pixels, pixels);
-    cli_search_part(search);
 }
 
 /* ---- depths ---- */
@@ -105,28 +88,17 @@ static int skins_of(const compare_job *job, const compare_case *one)
 static void depth_say(compare_search *search)
 {
     int coarsest = SKINS_TOUCH;
-    uint32_t count = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
         int skins = skins_of(search->job, search->failing[i]);
         coarsest = skins > 0 && skins < coarsest ? skins : coarsest;
-        count += skins > 0;
+        search->holds[i] = skins > 0;
     }
-    int most = coarsest < SKINS_TOUCH && 2 * count > search->failings;
-    compare_finding *finding = most ? cli_search_finding(search->job, "depth-precision") : NULL;
-    if (!finding) {
-        return;
+    if (coarsest < SKINS_TOUCH && 2 * cli_search_holds(search) > search->failings) {
+        cli_search_find(search, "depth-precision",
+                        "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told "
+                        "apart: a depth of some %d bits or fewer",
+                        coarsest, coarsest + 3);
     }
-    for (uint32_t i = 0; i < search->failings; i++) {
-        if (skins_of(search->job, search->failing[i]) > 0) {
-            search->failing[i]->explained = (int)search->job->findings;
-        }
-    }
-    finding->explained = count;
-    snprintf(finding->text, sizeof finding->text,
-             "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told apart: a depth "
-             "of some %d bits or fewer",
-             coarsest, coarsest + 3);
-    cli_search_part(search);
 }
 
 /* ---- facets in one plane ---- */
@@ -156,24 +128,19 @@ static int case_fights(const compare_search *search, compare_case *one)
 /* 0, or -1 on failure. */
 static int fights_say(compare_search *search)
 {
-    uint32_t count = 0;
-    int mark = (int)search->job->findings + 1;
-    for (uint32_t i = 0; i < search->failings && mark <= (int)COMPARE_FINDINGS; i++) {
+    for (uint32_t i = 0; i < search->failings && search->job->findings < (uint32_t)COMPARE_FINDINGS;
+         i++) {
         int fights = case_fights(search, search->failing[i]);
         if (fights < 0) {
             return -1;
         }
-        search->failing[i]->explained = fights ? mark : 0;
-        count += (uint32_t)fights;
+        search->holds[i] = (unsigned char)fights;
     }
-    compare_finding *finding = count ? cli_search_finding(search->job, "coincident-skins") : NULL;
-    if (finding) {
-        finding->explained = count;
-        snprintf(finding->text, sizeof finding->text,
-                 "coincident skins, decided by rounding or by order (z-fighting): of facets in one "
-                 "plane a front beats a back, then the lower index wins; push backs away by some "
-                 "roundings of the scene's size");
-        cli_search_part(search);
+    if (cli_search_holds(search) > 0) {
+        cli_search_find(search, "coincident-skins",
+                        "coincident skins, decided by rounding or by order (z-fighting): of facets "
+                        "in one plane a front beats a back, then the lower index wins; push backs "
+                        "away by some roundings of the scene's size");
     }
     return 0;
 }
@@ -214,25 +181,22 @@ static void bias_say(compare_search *search)
     uint32_t count = bias_ratios(job, search->room);
     double median = cli_search_median(search->room, count);
     double share = bias_share(search->room, count, median);
-    compare_finding *finding = share > 0.0 ? cli_search_finding(job, "pixel-area") : NULL;
-    if (!finding) {
+    if (!(share > 0.0)) {
         return;
     }
-    job->biased = 1;
-    finding->factor = median;
-    finding->name = cli_factor_name(median);
     for (uint32_t i = 0; i < search->failings; i++) {
-        compare_case *one = search->failing[i];
-        if (cli_search_explained(search, one, median * one->sigma_m2)) {
-            one->explained = (int)job->findings;
-            finding->explained++;
-        }
+        const compare_case *one = search->failing[i];
+        search->holds[i] = (unsigned char)cli_search_explained(search, one, median * one->sigma_m2);
     }
-    snprintf(finding->text, sizeof finding->text,
-             "all answers are %.6g times the truth: most are within their allowance, but %.0f %% "
-             "lean the same way, which errors of a raster do not: %s",
-             median, 100.0 * share, cli_factor_text(job, median));
-    cli_search_part(search);
+    compare_finding *finding = cli_search_find(
+        search, cli_factor_name(median),
+        "all answers are %.6g times the truth: most are within their allowance, but %.0f %% lean "
+        "the same way, which errors of a raster do not: %s",
+        median, 100.0 * share, cli_factor_text(job, median));
+    if (finding) {
+        job->biased = 1;
+        finding->factor = median;
+    }
 }
 
 int cli_compare_symptoms(compare_search *search)

@@ -149,6 +149,7 @@ static int settings_check(const converge_job *job)
 static int converge_report(const converge_job *job)
 {
     int code = files_write(job);
+    cli_watch_end();
     if (code != 0) {
         return code;
     }

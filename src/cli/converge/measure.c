@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #define RASTER_LEAST 16u
 #define RASTER_MOST  4096u
@@ -18,14 +17,6 @@
 const converge_mesh *cli_converge_finest(const converge_job *job)
 {
     return &job->mesh[job->meshes - 1];
-}
-
-static void progress_say(const char *what)
-{
-    if (isatty(STDERR_FILENO)) {
-        fprintf(stderr, "\r%-40.40s%s", what, *what ? "" : "\r");
-        fflush(stderr);
-    }
 }
 
 /* ---- meshes ---- */
@@ -70,10 +61,10 @@ int cli_converge_meshes(converge_job *job)
     int most = job->digits > 0 ? job->digits : CONVERGE_MESHES;
     int finest = code == 0 && cli_has_curved_shapes(&job->mesh[0].scene.scene) ? most : 1;
     for (int digits = 2; digits <= finest && code == 0 && !job->left_out[0]; digits++) {
-        progress_say("meshes");
+        cli_watch_stage("meshes", NULL);
+        cli_watch_count((uint64_t)digits, (uint64_t)finest);
         code = mesh_read(job, digits);
     }
-    progress_say("");
     job->mesh[0].digits = job->meshes > 1 ? 1 : 0;
     return code;
 }
@@ -94,13 +85,13 @@ static int setting_run(converge_job *job, converge_setting *setting)
         options.tolerance = pow(10.0, -setting->digits);
         options.accept = LRCS_ACCEPT_ESTIMATE;
     }
-    progress_say(setting->name);
+    cli_watch_stage(setting->name, NULL);
+    options.progress = cli_watch_run();
     clock_t begun = clock();
     int status = lrcs_host_scene_run(&job->mesh[setting->mesh].scene, &job->pose, &options, &result,
                                      NULL, NULL, seconds, &error);
     job->processor += (double)(clock() - begun) / CLOCKS_PER_SEC;
     if (status != LRCS_OK) {
-        progress_say("");
         return cli_failed(&error);
     }
     setting->runs++;
@@ -355,7 +346,7 @@ int cli_converge_measure(converge_job *job)
 {
     int code = settings_add(job);
     code = code ? code : settings_repeat(job);
-    progress_say("");
+    cli_watch_stage("converge", NULL);
     if (code == 0) {
         busy_note(job);
         int closed = truth_closed(job);

@@ -276,6 +276,7 @@ static int materials_make(fit_job *job)
         if (!asked || strcmp(asked, readings->name[i]) == 0) {
             fit_material *material = &job->material[job->materials++];
             code = material_take(readings, i, material);
+            cli_watch_stage(material->name[0] ? material->name : "fit", NULL);
             code = code ? code : material_fit(job, material);
         }
     }
@@ -341,6 +342,7 @@ static void warnings_print(const fit_material *material)
 
 static int fit_report(const fit_job *job)
 {
+    cli_watch_end();
     const cli_args *args = job->args;
     const char *csv = cli_value(args, "csv");
     int code = CLI_DONE;

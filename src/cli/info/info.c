@@ -214,6 +214,7 @@ static int info_command(const cli_args *args)
     memset(&info, 0, sizeof info);
     int code = cli_scene_options_read(args, &options);
     code = code ? code : cli_info_read(args, &options, &info);
+    cli_watch_end();
     if (code == 0 && cli_value(args, "json")) {
         info_json(&info);
     } else if (code == 0) {

@@ -143,6 +143,7 @@ static int job_read(plot_job *job)
         }
         sweep_data *data = &job->data[job->count];
         sweep_plot *plot = &job->plot[job->count++];
+        cli_watch_stage(args->given[i].value, NULL);
         code = cli_data_read(args->given[i].value, args->command, data);
         code = code ? code : cli_plot_read(args, &data->plan, plot);
         const char *title = cli_head_text(&data->head, "title");
@@ -158,6 +159,7 @@ static int job_run(plot_job *job)
 {
     const cli_args *args = job->args;
     int code = job_read(job);
+    cli_watch_end();
     code = code ? code : outputs_check(job);
     if (code == 0 && !job->plot[0].asked && !job->stats) {
         return cli_usage(args->command, "nothing to do: give -o OUT.svg, --stats or --stats-file");

@@ -59,8 +59,8 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
     series[1].count =
         job->fwhm_m > 0.0 ? pulse_take(job, group, number + 2 * room, number + 3 * room) : 0;
     snprintf(title, sizeof title, "Range profile of %.180s",
-             cli_scene_title(job->args, &job->scene));
-    int used = snprintf(note, sizeof note, "sigma %.6g m\xc2\xb2 in all; bins of %g m",
+             cli_base_name(cli_scene_title(job->args, &job->scene)));
+    int used = snprintf(note, sizeof note, "sigma %.6g m2 in all; bins of %g m",
                         p->sigma_glint_m2 + p->sigma_diffuse_m2, job->bin_m);
     if (job->fwhm_m > 0.0) {
         used += snprintf(note + used, sizeof note - (size_t)used, "; pulse of %g m (FWHM)",
@@ -73,7 +73,7 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
                                    .note = note,
                                    .x_name =
                                        "range from the body's origin, away from the laser (m)",
-                                   .y_name = "sigma per range (m\xc2\xb2/m)",
+                                   .y_name = "sigma per range (m2/m)",
                                    .y_from_0 = 1,
                                    .series = series,
                                    .series_count = series[1].count > 0 ? 2 : 1};

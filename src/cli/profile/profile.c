@@ -218,7 +218,7 @@ static int profile_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job);
     const cli_output file[2] = {{"csv", job.csv}, {"plot", job.plot}};
-    cli_watch_begin();
+    cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
     code = code ? code : cli_outputs_spare(args->command, file, 2, &job.scene);
     code = code ? code : profile_run(&job);

@@ -170,9 +170,9 @@ static void peaks_section(FILE *out, const report_job *job)
 
 void cli_report_curves(FILE *out, const report_job *job)
 {
-    cuts_section(out, job);
     map_section(out, job);
     peaks_section(out, job);
+    cuts_section(out, job);
 }
 
 /* ---- accuracy ---- */
@@ -217,6 +217,8 @@ void cli_report_accuracy(FILE *out, const report_job *job)
                  compare->truth.sigma_m2, compare->left_out[0] ? "; " : "", compare->left_out,
                  compare->busy[0] ? "; " : "", compare->busy);
     cli_page_figure_end(out);
+    cli_page_fold(out, "All settings");
     accuracy_table(out, compare);
+    cli_page_fold_end(out);
     cli_page_section_end(out);
 }

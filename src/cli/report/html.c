@@ -148,6 +148,18 @@ void cli_page_fact_end(FILE *out)
     fputs("</dd></div>\n", out);
 }
 
+/* ---- folds ---- */
+
+void cli_page_fold(FILE *out, const char *title)
+{
+    fprintf(out, "<details>\n<summary>%s</summary>\n", title);
+}
+
+void cli_page_fold_end(FILE *out)
+{
+    fputs("</details>\n", out);
+}
+
 /* ---- tables ---- */
 
 void cli_page_table(FILE *out, const char *label, const char *columns)

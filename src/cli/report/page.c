@@ -6,12 +6,10 @@
 
 static const struct {
     const char *id, *name;
-} page_places[] = {{"model", "Model"},     {"materials", "Materials"},
-                   {"notices", "Notices"}, {"sigma", "Certificate"},
-                   {"effects", "Effects"}, {"shares", "Shares"},
-                   {"cuts", "Cuts"},       {"map", "Map"},
-                   {"peaks", "Peaks"},     {"accuracy", "Accuracy"},
-                   {"again", "Reproduce"}};
+} page_places[] = {{"sigma", "Certificate"}, {"notices", "Notices"},     {"map", "Map"},
+                   {"peaks", "Peaks"},       {"cuts", "Cuts"},           {"shares", "Shares"},
+                   {"model", "Model"},       {"materials", "Materials"}, {"effects", "Effects"},
+                   {"accuracy", "Accuracy"}, {"again", "Reproduce"}};
 
 static void page_head(FILE *out, const report_job *job)
 {
@@ -93,6 +91,7 @@ static void page_lead(FILE *out, const report_job *job)
     fputs("</h1>\n", out);
     lead_sigma(out, job);
     lead_direction(out, job);
+    cli_report_verdict(out, job);
     fputs("</header>\n", out);
 }
 
@@ -119,10 +118,12 @@ int cli_report_page(FILE *out, const void *context, lrcs_host_error *error)
     page_way(out);
     fputs("<main>\n", out);
     page_pictures(out, job);
-    cli_report_scene(out, job);
     cli_report_sigma(out, job);
-    cli_report_shares(out, job);
+    cli_report_notices(out, job);
     cli_report_curves(out, job);
+    cli_report_shares(out, job);
+    cli_report_scene(out, job);
+    cli_report_effects(out, job);
     cli_report_accuracy(out, job);
     cli_report_again(out, job);
     fputs("</main>\n<footer><p>Made by lrcs ", out);

@@ -153,8 +153,11 @@ static int report_measure(report_job *job)
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->scene);
     code = code ? code : cli_info_make(job->args, &job->scene, &job->load.build, &job->info);
+    cli_watch_stage("pose and pictures", &job->scene);
     code = code ? code : cli_report_run(job);
+    code = code ? code : cli_report_verdict_make(job);
     code = code ? code : cli_report_sweeps(job);
+    cli_watch_stage("comparing accuracy", NULL);
     return code ? code : report_compare(job);
 }
 
@@ -164,6 +167,7 @@ static int explore_measure(report_job *job)
     lrcs_host_error error;
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->scene);
+    cli_watch_stage("preparing", &job->scene);
     if (code == 0 && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         code = cli_failed(&error);
     }
@@ -187,6 +191,7 @@ static void report_free(report_job *job)
         lrcs_host_scene_free(&job->converge.mesh[i].scene);
     }
     free(job->chart.bytes);
+    free(job->verdict.bytes);
     free(job->records);
     free(job->image.facet);
     cli_shares_free(&job->shares);
@@ -210,6 +215,7 @@ static int report_command(const cli_args *args)
                 : cli_output_write(job->path, explore ? cli_report_explore_page : cli_report_page,
                                    job);
     if (code == 0) {
+        cli_watch_end();
         cli_notices_print(stderr, &job->scene.notices);
         code = cli_accuracy_code(args, &job->options, job->result.flags);
     }

@@ -60,6 +60,7 @@ typedef struct report_job {
     uint32_t peaks;
     converge_job converge;
     report_bytes chart;
+    report_bytes verdict; /* as lrcs run prints it */
 } report_job;
 
 /* ---- what it measures: 0 or an exit code with the message printed ---- */
@@ -130,9 +131,19 @@ void cli_page_figure(FILE *out, const report_bytes *svg, const char *label, cons
 void cli_page_picture(FILE *out, const report_bytes picture[2], const char *label);
 void cli_page_figure_end(FILE *out);
 
+/* The verdict of lrcs run on the run of the page: gathered, 0 or an exit code; and as markup. */
+int cli_report_verdict_make(report_job *job);
+void cli_report_verdict(FILE *out, const report_job *job);
+
+/* What is folded until it is asked for: begins under a title, ends. */
+void cli_page_fold(FILE *out, const char *title);
+void cli_page_fold_end(FILE *out);
+
 /* The sections. */
+void cli_report_notices(FILE *out, const report_job *job);
 void cli_report_scene(FILE *out, const report_job *job);
 void cli_report_sigma(FILE *out, const report_job *job);
+void cli_report_effects(FILE *out, const report_job *job);
 void cli_report_shares(FILE *out, const report_job *job);
 void cli_report_curves(FILE *out, const report_job *job);
 void cli_report_accuracy(FILE *out, const report_job *job);

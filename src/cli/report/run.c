@@ -8,11 +8,14 @@
 static lrcs_host_picture picture_of(const report_job *job, int kind, int white)
 {
     static const int look[REPORT_PICTURES] = {LRCS_HOST_BY_SIGMA, LRCS_HOST_BY_MATERIAL};
+    const char *name = cli_scene_title(job->args, &job->scene);
     return (lrcs_host_picture){.scene = &job->scene.scene,
                                .pose = &job->pose,
                                .records = job->records,
+                               .title = name == job->args->operand ? cli_base_name(name) : name,
                                .colouring = look[kind],
-                               .white = white};
+                               .white = white,
+                               .annotated = 1};
 }
 
 static int picture_draw(report_job *job, const lrcs_host_picture *picture, report_bytes *bytes)
@@ -61,14 +64,19 @@ int cli_report_run(report_job *job)
     if (!job->records) {
         return cli_out_of_memory();
     }
+    cli_watch_stage("preparing", &job->scene);
     int status = lrcs_host_scene_prepare(&job->scene, &error);
     if (status == LRCS_OK) {
+        cli_watch_stage("pose", NULL);
+        job->options.progress = cli_watch_run();
         status = lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result,
                                      job->records, NULL, &job->pose_s, &error);
     }
     if (status != LRCS_OK) {
         return cli_failed(&error);
     }
+    job->options.progress = NULL; /* sweeps have threads */
+    cli_watch_stage("pictures", NULL);
     int code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
                                &job->shares);
     for (int kind = 0; kind < REPORT_PICTURES && code == 0; kind++) {

@@ -3,6 +3,7 @@
 #include "cli/report/report.h"
 
 #include <math.h>
+#include <string.h>
 
 /* How many rows a table leaves out. */
 static void more_say(FILE *out, uint32_t more)
@@ -66,13 +67,16 @@ static void model_facts(FILE *out, const report_job *job)
     }
     fact_text(out, "Closed", r->closed ? "yes" : "no");
     fact_text(out, "Convex", r->convex ? "yes" : "no");
-    fputs("</dl>\n<h3>Defects of the mesh</h3>\n<dl class=\"facts\">\n", out);
+    fputs("</dl>\n", out);
+    cli_page_fold(out, "Defects of the mesh");
+    fputs("<dl class=\"facts\">\n", out);
     fact_count(out, "Facets without area", r->degenerate);
     fact_count(out, "Doubled facets", r->duplicate);
     fact_count(out, "of these, facing the other way", r->opposite_pairs);
     fact_count(out, "Open edges", r->boundary_edges);
     fact_count(out, "Edges of three or more facets", r->nonmanifold_edges);
     fputs("</dl>\n", out);
+    cli_page_fold_end(out);
 }
 
 static void model_glint(FILE *out, const cli_info *info)
@@ -81,8 +85,8 @@ static void model_glint(FILE *out, const cli_info *info)
     if (info->glint_count == 0) {
         return;
     }
-    fputs("<h3>Is the mesh fine enough for its glint?</h3>\n"
-          "<p>Estimates for curved parts: how far flat facets may misjudge the glint at the worst "
+    cli_page_fold(out, "Is the mesh fine enough for its glint?");
+    fputs("<p>Estimates for curved parts: how far flat facets may misjudge the glint at the worst "
           "aspect, and how many facets around a full turn would serve.</p>\n",
           out);
     cli_page_table(out, "Glint adequacy",
@@ -101,6 +105,7 @@ static void model_glint(FILE *out, const cli_info *info)
     }
     cli_page_table_end(out);
     more_say(out, info->glint_count > REPORT_ROWS ? info->glint_count - REPORT_ROWS : 0);
+    cli_page_fold_end(out);
 }
 
 /* ---- materials ---- */
@@ -126,7 +131,10 @@ static void material_row(FILE *out, const lrcs_material *material, const info_ma
     cli_page_number_cell(out, material->brdf.B, 6);
     cli_page_number_cell(out, material->brdf.s, 6);
     cli_page_number_cell(out, material->brdf.m, 6);
-    fprintf(out, "<td>%s%s%s</td>", material->bound ? "" : "not bound: the default",
+    fprintf(out, "<td>%s%s%s</td>",
+            material->bound                                    ? ""
+            : strcmp(cli_material_source(material), "default") ? "assumed"
+                                                               : "not bound: the default",
             material->two_sided ? " two-sided" : "", material->omitted ? " left out" : "");
     cli_page_row_end(out);
 }
@@ -143,6 +151,7 @@ static void materials_section(FILE *out, const report_job *job)
           "glint, of "
           "rms slope s, and the diffuse part, of exponent m. A and B are per steradian.</p>\n",
           out);
+    cli_page_fold(out, "Materials, their areas and numbers");
     cli_page_table(out, "Materials", "Material|#Facets|#Area, m\xc2\xb2|#A|#B|#s|#m|Remarks");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         if (cli_info_shows(&job->info, i) && shown < REPORT_ROWS) {
@@ -154,6 +163,7 @@ static void materials_section(FILE *out, const report_job *job)
     }
     cli_page_table_end(out);
     more_say(out, more);
+    cli_page_fold_end(out);
     cli_page_section_end(out);
 }
 
@@ -166,7 +176,7 @@ static void notice_item(FILE *out, const char *text)
     fputs("</li>\n", out);
 }
 
-static void notices_section(FILE *out, const report_job *job)
+void cli_report_notices(FILE *out, const report_job *job)
 {
     const lrcs_host_notices *notices = &job->scene.notices;
     char text[INFO_NOTICE_SIZE];
@@ -208,5 +218,4 @@ void cli_report_scene(FILE *out, const report_job *job)
     model_glint(out, &job->info);
     cli_page_section_end(out);
     materials_section(out, job);
-    notices_section(out, job);
 }

@@ -56,7 +56,7 @@ static void budget_row(FILE *out, const report_job *job, const char *name, const
 static void budget_table(FILE *out, const report_job *job)
 {
     const lrcs_budget *budget = &job->result.budget;
-    fputs("<h3>Where the bound comes from</h3>\n", out);
+    cli_page_fold(out, "Where the bound comes from");
     cli_page_table(out, "The bound by cause", "Cause|#Bound, m\xc2\xb2|#of \xcf\x83|What it holds");
     budget_row(out, job, "Visibility", "visibility_m2", budget->visibility_m2,
                "what of each facet is seen, by the raster or by clipping");
@@ -68,6 +68,7 @@ static void budget_table(FILE *out, const report_job *job)
     budget_row(out, job, "Rounding", "rounding_m2", budget->rounding_m2,
                "every step of the arithmetic");
     cli_page_table_end(out);
+    cli_page_fold_end(out);
 }
 
 static void method_words(FILE *out, const report_job *job)
@@ -94,12 +95,13 @@ static void method_words(FILE *out, const report_job *job)
     fputs("</p>\n", out);
 }
 
-static void effects_section(FILE *out, const report_job *job)
+void cli_report_effects(FILE *out, const report_job *job)
 {
     cli_page_section(out, "effects", "What was simulated, and what was left out");
     fputs("<p>An effect that cannot matter is left out; the answer is provably the same without "
           "it.</p>\n",
           out);
+    cli_page_fold(out, "Effects, and why");
     cli_page_table(out, "Effects", "Effect||Why");
     for (int i = 0; i < LRCS_EFFECTS; i++) {
         const lrcs_effect *effect = &job->result.effect[i];
@@ -115,6 +117,7 @@ static void effects_section(FILE *out, const report_job *job)
         cli_page_row_end(out);
     }
     cli_page_table_end(out);
+    cli_page_fold_end(out);
     cli_page_section_end(out);
 }
 
@@ -125,7 +128,6 @@ void cli_report_sigma(FILE *out, const report_job *job)
     method_words(out, job);
     budget_table(out, job);
     cli_page_section_end(out);
-    effects_section(out, job);
 }
 
 /* ---- shares ---- */
@@ -190,14 +192,16 @@ void cli_report_shares(FILE *out, const report_job *job)
     share_table(out, shares, "Shares of parts",
                 "Part|#Facets|#\xcf\x83, m\xc2\xb2|#Share||#Glint, m\xc2\xb2|#Diffuse, m\xc2\xb2",
                 shares->part, shares->parts, "(no name)");
-    fputs("<h3>Materials</h3>\n", out);
+    cli_page_fold(out, "Materials");
     share_table(
         out, shares, "Shares of materials",
         "Material|#Facets|#\xcf\x83, m\xc2\xb2|#Share||#Glint, m\xc2\xb2|#Diffuse, m\xc2\xb2",
         shares->material, shares->materials, "(default)");
+    cli_page_fold_end(out);
     if (shares->facets > 0) {
-        fputs("<h3>The brightest facets</h3>\n", out);
+        cli_page_fold(out, "The brightest facets");
         share_facets(out, shares);
+        cli_page_fold_end(out);
     }
     cli_page_section_end(out);
 }

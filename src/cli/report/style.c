@@ -69,7 +69,10 @@ static const char *const style_parts[] = {
     ".others td{color:var(--faint)}\n"
     ".dot{display:inline-block;width:.8em;height:.8em;margin-right:.45em;border-radius:50%;"
     "border:1px solid var(--faint);vertical-align:-.05em}\n"
-    ".on{font-weight:600}.off{color:var(--faint)}\n",
+    ".on{font-weight:600}.off{color:var(--faint)}\n"
+    "details{margin:.6rem 0 1rem}summary{cursor:pointer;color:var(--mark);font-weight:600}\n"
+    "summary:focus-visible{outline:2px solid var(--mark);outline-offset:2px}\n"
+    "@media print{details::details-content{content-visibility:visible;block-size:auto}}\n",
     /* figures */
     "figure{margin:1rem 0 1.4rem;min-width:0}\n"
     ".chart,figure picture{display:block;background:var(--card);border:1px solid var(--rule);"

@@ -278,6 +278,7 @@ int cli_report_map(report_job *job)
 int cli_report_sweeps(report_job *job)
 {
     lrcs_host_scene *scene = NULL;
+    cli_watch_stage("scene of the sweeps", NULL);
     int code = scene_choose(job, &scene);
     code = code ? code : steps_choose(job, scene);
     double poses = code ? 0.0 : steps_poses(job->cut_step, job->map_step);
@@ -290,5 +291,6 @@ int cli_report_sweeps(report_job *job)
         code = code ? code : sweep_draw(walk.sweep);
     }
     cli_progress_clear(&progress);
+    cli_watch_stage("peaks", NULL);
     return code ? code : peaks_run(job, scene);
 }

@@ -86,7 +86,9 @@ static int explain_round(run_job *job, explain_times *times, uint32_t round, dou
 {
     lrcs_result result = {0};
     int code = explain_pose(job, &job->options, &result, &times->first[round]);
+    cli_watch_stage("effects", NULL);
     for (int i = 0; i < LRCS_EFFECTS && code == 0; i++) {
+        cli_watch_count((uint64_t)i, LRCS_EFFECTS);
         lrcs_run_options options = job->options;
         if (!is_switched(i)) {
             continue;

@@ -176,12 +176,13 @@ void cli_run_materials_table(const run_job *job)
     }
 }
 
-void cli_run_materials_verdict(const run_job *job)
+void cli_run_materials_verdict(const run_job *job, FILE *out)
 {
     const lrcs_uncertainty *u = &job->uncertainty;
     if (u->stated) {
-        printf("             their stated errors leave sigma uncertain by %.3g %% (one standard "
-               "deviation)\n",
-               share(u->deviation_m2, job->result.sigma_m2));
+        fprintf(out,
+                "             their stated errors leave sigma uncertain by %.3g %% (one standard "
+                "deviation)\n",
+                share(u->deviation_m2, job->result.sigma_m2));
     }
 }

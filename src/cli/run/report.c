@@ -306,7 +306,7 @@ void cli_run_table(const run_job *job)
     if (job->explain) {
         cli_run_explain_table(job);
     }
-    cli_run_verdict(job);
+    cli_run_verdict(job, stdout);
 }
 
 void cli_run_notices(const run_job *job)

@@ -139,6 +139,7 @@ static int run_pose(run_job *job)
         return cli_failed(&error);
     }
     cli_watch_stage("pose", NULL);
+    job->options.progress = cli_watch_run();
     if (job->emulation.asked) {
         return cli_run_emulate(job);
     }
@@ -159,7 +160,7 @@ static int run_scene(run_job *job)
 {
     int searched = job->budget.asked_ms > 0.0;
     int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
-    cli_watch_begin();
+    cli_watch_stage("loading", NULL);
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
     code = code == 0 && searched ? cli_run_budget(job) : code;
@@ -196,6 +197,7 @@ static int run_outputs(run_job *job)
     int code = cli_run_open(job);
     code = code ? code : cli_run_outputs_write(job);
     code = code == 0 && job->explain ? cli_run_explain(job) : code;
+    cli_watch_end();
     if (code != 0) {
         return code;
     }
@@ -221,7 +223,6 @@ static int run_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job);
     code = code ? code : run_scene(&job);
-    cli_watch_end();
     if (code == 0) {
         run_judge(&job);
         code = run_outputs(&job);

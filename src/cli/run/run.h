@@ -125,7 +125,7 @@ void cli_run_emulation_table(const run_job *job);
    in words, the last lines of a table. */
 int cli_run_open(run_job *job);
 void cli_run_open_json(const run_job *job, lrcs_host_json *json);
-void cli_run_verdict(const run_job *job);
+void cli_run_verdict(const run_job *job, FILE *out);
 
 /* --sensitivity, --draws and --seed: their values, as 0 or CLI_USAGE; the material uncertainty and
    the derivatives, where they are wanted, 0 or CLI_FAILED; as keys of an open object; as lines of
@@ -134,7 +134,7 @@ int cli_run_materials_read(run_job *job);
 int cli_run_materials(run_job *job);
 void cli_run_materials_json(const run_job *job, lrcs_host_json *json);
 void cli_run_materials_table(const run_job *job);
-void cli_run_materials_verdict(const run_job *job);
+void cli_run_materials_verdict(const run_job *job, FILE *out);
 
 /* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
    for people. */

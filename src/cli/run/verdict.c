@@ -100,59 +100,62 @@ static double percent(double part, double whole)
     return whole > 0.0 ? 100.0 * part / whole : 0.0;
 }
 
-static void unit_say(const run_job *job)
+static void unit_say(const run_job *job, FILE *out)
 {
     for (uint32_t i = 0; i < job->scene.recipe.part_count; i++) {
         const lrcs_recipe_part *part = &job->scene.recipe.part[i];
         if (part->file && !part->unit_given) {
-            printf("  unit       metres are assumed: no unit is stated for ");
-            cli_column(part->name, 0);
-            putchar('\n');
+            fprintf(out, "  unit       metres are assumed: no unit is stated for ");
+            cli_column_to(out, part->name, 0);
+            putc('\n', out);
             return;
         }
     }
 }
 
-static void backs_say(const run_job *job)
+static void backs_say(const run_job *job, FILE *out)
 {
     const run_open *open = &job->open;
     if (!(open->back_area_m2 > 0.0)) {
         return;
     }
-    printf("  back sides %.3g m2, %.3g %% of the silhouette, return nothing", open->back_area_m2,
-           100.0 * open->back_share);
+    fprintf(out, "  back sides %.3g m2, %.3g %% of the silhouette, return nothing",
+            open->back_area_m2, 100.0 * open->back_share);
     if (!isnan(open->back_sigma_m2)) {
-        printf("; if they reflected, sigma would be\n             %.6g m2", open->back_sigma_m2);
+        fprintf(out, "; if they reflected, sigma would be\n             %.6g m2",
+                open->back_sigma_m2);
         if (job->result.sigma_m2 > 0.0) {
-            printf(" (%+.3g %%)",
-                   percent(open->back_sigma_m2 - job->result.sigma_m2, job->result.sigma_m2));
+            fprintf(out, " (%+.3g %%)",
+                    percent(open->back_sigma_m2 - job->result.sigma_m2, job->result.sigma_m2));
         }
-        printf(": --two-sided open, or all");
+        fprintf(out, ": --two-sided open, or all");
     }
-    putchar('\n');
+    putc('\n', out);
 }
 
-static void glint_say(const run_job *job)
+static void glint_say(const run_job *job, FILE *out)
 {
     const run_open *open = &job->open;
     if (open->coarse == 0 || !(open->glint_error_m2 > job->result.bound_m2)) {
         return;
     }
-    printf("  glint      %.3g %% of sigma from facets too coarse for it: flat or curved differ by "
-           "some "
-           "%.2g %%\n             (an estimate): --normals auto\n",
-           percent(open->glint_m2, job->result.sigma_m2),
-           percent(open->glint_error_m2, job->result.sigma_m2));
+    fprintf(out,
+            "  glint      %.3g %% of sigma from facets too coarse for it: flat or curved differ by "
+            "some "
+            "%.2g %%\n             (an estimate): --normals auto\n",
+            percent(open->glint_m2, job->result.sigma_m2),
+            percent(open->glint_error_m2, job->result.sigma_m2));
     if (glint_dominates(job)) {
-        printf("             facet %lu alone makes %.3g %% of sigma: its normal is the mesh's, not "
-               "the "
-               "surface's\n",
-               (unsigned long)open->glint_facet,
-               percent(open->glint_most_m2, job->result.sigma_m2));
+        fprintf(
+            out,
+            "             facet %lu alone makes %.3g %% of sigma: its normal is the mesh's, not "
+            "the "
+            "surface's\n",
+            (unsigned long)open->glint_facet, percent(open->glint_most_m2, job->result.sigma_m2));
     }
 }
 
-static void materials_say(const run_job *job)
+static void materials_say(const run_job *job, FILE *out)
 {
     static const char *const source[] = {"illustrative", "default", "assumed", "given"};
     static const char *const words[] = {"illustrative, of the library: not measured",
@@ -169,35 +172,37 @@ static void materials_say(const run_job *job)
     }
     for (int k = 0; k < 4; k++) {
         if (facets[k] > 0) {
-            printf("  %-10s %lu facets: %s\n", "materials", (unsigned long)facets[k], words[k]);
+            fprintf(out, "  %-10s %lu facets: %s\n", "materials", (unsigned long)facets[k],
+                    words[k]);
         }
     }
 }
 
-void cli_run_verdict(const run_job *job)
+void cli_run_verdict(const run_job *job, FILE *out)
 {
     const lrcs_result *r = &job->result;
     char bound[CLI_BOUND_SIZE];
     if (r->budget.tessellation_m2 < 0.0) {
-        printf(
+        fprintf(
+            out,
             "verdict      shadows are proved, but not how far curved shapes are from their facets");
     } else if (r->sigma_m2 > 0.0) {
         cli_bound_text(r->bound_m2 / r->sigma_m2, 2, bound);
-        printf("verdict      geometry and shadows are proved to %s of sigma%s", bound,
-               r->bound_m2 > r->sigma_m2         ? ": a bound larger than sigma says little"
-               : r->bound_m2 > 0.1 * r->sigma_m2 ? ": coarse"
-                                                 : "");
+        fprintf(out, "verdict      geometry and shadows are proved to %s of sigma%s", bound,
+                r->bound_m2 > r->sigma_m2         ? ": a bound larger than sigma says little"
+                : r->bound_m2 > 0.1 * r->sigma_m2 ? ": coarse"
+                                                  : "");
     } else {
         cli_bound_text(r->bound_m2, 2, bound);
-        printf("verdict      geometry and shadows are proved: sigma is at most %s m2", bound);
+        fprintf(out, "verdict      geometry and shadows are proved: sigma is at most %s m2", bound);
     }
     if (r->estimate_m2 >= 0.0 && r->bound_m2 > 0.1 * r->sigma_m2) {
-        printf("; likely error\n             %.2g m2, an estimate", r->estimate_m2);
+        fprintf(out, "; likely error\n             %.2g m2, an estimate", r->estimate_m2);
     }
-    printf(".\n             Left open by the model:\n");
-    unit_say(job);
-    backs_say(job);
-    glint_say(job);
-    materials_say(job);
-    cli_run_materials_verdict(job);
+    fprintf(out, ".\n             Left open by the model:\n");
+    unit_say(job, out);
+    backs_say(job, out);
+    glint_say(job, out);
+    materials_say(job, out);
+    cli_run_materials_verdict(job, out);
 }

@@ -62,7 +62,7 @@ int cli_row_shares(const sweep_plan *plan, uint64_t row, lrcs_host_scene *base,
     lrcs_pose pose;
     memset(shares, 0, sizeof *shares);
     memset(&own, 0, sizeof own);
-    int varied = plan->scene_axes > 0;
+    int varied = plan->scene_axes > 0 || plan->track.joints > 0;
     int status = cli_plan_pose(plan, row, &pose);
     if (status != LRCS_OK) {
         snprintf(error.text, sizeof error.text, "%s", lrcs_status_text(status));

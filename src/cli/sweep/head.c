@@ -52,6 +52,9 @@ static int head_options(const cli_args *args, const sweep_plan *plan,
     if (plan->kind == SWEEP_TRACK) {
         snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)plan->track.hash);
         head_add(head, "poses", text);
+        if (plan->track.epoch[0]) {
+            head_add(head, "time_from", plan->track.epoch);
+        }
     }
     lrcs_host_number_text(options->tolerance, text);
     head_add(head, "tolerance", text);

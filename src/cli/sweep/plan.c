@@ -206,6 +206,9 @@ static void columns_name(sweep_plan *plan)
     for (uint32_t i = 0; i < plan->axes; i++) {
         plan->column[plan->columns++] = plan->axis[i].name;
     }
+    for (uint32_t i = 0; i < plan->track.joints; i++) {
+        plan->column[plan->columns++] = plan->track.joint_name[i];
+    }
     if (plan->kind == SWEEP_TRACK) {
         plan->column[plan->columns++] = "time";
     }
@@ -254,7 +257,9 @@ int cli_plan_read(const cli_args *args, const sweep_track *track, sweep_plan *pl
 void cli_plan_free(sweep_plan *plan)
 {
     free(plan->track.row);
+    free(plan->track.joint);
     plan->track.row = NULL;
+    plan->track.joint = NULL;
 }
 
 int cli_plan_has_mean(const sweep_plan *plan)
@@ -329,6 +334,9 @@ void cli_plan_values(const sweep_plan *plan, uint64_t row, double value[SWEEP_CO
     uint32_t used = plan->axes;
     lrcs_pose pose = lrcs_pose_default();
     axes_values(plan, row, value);
+    for (uint32_t i = 0; i < plan->track.joints; i++) {
+        value[used++] = plan->track.joint[row % plan->poses][i];
+    }
     if (plan->kind == SWEEP_TRACK) {
         value[used++] = plan->track.row[row % plan->poses][0];
     }

@@ -361,6 +361,20 @@ static double axis_value(const sweep_plot *plot, const plot_axis *axis, uint64_t
                                       : cli_range_at(&plan->axis[axis->column].range, place);
 }
 
+/* The words of an axis; of a track's time with its unit, and the date it is counted from. */
+static void time_title(const sweep_plot *plot, const plot_axis *axis, char text[192])
+{
+    const sweep_plan *plan = plot->plan;
+    if (plan->kind != SWEEP_TRACK || axis->column != plan->axes ||
+        strcmp(axis->name, "time") != 0) {
+        axis_title(axis->name, text);
+    } else if (plan->track.epoch[0]) {
+        snprintf(text, 192, "time since %s (s)", plan->track.epoch);
+    } else {
+        snprintf(text, 192, "time (s)");
+    }
+}
+
 /* ---- drawing ---- */
 
 /* The numbers of one sweep. */
@@ -417,7 +431,7 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *err
                                    .x_name = sheet->x_name,
                                    .y_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
                                    .x_deg = is_angle(&plot->x),
-                                   .y_from_0 = !plot->dbsm,
+                                   .y_from_0 = !plot->dbsm && plot->plan->kind != SWEEP_TRACK,
                                    .polar = plot->polar,
                                    .series = series,
                                    .series_count = curves};
@@ -511,8 +525,8 @@ static int sheet_make(const sweep_plot *plot, uint32_t count, plot_sheet *sheet)
     snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section%s%.200s",
              alike ? " of " : "", alike ? plot->title : "");
     plot_note(plot, count, sheet->note);
-    axis_title(plot->x.name, sheet->x_name);
-    axis_title(plot->y.name, sheet->y_name);
+    time_title(plot, &plot->x, sheet->x_name);
+    time_title(plot, &plot->y, sheet->y_name);
     return code;
 }
 

@@ -11,6 +11,7 @@
 sweep_progress cli_progress_make(uint64_t first, uint64_t total)
 {
     double now = cli_seconds();
+    cli_watch_stage(NULL, NULL); /* the bar takes its place */
     return (sweep_progress){isatty(STDERR_FILENO), first, total, now, now};
 }
 

@@ -218,6 +218,9 @@ static void data_take(void *context, const sweep_row *row)
     for (int k = 0; k < 4 && row->index < poses; k++) {
         data->plan.track.row[row->index][k] = row->value[data->text.columns - 4 + (uint32_t)k];
     }
+    for (uint32_t k = 0; k < data->plan.track.joints && row->index < poses; k++) {
+        data->plan.track.joint[row->index][k] = row->value[data->plan.axes + k];
+    }
 }
 
 static int data_refuse(const sweep_data *data, const char *what)
@@ -230,12 +233,23 @@ static int data_refuse(const sweep_data *data, const char *what)
 static int data_plan(sweep_data *data, const cli_command *command)
 {
     sweep_track track = {.row = NULL};
+    const char *epoch = cli_head_text(&data->head, "time_from");
     int poses = cli_head_text(&data->head, "poses") != NULL;
     plan_given(data);
     if (poses) {
         track.count = data->text.shape[data->text.dimensions - 1];
         track.row = data->text.columns >= 4 ? calloc(track.count, sizeof *track.row) : NULL;
-        if (!track.row) {
+        track.joint = calloc(track.count, sizeof *track.joint);
+        snprintf(track.epoch, sizeof track.epoch, "%s", epoch ? epoch : "");
+        for (uint32_t i = 0; i < data->text.columns && track.joints < SWEEP_JOINTS; i++) {
+            if (strncmp(data->column[i], SWEEP_JOINT, strlen(SWEEP_JOINT)) == 0) {
+                snprintf(track.joint_name[track.joints++], sizeof track.joint_name[0], "%s",
+                         data->column[i]);
+            }
+        }
+        if (!track.row || !track.joint) {
+            free(track.row);
+            free(track.joint);
             return cli_out_of_memory();
         }
     }
@@ -243,6 +257,7 @@ static int data_plan(sweep_data *data, const cli_command *command)
     int code = cli_plan_read(&data->args, poses ? &track : NULL, &data->plan);
     if (!data->plan.track.row) {
         free(track.row);
+        free(track.joint);
     }
     int same =
         code == 0 && data->plan.rows == data->text.rows && data->plan.columns == data->text.columns;

@@ -235,6 +235,15 @@ static int material_axis_check(const cli_args *args, const sweep_axis *axis,
     return 0;
 }
 
+/* The joint of a track's column, as an axis. */
+static sweep_axis joint_axis(const sweep_track *track, uint32_t joint)
+{
+    sweep_axis axis = {.option = "poses", .key = SCENE_JOINT};
+    snprintf(axis.whom, sizeof axis.whom, "%.99s",
+             track->joint_name[joint] + sizeof SWEEP_JOINT - 1);
+    return axis;
+}
+
 int cli_scene_axes_check(const cli_args *args, const sweep_plan *plan, const lrcs_host_scene *base)
 {
     int code = 0;
@@ -243,6 +252,14 @@ int cli_scene_axes_check(const cli_args *args, const sweep_plan *plan, const lrc
         code = scene_keys[axis->key].key == SCENE_MATERIAL
                    ? material_axis_check(args, axis, &base->scene)
                    : part_axis_check(args, axis, &base->recipe);
+        if (code == 0 && scene_keys[axis->key].key == SCENE_JOINT && plan->track.joints > 0) {
+            code = cli_usage(args->command, "--joint and the joint columns of --poses both turn "
+                                            "joints: give one");
+        }
+    }
+    for (uint32_t i = 0; i < plan->track.joints && code == 0; i++) {
+        const sweep_axis axis = joint_axis(&plan->track, i);
+        code = part_axis_check(args, &axis, &base->recipe);
     }
     return code;
 }
@@ -300,6 +317,11 @@ int cli_scene_of_row(const sweep_plan *plan, uint64_t row, const lrcs_host_scene
         for (uint32_t i = 0; i < plan->scene_axes; i++) {
             double value = cli_range_at(&plan->axis[i].range, cli_plan_place(plan, row, i));
             recipe_set(&recipe, bound, &plan->axis[i], value, &base->scene);
+        }
+        for (uint32_t i = 0; i < plan->track.joints; i++) {
+            const sweep_axis axis = joint_axis(&plan->track, i);
+            recipe_set(&recipe, bound, &axis, plan->track.joint[row % plan->poses][i],
+                       &base->scene);
         }
         status = lrcs_host_scene_vary(base, &recipe, build, scene, error);
     }

@@ -11,19 +11,20 @@ static const char sweep_help[] =
     "usage: lrcs sweep SCENE WHAT [options]\n"
     "\n"
     "Computes sigma (m2) and its bound for all combinations of what varies, the last axis\n"
-    "fastest. Rows are the same bytes for any number of threads.\n"
+    "fastest; the same bytes for any number of threads.\n"
     "\n"
-    "what varies: RANGE is A:B:STEP, both ends included, or one number; steps do not drift\n"
+    "what varies: RANGE is A:B:STEP, both ends included, or one number\n"
     "  --az RANGE, --el RANGE  azimuth and elevation of the laser, deg, body frame\n"
     "  --euler SEQ:a,b,c     deg, each a RANGE; XYZ: R = Rx(a) Ry(b) Rz(c)\n"
     "  --rotate AXIS:RANGE   turns about the body's x, y, z or u,v,w, deg; from the pose of\n"
-    "                        --direction, --azel, --euler or --quaternion, else laser on +z\n"
+    "                        --direction, --azel, .., else laser on +z\n"
     "  --sphere N            N near-uniform directions, and their mean with its standard error\n"
     "  --poses FILE.csv      rows time,w,x,y,z (quaternion, body to observation) or time,x,y,z\n"
-    "                        (direction to the laser, body frame)\n"
+    "                        (direction to the laser, body frame); time: seconds, or dates\n"
+    "                        2026-11-22T20:15:30.5Z; joint:PART columns: deg\n"
     "  --joint PART:RANGE    the joint's angle, deg; several as NAME,NAME or '*' turn together\n"
     "  --vary MATERIAL.KEY:RANGE  A, B, s or m of a material\n"
-    "  --vary PART.KEY:RANGE   of a shape: size_x, size_y, size_z, radius, radius2, length (m) or\n"
+    "  --vary PART.KEY:RANGE  of a shape: size_x, size_y, size_z, radius, radius2, length (m),\n"
     "                        half_angle_deg\n"
     "\n"
     "output\n"
@@ -33,7 +34,7 @@ static const char sweep_help[] =
     "  --resume              go on with FILE.partial, its rows checked; never replaces a whole "
     "FILE\n"
     "  --shard K/N           only the K-th of N parts of the rows; lrcs merge joins the files\n"
-    "  --jobs N              threads (one for each processor; fewer where memory is short)\n"
+    "  --jobs N              threads (one for each processor, or fewer)\n"
     "  --plot FILE           FILE.svg or .png, repeatable: up to 7 curves, or a map (lrcs plot)\n"
     "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
     "  --polar               curves about a pole, the angle counter-clockwise\n"
@@ -46,14 +47,14 @@ static const char sweep_help[] =
     "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
     "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, sigma_glint_m2,\n"
     "sigma_diffuse_m2, flags; last a checksum; JSON lines without an index are no rows. Exit 3\n"
-    "where rows miss the tolerance. With --accept estimate or any, .npy has a third number: 1\n"
-    "by estimate, 2 by any, 0 by bound, -1 missed.\n"
+    "where rows miss the tolerance. With --accept, .npy has a third number: 1 by estimate, 2 by\n"
+    "any, 0 by bound, -1 missed.\n"
     "\n"
     "examples\n"
     "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
     "  lrcs sweep demo --az 0:360:2 --el -90:90:2 -o map.npy --brightest 10 --stats\n"
     "  lrcs sweep demo --poses track.csv -o t.jsonl --resume\n"
-    "  lrcs sweep demo --az 0:360:1 --el -90:90:1 --shard 3/16 -o map.3.csv\n";
+    "  lrcs sweep demo --sphere 1e6 --shard 3/16 -o map.3.csv\n";
 
 static const cli_option sweep_options[] = {CLI_POSE_OPTIONS,     CLI_ACCURACY_OPTIONS,
                                            CLI_SCENE_OPTIONS,    {"az", 1, 0},
@@ -240,12 +241,17 @@ static int job_run(sweep_job *job)
 {
     lrcs_host_error error;
     int code = 0;
-    job->progress =
-        cli_progress_make(job->file.next - job->plan.first, job->plan.end - job->plan.first);
-    if (job->plan.scene_axes > 0) {
-        code = job->plan.poses > 1 ? scenes_run(job) : rows_run(job, NULL, job->plan.end);
+    const uint64_t done = job->file.next - job->plan.first;
+    const uint64_t all = job->plan.end - job->plan.first;
+    if (job->plan.scene_axes > 0 || job->plan.track.joints > 0) {
+        job->progress = cli_progress_make(done, all);
+        code = job->plan.poses > 1 && job->plan.track.joints == 0
+                   ? scenes_run(job)
+                   : rows_run(job, NULL, job->plan.end);
     } else if (job->file.next < job->plan.end) {
+        cli_watch_stage("preparing", &job->scene);
         code = lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
+        job->progress = cli_progress_make(done, all);
         code = code ? code : rows_run(job, &job->scene, job->plan.end);
     }
     cli_progress_clear(&job->progress);
@@ -323,6 +329,7 @@ static int job_show(sweep_job *job)
 static int job_rows(sweep_job *job)
 {
     signals_watch(); /* before the rows that are there are read: that may take seconds */
+    cli_watch_stage("rows that are there", NULL);
     int code = job_room(job);
     code = code ? code : cli_file_open(job->args, &job->file, &job->head, &job->plan);
     if (code != 0) {
@@ -370,6 +377,7 @@ static int sweep_command(const cli_args *args)
     }
     job->args = args;
     int code = job_read(job);
+    cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job->load, &job->scene);
     code = code ? code : cli_scene_axes_check(args, &job->plan, &job->scene);
     code = code ? code : job_files_check(job);

@@ -8,7 +8,8 @@
 #include <lrcs/sweep.h>
 
 #define SWEEP_AXES    8
-#define SWEEP_COLUMNS 12
+#define SWEEP_JOINTS  8 /* that a file of poses turns */
+#define SWEEP_COLUMNS 20
 #define SWEEP_FIELDS  6 /* of a row after its values: sigma to flags */
 
 /* ---- ranges ---- */
@@ -28,13 +29,18 @@ double cli_range_at(const sweep_range *range, uint64_t i);
 
 /* ---- tracks ---- */
 
-/* Attitudes from a CSV file. */
+/* Attitudes from a CSV file, and the angles of joints at each of them. */
 typedef struct sweep_track {
-    double (*row)[5]; /* time; direction x, y, z, or quaternion w, x, y, z */
+    double (*row)[5]; /* time, s; direction x, y, z, or quaternion w, x, y, z */
     uint64_t count;
     int quaternions;
-    uint64_t hash; /* of the file's bytes */
+    uint64_t hash;  /* of the file's bytes */
+    char epoch[40]; /* the date, ISO 8601, that times are counted from; "": times are as given */
+    uint32_t joints;
+    char joint_name[SWEEP_JOINTS][112]; /* their columns: "joint:PART" */
+    double (*joint)[SWEEP_JOINTS];      /* of each row, deg; NULL without joints */
 } sweep_track;
+#define SWEEP_JOINT "joint:"
 
 /* 0, CLI_FAILED or CLI_USAGE with the message printed. */
 int cli_track_read(const char *path, sweep_track *track);
@@ -62,7 +68,7 @@ typedef struct sweep_axis {
 
 typedef struct sweep_plan {
     sweep_axis axis[SWEEP_AXES];
-    uint32_t axes, scene_axes;
+    uint32_t axes, scene_axes; /* scene_axes: but for the joints of a track */
     int kind;
     lrcs_pose base;
     char sequence[4];    /* SWEEP_EULER */

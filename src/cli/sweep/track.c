@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* An attitude time series from CSV: a time and a quaternion or a direction in every row. It decides
-   which column is which, by the names in the first line or by their number; what a pose is made of
-   them is the plan's. */
+/* An attitude time series from CSV: a time and a quaternion or a direction in every row, and the
+   angles of joints. It decides which column is which, by the names in the first line or by their
+   number; what a pose is made of them is the plan's. */
 #include "cli/sweep/sweep.h"
 
 #include <lrcs/table.h>
@@ -19,10 +19,16 @@ static const track_name track_names[] = {
     {"time", 0, -1}, {"time_s", 0, -1}, {"t", 0, -1}, {"w", 1, 1}, {"qw", 1, 1}, {"qx", 2, 1},
     {"qy", 3, 1},    {"qz", 4, 1},      {"x", 1, 0},  {"y", 2, 0}, {"z", 3, 0}};
 
+#define PLACE_JOINT 5
+
 typedef struct track_reader {
     lrcs_host_table table;
     lrcs_host_error error;
-    int place[LRCS_HOST_FIELDS]; /* of each column; -1: not looked at */
+    int place[LRCS_HOST_FIELDS]; /* of each column, that of a joint from PLACE_JOINT on; -1: not
+                                    looked at */
+    int dates;                   /* times are ISO 8601 */
+    int64_t epoch;               /* the first of them in whole seconds, and the rest */
+    double epoch_part;
 } track_reader;
 
 static int track_fault(const track_reader *reader, const char *what)
@@ -42,11 +48,34 @@ static const track_name *name_find(const lrcs_host_field *field)
     return NULL;
 }
 
+/* A column "joint:PART". 0 or CLI_FAILED. */
+static int joint_read(track_reader *reader, sweep_track *track, uint32_t column)
+{
+    const lrcs_host_field *field = &reader->table.field[column];
+    const size_t begin = sizeof SWEEP_JOINT - 1;
+    if (track->joints >= SWEEP_JOINTS) {
+        return track_fault(reader, "at most 8 columns may turn joints");
+    }
+    if (field->size <= begin || field->size - begin >= 100) {
+        return track_fault(reader, "expected joint:PART with the name of a part");
+    }
+    char *name = track->joint_name[track->joints];
+    snprintf(name, sizeof track->joint_name[0], "%s%.*s", SWEEP_JOINT, (int)(field->size - begin),
+             field->text + begin);
+    for (uint32_t i = 0; i < track->joints; i++) {
+        if (strcmp(track->joint_name[i], name) == 0) {
+            return track_fault(reader, "two columns are the same");
+        }
+    }
+    reader->place[column] = PLACE_JOINT + (int)track->joints++;
+    return 0;
+}
+
 /* The first line's names. x, y, z are a direction's, but a quaternion's beside a w. */
 static int names_read(track_reader *reader, sweep_track *track)
 {
     const lrcs_host_table *table = &reader->table;
-    int seen[5] = {0};
+    int seen[PLACE_JOINT] = {0};
     lrcs_host_table_names(&reader->table);
     for (uint32_t i = 0; i < table->columns; i++) {
         const track_name *name = name_find(&table->field[i]);
@@ -56,7 +85,12 @@ static int names_read(track_reader *reader, sweep_track *track)
         const track_name *name = name_find(&table->field[i]);
         int shift = name && name->quaternion == 0 && track->quaternions;
         reader->place[i] = name ? name->place + shift : -1;
-        if (!name) {
+        if (lrcs_host_field_begins(&table->field[i], SWEEP_JOINT)) {
+            int code = joint_read(reader, track, i);
+            if (code != 0) {
+                return code;
+            }
+        } else if (!name) {
             fprintf(stderr, "notice: %s: column '%.*s' is not used\n", table->path,
                     (int)table->field[i].size, table->field[i].text);
         }
@@ -88,15 +122,110 @@ static int columns_assume(track_reader *reader, sweep_track *track)
     return 0;
 }
 
+/* Digits as a number from `least` to `most`; -1 where there are none such. */
+static int digits_read(const char *text, int count, int least, int most)
+{
+    int number = 0;
+    for (int i = 0; i < count; i++) {
+        if (text[i] < '0' || text[i] > '9') {
+            return -1;
+        }
+        number = 10 * number + (text[i] - '0');
+    }
+    return number >= least && number <= most ? number : -1;
+}
+
+/* Days from 1970-01-01 of a date of the Gregorian calendar: years that begin in March have their
+   leap day at their end. */
+static int64_t days_of(int year, int month, int day)
+{
+    int64_t y = month > 2 ? year : year - 1;
+    int64_t from_march = (month + 9) % 12;
+    return 365 * y + y / 4 - y / 100 + y / 400 + (153 * from_march + 2) / 5 + day - 719469;
+}
+
+/* An ISO 8601 date in UTC, YYYY-MM-DDThh:mm:ss[.fraction]Z, as seconds from 1970 without leap
+   seconds: whole ones, and the rest. 0, or -1. */
+static int date_read(const lrcs_host_field *field, int64_t *seconds, double *part)
+{
+    static const signed char month_days[12] = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    static const char shape[] = "dddd-dd-ddTdd:dd:dd";
+    const char *t = field->text;
+    const size_t size = sizeof shape - 1;
+    if (field->size < size + 1 || (t[field->size - 1] != 'Z' && t[field->size - 1] != 'z')) {
+        return -1;
+    }
+    for (size_t i = 0; i < size; i++) {
+        if (shape[i] != 'd' && t[i] != shape[i] && !(shape[i] == 'T' && t[i] == ' ')) {
+            return -1;
+        }
+    }
+    int year = digits_read(t, 4, 1, 9999);
+    int month = digits_read(t + 5, 2, 1, 12);
+    int day = digits_read(t + 8, 2, 1, month > 0 ? month_days[month - 1] : 0);
+    int hour = digits_read(t + 11, 2, 0, 23);
+    int minute = digits_read(t + 14, 2, 0, 59);
+    int second = digits_read(t + 17, 2, 0, 59);
+    int leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+    if (year < 0 || month < 0 || day < 0 || hour < 0 || minute < 0 || second < 0 ||
+        (month == 2 && day == 29 && !leap)) {
+        return -1;
+    }
+    *part = 0.0;
+    if (field->size > size + 1 &&
+        (t[size] != '.' || field->size == size + 2 ||
+         strspn(t + size + 1, "0123456789") != field->size - size - 2 ||
+         lrcs_host_number_read(t + size, field->size - size - 1, part) != LRCS_OK)) {
+        return -1;
+    }
+    *seconds =
+        86400 * days_of(year, month, day) + (INT64_C(3600) * hour + INT64_C(60) * minute + second);
+    return 0;
+}
+
+/* A time: seconds, or a date, counted from that of the first row. 0 or CLI_FAILED. */
+static int time_read(track_reader *reader, sweep_track *track, uint32_t column, double *value)
+{
+    const lrcs_host_field *field = &reader->table.field[column];
+    int64_t seconds;
+    double part;
+    int date = date_read(field, &seconds, &part) == 0;
+    if (track->count == 0 && date) {
+        reader->dates = 1;
+        reader->epoch = seconds;
+        reader->epoch_part = part;
+        snprintf(track->epoch, sizeof track->epoch, "%.*s", (int)field->size, field->text);
+    }
+    if (date && reader->dates) {
+        *value = (double)(seconds - reader->epoch) + (part - reader->epoch_part);
+        return 0;
+    }
+    int status = reader->dates ? lrcs_host_field_refuse(&reader->table, LRCS_E_SYNTAX, column,
+                                                        "a date as in the first row, "
+                                                        "2026-11-22T20:15:30.5Z",
+                                                        &reader->error)
+                               : lrcs_host_field_read(&reader->table, column,
+                                                      track->count == 0 ? "seconds, or a date as "
+                                                                          "2026-11-22T20:15:30.5Z"
+                                                                        : "a finite number",
+                                                      value, &reader->error);
+    return status == LRCS_OK ? 0 : cli_failed(&reader->error);
+}
+
 static int row_read(track_reader *reader, sweep_track *track)
 {
     double *row = track->row[track->count];
     lrcs_pose pose;
     memset(row, 0, sizeof track->row[0]);
     for (uint32_t i = 0; i < reader->table.columns; i++) {
-        if (reader->place[i] >= 0 &&
-            lrcs_host_field_read(&reader->table, i, "a finite number", &row[reader->place[i]],
-                                 &reader->error) != LRCS_OK) {
+        int place = reader->place[i];
+        double *value = place < PLACE_JOINT ? &row[place < 0 ? 0 : place]
+                                            : &track->joint[track->count][place - PLACE_JOINT];
+        if (place == 0 && time_read(reader, track, i, value) != 0) {
+            return CLI_FAILED;
+        }
+        if (place > 0 && lrcs_host_field_read(&reader->table, i, "a finite number", value,
+                                              &reader->error) != LRCS_OK) {
             return cli_failed(&reader->error);
         }
     }
@@ -113,8 +242,10 @@ static int row_read(track_reader *reader, sweep_track *track)
 static int first_read(track_reader *reader, sweep_track *track)
 {
     const lrcs_host_field *field = reader->table.field;
+    int64_t seconds;
     double number;
-    if (lrcs_host_number_read(field->text, field->size, &number) == LRCS_E_SYNTAX) {
+    if (lrcs_host_number_read(field->text, field->size, &number) == LRCS_E_SYNTAX &&
+        date_read(field, &seconds, &number) != 0) {
         return names_read(reader, track);
     }
     int code = columns_assume(reader, track);
@@ -128,7 +259,8 @@ static int track_parse(track_reader *reader, const lrcs_host_file *file, sweep_t
         lines += file->bytes[i] == '\n' || file->bytes[i] == '\r';
     }
     track->row = calloc(lines, sizeof *track->row);
-    if (!track->row) {
+    track->joint = calloc(lines, sizeof *track->joint);
+    if (!track->row || !track->joint) {
         return cli_out_of_memory();
     }
     int code = 0;
@@ -147,7 +279,7 @@ int cli_track_read(const char *path, sweep_track *track)
 {
     lrcs_host_error error;
     lrcs_host_file file;
-    track_reader reader;
+    track_reader reader = {.dates = 0};
     if (lrcs_host_file_read(path, &file, &error) != LRCS_OK) {
         return cli_failed(&error);
     }

@@ -182,11 +182,13 @@ static int vectors_make(vectors_job *job, uint32_t tier)
     bindings_make(job);
     for (const vectors_scene *scene = cli_vectors_scenes; scene->name && code == 0; scene++) {
         if ((uint32_t)scene->tier <= tier) {
+            cli_watch_stage(scene->name, NULL);
             code = scene_make(job, scene);
             scenes++;
         }
     }
     code = code ? code : cli_vectors_index(job);
+    cli_watch_end();
     if (code == 0) {
         printf("%s: kit %d, %lu scenes, %lu cases; begin with %s/README.md\n", job->folder,
                KIT_VERSION, (unsigned long)scenes, (unsigned long)job->cases, job->folder);

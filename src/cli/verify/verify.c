@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs verify: the engine (shape to facets to sigma) against closed forms, on this machine. The
-   hard cases are verify_hard.c's. */
+   hard cases are hard.c's. */
 #include "cli/verify/verify.h"
 
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char verify_help[] =
     "usage: lrcs verify [--hard] [--json]\n"
@@ -188,6 +189,7 @@ static int verify_command(const cli_args *args)
     lrcs_host_json writer = lrcs_host_json_make(stdout);
     lrcs_host_json *json = cli_value(args, "json") ? &writer : NULL;
     verify_tally tally = {0, 0, 0.0, 0.0};
+    cli_watch_stage(isatty(STDOUT_FILENO) ? NULL : "cases", NULL); /* rows show it themselves */
     if (cli_value(args, "hard")) {
         return cli_hard_verify(json != NULL);
     }
@@ -202,12 +204,15 @@ static int verify_command(const cli_args *args)
     }
     for (size_t i = 0; i < COUNT_OF(verify_shapes); i++) {
         for (size_t k = 0; k < COUNT_OF(verify_brdfs); k++) {
+            cli_watch_count(tally.count, COUNT_OF(verify_shapes) * COUNT_OF(verify_brdfs) *
+                                             COUNT_OF(verify_aspects));
             int code = shape_verify(&verify_shapes[i], &verify_brdfs[k], json, &tally);
             if (code != CLI_DONE) {
                 return code;
             }
         }
     }
+    cli_watch_end();
     tally_print(&tally, json);
     return tally.failed == 0 ? CLI_DONE : CLI_FAILED;
 }

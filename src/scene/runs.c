@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+/* Runs of facets: their boxes, and which of their facets are connected within the run. What a view
+   makes of that is decided elsewhere. */
+#include "scene/runs.h"
+
+#include <math.h>
+
+#include "base/join.h"
+#include "base/range.h"
+#include "base/work.h"
+#include "scene/prepare.h"
+
+/* Does a facet lie across some side of another? */
+static int lies_across(const lrcsi_across *across, uint32_t facet, uint32_t other)
+{
+    const uint32_t *corner = across->facet[other].corner;
+    return corner[0] == facet || corner[1] == facet || corner[2] == facet;
+}
+
+/* Joins the facets of a run, and lists the sides that leave it. */
+static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, uint32_t end)
+{
+    uint32_t group[LRCSI_RUN];
+    uint32_t count = p->scene->facet_count;
+    uint32_t *sides = &runs->run[start / LRCSI_RUN + 1].first_side;
+    for (uint32_t f = start; f < end; f++) {
+        group[f - start] = f - start;
+        for (int k = 0; k < 3; k++) {
+            uint32_t other = p->across.facet[f].corner[k];
+            if (other >= start && other < f) {
+                lrcsi_join(group, other - start, f - start);
+            } else if (other < start ||
+                       (other >= end && (other == count || !lies_across(&p->across, f, other)))) {
+                runs->side[(*sides)++] =
+                    (lrcsi_run_side){f, other, p->topology.facet_edge[f].corner[k]};
+            }
+        }
+    }
+    lrcsi_join_settle(group, end - start);
+    for (uint32_t f = start; f < end; f++) {
+        runs->first[f] = (unsigned char)group[f - start];
+    }
+}
+
+size_t lrcsi_runs_need(uint32_t facet_count)
+{
+    size_t runs = (size_t)lrcsi_runs_count(facet_count) + 1;
+    size_t need =
+        lrcsi_work_add(lrcsi_work_bytes(runs, sizeof(lrcsi_run)), lrcsi_work_bytes(facet_count, 1));
+    return lrcsi_work_add(need, 3 * lrcsi_work_bytes(facet_count, sizeof(lrcsi_run_side)));
+}
+
+/* Room for three sides a facet, given back but for what they need. */
+int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
+{
+    uint32_t facet_count = p->scene->facet_count;
+    lrcsi_runs made = {.count = lrcsi_runs_count(facet_count)};
+    made.run = lrcsi_work_take(work, (size_t)made.count + 1, sizeof *made.run);
+    made.first = lrcsi_work_take(work, facet_count, 1);
+    size_t mark = work->used;
+    made.side = lrcsi_work_take(work, 3 * (size_t)facet_count, sizeof *made.side);
+    if (!made.run || !made.first || !made.side) {
+        return LRCS_E_MEMORY;
+    }
+    made.run[0].first_side = 0;
+    for (uint32_t r = 0; r < made.count; r++) {
+        uint32_t start = r * LRCSI_RUN;
+        uint32_t end = lrcsi_run_end(start, facet_count);
+        lrcsi_run run = {{HUGE_VAL, HUGE_VAL, HUGE_VAL},
+                         {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
+                         made.run[r].first_side,
+                         0};
+        for (uint32_t f = start; f < end; f++) {
+            run.touched |=
+                lrcsi_intersection_of(&p->intersections, f) != 0 || p->intersections.rim[f];
+            for (int i = 0; i < 9 && p->redundant[f] < LRCSI_REDUNDANT; i++) {
+                double x = lrcsi_prepared_corner(p, f, i / 3)[i % 3];
+                run.low[i % 3] = lrcsi_least(run.low[i % 3], x);
+                run.high[i % 3] = lrcsi_most(run.high[i % 3], x);
+            }
+        }
+        made.run[r] = run;
+        made.run[r + 1].first_side = run.first_side;
+        run_join(p, &made, start, end);
+    }
+    work->used = mark;
+    made.side = lrcsi_work_take(work, made.run[made.count].first_side, sizeof *made.side);
+    *runs = made;
+    return LRCS_OK;
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+/* The boxes of runs, and of facets. */
+#include "visibility/boxes.h"
+
+#include <math.h>
+
+#include "base/work.h"
+
+size_t lrcsi_boxes_need(const lrcs_prepared *prepared)
+{
+    size_t facets = prepared->scene->facet_count;
+    size_t runs = prepared->runs.count;
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_view_box)),
+                                 lrcsi_work_bytes(runs, sizeof(lrcsi_view_box)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(runs, 1));
+}
+
+/* A point of the box is m + d, where |d_k| <= h_k. The view has m within lrcsi_view_off, which
+   leaves room for a sum, and a row of the axes within 4 u, so that d counts for at most
+   sum (|R_k| + 4 u) h_k, computed within 4 u of itself. */
+static lrcsi_view_box run_box(const lrcsi_view *view, const lrcsi_run *run)
+{
+    double middle[3];
+    double half[3];
+    double x[3];
+    double low[3];
+    double high[3];
+    for (int k = 0; k < 3; k++) {
+        middle[k] = 0.5 * (run->low[k] + run->high[k]);
+        half[k] = (1 + 2 * LRCSI_U) * lrcsi_most(run->high[k] - middle[k], middle[k] - run->low[k]);
+    }
+    lrcsi_view_place(view, middle, x);
+    double off = lrcsi_view_off(x) + 8 * LRCSI_U * (half[0] + half[1] + half[2]);
+    for (int k = 0; k < 3; k++) {
+        const double *row = view->R[k];
+        double wide = fabs(row[0]) * half[0] + fabs(row[1]) * half[1] + fabs(row[2]) * half[2];
+        wide += 16 * LRCSI_U * wide + off;
+        low[k] = x[k] - wide;
+        high[k] = x[k] + wide;
+    }
+    return lrcsi_view_box_round(view, low, high);
+}
+
+int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
+                     lrcsi_boxes *boxes)
+{
+    const lrcs_prepared *p = view->prepared;
+    uint32_t count = p->scene->facet_count;
+    *boxes = (lrcsi_boxes){.view = view};
+    boxes->facet = lrcsi_work_take(work, count, sizeof *boxes->facet);
+    boxes->run = lrcsi_work_take(work, p->runs.count, sizeof *boxes->run);
+    boxes->state = lrcsi_work_take_zero(work, p->runs.count, 1);
+    if (!boxes->facet || !boxes->run || !boxes->state) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t r = 0; r < p->runs.count; r++) {
+        uint32_t end = lrcsi_run_end(r * LRCSI_RUN, count);
+        int any = 0;
+        for (uint32_t f = r * LRCSI_RUN; f < end; f++) {
+            any |= cast[f];
+        }
+        if (any != 0) {
+            boxes->run[r] = run_box(view, &p->runs.run[r]);
+            boxes->state[r] = LRCSI_BOXES_RUN;
+        }
+    }
+    return LRCS_OK;
+}
+
+void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run)
+{
+    const lrcs_scene *scene = boxes->view->prepared->scene;
+    if (boxes->state[run] == LRCSI_BOXES_RUN) {
+        uint32_t end = lrcsi_run_end(run * LRCSI_RUN, scene->facet_count);
+        for (uint32_t f = run * LRCSI_RUN; f < end; f++) {
+            if (lrcsi_grid_casts(boxes->view, f)) {
+                boxes->facet[f] = lrcsi_view_box_of(boxes->view, scene->facet[f].corner, 3);
+            }
+        }
+        boxes->state[run] = LRCSI_BOXES_FACETS;
+    }
+}
