@@ -60,20 +60,20 @@ int lrcs_brdf_check(const lrcs_brdf *brdf)
 }
 
 /* The matrix of correlations is positive semidefinite if and only if elimination meets no negative
-   pivot; a pivot of 0 is accepted where the rest of its row is 0, both to 1e-9, as fits print
-   them. */
+   pivot; a pivot of 0 is accepted where the rest of its row is 0. Rounded correlations of nearly
+   dependent parameters give such pivots to 1e-7, and rows to its root. */
 static int correlation_fits(const double correlation[6])
 {
     const double *c = correlation;
     double a[4][4] = {
         {1, c[0], c[1], c[2]}, {c[0], 1, c[3], c[4]}, {c[1], c[3], 1, c[5]}, {c[2], c[4], c[5], 1}};
     for (int k = 0; k < 4; k++) {
-        if (a[k][k] < -1e-9) {
+        if (a[k][k] < -1e-7) {
             return 0;
         }
         for (int i = k + 1; i < 4; i++) {
-            double factor = a[k][k] > 1e-9 ? a[i][k] / a[k][k] : 0.0;
-            if (!(a[k][k] > 1e-9) && fabs(a[i][k]) > 1e-4) {
+            double factor = a[k][k] > 1e-7 ? a[i][k] / a[k][k] : 0.0;
+            if (!(a[k][k] > 1e-7) && fabs(a[i][k]) > 1e-3) {
                 return 0;
             }
             for (int j = k + 1; j < 4; j++) {
