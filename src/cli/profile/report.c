@@ -81,9 +81,9 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     lrcs_host_json_number(json, "sigma_diffuse_m2", p->sigma_diffuse_m2);
     lrcs_host_json_number(json, "bound_m2", p->bound_m2);
     lrcs_host_json_text(json, "bound_refers_to",
-                        cli_has_curved_shapes(&job->scene.scene)
-                            ? "the facets, also those that stand for curved shapes"
-                            : "the facets");
+                        p->tessellation_known
+                            ? "the facets of models, and true curved shapes"
+                            : "the facets, also those that stand for curved shapes");
     lrcs_host_json_begin(json, "tolerance", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_number(json, "asked", job->asked > 0.0 ? job->asked : (double)NAN);
     if (job->asked > 0.0) {
@@ -186,10 +186,10 @@ static void verdict_print(const profile_job *job)
     cli_bound_text(total_sigma(job) > 0.0 ? p->bound_m2 / total_sigma(job) : p->bound_m2, 2, all);
     printf("verdict      each bin is proved to %s of sigma or better, their sum to %s.\n", bin,
            all);
-    if (worst > p->bound_m2 && worst > 1e-6 * total_sigma(job)) {
+    if (worst > 1e-6 * total_sigma(job) && !cli_has_curved_shapes(&job->scene.scene)) {
         printf("             A face within rounding of a bin's edge may be on either side of it\n");
     }
-    if (cli_has_curved_shapes(&job->scene.scene)) {
+    if (!p->tessellation_known) {
         printf("             Left open: how far curved shapes are from the facets that stand for "
                "them\n");
     }
