@@ -33,6 +33,7 @@
 #include "base/constant.h"
 #include "mesh/profile.h"
 #include "optics/reflect.h"
+#include "scene/proximity.h"
 
 /* Of a flat facet: wider than the error of its angle. */
 #define FLAT_TILT 1e-12
