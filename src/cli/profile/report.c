@@ -8,16 +8,6 @@
 /* More bins than this are left to --csv and --json: the table shows the strongest. */
 #define TABLE_ROWS 40u
 
-/* The direction with length 1. */
-static void unit_direction(const lrcs_pose *pose, double s_hat[3])
-{
-    const double *d = pose->direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    for (int k = 0; k < 3; k++) {
-        s_hat[k] = d[k] / length;
-    }
-}
-
 static double total_sigma(const profile_job *job)
 {
     return job->profile.list.sigma_glint_m2 + job->profile.list.sigma_diffuse_m2;
@@ -28,9 +18,7 @@ static double total_sigma(const profile_job *job)
 static void fields_write(FILE *out, const double *value, int count)
 {
     for (int i = 0; i < count; i++) {
-        char text[LRCS_HOST_NUMBER_SIZE];
-        lrcs_host_number_text(value[i], text);
-        fprintf(out, "%s%s", i > 0 ? "," : "", text);
+        cli_number_put(out, i > 0 ? "," : "", value[i]);
     }
 }
 
@@ -78,12 +66,9 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
 {
     const lrcs_profile *p = &job->profile.list;
     double s_hat[3];
-    char hash[17];
-    unit_direction(&job->pose, s_hat);
-    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
-    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(json, "version", lrcs_version());
-    lrcs_host_json_text(json, "scene_hash", hash);
+    cli_pose_unit(&job->pose, s_hat);
+    cli_version_json(json);
+    cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
     lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
     lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
@@ -220,7 +205,7 @@ void cli_profile_table(const profile_job *job)
     const lrcs_profile *p = &job->profile.list;
     double s_hat[3];
     char bound[CLI_BOUND_SIZE];
-    unit_direction(&job->pose, s_hat);
+    cli_pose_unit(&job->pose, s_hat);
     printf("scene        ");
     cli_column(cli_scene_title(job->args, &job->scene), 0);
     printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
