@@ -180,9 +180,9 @@ int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_
 int cli_has_curved_shapes(const lrcs_scene *scene);
 
 /* What a result was made from: the scene's title, or the operand; where a material's numbers come
-   from, "given", "illustrative" (the library), "default" or "assumed" (so says the scene file); a
-   path's last name; and as keys of an open object: the files; title, materials worn and options
-   given. */
+   from, "given", "illustrative" or "published" (the library), "default" or "assumed" (so says the
+   scene file); a path's last name; and as keys of an open object: the files; title, materials worn
+   and options given. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */

@@ -24,7 +24,7 @@ const char *cli_material_source(const lrcs_material *material)
     }
     for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
         if (brdf_same(&material->brdf, &entry->brdf)) {
-            return "illustrative";
+            return entry->source ? "published" : "illustrative";
         }
     }
     return "given";

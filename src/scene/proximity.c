@@ -11,7 +11,6 @@
 #include "base/work.h"
 #include "mesh/slice.h"
 #include "mesh/tree.h"
-#include "scene/prepare.h"
 
 /* See scene/solid.c: beyond this the rounding of vertices cannot turn a facet over. */
 #define NEAR_GRAZE 16.0

@@ -5,26 +5,10 @@
 #ifndef LRCSI_PROXIMITY_H
 #define LRCSI_PROXIMITY_H
 
-#include <lrcs/run.h>
+#include "scene/prepared.h"
 
 /* Every slack is widened by this: coordinates are below 1, and doubles good to 2^-48 of that. */
 #define LRCSI_NEAR_OFF 0x1p-44
-
-/* At most this share of the facet's area is as near to `other` as their parts' slack. */
-typedef struct lrcsi_near {
-    uint32_t facet, other;
-    double share;
-} lrcsi_near;
-
-typedef struct lrcsi_proximity {
-    double *reach; /* part: lrcs_part.reach, scaled; NULL where this was not asked for, or some
-                      part's curvature is not known */
-    double *
-        grazing_cos; /* part: a facet with |cos(theta)| above this keeps its side of its own part */
-    double most;     /* of reach */
-    lrcsi_near *near; /* in no order */
-    size_t count;
-} lrcsi_proximity;
 
 /* How near a facet of `part` must come to one of `other`, or in projection to its rims and
    contours, before the truth may differ there: 0 where both parts' facets are the truth. */

@@ -10,6 +10,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/slice.h"
+#include "scene/proximity.h"
 
 /* What is computed of coordinates is off by as much as they are, or less: so many times that. */
 #define OFF_MARGIN 8.0
