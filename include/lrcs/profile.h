@@ -16,8 +16,10 @@
 /* What comes from one bin. */
 typedef struct lrcs_profile_bin {
     double sigma_glint_m2, sigma_diffuse_m2;
-    double bound_m2;  /* proved: of their sum */
-    double moment_m3; /* integral over the bin of range - (k + 0.5) bin_m, times d(sigma) */
+    double bound_m2;     /* proved: of their sum */
+    double variation_m2; /* proved: of what anything that weighs sigma by range within the bin, by
+                            1 at most, is off by: no less than bound_m2 */
+    double moment_m3;    /* integral over the bin of range - (k + 0.5) bin_m, times d(sigma) */
 } lrcs_profile_bin;
 
 typedef struct lrcs_profile {
@@ -27,9 +29,11 @@ typedef struct lrcs_profile {
     uint32_t count;
     lrcs_profile_bin *bin;
     double sigma_glint_m2, sigma_diffuse_m2; /* of all bins together */
-    double bound_m2;    /* proved, of that sum: less than the sum of the bins' bounds, which also
-                           hold what may lie on the other side of a bin's edge */
-    double range_err_m; /* proved: no point's range is off by more within its bin */
+    double bound_m2; /* proved, of that sum: less than the sum of the bins' bounds, which also
+                        hold what may lie on the other side of a bin's edge */
+    int tessellation_known; /* 0: the bounds refer to the facets, not to the curved shapes that they
+                               stand for: lrcs_result.budget */
+    double range_err_m;     /* proved: no point's range is off by more within its bin */
 } lrcs_profile;
 
 /* Bytes of work area, an upper bound for ordinary scenes. Where it does not suffice,
@@ -45,8 +49,9 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m);
    LRCS_PROFILE_BINS bins, its distance from the origin numbers beyond LRCS_PROFILE_INDEX, or a grid
    has more than 2^32 - 2 candidates); LRCS_E_UNSUPPORTED (this thread's arithmetic, as
    lrcs_prepare_run; a scene with curved normals).
-   Notes: 1. The truth that bounds refer to is Eq. 2 over the visible parts of the placed facets,
-   also of facets that stand for curved shapes.
+   Notes: 1. The truth that bounds refer to is that of lrcs_sigma_run: Eq. 2 over the visible parts
+   of the placed facets, and of the true curved shapes where tessellation_known is 1. A bin's bound
+   falls with the first power of the facets' angles, that of the sum with the second.
    2. On a facet d(sigma) is spread evenly over its visible projected area, so that the density over
    range is piecewise linear; a bin's sigma is its integral, in closed form.
    3. A facet normal to the line of sight has one range, and counts wholly in one bin: at a bin's

@@ -23,9 +23,11 @@ typedef int lrcs_host_sweep_scene(void *context, uint64_t index, lrcs_host_scene
                                   lrcs_host_error *error);
 
 /* Callback: takes one result. Called on the thread that called lrcs_host_sweep_run, in order of
-   index, once per index. Status: LRCS_OK; any other status ends the sweep with it and its error. */
+   index, once per index. uncertainty: of the materials, or NULL where none was asked for. Status:
+   LRCS_OK; any other status ends the sweep with it and its error. */
 typedef int lrcs_host_sweep_take(void *context, uint64_t index, const lrcs_pose *pose,
-                                 const lrcs_result *result, lrcs_host_error *error);
+                                 const lrcs_result *result, const lrcs_uncertainty *uncertainty,
+                                 lrcs_host_error *error);
 
 typedef struct lrcs_host_sweep {
     uint64_t first, count; /* poses first .. first + count - 1 */
@@ -33,7 +35,8 @@ typedef struct lrcs_host_sweep {
     lrcs_host_sweep_pose *pose;
     lrcs_host_sweep_scene *scene; /* NULL: all poses use the scene passed to the sweep */
     lrcs_host_sweep_take *take;
-    void *context;                       /* passed to all callbacks */
+    const lrcs_uncertainty_options *uncertainty; /* NULL: that of materials is not wanted */
+    void *context;                               /* passed to all callbacks */
     const volatile sig_atomic_t *cancel; /* set by a signal handler or by `take`, for example: if
                                             not 0, the sweep stops after the running poses; or NULL
                                           */

@@ -1,49 +1,59 @@
 /* SPDX-License-Identifier: MIT */
-/* Radix sort from the lowest byte up (Knuth TAOCP 3, 5.2.5). All eight histograms come from one
-   pass; a byte that is the same in every key costs no pass of its own. */
+/* Radix sort from the lowest digit up (Knuth TAOCP 3, 5.2.5), in digits of 11 bits. A digit that is
+   the same in every key costs nothing. */
 #include "base/sort.h"
 
 #include <string.h>
 
-enum { RADIX_BYTES = 8, RADIX_SIZE = 256 };
+enum { RADIX_BITS = 11, RADIX_SIZE = 1 << RADIX_BITS };
 
-static uint32_t radix_digit(uint64_t key, int byte)
+static uint32_t radix_digit(uint64_t key, int shift)
 {
-    return (uint32_t)(key >> (8 * byte)) & (RADIX_SIZE - 1);
-}
-
-/* Turns counts into first places. */
-static void radix_places(uint32_t *place)
-{
-    uint32_t sum = 0;
-    for (int d = 0; d < RADIX_SIZE; d++) {
-        uint32_t n = place[d];
-        place[d] = sum;
-        sum += n;
-    }
+    return (uint32_t)(key >> shift) & (RADIX_SIZE - 1);
 }
 
 void lrcsi_sort_pairs(uint64_t *key, uint32_t *value, uint64_t *key_spare, uint32_t *value_spare,
                       uint32_t count)
 {
-    uint32_t place[RADIX_BYTES][RADIX_SIZE];
-    memset(place, 0, sizeof place);
-    for (uint32_t i = 0; i < count; i++) {
-        for (int byte = 0; byte < RADIX_BYTES; byte++) {
-            place[byte][radix_digit(key[i], byte)]++;
-        }
+    uint32_t place[RADIX_SIZE];
+    uint64_t *from = key;
+    uint64_t *to = key_spare;
+    uint32_t *value_from = value;
+    uint32_t *value_to = value_spare;
+    uint64_t differ = 0; /* bits in which some keys do */
+    for (uint32_t i = 1; i < count; i++) {
+        differ |= key[i] ^ key[0];
     }
-    for (int byte = 0; byte < RADIX_BYTES && count > 0; byte++) {
-        if (place[byte][radix_digit(key[0], byte)] == count) {
+    for (int shift = 0; shift < 64; shift += RADIX_BITS) {
+        if (radix_digit(differ, shift) == 0) {
             continue;
         }
-        radix_places(place[byte]);
+        /* 1. How many keys have each digit; then where the first of those goes. */
+        memset(place, 0, sizeof place);
         for (uint32_t i = 0; i < count; i++) {
-            uint32_t to = place[byte][radix_digit(key[i], byte)]++;
-            key_spare[to] = key[i];
-            value_spare[to] = value[i];
+            place[radix_digit(from[i], shift)]++;
         }
-        memcpy(key, key_spare, count * sizeof *key);
-        memcpy(value, value_spare, count * sizeof *value);
+        uint32_t sum = 0;
+        for (int d = 0; d < RADIX_SIZE; d++) {
+            uint32_t n = place[d];
+            place[d] = sum;
+            sum += n;
+        }
+        /* 2. All go there, in the order they come in; the next digit starts from there. */
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t at = place[radix_digit(from[i], shift)]++;
+            to[at] = from[i];
+            value_to[at] = value_from[i];
+        }
+        uint64_t *keys = from;
+        uint32_t *values = value_from;
+        from = to;
+        value_from = value_to;
+        to = keys;
+        value_to = values;
+    }
+    if (from != key) {
+        memcpy(key, from, count * sizeof *key);
+        memcpy(value, value_from, count * sizeof *value);
     }
 }

@@ -24,10 +24,21 @@ const char *cli_material_source(const lrcs_material *material)
     }
     for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
         if (brdf_same(&material->brdf, &entry->brdf)) {
-            return "illustrative";
+            return entry->source ? "published" : "illustrative";
         }
     }
     return "given";
+}
+
+int cli_errors_stated(const lrcs_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_brdf_error *e = &scene->material[i].error;
+        if (e->A > 0.0 || e->B > 0.0 || e->s > 0.0 || e->m > 0.0) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 int cli_materials_open(const lrcs_scene *scene)
@@ -45,6 +56,19 @@ const char *cli_base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash && slash[1] ? slash + 1 : path;
+}
+
+void cli_version_json(lrcs_host_json *json)
+{
+    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
+    lrcs_host_json_text(json, "version", lrcs_version());
+}
+
+void cli_hash_json(uint64_t hash, lrcs_host_json *json)
+{
+    char text[17];
+    snprintf(text, sizeof text, "%016llx", (unsigned long long)hash);
+    lrcs_host_json_text(json, "scene_hash", text);
 }
 
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)

@@ -16,6 +16,7 @@
 typedef struct sweep_slot {
     lrcs_pose pose;
     lrcs_result result;
+    lrcs_uncertainty uncertainty;
     int status;
     int crowded;           /* short of memory beside other threads: not an answer yet */
     lrcs_host_error error; /* where the status says so */
@@ -31,6 +32,26 @@ typedef struct sweep_run {
     lrcs_host_error *error;
 } sweep_run;
 
+/* One pose of a scene, with its material uncertainty where that is wanted. */
+static int sweep_pose(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
+                      sweep_slot *one)
+{
+    const lrcs_uncertainty_options *how = run->sweep->uncertainty;
+    if (!how) {
+        return lrcsi_host_sigma(scene, &one->pose, run->options, &run->area[member], &one->result,
+                                NULL, NULL, &one->error);
+    }
+    size_t size = ((size_t)scene->scene.material_count + 1) * sizeof(lrcs_sensitivity);
+    lrcs_sensitivity *sensitivity = malloc(size);
+    if (!sensitivity) {
+        return lrcsi_host_fail_memory(&one->error, size);
+    }
+    int status = lrcsi_host_uncertainty(scene, &one->pose, run->options, how, &run->area[member],
+                                        &one->result, sensitivity, &one->uncertainty, &one->error);
+    free(sensitivity);
+    return status;
+}
+
 /* Status: that of the first step that fails, with its sentence. */
 static int sweep_one(const sweep_run *run, uint32_t member, uint64_t index, sweep_slot *one)
 {
@@ -41,14 +62,12 @@ static int sweep_one(const sweep_run *run, uint32_t member, uint64_t index, swee
         return lrcsi_host_fail(&one->error, status, "%s", lrcs_status_text(status));
     }
     if (!sweep->scene) {
-        return lrcsi_host_sigma(run->scene, &one->pose, run->options, &run->area[member],
-                                &one->result, NULL, NULL, &one->error);
+        return sweep_pose(run, member, run->scene, one);
     }
     memset(&own, 0, sizeof own);
     status = sweep->scene(sweep->context, index, &own, &one->error);
     if (status == LRCS_OK) {
-        status = lrcsi_host_sigma(&own, &one->pose, run->options, &run->area[member], &one->result,
-                                  NULL, NULL, &one->error);
+        status = sweep_pose(run, member, &own, one);
         lrcs_host_scene_free(&own);
     }
     return status;
@@ -76,7 +95,8 @@ static int sweep_take(void *context, uint64_t index, const void *slot)
         return lrcsi_host_fail(run->error, one->status, "pose %llu: %.1000s",
                                (unsigned long long)index, one->error.text);
     }
-    return run->sweep->take(run->sweep->context, index, &one->pose, &one->result, run->error);
+    return run->sweep->take(run->sweep->context, index, &one->pose, &one->result,
+                            run->sweep->uncertainty ? &one->uncertainty : NULL, run->error);
 }
 
 /* No more threads than poses. */

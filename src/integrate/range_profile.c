@@ -20,7 +20,10 @@
      (4) rounding of the trapezia: some ten operations on terms of one sign, 16 u.
    (3) applies only to edges between bins that the facet reaches into. Those bins are found from its
    corners' ranges in double-double, so that a facet normal to the line of sight is in one bin.
-   The sum of all bins has only (1), (2) and (4).
+     (5) Where facets stand for curved shapes, what those differ by in a bin, a point of the shape
+   being within its part's reach of its place on the facet: lrcsi_tessellation_parts. Where both
+   facets of a sector are seen whole and lie in one bin, reach included, what the whole patches err.
+   The sum of all bins has only (1), (2), (4) and the whole patches' error.
 
    e: a corner's range is rounded once, 1.01 u |z|; a point of a piece is a sum of corners with
    weights that add up to 1 within 4 u and three roundings, 7 u |z|; it projects to within 100 u of
@@ -38,9 +41,12 @@
 #include "base/range.h"
 #include "base/sum.h"
 #include "base/work.h"
+#include "integrate/tessellation.h"
 #include "integrate/total.h"
 #include "view/frame.h"
 #include "visibility/occlude.h"
+
+#define FOUR_PI 12.566370614359172954
 
 /* Relative error of the part of a triangle in a bin. */
 #define PART_ERROR (16 * LRCSI_U)
@@ -49,9 +55,10 @@
    the unit vector are accurate to 2^-97, three products and two sums add 16 u^2. */
 #define RANGE_DD_ERROR 0x1p-96
 
+/* bound and variation hold (1) to (4) in `bound`; `bent` and `varied` are (5). */
 typedef struct bin_sums {
     lrcsi_sum glint, diffuse, moment;
-    double bound;
+    double bound, bent, varied;
 } bin_sums;
 
 /* What the bins are and hold, scaled but for bin_m. */
@@ -66,6 +73,11 @@ typedef struct profile_job {
     uint32_t low, high; /* bins low <= i < high may hold something */
     lrcsi_sum glint, diffuse;
     double bound, additions, range_err;
+    lrcsi_visible *visible; /* of every facet; NULL where no facet stands for a curved shape */
+    lrcsi_proximity_band margin;
+    const lrcsi_proximity_band *doubt; /* margin, or NULL where none was made */
+    int tessellation_known;
+    double tessellation;
 } profile_job;
 
 /* A facet: where its corners are, which bins it reaches into, and what it reflects for each unit
@@ -302,6 +314,9 @@ static double pieces_add(profile_job *job, const profile_facet *f, uint32_t face
     if (job->plan.unshadowed && job->view->facing[facet] > 0) {
         lrcsi_visible known = lrcsi_visible_unshadowed(incidence, job->plan.grazing_cos);
         triangle_add(job, f, known.area, f->range, rounded);
+        if (job->visible) {
+            job->visible[facet] = known;
+        }
         return known.high - known.low;
     }
     double off = 0;
@@ -323,6 +338,9 @@ static double pieces_add(profile_job *job, const profile_facet *f, uint32_t face
     }
     if (job->prepared->solid && job->view->facing[facet] < 0) {
         visible.low = 0;
+    }
+    if (job->visible) {
+        job->visible[facet] = visible;
     }
     return visible.high - visible.low + off;
 }
@@ -351,12 +369,101 @@ static void facet_profile(profile_job *job, uint32_t facet, lrcsi_occluding *o)
     }
 }
 
+/* --- curved shapes ---------------------------------------------------------------------------- */
+
+/* The share of a triangle's area with a range below z, from its corners' in ascending order. */
+static double share_below(const double corner[3], double z)
+{
+    double extent = corner[2] - corner[0];
+    if (z <= corner[0]) {
+        return 0;
+    }
+    if (z >= corner[2]) {
+        return 1;
+    }
+    return z < corner[1]
+               ? (z - corner[0]) / (corner[1] - corner[0]) * ((z - corner[0]) / extent)
+               : 1 - (corner[2] - z) / (corner[2] - corner[1]) * ((corner[2] - z) / extent);
+}
+
+/* An upper bound of the share with a range between two: (4) of each end. */
+static double share_between(const double corner[3], double from, double to)
+{
+    double share = share_below(corner, to) - share_below(corner, from) + 2 * PART_ERROR;
+    return to < corner[0] || from > corner[2] ? 0 : lrcsi_least(1, share);
+}
+
+/* The reach of a facet's part, with what its corners' ranges are off by. */
+static double reach_of(const profile_job *job, uint32_t facet, const profile_facet *f)
+{
+    const lrcs_scene *scene = job->prepared->scene;
+    double reach = scene->part[scene->facet_part[facet]].reach;
+    return ldexp(reach, -job->prepared->exponent) * (1 + 4 * LRCSI_U) + 8 * LRCSI_U * f->range_most;
+}
+
+/* (5) of one facet, in the bins that it or its partner reaches into. Of two numbers >= 0 the
+   difference is at most the larger one; what weighs them by range may make it their sum. */
+static void bent_charge(profile_job *job, uint32_t facet)
+{
+    profile_facet f;
+    profile_facet other;
+    lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
+    lrcs_brdf brdf = lrcsi_plan_brdf(&job->plan, lrcsi_prepared_material(job->prepared, facet));
+    lrcsi_patch_parts parts =
+        lrcsi_tessellation_parts(job->view, facet, &brdf, &incidence, job->visible, job->doubt);
+    facet_ranges(job, facet, &f);
+    facet_ranges(job, parts.partner, &other);
+    double reach = reach_of(job, facet, &f);
+    profile_triangle t = {1, {f.range[0], f.range[1], f.range[2]}};
+    swap_up(&t.z[0], &t.z[1]);
+    swap_up(&t.z[1], &t.z[2]);
+    swap_up(&t.z[0], &t.z[1]);
+    double low = lrcsi_least(
+        t.z[0], lrcsi_least(other.range[0], lrcsi_least(other.range[1], other.range[2])));
+    double high =
+        lrcsi_most(t.z[2], lrcsi_most(other.range[0], lrcsi_most(other.range[1], other.range[2])));
+    uint32_t begin = bin_of(job, low - reach);
+    uint32_t end = bin_of(job, high + reach);
+    double whole = FOUR_PI * parts.whole;
+    job->tessellation += whole;
+    if (!(whole > 0) && !(parts.lit && reach > 0 && parts.shift > 0)) {
+        return;
+    }
+    job->range_err = lrcsi_most(job->range_err, reach);
+    for (uint32_t i = begin; i <= end; i++) {
+        double from = edge_of(job, i);
+        double to = edge_of(job, i + 1);
+        double share = share_between(t.z, from - reach, to + reach);
+        double shifted = share_between(t.z, from - reach, from + reach) +
+                         share_between(t.z, to - reach, to + reach) + parts.share;
+        double general = FOUR_PI * (parts.bend * share + parts.shift * shifted);
+        double most = parts.lit ? FOUR_PI * parts.most * share : whole;
+        general = parts.lit ? general : HUGE_VAL;
+        job->bin[i].varied += lrcsi_least(general, 2 * most);
+        job->bin[i].bent += begin == end ? whole : lrcsi_least(general, most);
+        job->additions++;
+    }
+    job->low = begin < job->low ? begin : job->low;
+    job->high = end + 1 > job->high ? end + 1 : job->high;
+}
+
 /* --- all facets ------------------------------------------------------------------------------- */
+
+/* The largest reach of a part, m. */
+static double reach_most(const lrcs_prepared *prepared)
+{
+    double most = 0;
+    for (uint32_t i = 0; i < prepared->scene->part_count; i++) {
+        most = lrcsi_most(most, prepared->scene->part[i].reach);
+    }
+    return most;
+}
 
 /* Bins that a scene may take in any pose. */
 static size_t bins_room(const lrcs_prepared *prepared, double bin_m)
 {
-    double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent);
+    double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
+                   2 * reach_most(prepared);
     double bins = depth / bin_m + 4;
     return bins < LRCS_PROFILE_BINS ? (size_t)bins + 1 : (size_t)LRCS_PROFILE_BINS + 4;
 }
@@ -368,10 +475,15 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
     need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(bin_sums)));
     need = lrcsi_work_add(need, lrcsi_view_need(prepared));
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
+    if (prepared->curved) {
+        size_t facets = prepared->scene->facet_count;
+        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
+        need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
+    }
     return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
 }
 
-/* Numbers the bins from one before the nearest vertex to one beyond the farthest. */
+/* Numbers the bins from one before the nearest point to one beyond the farthest. */
 static int bins_number(profile_job *job)
 {
     const lrcs_prepared *p = job->prepared;
@@ -388,8 +500,9 @@ static int bins_number(profile_job *job)
     if (!(least <= most)) {
         return LRCS_OK;
     }
-    double first = floor(least / job->width) - 1;
-    double last = floor(most / job->width) + 1;
+    double reach = ldexp(reach_most(p), -p->exponent);
+    double first = floor((least - reach) / job->width) - 1;
+    double last = floor((most + reach) / job->width) + 1;
     if (!(first >= -LRCS_PROFILE_INDEX && last <= LRCS_PROFILE_INDEX &&
           last - first < LRCS_PROFILE_BINS)) {
         return LRCS_E_LIMIT;
@@ -399,7 +512,28 @@ static int bins_number(profile_job *job)
     return LRCS_OK;
 }
 
-/* 1. The view, and which facets are undecided. 2. The bins. 3. Every facet that reflects. */
+/* What is needed to know how far curved shapes are from their facets, as in integrate/sigma.c. */
+static int curved_make(profile_job *job, const lrcsi_classification *classification,
+                       lrcs_work *work)
+{
+    const lrcs_prepared *p = job->prepared;
+    job->tessellation_known = 1;
+    if (!p->curved) {
+        return LRCS_OK;
+    }
+    job->visible = lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *job->visible);
+    int status = job->visible ? LRCS_OK : LRCS_E_MEMORY;
+    if (status == LRCS_OK && p->proximity.reach && (job->view->backs_cast || p->solid)) {
+        status = lrcsi_proximity_band_make(classification, work, &job->margin);
+        job->doubt = &job->margin;
+    }
+    job->tessellation_known =
+        lrcsi_tessellation_known(p, job->plan.unshadowed) && (job->plan.unshadowed || job->doubt);
+    return status;
+}
+
+/* 1. The view, and which facets are undecided. 2. The bins. 3. Every facet that reflects. 4. What
+   curved shapes may differ by. */
 static int profile_sum(profile_job *job, lrcsi_view *view, const lrcs_pose *pose, lrcs_work *work)
 {
     const lrcs_prepared *p = job->prepared;
@@ -420,11 +554,23 @@ static int profile_sum(profile_job *job, lrcsi_view *view, const lrcs_pose *pose
         job->low = job->count;
         status = job->bin ? lrcsi_classify_make(view, work, &classification) : LRCS_E_MEMORY;
     }
+    status = status == LRCS_OK ? curved_make(job, &classification, work) : status;
     status = status == LRCS_OK ? lrcsi_occlude_make(&classification, work, &o) : status;
     for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
         if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&
             lrcsi_grid_casts(view, facet)) {
             facet_profile(job, facet, &o);
+        }
+    }
+    if (status != LRCS_OK || !p->curved || !job->tessellation_known) {
+        return status;
+    }
+    if (job->doubt) {
+        lrcsi_proximity_band_settle(job->doubt, job->visible);
+    }
+    for (uint32_t facet = 0; facet < p->scene->facet_count; facet++) {
+        if (!p->skip[facet]) {
+            bent_charge(job, facet);
         }
     }
     return status;
@@ -444,8 +590,13 @@ static void profile_finish(const profile_job *job, lrcs_profile *profile)
         double moment = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->moment));
         profile->bin[i] = (lrcs_profile_bin){
             lrcsi_prepared_area(p, glint), lrcsi_prepared_area(p, diffuse),
-            lrcsi_bound_area(p, (sums->bound + (glint + diffuse) * adding) * outward),
+            lrcsi_bound_area(p, (sums->bound + sums->bent + (glint + diffuse) * adding) * outward),
+            lrcsi_bound_area(p,
+                             (sums->bound + sums->varied + (glint + diffuse) * adding) * outward),
             ldexp(moment, p->exponent)};
+        if (profile->bin[i].variation_m2 < profile->bin[i].bound_m2) {
+            profile->bin[i].variation_m2 = profile->bin[i].bound_m2;
+        }
     }
     double glint = lrcsi_sum_value(&job->glint);
     double diffuse = lrcsi_sum_value(&job->diffuse);
@@ -453,7 +604,9 @@ static void profile_finish(const profile_job *job, lrcs_profile *profile)
     profile->first = profile->count > 0 ? job->first + job->low : 0;
     profile->sigma_glint_m2 = lrcsi_prepared_area(p, glint);
     profile->sigma_diffuse_m2 = lrcsi_prepared_area(p, diffuse);
-    profile->bound_m2 = lrcsi_bound_area(p, (job->bound + (glint + diffuse) * adding) * outward);
+    profile->bound_m2 = lrcsi_bound_area(
+        p, (job->bound + job->tessellation + (glint + diffuse) * adding) * outward);
+    profile->tessellation_known = job->tessellation_known;
     profile->range_err_m = ldexp(job->range_err, p->exponent);
 }
 
@@ -526,7 +679,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
         double nearest = lrcsi_most(0, fabs(t) - half);
         double farthest = fabs(t) + half;
         if (nearest > PULSE_FAR) {
-            bound += peak * PULSE_FAR_LEFT * (bin->bound_m2 + sigma);
+            bound += peak * PULSE_FAR_LEFT * (bin->variation_m2 + sigma);
             continue;
         }
         double g = peak * lrcsi_exp(-0.5 * t * t);
@@ -535,7 +688,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
         double remainder = 0.5 * half * half * bend + err / d * farthest;
         lrcsi_sum_add(&density, g * sigma);
         lrcsi_sum_add(&density, g * (t / d) * bin->moment_m3);
-        bound += most * (bin->bound_m2 + remainder * sigma);
+        bound += most * (bin->variation_m2 + remainder * sigma);
         bound += 64 * LRCSI_U * most * (1 + farthest * farthest) * sigma;
     }
     bound *= 1 + 1e-9 + 4 * LRCSI_U * profile->count;

@@ -845,7 +845,8 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     const lrcsi_node *own = room.node + (size_t)(nodes / 2) * scene->material_count;
     work->used = status == LRCS_OK ? start : work->used;
     status = status == LRCS_OK ? sensitivity_check(scene, own) : status;
-    status = status == LRCS_OK ? lrcsi_uncertainty_make(scene, room.node, nodes, how, work, &found)
+    status = status == LRCS_OK ? lrcsi_uncertainty_make(scene, answer.sigma_m2, room.node, nodes,
+                                                        how, work, &found)
                                : status;
     if (status == LRCS_OK) {
         sensitivity_fill(scene, own, sensitivity);

@@ -222,3 +222,44 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
     }
     return area * error;
 }
+
+/* Let c say which points x of the patch lie in the interval, and k which points of the facet do.
+   Pulled back to the facet, c v and k w differ on a share d at most: that which v and w differ on,
+   and that within the reach of an end of the interval. With m the share of the facet on which c may
+   be 1, and the patch's area that of the facet times 1 + a at most, place by place,
+       |Int_U F c v - F_i Int_f k w| <= Int_U |F - F_i| c v + F_i |Int_U c v - Int_f k w|
+                                     <= S [(1 + a) sup |F - F_i| m + F_i (a m + (1 + a) d)],
+   and both integrals are at most (1 + a) S sup F m. On a flat facet F = F_i and a = 0. Where the
+   facet is not lit it counts nothing, but for what `whole` has, and the truth in an interval is at
+   most the truth. The bound of the whole patch may hold for two facets of a sector together only.
+ */
+lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, uint32_t facet,
+                                           const lrcs_brdf *brdf, const lrcsi_incidence *incidence,
+                                           const lrcsi_visible *visible,
+                                           const lrcsi_proximity_band *margin)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_curvature c = patch_curvature(p, facet);
+    int curve = c.turn > FLAT_TILT;
+    int state = patch_state(view, facet, visible, margin);
+    lrcsi_patch_parts parts = {
+        .whole = lrcsi_tessellation_error(view, facet, brdf, incidence, visible, margin),
+        .lit = is_lit(state),
+        .share = margin ? margin->share[facet] : 0,
+        .partner = facet};
+    uint32_t first = patch_part(p, facet)->first_facet;
+    uint32_t other = first + ((facet - first) ^ 1);
+    if (curve && other < first + patch_part(p, facet)->facet_count && !p->skip[other]) {
+        parts.partner = other;
+    }
+    if (parts.lit) {
+        lrcsi_deviation deviation =
+            lrcsi_deviation_make(brdf, fabs(incidence->cos_theta), incidence->tan2, &c);
+        double area = 0.5 * p->normal[facet].length;
+        double a = curve ? patch_area_error(p, facet, &c) : 0;
+        parts.bend = curve ? area * ((1 + a) * deviation.apart + a * deviation.here) : 0;
+        parts.shift = area * (1 + a) * deviation.here;
+        parts.most = area * (1 + a) * deviation.most;
+    }
+    return parts;
+}

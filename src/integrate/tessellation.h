@@ -17,4 +17,25 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
                                 const lrcsi_incidence *incidence, const lrcsi_visible *visible,
                                 const lrcsi_proximity_band *margin);
 
+/* What may be wrong in a part of a patch: of the points of facet and patch, those in some interval
+   of a coordinate, which the map between facet and patch changes by at most the part's reach.
+   Scaled, without the 4 pi. */
+typedef struct lrcsi_patch_parts {
+    double whole; /* lrcsi_tessellation_error */
+    int lit;      /* the facet is seen, in part at least; else `whole` bounds any part, too */
+    double bend;  /* lit: F on the patch against F on the facet, times the share of the facet whose
+                     points may be in the interval */
+    double shift; /* lit: times the share whose points may be in the interval in truth and not on
+                     the facet, or the other way round, or are seen only in one of the two: */
+    double share; /* of these last */
+    double most;  /* what the truth reflects, times the share that may be in the interval */
+    uint32_t partner; /* `whole` needs this facet's `whole`, too: both hold together */
+} lrcsi_patch_parts;
+
+/* For one facet that is not skipped; what is given is as for lrcsi_tessellation_error. */
+lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, uint32_t facet,
+                                           const lrcs_brdf *brdf, const lrcsi_incidence *incidence,
+                                           const lrcsi_visible *visible,
+                                           const lrcsi_proximity_band *margin);
+
 #endif

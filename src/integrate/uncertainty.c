@@ -382,8 +382,8 @@ size_t lrcsi_uncertainty_need(const lrcs_scene *scene, const lrcs_uncertainty_op
     return lrcsi_work_add(need, lrcsi_work_bytes(how->draws, sizeof(double)));
 }
 
-int lrcsi_uncertainty_make(const lrcs_scene *scene, const lrcsi_node *node, uint32_t count,
-                           const lrcs_uncertainty_options *how, lrcs_work *work,
+int lrcsi_uncertainty_make(const lrcs_scene *scene, double sigma, const lrcsi_node *node,
+                           uint32_t count, const lrcs_uncertainty_options *how, lrcs_work *work,
                            lrcs_uncertainty *uncertainty)
 {
     size_t mark = work->used;
@@ -395,13 +395,8 @@ int lrcsi_uncertainty_make(const lrcs_scene *scene, const lrcsi_node *node, uint
         return LRCS_E_MEMORY;
     }
     uint32_t sources = sources_make(scene, node, count, room, list);
-    double sigma = 0;
     double own = 0;
     double variance = 0;
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcsi_node *at = &node[(size_t)(count / 2) * scene->material_count + i];
-        sigma += scene->material[i].brdf.A * at->glint + scene->material[i].brdf.B * at->diffuse;
-    }
     for (uint32_t k = 0; k < sources; k++) {
         own += source_sigma(&list[k], count, &list[k].material->brdf);
         variance += source_variance(&list[k], count);

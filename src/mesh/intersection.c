@@ -8,6 +8,7 @@
 #include "mesh/intersection.h"
 
 #include "base/exact.h"
+#include "base/range.h"
 #include "base/work.h"
 #include "mesh/ring.h"
 #include "mesh/tree.h"
@@ -108,36 +109,58 @@ static lrcsi_pair_facet facet_of_place(const touch_search *search, uint32_t plac
                                     search->vertex[leaf->corner[2][lane]].x}};
 }
 
-/* Do segments a b and p q lie on one line, with more than a point in common? */
-static int segments_overlap(const double *a, const double *b, const double *p, const double *q)
+/* The boxes around the three sides of a facet. */
+static void side_boxes(const lrcsi_pair_facet *f, lrcsi_box box[3])
+{
+    for (int n = 0; n < 3; n++) {
+        const double *a = f->x[n];
+        const double *b = f->x[n < 2 ? n + 1 : 0];
+        for (int k = 0; k < 3; k++) {
+            box[n].low[k] = a[k] < b[k] ? a[k] : b[k];
+            box[n].high[k] = a[k] < b[k] ? b[k] : a[k];
+        }
+    }
+}
+
+/* Have two boxes more than a point in common? */
+static int boxes_overlap(const lrcsi_box *a, const lrcsi_box *b)
 {
     int longer = 0;
     for (int k = 0; k < 3; k++) {
-        double low = a[k] < b[k] ? a[k] : b[k];
-        double high = a[k] < b[k] ? b[k] : a[k];
-        double from = p[k] < q[k] ? p[k] : q[k];
-        double to = p[k] < q[k] ? q[k] : p[k];
-        if (low > to || from > high) {
+        double low = lrcsi_most(a->low[k], b->low[k]);
+        double high = lrcsi_least(a->high[k], b->high[k]);
+        if (low > high) {
             return 0;
         }
-        longer |= (low > from ? low : from) < (high < to ? high : to);
+        longer |= low < high;
     }
-    return longer && lrcsi_exact_collinear(a, b, p) && lrcsi_exact_collinear(a, b, q);
+    return longer;
 }
 
-/* The sides of f that lie along a part of a side of t, a bit each; not those that both have. */
-static unsigned sides_along(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
+/* The sides of each facet that lie on one line with a side of the other and have more than a point
+   in common with it, a bit each; not those that both have. */
+static void sides_along(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, unsigned sides[2])
 {
-    unsigned sides = 0;
+    lrcsi_box box_f[3];
+    lrcsi_box box_t[3];
+    side_boxes(f, box_f);
+    side_boxes(t, box_t);
+    sides[0] = sides[1] = 0;
     for (int n = 0; n < 9; n++) {
-        const double *a = f->x[n / 3];
-        const double *b = f->x[(n / 3 + 1) % 3];
-        const double *p = t->x[n % 3];
-        const double *q = t->x[(n + 1) % 3];
-        int both = (a == p && b == q) || (a == q && b == p);
-        sides |= (unsigned)(!both && segments_overlap(a, b, p, q)) << n / 3;
+        int i = n / 3;
+        int j = n % 3;
+        if (boxes_overlap(&box_f[i], &box_t[j])) {
+            const double *a = f->x[i];
+            const double *b = f->x[i < 2 ? i + 1 : 0];
+            const double *p = t->x[j];
+            const double *q = t->x[j < 2 ? j + 1 : 0];
+            int both = (a == p && b == q) || (a == q && b == p);
+            if (!both && lrcsi_exact_collinear(a, b, p) && lrcsi_exact_collinear(a, b, q)) {
+                sides[0] |= 1u << i;
+                sides[1] |= 1u << j;
+            }
+        }
     }
-    return sides;
 }
 
 /* Files how a pair meets. */
@@ -147,8 +170,10 @@ static int file_pair(touch_search *search, uint32_t facet, const lrcsi_pair_face
     lrcsi_intersections *intersections = search->intersections;
     const uint32_t *piece = search->piece;
     int status = LRCS_OK;
-    intersections->rim[facet] |= result->rim[0] ? (unsigned char)(1 | sides_along(f, t) << 1) : 0;
-    intersections->rim[other] |= result->rim[1] ? (unsigned char)(1 | sides_along(t, f) << 1) : 0;
+    unsigned sides[2];
+    sides_along(f, t, sides);
+    intersections->rim[facet] |= result->rim[0] ? (unsigned char)(1 | sides[0] << 1) : 0;
+    intersections->rim[other] |= result->rim[1] ? (unsigned char)(1 | sides[1] << 1) : 0;
     if (result->kind[0] != LRCSI_INTERSECTION_NONE) {
         status = append_found(search, (touch_found){facet, other, (uint32_t)result->kind[0]});
     }
@@ -194,12 +219,14 @@ static unsigned lanes_in_ring(const touch_search *search, uint32_t place, const 
     return lanes;
 }
 
-/* The facet at a place against those in some lanes of a leaf. */
+/* The facet at a place against those in some lanes of a leaf whose boxes meet its own, less those
+   of a common ring. */
 static int meet_lanes(touch_search *search, uint32_t place, uint32_t leaf, unsigned lanes)
 {
     const lrcsi_tree *tree = &search->tree;
     lrcsi_box box = lrcsi_tree_box(&tree->block[0][place / LEAF_LANES], place % LEAF_LANES);
     lanes &= lrcsi_tree_meets(&tree->block[0][leaf], &box);
+    lanes = lanes ? lanes & ~lanes_in_ring(search, place, &search->leaf[leaf]) : 0;
     if (lanes == 0) {
         return LRCS_OK;
     }
@@ -217,8 +244,16 @@ static int meet_lanes(touch_search *search, uint32_t place, uint32_t leaf, unsig
     return status;
 }
 
-/* The facets of two leaves that meet the other's box, against each other, less those of a common
-   ring; or, where it is one leaf, each of its facets against those after it. */
+/* How many bits a mask of lanes has. */
+static uint32_t count_lanes(unsigned mask)
+{
+    mask = (mask & 0x55u) + (mask >> 1 & 0x55u);
+    mask = (mask & 0x33u) + (mask >> 2 & 0x33u);
+    return (mask & 0x0fu) + (mask >> 4);
+}
+
+/* The facets of two leaves that meet the other's box, against each other, those of the leaf with
+   fewer of them one by one; or, where it is one leaf, each of its facets against those after it. */
 static int meet_leaves(touch_search *search, uint32_t first, uint32_t second)
 {
     const lrcsi_tree *tree = &search->tree;
@@ -228,18 +263,26 @@ static int meet_leaves(touch_search *search, uint32_t first, uint32_t second)
     if (first != second) {
         lrcsi_box box = lrcsi_tree_box(&tree->block[1][second / LEAF_LANES], second % LEAF_LANES);
         rows = lrcsi_tree_meets(&tree->block[0][first], &box);
-        box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
-        columns = rows ? lrcsi_tree_meets(&tree->block[0][second], &box) : 0;
+        if ((rows & (rows - 1)) != 0) { /* two or more: one compares its own box */
+            box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
+            columns = lrcsi_tree_meets(&tree->block[0][second], &box);
+        }
+        if (count_lanes(columns) < count_lanes(rows)) {
+            unsigned lanes = rows;
+            uint32_t leaf = first;
+            rows = columns;
+            columns = lanes;
+            first = second;
+            second = leaf;
+        }
     } else if (tree->count - first * LEAF_LANES < LEAF_LANES) {
         rows = columns = (1u << (tree->count - first * LEAF_LANES)) - 1;
     }
     for (; rows != 0 && columns != 0 && status == LRCS_OK; rows &= rows - 1) {
         uint32_t lane = lrcsi_tree_lane(rows);
         columns &= first == second ? ~1u << lane : ~0u;
-        uint32_t place = first * LEAF_LANES + lane;
-        unsigned lanes = columns & ~lanes_in_ring(search, place, &search->leaf[second]);
-        if (lanes != 0) {
-            status = meet_lanes(search, place, second, lanes);
+        if (columns != 0) {
+            status = meet_lanes(search, first * LEAF_LANES + lane, second, columns);
         }
     }
     return status;

@@ -68,7 +68,7 @@ void lrcsi_pair_plane(lrcsi_pair_facet *f)
     }
 }
 
-static int is_corner_of(const lrcsi_pair_facet *f, const double *p)
+static inline int is_corner_of(const lrcsi_pair_facet *f, const double *p)
 {
     return p == f->x[0] || p == f->x[1] || p == f->x[2];
 }
@@ -77,7 +77,7 @@ static int is_corner_of(const lrcsi_pair_facet *f, const double *p)
 
 /* The side of F's plane on which p is proved to lie; 0 for a corner of F, UNSURE where it is not
    proved. */
-static int rounded_side(const lrcsi_pair_facet *f, const double *p)
+static inline int rounded_side(const lrcsi_pair_facet *f, const double *p)
 {
     const double *a = f->x[0];
     if (is_corner_of(f, p)) {

@@ -213,17 +213,20 @@ static uint32_t group_sides(const lrcsi_topology *t, uint32_t vertex_count, cons
 /* Fills edge[] and facet_edge[], and turns sides into facets and directions. */
 static void fill_edges(const lrcsi_topology *t, const lrcs_facet *facet, uint32_t sides)
 {
+    lrcsi_edge edge = {LRCS_NONE, LRCS_NONE, 0, 0};
     uint32_t n = 0;
     for (uint32_t i = 0; i < sides; i++) {
         uint32_t f = t->use[i].facet / SIDES;
         uint32_t k = t->use[i].facet % SIDES;
         uint32_t high = t->use[i].forward;
         uint32_t from = t->weld[facet[f].corner[k]];
-        uint32_t low = from != high ? from : t->weld[facet[f].corner[(k + 1) % SIDES]];
-        if (n == 0 || t->edge[n - 1].low != low || t->edge[n - 1].high != high) {
-            t->edge[n++] = (lrcsi_edge){low, high, i, 0};
+        uint32_t low = from != high ? from : t->weld[facet[f].corner[k == 2 ? 0 : k + 1]];
+        if (edge.low != low || edge.high != high) {
+            edge = (lrcsi_edge){low, high, i, 0};
+            n++;
         }
-        t->edge[n - 1].uses++;
+        edge.uses++;
+        t->edge[n - 1] = edge;
         t->facet_edge[f].corner[k] = n - 1;
         t->use[i] = (lrcsi_edge_use){f, from == low};
     }

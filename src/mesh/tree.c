@@ -34,6 +34,7 @@
 #include "base/constant.h"
 #include "base/ieee.h"
 #include "base/length.h"
+#include "base/range.h"
 #include "base/sort.h"
 #include "base/work.h"
 
@@ -97,6 +98,7 @@ typedef struct tree_sort {
     const uint32_t *apex; /* or NULL */
     uint32_t *order, *order_spare;
     uint64_t *key, *key_spare;
+    lrcs_point *centre; /* in the room of key_spare and order_spare, before these are used */
 } tree_sort;
 
 /* Twice the centre of a facet's box, or twice its apex. */
@@ -120,10 +122,10 @@ static void facet_centre(const tree_sort *s, const uint32_t *apex, uint32_t plac
 static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t first, uint32_t end)
 {
     lrcsi_box all = empty_box();
-    double centre[3];
+    lrcs_point *centre = s->centre;
     for (uint32_t i = first; i < end; i++) {
-        facet_centre(s, apex, i, centre);
-        grow_box(&all, centre, centre);
+        facet_centre(s, apex, i, centre[i - first].x);
+        grow_box(&all, centre[i - first].x, centre[i - first].x);
     }
     double side = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -139,9 +141,9 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t f
     const double scale = (double)((UINT64_C(1) << bits) - 1) / side;
     for (uint32_t i = first; i < end; i++) {
         uint64_t key = 0;
-        facet_centre(s, apex, i, centre);
         for (int k = 0; k < 3; k++) {
-            double cell = (centre[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
+            double cell =
+                (centre[i - first].x[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
             key |= spread_bits((uint64_t)cell) << k;
         }
         s->key[i] = key;
@@ -263,8 +265,8 @@ static void fill_block(const lrcsi_tree *tree, int level, uint32_t b)
 
 size_t lrcsi_tree_need(uint32_t facet_count)
 {
-    size_t scratch = lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
-                                    lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
+    size_t scratch = lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
+                                    lrcsi_work_bytes(facet_count, sizeof(lrcs_point)));
     size_t boxes = 0;
     uint32_t below = facet_count;
     for (int l = 0; l < LRCSI_TREE_LEVELS; l++) {
@@ -289,11 +291,12 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
     tree_sort s = {
         .vertex = vertex, .facet = facet, .apex = apexes ? label : NULL, .order = made.order};
     s.key = lrcsi_work_take(work, facet_count, sizeof *s.key);
-    s.key_spare = lrcsi_work_take(work, facet_count, sizeof *s.key_spare);
-    s.order_spare = lrcsi_work_take(work, facet_count, sizeof *s.order_spare);
+    s.centre = lrcsi_work_take(work, facet_count, sizeof *s.centre);
     work->used = stays;
     int status = LRCS_E_MEMORY;
-    if (s.order && s.key && s.key_spare && s.order_spare) {
+    if (s.order && s.key && s.centre) {
+        s.key_spare = (void *)s.centre;
+        s.order_spare = (void *)(s.key_spare + facet_count);
         for (uint32_t f = 0; f < facet_count; f++) {
             if (!skip || !skip[f]) {
                 made.order[made.count++] = f;
@@ -321,7 +324,8 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
 
 /* ---- slabs ---- */
 
-/* Adds to a lane's direction the unit normal of a facet, turned to the direction's own side. */
+/* Adds to a lane's direction the normal of a facet, its largest component brought to 1, turned to
+   the direction's own side. */
 static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double direction[3])
 {
     const double *a = vertex[facet->corner[0]].x;
@@ -335,49 +339,68 @@ static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double
         n[k] = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
         along += n[k] * direction[k];
     }
-    double most = fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2])));
-    for (int k = 0; k < 3 && most > 0.0; k++) {
-        direction[k] += (along < 0.0 ? -n[k] : n[k]) / most;
+    double most = lrcsi_most(fabs(n[0]), lrcsi_most(fabs(n[1]), fabs(n[2])));
+    double scale = most > 0x1p-1000 ? (along < 0.0 ? -1.0 : 1.0) / most : 0.0;
+    for (int k = 0; k < 3; k++) {
+        direction[k] += n[k] * scale;
     }
 }
 
-/* The slab of the facets at places first .. end, which becomes a lane's. */
-static void fill_slab(const lrcs_point *vertex, const lrcs_facet *facet, const uint32_t *order,
-                      uint32_t first, uint32_t end, lrcsi_tree_slabs *slabs, uint32_t lane)
+/* The direction of the slab of a block: the mean of its facets', or above level 0 of the slabs
+   below it, turned to one side; of length 1, or 0 where there is none. */
+static void mean_direction(const lrcs_point *vertex, const lrcs_facet *facet,
+                           const lrcsi_tree *tree, int level, uint32_t b, double d[3])
 {
-    double d[3] = {0, 0, 0};
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    for (uint32_t i = first; i < end; i++) {
-        add_normal(vertex, &facet[order[i]], d);
+    uint32_t first = b * TREE_LANES;
+    uint32_t left = (level == 0 ? tree->count : tree->blocks[level - 1]) - first;
+    d[0] = d[1] = d[2] = 0.0;
+    for (uint32_t i = 0; i < TREE_LANES && i < left; i++) {
+        if (level == 0) {
+            add_normal(vertex, &facet[tree->order[first + i]], d);
+        } else {
+            const lrcsi_tree_slabs *below = &tree->slabs[level][b];
+            const double n[3] = {below->direction[0][i], below->direction[1][i],
+                                 below->direction[2][i]};
+            double sign = n[0] * d[0] + n[1] * d[1] + n[2] * d[2] < 0.0 ? -1.0 : 1.0;
+            for (int k = 0; k < 3; k++) {
+                d[k] += sign * n[k];
+            }
+        }
     }
     double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     int sign = d[0] + d[1] + d[2] < 0.0 ? -1 : 1; /* layers of either winding have one direction */
     for (int k = 0; k < 3; k++) {
         d[k] = size > 0.0 ? sign * fmax(-1.0, fmin(1.0, d[k] / size)) : 0.0;
-        slabs->direction[k][lane] = d[k];
     }
-    for (uint32_t i = first; i < end; i++) {
-        for (int c = 0; c < 3; c++) {
-            const double *x = vertex[facet[order[i]].corner[c]].x;
-            double place = d[0] * x[0] + d[1] * x[1] + d[2] * x[2];
-            low = place < low ? place : low;
-            high = place > high ? place : high;
-        }
-    }
-    slabs->low[lane] = low;
-    slabs->high[lane] = high;
 }
 
+/* Slabs of the blocks of `level`, each of which is a lane of the level above. */
 void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree)
 {
-    uint32_t size = TREE_LANES; /* places below a lane */
-    for (int level = 1; level < tree->levels; level++) {
-        for (uint32_t child = 0; child < tree->blocks[level - 1]; child++) {
-            uint32_t first = child * size;
+    uint32_t size = TREE_LANES; /* places in a block */
+    for (int level = 0; level < tree->levels - 1; level++) {
+        for (uint32_t b = 0; b < tree->blocks[level]; b++) {
+            lrcsi_tree_slabs *slabs = &tree->slabs[level + 1][b / TREE_LANES];
+            uint32_t first = b * size;
             uint32_t end = tree->count - first < size ? tree->count : first + size;
-            fill_slab(vertex, facet, tree->order, first, end,
-                      &tree->slabs[level][child / TREE_LANES], child % TREE_LANES);
+            double d[3];
+            double low = HUGE_VAL;
+            double high = -HUGE_VAL;
+            mean_direction(vertex, facet, tree, level, b, d);
+            for (uint32_t i = first; i < end; i++) {
+                const uint32_t *corner = facet[tree->order[i]].corner;
+                for (int c = 0; c < 3; c++) {
+                    const double *x = vertex[corner[c]].x;
+                    double place = d[0] * x[0] + d[1] * x[1] + d[2] * x[2];
+                    low = place < low ? place : low;
+                    high = place > high ? place : high;
+                }
+            }
+            for (int k = 0; k < 3; k++) {
+                slabs->direction[k][b % TREE_LANES] = d[k];
+            }
+            slabs->low[b % TREE_LANES] = low;
+            slabs->high[b % TREE_LANES] = high;
         }
         size *= TREE_LANES;
     }

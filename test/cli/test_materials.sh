@@ -82,6 +82,81 @@ check("derivatives_in_attitude", abs(y["m2_per_deg"] / want - 1) < 1e-5, y)
 check("with_their_errors", 0 < y["bound_m2_per_deg"] < 1e-10 and 0 < y["estimate_m2_per_deg"] < 1e-5, y)
 END
 
+# What a fit knows goes through a scene file into the uncertainty of sigma, correlations included.
+python3 - >noisy.csv <<END
+import math, random
+random.seed(3)
+print("angle_deg,value")
+for a in range(0, 80, 2):
+    c = math.cos(math.radians(a))
+    f = c ** -6 * math.exp(-math.tan(math.radians(a)) ** 2 / 0.04) + 0.25 * c ** 0.5
+    print(f"{a},{f + random.gauss(0, 0.01):.5f}")
+END
+run fit noisy.csv
+{ printf '[[part]]\nname = "p"\nshape = "plate"\nsize = [1, 1]\nmaterial = "noisy"\n'; printf '%s\n' "$out" | sed -n '/^\[\[material/,$p'; } >fitted.toml
+option=$(printf '%s\n' "$out" | sed -n "s/^--material '\(.*\)'$/\1/p")
+run fit noisy.csv --json
+fit=$out
+run run fitted.toml --azel 0,75 --json --sensitivity
+same a_fitted_scene_runs "$rc" 0
+python3 - <<END
+from tap import check
+import json, math
+fit = json.loads("""$fit""")["fits"][0]
+r = json.loads("""$out""")
+d = [r["sensitivity"]["materials"][0][k] for k in ("dA_m2_sr", "dB_m2_sr", "ds_m2", "dm_m2")]
+v = [d[i] * fit["parameters"][k]["std_error"] for i, k in enumerate("ABsm")]
+c = fit["correlation"]
+want = math.sqrt(sum(v[i] * c[i][j] * v[j] for i in range(4) for j in range(4)))
+u = r["material_uncertainty"]
+check("with_the_fits_covariance", abs(u["first_order_m2"] / want - 1) < 0.01, (u, want))
+END
+run run exact.toml --azel 0,75 --json --material "foil=${option#*=}"
+same the_option_of_a_fit_has_its_errors "$(printf '%s\n' "$out" | grep -c '"material_uncertainty": {')" 1
+
+# ---- sweeps ----
+"$tool" sweep bent.toml --az 0 --el 60:80:2 -o whole.csv 2>/dev/null
+same a_sweep_has_the_columns "$(sed -n 2p whole.csv)" "index,az_deg,el_deg,sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2,material_deviation_m2,material_low_m2,material_high_m2,material_sampled,flags"
+same the_head_says_how "$(sed -n 1p whole.csv | grep -c '; uncertainty=4096 draws seed 1;')" 1
+run run bent.toml --azel 0,70 --json
+want=$(value material_uncertainty | sed 's/.*"deviation_m2": \([^,]*\),.*/\1/')
+same a_row_is_what_run_says "$(awk -F, '$3 == 70 { print $9 }' whole.csv)" "$want"
+"$tool" sweep exact.toml --az 0 --el 60:80:2 -o exact.csv 2>/dev/null
+same without_errors_no_columns "$(sed -n 2p exact.csv | grep -c material)" 0
+for k in 1 2 3; do "$tool" sweep bent.toml --az 0 --el 60:80:2 --shard $k/3 -o part$k.csv 2>/dev/null; done
+"$tool" merge part1.csv part2.csv part3.csv -o merged.csv 2>/dev/null
+same shards_merge "$(cmp whole.csv merged.csv && echo same)" same
+"$tool" sweep bent.toml --az 0 --el 60:80:2 --jobs 2 -o jobs.csv 2>/dev/null
+same and_threads_change_nothing "$(cmp whole.csv jobs.csv && echo same)" same
+head -6 whole.csv >again.csv.partial
+"$tool" sweep bent.toml --az 0 --el 60:80:2 -o again.csv --resume 2>/dev/null
+same a_sweep_goes_on "$(cmp whole.csv again.csv && echo same)" same
+"$tool" sweep bent.toml --az 0 --el 60:80:2 -o whole.jsonl 2>/dev/null
+head -6 whole.jsonl >again.jsonl.partial
+"$tool" sweep bent.toml --az 0 --el 60:80:2 -o again.jsonl --resume 2>/dev/null
+same so_does_one_of_json_lines "$(cmp whole.jsonl again.jsonl && echo same)" same
+"$tool" sweep bent.toml --az 0 --el 60:80:2 -o whole.npy 2>/dev/null
+same a_map_is_made_of_them "$(head -c 6 whole.npy | tail -c 5)" NUMPY
+
+# damaged FIELD VALUE TEXT: such a field in the first row is refused, and says what.
+damaged() {
+    awk -F, -v OFS=, -v f="$1" -v v="$2" 'NR == 3 { $f = v } { print }' whole.csv | head -6 >bad.csv.partial
+    run sweep bent.toml --az 0 --el 60:80:2 -o bad.csv --resume
+    same "damaged_field_$1_as_$2" "$rc $(printf '%s\n' "$err" | grep -c "$3")" "1 1"
+    rm -f bad.csv.partial bad.csv.lock
+}
+damaged 9 -1 'material_deviation_m2: found'
+damaged 9 nan 'material_deviation_m2: found'
+damaged 10 1e9 'material_low_m2: found'
+damaged 12 2 'material_sampled: found'
+damaged 11 '' 'material_high_m2: found'
+"$tool" sweep linear.toml --az 0 --el 60:80:2 -o whole.csv 2>/dev/null
+awk -F, -v OFS=, 'NR == 3 { $11 *= 1.001 } { print }' whole.csv | head -6 >bad.csv.partial
+run sweep linear.toml --az 0 --el 60:80:2 -o bad.csv --resume
+same by_first_order_the_interval_is_about_sigma "$rc $(printf '%s\n' "$err" | grep -c 'material_high_m2: found')" "1 1"
+run sweep linear.toml --vary foil.s:0.1:0.3:0.1 --azel 0,70
+same errors_stay_where_a_parameter_varies "$(printf '%s\n' "$out" | awk -F, '/^[0-9]/ && $8 > 0' | wc -l | tr -d ' ')" 3
+
 run run negative.toml
 same a_negative_error_is_refused "$rc $(printf '%s\n' "$err" | grep -c 'A_error.*0 or more')" "1 1"
 run run impossible.toml

@@ -161,4 +161,104 @@ for name in sorted(glob.glob("*.run")):
     check(f"the_pulse_is_the_one_of_mpmath_{base}", not worst, worst)
 END
 python3 check.py || not_ok python_ran
+
+# Curved shapes against closed forms and quadrature: the bounds hold of the true shapes.
+shape() { # NAME KEYS: a scene of one shape that stands off the origin
+    printf '[[part]]\nname = "%s"\nshape = "%s"\n%s\ntranslate = [0.3, -0.2, 0.17]\n' "$1" "$1" "$2" >"$1.toml"
+}
+shape sphere 'radius = 1'
+shape cone 'radius = 0.5
+half_angle_deg = 20'
+shape cylinder 'radius = 0.5
+length = 2'
+{
+    cat sphere.toml
+    printf '[[part]]\nname = "roof"\nshape = "plate"\nsize = [4, 4]\ntranslate = [2.3, -0.2, 3]\n'
+} >half.toml
+for tolerance in 1e-2 1e-4; do
+    for bin in 0.2 0.03; do
+        "$tool" profile sphere.toml --bin $bin --azel 20,35 --tolerance $tolerance --json >"sphere.$bin.$tolerance.curved" 2>/dev/null
+        "$tool" profile half.toml --bin $bin --tolerance $tolerance --json >"half.$bin.$tolerance.curved" 2>/dev/null
+        "$tool" profile cone.toml --bin $bin --tolerance $tolerance --json >"cone.$bin.$tolerance.curved" 2>/dev/null
+        "$tool" profile cylinder.toml --bin $bin --azel 30,0 --tolerance $tolerance --json >"cylinder.$bin.$tolerance.curved" 2>/dev/null
+    done
+done
+"$tool" profile sphere.toml --bin 0.2 --azel 20,35 --pulse-fwhm 0.3 --json >sphere.pulse 2>/dev/null
+cat >curved.py <<'END'
+import glob, json
+from mpmath import mp, mpf, quad, exp, cos, sin, acos, sqrt, log, pi, tan, radians
+from tap import check
+mp.dps = 20
+A, B, S, M = mpf(1), mpf("0.25"), mpf("0.2"), mpf("0.5")
+
+
+def f(c):
+    return A / c**6 * exp(-(1 / c**2 - 1) / S**2) + B * c**M if c > 0 else mpf(0)
+
+
+def clip(x, low, high):
+    return min(max(x, low), high)
+
+
+def sphere(a, b):  # ranges from its centre
+    low, high = clip(-b, 0, 1), clip(-a, 0, 1)
+    return 8 * pi**2 * quad(lambda c: f(c) * c * c, [low, (low + high) / 2, high]) if high > low else mpf(0)
+
+
+def cone(a, b):  # from the apex
+    al = radians(mpf(20))
+    end = mpf("0.5") / tan(al)
+    r = [clip(z, 0, end) * tan(al) for z in (a, b)]
+    return 4 * pi * f(sin(al)) * sin(al) * pi * (r[1]**2 - r[0]**2)
+
+
+def cylinder(a, b):  # from its axis, seen from the side
+    low, high = acos(clip(-a * 2, 0, 1)), acos(clip(-b * 2, 0, 1))
+    return 2 * 4 * pi * mpf("0.5") * 2 * quad(lambda p: f(cos(p)) * cos(p)**2, [low, (low + high) / 2, high]) if high > low else mpf(0)
+
+
+shift = [mpf("0.3"), mpf("-0.2"), mpf("0.17")]
+for name in sorted(glob.glob("*.curved")):
+    got = json.load(open(name))
+    kind = name.split(".")[0]
+    d = [mpf(x) for x in got["direction"]]
+    at = -sum(x * y for x, y in zip(shift, d))
+    worst, total, apart = "", mpf(0), mpf(0)
+    for b in got["bins"]:
+        k = round(b["near_m"] / got["bin_m"])
+        near, far = mpf(k * got["bin_m"]), mpf((k + 1) * got["bin_m"])
+        if kind == "half" and far < -2.5:  # the roof
+            continue
+        if kind == "sphere":
+            want = sphere(near - at, far - at)
+        elif kind == "half":
+            want = sphere(near - at, far - at) / 2
+        elif kind == "cone":
+            apex = at - mpf("0.5") / tan(radians(mpf(20)))
+            want = cone(near - apex, far - apex)
+        else:
+            want = cylinder(near - at, far - at)
+        total += want
+        apart = max(apart, b["bound_m2"])
+        if not abs(want - b["sigma_m2"]) <= b["bound_m2"] + 1e-13:
+            worst = f"{name} at {b['near_m']}: {b['sigma_m2']} +- {b['bound_m2']}, want {want}"
+    fine = name.endswith("1e-4.curved")
+    check("bins_of_a_true_" + name, not worst and total > 0, worst or "empty")
+    check("their_bounds_tell_something_" + name, apart < (0.02 if fine else 0.3) * got["sigma_m2"], f"{apart} of {got['sigma_m2']}")
+    check("the_bound_is_of_the_true_shape_" + name, got["bound_refers_to"].endswith("true curved shapes"), got["bound_refers_to"])
+    if kind != "half":
+        check("their_sum_is_sigma_" + name, abs(total - got["sigma_m2"]) <= got["bound_m2"] + 1e-13, f"{total} {got['sigma_m2']} {got['bound_m2']}")
+
+got = json.load(open("sphere.pulse"))
+at = -sum(x * mpf(y) for x, y in zip(shift, got["direction"]))
+d = mpf("0.3") / (2 * sqrt(2 * log(2)))
+worst = ""
+for b in got["bins"]:
+    z = (mpf(b["near_m"]) + mpf(b["far_m"])) / 2 - at
+    want = 8 * pi**2 * quad(lambda c: f(c) * c * c * exp(-((z + c) / d)**2 / 2), [0, 0.25, 0.5, 0.75, 0.9, 1]) / d / sqrt(2 * pi)
+    if not abs(want - b["pulse_m"]) <= b["pulse_bound_m"] + 1e-12:
+        worst = f"{z}: {b['pulse_m']} +- {b['pulse_bound_m']}, want {want}"
+check("a_pulse_on_a_true_sphere", not worst, worst)
+END
+python3 curved.py || not_ok python_ran
 finish

@@ -32,7 +32,7 @@ static double sigma_of(uint32_t i)
 static lrcs_profile_bin bin_at(int64_t k)
 {
     int inside = k >= profile.first && k < profile.first + profile.count;
-    return inside ? profile.bin[k - profile.first] : (lrcs_profile_bin){0, 0, 0, 0};
+    return inside ? profile.bin[k - profile.first] : (lrcs_profile_bin){0, 0, 0, 0, 0};
 }
 
 static void check_bin(int64_t k, long double truth)

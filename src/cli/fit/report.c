@@ -149,28 +149,50 @@ static void name_print(const char *name, char quote)
     }
 }
 
-static void brdf_text(const lrcs_brdf *brdf, char text[LRCS_FIT_PARAMETERS][LRCS_HOST_NUMBER_SIZE])
+/* Below this share of a value its error is not handed on: the value has six digits. */
+#define REPORT_ERROR_LEAST 5e-7
+
+/* The standard error that a scene file gets: 0 where there is none, as for a term left out. */
+static double error_of(const lrcs_fit *fit, int p)
 {
-    const double value[] = {brdf->A, brdf->B, brdf->s, brdf->m};
-    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        snprintf(text[p], LRCS_HOST_NUMBER_SIZE, "%.6g", value[p]);
-    }
+    const lrcs_fit_parameter *one = &fit->parameter[p];
+    int known = one->error < HUGE_VAL && one->error > REPORT_ERROR_LEAST * one->value;
+    return known && one->value > 0.0 ? one->error : 0.0;
 }
 
 static void material_print(const fit_material *material)
 {
-    char text[LRCS_FIT_PARAMETERS][LRCS_HOST_NUMBER_SIZE];
-    brdf_text(&material->fit.brdf, text);
+    const lrcs_fit *fit = &material->fit;
+    const double value[] = {fit->brdf.A, fit->brdf.B, fit->brdf.s, fit->brdf.m};
+    int stated = 0;
     printf("\n--material '");
     name_print(material->name, '\'');
-    printf("=%s,%s,%s,%s'\n", text[0], text[1], text[2], text[3]);
-    printf("\n[[material]]\nname = \"");
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        printf("%s%.6g", p == 0 ? "=" : ",", value[p]);
+        if (error_of(fit, p) > 0.0) {
+            printf("+-%.3g", error_of(fit, p));
+            stated++;
+        }
+    }
+    printf("'\n\n[[material]]\nname = \"");
     name_print(material->name, '"');
     putchar('"');
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        printf("\n%s = %s", report_name[p], text[p]);
+        printf("\n%s = %.6g", report_name[p], value[p]);
     }
-    putchar('\n');
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        if (error_of(fit, p) > 0.0) {
+            printf("\n%s_error = %.3g", report_name[p], error_of(fit, p));
+        }
+    }
+    for (int p = 0; p < LRCS_FIT_PARAMETERS && stated > 1; p++) {
+        for (int q = p + 1; q < LRCS_FIT_PARAMETERS; q++) {
+            int both = error_of(fit, p) > 0.0 && error_of(fit, q) > 0.0;
+            printf("%s%.15g", p == 0 && q == 1 ? "\ncorrelation = [" : ", ",
+                   both ? fit->correlation[p][q] : 0.0);
+        }
+    }
+    printf("%s", stated > 1 ? "] # of AB, As, Am, Bs, Bm, sm\n" : "\n");
 }
 
 void cli_fit_table(const fit_job *job)
@@ -214,12 +236,10 @@ void cli_fit_csv(const fit_job *job, FILE *out)
             const lrcs_fit_point *point = &material->point[k];
             const double value[] = {reading->angle_deg, reading->value, point->fitted,
                                     point->residual, point->standard};
-            char text[LRCS_HOST_NUMBER_SIZE];
             csv_name(out, material->name);
             fprintf(out, ",%lu", (unsigned long)material->line[k]);
             for (size_t c = 0; c < sizeof value / sizeof value[0]; c++) {
-                lrcs_host_number_text(value[c], text);
-                fprintf(out, ",%s", text);
+                cli_number_put(out, ",", value[c]);
             }
             fprintf(out, ",%d\n", point->outlier);
         }
@@ -296,8 +316,7 @@ void cli_fit_json(const fit_job *job)
 {
     lrcs_host_json json = lrcs_host_json_make(stdout);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(&json, "version", lrcs_version());
+    cli_version_json(&json);
     lrcs_host_json_number(&json, "unit_per_sr", job->options.unit);
     lrcs_host_json_bool(&json, "cosine", job->options.cosine);
     lrcs_host_json_begin(&json, "fits", LRCS_HOST_ARRAY);

@@ -8,16 +8,6 @@
 /* More bins than this are left to --csv and --json: the table shows the strongest. */
 #define TABLE_ROWS 40u
 
-/* The direction with length 1. */
-static void unit_direction(const lrcs_pose *pose, double s_hat[3])
-{
-    const double *d = pose->direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    for (int k = 0; k < 3; k++) {
-        s_hat[k] = d[k] / length;
-    }
-}
-
 static double total_sigma(const profile_job *job)
 {
     return job->profile.list.sigma_glint_m2 + job->profile.list.sigma_diffuse_m2;
@@ -28,9 +18,7 @@ static double total_sigma(const profile_job *job)
 static void fields_write(FILE *out, const double *value, int count)
 {
     for (int i = 0; i < count; i++) {
-        char text[LRCS_HOST_NUMBER_SIZE];
-        lrcs_host_number_text(value[i], text);
-        fprintf(out, "%s%s", i > 0 ? "," : "", text);
+        cli_number_put(out, i > 0 ? "," : "", value[i]);
     }
 }
 
@@ -61,12 +49,9 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
 {
     const lrcs_profile *p = &job->profile.list;
     double s_hat[3];
-    char hash[17];
-    unit_direction(&job->pose, s_hat);
-    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
-    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(json, "version", lrcs_version());
-    lrcs_host_json_text(json, "scene_hash", hash);
+    cli_pose_unit(&job->pose, s_hat);
+    cli_version_json(json);
+    cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
     lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
     lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
@@ -81,9 +66,9 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     lrcs_host_json_number(json, "sigma_diffuse_m2", p->sigma_diffuse_m2);
     lrcs_host_json_number(json, "bound_m2", p->bound_m2);
     lrcs_host_json_text(json, "bound_refers_to",
-                        cli_has_curved_shapes(&job->scene.scene)
-                            ? "the facets, also those that stand for curved shapes"
-                            : "the facets");
+                        p->tessellation_known
+                            ? "the facets of models, and true curved shapes"
+                            : "the facets, also those that stand for curved shapes");
     lrcs_host_json_begin(json, "tolerance", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_number(json, "asked", job->asked > 0.0 ? job->asked : (double)NAN);
     if (job->asked > 0.0) {
@@ -186,10 +171,10 @@ static void verdict_print(const profile_job *job)
     cli_bound_text(total_sigma(job) > 0.0 ? p->bound_m2 / total_sigma(job) : p->bound_m2, 2, all);
     printf("verdict      each bin is proved to %s of sigma or better, their sum to %s.\n", bin,
            all);
-    if (worst > p->bound_m2 && worst > 1e-6 * total_sigma(job)) {
+    if (worst > 1e-6 * total_sigma(job) && !cli_has_curved_shapes(&job->scene.scene)) {
         printf("             A face within rounding of a bin's edge may be on either side of it\n");
     }
-    if (cli_has_curved_shapes(&job->scene.scene)) {
+    if (!p->tessellation_known) {
         printf("             Left open: how far curved shapes are from the facets that stand for "
                "them\n");
     }
@@ -203,7 +188,7 @@ void cli_profile_table(const profile_job *job)
     const lrcs_profile *p = &job->profile.list;
     double s_hat[3];
     char bound[CLI_BOUND_SIZE];
-    unit_direction(&job->pose, s_hat);
+    cli_pose_unit(&job->pose, s_hat);
     printf("scene        ");
     cli_column(cli_scene_title(job->args, &job->scene), 0);
     printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&job->scene.scene));

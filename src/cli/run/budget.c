@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --time-budget: the best answer that a time buys. How long a setting takes is not known
-   before it has been tried, so two processes try settings from cheap to dear, one of them rasters,
-   the other tolerances, and report every answer; when the time is up the best one counts, and what
-   still runs is stopped. It decides which settings are tried; each is an ordinary run, which the
-   same options give again. */
+/* lrcs run --time-budget: the best answer that a time buys. Settings are tried one after another,
+   always the one that is expected to take the least time, as those before it suggest. How long one
+   takes is not known before, so a process of its own runs them and reports every answer; when the
+   time is up the best one counts, and what still runs is stopped. It decides which settings are
+   tried; each is an ordinary run, which the same options give again. */
 #include "cli/run/run.h"
 
 #include <errno.h>
@@ -14,14 +14,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define RACERS       2
-#define RASTER_LEAST 64u
-#define RASTER_MOST  4096u
-
-/* Rasters of which only an estimate is expected. */
-#define PREVIEW_LEAST 256u
-#define PREVIEW_MOST  1024u
-
 /* A bound above this share of sigma says little: there a likely error decides. */
 #define BOUND_TELLS 0.1
 
@@ -29,22 +21,34 @@
 #define RUNGS     23
 #define RUNG_NONE (-1) /* for scenes that no tolerance changes */
 
+/* The rasters that are tried, from cheap to dear; of those accepted by estimate samples are all
+   that is looked at. */
+static const struct {
+    uint32_t size;
+    int accept;
+} rasters[] = {
+    {256, LRCS_ACCEPT_ESTIMATE}, {1024, LRCS_ACCEPT_ESTIMATE}, {64, LRCS_ACCEPT_BOUND},
+    {128, LRCS_ACCEPT_BOUND},    {256, LRCS_ACCEPT_BOUND},     {512, LRCS_ACCEPT_BOUND},
+    {1024, LRCS_ACCEPT_BOUND},   {2048, LRCS_ACCEPT_BOUND},    {4096, LRCS_ACCEPT_BOUND}};
+
+#define RASTERS (sizeof rasters / sizeof rasters[0])
+
 /* An answer on its way to the parent. Its reasons are constant texts, at the same place in both
    processes. */
 typedef struct budget_answer {
     lrcs_result result;
     int rung;
     int named;  /* the method was chosen, not found by auto */
+    int sought; /* by a tolerance, or by clipping: of equal answers these count */
     int accept; /* LRCS_ACCEPT_ESTIMATE: a raster as cheap as drawing it */
-    int racer;  /* whose answer it is, in the parent */
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
-/* A process that tries settings, and where its answers come from. */
-typedef struct budget_racer {
+/* The process that tries settings, and where its answers come from. */
+typedef struct budget_runner {
     pid_t process;
     int end; /* of its pipe; negative: it has ended */
-} budget_racer;
+} budget_runner;
 
 static const char *rung_text(int rung, char text[16])
 {
@@ -64,10 +68,10 @@ static double rung_tolerance(int rung)
     return value;
 }
 
-/* ---- in the racers ---- */
+/* ---- in the runner ---- */
 
-/* Runs one setting and reports it; 0, or -1 where the race is over for this racer. */
-static int race_run(run_job *job, int rung, int answers)
+/* Runs one setting and reports it, with the seconds that it took; 0, or -1 where nobody listens. */
+static int setting_run(run_job *job, int rung, int sought, int answers, double *seconds)
 {
     lrcs_host_error error;
     budget_answer answer;
@@ -76,31 +80,30 @@ static int race_run(run_job *job, int rung, int answers)
                                      NULL, &answer.seconds_pose, &error);
     answer.rung = rung;
     answer.named = job->options.method != LRCS_METHOD_AUTO;
+    answer.sought = sought;
     answer.accept = job->options.accept;
     answer.seconds_load = job->scene.seconds_load;
     answer.seconds_prepare = job->scene.seconds_prepare;
+    *seconds = answer.seconds_pose;
     return status == LRCS_OK && write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
                ? 0
                : -1;
 }
 
-/* What is cheapest first, on the mesh at hand: no shadows; rasters whose samples are all that is
-   looked at; then rasters with bounds, ever finer. */
-static void race_rasters(run_job *job, int rung, int answers)
+/* A raster on the mesh at hand; the next one is expected to take as many times longer as it has
+   more pixels in a row, for part of the time goes with the facets. */
+static int raster_run(run_job *job, int rung, size_t i, int answers, double *expected)
 {
-    job->options.method = LRCS_METHOD_FACET;
-    int over = race_run(job, rung, answers);
+    double seconds = 0.0;
     job->options.method = LRCS_METHOD_ZBUFFER;
-    job->options.accept = LRCS_ACCEPT_ESTIMATE;
-    for (uint32_t n = PREVIEW_LEAST; n <= PREVIEW_MOST && over == 0; n *= 4) {
-        job->options.resolution = n;
-        over = race_run(job, rung, answers);
-    }
+    job->options.resolution = rasters[i].size;
+    job->options.accept = rasters[i].accept;
+    int over = setting_run(job, rung, 0, answers, &seconds);
+    double times = i + 1 < RASTERS ? (double)rasters[i + 1].size / rasters[i].size : 1.0;
+    *expected = seconds * fmax(times, 1.0);
+    job->options.resolution = 0;
     job->options.accept = LRCS_ACCEPT_BOUND;
-    for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && over == 0; n *= 2) {
-        job->options.resolution = n;
-        over = race_run(job, rung, answers);
-    }
+    return over;
 }
 
 /* Reads the scene with its shapes built for ever finer rungs, from this one on, until it is another
@@ -122,54 +125,66 @@ static int rung_scene(run_job *job, int rung)
     return rung < RUNGS && lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? rung : RUNGS;
 }
 
-/* Tolerances, ever finer, by whatever method is enough; where none changes anything, clipping. */
-static void race_tolerances(run_job *job, int rung, int answers)
+/* What is cheapest first:
+   1. no shadows;
+   2. rasters, and tolerances by whatever method is enough; where no tolerance changes anything,
+      clipping instead. The first of them is expected to take as long as the scene took to prepare:
+      rasters go before it as long as they take less. Once it has an answer, rasters of the same
+      mesh have nothing to add. */
+static void settings_run(run_job *job, int rung, int answers)
 {
-    int shapes = cli_has_curved_shapes(&job->scene.scene);
-    int last = rung == RUNG_NONE ? RUNG_NONE : RUNGS - 1;
-    job->options.method = rung == RUNG_NONE ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;
-    while (rung <= last) {
+    const int last = rung == RUNG_NONE ? RUNG_NONE : RUNGS - 1;
+    const int method = rung == RUNG_NONE ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;
+    const int shapes = cli_has_curved_shapes(&job->scene.scene);
+    const double first = job->scene.seconds_prepare;
+    double expected = 0.0; /* of the next raster */
+    size_t raster = 0;
+    job->options.method = LRCS_METHOD_FACET;
+    int over = setting_run(job, rung, 0, answers, &expected);
+    while (over == 0 && raster < RASTERS && expected <= first) {
+        over = raster_run(job, rung, raster++, answers, &expected);
+    }
+    while (over == 0 && rung <= last) {
+        double seconds;
+        job->options.method = method;
         job->options.tolerance = rung_tolerance(rung);
-        if (race_run(job, rung, answers) != 0) {
-            break;
-        }
+        over = setting_run(job, rung, 1, answers, &seconds);
         rung = shapes ? rung_scene(job, rung + 1) : rung + 1;
     }
 }
 
 /* Where there is no room for another process, it has ended before it began. */
-static void racer_start(run_job *job, int rung, budget_racer *racer,
-                        void (*race)(run_job *job, int rung, int answers))
+static void runner_start(run_job *job, int rung, budget_runner *runner)
 {
     int end[2];
-    *racer = (budget_racer){.end = -1};
+    *runner = (budget_runner){.end = -1};
     if (pipe(end) != 0) {
         return;
     }
-    racer->process = fork();
-    if (racer->process == 0) {
+    runner->process = fork();
+    if (runner->process == 0) {
         signal(SIGINT, SIG_DFL); /* the parent says what a Ctrl-C leaves */
         close(end[0]);
-        race(job, rung, end[1]);
+        settings_run(job, rung, end[1]);
         _exit(0);
     }
     close(end[1]);
-    if (racer->process < 0) {
+    if (runner->process < 0) {
         close(end[0]);
         return;
     }
-    racer->end = end[0];
+    runner->end = end[0];
 }
 
 /* ---- in the parent ---- */
 
-static void racer_stop(budget_racer *racer)
+static void runner_stop(budget_runner *runner)
 {
-    if (racer->end >= 0) {
-        close(racer->end);
-        kill(racer->process, SIGKILL);
-        waitpid(racer->process, NULL, 0);
-        racer->end = -1;
+    if (runner->end >= 0) {
+        close(runner->end);
+        kill(runner->process, SIGKILL);
+        waitpid(runner->process, NULL, 0);
+        runner->end = -1;
     }
 }
 
@@ -184,28 +199,11 @@ static double answer_error(const budget_answer *answer)
     return bound > tells && r->estimate_m2 >= 0.0 ? fmin(bound, tells + r->estimate_m2) : bound;
 }
 
-/* Of equal answers the first racer's counts, whichever came first. */
 static int answer_beats(const budget_answer *answer, const budget_answer *best)
 {
     double error = answer_error(answer);
     double least = answer_error(best);
-    return error < least || (error <= least && answer->racer < best->racer);
-}
-
-/* Takes an answer of a racer into account: 1; 0 where it has ended. */
-static int race_take(run_job *job, budget_racer racer[RACERS], int i, budget_answer *best)
-{
-    budget_answer answer;
-    if (read(racer[i].end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
-        racer_stop(&racer[i]);
-        return 0;
-    }
-    answer.racer = i;
-    if (answer_beats(&answer, best)) {
-        *best = answer;
-    }
-    job->budget.answered = 1;
-    return 1;
+    return error < least || (error <= least && answer->sought && !best->sought);
 }
 
 /* Milliseconds left for poll: no end where there is no answer yet. */
@@ -215,33 +213,23 @@ static int time_left(const run_budget *budget)
     return !budget->answered ? -1 : left > 1e9 ? 1000000000 : left > 0.0 ? (int)ceil(left) : 0;
 }
 
-/* May anything better come? */
-static int race_is_on(const run_job *job, const budget_racer racer[RACERS],
-                      const budget_answer *best)
+/* Takes answers until the time is up, none is to come, or one meets the tolerance asked for. */
+static void runner_watch(run_job *job, budget_runner *runner, budget_answer *best)
 {
-    return (racer[0].end >= 0 || racer[1].end >= 0) && !cli_run_meets(&best->result, job->asked);
-}
-
-/* Once a tolerance has an answer, rasters of the same mesh have nothing to add. */
-static void race_watch(run_job *job, budget_racer racer[RACERS], budget_answer *best)
-{
-    while (race_is_on(job, racer, best)) {
-        struct pollfd wait[RACERS];
-        for (int i = 0; i < RACERS; i++) { /* negative ones are skipped */
-            wait[i] = (struct pollfd){.fd = racer[i].end, .events = POLLIN};
-        }
-        int ready = poll(wait, RACERS, time_left(&job->budget));
+    while (!cli_run_meets(&best->result, job->asked)) {
+        struct pollfd wait = {.fd = runner->end, .events = POLLIN};
+        int ready = poll(&wait, 1, time_left(&job->budget));
         if (ready < 0 && errno == EINTR) {
             continue; /* the watch */
         }
-        if (ready <= 0) {
+        budget_answer answer;
+        if (ready <= 0 || read(runner->end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
             break;
         }
-        for (int i = 0; i < RACERS; i++) {
-            if (wait[i].revents != 0 && race_take(job, racer, i, best) && i == 0) {
-                racer_stop(&racer[1]);
-            }
+        if (!job->budget.answered || answer_beats(&answer, best)) {
+            *best = answer;
         }
+        job->budget.answered = 1;
     }
 }
 
@@ -324,26 +312,24 @@ int cli_run_budget(run_job *job)
 {
     lrcs_host_error error;
     budget_answer best;
-    budget_racer racer[RACERS];
+    budget_runner runner;
     int scales =
         cli_has_curved_shapes(&job->scene.scene) || job->scene.scene.normals != LRCS_NORMALS_FLAT;
     int rung = scales ? 0 : RUNG_NONE;
     memset(&best, 0, sizeof best);
     best.result.bound_m2 = HUGE_VAL; /* before the first answer */
     best.result.estimate_m2 = -1.0;
-    best.racer = RACERS;
     if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
     cli_watch_stage("trying settings", NULL);
     fflush(NULL); /* or both would write what is buffered */
-    racer_start(job, rung, &racer[0], race_tolerances);
-    racer_start(job, rung, &racer[1], race_rasters);
-    race_watch(job, racer, &best);
-    job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
-    for (int i = 0; i < RACERS; i++) {
-        racer_stop(&racer[i]);
+    runner_start(job, rung, &runner);
+    if (runner.end >= 0) {
+        runner_watch(job, &runner, &best);
     }
+    job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
+    runner_stop(&runner);
     if (!job->budget.answered) {
         fprintf(stderr, "lrcs: --time-budget: no setting gave an answer\n");
         return CLI_FAILED;

@@ -22,23 +22,12 @@ int cli_run_materials_read(run_job *job)
     return code;
 }
 
-static int errors_stated(const lrcs_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_brdf_error *e = &scene->material[i].error;
-        if (e->A > 0.0 || e->B > 0.0 || e->s > 0.0 || e->m > 0.0) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
 int cli_run_materials(run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
     lrcs_host_error error;
     lrcs_result again;
-    if (!job->sensitivity_asked && !errors_stated(scene)) {
+    if (!job->sensitivity_asked && !cli_errors_stated(scene)) {
         return 0;
     }
     cli_watch_stage("material uncertainty", NULL);

@@ -6,6 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+const char *const cli_row_extra[SWEEP_EXTRAS] = {"material_deviation_m2", "material_low_m2",
+                                                 "material_high_m2", "material_sampled"};
+
 void cli_tally_add(sweep_tally *tally, const sweep_row *row)
 {
     double off = row->sigma_m2 - tally->mean;
@@ -25,11 +28,14 @@ double cli_tally_error(const sweep_tally *tally)
     return tally->rows > 1 ? sqrt(tally->square / (n - 1.0) / n) : (double)NAN;
 }
 
+/* Nothing stands for what is no number. */
 static void number_put(FILE *out, const char *before, double value)
 {
-    char text[LRCS_HOST_NUMBER_SIZE];
-    lrcs_host_number_text(value, text);
-    fprintf(out, "%s%s", before, isfinite(value) ? text : "");
+    if (isfinite(value)) {
+        cli_number_put(out, before, value);
+    } else {
+        fputs(before, out);
+    }
 }
 
 /* ---- CSV ---- */
@@ -66,7 +72,11 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
         putc(',', out);
         csv_field(out, plan->column[i]);
     }
-    fputs(",sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2,flags\n", out);
+    fputs(",sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2", out);
+    for (uint32_t i = 0; i < plan->extras; i++) {
+        fprintf(out, ",%s", cli_row_extra[i]);
+    }
+    fputs(",flags\n", out);
 }
 
 static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
@@ -81,6 +91,9 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     number_put(out, ",", row->bound_m2);
     number_put(out, ",", row->sigma_glint_m2);
     number_put(out, ",", row->sigma_diffuse_m2);
+    for (uint32_t i = 0; i < plan->extras; i++) {
+        number_put(out, ",", row->extra[i]);
+    }
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
             fprintf(out, "%s%s", before, lrcs_flag_text((int)bit));
@@ -94,14 +107,11 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 
 static void jsonl_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
 {
-    char hash[17];
     lrcs_host_json json = lrcs_host_json_make(out);
-    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)head->scene_hash);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(&json, "lrcs", "sweep");
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(&json, "version", lrcs_version());
-    lrcs_host_json_text(&json, "scene_hash", hash);
+    cli_version_json(&json);
+    cli_hash_json(head->scene_hash, &json);
     lrcs_host_json_count(&json, "rows", head->rows);
     lrcs_host_json_begin(&json, "shape", LRCS_HOST_ROW_ARRAY);
     for (uint32_t i = 0; i < head->dimensions; i++) {
@@ -133,6 +143,9 @@ static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     lrcs_host_json_number(&json, "bound_m2", row->bound_m2);
     lrcs_host_json_number(&json, "sigma_glint_m2", row->sigma_glint_m2);
     lrcs_host_json_number(&json, "sigma_diffuse_m2", row->sigma_diffuse_m2);
+    for (uint32_t i = 0; i < plan->extras; i++) {
+        lrcs_host_json_number(&json, cli_row_extra[i], row->extra[i]);
+    }
     lrcs_host_json_begin(&json, "flags", LRCS_HOST_ROW_ARRAY);
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {

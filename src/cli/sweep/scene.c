@@ -275,11 +275,13 @@ static void material_set(lrcs_recipe *recipe, uint32_t bound, const sweep_axis *
         at++;
     }
     if (at == recipe->binding_count) {
-        recipe->binding[recipe->binding_count++] =
-            (lrcs_binding){.kind = LRCS_BIND_NAME,
-                           .name = axis->whom,
-                           .brdf = material_of(scene, axis->whom)->brdf,
-                           .two_sided = -1};
+        const lrcs_material *material = material_of(scene, axis->whom);
+        recipe->binding[recipe->binding_count++] = (lrcs_binding){.kind = LRCS_BIND_NAME,
+                                                                  .name = axis->whom,
+                                                                  .brdf = material->brdf,
+                                                                  .two_sided = -1,
+                                                                  .error = material->error,
+                                                                  .source = material->source};
     }
     *brdf_value(&recipe->binding[at].brdf, axis->key) = value;
 }

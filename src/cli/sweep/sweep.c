@@ -177,7 +177,7 @@ static int job_pose(void *context, uint64_t index, lrcs_pose *pose)
 }
 
 static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const lrcs_result *result,
-                    lrcs_host_error *error)
+                    const lrcs_uncertainty *uncertainty, lrcs_host_error *error)
 {
     sweep_job *job = context;
     (void)pose;
@@ -188,6 +188,12 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
                      .sigma_diffuse_m2 = result->sigma_diffuse_m2,
                      .flags = cli_flags_in_force(job->args, &job->options, result->flags)};
     cli_plan_values(&job->plan, index, row.value);
+    if (uncertainty) {
+        row.extra[0] = uncertainty->deviation_m2;
+        row.extra[1] = uncertainty->low_m2;
+        row.extra[2] = uncertainty->high_m2;
+        row.extra[3] = uncertainty->sampled;
+    }
     job->notices |= result->notices;
     int status = cli_file_put(&job->file, &job->plan, &row, error);
     cli_progress_show(&job->progress, job->file.next - job->plan.first);
@@ -204,12 +210,14 @@ static int job_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs
 static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
 {
     lrcs_host_error error;
+    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
     lrcs_host_sweep sweep = {.first = job->file.next,
                              .count = end - job->file.next,
                              .threads = job->threads,
                              .pose = job_pose,
                              .scene = scene ? NULL : job_scene,
                              .take = job_take,
+                             .uncertainty = job->plan.extras > 0 ? &how : NULL,
                              .context = job,
                              .cancel = &sweep_stop};
     if (lrcs_host_sweep_run(scene, &job->options, &sweep, NULL, &error) == LRCS_OK) {
@@ -387,6 +395,7 @@ static int sweep_command(const cli_args *args)
     }
     if (code == 0) {
         coarse_say(job);
+        job->plan.extras = cli_errors_stated(&job->scene.scene) ? SWEEP_EXTRAS : 0;
         job->plot.open = cli_materials_open(&job->scene.scene);
         job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
         code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);

@@ -11,6 +11,7 @@
 #define SWEEP_JOINTS  8 /* that a file of poses turns */
 #define SWEEP_COLUMNS 20
 #define SWEEP_FIELDS  6 /* of a row after its values: sigma to flags */
+#define SWEEP_EXTRAS  4 /* before its flags, where materials state errors: their uncertainty */
 
 /* ---- ranges ---- */
 
@@ -77,6 +78,7 @@ typedef struct sweep_plan {
     uint64_t poses;      /* of each scene */
     uint64_t rows;       /* of all scenes */
     uint64_t first, end; /* those of this shard */
+    uint32_t extras;     /* of a row: SWEEP_EXTRAS or 0 */
     uint32_t columns;    /* values of a row */
     const char *column[SWEEP_COLUMNS];
 } sweep_plan;
@@ -123,8 +125,15 @@ typedef struct sweep_row {
     uint64_t index;
     double value[SWEEP_COLUMNS];
     double sigma_m2, bound_m2, sigma_glint_m2, sigma_diffuse_m2;
+    double extra[SWEEP_EXTRAS]; /* deviation, low and high end, m2; 1 where a sample gives them */
     uint32_t flags;
 } sweep_row;
+
+/* The names of the extras. */
+extern const char *const cli_row_extra[SWEEP_EXTRAS];
+
+/* The key of the first lines that says that rows have them. */
+#define SWEEP_UNCERTAINTY "uncertainty"
 
 /* What the first line says: nothing in it depends on the machine, the number of threads or the
    shard. */
@@ -178,6 +187,7 @@ typedef struct sweep_text {
     uint64_t shape[SWEEP_AXES + 1];
     uint32_t dimensions;
     uint32_t columns; /* values of a row */
+    uint32_t extras;  /* SWEEP_EXTRAS or 0 */
     int has_mean;     /* one --sphere */
     int flagged;      /* rows may be accepted unproved: a map of them shows their flags */
     char fault[200];  /* what is wrong with the line at `at` */

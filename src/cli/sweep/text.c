@@ -53,7 +53,7 @@ static int head_shape(const char *at, sweep_text *text)
 
 /* Names between index and sigma_m2: of the second line, where commas in quotes separate nothing, or
    of the list in the first. */
-static uint32_t head_columns(const char *head)
+static uint32_t head_columns(const char *head, uint32_t extras)
 {
     const char *at = head[0] == '#' ? strchr(head, '\n') + 1 : strstr(head, "\"columns\": [");
     uint32_t count = 0;
@@ -63,7 +63,7 @@ static uint32_t head_columns(const char *head)
             quoted ^= *at == '"';
             count += *at == ',' && !quoted;
         }
-        return count > SWEEP_FIELDS ? count - SWEEP_FIELDS : 0;
+        return count > SWEEP_FIELDS + extras ? count - SWEEP_FIELDS - extras : 0;
     }
     for (at = at ? strchr(at, '[') + 1 : ""; *at && (*at != ']' || quoted); at++) {
         int escaped = *at == '\\' && at[1] != '\0';
@@ -82,7 +82,10 @@ static int head_read(const char *head, sweep_text *text)
     text->rows = rows ? strtoull(rows, NULL, 10) : 0;
     text->has_mean = sphere && strtoull(sphere, NULL, 10) == text->rows;
     text->flagged = head_value(head, "; accept=", "\"accept\": \"") != NULL;
-    text->columns = head_columns(head);
+    int extras =
+        head_value(head, "; " SWEEP_UNCERTAINTY "=", "\"" SWEEP_UNCERTAINTY "\": \"") != NULL;
+    text->extras = extras ? SWEEP_EXTRAS : 0;
+    text->columns = head_columns(head, text->extras);
     return rows && shape && text->rows > 0 && text->columns > 0 && text->columns <= SWEEP_COLUMNS
                ? head_shape(shape, text)
                : -1;
@@ -119,6 +122,14 @@ int cli_text_open(const char *bytes, size_t size, sweep_text *text)
 enum { FIELD_SIGMA, FIELD_DBSM, FIELD_BOUND, FIELD_GLINT, FIELD_DIFFUSE, FIELD_FLAGS };
 static const char *const field_name[SWEEP_FIELDS] = {
     "sigma_m2", "sigma_dbsm", "bound_m2", "sigma_glint_m2", "sigma_diffuse_m2", "flags"};
+
+/* The name of field i: sigma and its parts, then extras, then flags. */
+static const char *field_key(uint32_t i, uint32_t extras)
+{
+    return i < FIELD_FLAGS            ? field_name[i]
+           : i < FIELD_FLAGS + extras ? cli_row_extra[i - FIELD_FLAGS]
+                                      : field_name[FIELD_FLAGS];
+}
 
 static int text_refuse(sweep_text *text, const char *name, const char *found, const char *expected)
 {
@@ -167,7 +178,8 @@ static uint32_t csv_split(char *line, const char **field, uint32_t room)
 
 /* The same of {"key": value, ..., "flags": [..]}; 0 where that is not its form. The keys of fields
    must be theirs; those of values are what the user named, in the head's order. */
-static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint32_t columns)
+static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint32_t columns,
+                            uint32_t extras)
 {
     uint32_t count = 0;
     char *at = line;
@@ -178,10 +190,11 @@ static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint3
         for (at += *at == '"'; *at && *at != '"'; at++) {
             at += *at == '\\' && at[1] != '\0';
         }
-        const char *want = count == 0                        ? "index"
-                           : count <= columns                ? NULL
-                           : count <= columns + SWEEP_FIELDS ? field_name[count - columns - 1]
-                                                             : "";
+        const char *want = count == 0         ? "index"
+                           : count <= columns ? NULL
+                           : count <= columns + SWEEP_FIELDS + extras
+                               ? field_key(count - columns - 1, extras)
+                               : "";
         if (strncmp(at, "\": ", 3) != 0 || (want && (strlen(want) != (size_t)(at - key) ||
                                                      memcmp(want, key, strlen(want)) != 0))) {
             return 0;
@@ -243,6 +256,35 @@ static int values_read(sweep_text *text, const sweep_plan *plan, const char *con
     return 0;
 }
 
+/* A deviation, the ends of its interval, 1 or 0 (sampled): all finite. By first order the ends lie
+   one deviation below sigma, but not below 0, and above. */
+static int extras_read(sweep_text *text, const char *const *field, double sigma, sweep_row *row)
+{
+    for (uint32_t i = 0; i < text->extras; i++) {
+        double *value = &row->extra[i];
+        if (field_number(text, field[i], value) != 0 || !(*value >= 0.0) || !isfinite(*value)) {
+            return text_refuse(text, cli_row_extra[i], field[i], "a finite number of at least 0");
+        }
+    }
+    if (text->extras == 0) {
+        return 0;
+    }
+    const double *e = row->extra;
+    if (e[3] != 0.0 && e[3] != 1.0) {
+        return text_refuse(text, cli_row_extra[3], field[3], "0 or 1");
+    }
+    double low = fmax(0.0, sigma - e[0]);
+    int plain = e[3] == 0.0;
+    if (!(e[1] <= e[2]) || (plain && !(fabs(e[1] - low) <= 1e-9 * (sigma + e[0])))) {
+        return text_refuse(text, cli_row_extra[1], field[1],
+                           plain ? "sigma less a deviation" : "at most material_high_m2");
+    }
+    if (plain && !about_equal(e[2], sigma + e[0], 1e-9)) {
+        return text_refuse(text, cli_row_extra[2], field[2], "sigma and a deviation");
+    }
+    return 0;
+}
+
 static int fields_read(sweep_text *text, const char *const *field, sweep_row *row)
 {
     double number[FIELD_FLAGS];
@@ -267,8 +309,12 @@ static int fields_read(sweep_text *text, const char *const *field, sweep_row *ro
         return text_refuse(text, "sigma_glint_m2 and sigma_diffuse_m2", field[FIELD_GLINT],
                            "what adds up to sigma_m2");
     }
-    if (flags_read(field[FIELD_FLAGS], &row->flags) != 0) {
-        return text_refuse(text, "flags", field[FIELD_FLAGS], "names of flags");
+    if (extras_read(text, field + FIELD_FLAGS, sigma, row) != 0) {
+        return -1;
+    }
+    const char *flags = field[FIELD_FLAGS + text->extras];
+    if (flags_read(flags, &row->flags) != 0) {
+        return text_refuse(text, "flags", flags, "names of flags");
     }
     row->sigma_m2 = sigma;
     row->bound_m2 = number[FIELD_BOUND];
@@ -280,15 +326,16 @@ static int fields_read(sweep_text *text, const char *const *field, sweep_row *ro
 /* A copy of a whole line. */
 static int row_read(sweep_text *text, const sweep_plan *plan, char *line, sweep_row *row)
 {
-    const char *field[1 + SWEEP_COLUMNS + SWEEP_FIELDS];
+    const char *field[1 + SWEEP_COLUMNS + SWEEP_FIELDS + SWEEP_EXTRAS];
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         field[i] = "";
     }
-    const uint32_t room = 1 + text->columns + SWEEP_FIELDS;
+    const uint32_t room = 1 + text->columns + SWEEP_FIELDS + text->extras;
     char begun[41];
     snprintf(begun, sizeof begun, "%.40s", line);
-    uint32_t count = text->format == SWEEP_JSONL ? jsonl_split(line, field, room, text->columns)
-                                                 : csv_split(line, field, room);
+    uint32_t count = text->format == SWEEP_JSONL
+                         ? jsonl_split(line, field, room, text->columns, text->extras)
+                         : csv_split(line, field, room);
     if (count != room) {
         char expected[60];
         snprintf(expected, sizeof expected, "a row of %lu fields", (unsigned long)room);
