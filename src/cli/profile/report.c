@@ -24,6 +24,20 @@ static void fields_write(FILE *out, const double *value, int count)
 
 void cli_profile_csv(const profile_job *job, FILE *out)
 {
+    double s_hat[3];
+    cli_pose_unit(&job->pose, s_hat);
+    fprintf(out, "# lrcs %s profile; scene_hash=%016llx", lrcs_version(),
+            (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+    for (const lrcs_host_input *input = job->scene.input; input; input = input->next) {
+        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
+                (unsigned long long)input->hash);
+    }
+    for (int k = 0; k < 3; k++) {
+        cli_number_put(out, k == 0 ? "; direction=" : ",", s_hat[k]);
+    }
+    cli_number_put(out, "; bound_of_the_sum_m2=", job->profile.list.bound_m2);
+    fprintf(out, "%s\n",
+            cli_materials_open(&job->scene.scene) ? "; materials=illustrative or assumed" : "");
     fputs("near_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);
     fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m\n" : "\n", out);
     for (uint32_t i = 0; i < job->rows; i++) {
