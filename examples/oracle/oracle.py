@@ -30,7 +30,7 @@ BUILD = struct(("tolerance", D), ("max_facets", U), ("normals", I), ("facets_onl
 HOST_OPTIONS = struct(("unit_m", D), ("keep_transparent", I), ("two_sided", C.c_char_p),
                       ("binding", P), ("binding_count", U), ("build", BUILD))
 RUN_OPTIONS = struct(("tolerance", D), ("method", I), ("resolution", U), ("without", U), ("with_", U),
-                     ("steps", C.c_uint64), ("accept", I))
+                     ("steps", C.c_uint64), ("accept", I), ("progress", P))
 POSE = struct(("direction", D * 3), ("R", D * 9))
 RESULT = struct(("sigma_m2", D), ("sigma_glint_m2", D), ("sigma_diffuse_m2", D), ("bound_m2", D),
                 ("budget", D * 3), ("estimate_m2", D), ("curvature_estimate_m2", D),

@@ -55,12 +55,16 @@ const char *lrcs_brdf_warning_text(int bit);
    Notes: 1. May overflow to infinity only where f_r itself exceeds the largest double. */
 double lrcs_brdf_eval(const lrcs_brdf *brdf, double cos_theta);
 
-/* A material of the library. The values are ILLUSTRATIVE: no published table of A, B, s, m for
-   satellite materials could be found; they are chosen for typical behaviour only. */
+/* A material of the library. Without a source the values are ILLUSTRATIVE: no published table of A,
+   B, s, m for satellite materials could be read; they are chosen for typical behaviour only. With
+   a source, B comes from a published reflectance of that surface, averaged over the spectrum of the
+   sun, and Lambert's law is assumed: A = 0, m = 0. */
 typedef struct lrcs_brdf_entry {
     const char *name; /* "solar-cell", "mli-gold", ... lower case with hyphens */
     const char *text; /* what it represents */
     lrcs_brdf brdf;
+    lrcs_brdf_error error; /* all zero without a source */
+    const char *source;    /* author, year, table; NULL: the values are illustrative */
 } lrcs_brdf_entry;
 
 /* The library: entry i, or NULL beyond the last. */

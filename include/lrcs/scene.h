@@ -7,6 +7,9 @@
 
 #include <lrcs/shape.h>
 
+/* The source of entry i of the library, as of lrcs_material: this plus i. */
+#define LRCS_SOURCE_LIBRARY 0xff000000u
+
 /* A material of the scene; facets refer to it by index. */
 typedef struct lrcs_material {
     const char *name; /* the file's or the recipe's name; "" for the default */
@@ -19,7 +22,7 @@ typedef struct lrcs_material {
                               scene file calls assumed */
     lrcs_brdf_error error; /* of brdf; all zero where none was stated */
     uint32_t source; /* materials of equal source > 0 got the same numbers from one place: their
-                        errors are one and the same; 0: from the library or the default */
+                        errors are one and the same; 0: the default */
 } lrcs_material;
 
 /* place = translate * rotate * scale, applied after the joint. */

@@ -137,6 +137,9 @@ int cli_finish(int code);
 /* The pose that the options ask for; 0 or CLI_USAGE. */
 int cli_pose_read(const cli_args *args, lrcs_pose *pose);
 
+/* Its direction to the laser, of length 1. */
+void cli_pose_unit(const lrcs_pose *pose, double s_hat[3]);
+
 /* --tolerance, --accept, --method and --resolution; --normals. 0 or CLI_USAGE. */
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options);
 int cli_normals_read(const cli_args *args, lrcs_host_options *load);
@@ -177,17 +180,19 @@ int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_
 int cli_has_curved_shapes(const lrcs_scene *scene);
 
 /* What a result was made from: the scene's title, or the operand; where a material's numbers come
-   from, "given", "illustrative" (the library), "default" or "assumed" (so says the scene file); a
-   path's last name; and as keys of an open object: the files; title, materials worn and options
-   given. */
+   from, "given", "illustrative" or "published" (the library), "default" or "assumed" (so says the
+   scene file); a path's last name; and as keys of an open object: the files; title, materials worn
+   and options given. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */
 /* The keys of errors, A_error and so on with their correlations; none where all are 0. */
 void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json);
-int cli_errors_stated(const lrcs_scene *scene);  /* some material has errors */
-int cli_materials_open(const lrcs_scene *scene); /* illustrative or default ones are worn */
+int cli_errors_stated(const lrcs_scene *scene);          /* some material has errors */
+int cli_materials_open(const lrcs_scene *scene);         /* illustrative or default ones are worn */
+void cli_version_json(lrcs_host_json *json);             /* schema and version */
+void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* of the scene */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
 /* The same in one line for pictures: version, scene hash, files, materials, options. NULL without
    memory; the caller frees it. */
@@ -210,6 +215,9 @@ double cli_dbsm(double sigma_m2);
 /* A bound >= 0 as "%.*g" shows it, but never less than it is. */
 #define CLI_BOUND_SIZE 40
 void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
+
+/* A number after some text: all its digits, for machines. */
+void cli_number_put(FILE *out, const char *before, double value);
 
 /* Text on stdout, blanks after it up to `width`, control characters as '?'. */
 void cli_column(const char *text, int width);

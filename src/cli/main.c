@@ -73,10 +73,15 @@ static int help_print(const cli_command *command)
         if (strcmp(o->name, "material") != 0) {
             continue;
         }
-        printf("\nlibrary materials (A,B,s,m are ILLUSTRATIVE, not measured):\n");
+        printf("\nlibrary materials (A,B,s,m are ILLUSTRATIVE, not measured, but for B where a "
+               "source is named):\n");
         for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
             printf("  %-20s %.5g,%.5g,%.5g,%.5g  %s\n", entry->name, entry->brdf.A, entry->brdf.B,
                    entry->brdf.s, entry->brdf.m, entry->text);
+            if (entry->source) {
+                printf("  %-20s B +- %.2g: solar reflectance, %s\n", "", entry->error.B,
+                       entry->source);
+            }
         }
     }
     return cli_finish(CLI_DONE);

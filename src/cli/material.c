@@ -40,7 +40,8 @@ int cli_brdf_read(const cli_command *command, const char *text, const char *opti
 {
     lrcs_brdf_error error;
     int code = cli_brdf_error_read(command, text, option, brdf, &error);
-    if (code == 0 && (error.A > 0.0 || error.B > 0.0 || error.s > 0.0 || error.m > 0.0)) {
+    if (code == 0 && !lrcs_brdf_find(text) &&
+        (error.A > 0.0 || error.B > 0.0 || error.s > 0.0 || error.m > 0.0)) {
         return cli_usage(command, "%s: no errors (+-) here, found '%s'", option, text);
     }
     return code;
@@ -82,6 +83,7 @@ int cli_brdf_error_read(const cli_command *command, const char *text, const char
                          option, text, best ? best : "(none)");
     }
     *brdf = entry->brdf;
+    *error = entry->error;
     return 0;
 }
 
@@ -126,8 +128,13 @@ static int binding_read(const cli_command *command, const char *text, lrcs_bindi
         name[size] = '\0';
         binding->name = name;
     }
-    return cli_brdf_error_read(command, equals ? equals + 1 : text, "--material", &binding->brdf,
-                               &binding->error);
+    const char *value = equals ? equals + 1 : text;
+    const lrcs_brdf_entry *entry;
+    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
+        binding->source =
+            strcmp(entry->name, value) == 0 ? LRCS_SOURCE_LIBRARY + i : binding->source;
+    }
+    return cli_brdf_error_read(command, value, "--material", &binding->brdf, &binding->error);
 }
 
 static int unit_read(const cli_args *args, double *unit_m)

@@ -2,6 +2,7 @@
 /* The pose options: exactly one, or none for a laser on +z. */
 #include "cli/cli.h"
 
+#include <math.h>
 #include <string.h>
 
 static int pose_direction(const cli_command *command, const char *text, lrcs_pose *pose)
@@ -86,4 +87,13 @@ int cli_pose_read(const cli_args *args, lrcs_pose *pose)
         }
     }
     return 0;
+}
+
+void cli_pose_unit(const lrcs_pose *pose, double s_hat[3])
+{
+    const double *d = pose->direction;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int k = 0; k < 3; k++) {
+        s_hat[k] = d[k] / length;
+    }
 }

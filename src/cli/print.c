@@ -22,6 +22,13 @@ void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE])
     }
 }
 
+void cli_number_put(FILE *out, const char *before, double value)
+{
+    char text[LRCS_HOST_NUMBER_SIZE];
+    lrcs_host_number_text(value, text);
+    fprintf(out, "%s%s", before, text);
+}
+
 /* Columns are counted in code points: every byte but the trailing ones of UTF-8. */
 void cli_column_to(FILE *out, const char *text, int width)
 {

@@ -25,7 +25,7 @@ const char *cli_material_source(const lrcs_material *material)
     }
     for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
         if (brdf_same(&material->brdf, &entry->brdf)) {
-            return "illustrative";
+            return entry->source ? "published" : "illustrative";
         }
     }
     return "given";
@@ -57,6 +57,19 @@ const char *cli_base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash && slash[1] ? slash + 1 : path;
+}
+
+void cli_version_json(lrcs_host_json *json)
+{
+    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
+    lrcs_host_json_text(json, "version", lrcs_version());
+}
+
+void cli_hash_json(uint64_t hash, lrcs_host_json *json)
+{
+    char text[17];
+    snprintf(text, sizeof text, "%016llx", (unsigned long long)hash);
+    lrcs_host_json_text(json, "scene_hash", text);
 }
 
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)

@@ -249,8 +249,9 @@ static void brdf_put(const lrcs_material *material, FILE *out)
     for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
         if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
             entry->brdf.m == brdf->m) {
-            fprintf(out, "like = \"%s\"   # GUESS: A=%g, B=%g, s=%g, m=%g, illustrative\n",
-                    entry->name, brdf->A, brdf->B, brdf->s, brdf->m);
+            fprintf(out, "like = \"%s\"   # %sA=%g, B=%g, s=%g, m=%g, %s\n", entry->name,
+                    entry->source ? "" : "GUESS: ", brdf->A, brdf->B, brdf->s, brdf->m,
+                    entry->source ? entry->source : "illustrative");
             return;
         }
     }

@@ -105,7 +105,9 @@ static int bindings_add(lrcs_host_scene *scene, const lrcs_host_options *options
     }
     for (uint32_t i = 0; i < options->binding_count; i++) {
         all[used] = options->binding[i];
-        all[used].source = 1 + recipe->material_count + used; /* a pattern's names share it */
+        if (all[used].source == 0) {
+            all[used].source = 1 + recipe->material_count + used; /* a pattern's names share it */
+        }
         used++;
     }
     recipe->binding = all;
@@ -201,13 +203,13 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
 
 /* ---- notices about what the facets wear ---- */
 
-static const char *library_name(const lrcs_brdf *brdf)
+static const lrcs_brdf_entry *library_entry(const lrcs_brdf *brdf)
 {
     const lrcs_brdf_entry *entry;
     for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
         if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
             entry->brdf.m == brdf->m) {
-            return entry->name;
+            return entry;
         }
     }
     return NULL;
@@ -215,12 +217,16 @@ static const char *library_name(const lrcs_brdf *brdf)
 
 static void material_notes(lrcs_host_notices *notices, const lrcs_material *material)
 {
-    const char *library = library_name(&material->brdf);
+    const lrcs_brdf_entry *library = library_entry(&material->brdf);
     const char *name = material->name[0] ? material->name : "(default)";
     int warnings = lrcs_brdf_check(&material->brdf);
-    if (library && material->bound) {
+    if (library && material->bound && library->source) {
+        lrcsi_host_note(notices,
+                        "library material '%s': solar reflectance of %s; Lambert's law is assumed",
+                        library->name, library->source);
+    } else if (library && material->bound) {
         lrcsi_host_note(notices, "library material '%s': its values are illustrative, not measured",
-                        library);
+                        library->name);
     }
     for (int bit = 1; warnings > 0 && bit <= warnings; bit *= 2) {
         if (warnings & bit) {

@@ -15,6 +15,15 @@
    laser may see it in part: T is at most their deviation. Where a scale that differs between axes
    stretches areas within a patch unevenly, parts of it err by more than the whole: then a is
    patch_area_error, and the whole's deviation has the whole's. On flat facets a = 0 and F = F_i.
+   A sector of a straight wall (cylinder, cone, frustum) is better known. Its map onto the facets
+   takes rows to rows and stretches area evenly (mesh/profile.c), also after an affine map; F and
+   what such a map adds to the stretch depend on azimuth alone. So over any set of whole rows, a
+   share q of the sector, F - F_i integrates to q times what it does over all of it, and every bound
+   of the whole's deviation and of a part's holds q times over. Rows that meet no band are seen all
+   along or not at all (visibility/proximity_band.h): at most q = 1 of them. Others are a share m of
+   the area, at most twice their share of the height, since a trapezoid's rows are no longer than
+   twice their mean. Together, of a sector none of which is hidden or dark:
+                  <= S (whole + m part + F_i (m a + (1 + a) b)).
    Without a margin the facets count as seen: what of it may be hidden is then in the visible area's
    bounds, for truth and facets alike. */
 #include "integrate/tessellation.h"
@@ -24,6 +33,7 @@
 #include "base/constant.h"
 #include "mesh/profile.h"
 #include "optics/reflect.h"
+#include "scene/proximity.h"
 
 /* Of a flat facet: wider than the error of its angle. */
 #define FLAT_TILT 1e-12
@@ -126,13 +136,34 @@ static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrc
     return c->area_error + uneven + c->area_error * uneven;
 }
 
-/* For a facet of a sector none of which is hidden or dark: what it loses of its whole patch, where
-   that is the better way, else 2. Numbers of the sector's first facet decide for both. */
-static double sector_lost(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
-                          const lrcs_curvature *c, const lrcsi_visible *visible,
+/* How a sector none of which is hidden or dark is bounded. */
+typedef struct sector_way {
+    double lost; /* by what the facet loses of its whole patch; 2: not this way */
+    double rows; /* by the share of the sector in rows that are not seen all along; 2: not so */
+} sector_way;
+
+/* The share of a facet's sector in rows that meet a band, at most; 1 where it has no rows. A cone's
+   facets have sectors of their own. */
+static double sector_rows(const lrcsi_view *view, uint32_t facet,
                           const lrcsi_proximity_band *margin)
 {
-    uint32_t begin = patch_part(view->prepared, facet)->first_facet;
+    const lrcs_part *part = patch_part(view->prepared, facet);
+    uint32_t other = part->first_facet + ((facet - part->first_facet) ^ 1);
+    if (!lrcsi_proximity_has_rows(view->prepared, facet)) {
+        return 1;
+    }
+    double rows = margin->rows[facet] + (part->kind == LRCS_SHAPE_CONE ? 0 : margin->rows[other]);
+    return fmin(1, 2 * rows);
+}
+
+/* The way with the least bound; the third is that of parts, facet by facet. Numbers of the sector's
+   first facet decide for both. */
+static sector_way sector_choose(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                                const lrcs_curvature *c, const lrcsi_visible *visible,
+                                const lrcsi_proximity_band *margin)
+{
+    const lrcs_part *part = patch_part(view->prepared, facet);
+    uint32_t begin = part->first_facet;
     uint32_t first = begin + ((facet - begin) & ~UINT32_C(1));
     lrcsi_incidence incidence = lrcsi_view_incidence(view, first);
     lrcsi_deviation deviation =
@@ -140,14 +171,21 @@ static double sector_lost(const lrcsi_view *view, uint32_t facet, const lrcs_brd
     double lost = fmax(share_lost(view, first, visible, margin),
                        share_lost(view, first + 1, visible, margin));
     double a = patch_area_error(view->prepared, facet, c);
-    return deviation.whole + (1 + a) * lost * deviation.most < deviation.part
-               ? share_lost(view, facet, visible, margin)
-               : 2;
+    double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, margin);
+    double by_lost = deviation.whole + (1 + a) * lost * deviation.most;
+    double by_rows = deviation.whole + rows * (deviation.part + a * deviation.here);
+    sector_way way = {2, 2};
+    if (by_rows < fmin(by_lost, deviation.part)) {
+        way.rows = rows;
+    } else if (by_lost < deviation.part) {
+        way.lost = share_lost(view, facet, visible, margin);
+    }
+    return way;
 }
 
-/* The error of a facet on a curved wall, per unit of its area. `lost` as sector_lost has it. */
+/* The error of a facet on a curved wall, per unit of its area. */
 static double wall_error(const lrcsi_deviation *deviation, double a, double share, int state,
-                         int partner, double lost)
+                         int partner, const sector_way *way)
 {
     double lit = is_lit(partner) ? deviation->part : (1 + a) * deviation->apart;
     if (state == PATCH_HIDDEN) {
@@ -159,8 +197,12 @@ static double wall_error(const lrcsi_deviation *deviation, double a, double shar
     if (state == PATCH_DARK) {
         return (1 + a) * deviation->most;
     }
-    if (lost <= 1) {
-        return deviation->whole + (1 + a) * lost * deviation->most;
+    if (way->lost <= 1) {
+        return deviation->whole + (1 + a) * way->lost * deviation->most;
+    }
+    if (way->rows <= 1) {
+        return deviation->whole + way->rows * deviation->part +
+               deviation->here * (a * way->rows + (1 + a) * share);
     }
     return fmin(lit + deviation->here * (a + (1 + a) * share), (1 + a) * deviation->most);
 }
@@ -214,8 +256,11 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
         int partner = margin ? partner_state(view, facet, visible, margin) : state;
         int mixed =
             is_lit(state) && is_lit(partner) && (state == PATCH_MIXED || partner == PATCH_MIXED);
-        double lost = mixed ? sector_lost(view, facet, brdf, &c, visible, margin) : 2;
-        error = wall_error(&deviation, patch_area_error(p, facet, &c), share, state, partner, lost);
+        sector_way way = {2, 2};
+        if (mixed) {
+            way = sector_choose(view, facet, brdf, &c, visible, margin);
+        }
+        error = wall_error(&deviation, patch_area_error(p, facet, &c), share, state, partner, &way);
     }
     if (state == PATCH_DARK) {
         error += inside_shown(view, facet, brdf, incidence, visible, margin);

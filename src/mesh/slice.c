@@ -10,6 +10,8 @@
    others it is to within the margin, 3 2^-48 / (SLICE_LOW / 2). */
 #define SLICE_LOW    1e-7
 #define SLICE_MARGIN (1.0 + 1e-6)
+/* Rounding of the two ends of an extent. */
+#define EXTENT_MARGIN 0x1p-40
 
 static double slice_height(const double x[3], const double n[3], const double origin[3])
 {
@@ -77,4 +79,41 @@ double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest)
     double share = slice_area(slice) / whole * SLICE_MARGIN;
     int sure = 2.0 * whole > SLICE_LOW * longest;
     return sure && share < 1 ? share : 1;
+}
+
+/* With e = q - p and h the altitude of o, the height of x is (x - p) . h / (h . h). Coordinates are
+   below 1 and good to 2^-48, so that e, h and x - p are good to 2^-46; h . e is 0 to within 2^-46
+   (|e| + |o - p|), and x - p has at most |e| + |o - p| along e: EXTENT_MARGIN covers all of it. */
+double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const double p[3],
+                          const double q[3])
+{
+    double e[3];
+    double h[3];
+    double along = 0;
+    double side = 0;
+    double far = 0;
+    double altitude = 0;
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    if (slice->count == 0) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        e[k] = q[k] - p[k];
+        h[k] = o[k] - p[k];
+        along += e[k] * h[k];
+        side += e[k] * e[k];
+        far += h[k] * h[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        h[k] -= along / side * e[k];
+        altitude += h[k] * h[k];
+    }
+    for (int i = 0; i < slice->count; i++) {
+        double height = slice_height(slice->x[i], h, p);
+        low = height < low ? height : low;
+        high = height > high ? height : high;
+    }
+    double extent = (high - low + EXTENT_MARGIN * (1 + side + far)) / altitude;
+    return extent < 1 ? extent : 1;
 }

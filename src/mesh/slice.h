@@ -23,4 +23,9 @@ void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[
    0 .. 1: rounded up, and 1 where the triangle is too thin to tell. */
 double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest);
 
+/* The interval of heights over the side p q that the polygon, part of the triangle o p q, covers:
+   as a share of the height of o, 0 .. 1, rounded up. */
+double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const double p[3],
+                          const double q[3]);
+
 #endif

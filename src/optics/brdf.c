@@ -10,19 +10,83 @@
 #include "base/elementary.h"
 #include "optics/reflect.h"
 
-/* Chosen, not measured. A smooth-walled microfacet surface (Beckmann) of mirror reflectance R has
-   A = R / (4 pi s^2) at the mono-station geometry, and a Lambert surface of reflectance rho has
-   B = rho / pi: R + rho <= 1 in every entry, R and rho as in its line. */
+/* P. Fortescue, G. Swinerd and J. Stark (eds), Spacecraft Systems Engineering, 4th ed., Wiley 2011,
+   Table 11.3: solar absorptance a of white silicone paint 0.26, after 1000 hours of ultraviolet
+   0.29; of white silicate paint 0.12, then 0.14; of black epoxy paint 0.95. An opaque surface
+   reflects 1 - a, and B = (1 - a) / pi if it does so by Lambert's law. The error is what 1000 hours
+   change; of the black paint, one step of the table's last digit. What the sun's spectrum averages
+   over, and how far these paints are from Lambert's law, is in neither. */
+#define BRDF_FORTESCUE "Fortescue, Swinerd and Stark (eds) 2011, Table 11.3"
+#define BRDF_LAMBERT(absorptance)                                                                  \
+    {                                                                                              \
+        0.0, (1.0 - (absorptance)) / LRCSI_PI, 0.0, 0.0                                            \
+    }
+#define BRDF_LAMBERT_ERROR(change)                                                                 \
+    {                                                                                              \
+        0.0, (change) / LRCSI_PI, 0.0, 0.0,                                                        \
+        {                                                                                          \
+            0, 0, 0, 0, 0, 0                                                                       \
+        }                                                                                          \
+    }
+#define BRDF_EXACT                                                                                 \
+    {                                                                                              \
+        0.0, 0.0, 0.0, 0.0,                                                                        \
+        {                                                                                          \
+            0, 0, 0, 0, 0, 0                                                                       \
+        }                                                                                          \
+    }
+
+/* Without a source: chosen, not measured. A smooth-walled microfacet surface (Beckmann) of mirror
+   reflectance R has A = R / (4 pi s^2) at the mono-station geometry, and a Lambert surface of
+   reflectance rho has B = rho / pi: R + rho <= 1 in every entry, R and rho as in its line. */
 static const lrcs_brdf_entry brdf_library[] = {
-    {"solar-cell", "cover glass over dark cells (R 0.08, rho 0.05)", {0.6, 0.016, 0.1, 0.5}},
-    {"mli-gold", "wrinkled gold foil (R 0.70, rho 0.16)", {0.62, 0.05, 0.3, 0.3}},
-    {"mli-silver", "wrinkled silver foil (R 0.65, rho 0.19)", {0.83, 0.06, 0.25, 0.3}},
-    {"paint-white", "white thermal paint (R 0.04, rho 0.79)", {0.02, 0.25, 0.4, 0.2}},
-    {"paint-black", "black thermal paint (R 0.04, rho 0.04)", {0.02, 0.012, 0.4, 0.3}},
-    {"aluminium-bare", "milled aluminium (R 0.59, rho 0.19)", {2.1, 0.06, 0.15, 0.5}},
-    {"aluminium-anodised", "anodised aluminium (R 0.20, rho 0.38)", {0.18, 0.12, 0.3, 0.3}},
-    {"ideal-diffuse", "Lambert surface of reflectance 1", {0.0, 0.3183098861837907, 0.0, 0.0}},
-    {"ideal-glint", "mirror facets of slope 0.1 (R 0.999)", {7.95, 0.0, 0.1, 0.0}},
+    {"solar-cell",
+     "cover glass over dark cells (R 0.08, rho 0.05)",
+     {0.6, 0.016, 0.1, 0.5},
+     BRDF_EXACT,
+     NULL},
+    {"mli-gold", "wrinkled gold foil (R 0.70, rho 0.16)", {0.62, 0.05, 0.3, 0.3}, BRDF_EXACT, NULL},
+    {"mli-silver",
+     "wrinkled silver foil (R 0.65, rho 0.19)",
+     {0.83, 0.06, 0.25, 0.3},
+     BRDF_EXACT,
+     NULL},
+    {"paint-white",
+     "white thermal paint (R 0.04, rho 0.79)",
+     {0.02, 0.25, 0.4, 0.2},
+     BRDF_EXACT,
+     NULL},
+    {"paint-black",
+     "black thermal paint (R 0.04, rho 0.04)",
+     {0.02, 0.012, 0.4, 0.3},
+     BRDF_EXACT,
+     NULL},
+    {"aluminium-bare",
+     "milled aluminium (R 0.59, rho 0.19)",
+     {2.1, 0.06, 0.15, 0.5},
+     BRDF_EXACT,
+     NULL},
+    {"aluminium-anodised",
+     "anodised aluminium (R 0.20, rho 0.38)",
+     {0.18, 0.12, 0.3, 0.3},
+     BRDF_EXACT,
+     NULL},
+    {"paint-white-silicone", "white silicone paint, Lambert (rho 0.74)", BRDF_LAMBERT(0.26),
+     BRDF_LAMBERT_ERROR(0.03), BRDF_FORTESCUE},
+    {"paint-white-silicate", "white silicate paint, Lambert (rho 0.88)", BRDF_LAMBERT(0.12),
+     BRDF_LAMBERT_ERROR(0.02), BRDF_FORTESCUE},
+    {"paint-black-epoxy", "black epoxy paint, Lambert (rho 0.05)", BRDF_LAMBERT(0.95),
+     BRDF_LAMBERT_ERROR(0.01), BRDF_FORTESCUE},
+    {"ideal-diffuse",
+     "Lambert surface of reflectance 1",
+     {0.0, 0.3183098861837907, 0.0, 0.0},
+     BRDF_EXACT,
+     NULL},
+    {"ideal-glint",
+     "mirror facets of slope 0.1 (R 0.999)",
+     {7.95, 0.0, 0.1, 0.0},
+     BRDF_EXACT,
+     NULL},
 };
 
 #define BRDF_LIBRARY_COUNT (sizeof brdf_library / sizeof brdf_library[0])

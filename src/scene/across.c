@@ -4,7 +4,6 @@
 #include "scene/across.h"
 
 #include "base/work.h"
-#include "scene/prepare.h"
 
 /* An odd edge takes up two sides or more. */
 size_t lrcsi_across_need(uint32_t facet_count)

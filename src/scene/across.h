@@ -6,16 +6,7 @@
 #ifndef LRCSI_ACROSS_H
 #define LRCSI_ACROSS_H
 
-#include "mesh/topology.h"
-
-typedef struct lrcsi_across {
-    lrcs_facet *facet;   /* facet -> across its side from corner k to k + 1: the one other facet
-                            there, or the one of two other twins, that runs the side the other way;
-                            the number of facets where there is no other; itself where the edge is
-                            irregular, or where it is redundant */
-    uint32_t *irregular; /* irregular edges: any others that have facets; ascending */
-    uint32_t irregular_count;
-} lrcsi_across;
+#include "scene/prepared.h"
 
 size_t lrcsi_across_need(uint32_t facet_count);
 

@@ -4,7 +4,6 @@
 
 #include "base/length.h"
 #include "base/work.h"
-#include "scene/prepare.h"
 
 /* Normals side by side, on their way to unit length. */
 typedef struct batch_normals {

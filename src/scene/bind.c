@@ -146,6 +146,15 @@ int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, 
     return *worn == LRCS_NONE ? LRCS_E_NAME : LRCS_OK;
 }
 
+uint32_t lrcsi_binder_library_source(const lrcs_brdf_entry *entry)
+{
+    uint32_t i = 0;
+    while (lrcs_brdf_library(i) != entry) {
+        i++;
+    }
+    return LRCS_SOURCE_LIBRARY + i;
+}
+
 /* Puts on a BRDF with its errors; a two_sided below 0 keeps what is there. Assumed numbers bind
    nothing. `source` is that of <lrcs/scene.h>. */
 static void dress(lrcs_material *material, const lrcs_brdf *brdf, const lrcs_brdf_error *error,
@@ -159,6 +168,11 @@ static void dress(lrcs_material *material, const lrcs_brdf *brdf, const lrcs_brd
     if (two_sided >= 0) {
         material->two_sided = two_sided != 0;
     }
+}
+
+static void dress_by_library(const lrcs_brdf_entry *entry, lrcs_material *material)
+{
+    dress(material, &entry->brdf, &entry->error, lrcsi_binder_library_source(entry), -1, 0);
 }
 
 /* The recipe's materials are sources 1, 2, ...; after them the bindings, except for those that
@@ -192,7 +206,7 @@ static void wear(const lrcsi_binder *binder, uint32_t worn, lrcs_material *mater
     } else {
         const lrcs_brdf_entry *entry = lrcs_brdf_library(worn - recipe->material_count);
         name = entry->name;
-        dress(material, &entry->brdf, NULL, 0, -1, 0);
+        dress_by_library(entry, material);
     }
     override_named(binder, name, material);
     material->name = material->name ? material->name : name;
@@ -241,7 +255,7 @@ static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
     if (map) {
         apply(binder, map, material);
     } else if (entry) {
-        dress(material, &entry->brdf, NULL, 0, -1, 0);
+        dress_by_library(entry, material);
     } else {
         apply_default(binder, material);
     }

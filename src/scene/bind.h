@@ -39,6 +39,9 @@ lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t worn)
 lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,
                                    const lrcs_surface *surface);
 
+/* The source of a material of the library. */
+uint32_t lrcsi_binder_library_source(const lrcs_brdf_entry *entry);
+
 /* The first NAME or COLOUR binding that no surface, recipe material or worn material answered
    to, or LRCS_NONE. After all surfaces were asked for. */
 uint32_t lrcsi_binder_unmatched(const lrcsi_binder *binder);

@@ -5,7 +5,7 @@
 #ifndef LRCSI_BULK_H
 #define LRCSI_BULK_H
 
-#include "scene/prepare.h"
+#include "scene/prepared.h"
 
 /* Given the box around the live facets (centre, half sides `half`): fills prepared->origin and
    prepared->bulk. Both are the box's own unless a small part of the vertices accounts for most of

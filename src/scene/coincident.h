@@ -4,7 +4,7 @@
 #ifndef LRCSI_COINCIDENT_H
 #define LRCSI_COINCIDENT_H
 
-#include "scene/prepare.h"
+#include "scene/prepared.h"
 
 /* Fills p->redundant and p->twin; facets of curved shapes stand for themselves. Given: the
    topology, and p->redundant where facets are skipped. Status: LRCS_OK; LRCS_E_MEMORY. Work: twins

@@ -8,7 +8,6 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "optics/closed.h"
-#include "scene/prepare.h"
 #include "scene/shaped.h"
 
 /* Parts smaller than this, scaled, have coordinates near those that count as 0. */

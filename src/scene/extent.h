@@ -4,15 +4,7 @@
 #ifndef LRCSI_EXTENT_H
 #define LRCSI_EXTENT_H
 
-#include <lrcs/run.h>
-
-#include <stddef.h>
-
-typedef struct lrcsi_extent {
-    double low[3], high[3]; /* of its live facets and of the true surface; low > high: none live */
-    int closed_form; /* its sigma is known where nothing hides it, its inside (open, two-sided) left
-                        aside */
-} lrcsi_extent;
+#include "scene/prepared.h"
 
 /* Bytes; 0 where no shape has a closed form. */
 size_t lrcsi_extents_need(const lrcs_scene *scene);

@@ -14,14 +14,14 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/tree.h"
+#include "scene/across.h"
+#include "scene/batch.h"
 #include "scene/bulk.h"
 #include "scene/coincident.h"
+#include "scene/extent.h"
+#include "scene/proximity.h"
+#include "scene/runs.h"
 #include "scene/solid.h"
-
-double lrcsi_prepared_area(const lrcs_prepared *p, double scaled)
-{
-    return ldexp(scaled, 2 * p->exponent);
-}
 
 /* Checks what lrcs_scene_build promises, so that nothing later need be asked. */
 static int prepare_check(const lrcs_scene *scene)

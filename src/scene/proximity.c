@@ -11,7 +11,6 @@
 #include "base/work.h"
 #include "mesh/slice.h"
 #include "mesh/tree.h"
-#include "scene/prepare.h"
 
 /* See scene/solid.c: beyond this the rounding of vertices cannot turn a facet over. */
 #define NEAR_GRAZE 16.0
@@ -55,9 +54,36 @@ double lrcsi_proximity_longest(const lrcs_prepared *p, uint32_t facet)
     return most;
 }
 
-/* The share of a facet within `slack` of the prism over `other`: between two planes that far from
+int lrcsi_proximity_has_rows(const lrcs_prepared *p, uint32_t facet)
+{
+    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+    int is_straight = part->kind == LRCS_SHAPE_CYLINDER || part->kind == LRCS_SHAPE_CONE ||
+                      part->kind == LRCS_SHAPE_FRUSTUM;
+    return is_straight && part->curvature.turn > 0 && p->scene->facet_smooth[facet] != 0;
+}
+
+/* The corner across from the side that lies on a circle. A wall's vertices are listed from the
+   base up, and its facets by sectors (mesh/tessellate.c): in each the one with its side on the
+   base, then, but on a cone, the one with its side on the upper circle. */
+double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double *const corner[3],
+                            const lrcsi_slice *slice)
+{
+    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+    const uint32_t *vertex = p->scene->facet[facet].corner;
+    int is_below = part->kind == LRCS_SHAPE_CONE || (facet - part->first_facet) % 2 == 0;
+    int top = 0;
+    if (!lrcsi_proximity_has_rows(p, facet)) {
+        return 1;
+    }
+    for (int k = 1; k < 3; k++) {
+        top = is_below == (vertex[k] > vertex[top]) ? k : top;
+    }
+    return lrcsi_slice_extent(slice, corner[top], corner[(top + 1) % 3], corner[(top + 2) % 3]);
+}
+
+/* The part of a facet within `slack` of the prism over `other`: between two planes that far from
    other's, and between three that far outside its sides. */
-static double near_share(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+static lrcsi_slice near_slice(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
     const lrcsi_normal *normal = &p->normal[other];
     lrcsi_slice slice =
@@ -82,11 +108,16 @@ static double near_share(const lrcs_prepared *p, uint32_t facet, uint32_t other,
         double size = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
         lrcsi_slice_cut(&slice, out, a, slack * size);
     }
-    return lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length,
-                             lrcsi_proximity_longest(p, facet));
+    return slice;
 }
 
 /* --- all pairs -------------------------------------------------------------------------------- */
+
+/* A share as a float, not below it. */
+static float share_float(double share)
+{
+    return (float)lrcsi_least(1, share * (1 + 0x1p-22));
+}
 
 /* Entries are taken one by one, and lie one behind the other. */
 _Static_assert(sizeof(lrcsi_near) % LRCS_WORK_ALIGN == 0, "no gaps between entries");
@@ -96,15 +127,21 @@ static int near_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work 
     lrcsi_proximity *proximity = &p->proximity;
     const uint32_t *part = p->scene->facet_part;
     double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
-    double share = near_share(p, facet, other, slack);
-    if (!(share > 0)) {
+    lrcsi_slice slice = near_slice(p, facet, other, slack);
+    const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
+                                     lrcsi_prepared_corner(p, facet, 1),
+                                     lrcsi_prepared_corner(p, facet, 2)};
+    double share =
+        lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length, lrcsi_proximity_longest(p, facet));
+    double rows = lrcsi_proximity_rows(p, facet, corner, &slice);
+    if (slice.count == 0 || !(share > 0)) {
         return LRCS_OK;
     }
     lrcsi_near *near = lrcsi_work_take(work, 1, sizeof *near);
     if (!near) {
         return LRCS_E_MEMORY;
     }
-    *near = (lrcsi_near){facet, other, share};
+    *near = (lrcsi_near){facet, other, share_float(share), share_float(rows)};
     proximity->near = proximity->near ? proximity->near : near;
     proximity->count++;
     return LRCS_OK;

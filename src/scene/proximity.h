@@ -5,26 +5,11 @@
 #ifndef LRCSI_PROXIMITY_H
 #define LRCSI_PROXIMITY_H
 
-#include <lrcs/run.h>
+#include "mesh/slice.h"
+#include "scene/prepared.h"
 
 /* Every slack is widened by this: coordinates are below 1, and doubles good to 2^-48 of that. */
 #define LRCSI_NEAR_OFF 0x1p-44
-
-/* At most this share of the facet's area is as near to `other` as their parts' slack. */
-typedef struct lrcsi_near {
-    uint32_t facet, other;
-    double share;
-} lrcsi_near;
-
-typedef struct lrcsi_proximity {
-    double *reach; /* part: lrcs_part.reach, scaled; NULL where this was not asked for, or some
-                      part's curvature is not known */
-    double *
-        grazing_cos; /* part: a facet with |cos(theta)| above this keeps its side of its own part */
-    double most;     /* of reach */
-    lrcsi_near *near; /* in no order */
-    size_t count;
-} lrcsi_proximity;
 
 /* How near a facet of `part` must come to one of `other`, or in projection to its rims and
    contours, before the truth may differ there: 0 where both parts' facets are the truth. */
@@ -32,6 +17,16 @@ double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint3
 
 /* 1 where a part is a closed outward solid by construction: its back sides are never what hides. */
 int lrcsi_proximity_closed(const lrcs_prepared *prepared, uint32_t part);
+
+/* The rows of a facet on the straight wall of a cylinder, cone or frustum are the lines parallel to
+   its side on one of the wall's two circles. With the facet's corners given in any coordinates:
+   the share of its rows, by height over that side, that a polygon within the facet may meet. 1
+   where the facet has no rows or none is left out for sure. */
+double lrcsi_proximity_rows(const lrcs_prepared *prepared, uint32_t facet,
+                            const double *const corner[3], const lrcsi_slice *slice);
+
+/* 1 where a facet has rows. */
+int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);
 
 /* A facet's longest side, scaled. */
 double lrcsi_proximity_longest(const lrcs_prepared *prepared, uint32_t facet);

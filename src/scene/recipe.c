@@ -6,6 +6,7 @@
 #include "base/index.h"
 #include "base/where.h"
 #include "base/work.h"
+#include "scene/bind.h"
 #include "scene/recipe.h"
 
 /* Tags of names that must differ among themselves. */
@@ -128,15 +129,23 @@ static int read_brdf(const lrcsi_draft *draft, lrcs_brdf *brdf)
                       : LRCS_OK;
 }
 
-/* Their standard deviations and correlations, 0 where they are not given. */
+/* Their standard deviations and correlations: where they are not given those of the library, or 0.
+ */
 static int read_brdf_error(const lrcsi_draft *draft, const lrcs_brdf *brdf, lrcs_brdf_error *error)
 {
     static const int key[4] = {LRCSI_KEY_A_ERROR, LRCSI_KEY_B_ERROR, LRCSI_KEY_S_ERROR,
                                LRCSI_KEY_M_ERROR};
     double value[4];
+    const char *like = lrcsi_draft_text(draft, LRCSI_KEY_LIKE);
+    lrcs_brdf_error known; /* of the library, where it states any */
+    memset(&known, 0, sizeof known);
+    if (like) {
+        known = lrcs_brdf_find(like)->error;
+    }
+    const double other[4] = {known.A, known.B, known.s, known.m};
     memset(error, 0, sizeof *error);
     for (int i = 0; i < 4; i++) {
-        value[i] = lrcsi_draft_number(draft, key[i], 0.0) + 0.0;
+        value[i] = lrcsi_draft_number(draft, key[i], other[i]) + 0.0;
         if (!(value[i] >= 0.0)) {
             return lrcsi_draft_refuse_value(draft, key[i], LRCS_E_NUMBER, "a number, 0 or more");
         }
@@ -317,13 +326,15 @@ static int enter_names(const recipe_reader *reader, lrcsi_index *names)
 }
 
 /* A material by its name, the recipe's own first, then the library's; its place among the recipe's
-   in *own, LRCS_NONE for the library's. */
+   in *own, LRCS_NONE for the library's; its source as in <lrcs/scene.h>. */
 static int resolve_name(const recipe_reader *reader, const lrcsi_index *names, const char *name,
-                        uint32_t line, lrcs_recipe_material *material, uint32_t *own)
+                        uint32_t line, lrcs_recipe_material *material, uint32_t *own,
+                        uint32_t *source)
 {
     *own = lrcsi_index_find(names, TAG_MATERIAL, name, strlen(name));
     if (*own != LRCS_NONE) {
         *material = reader->recipe.material[*own];
+        *source = *own + 1;
         return LRCS_OK;
     }
     const lrcs_brdf_entry *entry = lrcs_brdf_find(name);
@@ -331,7 +342,9 @@ static int resolve_name(const recipe_reader *reader, const lrcsi_index *names, c
         return refuse_name(reader, line, "material",
                            "the name of a [[material]] or of one of the library", name);
     }
-    *material = (lrcs_recipe_material){.name = entry->name, .brdf = entry->brdf, .two_sided = -1};
+    *material = (lrcs_recipe_material){
+        .name = entry->name, .brdf = entry->brdf, .two_sided = -1, .error = entry->error};
+    *source = lrcsi_binder_library_source(entry);
     return LRCS_OK;
 }
 
@@ -340,23 +353,25 @@ static int resolve_materials(recipe_reader *reader, const lrcsi_index *names)
     lrcs_recipe *recipe = &reader->recipe;
     lrcs_recipe_material material = {0};
     uint32_t own = LRCS_NONE;
+    uint32_t source = 0;
     int status = LRCS_OK;
     for (uint32_t i = 0; status == LRCS_OK && i < recipe->binding_count; i++) {
         lrcs_binding *binding = &recipe->binding[i];
-        status = resolve_name(reader, names, binding->material, binding->line, &material, &own);
+        status =
+            resolve_name(reader, names, binding->material, binding->line, &material, &own, &source);
         if (status == LRCS_OK) {
             binding->brdf = material.brdf;
             binding->two_sided = material.two_sided;
             binding->assumed = material.assumed;
             binding->error = material.error;
-            binding->source = own != LRCS_NONE ? own + 1 : 0;
+            binding->source = source;
         }
     }
     for (uint32_t i = 0; status == LRCS_OK && i < recipe->part_count; i++) {
         lrcs_recipe_part *part = &recipe->part[i];
         if (part->material) {
-            status =
-                resolve_name(reader, names, part->material, part->material_line, &material, &own);
+            status = resolve_name(reader, names, part->material, part->material_line, &material,
+                                  &own, &source);
             part->wears = status == LRCS_OK && own != LRCS_NONE ? (int)own : -1;
         }
     }

@@ -8,7 +8,6 @@
 #include "base/join.h"
 #include "base/range.h"
 #include "base/work.h"
-#include "scene/prepare.h"
 
 /* Does a facet lie across some side of another? */
 static int lies_across(const lrcsi_across *across, uint32_t facet, uint32_t other)

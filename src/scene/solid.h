@@ -3,7 +3,7 @@
 #ifndef LRCSI_SOLID_H
 #define LRCSI_SOLID_H
 
-#include "scene/prepare.h"
+#include "scene/prepared.h"
 
 /* Pieces of surface, connected over edges: piece[facet] names its piece by its first facet.
    Returned: 1 where every edge of the live facets has exactly two of them, in opposite directions,

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/prepare.h"
+#include "scene/prepared.h"
 #include "view/product.h"
 
 /* How far R may be from what it should be: single precision is near enough. */

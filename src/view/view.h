@@ -11,7 +11,7 @@
 #include "base/constant.h"
 #include "base/meter.h"
 #include "base/range.h"
-#include "scene/prepare.h"
+#include "scene/prepared.h"
 
 /* The part of a facet's geometry that depends on direction. Lengths are scaled, as in
    lrcs_prepared. */

@@ -10,6 +10,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/slice.h"
+#include "scene/proximity.h"
 
 /* What is computed of coordinates is off by as much as they are, or less: so many times that. */
 #define OFF_MARGIN 8.0
@@ -19,7 +20,7 @@
 /* What one run needs; the edges' grid lists events by index. */
 typedef struct margin_job {
     const lrcsi_view *view;
-    double *share;
+    double *share, *rows;
     uint32_t *edge, *part; /* event: its topology edge, the part for which it is one */
     uint32_t *seen;        /* event: the facet + 1 that last met it */
     uint32_t count;
@@ -107,12 +108,12 @@ static double facet_off(const margin_job *job, uint32_t facet)
     return OFF_MARGIN * off;
 }
 
-/* The share of a facet within `slack` of an edge in projection: in the rectangle about it. What the
+/* The part of a facet within `slack` of an edge in projection: in the rectangle about it. What the
    edge is off at a share t of its length is linear in t. A point of it that is near the facet is no
    farther from its end a than the facet's farthest corner and the width are, t length <= far +
    wide, and what b is off counts for t of itself. */
-static double edge_share(const margin_job *job, uint32_t facet, const lrcsi_edge *edge,
-                         double slack)
+static lrcsi_slice edge_slice(const margin_job *job, uint32_t facet, const lrcsi_edge *edge,
+                              double slack)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
@@ -154,8 +155,7 @@ static double edge_share(const margin_job *job, uint32_t facet, const lrcsi_edge
     lrcsi_slice_cut(&slice, other, a, wide);
     lrcsi_slice_cut(&slice, along, b, end);
     lrcsi_slice_cut(&slice, back, a, wide);
-    return lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length,
-                             lrcsi_proximity_longest(p, facet));
+    return slice;
 }
 
 /* Does all of an edge lie so far behind a facet's plane that no point of it, seen within `slack` of
@@ -220,31 +220,42 @@ static double event_slack(const margin_job *job, uint32_t facet, uint32_t event)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* Those near what the box may hold; all of it where the meter is spent. */
-static double event_shares(margin_job *job, uint32_t facet, const double low[3],
-                           const double high[3])
+/* Adds the shares of area and of rows near events that the box may hold; all of both where the
+   meter is spent. */
+static void add_events(margin_job *job, uint32_t facet, const double low[3], const double high[3])
 {
-    const lrcsi_edge *edge = job->view->prepared->topology.edge;
+    const lrcs_prepared *p = job->view->prepared;
+    const lrcsi_edge *edge = p->topology.edge;
+    const uint32_t *vertex = p->scene->facet[facet].corner;
+    const double *const corner[3] = {job->view->point[vertex[0]].x, job->view->point[vertex[1]].x,
+                                     job->view->point[vertex[2]].x};
+    double whole = 0.5 * p->normal[facet].length;
+    double longest = lrcsi_proximity_longest(p, facet);
     lrcsi_view_box box = lrcsi_view_box_round(job->view, low, high);
     lrcsi_cells cells = lrcsi_grid_cells(&job->grid, &box);
-    double share = 0;
+    double *share = &job->share[facet];
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = job->grid.first[(size_t)y * job->grid.size + cells.x0];
         uint32_t end = job->grid.first[(size_t)y * job->grid.size + cells.x1];
         if (!lrcsi_meter_take(job->view->meter, (uint64_t)1 + end - i)) {
-            return 1;
+            *share = 1;
+            return;
         }
-        for (; i < end && share < 1; i++) {
+        for (; i < end && *share < 1; i++) {
             uint32_t event = job->grid.item[i];
             if (job->seen[event] == facet + 1) {
                 continue;
             }
             job->seen[event] = facet + 1;
             double slack = event_slack(job, facet, event);
-            share += slack > 0 ? edge_share(job, facet, &edge[job->edge[event]], slack) : 0;
+            if (slack > 0) {
+                lrcsi_slice slice = edge_slice(job, facet, &edge[job->edge[event]], slack);
+                *share += lrcsi_slice_share(&slice, whole, longest);
+                job->rows[facet] +=
+                    slice.count != 0 ? lrcsi_proximity_rows(p, facet, corner, &slice) : 0;
+            }
         }
     }
-    return share;
 }
 
 static int facet_matters(const lrcsi_view *view, uint32_t facet)
@@ -271,7 +282,7 @@ static void facet_share(margin_job *job, uint32_t facet)
                        high[1] < job->low[1])) {
         return;
     }
-    job->share[facet] += event_shares(job, facet, low, high);
+    add_events(job, facet, low, high);
     if (reach > 0 &&
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
             p->proximity.grazing_cos[margin_part(job, facet)] + COS_MARGIN * COS_MARGIN) {
@@ -292,7 +303,8 @@ static void margin_contacts(margin_job *job)
         int facing = view->facing[near->other];
         int shut = p->solid || lrcsi_proximity_closed(p, margin_part(job, near->other));
         if (facing > 0 || (facing < 0 && !shut)) {
-            job->share[near->facet] += near->share;
+            job->share[near->facet] += (double)near->share;
+            job->rows[near->facet] += (double)near->rows;
         }
     }
 }
@@ -381,7 +393,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
         return 0;
     }
     size_t edges = margin_edges(p);
-    size_t need = lrcsi_work_bytes(p->scene->facet_count, sizeof(double));
+    size_t need = 2 * lrcsi_work_bytes(p->scene->facet_count, sizeof(double));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
@@ -401,6 +413,7 @@ static int margin_shares(margin_job *job, lrcs_work *work)
                 facet_share(job, f);
             }
             job->share[f] = lrcsi_least(1, job->share[f]);
+            job->rows[f] = job->share[f] < 1 ? lrcsi_least(1, job->rows[f]) : 1;
         }
     }
     work->used = mark;
@@ -415,10 +428,12 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_w
     size_t mark = work->used;
     lrcsi_proximity_band m = {.classification = classification};
     m.share = lrcsi_work_take_zero(work, facets, sizeof *m.share);
+    m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
-    margin_job job = {.view = view, .share = m.share};
-    int status = m.share && m.region && m.hidden ? margin_shares(&job, work) : LRCS_E_MEMORY;
+    margin_job job = {.view = view, .share = m.share, .rows = m.rows};
+    int status =
+        m.share && m.rows && m.region && m.hidden ? margin_shares(&job, work) : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;

@@ -39,6 +39,11 @@
    Facets of a curved part without doubt, joined over edges, make regions, all of which other parts
    hide or none: one front that is not seen tells which.
 
+   A row of a facet on a straight wall that meets no band is seen all along, in truth too, or
+   nowhere. By facets: whether another part hides a point of it can change only across (1) or (2),
+   and whether its own part does, seen from inside, only across a rim as above. In truth: by the
+   claim, point by point.
+
    So the shares of a facet within such bands, rectangles about edges and prisms about facets, add
    up to an upper bound of its share where truth and facets may differ. Its area carries over to its
    patch: the map stretches area evenly (mesh/profile.c), but for what lrcs_part.uneven bounds. */
@@ -51,6 +56,7 @@
 typedef struct lrcsi_proximity_band {
     const lrcsi_classification *classification;
     double *share;         /* facet: of its area, 0 .. 1 */
+    double *rows;          /* facet: of its rows (scene/proximity.h), those that meet such a band */
     uint32_t *region;      /* facet of a curved part: its region, named by one of its facets */
     unsigned char *hidden; /* region: 1 where other parts hide all of it, in truth too */
 } lrcsi_proximity_band;

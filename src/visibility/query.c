@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "view/side.h"
 #include "visibility/sample.h"
 
 /* A point that the facet covers, on the facet but for rounding. Where the facet is so thin that
@@ -46,8 +47,9 @@ typedef struct query_line {
     const lrcsi_grid *grid;
     uint32_t facet;
     double point[3];
-    lrcsi_view_box at; /* the line in the view; in depth, all of the facet */
-    int sense;         /* of the infinitesimal by which it counts as moved */
+    double x[3], x_err; /* the point in view coordinates, and how far each may be off */
+    lrcsi_view_box at;  /* the line in the view; in depth, all of the facet */
+    int sense;          /* of the infinitesimal by which it counts as moved */
     lrcsi_cells cells;
     uint32_t y, item, end; /* the row of cells at hand, and its items yet to be looked at */
 } query_line;
@@ -57,9 +59,9 @@ static void line_place(query_line *line)
 {
     const lrcsi_view *view = line->grid->view;
     const lrcsi_view_box *own = &line->grid->box[line->facet];
-    double x[3];
-    lrcsi_view_place(view, line->point, x);
-    line->at = lrcsi_view_box_about(view, x, lrcsi_view_off(x));
+    lrcsi_view_place(view, line->point, line->x);
+    line->x_err = lrcsi_view_off(line->x);
+    line->at = lrcsi_view_box_about(view, line->x, line->x_err);
     line->at.low[2] = own->low[2];
     line->at.high[2] = own->high[2];
     line->cells = lrcsi_grid_cells(line->grid, &line->at);
@@ -76,6 +78,24 @@ static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet
     }
     line_place(line);
     return 1;
+}
+
+/* Does the line meet a facet? In plain doubles where they tell, which is nearly always: it stands
+   beside the facet where it is on the outer side of one of its sides. */
+static int line_meets(const query_line *line, uint32_t facet)
+{
+    const lrcsi_view *view = line->grid->view;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    int sure = 1;
+    for (int k = 0; k < 3; k++) {
+        lrcsi_view_side side = lrcsi_view_side_of(view, corner[k], corner[(k + 1) % 3]);
+        int turn = view->facing[facet] * lrcsi_view_side_turn(&side, line->x, line->x_err);
+        if (turn == -1) {
+            return 0;
+        }
+        sure &= turn == 1;
+    }
+    return sure || lrcsi_sample_covers_towards(view, facet, line->point, line->sense);
 }
 
 /* The next other facet that the line meets, not all of it behind the line's own, or LRCS_NONE; some
@@ -97,8 +117,7 @@ static uint32_t line_next(query_line *line)
         }
         uint32_t other = grid->item[line->item++];
         if (other != line->facet && !lrcsi_view_box_beside(&grid->box[other], &line->at) &&
-            !lrcsi_view_box_behind(&grid->box[other], &line->at) &&
-            lrcsi_sample_covers_towards(grid->view, other, line->point, line->sense)) {
+            !lrcsi_view_box_behind(&grid->box[other], &line->at) && line_meets(line, other)) {
             return other;
         }
     }

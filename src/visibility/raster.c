@@ -205,7 +205,7 @@ void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet)
     job.edges = lrcsi_raster_edges(raster, facet);
     job.plane = lrcsi_raster_plane(raster, facet);
     for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
-        lrcsi_row row = lrcsi_span_row(&job.edges, y);
+        lrcsi_samples row = lrcsi_span_samples(&job.edges, y);
         draw_doubtful(&job, y, row.may.x0, row.sure.x0);
         draw_run(&job, y, row.sure.x0, row.sure.x1);
         draw_doubtful(&job, y, row.sure.x1, row.may.x1);

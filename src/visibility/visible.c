@@ -193,8 +193,10 @@ static double square_share(double value, double most, double least)
 /* How much the facet surely covers, in pixels, of one that it may not cover whole. Where just one
    side passes: a value that is too large by off moves the line by off / |gradient|, and the area by
    that times its length in the pixel, below 1.5; roundings are below 8 u, and off is at least 64 u
-   N h. Else corners are off by their position error, and the area by at most the length of the cut,
-   below 6, times that. */
+   N h. Else corners are off by their position error in each coordinate, and the area by at most 4
+   times that, as far as sides run within the pixel along both axes together. Roundings
+   (visibility/clip.h) are less than another 4 times: a position error is more than 8 u of a
+   corner's distance from any pixel, and more than 16 u. */
 static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
 {
     const lrcsi_edges *e = &m->edges;

@@ -64,6 +64,21 @@ areas and_before_letters_of_the_other_case 8 --material grey=$lit --material Gre
 areas which_go_before_a_pattern 8 --material Grey=$lit --material "*=0,0,0.2,0"
 areas of_two_patterns_the_last_holds 12 --material "*=$lit" --material "SOL*=0,0,0.2,0"
 
+# Numbers of one statement are off together: their errors add up, and not as squares do.
+# share NAME WANT OPTIONS...: the deviation over sigma.
+share() {
+    name=$1
+    want=$2
+    shift 2
+    run run m.obj --unit m --json --method facet "$@" --material 0,0,0.2,0
+    near "$name" "$(printf '%s\n' "$out" | awk -F'[:,]' '/"sigma_m2"/ { s = $2 } /"material_uncertainty"/ { d = $3 } END { printf "%.15g", d / s }')" "$want"
+}
+share a_patterns_errors_are_one 0.1 --material 'SOLAR*=0,1+-0.1,0.2,0'
+share names_that_differ_in_case_too 0.1 --material 'solar_?=0,1+-0.1,0.2,0'
+share two_statements_are_two 0.0745355992499930 --material SOLAR_1=0,1+-0.1,0.2,0 --material SOLAR_2=0,1+-0.1,0.2,0
+share a_published_material_has_one_error 0.0227272727272727 --material SOLAR_1=paint-white-silicate --material SOLAR_2=paint-white-silicate
+same it_is_told_as_published "$(printf '%s\n' "$out" | grep -c '"source": "published"') $(printf '%s\n' "$out" | grep -c "solar reflectance of Fortescue.*Lambert's law is assumed")" "2 1"
+
 usage_error a_misspelt_name_lists_what_is_like_it "no material named 'SOLRA_1'; the nearest is 'SOLAR_1', then 'SOLAR_2', " \
     run m.obj --material SOLRA_1=1,1,1,1
 usage_error a_part_of_a_name_finds_it "the nearest is 'Gold*Foil'" run m.obj --material foil=1,1,1,1

@@ -71,6 +71,8 @@ watched a_pose_says_how_far_it_is '\rpose: (visibility|integration), [0-9]+ %, [
 watched a_comparison_names_its_settings '\r(zbuffer|facet|exact|by estimate|meshes|loading|converge)[^\r]*, [0-9]+ s' converge ball.obj --unit m
 watched a_report_names_its_stages '\r[a-z ]+(, [0-5] of 5 stages done|: [a-z]+)?[^\r]*, [0-9]+ s' report ball.obj --unit m -o ball.html
 same nothing_half_written "$(ls out.csv .lrcs* 2>/dev/null)" ""
+# a sweep ends in order, after the pose that is running
+same a_sweep_says_how_many_rows_before_the_first "$(python3 -B watch.py "$tool" 120 '\r\[ +\]   0 %  0 of 37 ' sweep ball.toml --az 0:360:10 --tolerance 1e-5 -o rows.csv | cut -d' ' -f1)" True
 same no_page_half_written "$(ls ball.html 2>/dev/null)" ""
 run run ball.toml --tolerance 1e-2
 same no_terminal_no_stage "$(printf '%s' "$err" | grep -c 'stages done')" 0

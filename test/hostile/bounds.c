@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Every bound that the engine proves, against exact answers (bounds.py): each method, rasters of
-   several sizes, clipping that may take few steps, one-sided and two-sided. Prints what is
-   violated; how loose the bounds are, as quantiles of bound / error, the least coming nearest to a
-   violation, and of bound / sigma; and what the estimate is worth. An error that rounding alone
-   could make (a tie) says nothing of looseness or of the estimate and is left out of their
-   quantiles. */
+   several sizes, clipping that may take few steps, range profiles, one-sided and two-sided. Prints
+   what is violated; how loose the bounds are, as quantiles of bound / error, the least coming
+   nearest to a violation, and of bound / sigma; and what the estimate is worth. An error that
+   rounding alone could make (a tie) says nothing of looseness or of the estimate and is left out of
+   their quantiles. */
 #include <lrcs/lrcs.h>
 
 #include <math.h>
@@ -59,6 +59,9 @@ static hostile_way ways[] = {
     {"100 steps", .method = LRCS_METHOD_EXACT, .every = 1, .steps = 100},
     {"1000 steps", .method = LRCS_METHOD_EXACT, .every = 1, .steps = 1000}};
 #define WAYS (sizeof ways / sizeof *ways)
+
+/* The range profile: its sum, and the sum of its bins with theirs. */
+static hostile_way profile_ways[] = {{"profile", .every = 1}, {"its bins", .every = 1}};
 
 static void quantiles_add(quantiles *q, double x)
 {
@@ -243,6 +246,36 @@ static void note(hostile_way *way, const hostile_case *c, int sided, const lrcs_
     }
 }
 
+/* Some dozen bins over the scene, which meet its facets anywhere, or one that holds nearly all. */
+static void run_profile(const hostile_case *c, unsigned number, int sided,
+                        const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work work)
+{
+    double far = 0;
+    lrcs_profile profile;
+    lrcs_result sums[2] = {{.estimate_m2 = -1}, {.estimate_m2 = -1}};
+    for (uint32_t v = 0; v < c->scene.vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            far = fmax(far, fabs(c->vertex[v].x[k]));
+        }
+    }
+    int status =
+        lrcs_profile_run(prepared, pose, far / (number % 5 == 0 ? 0.25 : 7), &work, &profile);
+    if (status != LRCS_OK) {
+        printf("REFUSED %s %s, profile: %d\n", c->kind, c->name, status);
+        profile_ways[0].refused++;
+        return;
+    }
+    sums[0].sigma_m2 = profile.sigma_glint_m2 + profile.sigma_diffuse_m2;
+    sums[0].bound_m2 = profile.bound_m2;
+    for (uint32_t i = 0; i < profile.count; i++) {
+        sums[1].sigma_m2 += profile.bin[i].sigma_glint_m2 + profile.bin[i].sigma_diffuse_m2;
+        sums[1].bound_m2 += profile.bin[i].bound_m2;
+    }
+    sums[1].bound_m2 += 1e-13 * sums[1].sigma_m2; /* of adding up here */
+    note(&profile_ways[0], c, sided, &sums[0]);
+    note(&profile_ways[1], c, sided, &sums[1]);
+}
+
 static void run_case(hostile_case *c, unsigned number, void *memory, size_t bytes)
 {
     static lrcs_facet_record records[MOST];
@@ -257,6 +290,7 @@ static void run_case(hostile_case *c, unsigned number, void *memory, size_t byte
             ways[0].refused++;
             return;
         }
+        run_profile(c, number, sided, prepared, &pose, work);
         for (size_t w = 0; w < WAYS; w++) {
             if (number % ways[w].every != 0) {
                 continue;
@@ -317,6 +351,10 @@ int main(int argc, char **argv)
     for (size_t w = 0; w < WAYS; w++) {
         report(&ways[w]);
         bad += ways[w].violations + ways[w].refused;
+    }
+    for (int w = 0; w < 2; w++) {
+        report(&profile_ways[w]);
+        bad += profile_ways[w].violations + profile_ways[w].refused;
     }
     printf("exact areas: worst %.3g of what is allowed (%s), %u beyond it\n", worst_area,
            worst_area_name, areas_beyond);

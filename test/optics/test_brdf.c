@@ -81,9 +81,38 @@ static void the_library_is_sane_and_found_by_name(void **state)
         double received = 4.0 * 3.14159265358979 * e->brdf.A * e->brdf.s * e->brdf.s;
         check_most(received + 3.14159265358979 * e->brdf.B, 1.0);
     }
-    assert_int_equal(count, 9);
+    assert_int_equal(count, 12);
     assert_null(lrcs_brdf_library(UINT32_MAX));
     assert_null(lrcs_brdf_find("Solar-Cell"));
+}
+
+/* Fortescue, Swinerd and Stark (eds), Spacecraft Systems Engineering, 4th ed. 2011, Table 11.3. */
+static void materials_with_a_source_are_lambert_surfaces_of_its_reflectance(void **state)
+{
+    static const struct {
+        const char *name;
+        double absorptance, change;
+    } table[] = {{"paint-white-silicone", 0.26, 0.03},
+                 {"paint-white-silicate", 0.12, 0.02},
+                 {"paint-black-epoxy", 0.95, 0.01}};
+    uint32_t sourced = 0;
+    (void)state;
+    for (uint32_t i = 0; i < 3; i++) {
+        const lrcs_brdf_entry *e = lrcs_brdf_find(table[i].name);
+        assert_non_null(e);
+        assert_non_null(e->source);
+        check_rel(e->brdf.B * 3.14159265358979323846, 1.0 - table[i].absorptance, 1e-15);
+        check_rel(e->error.B * 3.14159265358979323846, table[i].change, 1e-15);
+        assert_true(e->brdf.A == 0.0 && e->brdf.m == 0.0);
+        assert_int_equal(lrcs_brdf_error_check(&e->brdf, &e->error), LRCS_OK);
+    }
+    for (uint32_t i = 0; lrcs_brdf_library(i); i++) {
+        const lrcs_brdf_entry *e = lrcs_brdf_library(i);
+        assert_int_equal(e->error.B > 0.0, e->source != NULL);
+        assert_true(e->error.A == 0.0 && e->error.s == 0.0 && e->error.m == 0.0);
+        sourced += e->source != NULL;
+    }
+    assert_int_equal(sourced, 3);
 }
 
 int main(void)
@@ -93,6 +122,7 @@ int main(void)
         cmocka_unit_test(warnings_name_what_the_model_does_not_mean),
         cmocka_unit_test(f_r_agrees_with_its_formula),
         cmocka_unit_test(the_library_is_sane_and_found_by_name),
+        cmocka_unit_test(materials_with_a_source_are_lambert_surfaces_of_its_reflectance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,9 @@
 /* Convex pieces split and measured: areas by hand, in numbers that doubles hold. */
 #include "visibility/clip.h"
 
-#include "check.h"
+#include <math.h>
+
+#include "scenes.h"
 
 static lrcsi_clip_polygon triangle(double x, double y)
 {
@@ -64,12 +66,75 @@ static void a_box_shows_its_part_of_a_triangle(void **state)
     check_same(lrcsi_clip_box_area(corner, (const double[2]){3, 3}), 0);
 }
 
+/* The same, by cutting along the sides of the square. */
+static double area_cut(const double corner[3][2], const double low[2])
+{
+    const lrcsi_clip_line side[4] = {{{low[0], low[1]}, {1, 0}},
+                                     {{low[0] + 1, low[1]}, {0, 1}},
+                                     {{low[0] + 1, low[1] + 1}, {-1, 0}},
+                                     {{low[0], low[1] + 1}, {0, -1}}};
+    lrcsi_clip_polygon inside;
+    lrcsi_clip_polygon left;
+    lrcsi_clip_polygon right;
+    lrcsi_clip_triangle(corner, &inside);
+    for (int k = 0; k < 4; k++) {
+        lrcsi_clip_split(&inside, &side[k], &left, &right);
+        if (left.count < 3) {
+            return 0;
+        }
+        inside = left;
+    }
+    return lrcsi_clip_area(&inside);
+}
+
+/* Triangles of all shapes over 16 x 16 pixels: corners anywhere, on the lattice, and slivers, level
+   and upright ones among them. What is allowed is what clip.h states, twice. */
+static void parts_are_those_of_cutting_and_add_up(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    unsigned shown = 0;
+    for (int i = 0; i < 3000; i++) {
+        double corner[3][2];
+        for (int k = 0; k < 6; k++) {
+            double x = (double)scene_random(&seed, 16 << 20) / (1 << 20);
+            corner[k / 2][k % 2] = i % 3 == 1 ? floor(x) : x;
+        }
+        if (i % 3 == 2) { /* all but on one line, which may be level or upright */
+            corner[1][i / 3 % 2] = corner[0][i / 3 % 2] + (i % 5 == 0 ? 0x1p-30 : 0);
+            corner[2][0] = 0.5 * (corner[0][0] + corner[1][0]) + 0x1p-20;
+            corner[2][1] = 0.5 * (corner[0][1] + corner[1][1]) - 0x1p-20;
+        }
+        lrcsi_clip_polygon all;
+        lrcsi_clip_triangle((const double(*)[2])corner, &all);
+        double area = lrcsi_clip_area(&all);
+        if (area < 0) {
+            for (int k = 0; k < 2; k++) {
+                double x = corner[1][k];
+                corner[1][k] = corner[2][k];
+                corner[2][k] = x;
+            }
+        }
+        double sum = 0;
+        for (int k = 0; k < 256; k++) {
+            const double low[2] = {k % 16, k / 16};
+            double part = lrcsi_clip_box_area((const double(*)[2])corner, low);
+            check_abs(part, area_cut((const double(*)[2])corner, low), 600 * 0x1p-53);
+            sum += part;
+            shown += part > 0 && part < 1;
+        }
+        check_abs(sum, fabs(area), 256 * 300 * 0x1p-53);
+    }
+    assert_true(shown > 50000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_line_splits_what_it_crosses),
         cmocka_unit_test(a_piece_of_too_many_corners_is_not_split),
         cmocka_unit_test(a_box_shows_its_part_of_a_triangle),
+        cmocka_unit_test(parts_are_those_of_cutting_and_add_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,8 +121,7 @@ int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
     lrcs_host_json json = lrcs_host_json_make(out);
     (void)error;
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(&json, "version", lrcs_version());
+    cli_version_json(&json);
     lrcs_host_json_bool(&json, "passed", cli_compare_passed(job));
     lrcs_host_json_count(&json, "tier", job->tier);
     lrcs_host_json_text(&json, "class", cli_compare_grade(job->grade));

@@ -76,29 +76,21 @@ static int converge_read(converge_job *job)
 
 /* ---- files ---- */
 
-static int plot_write(const converge_job *job, const char *path)
+static int svg_write(FILE *out, const void *job, lrcs_host_error *error)
 {
-    lrcs_host_error error;
-    lrcs_host_output out;
-    int status = lrcs_host_output_open(path, &out, &error);
-    if (status == LRCS_OK) {
-        status = cli_converge_chart(job, cli_extension(path, ".png"), out.stream, &error);
-        int good = status == LRCS_OK;
-        int closed = lrcs_host_output_close(&out, good, good ? &error : NULL);
-        status = good ? closed : status;
-    }
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    return cli_converge_chart(job, 0, out, error);
 }
 
-static int csv_write(const converge_job *job)
+static int png_write(FILE *out, const void *job, lrcs_host_error *error)
 {
-    lrcs_host_error error;
-    lrcs_host_output out;
-    if (lrcs_host_output_open(job->csv, &out, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    cli_converge_csv(job, out.stream);
-    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? 0 : cli_failed(&error);
+    return cli_converge_chart(job, 1, out, error);
+}
+
+static int csv_write(FILE *out, const void *job, lrcs_host_error *error)
+{
+    (void)error;
+    cli_converge_csv(job, out);
+    return LRCS_OK;
 }
 
 /* No output may replace a file that the scene was read from. */
@@ -119,10 +111,11 @@ static int files_check(const converge_job *job)
 static int files_write(const converge_job *job)
 {
     const cli_args *args = job->args;
-    int code = job->csv ? csv_write(job) : 0;
+    int code = job->csv ? cli_output_write(job->csv, csv_write, job) : 0;
     for (int i = 0; i < args->given_count && code == 0; i++) {
         if (strcmp(args->given[i].name, "plot") == 0) {
-            code = plot_write(job, args->given[i].value);
+            const char *path = args->given[i].value;
+            code = cli_output_write(path, cli_extension(path, ".png") ? png_write : svg_write, job);
         }
     }
     return code;

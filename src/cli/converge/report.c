@@ -252,13 +252,9 @@ void cli_converge_json(const converge_job *job)
 {
     lrcs_host_json json = lrcs_host_json_make(stdout);
     converge_sentence sentence = cli_converge_sentence(job);
-    char hash[17];
-    snprintf(hash, sizeof hash, "%016llx",
-             (unsigned long long)lrcs_scene_hash(&cli_converge_finest(job)->scene.scene));
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(&json, "version", lrcs_version());
-    lrcs_host_json_text(&json, "scene_hash", hash);
+    cli_version_json(&json);
+    cli_hash_json(lrcs_scene_hash(&cli_converge_finest(job)->scene.scene), &json);
     lrcs_host_json_begin(&json, "truth", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(&json, "from", job->truth.text);
     lrcs_host_json_number(&json, "sigma_m2", job->truth.sigma_m2);

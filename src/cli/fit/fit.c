@@ -311,23 +311,21 @@ static int readings_check(fit_job *job)
 
 /* ---- the command ---- */
 
-static int output_write(const fit_job *job, const cli_given *given)
+typedef struct fit_output {
+    const fit_job *job;
+    const cli_given *given;
+} fit_output;
+
+static int output_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    lrcs_host_error error;
-    lrcs_host_output out;
-    int status = lrcs_host_output_open(given->value, &out, &error);
-    if (status != LRCS_OK) {
-        return cli_failed(&error);
-    }
+    const fit_output *output = context;
+    const cli_given *given = output->given;
     if (is_chart(given)) {
-        status = cli_fit_chart(job, strcmp(given->name, "residuals") == 0,
-                               cli_extension(given->value, ".png"), out.stream, &error);
-    } else {
-        cli_fit_csv(job, out.stream);
+        return cli_fit_chart(output->job, strcmp(given->name, "residuals") == 0,
+                             cli_extension(given->value, ".png"), out, error);
     }
-    int good = status == LRCS_OK;
-    int closed = lrcs_host_output_close(&out, good, good ? &error : NULL);
-    return good && closed == LRCS_OK ? 0 : cli_failed(&error);
+    cli_fit_csv(output->job, out);
+    return LRCS_OK;
 }
 
 static void warnings_print(const fit_material *material)
@@ -347,7 +345,10 @@ static int fit_report(const fit_job *job)
     const char *csv = cli_value(args, "csv");
     int code = CLI_DONE;
     for (int i = 0; i < args->given_count; i++) {
-        int failed = is_output(&args->given[i]) ? output_write(job, &args->given[i]) : 0;
+        const fit_output output = {job, &args->given[i]};
+        int failed = is_output(&args->given[i])
+                         ? cli_output_write(args->given[i].value, output_write, &output)
+                         : 0;
         if (failed) {
             return failed;
         }

@@ -236,12 +236,10 @@ void cli_fit_csv(const fit_job *job, FILE *out)
             const lrcs_fit_point *point = &material->point[k];
             const double value[] = {reading->angle_deg, reading->value, point->fitted,
                                     point->residual, point->standard};
-            char text[LRCS_HOST_NUMBER_SIZE];
             csv_name(out, material->name);
             fprintf(out, ",%lu", (unsigned long)material->line[k]);
             for (size_t c = 0; c < sizeof value / sizeof value[0]; c++) {
-                lrcs_host_number_text(value[c], text);
-                fprintf(out, ",%s", text);
+                cli_number_put(out, ",", value[c]);
             }
             fprintf(out, ",%d\n", point->outlier);
         }
@@ -318,8 +316,7 @@ void cli_fit_json(const fit_job *job)
 {
     lrcs_host_json json = lrcs_host_json_make(stdout);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(&json, "version", lrcs_version());
+    cli_version_json(&json);
     lrcs_host_json_number(&json, "unit_per_sr", job->options.unit);
     lrcs_host_json_bool(&json, "cosine", job->options.cosine);
     lrcs_host_json_begin(&json, "fits", LRCS_HOST_ARRAY);

@@ -8,16 +8,6 @@
 /* More bins than this are left to --csv and --json: the table shows the strongest. */
 #define TABLE_ROWS 40u
 
-/* The direction with length 1. */
-static void unit_direction(const lrcs_pose *pose, double s_hat[3])
-{
-    const double *d = pose->direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    for (int k = 0; k < 3; k++) {
-        s_hat[k] = d[k] / length;
-    }
-}
-
 static double total_sigma(const profile_job *job)
 {
     return job->profile.list.sigma_glint_m2 + job->profile.list.sigma_diffuse_m2;
@@ -28,14 +18,26 @@ static double total_sigma(const profile_job *job)
 static void fields_write(FILE *out, const double *value, int count)
 {
     for (int i = 0; i < count; i++) {
-        char text[LRCS_HOST_NUMBER_SIZE];
-        lrcs_host_number_text(value[i], text);
-        fprintf(out, "%s%s", i > 0 ? "," : "", text);
+        cli_number_put(out, i > 0 ? "," : "", value[i]);
     }
 }
 
 void cli_profile_csv(const profile_job *job, FILE *out)
 {
+    double s_hat[3];
+    cli_pose_unit(&job->pose, s_hat);
+    fprintf(out, "# lrcs %s profile; scene_hash=%016llx", lrcs_version(),
+            (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+    for (const lrcs_host_input *input = job->scene.input; input; input = input->next) {
+        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
+                (unsigned long long)input->hash);
+    }
+    for (int k = 0; k < 3; k++) {
+        cli_number_put(out, k == 0 ? "; direction=" : ",", s_hat[k]);
+    }
+    cli_number_put(out, "; bound_of_the_sum_m2=", job->profile.list.bound_m2);
+    fprintf(out, "%s\n",
+            cli_materials_open(&job->scene.scene) ? "; materials=illustrative or assumed" : "");
     fputs("near_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);
     fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m\n" : "\n", out);
     for (uint32_t i = 0; i < job->rows; i++) {
@@ -61,12 +63,9 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
 {
     const lrcs_profile *p = &job->profile.list;
     double s_hat[3];
-    char hash[17];
-    unit_direction(&job->pose, s_hat);
-    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
-    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(json, "version", lrcs_version());
-    lrcs_host_json_text(json, "scene_hash", hash);
+    cli_pose_unit(&job->pose, s_hat);
+    cli_version_json(json);
+    cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
     lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
     lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
@@ -203,7 +202,7 @@ void cli_profile_table(const profile_job *job)
     const lrcs_profile *p = &job->profile.list;
     double s_hat[3];
     char bound[CLI_BOUND_SIZE];
-    unit_direction(&job->pose, s_hat);
+    cli_pose_unit(&job->pose, s_hat);
     printf("scene        ");
     cli_column(cli_scene_title(job->args, &job->scene), 0);
     printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&job->scene.scene));

@@ -162,13 +162,6 @@ static void words_put(FILE *out, const char *name, const void *item, size_t coun
     free(bytes);
 }
 
-static void number_put(FILE *out, const char *before, double value)
-{
-    char text[LRCS_HOST_NUMBER_SIZE];
-    lrcs_host_number_text(value, text);
-    fprintf(out, "%s%s", before, text);
-}
-
 static void axis_put(FILE *out, const char *name, double least, uint32_t step, uint64_t count)
 {
     fprintf(out, ",\n\"%s\":{\"least\":%g,\"step\":%lu,\"count\":%llu}", name, least,
@@ -211,12 +204,12 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
         value[map->plan.rows + i] = map->row[i][1];
     }
     fputs("<script type=\"application/json\" id=\"data\">{", out);
-    number_put(out, "\"start\":[", atan2(d[1], d[0]) * CLI_DEGREES);
-    number_put(out, ",", atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES);
-    number_put(out, "],\n\"radius\":", radius > 0.0 ? radius : 1.0);
-    number_put(out, ",\n\"centre\":[", 0.5 * (least[0] + most[0]));
-    number_put(out, ",", 0.5 * (least[1] + most[1]));
-    number_put(out, ",", 0.5 * (least[2] + most[2]));
+    cli_number_put(out, "\"start\":[", atan2(d[1], d[0]) * CLI_DEGREES);
+    cli_number_put(out, ",", atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES);
+    cli_number_put(out, "],\n\"radius\":", radius > 0.0 ? radius : 1.0);
+    cli_number_put(out, ",\n\"centre\":[", 0.5 * (least[0] + most[0]));
+    cli_number_put(out, ",", 0.5 * (least[1] + most[1]));
+    cli_number_put(out, ",", 0.5 * (least[2] + most[2]));
     fputs("]", out);
     axis_put(out, "az", 0.0, job->map_step, map->plan.axis[0].range.count);
     axis_put(out, "el", -90.0, job->map_step, map->plan.axis[1].range.count);

@@ -37,24 +37,11 @@ static void known_number(lrcs_host_json *json, const char *key, double value)
     lrcs_host_json_number(json, key, value >= 0.0 ? value : (double)NAN);
 }
 
-/* The direction with length 1, for people and scripts. */
-static void unit_direction(const lrcs_pose *pose, double s_hat[3])
-{
-    const double *d = pose->direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    for (int k = 0; k < 3; k++) {
-        s_hat[k] = d[k] / length;
-    }
-}
-
 static void json_head(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_result *result = &job->result;
-    char hash[17];
-    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
-    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(json, "version", lrcs_version());
-    lrcs_host_json_text(json, "scene_hash", hash);
+    cli_version_json(json);
+    cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
     lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
     lrcs_host_json_number(json, "sigma_m2", result->sigma_m2);
@@ -132,7 +119,7 @@ static void json_tail(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_result *result = &job->result;
     double s_hat[3];
-    unit_direction(&job->pose, s_hat);
+    cli_pose_unit(&job->pose, s_hat);
     lrcs_host_json_begin(json, "facets", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_count(json, "total", result->facets_total);
     lrcs_host_json_count(json, "front", result->facets_front);
@@ -257,7 +244,7 @@ void cli_run_table(const run_job *job)
 {
     const lrcs_result *r = &job->result;
     double s_hat[3];
-    unit_direction(&job->pose, s_hat);
+    cli_pose_unit(&job->pose, s_hat);
     double box[2][3];
     lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
     printf("scene        ");

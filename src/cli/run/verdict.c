@@ -157,20 +157,22 @@ static void glint_say(const run_job *job, FILE *out)
 
 static void materials_say(const run_job *job, FILE *out)
 {
-    static const char *const source[] = {"illustrative", "default", "assumed", "given"};
+    static const char *const source[] = {"illustrative", "published", "default", "assumed",
+                                         "given"};
     static const char *const words[] = {"illustrative, of the library: not measured",
+                                        "published reflectance; Lambert's law assumed",
                                         "none bound, A=1, B=0.25, s=0.2, m=0.5 taken",
                                         "assumed, as the scene file says", "as given"};
     const lrcs_scene *scene = &job->scene.scene;
-    uint32_t facets[4] = {0, 0, 0, 0};
+    uint32_t facets[5] = {0, 0, 0, 0, 0};
     for (uint32_t i = 0; i < scene->facet_count; i++) {
         const lrcs_material *material = &scene->material[scene->facet_material[i]];
         const char *found = cli_material_source(material);
-        for (int k = 0; k < 4 && !material->omitted; k++) {
+        for (int k = 0; k < 5 && !material->omitted; k++) {
             facets[k] += strcmp(found, source[k]) == 0;
         }
     }
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         if (facets[k] > 0) {
             fprintf(out, "  %-10s %lu facets: %s\n", "materials", (unsigned long)facets[k],
                     words[k]);

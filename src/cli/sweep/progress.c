@@ -12,7 +12,14 @@ sweep_progress cli_progress_make(uint64_t first, uint64_t total)
 {
     double now = cli_seconds();
     cli_watch_stage(NULL, NULL); /* the bar takes its place */
-    return (sweep_progress){isatty(STDERR_FILENO), first, total, now, now};
+    int on = isatty(STDERR_FILENO) && first < total;
+    if (on) { /* the first pose may take long */
+        fprintf(stderr, "\r[%*s] %3.0f %%  %llu of %llu ", PROGRESS_BAR, "",
+                100.0 * (double)first / (double)total, (unsigned long long)first,
+                (unsigned long long)total);
+        fflush(stderr);
+    }
+    return (sweep_progress){on, first, total, now, now};
 }
 
 void cli_progress_show(sweep_progress *progress, uint64_t done)

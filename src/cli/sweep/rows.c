@@ -28,11 +28,14 @@ double cli_tally_error(const sweep_tally *tally)
     return tally->rows > 1 ? sqrt(tally->square / (n - 1.0) / n) : (double)NAN;
 }
 
+/* Nothing stands for what is no number. */
 static void number_put(FILE *out, const char *before, double value)
 {
-    char text[LRCS_HOST_NUMBER_SIZE];
-    lrcs_host_number_text(value, text);
-    fprintf(out, "%s%s", before, isfinite(value) ? text : "");
+    if (isfinite(value)) {
+        cli_number_put(out, before, value);
+    } else {
+        fputs(before, out);
+    }
 }
 
 /* ---- CSV ---- */
@@ -104,14 +107,11 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 
 static void jsonl_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
 {
-    char hash[17];
     lrcs_host_json json = lrcs_host_json_make(out);
-    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)head->scene_hash);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(&json, "lrcs", "sweep");
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(&json, "version", lrcs_version());
-    lrcs_host_json_text(&json, "scene_hash", hash);
+    cli_version_json(&json);
+    cli_hash_json(head->scene_hash, &json);
     lrcs_host_json_count(&json, "rows", head->rows);
     lrcs_host_json_begin(&json, "shape", LRCS_HOST_ROW_ARRAY);
     for (uint32_t i = 0; i < head->dimensions; i++) {

@@ -151,15 +151,12 @@ static int stats_json(FILE *out, const void *context, lrcs_host_error *error)
 {
     const sweep_stats *stats = context;
     const sweep_head *head = stats->head;
-    char text[24];
     (void)error;
     lrcs_host_json json = lrcs_host_json_make(out);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
     lrcs_host_json_text(&json, "lrcs", "statistics");
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(&json, "version", lrcs_version());
-    snprintf(text, sizeof text, "%016llx", (unsigned long long)head->scene_hash);
-    lrcs_host_json_text(&json, "scene_hash", text);
+    cli_version_json(&json);
+    cli_hash_json(head->scene_hash, &json);
     lrcs_host_json_count(&json, "rows", stats->rows);
     lrcs_host_json_text(&json, "weights", stats->weights);
     value_json(&json, "mean_m2", &stats->mean);
@@ -194,13 +191,6 @@ static int stats_json(FILE *out, const void *context, lrcs_host_error *error)
 
 /* ---- CSV ---- */
 
-static void number_put(FILE *out, double value, const char *after)
-{
-    char text[LRCS_HOST_NUMBER_SIZE];
-    lrcs_host_number_text(value, text);
-    fprintf(out, "%s%s", text, after);
-}
-
 /* The histogram: one row for each bin, the first for all that is less. */
 static int stats_csv(FILE *out, const void *context, lrcs_host_error *error)
 {
@@ -215,12 +205,13 @@ static int stats_csv(FILE *out, const void *context, lrcs_host_error *error)
     fputs("\nto_dbsm,to_m2,share,cdf,cdf_least,cdf_most\n", out);
     for (uint32_t i = 0; i <= stats->bins && stats->bins > 0; i++) {
         const stats_value *cdf = &stats->cdf[i];
-        number_put(out, stats->edge_dbsm[i], ",");
-        number_put(out, stats->edge_m2[i], ",");
-        number_put(out, cdf->value - (i > 0 ? cdf[-1].value : 0.0), ",");
-        number_put(out, cdf->value, ",");
-        number_put(out, cdf->least, ",");
-        number_put(out, cdf->most, "\n");
+        cli_number_put(out, "", stats->edge_dbsm[i]);
+        cli_number_put(out, ",", stats->edge_m2[i]);
+        cli_number_put(out, ",", cdf->value - (i > 0 ? cdf[-1].value : 0.0));
+        cli_number_put(out, ",", cdf->value);
+        cli_number_put(out, ",", cdf->least);
+        cli_number_put(out, ",", cdf->most);
+        putc('\n', out);
     }
     return LRCS_OK;
 }

@@ -11,9 +11,7 @@ typedef struct files_scene {
 static void point_print(FILE *out, const lrcs_point *point)
 {
     for (int k = 0; k < 3; k++) {
-        char text[LRCS_HOST_NUMBER_SIZE];
-        lrcs_host_number_text(point->x[k], text);
-        fprintf(out, " %s", text);
+        cli_number_put(out, " ", point->x[k]);
     }
     putc('\n', out);
 }
@@ -58,9 +56,7 @@ static int mtl_write(FILE *out, const void *context, lrcs_host_error *error)
         if (mesh_wears(file->mesh, i)) {
             fprintf(out, "newmtl %s\nKd", material->name);
             for (int k = 0; k < 3; k++) {
-                char text[LRCS_HOST_NUMBER_SIZE];
-                lrcs_host_number_text(material->rgb[k] / 255.0, text);
-                fprintf(out, " %s", text);
+                cli_number_put(out, " ", material->rgb[k] / 255.0);
             }
             putc('\n', out);
         }

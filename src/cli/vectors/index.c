@@ -12,9 +12,7 @@ static const char *const tier_text[KIT_TIERS] = {
 static void numbers_print(FILE *out, const double *value, int count)
 {
     for (int i = 0; i < count; i++) {
-        char text[LRCS_HOST_NUMBER_SIZE];
-        lrcs_host_number_text(value[i], text);
-        fprintf(out, ",%s", text);
+        cli_number_put(out, ",", value[i]);
     }
 }
 

@@ -80,9 +80,7 @@ static void record_print(FILE *out, const vectors_case *one, uint32_t facet,
     const double value[3] = {record->cos_theta, record->visible_area_m2, record->sigma_m2};
     fprintf(out, "%s,%s,%lu", one->scene->name, one->attitude->name, (unsigned long)facet);
     for (int k = 0; k < 3; k++) {
-        char text[LRCS_HOST_NUMBER_SIZE];
-        lrcs_host_number_text(value[k], text);
-        fprintf(out, ",%s", text);
+        cli_number_put(out, ",", value[k]);
     }
     putc('\n', out);
 }

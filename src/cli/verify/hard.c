@@ -111,8 +111,7 @@ static void table_begin(lrcs_host_json *json)
 {
     if (json) {
         lrcs_host_json_begin(json, NULL, LRCS_HOST_OBJECT);
-        lrcs_host_json_count(json, "schema", CLI_SCHEMA);
-        lrcs_host_json_text(json, "version", lrcs_version());
+        cli_version_json(json);
         lrcs_host_json_begin(json, "cases", LRCS_HOST_ARRAY);
         return;
     }

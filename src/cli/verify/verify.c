@@ -195,8 +195,7 @@ static int verify_command(const cli_args *args)
     }
     if (json) {
         lrcs_host_json_begin(json, NULL, LRCS_HOST_OBJECT);
-        lrcs_host_json_count(json, "schema", CLI_SCHEMA);
-        lrcs_host_json_text(json, "version", lrcs_version());
+        cli_version_json(json);
         lrcs_host_json_begin(json, "cases", LRCS_HOST_ARRAY);
     } else {
         printf("%-10s %6s  %-14s %15s %15s %10s %9s %9s\n", "shape", "aspect", "A,B,s,m",

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+/* The rows of facets on straight walls: whatever the shape, and mirrored, they run across the axis.
+ */
+#include "scene/proximity.h"
+
+#include "check.h"
+#include "scene/prepare.h"
+
+static unsigned char scene_area[1u << 22];
+static unsigned char prepare_area[1u << 24];
+
+static const lrcs_prepared *prepare_shape(const lrcs_shape *shape, double mirror)
+{
+    static lrcs_scene scene;
+    lrcs_recipe_part part = {.name = "", .shape = *shape, .place = lrcs_place_default()};
+    part.place.scale[0] = mirror;
+    part.wears = -1;
+    lrcs_recipe recipe = {.part = &part, .part_count = 1};
+    lrcs_build_options options = {1e-3, 1000, LRCS_NORMALS_FLAT, 1};
+    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+    const lrcs_prepared *prepared = NULL;
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);
+    work = lrcs_work_make(prepare_area, sizeof prepare_area);
+    assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
+    return prepared;
+}
+
+/* Between a quarter and half of the height lies a quarter of the rows of every facet. */
+static void rows_of_straight_walls_lie_across_the_axis(void **state)
+{
+    (void)state;
+    static const lrcs_shape shape[] = {
+        {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.5, .length = 2},
+        {.kind = LRCS_SHAPE_CONE, .radius = 0.5, .length = 0.75},
+        {.kind = LRCS_SHAPE_FRUSTUM, .radius = 0.25, .radius2 = 0.5, .length = 1},
+        {.kind = LRCS_SHAPE_FRUSTUM, .radius = 0.75, .radius2 = 0.5, .length = 1}};
+    static const double up[3] = {0, 0, 1};
+    static const double down[3] = {0, 0, -1};
+    static const double origin[3] = {0, 0, 0};
+    for (int i = 0; i < 8; i++) {
+        const lrcs_prepared *p = prepare_shape(&shape[i / 2], i % 2 ? -1 : 1);
+        double length = ldexp(shape[i / 2].length, -p->exponent);
+        uint32_t walls = 0;
+        for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+            const double *const corner[3] = {lrcsi_prepared_corner(p, f, 0),
+                                             lrcsi_prepared_corner(p, f, 1),
+                                             lrcsi_prepared_corner(p, f, 2)};
+            lrcsi_slice slice = lrcsi_slice_start(corner[0], corner[1], corner[2]);
+            if (!lrcsi_proximity_has_rows(p, f)) { /* a facet of a cap */
+                check_same(lrcsi_proximity_rows(p, f, corner, &slice), 1);
+                check_same(corner[0][2], corner[1][2]);
+                continue;
+            }
+            lrcsi_slice_cut(&slice, up, origin, 0.5 * length);
+            lrcsi_slice_cut(&slice, down, origin, -0.25 * length);
+            check_abs(lrcsi_proximity_rows(p, f, corner, &slice), 0.25, 1e-9);
+            walls++;
+        }
+        assert_true(walls >= 8);
+    }
+}
+
+static void facets_of_round_shapes_have_no_rows(void **state)
+{
+    (void)state;
+    static const int kind[] = {LRCS_SHAPE_SPHERE, LRCS_SHAPE_DOME, LRCS_SHAPE_PARABOLOID,
+                               LRCS_SHAPE_DISC};
+    for (int i = 0; i < 4; i++) {
+        const lrcs_shape shape = {
+            .kind = kind[i], .radius = 0.5, .length = kind[i] == LRCS_SHAPE_PARABOLOID ? 1 : 0};
+        const lrcs_prepared *p = prepare_shape(&shape, 1);
+        for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+            assert_false(lrcsi_proximity_has_rows(p, f));
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_of_straight_walls_lie_across_the_axis),
+        cmocka_unit_test(facets_of_round_shapes_have_no_rows),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
