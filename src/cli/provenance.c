@@ -168,7 +168,7 @@ char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
     if (!out) {
         return NULL;
     }
-    fprintf(out, "lrcs %s %s %s; scene_hash=%016llx", lrcs_version(), args->command->name,
+    fprintf(out, "lrcs %s; scene=%s; scene_hash=%016llx", lrcs_version(),
             cli_base_name(args->operand), (unsigned long long)lrcs_scene_hash(&scene->scene));
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
         fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
