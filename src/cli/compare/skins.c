@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOVED                                                                                      \
-    0x1p-30 /* relative to the scene's size: more than rounding, less than any distance in it */
+/* Relative to the scene's size: more than rounding, less than any distance in it. */
+#define MOVED 0x1p-30
 
 /* Moves a facet's corners towards the laser; they become its own. */
 static void facet_move(const lrcs_scene *scene, uint32_t facet, const double direction[3],

@@ -14,9 +14,8 @@
 #define COARSE_SHARE 0.012 /* and the median share of the allowed difference: 0.02 is usual */
 #define BIAS_CASES   20u   /* a factor that all share: at least this many cases */
 #define BIAS_SHARE   0.75  /* of which this share lies nearer to the factor than to the truth, */
-#define BIAS_SPREADS                                                                               \
-    4.0                 /* which is more than half by so many standard deviations of a fair coin, */
-#define BIAS_LEAST 1e-4 /* and the factor differs from 1 by this much */
+#define BIAS_SPREADS 4.0   /* more than half by so many deviations of a fair coin, */
+#define BIAS_LEAST   1e-4  /* and the factor differs from 1 by this much */
 
 /* ---- classes ---- */
 
@@ -57,8 +56,8 @@ static double raster_share(const compare_search *search, double pixels)
     return 2 * count > job->given ? cli_search_median(search->room, count) : 0.0;
 }
 
-/* Makes a finding if all failing cases would pass with fewer pixels and the other cases look
-   alike. */
+/* Makes a finding if all failing cases would pass with fewer pixels and the other cases are
+   consistent with that. */
 static void coarse_say(compare_search *search)
 {
     const compare_job *job = search->job;
