@@ -88,7 +88,7 @@ int flight_main(void)
 /* expected output, the bits of areas left out:
 cycle 1 status 0 stale 0 flags 0 steps 44702 sigma mm2 30579438 bound mm2 14825
 cycle 2 status 0 stale 0 flags 0 steps 40547 sigma mm2 1697641 bound mm2 2238
-cycle 3 status 0 stale 0 flags 0 steps 37220 sigma mm2 7070389 bound mm2 1180
+cycle 3 status 0 stale 0 flags 0 steps 37220 sigma mm2 7070389 bound mm2 1173
 cycle 4 status 0 stale 0 flags 0 steps 41034 sigma mm2 1076714 bound mm2 424
 cycle 5 status -1 stale 1 flags 0 steps 41034 sigma mm2 1076714 bound mm2 424
 cycle 6 status -6 stale 2 flags 0 steps 41034 sigma mm2 1076714 bound mm2 424

@@ -317,9 +317,11 @@ void lrcs_host_json_count(lrcs_host_json *json, const char *key, uint64_t value)
 void lrcs_host_json_bool(lrcs_host_json *json, const char *key, int value);
 
 /* Writes a PNG, 8 bits per channel; channels: 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha.
+   about: what the picture was made from, a tEXt chunk named Comment (other characters than ASCII
+   become '?'), or NULL.
    Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_LIMIT (2 GiB); LRCS_E_SYSTEM (memory). */
 int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, uint32_t height,
-                        uint32_t channels, lrcs_host_error *error);
+                        uint32_t channels, const char *about, lrcs_host_error *error);
 
 /* Writes text into an HTML page, between tags or in quotes; bytes that are not UTF-8 and characters
    that HTML does not allow become U+FFFD. lrcs_host_html_base64 writes bytes as base64 (RFC 4648),
@@ -369,6 +371,9 @@ typedef struct lrcs_host_series {
                                  label for that point */
     int colour, marker, dash; /* lrcs_host_colour, ... */
     int hollow;               /* markers are outlines */
+    const double *low, *high; /* the ends of a band at each point, shaded below all lines; an end
+                                 that the axis cannot show lies at its edge; not in polar charts.
+                                 NULL: none */
 } lrcs_host_series;
 
 typedef struct lrcs_host_chart {
@@ -385,6 +390,7 @@ typedef struct lrcs_host_chart {
     const char *floor_name; /* in the legend */
     const lrcs_host_series *series;
     uint32_t series_count;
+    const char *about; /* what it was made from, as in lrcs_host_png_write; SVG: metadata */
 } lrcs_host_chart;
 
 /* The same chart as SVG 1.1, and as PNG with twice the pixels. Status: LRCS_OK; LRCS_E_SYSTEM. */
@@ -398,11 +404,12 @@ typedef struct lrcs_host_map {
     uint32_t columns, rows;               /* at least 2 of each */
     const double *x, *y;                  /* ascending: columns of x, rows of y */
     const double *z;                      /* z[row * columns + column]; not finite: grey */
-    double deep;      /* the colour scale covers at most this range below the largest; 0: all */
-    int x_deg, y_deg; /* these are angles, deg */
-    int mollweide;    /* drawn in Mollweide's equal-area projection, 0 deg in the middle: x is the
-                         azimuth or longitude, deg, over at most 360; y is -90 .. 90 */
-    int cells;        /* without contours */
+    double deep;       /* the colour scale covers at most this range below the largest; 0: all */
+    int x_deg, y_deg;  /* these are angles, deg */
+    int mollweide;     /* drawn in Mollweide's equal-area projection, 0 deg in the middle: x is the
+                          azimuth or longitude, deg, over at most 360; y is -90 .. 90 */
+    int cells;         /* without contours */
+    const char *about; /* as of a chart */
 } lrcs_host_map;
 
 /* As for charts. If there are more points than can be resolved, several are averaged.

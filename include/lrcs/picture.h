@@ -31,6 +31,7 @@ typedef struct lrcs_host_picture {
     int white;                        /* 1: white background; 0: dark background */
     int annotated; /* 1: PNG pictures have the title and the laser's azimuth and elevation above,
                       and the body's axes in a corner */
+    const char *about; /* what it was made from: in a PNG a comment, in an SVG metadata; or NULL */
 } lrcs_host_picture;
 
 /* Writes a picture of `size` x `size` pixels (16 .. 16384) as PNG, with a legend and a scale bar in

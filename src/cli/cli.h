@@ -199,6 +199,9 @@ int cli_materials_open(const lrcs_scene *scene);         /* 1 if some are illust
 void cli_version_json(lrcs_host_json *json);             /* schema and version */
 void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* hash of the scene */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
+/* The same in one line for pictures: version, scene hash, files, materials, options. NULL without
+   memory; the caller frees it. */
+char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
 
 /* The name of a scene's material as it is printed: "(default)" if it has none. */

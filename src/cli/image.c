@@ -188,8 +188,12 @@ static int image_run(image_job *job)
 static int png_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const image_job *job = context;
-    const lrcs_host_picture picture = picture_of(job);
-    return lrcs_host_picture_png(out, &picture, &job->image, job->size, error);
+    lrcs_host_picture picture = picture_of(job);
+    char *about = cli_provenance_text(job->args, &job->scene);
+    picture.about = about;
+    int status = lrcs_host_picture_png(out, &picture, &job->image, job->size, error);
+    free(about);
+    return status;
 }
 
 /* SVG is meant for print, so its background is white unless an option says otherwise. */
@@ -199,7 +203,10 @@ static int svg_write(FILE *out, const void *context, lrcs_host_error *error)
     lrcs_host_picture picture = picture_of(job);
     (void)error;
     picture.white = job->white || !job->ground_asked;
+    char *about = cli_provenance_text(job->args, &job->scene);
+    picture.about = about;
     lrcs_host_picture_svg(out, &picture, &job->polygons.list);
+    free(about);
     return LRCS_OK;
 }
 

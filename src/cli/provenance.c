@@ -3,6 +3,7 @@
    the unit, the assigned materials and the origin of their numbers, the options given. */
 #include "cli/cli.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene)
@@ -146,4 +147,52 @@ void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrc
         lrcs_host_json_text(json, NULL, word);
     }
     lrcs_host_json_end(json);
+}
+
+/* Does an option name a file to write? What a result is does not depend on where it goes. */
+static int names_output(const cli_command *command, const char *name)
+{
+    for (const cli_option *option = command->option; option->name; option++) {
+        if (strcmp(option->name, name) == 0) {
+            return option->has_value == CLI_FILE;
+        }
+    }
+    return 0;
+}
+
+char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) {
+        return NULL;
+    }
+    fprintf(out, "lrcs %s; scene=%s; scene_hash=%016llx", lrcs_version(),
+            cli_base_name(args->operand), (unsigned long long)lrcs_scene_hash(&scene->scene));
+    for (const lrcs_host_input *input = scene->input; input; input = input->next) {
+        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
+                (unsigned long long)input->hash);
+    }
+    const char *before = "; options: ";
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (names_output(args->command, given->name)) {
+            continue;
+        }
+        fprintf(out, "%s%s%s%s%s", before, cli_dashes(given->name), given->name,
+                given->value ? "=" : "", given->value ? given->value : "");
+        before = " ";
+    }
+    for (uint32_t i = 0; i < scene->scene.material_count; i++) {
+        const lrcs_material *material = &scene->scene.material[i];
+        const lrcs_brdf *brdf = &material->brdf;
+        fprintf(out, "; material %s=%.6g,%.6g,%.6g,%.6g %s", cli_material_name(material), brdf->A,
+                brdf->B, brdf->s, brdf->m, cli_material_source(material));
+    }
+    if (fclose(out) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
 }

@@ -280,9 +280,10 @@ void lrcsi_canvas_free(lrcsi_canvas *canvas)
     canvas->cover = NULL;
 }
 
-int lrcsi_canvas_end(lrcsi_canvas *canvas, FILE *out, lrcs_host_error *error)
+int lrcsi_canvas_end(lrcsi_canvas *canvas, FILE *out, const char *about, lrcs_host_error *error)
 {
-    int status = lrcs_host_png_write(out, canvas->rgb, canvas->width, canvas->height, 3, error);
+    int status =
+        lrcs_host_png_write(out, canvas->rgb, canvas->width, canvas->height, 3, about, error);
     lrcsi_canvas_free(canvas);
     return status;
 }

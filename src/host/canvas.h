@@ -20,6 +20,6 @@ int lrcsi_canvas_make(double width, double height, double scale, lrcsi_canvas *c
 void lrcsi_canvas_free(lrcsi_canvas *canvas);
 
 /* Writes what was drawn as PNG and frees it. Status: as lrcs_host_png_write. */
-int lrcsi_canvas_end(lrcsi_canvas *canvas, FILE *out, lrcs_host_error *error);
+int lrcsi_canvas_end(lrcsi_canvas *canvas, FILE *out, const char *about, lrcs_host_error *error);
 
 #endif

@@ -13,6 +13,9 @@
 
 #define GRID_MOST 60u /* ticks */
 
+/* The share of its colour in the tint of a band. */
+#define BAND_COLOUR 0.25
+
 typedef struct chart_plan {
     const lrcs_host_chart *chart;
     lrcsi_plotter *plotter;
@@ -70,6 +73,10 @@ static void chart_range(const lrcs_host_chart *chart, int vertical, double range
             if (chart_shows(log, floor, &value)) {
                 range[0] = fmin(range[0], value);
                 range[1] = fmax(range[1], value);
+            }
+            double high = vertical && series->high ? series->high[k] : HUGE_VAL;
+            if (chart_shows(log, floor, &high)) { /* low ends may lie far below */
+                range[1] = fmax(range[1], high);
             }
         }
     }
@@ -253,10 +260,39 @@ static void chart_ground(const chart_plan *plan)
     }
 }
 
-/* All lines first: none crosses out a marker. */
+/* Where an end of a band stands, within the frame. */
+static double band_y(const chart_plan *plan, double value)
+{
+    int shown = chart_shows(plan->chart->y_log, plan->chart->floor, &value);
+    double y = shown ? chart_y(plan, value) : value > 0.0 ? LRCSI_CHART_TOP : LRCSI_CHART_BOTTOM;
+    return fmin(LRCSI_CHART_BOTTOM, fmax(LRCSI_CHART_TOP, y));
+}
+
+/* A series' band, from point to point, in a light tint of its colour. */
+static void series_band(const chart_plan *plan, const lrcs_host_series *series)
+{
+    uint32_t tint = lrcsi_palette_tint(lrcsi_palette_named(series->colour), BAND_COLOUR);
+    for (uint32_t i = 1; series->low && series->high && i < series->count; i++) {
+        double x[2] = {series->x[i - 1], series->x[i]};
+        if (!chart_shows(plan->chart->x_log, 0.0, &x[0]) ||
+            !chart_shows(plan->chart->x_log, 0.0, &x[1])) {
+            continue;
+        }
+        const lrcsi_spot corner[4] = {{chart_x(plan, x[0]), band_y(plan, series->low[i - 1])},
+                                      {chart_x(plan, x[0]), band_y(plan, series->high[i - 1])},
+                                      {chart_x(plan, x[1]), band_y(plan, series->high[i])},
+                                      {chart_x(plan, x[1]), band_y(plan, series->low[i])}};
+        plan->plotter->area(plan->plotter, corner, 4, tint);
+    }
+}
+
+/* All bands first, then all lines: none crosses out a marker. */
 static void chart_data(const chart_plan *plan)
 {
     const lrcs_host_chart *chart = plan->chart;
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        series_band(plan, &chart->series[i]);
+    }
     for (uint32_t i = 0; i < chart->series_count; i++) {
         series_line(plan, &chart->series[i]);
     }
@@ -317,7 +353,8 @@ static void drawing_of(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
 
 void lrcs_host_chart_svg(FILE *out, const lrcs_host_chart *chart)
 {
-    lrcsi_svg svg = lrcsi_svg_begin(out, LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, chart->title);
+    lrcsi_svg svg =
+        lrcsi_svg_begin(out, LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, chart->title, chart->about);
     drawing_of(chart, &svg.plotter);
     lrcsi_svg_end(&svg);
 }
@@ -329,7 +366,7 @@ int lrcs_host_chart_png(FILE *out, const lrcs_host_chart *chart, lrcs_host_error
                                    &canvas, error);
     if (status == LRCS_OK) {
         drawing_of(chart, &canvas.plotter);
-        status = lrcsi_canvas_end(&canvas, out, error);
+        status = lrcsi_canvas_end(&canvas, out, chart->about, error);
     }
     return status;
 }

@@ -142,7 +142,8 @@ void lrcs_host_picture_svg(FILE *out, const lrcs_host_picture *picture,
 {
     lrcsi_colouring colouring = lrcsi_colouring_make(picture);
     drawing_plan plan = drawing_place(&colouring, polygons);
-    lrcsi_svg svg = lrcsi_svg_begin(out, DRAWING_WIDTH, plan.height, picture->title);
+    lrcsi_svg svg =
+        lrcsi_svg_begin(out, DRAWING_WIDTH, plan.height, picture->title, picture->about);
     if (!picture->white) {
         const lrcsi_spot corner[4] = {
             {0.0, 0.0}, {DRAWING_WIDTH, 0.0}, {DRAWING_WIDTH, plan.height}, {0.0, plan.height}};

@@ -438,7 +438,8 @@ static void map_draw(const lrcs_host_map *map, lrcsi_plotter *plotter)
 
 void lrcs_host_map_svg(FILE *out, const lrcs_host_map *map)
 {
-    lrcsi_svg svg = lrcsi_svg_begin(out, LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, map->title);
+    lrcsi_svg svg =
+        lrcsi_svg_begin(out, LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, map->title, map->about);
     map_draw(map, &svg.plotter);
     lrcsi_svg_end(&svg);
 }
@@ -450,7 +451,7 @@ int lrcs_host_map_png(FILE *out, const lrcs_host_map *map, lrcs_host_error *erro
                                    &canvas, error);
     if (status == LRCS_OK) {
         map_draw(map, &canvas.plotter);
-        status = lrcsi_canvas_end(&canvas, out, error);
+        status = lrcsi_canvas_end(&canvas, out, map->about, error);
     }
     return status;
 }

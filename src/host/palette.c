@@ -130,3 +130,13 @@ uint32_t lrcsi_palette_shade(uint32_t colour, double light)
     }
     return palette_join(rgb);
 }
+
+uint32_t lrcsi_palette_tint(uint32_t colour, double share)
+{
+    uint32_t tint = 0;
+    for (int shift = 16; shift >= 0; shift -= 8) {
+        double part = 255.0 - share * (255.0 - (double)(colour >> shift & 0xffu));
+        tint |= (uint32_t)(part + 0.5) << shift;
+    }
+    return tint;
+}

@@ -22,4 +22,7 @@ void lrcsi_palette_apart(uint32_t count, uint32_t *colour);
 /* The same colour in less light, 0 .. 1. */
 uint32_t lrcsi_palette_shade(uint32_t colour, double light);
 
+/* The same colour on white paper, `share` of it. */
+uint32_t lrcsi_palette_tint(uint32_t colour, double share);
+
 #endif

@@ -120,7 +120,7 @@ int lrcs_host_picture_png(FILE *out, const lrcs_host_picture *picture, const lrc
     if (status == LRCS_OK) {
         lrcsi_colouring colouring = lrcsi_colouring_make(picture);
         picture_draw(&colouring, image, &at, &canvas);
-        status = lrcsi_canvas_end(&canvas, out, error);
+        status = lrcsi_canvas_end(&canvas, out, picture->about, error);
     }
     return status;
 }

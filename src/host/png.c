@@ -173,8 +173,22 @@ static void rows_copy(unsigned char *raw, const unsigned char *pixels, size_t he
     }
 }
 
+/* A tEXt chunk: a keyword, a zero, and text in Latin-1. Longer text is cut. */
+static void comment_write(FILE *out, const char *about)
+{
+    static const char keyword[] = "Comment";
+    unsigned char bytes[4096];
+    size_t used = sizeof keyword;
+    memcpy(bytes, keyword, sizeof keyword);
+    for (; *about && used < sizeof bytes; about++) {
+        int plain = *about >= 0x20 && *about < 0x7f;
+        bytes[used++] = plain ? (unsigned char)*about : '?';
+    }
+    chunk_write(out, "tEXt", bytes, used);
+}
+
 int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, uint32_t height,
-                        uint32_t channels, lrcs_host_error *error)
+                        uint32_t channels, const char *about, lrcs_host_error *error)
 {
     static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     static const unsigned char colour[5] = {0, 0, 4, 2, 6};
@@ -205,6 +219,9 @@ int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, 
     head[9] = colour[channels];
     fwrite(signature, 1, sizeof signature, out);
     chunk_write(out, "IHDR", head, sizeof head);
+    if (about) {
+        comment_write(out, about);
+    }
     chunk_write(out, "IDAT", bits.bytes, bits.used + 4);
     chunk_write(out, "IEND", head, 0);
     free(raw);

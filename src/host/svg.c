@@ -105,7 +105,8 @@ static void svg_text(lrcsi_plotter *plotter, const lrcsi_words *words)
     fputs("</text>\n", out);
 }
 
-lrcsi_svg lrcsi_svg_begin(FILE *out, double width, double height, const char *title)
+lrcsi_svg lrcsi_svg_begin(FILE *out, double width, double height, const char *title,
+                          const char *about)
 {
     lrcsi_svg svg = {{svg_line, svg_area, svg_text}, out};
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -122,7 +123,13 @@ lrcsi_svg lrcsi_svg_begin(FILE *out, double width, double height, const char *ti
           " stroke-linejoin=\"round\">\n<title>",
           out);
     svg_escape(out, title);
-    fputs("</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n", out);
+    fputs("</title>\n", out);
+    if (about) {
+        fputs("<metadata>", out);
+        svg_escape(out, about);
+        fputs("</metadata>\n", out);
+    }
+    fputs("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n", out);
     return svg;
 }
 

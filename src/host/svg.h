@@ -11,7 +11,8 @@ typedef struct lrcsi_svg {
 } lrcsi_svg;
 
 /* Begins a drawing of a size on white paper, and ends it. */
-lrcsi_svg lrcsi_svg_begin(FILE *out, double width, double height, const char *title);
+lrcsi_svg lrcsi_svg_begin(FILE *out, double width, double height, const char *title,
+                          const char *about);
 void lrcsi_svg_end(lrcsi_svg *svg);
 
 #endif

@@ -172,10 +172,14 @@ static sector_way sector_choose(const lrcsi_view *view, uint32_t facet, const lr
                        share_lost(view, first + 1, visible, margin));
     double a = patch_area_error(view->prepared, facet, c);
     double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, margin);
+    double share = fmax(margin->share[first], margin->share[first + 1]);
     double by_lost = deviation.whole + (1 + a) * lost * deviation.most;
-    double by_rows = deviation.whole + rows * (deviation.part + a * deviation.here);
+    double by_rows = deviation.whole + rows * (deviation.part + a * deviation.here) +
+                     (1 + a) * share * deviation.here;
+    double by_parts =
+        fmin(deviation.part + (a + (1 + a) * share) * deviation.here, (1 + a) * deviation.most);
     sector_way way = {2, 2};
-    if (by_rows < fmin(by_lost, deviation.part)) {
+    if (by_rows < fmin(by_lost, by_parts)) {
         way.rows = rows;
     } else if (by_lost < deviation.part) {
         way.lost = share_lost(view, facet, visible, margin);

@@ -356,9 +356,8 @@ typedef struct total_batch {
     uint32_t place[2 * LRCSI_LANES];
     double side[2 * LRCSI_LANES]; /* 1; where back sides reflect, -1 for those */
     lrcsi_shades shades;
-    double area[LRCSI_LANES]; /* visible; of one that is visible whole S, then S cos(theta) */
-    double most[LRCSI_LANES]; /* that may be visible; of one that is visible whole 0 at first */
-    int whole[LRCSI_LANES];   /* all of it is visible, or by method facet counts as that */
+    double area[LRCSI_LANES]; /* S, then S cos(theta), then of that the visible part */
+    double most[LRCSI_LANES]; /* that may be visible; by method facet all of `area`, and unused */
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
 } total_batch;
@@ -386,23 +385,25 @@ static void block_gather(const total_job *job, total_batch *batch, uint32_t coun
         shades->normal[1][i] *= batch->side[i];
         shades->normal[2][i] *= batch->side[i];
     }
-    for (uint32_t i = 0; i < LRCSI_LANES; i++) {
-        batch->most[i] = 0;
-        batch->whole[i] = 1;
-    }
-    for (uint32_t i = 0; job->visible && i < count; i++) {
-        uint32_t facet = b->facet[batch->place[i]];
-        if (!facet_answered(job, facet)) {
-            batch->area[i] = job->visible[facet].area;
-            batch->most[i] = job->visible[facet].high;
-            batch->whole[i] = 0;
-        }
-    }
     for (uint32_t i = count; i < LRCSI_LANES; i++) {
         for (int k = 0; k < 3; k++) {
             shades->normal[k][i] = view->unit[k];
         }
         batch->area[i] = 0;
+    }
+}
+
+/* The areas of facets that are not known to be visible whole, where areas were found. */
+static void block_parts(const total_job *job, total_batch *batch, uint32_t count)
+{
+    memcpy(batch->most, batch->area, sizeof batch->most);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t facet = job->view->prepared->batches.facet[batch->place[i]];
+        if (!facet_answered(job, facet)) {
+            const lrcsi_visible *visible = &job->visible[facet];
+            batch->area[i] = visible->area;
+            batch->most[i] = lrcsi_most(visible->high, visible->area);
+        }
     }
 }
 
@@ -428,15 +429,16 @@ static void block_doubts(total_job *job, const total_batch *batch, uint32_t coun
 }
 
 /* Eq. 2 for one block, the first LRCSI_LANES facets that wait:
-   1. normals and visible areas;
+   1. normals and areas S;
    2. 4 pi f_r cos(theta), with errors;
-   3. of those that are visible whole all of S cos(theta) is;
+   3. projected areas S cos(theta); of facets not visible whole, the visible part;
    4. each product with the area joins the sums;
    5. records, and what is doubtful about visible areas. */
 static void block_run(total_job *job, total_batch *batch)
 {
     const lrcsi_view *view = job->view;
     lrcsi_shades *shades = &batch->shades;
+    const double *most = job->visible ? batch->most : batch->area;
     uint32_t count = batch->waiting < LRCSI_LANES ? batch->waiting : LRCSI_LANES;
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
@@ -444,13 +446,15 @@ static void block_run(total_job *job, total_batch *batch)
     block_gather(job, batch, count);
     lrcsi_shade(&batch->lobes, view->unit, view->unit_low, shades);
     for (int i = 0; i < LRCSI_LANES; i++) {
-        batch->area[i] *= batch->whole[i] ? shades->cosine[i] : 1;
-        batch->most[i] = lrcsi_most(batch->most[i], batch->area[i]);
+        batch->area[i] *= shades->cosine[i];
+    }
+    if (job->visible) {
+        block_parts(job, batch, count);
     }
     for (int i = 0; i < LRCSI_LANES; i++) {
         glint[i] = shades->glint[i] * batch->area[i];
         diffuse[i] = shades->diffuse[i] * batch->area[i];
-        error[i] = shades->error[i] * batch->most[i];
+        error[i] = shades->error[i] * most[i];
     }
     lrcsi_sum_lanes_add(&batch->glint, glint);
     lrcsi_sum_lanes_add(&batch->diffuse, diffuse);

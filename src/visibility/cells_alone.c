@@ -147,19 +147,17 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
 }
 
 /* Does one side of f have all of another facet beyond it? */
-static int facet_apart(const lrcsi_alone *a, uint32_t other)
+static int facet_apart(const lrcsi_alone *a, const lrcsi_view_side own[3], uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
-    const uint32_t *own = view->prepared->scene->facet[a->facet].corner;
     const uint32_t *its = view->prepared->scene->facet[other].corner;
     int apart = 0;
     for (int k = 0; k < 3 && !apart; k++) {
-        const lrcsi_view_side side = lrcsi_view_side_of(view, own[k], own[k == 2 ? 0 : k + 1]);
         apart = 1;
         for (int i = 0; i < 3 && apart; i++) {
             const double *x = view->point[its[i]].x;
             apart =
-                view->facing[a->facet] * lrcsi_view_side_turn(&side, x, lrcsi_view_off(x)) == -1;
+                view->facing[a->facet] * lrcsi_view_side_turn(&own[k], x, lrcsi_view_off(x)) == -1;
         }
     }
     return apart;
@@ -172,6 +170,11 @@ static int alone_facets(lrcsi_alone *a)
     lrcsi_cells_work *c = &a->cells;
     lrcsi_view_box box = grid->box[a->facet];
     lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+    const uint32_t *corner = c->view->prepared->scene->facet[a->facet].corner;
+    lrcsi_view_side side[3];
+    for (int k = 0; k < 3; k++) {
+        side[k] = lrcsi_view_side_of(c->view, corner[k], corner[k == 2 ? 0 : k + 1]);
+    }
     a->count = 0;
     a->met[a->facet] = c->look;
     a->order[a->facet] = ORDER_APART;
@@ -190,7 +193,7 @@ static int alone_facets(lrcsi_alone *a)
             }
             a->met[other] = c->look;
             a->order[other] = ORDER_APART;
-            if (!facet_apart(a, other)) {
+            if (!facet_apart(a, side, other)) {
                 a->order[other] = ORDER_NEW;
                 if (a->count < a->side_room) {
                     a->side[a->count][0].clear = -1; /* not made yet */

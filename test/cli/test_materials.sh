@@ -61,6 +61,21 @@ u = json.loads("""$out""")["material_uncertainty"]
 a, b = 0.1 * 0.58741471268846423, 0.01 * 10.756584794533006
 check("errors_from_the_command_line", abs(u["deviation_m2"] / math.hypot(a, b) - 1) < 1e-12, u)
 END
+# Names that one pattern binds are off together, names that are bound one by one are not.
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\nv 3 1 0\nv 2 1 0\n' >two.obj
+printf 'usemtl foil1\nf 1 2 3 4\nusemtl foil2\nf 5 6 7 8\n' >>two.obj
+run run two.obj --json --material 'foil*=0,0.25+-0.02,0,0'
+together=$out
+run run two.obj --json --material 'foil1=0,0.25+-0.02,0,0' --material 'foil2=0,0.25+-0.02,0,0'
+python3 - <<END
+from tap import check
+import json, math
+a = json.loads("""$together""")["material_uncertainty"]["deviation_m2"]
+b = json.loads("""$out""")["material_uncertainty"]["deviation_m2"]
+one = 4 * math.pi * 0.02
+check("a_pattern_binds_one_material", abs(a / (2 * one) - 1) < 1e-12, a)
+check("two_bindings_bind_two", abs(b / (math.sqrt(2) * one) - 1) < 1e-12, b)
+END
 run run linear.toml --azel 0,70 --json --material 'foil=1,0.25,0.2,0.5'
 same a_binding_replaces_errors_too "$(value material_uncertainty)" null
 
@@ -156,6 +171,37 @@ run sweep linear.toml --az 0 --el 60:80:2 -o bad.csv --resume
 same by_first_order_the_interval_is_about_sigma "$rc $(printf '%s\n' "$err" | grep -c 'material_high_m2: found')" "1 1"
 run sweep linear.toml --vary foil.s:0.1:0.3:0.1 --azel 0,70
 same errors_stay_where_a_parameter_varies "$(printf '%s\n' "$out" | awk -F, '/^[0-9]/ && $8 > 0' | wc -l | tr -d ' ')" 3
+
+# ---- plots ----
+"$tool" sweep linear.toml --az 0 --el 60:80:2 -o plotted.csv --plot plotted.svg --plot plotted.png 2>/dev/null
+"$tool" sweep exact.toml --az 0 --el 60:80:2 -o bare.csv --plot bare.svg 2>/dev/null
+same a_band_has_an_area_between_points "$(($(grep -c '<polygon' plotted.svg) - $(grep -c '<polygon' bare.svg)))" 10
+same and_the_note_says_what_it_is "$(grep -c 'shaded: 68 % by the errors of materials' plotted.svg bare.svg | tr '\n' ' ')" "plotted.svg:1 bare.svg:0 "
+"$tool" plot plotted.csv -o drawn.svg 2>/dev/null
+same drawn_again_it_is_the_same "$(cmp plotted.svg drawn.svg && echo same)" same
+
+# ---- what pictures were made from ----
+hash=$("$tool" run linear.toml --json | sed -n 's/.*"hash": "\(fnv1a:[0-9a-f]*\)".*/\1/p')
+same an_svg_names_its_files "$(grep -c "<metadata>lrcs .*files=linear.toml $hash" plotted.svg)" 1
+python3 - "$hash" <<END
+from tap import check
+import struct, sys, zlib
+def comment(path):
+    data = open(path, "rb").read()
+    at = 8
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0]
+        if kind == b"tEXt":
+            return body
+        at += 12 + size
+    return b""
+body = comment("plotted.png")
+check("so_does_a_png", body.startswith(b"Comment\0lrcs ") and sys.argv[1].encode() in body, body)
+END
+"$tool" image linear.toml --material 'foil=1,0.1,0.2,0.3' -o shown.png >/dev/null 2>&1
+same a_picture_names_its_materials "$(LC_ALL=C tr -d '\0' <shown.png | LC_ALL=C grep -a -c 'Commentlrcs .*; scene=linear.toml; scene_hash=.*; options: --material=foil=1,0.1,0.2,0.3; material foil=1,0.1,0.2,0.3 given')" 1
 
 run run negative.toml
 same a_negative_error_is_refused "$rc $(printf '%s\n' "$err" | grep -c 'A_error.*0 or more')" "1 1"

@@ -103,7 +103,8 @@ static size_t round_trip(const unsigned char *pixels, unsigned width, unsigned h
 {
     FILE *file = tmpfile();
     assert_non_null(file);
-    assert_int_equal(lrcs_host_png_write(file, pixels, width, height, channels, NULL), LRCS_OK);
+    assert_int_equal(lrcs_host_png_write(file, pixels, width, height, channels, NULL, NULL),
+                     LRCS_OK);
     size_t size = (size_t)ftell(file);
     unsigned char *bytes = malloc(size);
     rewind(file);
@@ -191,9 +192,9 @@ static void a_picture_of_no_size_is_refused(void **state)
     (void)state;
     unsigned char pixel[4] = {0};
     lrcs_host_error error;
-    assert_int_equal(lrcs_host_png_write(stdout, pixel, 0, 1, 3, &error), LRCS_E_ARGUMENT);
-    assert_int_equal(lrcs_host_png_write(stdout, pixel, 1, 1, 5, &error), LRCS_E_ARGUMENT);
-    assert_int_equal(lrcs_host_png_write(stdout, pixel, UINT32_MAX, UINT32_MAX, 4, &error),
+    assert_int_equal(lrcs_host_png_write(stdout, pixel, 0, 1, 3, NULL, &error), LRCS_E_ARGUMENT);
+    assert_int_equal(lrcs_host_png_write(stdout, pixel, 1, 1, 5, NULL, &error), LRCS_E_ARGUMENT);
+    assert_int_equal(lrcs_host_png_write(stdout, pixel, UINT32_MAX, UINT32_MAX, 4, NULL, &error),
                      LRCS_E_LIMIT);
 }
 

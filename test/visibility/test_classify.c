@@ -426,6 +426,32 @@ static void stacked_facets_are_told_in_linear_time(void **state)
     assert_true(meter.taken <= 600 * 1000);
 }
 
+/* The walls of a cone are needles about its tip; the grid lists thousands of edges of its rim where
+   their boxes stand. Nothing hides any, from anywhere: each is told for itself. */
+static void needles_about_a_tip_are_decided(void **state)
+{
+    (void)state;
+    static const double directions[3][3] = {{0.3, 0.2, 0.9}, {0.9, 0.1, 0.2}, {-0.2, 0.7, -0.6}};
+    const uint32_t n = 4000;
+    scene_start(&scene);
+    uint32_t tip = scene_vertex(&scene, 0, 0, 1.5);
+    uint32_t middle = scene_vertex(&scene, 0, 0, 0);
+    for (uint32_t i = 0; i < n; i++) {
+        double t = 2 * 3.14159265358979323846 * i / n;
+        scene_vertex(&scene, 0.5 * cos(t), 0.5 * sin(t), 0);
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t from = middle + 1 + i;
+        uint32_t to = middle + 1 + (i + 1) % n;
+        scene_facet(&scene, tip, from, to);
+        scene_facet(&scene, middle, to, from);
+    }
+    for (int i = 0; i < 3; i++) {
+        look_from(directions[i][0], directions[i][1], directions[i][2]);
+        assert_int_equal(classification.undecided_count, 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -443,6 +469,7 @@ int main(void)
         cmocka_unit_test(whole_components_screen_and_others_do_not),
         cmocka_unit_test(events_stand_in_order_of_depth),
         cmocka_unit_test(stacked_facets_are_told_in_linear_time),
+        cmocka_unit_test(needles_about_a_tip_are_decided),
         cmocka_unit_test(grids_list_every_item_wherever_it_stands),
         cmocka_unit_test(grids_serve_those_that_ask),
     };

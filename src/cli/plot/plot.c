@@ -151,6 +151,8 @@ static int job_read(plot_job *job)
         plot->accept = cli_head_text(&data->head, "accept");
         plot->open = cli_head_text(&data->head, "materials") != NULL;
         plot->row = data->row;
+        plot->band = data->band;
+        plot->head = &data->head;
     }
     return code;
 }

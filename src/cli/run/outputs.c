@@ -2,6 +2,8 @@
 /* The files that lrcs run writes: their options, what they may not replace, and the writing. */
 #include "cli/run/run.h"
 
+#include <stdlib.h>
+
 #include <string.h>
 
 #define FILES 3
@@ -114,7 +116,11 @@ static int image_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const run_job *job = context;
     lrcs_host_picture picture = cli_run_picture(job);
-    return lrcs_host_picture_png(out, &picture, &job->image, job->image_size, error);
+    char *about = cli_provenance_text(job->args, &job->scene);
+    picture.about = about;
+    int status = lrcs_host_picture_png(out, &picture, &job->image, job->image_size, error);
+    free(about);
+    return status;
 }
 
 int cli_run_outputs_write(const run_job *job)

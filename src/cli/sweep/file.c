@@ -87,6 +87,10 @@ void cli_file_take(sweep_file *file, const sweep_row *row)
         file->row[row->index][0] = row->sigma_m2;
         file->row[row->index][1] = row->bound_m2;
     }
+    if (file->band) {
+        file->band[row->index][0] = row->extra[1];
+        file->band[row->index][1] = row->extra[2];
+    }
     file->next++;
 }
 

@@ -277,6 +277,7 @@ static void plot_note(const sweep_plot *plots, uint32_t count, char note[512])
     double worst = 0.0;
     int dark = 0;
     int open = 0;
+    int banded = 0;
     int used = 0;
     note[0] = '\0';
     for (uint32_t i = 0; i < plan->axes && used < 300 && count == 1; i++) {
@@ -293,12 +294,14 @@ static void plot_note(const sweep_plot *plots, uint32_t count, char note[512])
             dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
         }
         open |= plot->open;
+        banded |= plot->band && !plot->map && !plot->polar;
         accept = plot->accept && strcmp(plot->accept, "bound") != 0 ? plot->accept : accept;
     }
     cli_bound_text(worst, 2, bound);
     snprintf(note + used, 512 - (size_t)used,
-             "each sigma is proved to within %s m2 or better%s%s%s%s%s", bound,
+             "each sigma is proved to within %s m2 or better%s%s%s%s%s%s", bound,
              open ? " for its materials, which are illustrative" : "",
+             banded ? "; shaded: 68 % by the errors of materials" : "",
              accept ? "; accepted by " : "", accept ? accept : "",
              !dark        ? ""
              : plots->map ? "; grey: sigma is 0"
@@ -345,9 +348,8 @@ static uint64_t plot_row(const sweep_plot *plot, uint64_t x, uint64_t y)
     return plot->swapped || plot->y.count == 1 ? y * plot->x.count + x : x * plot->y.count + y;
 }
 
-static double plot_sigma(const sweep_plot *plot, uint64_t x, uint64_t y)
+static double plot_shown(const sweep_plot *plot, double sigma)
 {
-    double sigma = plot->row[plot_row(plot, x, y)][0];
     return plot->dbsm ? cli_dbsm(sigma) : sigma; /* dBsm of 0 is not finite and not drawn */
 }
 
@@ -381,14 +383,15 @@ static void time_title(const sweep_plot *plot, const plot_axis *axis, char text[
 
 /* The values of one sweep. */
 typedef struct plot_values {
-    double *x, *y, *z; /* values along both axes, and sigma: z[y][x]; x is allocated */
+    double *x, *y, *z;  /* values along both axes, and sigma: z[y][x]; x is allocated */
+    double *low, *high; /* the ends of bands, as z; NULL: none */
 } plot_values;
 
 typedef struct plot_sheet {
     const sweep_plot *plot;
     uint32_t count; /* number of sweeps */
     plot_values values[PLOT_CURVES];
-    char title[256], note[512], x_name[192], y_name[192];
+    char title[256], note[512], x_name[192], y_name[192], about[4000];
     int png;
 } plot_sheet;
 
@@ -423,6 +426,8 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *err
                 .count = (uint32_t)one->x.count,
                 .x = values->x,
                 .y = values->z + i * one->x.count,
+                .low = values->low ? values->low + i * one->x.count : NULL,
+                .high = values->high ? values->high + i * one->x.count : NULL,
                 .colour = colour[curves],
                 .marker = marked ? (int)(curves % LRCS_HOST_NO_MARKER) : LRCS_HOST_NO_MARKER,
                 .dash = (int)(curves % 2 ? LRCS_HOST_DASHED : LRCS_HOST_SOLID)};
@@ -435,6 +440,7 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *err
                                    .x_deg = is_angle(&plot->x),
                                    .y_from_0 = !plot->dbsm && plot->plan->kind != SWEEP_TRACK,
                                    .polar = plot->polar,
+                                   .about = plot->head ? sheet->about : NULL,
                                    .series = series,
                                    .series_count = curves};
     if (sheet->png) {
@@ -461,6 +467,7 @@ static int sheet_map(FILE *out, const plot_sheet *sheet, lrcs_host_error *error)
                                .x_deg = is_angle(&plot->x),
                                .y_deg = is_angle(&plot->y),
                                .mollweide = plot->mollweide,
+                               .about = plot->head ? sheet->about : NULL,
                                .cells = plot->plan->kind == SWEEP_SPHERE};
     if (sheet->png) {
         return lrcs_host_map_png(out, &map, error);
@@ -482,12 +489,14 @@ static int values_fill(const sweep_plot *plot, plot_values *values)
     const plot_axis *along[2] = {&plot->x, &plot->y};
     int back[2];
     uint64_t cells = plot->x.count * plot->y.count;
-    values->x = malloc((cells + plot->x.count + plot->y.count) * sizeof(double));
+    values->x = malloc((3 * cells + plot->x.count + plot->y.count) * sizeof(double));
     if (!values->x) {
         return cli_out_of_memory();
     }
     values->y = values->x + plot->x.count;
     values->z = values->y + plot->y.count;
+    values->low = plot->band ? values->z + cells : NULL;
+    values->high = plot->band ? values->z + 2 * cells : NULL;
     for (int k = 0; k < 2; k++) {
         uint64_t last = along[k]->count - 1;
         double *value = k == 0 ? values->x : values->y;
@@ -498,8 +507,13 @@ static int values_fill(const sweep_plot *plot, plot_values *values)
     }
     for (uint64_t y = 0; y < plot->y.count; y++) {
         for (uint64_t x = 0; x < plot->x.count; x++) {
-            values->z[y * plot->x.count + x] = plot_sigma(plot, back[0] ? plot->x.count - 1 - x : x,
-                                                          back[1] ? plot->y.count - 1 - y : y);
+            uint64_t row = plot_row(plot, back[0] ? plot->x.count - 1 - x : x,
+                                    back[1] ? plot->y.count - 1 - y : y);
+            uint64_t at = y * plot->x.count + x;
+            values->z[at] = plot_shown(plot, plot->row[row][0]);
+            for (int k = 0; k < 2 && plot->band; k++) {
+                (k == 0 ? values->low : values->high)[at] = plot_shown(plot, plot->band[row][k]);
+            }
         }
     }
     return 0;
@@ -509,6 +523,19 @@ static void sheet_free(plot_sheet *sheet)
 {
     for (uint32_t k = 0; k < sheet->count; k++) {
         free(sheet->values[k].x);
+    }
+}
+
+/* Writes what the sweeps were made from, for the file. */
+static void plot_about(const sweep_plot *plots, uint32_t count, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "lrcs %s sweep", lrcs_version());
+    for (uint32_t k = 0; k < count; k++) {
+        const sweep_head *head = plots[k].head;
+        for (uint32_t i = 0; head && i < head->options && used < size; i++) {
+            used += (size_t)snprintf(text + used, size - used, "; %s=%s", head->option[i].key,
+                                     head->option[i].text);
+        }
     }
 }
 
@@ -527,6 +554,7 @@ static int sheet_make(const sweep_plot *plot, uint32_t count, plot_sheet *sheet)
     snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section%s%.200s",
              alike ? " of " : "", alike ? plot->title : "");
     plot_note(plot, count, sheet->note);
+    plot_about(plot, count, sheet->about, sizeof sheet->about);
     time_title(plot, &plot->x, sheet->x_name);
     time_title(plot, &plot->y, sheet->y_name);
     return code;

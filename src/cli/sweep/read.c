@@ -214,6 +214,10 @@ static void data_take(void *context, const sweep_row *row)
     cli_tally_add(&data->tally, row);
     data->row[row->index][0] = row->sigma_m2;
     data->row[row->index][1] = row->bound_m2;
+    if (data->band) {
+        data->band[row->index][0] = row->extra[1];
+        data->band[row->index][1] = row->extra[2];
+    }
     uint64_t poses = data->plan.track.row ? data->plan.track.count : 0;
     for (int k = 0; k < 4 && row->index < poses; k++) {
         data->plan.track.row[row->index][k] = row->value[data->text.columns - 4 + (uint32_t)k];
@@ -330,7 +334,9 @@ int cli_data_read(const char *path, const cli_command *command, sweep_data *data
     }
     data->words = malloc(data->text.head_size + 1);
     data->row = calloc(data->text.rows, sizeof *data->row);
-    if (!data->words || !data->row) {
+    int banded = data->text.extras > 0 && !cli_extension(data->path, ".npy");
+    data->band = banded ? calloc(data->text.rows, sizeof *data->band) : NULL;
+    if (!data->words || !data->row || (banded && !data->band)) {
         return cli_out_of_memory();
     }
     data->head.rows = data->text.rows;
@@ -353,4 +359,5 @@ void cli_data_free(sweep_data *data)
     lrcs_host_file_free(&data->file);
     free(data->words);
     free(data->row);
+    free(data->band);
 }

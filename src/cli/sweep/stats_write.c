@@ -248,13 +248,13 @@ static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
              stats->edge_dbsm[1] - stats->edge_dbsm[0]);
     const lrcs_host_series series[] = {
         {bars, 2 * stats->bins + 2, from->bin_x, from->bin_y, NULL, LRCS_HOST_ORANGE,
-         LRCS_HOST_NO_MARKER, LRCS_HOST_SOLID, 0},
+         LRCS_HOST_NO_MARKER, LRCS_HOST_SOLID, 0, NULL, NULL},
         {"cumulative", from->count, from->x, from->y, NULL, LRCS_HOST_BLUE, LRCS_HOST_NO_MARKER,
-         LRCS_HOST_SOLID, 0},
+         LRCS_HOST_SOLID, 0, NULL, NULL},
         {"at least, by bound", stats->bins + 1, stats->edge_dbsm, least, NULL, LRCS_HOST_SKY_BLUE,
-         LRCS_HOST_TRIANGLE, LRCS_HOST_NO_LINE, 0},
+         LRCS_HOST_TRIANGLE, LRCS_HOST_NO_LINE, 0, NULL, NULL},
         {"at most, by bound", stats->bins + 1, stats->edge_dbsm, most, NULL, LRCS_HOST_PURPLE,
-         LRCS_HOST_CROSS, LRCS_HOST_NO_LINE, 0}};
+         LRCS_HOST_CROSS, LRCS_HOST_NO_LINE, 0, NULL, NULL}};
     const lrcs_host_chart chart = {.title = words,
                                    .note = note,
                                    .x_name = "sigma (dBsm)",

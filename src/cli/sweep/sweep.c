@@ -81,6 +81,7 @@ typedef struct sweep_job {
     uint32_t brightest;
     int stats;
     double (*row)[2]; /* sigma and bound of every row, for the two outputs above */
+    double (*band)[2];
     lrcs_run_options options;
     lrcs_host_options load;
     lrcs_host_scene scene;
@@ -315,7 +316,14 @@ static int job_room(sweep_job *job)
             return cli_out_of_memory();
         }
     }
+    if (job->plot.asked && job->plan.extras > 0) {
+        job->band = calloc(job->plan.rows, sizeof *job->band);
+        if (!job->band) {
+            return cli_out_of_memory();
+        }
+    }
     job->file.row = job->plot.row = job->row;
+    job->file.band = job->plot.band = job->band;
     return 0;
 }
 
@@ -397,12 +405,14 @@ static int sweep_command(const cli_args *args)
     if (code == 0) {
         coarse_say(job);
         job->plan.extras = cli_errors_stated(&job->scene.scene) ? SWEEP_EXTRAS : 0;
+        job->plot.head = &job->head;
         job->plot.open = cli_materials_open(&job->scene.scene);
         job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
         code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
         code = code ? code : job_rows(job);
     }
     free(job->row);
+    free(job->band);
     free(job->coarse);
     cli_file_free(&job->file);
     cli_plan_free(&job->plan);

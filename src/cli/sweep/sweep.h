@@ -260,8 +260,9 @@ typedef struct sweep_file {
     uint64_t size, sum; /* number of bytes in FILE.partial before its checksum, and that checksum */
     uint64_t next;      /* the next row to be written */
     sweep_tally tally;
-    double flushed;   /* time of the last write, s */
-    double (*row)[2]; /* sigma and bound of every row, or NULL; freed by its creator */
+    double flushed;    /* time of the last write, s */
+    double (*row)[2];  /* sigma and bound of every row, or NULL; freed by its creator */
+    double (*band)[2]; /* the interval of its material uncertainty, likewise */
 } sweep_file;
 
 /* Reads -o and --json; 0 or CLI_USAGE. */
@@ -302,6 +303,7 @@ typedef struct sweep_data {
     sweep_plan plan;
     sweep_head head; /* its options; the text holds the hash and the number of rows */
     double (*row)[2];
+    double (*band)[2]; /* as of sweep_plot */
     sweep_tally tally;
     sweep_text text;
     /* memory to which the members above point */
@@ -335,13 +337,15 @@ typedef struct sweep_plot {
     const char *option; /* the option that names the files: "plot", "o" */
     int asked, dbsm, polar, map, mollweide;
     int open; /* 1 if materials are illustrative or assumed: no bound includes their error */
-    const char *accept; /* as --accept, or NULL */
-    const char *title;  /* the scene's, or the name of its file */
-    const char *name;   /* in the legend, of all curves, or NULL */
-    plot_axis x, y;     /* y: a single value if only one quantity varies */
-    int swapped;        /* 1 if x is the faster of two axes */
+    const char *accept;     /* as --accept, or NULL */
+    const char *title;      /* the scene's, or the name of its file */
+    const sweep_head *head; /* what it was made from; NULL: not stated */
+    const char *name;       /* in the legend, of all curves, or NULL */
+    plot_axis x, y;         /* y: a single value if only one quantity varies */
+    int swapped;            /* 1 if x is the faster of two axes */
     const sweep_plan *plan;
-    double (*row)[2]; /* sigma and bound, m2 */
+    double (*row)[2];  /* sigma and bound, m2 */
+    double (*band)[2]; /* the interval of its material uncertainty, m2; NULL: none */
 } sweep_plot;
 
 #define PLOT_CURVES 7u /* more values than this along both axes make a map */

@@ -60,7 +60,7 @@ static int png_make(FILE *out, const images_case *file, uint32_t channels, image
     for (size_t i = 0; i < count; i++) {
         colour(file, i, pixels + i * channels);
     }
-    int status = lrcs_host_png_write(out, pixels, side, side, channels, error);
+    int status = lrcs_host_png_write(out, pixels, side, side, channels, NULL, error);
     free(pixels);
     return status;
 }

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT */
+/* Runs of facets: their boxes, what is connected within one, and the sides that leave it. */
+#include "scene/prepare.h"
+
+#include "base/join.h"
+#include "scenes.h"
+
+static test_scene scene;
+static uint64_t seed = 1;
+
+/* Every side that has a facet across leads within the run, or is listed from one facet or the
+   other; what is connected so is connected in the scene. */
+static void check_runs(void)
+{
+    static uint32_t all[SCENE_FACETS];
+    static uint32_t by_runs[SCENE_FACETS];
+    lrcs_work work;
+    const lrcs_prepared *p = scene_prepare(&scene, &work);
+    const lrcsi_runs *runs = &p->runs;
+    uint32_t count = p->scene->facet_count;
+    assert_int_equal(runs->count, (count + LRCSI_RUN - 1) / LRCSI_RUN);
+    for (uint32_t f = 0; f < count; f++) {
+        all[f] = f;
+    }
+    for (uint32_t f = 0; f < count; f++) {
+        const lrcsi_run *run = &runs->run[f / LRCSI_RUN];
+        by_runs[f] = f / LRCSI_RUN * LRCSI_RUN + runs->first[f];
+        assert_true(by_runs[f] <= f);
+        for (int k = 0; k < 3; k++) {
+            uint32_t other = p->across.facet[f].corner[k];
+            if (other < count) {
+                lrcsi_join(all, f, other);
+            }
+            for (int i = 0; i < 3; i++) {
+                double x = lrcsi_prepared_corner(p, f, k)[i];
+                assert_true(run->low[i] <= x && x <= run->high[i]);
+            }
+        }
+    }
+    for (uint32_t i = 0; i < runs->run[runs->count].first_side; i++) {
+        const lrcsi_run_side *side = &runs->side[i];
+        const uint32_t *edge = p->topology.facet_edge[side->facet].corner;
+        const uint32_t *across = p->across.facet[side->facet].corner;
+        int found = 0;
+        for (int k = 0; k < 3; k++) {
+            found |= edge[k] == side->edge && across[k] == side->other;
+        }
+        assert_true(found);
+        assert_true(side->other == count || side->other / LRCSI_RUN != side->facet / LRCSI_RUN);
+        if (side->other < count) {
+            lrcsi_join(by_runs, side->facet, side->other);
+        }
+    }
+    for (uint32_t f = 0; f < count; f++) {
+        assert_int_equal(lrcsi_join_root(all, f), lrcsi_join_root(by_runs, f));
+    }
+}
+
+static void runs_connect_what_edges_connect(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 12);
+    check_runs();
+    scene_box(&scene, (const double[3]){3, -1, -1}, (const double[3]){4, 1, 1});
+    check_runs();
+    for (uint32_t f = scene.scene.facet_count; f > 1; f--) { /* shuffled */
+        uint32_t other = (uint32_t)scene_random(&seed, f);
+        lrcs_facet swap = scene.facet[f - 1];
+        scene.facet[f - 1] = scene.facet[other];
+        scene.facet[other] = swap;
+    }
+    check_runs();
+}
+
+static void single_facets_are_runs(void **state)
+{
+    (void)state;
+    for (uint32_t n = 1; n < 40; n++) {
+        scene_start(&scene);
+        for (uint32_t i = 0; i < n; i++) {
+            scene_triangle(&scene, (const double[3]){3.0 * i, 0, 0},
+                           (const double[3]){3.0 * i + 1, 0, 0},
+                           (const double[3]){3.0 * i, 1, 0.5 * i});
+        }
+        check_runs();
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(runs_connect_what_edges_connect),
+        cmocka_unit_test(single_facets_are_runs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
