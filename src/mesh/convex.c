@@ -2,8 +2,8 @@
 /* Decides convexity by exact signs alone. The conditions:
      1. every edge is used by two facets, in opposite directions;
      2. the facets are connected across edges, and those around each point form one cycle;
-     3. at each edge the two facets form a convex crease or are coplanar continuations of each
-     other: the third corner of one lies below the plane of the other, or in it and across the edge;
+     3. at each edge the two facets form a convex crease or continue each other in one plane: the
+        third corner of one lies below the plane of the other, or in it and across the edge;
      4. around each point the facets bound a convex cone (below).
    Then the surface is closed, connected and locally convex, hence the boundary of a convex body
    (van Heijenoort 1952, "On locally convex manifolds"; the extreme point that the theorem asks

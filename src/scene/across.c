@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Sorting edges into regular ones, with one facet, two that continue each other, or two pairs of
-   twins, and irregular ones. Which of them are contours is decided anew for every direction. */
+   coincident facets, and irregular ones. Which of them are contours depends on the direction and is
+   not decided here. */
 #include "scene/across.h"
 
 #include "base/work.h"
 
-/* An odd edge takes up two sides or more. */
+/* An irregular edge has at least two sides. */
 size_t lrcsi_across_need(uint32_t facet_count)
 {
     size_t sides = 3 * (size_t)facet_count;
@@ -20,8 +21,8 @@ typedef struct across_job {
     const uint32_t *twin; /* or NULL */
 } across_job;
 
-/* The facets on an edge that count: how many, the first four of them, and how many run it
-   forward. */
+/* The facets on an edge that count: their number, the first four of them, and how many of them
+   traverse it forward. */
 typedef struct across_edge {
     uint32_t count, forward;
     lrcsi_edge_use use[4];
@@ -49,8 +50,9 @@ static void across_set(const across_job *job, lrcsi_across *a, uint32_t facet, u
     a->facet[facet].corner[side[0] == edge ? 0 : side[1] == edge ? 1 : 2] = other;
 }
 
-/* Two pairs of twins: each facet has across it the one of the other pair that runs the edge the
-   other way. Twins run it in opposite ways. */
+/* Two pairs of coincident facets: across the edge, each facet is followed by the one of the other
+   pair that traverses the edge in the opposite sense. The two facets of a pair traverse it in
+   opposite senses. */
 static int across_set_pairs(const across_job *job, lrcsi_across *a, uint32_t edge,
                             const across_edge *all)
 {
@@ -119,7 +121,7 @@ int lrcsi_across_make(const lrcsi_topology *topology, uint32_t facet_count,
         a.facet[f] = (lrcs_facet){{f, f, f}};
     }
     across_edges(&job, facet_count, &a);
-    work->used = end; /* what odd edges there are lie where they were filed */
+    work->used = end; /* the irregular edges are already stored here */
     a.irregular = lrcsi_work_take(work, a.irregular_count, sizeof *a.irregular);
     *across = a;
     return LRCS_OK;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Which facet lies across each side of a facet, whatever the direction: what every pose walks over,
-   in as few bytes as possible. Facets that are always redundant (scene/coincident.h) do not count.
-   Of two twins one faces the laser and counts then: where two pairs of twins meet, the facet across
-   is the one that runs the side the other way, for it faces the laser where the surface goes on. */
+/* Which facet lies across each side of a facet, independent of direction, in as few bytes as
+   possible, because every pose reads it. Facets that are always redundant (scene/coincident.h) do
+   not count. Of two coincident facets only the one that faces the laser counts in a view. If two
+   pairs of coincident facets meet, the facet across is the one that traverses the side in the
+   opposite sense, because it faces the laser if the surface continues there. */
 #ifndef LRCSI_ACROSS_H
 #define LRCSI_ACROSS_H
 
@@ -10,8 +11,9 @@
 
 size_t lrcsi_across_need(uint32_t facet_count);
 
-/* Given which facets are redundant (a lrcsi_redundant), and their twins or NULL. Status: LRCS_OK;
-   LRCS_E_MEMORY. The result stays in the work area. Linear time. */
+/* Given which facets are redundant (a lrcsi_redundant), and the facets coincident with them
+   (prepared->twin) or NULL. Status: LRCS_OK; LRCS_E_MEMORY. The result stays in the work area.
+   Linear time. */
 int lrcsi_across_make(const lrcsi_topology *topology, uint32_t facet_count,
                       const unsigned char *redundant, const uint32_t *twin, lrcs_work *work,
                       lrcsi_across *across);

@@ -11,8 +11,8 @@ typedef struct batch_normals {
     double length[LRCSI_LANES], back[LRCSI_LANES];
 } batch_normals;
 
-/* Normals of up to LRCSI_LANES facets; where squares of small components would lose bits, all is
-   times 2^500, exactly. Idle places repeat the first. */
+/* Normals of up to LRCSI_LANES facets; if squares of small components would lose bits, all are
+   multiplied by 2^500, exactly. Unused lanes repeat the first. */
 static void normals_gather(const lrcs_prepared *p, const uint32_t *facet, uint32_t count,
                            batch_normals *n)
 {
@@ -28,8 +28,7 @@ static void normals_gather(const lrcs_prepared *p, const uint32_t *facet, uint32
     }
 }
 
-/* N / |N| and |N| / 2, N being off by 2^-90 of itself. Those of all LRCSI_LANES places are written.
- */
+/* N / |N| and |N| / 2, where the relative error of N is 2^-90. Writes all LRCSI_LANES places. */
 static void normals_finish(const batch_normals *restrict n, double *restrict x, double *restrict y,
                            double *restrict z, double *restrict area)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The facets of a prepared scene as a structure of arrays, those of one material side by side: what
-   is computed for every facet of a view reads it block by block, many facets at once. */
+/* The facets of a prepared scene as a structure of arrays, those of one material side by side.
+   Computations over every facet of a view read it block by block, many facets at once. */
 #ifndef LRCSI_BATCH_H
 #define LRCSI_BATCH_H
 

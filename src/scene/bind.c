@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* Binding surfaces to BRDFs: precedence, and what matched. Where names come from and which facets
-   wear a surface is the business of others. */
+/* Binds surfaces to BRDFs: precedence, and which bindings matched. It does not decide where names
+   come from, nor which surface a facet has. */
 #include "scene/bind.h"
 
 #include <string.h>
 
 #include "base/work.h"
 
-/* The share of an invisible surface from which on it is left out of the scene. */
+/* The transparency from which on a surface is omitted from the scene. */
 #define TRANSPARENCY_OMITTED 0.995
 /* The tag of the recipe's materials among the kinds of bindings. */
 #define TAG_RECIPE (LRCS_BIND_DEFAULT + 1)
 
-/* What a binding is found by: its name, its colour, or nothing. */
+/* The key of a binding: its name, its colour, or nothing. */
 static const void *key_of(const lrcs_binding *binding, size_t *size)
 {
     switch (binding->kind) {
@@ -155,8 +155,8 @@ uint32_t lrcsi_binder_library_source(const lrcs_brdf_entry *entry)
     return LRCS_SOURCE_LIBRARY + i;
 }
 
-/* Puts on a BRDF with its errors; a two_sided below 0 keeps what is there. Assumed numbers bind
-   nothing. `source` is that of <lrcs/scene.h>. */
+/* Assigns a BRDF with its errors; a two_sided below 0 keeps the present value. Assumed numbers do
+   not count as bound. `source` is that of <lrcs/scene.h>. */
 static void dress(lrcs_material *material, const lrcs_brdf *brdf, const lrcs_brdf_error *error,
                   uint32_t source, int two_sided, int assumed)
 {
@@ -175,8 +175,8 @@ static void dress_by_library(const lrcs_brdf_entry *entry, lrcs_material *materi
     dress(material, &entry->brdf, &entry->error, lrcsi_binder_library_source(entry), -1, 0);
 }
 
-/* The recipe's materials are sources 1, 2, ...; after them the bindings, except for those that
-   have a source of their own. */
+/* The recipe's materials are sources 1, 2, ...; the bindings follow, except those that have their
+   own source. */
 static void dress_by(const lrcsi_binder *binder, const lrcs_binding *binding,
                      lrcs_material *material)
 {
@@ -186,7 +186,8 @@ static void dress_by(const lrcsi_binder *binder, const lrcs_binding *binding,
           binding->two_sided, binding->assumed);
 }
 
-/* The command line's word on a material of this name, which a scene file put on. */
+/* Applies a binding of the command line to a material of this name that a scene file has
+   assigned. */
 static void override_named(const lrcsi_binder *binder, const char *name, lrcs_material *material)
 {
     const lrcs_binding *binding = name ? find_named(binder, LRCS_BIND_NAME, name) : NULL;
@@ -212,7 +213,7 @@ static void wear(const lrcsi_binder *binder, uint32_t worn, lrcs_material *mater
     material->name = material->name ? material->name : name;
 }
 
-/* A scene file's map, or a default. */
+/* Applies a map of a scene file, or a default. */
 static void apply(const lrcsi_binder *binder, const lrcs_binding *binding, lrcs_material *material)
 {
     dress_by(binder, binding, material);
@@ -243,7 +244,7 @@ lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t worn)
     return material;
 }
 
-/* What the scene file's maps, the library and the default say of a surface. */
+/* Applies the scene file's maps, the library and the default to a surface. */
 static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
                       lrcs_material *material)
 {

@@ -11,39 +11,40 @@
 typedef struct lrcsi_binder {
     const lrcs_recipe *recipe;
     lrcsi_index names;      /* bindings by kind and name or colour; materials of the recipe */
-    unsigned char *matched; /* by binding, the last of equal ones standing for all */
+    unsigned char *matched; /* by binding, the last of equal ones representing all */
     int indexed;            /* 0: search the recipe instead (slow, no work area) */
 } lrcsi_binder;
 
 /* Bytes that lrcsi_binder_make takes (upper bound). */
 size_t lrcsi_binder_need(const lrcs_recipe *recipe);
 
-/* A binder that searches the recipe itself: for a few questions. Nothing is marked as matched. */
+/* A binder that searches the recipe itself, for a few queries. It marks nothing as matched. */
 lrcsi_binder lrcsi_binder_plain(const lrcs_recipe *recipe);
 
 /* A binder with an index. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_binder_make(const lrcs_recipe *recipe, lrcs_work *work, lrcsi_binder *binder);
 
-/* How many different materials parts can wear: the recipe's, then the library's. */
+/* The number of different materials that can be assigned to parts: the recipe's, then the
+   library's. */
 uint32_t lrcsi_binder_material_count(const lrcs_recipe *recipe);
 
-/* What a part wears as a whole, below lrcsi_binder_material_count, or LRCS_NONE. Status: LRCS_OK;
-   LRCS_E_NAME. */
+/* The material assigned to a part as a whole, below lrcsi_binder_material_count, or LRCS_NONE.
+   Status: LRCS_OK; LRCS_E_NAME. */
 int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, uint32_t *worn);
 
-/* The material of surfaces without a name of their own, on a part that wears `worn` (or
-   LRCS_NONE). */
+/* The material of surfaces without a name of their own, on a part with the assigned material `worn`
+   (or LRCS_NONE). */
 lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t worn);
 
-/* The material of a model's surface on a part that wears `worn` (or LRCS_NONE). */
+/* The material of a model's surface on a part with the assigned material `worn` (or LRCS_NONE). */
 lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,
                                    const lrcs_surface *surface);
 
 /* The source of a material of the library. */
 uint32_t lrcsi_binder_library_source(const lrcs_brdf_entry *entry);
 
-/* The first NAME or COLOUR binding that no surface, recipe material or worn material answered
-   to, or LRCS_NONE. After all surfaces were asked for. */
+/* The first NAME or COLOUR binding that matched no surface, recipe material or assigned material,
+   or LRCS_NONE. To be called after all surfaces are bound. */
 uint32_t lrcsi_binder_unmatched(const lrcsi_binder *binder);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* From a recipe to a scene: counts first, then one pass over the parts that dresses, copies and
-   places them. Decides the order of everything in the scene; what binds is bind.c, what moves is
-   place.c, what a shape's mesh is like is the mesh layer. */
+/* From a recipe to a scene: first counts, then one pass over the parts that assigns their
+   materials, copies and places them. Decides the order of everything in the scene; bind.c decides
+   materials, place.c positions, and the mesh layer the mesh of a shape. */
 #include <math.h>
 #include <string.h>
 
@@ -16,7 +16,7 @@
 #include "scene/shaped.h"
 #include "scene/smooth.h"
 
-/* Coordinates beyond this are refused: their squares and cubes must stay doubles. */
+/* Coordinates beyond this are refused, because their squares and cubes must not overflow. */
 #define COORDINATE_MOST 1e100
 
 typedef struct scene_builder {
@@ -25,17 +25,18 @@ typedef struct scene_builder {
     const lrcs_build_options *options;
     lrcs_where *where;
     lrcsi_binder binder;
-    uint32_t *entry;     /* by worn material: its place among the scene's materials, or LRCS_NONE */
-    uint32_t unassigned; /* the place of "", or LRCS_NONE */
+    uint32_t *entry;     /* by assigned material: its index among the scene's materials, or
+                            LRCS_NONE */
+    uint32_t unassigned; /* the index of "", or LRCS_NONE */
     lrcsi_fineness fineness;
     lrcs_divisions *divisions; /* of each part that is a shape; NULL: only counted */
 } scene_builder;
 
-/* A part's mesh on its way into the scene. */
+/* A part's mesh while it is added to the scene. */
 typedef struct scene_piece {
     const lrcs_recipe_part *part;
     uint32_t worn;
-    uint32_t surfaces; /* where those of its mesh begin among the scene's materials */
+    uint32_t surfaces; /* index of the mesh's first material among the scene's */
     lrcsi_placer placer;
 } scene_piece;
 
@@ -73,7 +74,7 @@ static int find_worn(const scene_builder *builder, const lrcs_recipe_part *part,
                                   part->material, strlen(part->material));
 }
 
-/* How a shape is divided, for the material it wears. */
+/* The divisions of a shape, for its assigned material. */
 static int count_shape(const scene_builder *builder, const lrcs_recipe_part *part,
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
@@ -115,7 +116,7 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
 
 typedef struct scene_totals {
     uint64_t vertices, facets, materials;
-    size_t scratch; /* the most taken on the way, by a shape's mesh or for normals */
+    size_t scratch; /* the most temporary memory taken, by a shape's mesh or for normals */
     int curved;     /* normals are asked for, and some model has them */
 } scene_totals;
 
@@ -187,7 +188,7 @@ size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
                              .options = options,
                              .binder = lrcsi_binder_plain(recipe)};
     scene_totals totals;
-    count_scene(&builder, &totals); /* where it fails, so will building: before it needs more */
+    count_scene(&builder, &totals); /* if it fails, building fails too, before it needs more */
     size_t need = array_need(&totals, recipe->part_count);
     need = lrcsi_work_add(need, lrcsi_work_bytes(recipe->part_count, sizeof(lrcs_divisions)));
     need = lrcsi_work_add(need, lrcsi_binder_need(recipe));
@@ -211,7 +212,7 @@ static int add_material(const scene_builder *builder, const lrcs_material *mater
     return LRCS_OK;
 }
 
-/* Where the material of facets without a surface stands; added where it is new. */
+/* The index of the material of facets without a surface; the material is added if it is new. */
 static int unassigned_entry(scene_builder *builder, uint32_t worn, lrcs_scene *scene,
                             uint32_t *entry)
 {
@@ -383,7 +384,7 @@ static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *wor
     scene->facet_part = lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_part);
     scene->facet_smooth =
         lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_smooth);
-    if (totals->curved) { /* what no part fills stays flat */
+    if (totals->curved) { /* facets that no part fills stay flat */
         scene->corner_normal =
             lrcsi_work_take_zero(work, (size_t)totals->facets, 3 * sizeof *scene->corner_normal);
     }
@@ -396,7 +397,7 @@ static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *wor
                : LRCS_E_MEMORY;
 }
 
-/* No normals at all where every facet is flat. */
+/* Releases the normals if every facet is flat. */
 static void settle_normals(lrcs_scene *scene)
 {
     int curved = 0;
@@ -407,7 +408,7 @@ static void settle_normals(lrcs_scene *scene)
     scene->corner_normal = curved ? scene->corner_normal : NULL;
 }
 
-/* Everything, in an area whose `used` the caller puts back on failure. */
+/* Does everything, in a work area whose `used` the caller resets on failure. */
 static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
 {
     const lrcs_recipe *recipe = builder->recipe;

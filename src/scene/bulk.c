@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The box around the bulk of the vertices, from a sample of them. It decides how fast and how sharp
-   a view is, never what is true. */
+/* The box around the bulk of the vertices, from a sample of them. It affects the speed and the
+   accuracy of a view, never its correctness. */
 #include "scene/bulk.h"
 
 #include <math.h>
@@ -8,12 +8,12 @@
 
 #include "base/range.h"
 
-/* Vertices looked at, at most, evenly spaced in the list. */
+/* The largest number of vertices sampled, evenly spaced in the list. */
 #define SAMPLE 256u
-/* The bulk is taken for less than all only where that saves so much of a grid's work. */
+/* The bulk is less than all only if that reduces the work of a grid by at least this factor. */
 #define WORTH 8.0
 
-/* A sample of vertices that live facets stand on. */
+/* A sample of the vertices of live facets. */
 typedef struct bulk_sample {
     double x[3][SAMPLE];
     double far[SAMPLE]; /* distance from the median in the coordinate where that is largest */
@@ -35,7 +35,7 @@ static void bulk_sort(double *x, uint32_t count)
     }
 }
 
-/* An odd stride, so that models made of equal pieces are not met at the same corner of each. */
+/* An odd stride, so that models made of equal pieces are not sampled at the same corner of each. */
 static void sample_take(const lrcs_prepared *p, bulk_sample *s)
 {
     uint32_t vertices = p->scene->vertex_count;
@@ -66,10 +66,10 @@ static void sample_centre(bulk_sample *s, double median[3])
     }
 }
 
-/* How far the bulk reaches from the median; 0 where it is all. The cost of a uniform grid of as
-   many cells as there are vertices, n, is about n (r / r')^2 where it reaches out to r and half of
-   the vertices stand within r'; and if c vertices are left out, which stand in border cells, about
-   sqrt(n) of them on four sides, (c / 2)^2 / sqrt(n) more. Of all numbers left out the cheapest. */
+/* The radius of the bulk about the median; 0 if the bulk is all. The cost of a uniform grid with as
+   many cells as vertices, n, is about n (r / r')^2 if it extends to r and half of the vertices are
+   within r'. If c vertices are left out, they fall into border cells, about sqrt(n) cells on four
+   sides, and cost (c / 2)^2 / sqrt(n) more. Chooses the c of least cost. */
 static double bulk_radius(const bulk_sample *s, double whole, uint32_t vertices)
 {
     double sorted[SAMPLE];
@@ -107,7 +107,7 @@ void lrcsi_bulk_find(lrcs_prepared *p, const double half[3])
         whole = lrcsi_most(whole, half[k] + fabs(median[k] - p->centre[k]));
     }
     double radius = 2 * bulk_radius(&s, whole, p->scene->vertex_count);
-    for (int k = 0; k < 3 && radius > 0; k++) { /* snug, where the bulk ends before that */
+    for (int k = 0; k < 3 && radius > 0; k++) { /* tight if the bulk ends before that */
         double low = median[k];
         double high = median[k];
         for (uint32_t i = 0; i < s.count; i++) {

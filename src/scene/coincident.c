@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* Of facets on the same three points, those wound the same way face the same way from everywhere,
-   those wound the other way face away then. In a tie the first front in order wins; where there is
-   none, the first back that reflects, else the first back (visibility/sample.h).
+/* Of facets on the same three points, those of the same winding face the same way from every
+   direction, and those of the opposite winding then face away. In a tie the first front in order
+   wins; if there is none, the first back that reflects, else the first back (visibility/sample.h).
 
-   In a place with both windings one winding shows its front from everywhere (but edge-on, where
-   nothing is seen). So the first facet of each winding is all that is ever seen: they are twins,
-   the two sides of one panel. A twin that faces away is hidden by the other all over, and hides
+   In a place with both windings, one winding shows its front from every direction (except edge-on,
+   where nothing is seen). So only the first facet of each winding is ever seen: the two are the
+   sides of one panel (`twin`). The one that faces away is hidden entirely by the other, and hides
    nothing that the other does not hide.
 
    In a place with one winding a facet is never seen if one before it reflects from its back, or if
-   there is one before it and itself does not; then the one before hides all that it hides.
+   there is one before it and the facet itself does not; in both cases the one before hides all that
+   it hides.
 
-   Where facets stand for a curved shape, what is seen of the true one may be another matter: none
-   of them is redundant here. */
+   If facets represent a curved shape, visibility of the true shape may differ: none of them is
+   redundant here. */
 #include "scene/coincident.h"
 
 #include "base/work.h"
@@ -21,7 +22,7 @@
 typedef struct facet_place {
     uint32_t edge;      /* the lowest of its edges; the third corner is the key */
     uint32_t first[2];  /* or LRCS_NONE */
-    uint32_t second[2]; /* the first that reflects from its back, where the first of all does not */
+    uint32_t second[2]; /* the first that reflects from its back, if the first of all does not */
 } facet_place;
 
 static int may_coincide(const lrcs_prepared *p, uint32_t facet)
@@ -49,7 +50,7 @@ static uint32_t corner_across(const lrcs_prepared *p, uint32_t facet, uint32_t e
     return p->topology.weld[corner[side[0] == edge ? 2 : side[1] == edge ? 0 : 1]];
 }
 
-/* Is there a facet whose lowest edge it may share with one in the same place? */
+/* Does any facet share its lowest edge with another one that may be in the same place? */
 static int any_may_coincide(const lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -68,7 +69,7 @@ static int any_may_coincide(const lrcs_prepared *p)
     return 0;
 }
 
-/* One facet more in its place; those before it come first in order. */
+/* Adds a facet to its place; facets are added in order. */
 static void place_add(lrcs_prepared *p, facet_place *place, uint32_t facet, uint32_t winding)
 {
     uint32_t *first = &place->first[winding];
@@ -98,9 +99,8 @@ static void place_add(lrcs_prepared *p, facet_place *place, uint32_t facet, uint
     }
 }
 
-/* Facets of one place stand on the same three edges. They are sorted out on the lowest, by the
-   corner across from it: place[corner] is the one last met there. Returns whether there are any
-   twins. */
+/* Facets in one place share the same three edges. They are found at the lowest edge by the corner
+   opposite it: place[corner] is the last one found there. Returns whether any facet has a twin. */
 static int mark_places(lrcs_prepared *p, facet_place *place)
 {
     const lrcsi_topology *t = &p->topology;
@@ -131,8 +131,8 @@ size_t lrcsi_coincident_need(uint32_t vertex_count, uint32_t facet_count)
                           lrcsi_work_bytes(vertex_count, sizeof(facet_place)));
 }
 
-/* Most scenes have no coincident facets, which is soon seen. Places are gone through again where
-   there are twins to write down. */
+/* Most scenes have no coincident facets, which is quickly established. Places are visited again
+   only if there are twins to store. */
 int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
@@ -168,13 +168,13 @@ int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
 
 /* --- contacts --------------------------------------------------------------------------------- */
 
-/* The facet whose contacts were sought in its stead. */
+/* The facet for which the contacts were computed instead of this one. */
 static uint32_t first_twin(const lrcs_prepared *p, uint32_t facet)
 {
     return p->twin[facet] < facet ? p->twin[facet] : facet;
 }
 
-/* How many entries the lists will have. */
+/* The number of entries of the lists. */
 static uint64_t count_entries(const lrcs_prepared *p)
 {
     const lrcsi_intersections *t = &p->intersections;
@@ -188,8 +188,8 @@ static uint64_t count_entries(const lrcs_prepared *p)
     return count;
 }
 
-/* In place, from the end: no entry moves down, and the list of a first twin is still where it was
-   when the second, which comes after it, is given it. */
+/* In place, from the end: no entry moves down, and the list of a first twin has not moved when the
+   second, which comes after it, gets a copy. */
 static void spread_entries(lrcs_prepared *p, uint32_t count)
 {
     lrcsi_intersections *t = &p->intersections;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The schema of scene files, as a table of keys, and the drafts that it guards. Decides which keys
-   stand where and of what type they are. */
+/* The schema of scene files, as a table of keys, and the drafts that it checks. Decides which keys
+   each table may have, and their types. */
 #include "scene/draft.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A table of a scene file while it is read: which keys it may hold, which it held, and complaints
-   about them. What a finished table means is recipe.c's and recipe_part.c's business. */
+/* A table of a scene file while it is read: the keys that it may hold, those that it holds, and
+   error reports about them. recipe.c and recipe_part.c interpret a finished table. */
 #ifndef LRCSI_DRAFT_H
 #define LRCSI_DRAFT_H
 
@@ -83,10 +83,10 @@ const lrcsi_toml_event *lrcsi_draft_find(const lrcsi_draft *draft, int key);
 /* A string's text, or NULL. */
 const char *lrcsi_draft_text(const lrcsi_draft *draft, int key);
 
-/* A number, or `other` where it is not given. */
+/* A number, or `other` if it is not given. */
 double lrcsi_draft_number(const lrcsi_draft *draft, int key, double other);
 
-/* Complaints; they return `status`. About the table as a whole, naming it; about a key's value
+/* Error reports; they return `status`. About the table as a whole, naming it; about a key's value
    (which must be there). */
 int lrcsi_draft_refuse(const lrcsi_draft *draft, int status, const char *expected);
 int lrcsi_draft_refuse_value(const lrcsi_draft *draft, int key, int status, const char *expected);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes around parts, and which shapes have closed forms here: it decides neither what hides what
+/* Boxes around parts, and which shapes have closed forms here: it does not decide what hides what,
    nor what a shape reflects. */
 #include "scene/extent.h"
 
@@ -13,7 +13,7 @@
 /* Parts smaller than this, scaled, have coordinates near those that count as 0. */
 #define EXTENT_LEAST 0x1p-200
 
-/* Of all parts with facets: could any have a closed form? */
+/* Can any part that has facets have a closed form? */
 static int some_closed_form(const lrcs_scene *scene)
 {
     int some = 0;
@@ -23,7 +23,7 @@ static int some_closed_form(const lrcs_scene *scene)
     return some;
 }
 
-/* All its facets are live, and its numbers lie where the closed forms hold. */
+/* All its facets are live, and its dimensions are in the range where the closed forms are valid. */
 static int has_closed_form(const lrcs_prepared *p, uint32_t index)
 {
     const lrcs_part *part = &p->scene->part[index];

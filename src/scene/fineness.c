@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* How finely a shape is divided that stands among other parts: coarser where it is small among
-   them, finer where its rim casts shadows. It chooses, and proves nothing: what the facets err is
-   found pose by pose on the mesh. */
+/* How finely a shape among other parts is divided: coarser if it is small among them, finer if its
+   rim casts shadows. It only chooses and proves nothing: the error of the facets is computed for
+   each pose from the mesh. */
 #include "scene/fineness.h"
 
 #include <math.h>
@@ -9,20 +9,20 @@
 #include "mesh/tessellate.h"
 #include "scene/shaped.h"
 
-/* How many shares a scene's tolerance is cut into at least, and how much coarser than asked a small
-   part may be at most. */
+/* The least number of shares into which a scene's tolerance is divided, and the largest factor by
+   which a small part may be coarser than requested. */
 #define SHARES_LEAST 16.0
 #define LEAVE_MOST   100.0
 
-/* Divisions of a shape of which only pictures and records show the facets: they turn by 7.5 and 9
-   degrees, which is smooth enough to look at. */
+/* Divisions of a shape whose facets only pictures and records show: neighbours differ by 7.5 and 9
+   degrees, which looks smooth. */
 #define BASE_AROUND 48
 #define BASE_ALONG  10
 
-/* Beyond this ratio of a scale's components no number of facets serves. */
+/* Beyond this ratio of a scale's components no number of facets suffices. */
 #define RATIO_MOST 1e3
 
-/* 0 where a corner is out of range. */
+/* 0 if a corner is out of range. */
 static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
 {
     const uint32_t *corner = mesh->facet[f].corner;
@@ -58,8 +58,9 @@ double lrcsi_fineness_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh)
     return area * most * most;
 }
 
-/* How much coarser than asked a part may be, being small among the others: all of them together
-   may add as much error as the scene may have, were each as bright as its surface is large. */
+/* The factor by which a part that is small among the others may be coarser than requested. If the
+   brightness of each part were proportional to its surface, all parts together would add at most
+   the error that the scene is allowed. */
 static double part_leave(const lrcsi_fineness *fineness, const lrcs_recipe_part *part)
 {
     double parts = fmax(SHARES_LEAST, fineness->parts);
@@ -67,9 +68,9 @@ static double part_leave(const lrcsi_fineness *fineness, const lrcs_recipe_part 
     return leave > 1.0 ? fmin(leave, LEAVE_MOST) : 1.0;
 }
 
-/* The tolerance that a shape is divided for: as asked where it is alone. Among other parts its
-   leave counts; and of round bodies, whose facets cost 1/tolerance (those of straight walls its
-   root), ten times as much must do, at least 1e-4. */
+/* The tolerance for which a shape is divided: as requested if it is alone. Among other parts it is
+   multiplied by the factor above; for round bodies, whose number of facets grows as 1/tolerance
+   (for straight walls as its square root), it is ten times as large, at least 1e-4. */
 static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_part *part)
 {
     double tolerance = fineness->tolerance;
@@ -83,8 +84,8 @@ static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_
     return is_round ? fmax(fmin(10.0 * tolerance, 1.0), 1e-4) : tolerance;
 }
 
-/* Among other parts a rim casts shadows, in doubt over twice its reach, some 0.4 R (pi/N)^2, along
-   2 pi R: less than half the tolerance of the disc that it bounds where N is this. */
+/* Among other parts a rim casts shadows that are uncertain over twice its reach, about 0.4 R
+   (pi/N)^2, along 2 pi R: less than half the tolerance of the disc that it bounds if N is this. */
 static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
@@ -102,8 +103,8 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
     }
 }
 
-/* How much a scale differs between axes: it turns normals by as many times as much, and the error
-   of a facet grows with the square, and a little more (mesh/profile.c). */
+/* The ratio of a scale between axes: it multiplies the turns of normals by that factor, and the
+   error of a facet by slightly more than its square (mesh/profile.c). */
 static double scale_ratio(const lrcs_recipe_part *part)
 {
     const double *scale = part->place.scale;
@@ -112,8 +113,8 @@ static double scale_ratio(const lrcs_recipe_part *part)
     return small > 0.0 && large / small < RATIO_MOST ? large / small : 1.0;
 }
 
-/* Does the closed form serve a shape from every direction? Nothing hides it, and it is placed
-   without a change of shape. */
+/* Does the closed form hold for a shape from every direction? It does if nothing hides it and its
+   placement does not change its shape. */
 static int is_closed_form(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                           const lrcs_material *material)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How finely a shape is divided that stands among other parts. */
+/* How finely a shape among other parts is divided. */
 #ifndef LRCSI_FINENESS_H
 #define LRCSI_FINENESS_H
 
@@ -12,7 +12,7 @@ typedef struct lrcsi_fineness {
     int facets_only; /* lrcs_build_options.facets_only */
 } lrcsi_fineness;
 
-/* Roughly the surface of a part, to weigh parts with; of a model, its facets'. */
+/* The approximate surface area of a part, used as a weight; for a model, the area of its facets. */
 double lrcsi_fineness_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh);
 
 /* Status: LRCS_OK; as lrcs_shape_count. */

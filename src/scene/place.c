@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Joint, scale, rotation, translation, in this order. Decides which of them are the identity and
-   are left out, and whether the whole mirrors. */
+   are left out, and whether the whole map is a reflection. */
 #include "scene/place.h"
 
 #include <math.h>
@@ -130,11 +130,11 @@ void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3])
 
 /* --- the nearest rotation --------------------------------------------------------------------- */
 
-/* Matrices that are farther from a rotation than this are taken as they are. */
+/* Matrices that are farther from a rotation than this are used unchanged. */
 #define ROTATION_NEAR 0x1p-40
 
-/* D = R^T R - I in double-double: every entry is off by at most 2^-101. Returns its Frobenius norm,
-   rounded up, or 0 where D is 0 exactly. */
+/* D = R^T R - I in double-double: the error of every entry is at most 2^-101. Returns its Frobenius
+   norm, rounded up, or 0 where D is 0 exactly. */
 static double rotation_defect(const double R[3][3], lrcsi_dd D[3][3])
 {
     double square = 0.0;
@@ -230,7 +230,7 @@ void lrcsi_placer_stretch(const lrcsi_placer *placer, double *most, double *rati
     }
 }
 
-/* A bound on magnitudes, and on how far they are off. */
+/* A bound on magnitudes and on their errors. */
 typedef struct placed_bound {
     double most, error;
 } placed_bound;
@@ -252,9 +252,9 @@ static placed_bound bound_scale(placed_bound x, const double s[3])
     return (placed_bound){most, error + 2.0 * LRCSI_U * (most + error) + 0x1p-1074};
 }
 
-/* Three products and two sums: at most 3 u (1 + 3 u) times the sum of their magnitudes, which is
-   at most the largest sum of |R_ij| over a row times |x|. The nearest rotation is within half of
-   |R^T R - I| (1 + 2^-40) of R, and moves x, of a length of at most sqrt(3) most, by that. */
+/* Three products and two sums: at most 3 u (1 + 3 u) times the sum of their magnitudes, which is at
+   most the largest sum of |R_ij| over a row times |x|. The nearest rotation is within half of |R^T
+   R - I| (1 + 2^-40) of R, and moves x, whose length is at most sqrt(3) most, by that. */
 static placed_bound bound_turn(placed_bound x, const double R[3][3])
 {
     lrcsi_dd D[3][3];

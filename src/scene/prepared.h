@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* A prepared scene: everything that does not depend on direction, as data. Who computes it stands
-   beside each part; scene/prepare.h runs them all. Coordinates here are the scene's times a power
-   of two, so that the largest magnitude lies in [0.5, 1): exact, and far from overflow; those that
-   come out below LRCSI_COORDINATE_LEAST count as 0. Areas computed from them are scaled back by
-   lrcsi_prepared_area. */
+/* A prepared scene: everything that does not depend on direction, as data. A comment names the
+   module that computes each part; scene/prepare.h runs them all. Coordinates here are the scene's
+   times a power of two, so that the largest magnitude lies in [0.5, 1): exact, and far from
+   overflow; those that come out below LRCSI_COORDINATE_LEAST count as 0. Areas computed from them
+   are scaled back by lrcsi_prepared_area. */
 #ifndef LRCSI_PREPARED_H
 #define LRCSI_PREPARED_H
 
@@ -16,7 +16,7 @@
 #include "mesh/topology.h"
 
 /* Scaled coordinates and components of a direction below this count as 0: the exact predicates
-   (base/exact.h) ask for that. */
+   (base/exact.h) require that. */
 #define LRCSI_COORDINATE_LEAST 0x1p-300
 
 /* (b - a) x (c - a) in double-double. Its true value differs by at most `error` in norm. */
@@ -26,26 +26,26 @@ typedef struct lrcsi_normal {
     double error;  /* at most 2^-90 of the length */
 } lrcsi_normal;
 
-/* When another facet in the very same place is seen instead of a facet, which then hides nothing
-   that the other does not hide (scene/coincident.h). */
+/* When a facet is redundant: another facet in the same place is seen instead of it, and it hides
+   nothing that the other does not hide (scene/coincident.h). */
 enum lrcsi_redundant {
     LRCSI_NOT_REDUNDANT = 0,
-    LRCSI_REDUNDANT_FROM_BEHIND = 1, /* where it faces away: its twin faces the laser then */
+    LRCSI_REDUNDANT_FROM_BEHIND = 1, /* if it faces away: its twin then faces the laser */
     LRCSI_REDUNDANT = 2              /* always; so are facets that are skipped */
 };
 
 /* Across the sides of facets (scene/across.h). */
 typedef struct lrcsi_across {
-    lrcs_facet *facet;   /* facet -> across its side from corner k to k + 1: the one other facet
-                            there, or the one of two other twins, that runs the side the other way;
-                            the number of facets where there is no other; itself where the edge is
-                            irregular, or where it is redundant */
+    lrcs_facet *facet;   /* facet -> across its side from corner k to k + 1: the other facet there,
+                            or that one of two coincident facets, that traverses the side in the
+                            opposite sense; the number of facets if there is no other; the facet
+                            itself if the edge is irregular or the facet redundant */
     uint32_t *irregular; /* irregular edges: any others that have facets; ascending */
     uint32_t irregular_count;
 } lrcsi_across;
 
-/* Facets that are not skipped, by material and in facet order within one. A block may be read
-   anywhere: LRCSI_LANES places beyond the last hold zeros. */
+/* Facets that are not skipped, by material and in facet order within one. A block may start at any
+   place: LRCSI_LANES places beyond the last hold zeros. */
 typedef struct lrcsi_batches {
     uint32_t count;
     uint32_t *first;   /* material i: places first[i] .. first[i + 1] */
@@ -55,16 +55,16 @@ typedef struct lrcsi_batches {
     int redundant;     /* some are, on one side at least */
 } lrcsi_batches;
 
-/* At most this share of the facet's area is as near to `other` as their parts' slack, and at most
-   this share of its rows (lrcsi_proximity_rows) holds such points. Rounded up. */
+/* At most this share of the facet's area is within their parts' slack of `other`, and at most this
+   share of its rows (lrcsi_proximity_rows) holds such points. Rounded up. */
 typedef struct lrcsi_near {
     uint32_t facet, other;
     float share, rows;
 } lrcsi_near;
 
 typedef struct lrcsi_proximity {
-    double *reach; /* part: lrcs_part.reach, scaled; NULL where this was not asked for, or some
-                      part's curvature is not known */
+    double *reach; /* part: lrcs_part.reach, scaled; NULL if this was not requested, or some part's
+                      curvature is not known */
     double *
         grazing_cos; /* part: a facet with |cos(theta)| above this keeps its side of its own part */
     double most;     /* of reach */
@@ -77,23 +77,23 @@ typedef struct lrcsi_proximity {
 #define LRCSI_RUN 16u
 
 typedef struct lrcsi_run {
-    double low[3], high[3]; /* the box around its facets, but for those always redundant */
+    double low[3], high[3]; /* the box around its facets, except those always redundant */
     uint32_t first_side;
     int touched; /* some facet has contacts, or is a rim (mesh/intersection.h) */
 } lrcsi_run;
 
-/* A side of a facet of a run across which (scene/across.h) there is a facet of another run, which
-   comes earlier; or none; or one across which there is not this facet. */
+/* A side of a facet of a run across which (scene/across.h) there is a facet of another run that
+   comes earlier, or no facet, or a facet that does not have this facet across. */
 typedef struct lrcsi_run_side {
     uint32_t facet, other;
     uint32_t edge; /* of the topology */
 } lrcsi_run_side;
 
 typedef struct lrcsi_runs {
-    lrcsi_run *run; /* one more than there are, for its first_side */
+    lrcsi_run *run; /* one more than the number of runs, for its first_side */
     uint32_t count;
-    unsigned char *first; /* facet: the first facet, counted from that of the run, of those joined
-                             with it across sides within the run */
+    unsigned char *first; /* facet: the first of the facets connected with it across sides within
+                             the run, counted from the run's first facet */
     lrcsi_run_side *side; /* those of run r: side[run[r].first_side .. run[r + 1].first_side) */
 } lrcsi_runs;
 
@@ -108,11 +108,11 @@ static inline uint32_t lrcsi_run_end(uint32_t start, uint32_t facet_count)
     return facet_count - start < LRCSI_RUN ? facet_count : start + LRCSI_RUN;
 }
 
-/* Where a part stands (scene/extent.h). */
+/* The extent of a part (scene/extent.h). */
 typedef struct lrcsi_extent {
     double low[3], high[3]; /* of its live facets and of the true surface; low > high: none live */
-    int closed_form; /* its sigma is known where nothing hides it, its inside (open, two-sided) left
-                        aside */
+    int closed_form; /* its sigma is known if nothing hides it, except that of its inside (open,
+                        two-sided) */
 } lrcsi_extent;
 
 struct lrcs_prepared {
@@ -121,33 +121,34 @@ struct lrcs_prepared {
     lrcs_point *vertex;       /* scaled */
     unsigned char *skip;      /* facet: 1 where degenerate or omitted; it takes part in nothing */
     unsigned char *redundant; /* facet: a lrcsi_redundant */
-    uint32_t *twin; /* facet: the one in the same place wound the other way, or LRCS_NONE; NULL
-                       where no facet has any */
-    unsigned char *referenced; /* vertex: 1 where a live facet stands on it */
+    uint32_t *twin; /* facet: the one in the same place with the opposite winding, or LRCS_NONE;
+                       NULL if no facet has any */
+    unsigned char *referenced; /* vertex: 1 if a live facet has it as a corner */
     lrcsi_normal *normal;
     lrcsi_batches batches;   /* facets that are not skipped, by material */
-    lrcsi_topology topology; /* of all facets; skipped ones may still stand on its edges */
+    lrcsi_topology topology; /* of all facets; its edges may include skipped ones */
     lrcsi_across across;     /* across the sides of facets that are not redundant */
     lrcsi_intersections
         intersections;  /* between facets that are not redundant, but not between twins */
     lrcsi_runs runs;    /* facets that follow one another */
-    uint32_t *piece;    /* facet: its piece of surface (scene/solid.h), where all are closed;
-                           else NULL */
+    uint32_t *piece;    /* facet: its piece of surface (scene/solid.h) if all are closed; else
+                           NULL */
     double centre[3];   /* of the box around the live facets */
-    double radius;      /* no live vertex is farther from the centre in any coordinate */
+    double radius;      /* an upper bound of the distance of live vertices from the centre in any
+                           coordinate */
     double origin[3];   /* of views: the centre of the box around most vertices, */
     double bulk[3];     /* and half its sides (scene/bulk.h) */
     uint32_t live;      /* facets not skipped */
     int convex;         /* live facets lie on one convex surface, outward and one-sided: exactly, or
-                           by construction; then only facets that graze the light can be hidden */
-    double grazing_cos; /* where convex: a facet with cos(theta) above this is wholly visible */
+                           by construction; then only facets at grazing incidence can be hidden */
+    double grazing_cos; /* if convex: a facet with cos(theta) above this is entirely visible */
     int solid;          /* winding number >= 0 everywhere, proved: back sides are never seen */
     int two_sided;      /* some live facet is */
     int glint, diffuse; /* some live facet's A, B is not 0 */
     int curved;         /* some live part was tessellated from a curved shape */
     lrcsi_proximity
-        proximity; /* where curved shapes stand among others; else proximity.reach is NULL */
-    const lrcsi_extent *extent; /* part: where it stands; NULL where no shape has a closed form */
+        proximity; /* if there are curved shapes among other parts; else proximity.reach is NULL */
+    const lrcsi_extent *extent; /* part: its extent; NULL if no shape has a closed form */
     int articulated;            /* some part stands on a joint */
     int smooth;                 /* some live facet has curved normals */
 };
@@ -164,7 +165,7 @@ static inline const double *lrcsi_prepared_corner(const lrcs_prepared *p, uint32
     return p->vertex[p->scene->facet[facet].corner[k]].x;
 }
 
-/* The unit normals at a facet's corners, or NULL where it is flat. */
+/* The unit normals at a facet's corners, or NULL if it is flat. */
 static inline const lrcs_point *lrcsi_prepared_normals(const lrcs_prepared *p, uint32_t facet)
 {
     const lrcs_point *n =
@@ -172,7 +173,7 @@ static inline const lrcs_point *lrcsi_prepared_normals(const lrcs_prepared *p, u
     return n && (n->x[0] != 0 || n->x[1] != 0 || n->x[2] != 0) ? n : NULL;
 }
 
-/* An area in scaled units, in square metres. Exact but for overflow and underflow. */
+/* An area in scaled units, in square metres. Exact except for overflow and underflow. */
 static inline double lrcsi_prepared_area(const lrcs_prepared *p, double scaled)
 {
     return ldexp(scaled, 2 * p->exponent);

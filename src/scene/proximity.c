@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Slack between parts and the facets within it. Why these distances suffice stands in
-   visibility/proximity_band.h. Shares are rounded outward: coordinates here are below 1 and doubles
-   good to 2^-48 of that, so every distance is widened by LRCSI_NEAR_OFF. */
+/* The slack between parts and the facets within it. visibility/proximity_band.h proves that these
+   distances suffice. Shares are rounded outward: coordinates here are below 1 and doubles good to
+   2^-48 of that, so every distance is widened by LRCSI_NEAR_OFF. */
 #include "scene/proximity.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "mesh/slice.h"
 #include "mesh/tree.h"
 
-/* See scene/solid.c: beyond this the rounding of vertices cannot turn a facet over. */
+/* See scene/solid.c: beyond this the rounding of vertices cannot reverse a facet. */
 #define NEAR_GRAZE 16.0
 
 int lrcsi_proximity_closed(const lrcs_prepared *p, uint32_t part)
@@ -62,9 +62,9 @@ int lrcsi_proximity_has_rows(const lrcs_prepared *p, uint32_t facet)
     return is_straight && part->curvature.turn > 0 && p->scene->facet_smooth[facet] != 0;
 }
 
-/* The corner across from the side that lies on a circle. A wall's vertices are listed from the
-   base up, and its facets by sectors (mesh/tessellate.c): in each the one with its side on the
-   base, then, but on a cone, the one with its side on the upper circle. */
+/* The corner opposite the side that lies on a circle. A wall's vertices are listed from the base
+   up, and its facets by sectors (mesh/tessellate.c): in each the one with its side on the base,
+   then, except on a cone, the one with its side on the upper circle. */
 double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double *const corner[3],
                             const lrcsi_slice *slice)
 {
@@ -81,8 +81,8 @@ double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double
     return lrcsi_slice_extent(slice, corner[top], corner[(top + 1) % 3], corner[(top + 2) % 3]);
 }
 
-/* The part of a facet within `slack` of the prism over `other`: between two planes that far from
-   other's, and between three that far outside its sides. */
+/* The part of a facet within `slack` of the prism over `other`: between two planes at that distance
+   from the plane of `other`, and inside three at that distance outside its sides. */
 static lrcsi_slice near_slice(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
     const lrcsi_normal *normal = &p->normal[other];
@@ -113,13 +113,13 @@ static lrcsi_slice near_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
 
 /* --- all pairs -------------------------------------------------------------------------------- */
 
-/* A share as a float, not below it. */
+/* A share as a float, rounded up. */
 static float share_float(double share)
 {
     return (float)lrcsi_least(1, share * (1 + 0x1p-22));
 }
 
-/* Entries are taken one by one, and lie one behind the other. */
+/* Entries are allocated one by one and are contiguous. */
 _Static_assert(sizeof(lrcsi_near) % LRCS_WORK_ALIGN == 0, "no gaps between entries");
 
 static int near_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work *work)
@@ -147,8 +147,8 @@ static int near_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work 
     return LRCS_OK;
 }
 
-/* The pairs of a facet of a curved part with all of other parts, either way round; where both are
-   curved each comes up by itself. */
+/* The pairs of a facet of a curved part with all facets of other parts, in both orders; if both
+   parts are curved, each order is found from its own facet. */
 static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree, lrcs_work *work)
 {
     const lrcs_scene *scene = p->scene;
@@ -175,7 +175,7 @@ static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree,
     return status;
 }
 
-/* The list grows above the tree and moves down at the end. */
+/* The list grows above the tree in the work area and is moved down at the end. */
 static int nears_find(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_proximity *proximity = &p->proximity;
@@ -203,8 +203,8 @@ static int nears_find(lrcs_prepared *p, lrcs_work *work)
 
 /* --- parts ------------------------------------------------------------------------------------ */
 
-/* 0 where the curvature of some part is not known, or rounding left a curved part's facet without
-   area: what the part hides can then not be told from its other facets. */
+/* 0 if the curvature of some part is not known, or if rounding left a facet of a curved part
+   without area: its other facets then do not determine what the part hides. */
 static int parts_known(const lrcs_prepared *p)
 {
     const lrcs_scene *scene = p->scene;
@@ -218,8 +218,8 @@ static int parts_known(const lrcs_prepared *p)
     return 1;
 }
 
-/* A facet of a convex part whose vertices are off by `off` keeps facing as it does, and in its
-   place among the part's others, where |cos(theta)| exceeds 16 off over its least altitude
+/* A facet of a convex part whose vertices are off by `off` keeps its orientation to the laser, and
+   its order among the part's other facets, if |cos(theta)| exceeds 16 off over its least altitude
    (scene/solid.c). */
 static void parts_fill(lrcs_prepared *p)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Where curved shapes stand among other parts: how far each part's true surface may be from its
-   facets, and which facets come so near to one of another part that the truth may have them in
-   another order. It does not depend on direction. */
+/* Curved shapes among other parts: how far each part's true surface may be from its facets, and
+   which facets are so near to one of another part that the true surfaces may be in a different
+   order. It does not depend on direction. */
 #ifndef LRCSI_PROXIMITY_H
 #define LRCSI_PROXIMITY_H
 
@@ -11,27 +11,28 @@
 /* Every slack is widened by this: coordinates are below 1, and doubles good to 2^-48 of that. */
 #define LRCSI_NEAR_OFF 0x1p-44
 
-/* How near a facet of `part` must come to one of `other`, or in projection to its rims and
-   contours, before the truth may differ there: 0 where both parts' facets are the truth. */
+/* The distance between a facet of `part` and one of `other`, or in projection its rims and
+   contours, below which the true visibility may differ: 0 if both parts' facets are exact. */
 double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint32_t other);
 
-/* 1 where a part is a closed outward solid by construction: its back sides are never what hides. */
+/* 1 if a part is a closed outward solid by construction: its back sides never hide anything by
+   themselves. */
 int lrcsi_proximity_closed(const lrcs_prepared *prepared, uint32_t part);
 
 /* The rows of a facet on the straight wall of a cylinder, cone or frustum are the lines parallel to
-   its side on one of the wall's two circles. With the facet's corners given in any coordinates:
-   the share of its rows, by height over that side, that a polygon within the facet may meet. 1
-   where the facet has no rows or none is left out for sure. */
+   its side on one of the wall's two circles. With the facet's corners given in any coordinates: the
+   share of its rows, by height over that side, that a polygon within the facet may meet. 1 if the
+   facet has no rows, or if no row is certainly outside. */
 double lrcsi_proximity_rows(const lrcs_prepared *prepared, uint32_t facet,
                             const double *const corner[3], const lrcsi_slice *slice);
 
-/* 1 where a facet has rows. */
+/* 1 if a facet has rows. */
 int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);
 
 /* A facet's longest side, scaled. */
 double lrcsi_proximity_longest(const lrcs_prepared *prepared, uint32_t facet);
 
-/* Bytes for ordinary scenes; 0 where no shape is curved. */
+/* Bytes for ordinary scenes; 0 if no shape is curved. */
 size_t lrcsi_proximity_need(const lrcs_scene *scene);
 
 /* Fills prepared->proximity, in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */

@@ -9,11 +9,11 @@
 #include "scene/bind.h"
 #include "scene/recipe.h"
 
-/* Tags of names that must differ among themselves. */
+/* Tags of the kinds of names that must be unique. */
 enum recipe_tag { TAG_PART, TAG_MATERIAL, TAG_MAP_NAME, TAG_MAP_COLOUR };
 
-/* The shortest table and the shortest string: "[[map]]" and its line end (the last may lack it);
-   'a=""' and its. */
+/* The lengths of the shortest table, "[[map]]" with its line end (the last may lack it), and of the
+   shortest string, 'a=""' with its line end. */
 #define TABLE_LEAST  8u
 #define STRING_LEAST 5u
 
@@ -28,7 +28,7 @@ size_t lrcs_recipe_need(size_t size)
 {
     size_t tables = size / TABLE_LEAST + 1;
     size_t strings = size / STRING_LEAST + 1;
-    /* A table is a part at most, and one name; the default material is a binding more. */
+    /* A table gives at most one part and one name; the default material is one more binding. */
     size_t need = lrcsi_work_bytes(tables, sizeof(lrcs_recipe_part));
     need = lrcsi_work_add(need, lrcsi_work_bytes(1, sizeof(lrcs_recipe_material)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(1, sizeof(lrcs_binding)));
@@ -44,8 +44,8 @@ static int out_of_memory(lrcs_where *where)
                             0);
 }
 
-/* Counts parts, materials and maps up to the end or the first error, which the second pass will
-   meet again. */
+/* Counts parts, materials and maps up to the end or the first error, which the second pass finds
+   again. */
 static int count_tables(const char *text, size_t size, lrcs_where *where, uint32_t count[3])
 {
     static const char *const table[3] = {"part", "material", "map"};
@@ -129,15 +129,14 @@ static int read_brdf(const lrcsi_draft *draft, lrcs_brdf *brdf)
                       : LRCS_OK;
 }
 
-/* Their standard deviations and correlations: where they are not given those of the library, or 0.
- */
+/* Their standard deviations and correlations: if they are not given, those of the library, or 0. */
 static int read_brdf_error(const lrcsi_draft *draft, const lrcs_brdf *brdf, lrcs_brdf_error *error)
 {
     static const int key[4] = {LRCSI_KEY_A_ERROR, LRCSI_KEY_B_ERROR, LRCSI_KEY_S_ERROR,
                                LRCSI_KEY_M_ERROR};
     double value[4];
     const char *like = lrcsi_draft_text(draft, LRCSI_KEY_LIKE);
-    lrcs_brdf_error known; /* of the library, where it states any */
+    lrcs_brdf_error known; /* of the library, if it states any */
     memset(&known, 0, sizeof known);
     if (like) {
         known = lrcs_brdf_find(like)->error;
@@ -285,7 +284,7 @@ static int refuse_name(const recipe_reader *reader, uint32_t line, const char *i
                             strlen(name));
 }
 
-/* Enters a name; LRCS_E_NAME where it is known. */
+/* Enters a name; LRCS_E_NAME if it is already known. */
 static int enter_name(lrcsi_index *names, uint32_t tag, const void *bytes, size_t size,
                       uint32_t value)
 {
@@ -325,7 +324,7 @@ static int enter_names(const recipe_reader *reader, lrcsi_index *names)
     return LRCS_OK;
 }
 
-/* A material by its name, the recipe's own first, then the library's; its place among the recipe's
+/* A material by its name, the recipe's own first, then the library's; its index among the recipe's
    in *own, LRCS_NONE for the library's; its source as in <lrcs/scene.h>. */
 static int resolve_name(const recipe_reader *reader, const lrcsi_index *names, const char *name,
                         uint32_t line, lrcs_recipe_material *material, uint32_t *own,
@@ -378,7 +377,7 @@ static int resolve_materials(recipe_reader *reader, const lrcsi_index *names)
     return status;
 }
 
-/* Doubled names and names that nothing answers to. */
+/* Reports duplicate names and names that refer to nothing. */
 static int resolve_names(recipe_reader *reader, lrcs_work *work)
 {
     const lrcs_recipe *recipe = &reader->recipe;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What recipe.c and recipe_part.c tell each other. */
+/* What recipe.c and recipe_part.c share. */
 #ifndef LRCSI_RECIPE_H
 #define LRCSI_RECIPE_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A [[part]] of a scene file: which keys a model or each shape needs, and how the keys of its
-   place become one. */
+   placement are combined. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@
     (KEY_BIT(SIZE) | KEY_BIT(RADIUS) | KEY_BIT(RADIUS2) | KEY_BIT(LENGTH) |                        \
      KEY_BIT(HALF_ANGLE_DEG) | KEY_BIT(WALL_ONLY))
 
-/* What each kind of shape needs and may have besides. */
+/* The required and the optional keys of each kind of shape. */
 typedef struct shape_rule {
     uint64_t needs, allows;
     const char *expected;
@@ -100,7 +100,7 @@ static int check_shape_keys(const lrcsi_draft *draft, int kind)
     return LRCS_OK;
 }
 
-/* The shape knows which dimension is at fault, the draft where it stands. */
+/* Reports a wrong dimension: the shape check finds which one, the draft where it is in the file. */
 static int check_shape(const lrcsi_draft *draft, const lrcs_shape *shape)
 {
     lrcs_where *where = draft->toml->where;
@@ -148,7 +148,7 @@ static int read_shape(const lrcsi_draft *draft, lrcs_shape *shape)
     return check_shape(draft, shape);
 }
 
-/* A file or a shape, and not both. */
+/* Either a file or a shape, not both. */
 static int read_body(const lrcsi_draft *draft, lrcs_recipe_part *part)
 {
     const char *file = lrcsi_draft_text(draft, LRCSI_KEY_FILE);
@@ -166,7 +166,7 @@ static int read_body(const lrcsi_draft *draft, lrcs_recipe_part *part)
     return refuse_others(draft, 0, "no such key beside file");
 }
 
-/* At most one of the three ways to say a rotation. */
+/* At most one of the three ways to specify a rotation. */
 static int read_rotation(const lrcsi_draft *draft, double R[3][3])
 {
     const char *sequence = lrcsi_draft_text(draft, LRCSI_KEY_ROTATE_EULER);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs of facets: their boxes, and which of their facets are connected within the run. What a view
-   makes of that is decided elsewhere. */
+/* Runs of facets: their boxes, and which of their facets are connected within the run. It does not
+   decide how a view uses them. */
 #include "scene/runs.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "base/range.h"
 #include "base/work.h"
 
-/* Does a facet lie across some side of another? */
+/* Is a facet across some side of another? */
 static int lies_across(const lrcsi_across *across, uint32_t facet, uint32_t other)
 {
     const uint32_t *corner = across->facet[other].corner;
@@ -49,7 +49,7 @@ size_t lrcsi_runs_need(uint32_t facet_count)
     return lrcsi_work_add(need, 3 * lrcsi_work_bytes(facet_count, sizeof(lrcsi_run_side)));
 }
 
-/* Room for three sides a facet, given back but for what they need. */
+/* Memory for three sides per facet; what is not needed is released. */
 int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
 {
     uint32_t facet_count = p->scene->facet_count;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs of a few facets that follow one another in the scene: files mostly list neighbours so. What
-   holds of a run in all directions lets a view treat its facets together. */
+/* Runs of a few facets that are consecutive in the scene; most files list neighbours consecutively.
+   Facts about a run that hold for all directions let a view treat its facets together. */
 #ifndef LRCSI_RUNS_H
 #define LRCSI_RUNS_H
 

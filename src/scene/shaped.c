@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What holds of a placed shape by construction: how far its facets and corners stray, whether it is
-   closed and convex. */
+/* Properties of a placed shape by construction: the errors of its facets and corners, and whether
+   it is closed and convex. */
 #include "scene/shaped.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "mesh/profile.h"
 #include "mesh/tessellate.h"
 
-/* The least of a shape's extents, in its own units; 0 for what is flat. */
+/* The least of a shape's extents, in its own units; 0 for a flat shape. */
 static double least_extent(const lrcs_shape *shape)
 {
     double sine;
@@ -37,7 +37,7 @@ static double least_extent(const lrcs_shape *shape)
     }
 }
 
-/* 1 where a shape's surface is closed: it has caps or needs none. */
+/* 1 if a shape's surface is closed: it has caps or needs none. */
 static int is_closed(const lrcs_shape *shape)
 {
     return shape->kind == LRCS_SHAPE_BOX || shape->kind == LRCS_SHAPE_SPHERE ||
@@ -62,16 +62,16 @@ double lrcsi_shaped_extent(const lrcs_mesh *mesh)
     return most;
 }
 
-/* How far a shape's placed vertices may be off. The mesh's own coordinates are good to a relative
-   (16 + rings) u (src/mesh/profile.c), but for what underflows. */
+/* A bound on the errors of a shape's placed vertices. The mesh's own coordinates have a relative
+   error of (16 + rings) u (src/mesh/profile.c), except for underflow. */
 static double misplacement(double most, const lrcs_divisions *divisions, const lrcsi_placer *placer)
 {
     double error = (17.0 + (double)divisions->along) * LRCSI_U * most + 0x1p-1022;
     return lrcsi_placer_error(placer, most + error, error);
 }
 
-/* The least altitude of a facet of the part placed last, m: its area over its longest side; 0 where
-   one is but a point. */
+/* The least altitude of a facet of the part placed last, m: its area over its longest side; 0 if
+   one is a point. */
 static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
 {
     double least = HUGE_VAL;
@@ -97,8 +97,9 @@ static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
 }
 
 /* Rounding in placing moves corners by at most e: each tilts its facet by at most e over the
-   altitude on it, and changes its area by at most that part. Facets' own numbers hold per unit of
-   their area, and patches may be larger. Of a facet left without area nothing can be told. */
+   altitude on it, and changes its area by at most that fraction. The numbers of facets hold per
+   unit of their area, and patches may be larger. Nothing can be proved about a facet left without
+   area. */
 void lrcsi_shaped_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double most,
                        lrcs_part *part)
 {
@@ -114,9 +115,9 @@ void lrcsi_shaped_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, doub
     }
 }
 
-/* What holds of a placed shape by construction. Curvature outlives one scale for all axes as it is,
-   others as mesh/profile.h has it; convexity any affine map, and with the winding flipped the
-   outside stays outside under a mirror. */
+/* Properties of a placed shape by construction. A uniform scale does not change curvature, other
+   scales change it as in mesh/profile.h; any affine map preserves convexity, and as a reflection
+   reverses the winding, the outside stays outside. */
 void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
                            const lrcs_curvature *curvature, const lrcsi_placer *placer,
                            double extent, lrcs_part *part)

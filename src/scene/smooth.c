@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* Normals at the corners of facets, from vertex normals and smoothing groups. It decides what a
-   file's data mean and which facets they make curved; integrating over them is not its business.
+   file's data mean and which facets they make curved. It does not integrate over them.
 
-   At a corner the vertex normal of the file goes first, placed by the inverse transpose of the
-   place's linear map, under which outward stays outward also where that mirrors. Without one, a
-   corner of a facet in a smoothing group gets the mean of the normals of the facets that share its
-   vertex (by index: welded positions share nothing) and one of its groups, weighted with their
-   angles there, so that no triangulation of flat polygons changes it. All else is hard: the facet's
-   own normal.
+   At a corner the vertex normal of the file has precedence. It is placed by the inverse transpose
+   of the linear map, under which outward stays outward even if the map is a reflection. Without
+   one, a corner of a facet in a smoothing group gets the mean of the normals of the facets that
+   share its vertex (by index: welded positions share nothing) and one of its groups, weighted with
+   their angles there, so that the mean does not depend on the triangulation of flat polygons. All
+   other corners are hard: they get the facet's own normal.
 
-   The winding decides which side is the front. Where all the vertex normals of a facet point
-   behind it, the file drew them for the other side, and they are turned round; any other normal
-   that does not point in front (skins of one sheet that share vertices, corners that no normal can
-   serve) gives way to the facet's own.
+   The winding decides which side is the front. If all the vertex normals of a facet point behind
+   it, the file gives them for the other side, and they are reversed. Any other normal that does not
+   point in front (the two sides of one panel that share vertices, corners for which no normal is
+   suitable) is replaced by the facet's own.
 
-   Nothing but + - * / and sqrt is used on normals: they are the same on every machine. */
+   Only + - * / and sqrt are used on normals, so they are the same on every machine. */
 #include "scene/smooth.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@
 #define SMOOTH_FLAT   0x1p-40
 #define SMOOTH_CANCEL 0x1p-20
 
-/* Means kept by group while the corners of one vertex are done: as many as there are bits. */
+/* The means kept by group while the corners of one vertex are processed: one per bit. */
 #define SMOOTH_GROUPS 32u
 
 typedef struct smooth_job {
@@ -39,8 +39,8 @@ typedef struct smooth_job {
     lrcs_scene *scene;
     uint32_t base;       /* the mesh's first vertex in the scene */
     uint32_t first;      /* its first facet */
-    lrcs_point *unit;    /* facet: its own normal; zero where degenerate */
-    uint32_t *start;     /* vertex: where its corners begin in `corner` */
+    lrcs_point *unit;    /* facet: its own normal; zero if degenerate */
+    uint32_t *start;     /* vertex: the index of its first corner in `corner` */
     uint32_t *corner;    /* 3 facet + k, by vertex */
     lrcs_point *in_mean; /* corner 3 facet + k: the mean of its groups, or zero */
 } smooth_job;
@@ -57,7 +57,8 @@ static void cross_of(const double a[3], const double b[3], double c[3])
     }
 }
 
-/* To length 1, by way of the largest component, so that nothing overflows. 0: no length. */
+/* Scales to length 1, first dividing by the largest component so that nothing overflows. Returns 0
+   if the length is zero. */
 static int make_unit(double v[3])
 {
     double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
@@ -74,7 +75,7 @@ static int make_unit(double v[3])
     return 1;
 }
 
-/* The angle between two unit vectors, rad: tan of its 64th part by halvings, and seven terms of the
+/* The angle between two unit vectors, rad: tan of 1/64 of it by halving, then seven terms of the
    arc tangent (tan(pi/64) < 0.05: the eighth is below 1e-19). */
 static double angle_of(const double a[3], const double b[3])
 {
@@ -83,7 +84,7 @@ static double angle_of(const double a[3], const double b[3])
     double size = lrcsi_length(c);
     double dot = dot_of(a, b);
     double whole = sqrt(size * size + dot * dot);
-    /* tan of the half; beyond a right angle from the other side, where nothing cancels */
+    /* tan of the half; beyond a right angle by the other formula, without cancellation */
     double t = dot >= 0.0 ? size / (whole + dot) : (whole - dot) / size;
     if (!(t < 0x1p60)) {
         return LRCSI_PI;
@@ -104,7 +105,7 @@ static const double *placed(const smooth_job *job, uint32_t facet, uint32_t k)
     return job->scene->vertex[job->scene->facet[job->first + facet].corner[k % 3]].x;
 }
 
-/* The side of a facet from corner k to corner k + by, of length 1. */
+/* The unit vector along the side of a facet from corner k to corner k + by. */
 static int side_of(const smooth_job *job, uint32_t facet, uint32_t k, uint32_t by, double v[3])
 {
     const double *from = placed(job, facet, k);
@@ -131,11 +132,11 @@ static void find_units(smooth_job *job)
 
 /* --- smoothing groups ------------------------------------------------------------------------- */
 
-/* Files every corner under its vertex. */
+/* Lists the corners of every vertex. */
 static void file_corners(smooth_job *job)
 {
     uint32_t vertices = job->mesh->vertex_count;
-    uint32_t corners = 3 * job->mesh->facet_count; /* lrcsi_smooth_run saw to it */
+    uint32_t corners = 3 * job->mesh->facet_count; /* lrcsi_smooth_run ensures it */
     memset(job->start, 0, ((size_t)vertices + 2) * sizeof *job->start);
     for (uint32_t i = 0; i < corners; i++) {
         const lrcs_facet *facet = &job->scene->facet[job->first + i / 3];
@@ -150,7 +151,7 @@ static void file_corners(smooth_job *job)
     }
 }
 
-/* The mean normal at a vertex of the facets that share one of the groups; zero where it cancels. */
+/* The mean normal at a vertex of the facets that share one of the groups; zero if it cancels. */
 static lrcs_point group_mean(const smooth_job *job, uint32_t vertex, uint32_t groups)
 {
     lrcs_point mean = {{0.0, 0.0, 0.0}};
@@ -178,7 +179,7 @@ static lrcs_point group_mean(const smooth_job *job, uint32_t vertex, uint32_t gr
     return mean;
 }
 
-/* The means at one vertex, each set of groups summed once as long as they are few. */
+/* The means at one vertex; each set of groups is summed once if there are few. */
 static void vertex_means(smooth_job *job, uint32_t vertex)
 {
     uint32_t known[SMOOTH_GROUPS];
@@ -201,7 +202,7 @@ static void vertex_means(smooth_job *job, uint32_t vertex)
 
 /* --- vertex normals --------------------------------------------------------------------------- */
 
-/* The file's normal of a corner, placed; 0 where it has none. */
+/* The file's normal of a corner, placed; returns 0 if it has none. */
 static int given_normal(const smooth_job *job, uint32_t facet, uint32_t k, double n[3])
 {
     if (!job->mesh->facet_normal) {
@@ -222,7 +223,7 @@ static int given_normal(const smooth_job *job, uint32_t facet, uint32_t k, doubl
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* A facet's three normals. 0 where all are its own. */
+/* A facet's three normals. Returns 0 if all are the facet's own. */
 static int facet_normals(const smooth_job *job, uint32_t facet, lrcs_point n[3])
 {
     const double *own = job->unit[facet].x;
@@ -252,7 +253,7 @@ static int facet_normals(const smooth_job *job, uint32_t facet, lrcs_point n[3])
     return curved;
 }
 
-/* Does the glint call for them? The turn is the largest angle between two of them. */
+/* Does the glint require curved normals? The turn is the largest angle between two of them. */
 static int is_called_for(const smooth_job *job, uint32_t facet, const lrcs_point n[3],
                          const lrcs_build_options *options)
 {

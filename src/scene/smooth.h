@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* Curved normals: what a model file says of its facets' normals, at the corners of placed facets.
- */
+/* Curved normals: the normals that a model file gives, at the corners of placed facets. */
 #ifndef LRCSI_SMOOTH_H
 #define LRCSI_SMOOTH_H
 
 #include "scene/place.h"
 
-/* Does the mesh say anything of normals: a smoothing group or a vertex normal? */
+/* Does the mesh have a smoothing group or a vertex normal? */
 int lrcsi_smooth_given(const lrcs_mesh *mesh);
 
 /* Bytes of work area that lrcsi_smooth_run takes while it runs. */
 size_t lrcsi_smooth_need(const lrcs_mesh *mesh);
 
-/* Fills scene->corner_normal for the facets of `mesh`, which end the scene: placed vertices, facets
-   and materials stand already, as placed by `placer`. Unit vectors, each in front of its facet; a
-   facet without curvature, or one that AUTO leaves flat for this tolerance, has three zeros.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_INDEX (a normal that the mesh does not have);
+/* Fills scene->corner_normal for the facets of `mesh`, which are the last in the scene: vertices,
+   facets and materials are already there, placed by `placer`. Unit vectors, each in front of its
+   facet; a facet without curvature, or one that AUTO leaves flat for this tolerance, has three
+   zeros. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_INDEX (the index of a normal that does not exist);
    LRCS_E_LIMIT (more than 1.4e9 facets). */
 int lrcsi_smooth_run(const lrcs_mesh *mesh, const lrcsi_placer *placer,
                      const lrcs_build_options *options, lrcs_work *work, lrcs_scene *scene);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Proofs about a scene's shape: closed and outward (back sides are never seen), convex (front
-   sides are never hidden). They refuse where they are not sure; nothing depends on direction. */
+/* Proofs about a scene's shape: closed and outward (back sides are never seen), convex (front sides
+   are never hidden). They refuse if they cannot prove it; nothing depends on direction. */
 #include "scene/solid.h"
 
 #include <math.h>
@@ -32,8 +32,8 @@ int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
     return 1;
 }
 
-/* Six times the signed volume of a facet's tetrahedron about `o`, and a bound on its rounding:
-   each difference, product and sum is off by u of its magnitude, all below |a| |b| |c|. */
+/* Six times the signed volume of a facet's tetrahedron about `o`, and a bound on its rounding: each
+   difference, product and sum has a relative error of u, all below |a| |b| |c|. */
 static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *o, double *error)
 {
     double v[3][3];
@@ -91,7 +91,7 @@ int lrcsi_solid_outward(const lrcs_prepared *p, const uint32_t *piece, lrcs_work
 
 /* --- convexity -------------------------------------------------------------------------------- */
 
-/* The only part with live facets, or LRCS_NONE. */
+/* The only part with live facets, or LRCS_NONE if there is no such part. */
 static uint32_t lone_part(const lrcs_prepared *p)
 {
     uint32_t part = LRCS_NONE;
@@ -107,8 +107,8 @@ static uint32_t lone_part(const lrcs_prepared *p)
     return part;
 }
 
-/* How far (scaled) the corner of `other` off their common edge stands above the plane of `facet`;
-   negative below. */
+/* The height (scaled) above the plane of `facet` of the corner of `other` that is not on their
+   common edge; negative below. */
 static double corner_above(const lrcs_prepared *p, uint32_t facet, uint32_t other)
 {
     const lrcsi_normal *n = &p->normal[facet];
@@ -182,7 +182,7 @@ int lrcsi_convex_made(const lrcs_prepared *p, int *solid, double *grazing_cos)
     return (part->solid || !p->two_sided) && part_is_convex(p, part, grazing_cos);
 }
 
-/* Of the live facets alone, where others stand on the topology's edges. */
+/* Considers the live facets alone if the topology's edges include others. */
 static int convex_without_omitted(const lrcs_prepared *p, lrcs_work *work, int *proved)
 {
     lrcs_facet *facet = lrcsi_work_take(work, p->live, sizeof *facet);

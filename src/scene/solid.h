@@ -1,32 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* What the planner can prove about a scene's shape, whatever the direction. */
+/* What the planner can prove about a scene's shape for all directions. */
 #ifndef LRCSI_SOLID_H
 #define LRCSI_SOLID_H
 
 #include "scene/prepared.h"
 
-/* Pieces of surface, connected over edges: piece[facet] names its piece by its first facet.
+/* Pieces of surface, connected across edges: piece[facet] identifies its piece by its first facet.
    Returned: 1 where every edge of the live facets has exactly two of them, in opposite directions,
-   and none is coincident with another (twins enclose no volume, so no such scene is solid); else 0,
-   and piece is of no use. */
+   and none is coincident with another (coincident facets enclose no volume, so no such scene is
+   solid); else 0, and piece is undefined. */
 int lrcsi_solid_pieces(const lrcs_prepared *prepared, uint32_t *piece);
 
 /* Proves that the winding number of the live facets is nowhere negative: their pieces are closed
    (lrcsi_solid_pieces); no facet meets the inside or a side of another of its piece
-   (lrcsi_intersections.self); and the volume is positive. Then the piece meets itself in lone
-   points at most (corners in one place, sides that cross): two sheets that meet along a line do so
-   inside a facet or along overlapping sides, of which one ends inside the other. A sheet less such
-   a point is connected, so it stays on one side of the other sheet and can be moved off it. What
-   results is an embedded surface: winding number 0 outside and 1 inside (Jordan-Brouwer), and
-   winding numbers add. This is the last step, the volume. 1: proved, 0: not; scratch from work.
-   Status: LRCS_OK; LRCS_E_MEMORY. */
+   (lrcsi_intersections.self); and the volume is positive. Then the piece meets itself at most in
+   isolated points (corners in one place, sides that cross): two sheets of surface that meet along a
+   line do so inside a facet or along overlapping sides, of which one ends inside the other. A sheet
+   without such a point is connected, so it stays on one side of the other sheet and can be moved
+   off it. The result is an embedded surface: winding number 0 outside and 1 inside
+   (Jordan-Brouwer), and winding numbers add. This is the last step, the volume. 1: proved, 0: not;
+   scratch from work. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *piece, lrcs_work *work,
                         int *proved);
 
-/* 1 where the live facets are all of one engine-made part that lies on a convex surface, outward,
-   and one-sided or closed (*solid): convex by construction. Rounding, and on doubly curved bodies
-   the choice of diagonals, may have left dents; a front facet with cos(theta) > *graze is wholly
-   visible all the same. */
+/* 1 if all live facets belong to one part that the library tessellated, which lies on a convex
+   surface, outward, and one-sided or closed (*solid): convex by construction. Rounding, and on
+   doubly curved bodies the choice of diagonals, may have left dents; a front facet with cos(theta)
+   > *graze is nevertheless entirely visible. */
 int lrcsi_convex_made(const lrcs_prepared *prepared, int *solid, double *grazing_cos);
 
 /* Proves that the live facets of a solid scene are one convex body, exactly (mesh/convex.h).

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The TOML subset: bytes, values, keys and headers. Decides what is well formed and what a
-   literal's value is; knows nothing of scenes. The parts follow each other from the byte to the
-   event: moving through the text, strings, numbers and arrays, keys and headers, the whole file. */
+/* The TOML subset: bytes, values, keys and headers. Decides what is well formed and the value of a
+   literal; does not depend on scenes. The parts follow each other from the byte to the event:
+   moving through the text, strings, numbers and arrays, keys and headers, the whole file. */
 #include "scene/toml.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 /* A message quotes at most this many bytes of the file. */
 #define TOML_EXCERPT 40
 
-/* Integers up to here are doubles exactly, and no others round to them: 2^53 - 1. */
+/* Integers up to this one are exact as doubles, and no others round to them: 2^53 - 1. */
 #define INTEGER_MOST 9007199254740991.0
 
 /* --- moving through the text --------------------------------------------------------------- */
@@ -25,14 +25,14 @@ static int toml_is_end(char c)
     return c == '\n' || c == '\r';
 }
 
-/* A byte that may stand in a number, a date, a boolean. */
+/* A byte that may occur in a number, a date or a boolean. */
 static int toml_is_literal(char c)
 {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
            c == '+' || c == '-' || c == '.' || c == ':';
 }
 
-/* Does this byte stand next? */
+/* Is this the next byte? */
 static int toml_peek(const lrcsi_toml *toml, char c)
 {
     return toml->at < toml->end && *toml->at == c;
@@ -66,7 +66,7 @@ static void toml_blanks(lrcsi_toml *toml)
     }
 }
 
-/* Passes a comment, up to its line end. */
+/* Skips a comment, up to its line end. */
 static void skip_comment(lrcsi_toml *toml)
 {
     if (toml_peek(toml, '#')) {
@@ -76,7 +76,8 @@ static void skip_comment(lrcsi_toml *toml)
     }
 }
 
-/* Passes one line end, if it stands here: lrcsi_toml_start saw that a CR is followed by LF. */
+/* Skips one line end, if there is one here: lrcsi_toml_start has checked that every CR is followed
+   by LF. */
 static int skip_line_end(lrcsi_toml *toml)
 {
     if (toml->at == toml->end || !toml_is_end(*toml->at)) {
@@ -118,7 +119,7 @@ static int hex_digit(char c)
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* A code point as UTF-8; bytes written. */
+/* Writes a code point as UTF-8. Returns the number of bytes written. */
 static size_t encode_utf8(uint32_t code, char out[4])
 {
     if (code < 0x80) {
@@ -134,7 +135,7 @@ static size_t encode_utf8(uint32_t code, char out[4])
     return count;
 }
 
-/* \uXXXX or \UXXXXXXXX with toml->at behind the letter. */
+/* \uXXXX or \UXXXXXXXX with toml->at after the letter. */
 static int read_code_point(lrcsi_toml *toml, int digits, char out[4], size_t *count)
 {
     static const char expected[] = "4 or 8 hexadecimal digits of a Unicode scalar value";
@@ -158,7 +159,7 @@ static int read_code_point(lrcsi_toml *toml, int digits, char out[4], size_t *co
     return LRCS_OK;
 }
 
-/* An escape, with toml->at behind the backslash. */
+/* An escape, with toml->at after the backslash. */
 static int read_escape(lrcsi_toml *toml, char out[4], size_t *count)
 {
     static const char letter[] = "btnfr\"\\";
@@ -236,7 +237,8 @@ static int read_string(lrcsi_toml *toml, lrcsi_toml_event *event)
 
 /* --- numbers ------------------------------------------------------------------------------- */
 
-/* A digit, then digits that single underscores may part; behind them, or NULL for none. */
+/* Reads a digit, then digits that single underscores may separate. Returns the end, or NULL if
+   there is no digit. */
 static const char *pass_digits(const char *at, const char *end)
 {
     if (at == end || *at < '0' || *at > '9') {
@@ -251,7 +253,7 @@ static const char *pass_digits(const char *at, const char *end)
     return at[-1] == '_' ? at - 1 : at;
 }
 
-/* 1 where [at, end) is a decimal TOML number; *integer tells which kind. */
+/* 1 if [at, end) is a decimal TOML number; *integer is its kind. */
 static int is_number(const char *at, const char *end, int *integer)
 {
     if (at < end && (*at == '+' || *at == '-')) {
@@ -273,8 +275,8 @@ static int is_number(const char *at, const char *end, int *integer)
     return at == end;
 }
 
-/* The value of a number, its underscores left out in the work area. Without a work area those with
-   underscores count as 0: then only their form matters. */
+/* The value of a number, its underscores left out in the work area. Without a work area numbers
+   with underscores become 0: only their form is checked. */
 static int number_value(lrcs_work *work, const char *at, const char *end, double *value)
 {
     if (!memchr(at, '_', (size_t)(end - at))) {
@@ -306,7 +308,7 @@ static int literal_is(const char *at, size_t size, const char *word)
     return size == strlen(word) && memcmp(at, word, size) == 0;
 }
 
-/* What a literal that is no number may have been meant as. */
+/* The probable intention of a literal that is not a number. */
 static int refuse_literal(const lrcsi_toml *toml, size_t size)
 {
     const char *at = toml->at;
@@ -515,7 +517,7 @@ int lrcsi_toml_next(lrcsi_toml *toml, lrcsi_toml_event *event)
 
 /* --- the bytes as a whole ------------------------------------------------------------------- */
 
-/* Bytes of the character at `at`, 0 where none may stand there. */
+/* The number of bytes of the character at `at`, 0 if it is not allowed. */
 static size_t character_size(const char *at, const char *end)
 {
     unsigned char lead = (unsigned char)*at;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* A pull reader for a strict subset of TOML 1.0: what it accepts, TOML reads with the same
+/* A pull reader for a strict subset of TOML 1.0: every text that it accepts is TOML with the same
    values. In the subset: comments; [a], [a.b], [[a]] and [[a.b]] headers; bare and quoted keys;
-   single-line strings, "basic" and 'literal'; decimal integers below 2^53, finite floats,
-   booleans; arrays of numbers, over several lines too. Beside it, refused as unsupported: dotted
-   keys, multi-line strings, inline and nested structures, dates, hexadecimal, U+0000, inf, nan.
-   A byte order mark at the start is passed over. Which tables and keys mean something, and that
-   none is given twice, is the schema's business. */
+   single-line strings, "basic" and 'literal'; decimal integers below 2^53, finite floats, booleans;
+   arrays of numbers, also over several lines. Refused as unsupported: dotted keys, multi-line
+   strings, inline and nested structures, dates, hexadecimal, U+0000, inf, nan. A byte order mark at
+   the start is skipped. The schema decides which tables and keys are known, and refuses
+   duplicates. */
 #ifndef LRCSI_TOML_H
 #define LRCSI_TOML_H
 
@@ -29,7 +29,7 @@ enum lrcsi_toml_type {
 };
 
 #define LRCSI_TOML_NAME    32u /* names of this many bytes or more are counted, not kept whole */
-#define LRCSI_TOML_NUMBERS 6u  /* so are numbers of an array beyond these */
+#define LRCSI_TOML_NUMBERS 6u  /* numbers of an array beyond this many are counted, not kept */
 
 typedef struct lrcsi_toml_name {
     size_t size; /* bytes, once unescaped */
@@ -65,18 +65,18 @@ typedef struct lrcsi_toml {
 int lrcsi_toml_start(lrcsi_toml *toml, const char *text, size_t size, lrcs_work *work,
                      lrcs_where *where);
 
-/* The next header or key; LRCSI_TOML_END at the end, ever after.
-   Status: LRCS_OK; LRCS_E_SYNTAX, _UNSUPPORTED, _NUMBER, _MEMORY. */
+/* The next header or key; LRCSI_TOML_END at the end, and in every later call. Status: LRCS_OK;
+   LRCS_E_SYNTAX, _UNSUPPORTED, _NUMBER, _MEMORY. */
 int lrcsi_toml_next(lrcsi_toml *toml, lrcsi_toml_event *event);
 
-/* 1 where a name is `text`, which has fewer than LRCSI_TOML_NAME bytes. */
+/* 1 if a name is `text`, which has fewer than LRCSI_TOML_NAME bytes. */
 int lrcsi_toml_name_is(const lrcsi_toml_name *name, const char *text);
 
 /* Reports what is wrong with something that was read: its bytes are quoted. Returns `status`. */
 int lrcsi_toml_refuse(const lrcsi_toml *toml, int status, uint32_t line, const char *raw,
                       size_t size, const char *item, const char *expected);
 
-/* Where line `line` begins: its offset in the text. */
+/* The offset in the text at which line `line` begins. */
 size_t lrcsi_toml_offset(const char *text, size_t size, uint32_t line);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Units of length: which are known, and what they are in metres (inch and foot exactly 25.4 mm
-   and 304.8 mm, the international yard and pound agreement of 1959). */
+/* The known units of length, and their values in metres (inch and foot exactly 25.4 mm and 304.8
+   mm, the international yard and pound agreement of 1959). */
 #include "scene/unit.h"
 
 #include <lrcs/status.h>
