@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* sigma as graphics hardware computes it: a shade for every facet, and the sum of the pixels'. It
-   decides how f_r cos(theta) is evaluated and added at the chosen precision; which facet owns which
-   pixel, visibility/gpu.c decides. */
+/* sigma as graphics hardware computes it: a shade for every facet, and the sum of the shades of all
+   pixels. This file decides how f_r cos(theta) is evaluated and added at the chosen precision;
+   analysis/gpu.c decides which facet owns which pixel. */
 #include <lrcs/emulate.h>
 
 #include <math.h>
@@ -40,12 +40,12 @@ lrcs_emulation_options lrcs_emulation_options_default(void)
 
 /* --- shades ----------------------------------------------------------------------------------- */
 
-/* f_r cos(theta) of a facet, its terms apart. */
+/* f_r cos(theta) of a facet, its two terms separately. */
 typedef struct gpu_shade {
     double glint, diffuse, cos_theta;
 } gpu_shade;
 
-/* R times the facet's unit normal, as both are uploaded. */
+/* The product of R and the facet's unit normal, both as they are uploaded. */
 static void shade_normal(const lrcsi_view *view, int single, uint32_t facet, double out[3])
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
@@ -59,9 +59,9 @@ static void shade_normal(const lrcsi_view *view, int single, uint32_t facet, dou
     }
 }
 
-/* A exp(-(tan / s)^2) / cos^5. The tangent comes from the normal's own components: from the cosine
-   alone, floats would lose a narrow glint. Infinite only where it exceeds the precision's range;
-   0 where the exponential is. */
+/* A exp(-(tan / s)^2) / cos^5. The tangent is computed from the components of the normal: from the
+   cosine alone, floats would lose a narrow glint. The result is infinite only if it exceeds the
+   range of the precision; it is 0 if the exponential is 0. */
 static double shade_glint(int single, const lrcs_brdf *brdf, double cos_theta, double across,
                           double along)
 {
@@ -83,7 +83,7 @@ static double shade_diffuse(int single, const lrcs_brdf *brdf, double cos_theta)
     return B > 0 && weight > 0 ? lrcsi_single(single, B * weight) : 0;
 }
 
-/* Facets dark from this side have no shade. */
+/* A facet whose visible side reflects nothing has no shade. */
 static gpu_shade shade_make(const lrcsi_gpu *gpu, uint32_t facet)
 {
     int single = gpu->single;
@@ -108,7 +108,7 @@ static gpu_shade shade_make(const lrcsi_gpu *gpu, uint32_t facet)
 
 #define LEVELS 29 /* pairs of pairs of ... 16384^2 pixels */
 
-/* A pairwise sum in the making: level[k] is that of 2^k terms, where bit k of the count is set. */
+/* A pairwise sum in progress: if bit k of the count is set, level[k] is the sum of 2^k terms. */
 typedef struct pair_sum {
     double level[LEVELS];
     uint32_t count;
@@ -124,7 +124,7 @@ static void pair_add(pair_sum *sum, int single, double x)
     sum->count++;
 }
 
-/* What is left over is added up from the short end. */
+/* Adds the remaining partial sums, the shortest first. */
 static double pair_value(const pair_sum *sum, int single)
 {
     double total = 0;
@@ -134,10 +134,10 @@ static double pair_value(const pair_sum *sum, int single)
     return total;
 }
 
-/* Everything after the item buffer. */
+/* The steps after the item buffer. */
 typedef struct gpu_totals {
     double glint, diffuse; /* of f_r cos(theta) over pixels, in pairs */
-    double running[2];     /* the same, one pixel after the other */
+    double running[2];     /* the same, added one pixel after the other */
     uint64_t owned;        /* pixels */
 } gpu_totals;
 
@@ -162,7 +162,7 @@ static gpu_totals totals_make(const lrcsi_gpu *gpu, const gpu_shade *shade)
 
 /* --- outputs ---------------------------------------------------------------------------------- */
 
-/* A pixel's area in square metres, times x. */
+/* The area of a pixel in square metres, times x. */
 static double pixels_area(const lrcsi_gpu *gpu, double x)
 {
     double pixel = gpu->view->side / gpu->size;
@@ -187,7 +187,7 @@ static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_face
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         double pixels = records[f].visible_area_m2;
         records[f].visible_area_m2 = pixels_area(gpu, pixels);
-        if (pixels > 0) { /* shades that nobody sees may be infinite */
+        if (pixels > 0) { /* shades of facets without pixels may be infinite */
             records[f].sigma_glint_m2 = pixels_area(gpu, FOUR_PI * pixels * shade[f].glint);
             records[f].sigma_m2 =
                 records[f].sigma_glint_m2 + pixels_area(gpu, FOUR_PI * pixels * shade[f].diffuse);
@@ -241,7 +241,7 @@ static gpu_shade *shades_make(const lrcsi_gpu *gpu, lrcs_work *work)
     return shade;
 }
 
-/* Nothing can fail after the sums: outputs are touched last. */
+/* Nothing can fail after the sums: outputs are written last. */
 static int emulate_in(lrcsi_view *view, const lrcs_emulation_options *options, lrcs_work *work,
                       lrcs_emulation *emulation, lrcs_facet_record *records, lrcs_image *image)
 {

@@ -16,31 +16,32 @@
 #include "base/work.h"
 #include "optics/special.h"
 
-/* The vectors of lrcsi_fit_data. */
+/* The number of vectors of lrcsi_fit_data. */
 #define FIT_VECTORS 12u
 
-/* Where the search ends: beyond what the model means (s > 0.7 peaks off the normal). */
+/* The limits of the search. Beyond them the model loses its meaning (for s > 0.7 the glint peaks
+   off the normal). */
 #define FIT_SLOPE_MOST     2.0
 #define FIT_FALL_MOST      1000.0
 #define FIT_AMPLITUDE_MOST 1e9
 #define FIT_SLOPE_SHARE    6.0 /* at a sixth of the smallest tangent a glint is exp(-36) there */
 
-/* For the first look at readings with relative errors: those below this share of the largest are
-   as uncertain as this share. */
+/* For the first estimate of errors, if errors are relative: readings below this share of the
+   largest are as uncertain as this share. */
 #define FIT_FIRST_SHARE 0.01
 
-/* Of the largest f_r, and of it in standard errors, of which determinants take the fourth power;
-   and one over that. */
+/* Upper limits of the largest f_r, and of the largest f_r in standard errors, of which determinants
+   take the fourth power; the lower limits are their reciprocals. */
 #define FIT_SIZE_MOST  1e100
 #define FIT_RATIO_MOST 1e70
 
-#define FIT_TRIMS 20 /* rounds of setting outliers aside */
-#define FIT_LOOKS 4  /* fits after a profile that met a better one */
+#define FIT_TRIMS 20 /* rounds of excluding outliers */
+#define FIT_LOOKS 4  /* fits repeated after a profile has found a better one */
 
-/* Errors that follow the fit stay where the sum of squares does so far. */
+/* Errors that follow the fit have converged if the sum of squares changes by less than this. */
 #define FIT_SAME 1e-6
 
-/* The variance that rounding leaves of readings that fit exactly, relative to their squares. */
+/* The variance that rounding leaves in readings that fit exactly, relative to their squares. */
 #define FIT_ROUNDING 0x1p-100
 
 lrcs_fit_options lrcs_fit_options_default(void)
@@ -65,7 +66,7 @@ static int reading_is_good(const lrcs_fit_reading *reading)
     return fabs(reading->angle_deg) < 90.0 && isfinite(reading->value);
 }
 
-/* A NaN is none. */
+/* 1 if a size is within its limits, 0 for a NaN. */
 static int size_is_good(double size, double most)
 {
     return size > 1.0 / most && size < most;
@@ -120,7 +121,7 @@ static int data_take(lrcs_work *work, uint32_t count, lrcsi_fit_data *data)
     return LRCS_OK;
 }
 
-/* The end of the search for each coordinate. */
+/* The limits of the search for each coordinate. */
 static void data_limits(lrcsi_fit_data *data)
 {
     double least = HUGE_VAL; /* the smallest tan^2 above 0 */
@@ -135,7 +136,7 @@ static void data_limits(lrcsi_fit_data *data)
     memcpy(data->most, most, sizeof most);
 }
 
-/* 1 / (the error expected of a reading) at first sight. */
+/* 1 / (the first estimate of the error of a reading). */
 static double error_inverse(const lrcs_fit_reading *reading, int noise, double y, double scale)
 {
     switch (noise) {
@@ -148,7 +149,8 @@ static double error_inverse(const lrcs_fit_reading *reading, int noise, double y
     }
 }
 
-/* Readings by the power of two below the largest: exact, and no square overflows. */
+/* Divides the readings by the power of two below the largest: this is exact, and no square
+   overflows. */
 static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *options,
                       double scale, lrcsi_fit_data *data)
 {
@@ -174,16 +176,17 @@ typedef struct fit_job {
     uint32_t starts;
     uint32_t kept;
     lrcsi_fit_parameters whole; /* the best fit of all four parameters */
-    lrcsi_fit_parameters best;  /* that, or the best without a part that does not stand out */
-    int absent[2];              /* A or B that does not */
-    double error;               /* standard deviation of a weighted residual */
-    double rise;                /* of the sum of squares at the limits of confidence */
+    lrcsi_fit_parameters
+        best;      /* the same, or the best fit without a part that is not significant */
+    int absent[2]; /* A or B of the part that is not significant */
+    double error;  /* standard deviation of a weighted residual */
+    double rise;   /* of the sum of squares at the confidence limits */
     lrcsi_fit_spread spread;
     double limit[LRCS_FIT_PARAMETERS][2];
 } fit_job;
 
-/* All starts brought down softly, the best of them first: by the sum of absolute residuals, in
-   which a few outliers do not decide. */
+/* Minimizes from all starting points with Huber's weights, the best first. They are ordered by the
+   sum of absolute residuals, on which a few outliers have little influence. */
 static void starts_make(fit_job *job)
 {
     uint32_t best = 0;
@@ -199,8 +202,8 @@ static void starts_make(fit_job *job)
     job->start[0] = first;
 }
 
-/* The lowest end of all starts and the fit so far, with A or B held at 0 where `without` names it.
- */
+/* The lowest minimum from all starting points and from the fit so far, with A or B held at 0 if
+   `without` names it. */
 static lrcsi_fit_parameters starts_descend(const fit_job *job, unsigned without)
 {
     lrcsi_fit_parameters best = job->whole;
@@ -223,8 +226,8 @@ static void kept_count(fit_job *job)
     }
 }
 
-/* Least squares over the readings that are kept: outliers and errors follow the fit until they
-   stay. */
+/* Least squares over the readings that are kept: outliers and errors are updated until they no
+   longer change. */
 static void whole_settle(fit_job *job)
 {
     lrcsi_fit_noise(&job->data, job->noise, &job->whole);
@@ -241,8 +244,8 @@ static void whole_settle(fit_job *job)
     kept_count(job);
 }
 
-/* The fit that is reported: without the part that the readings miss less, where they do not miss
-   it; or without the other. */
+/* The fit that is reported: without the less significant part, if that part is not significant; or
+   else without the other one, if that is not significant. */
 static void parts_choose(fit_job *job)
 {
     lrcsi_fit_parameters without[2];
@@ -265,7 +268,7 @@ static void parts_choose(fit_job *job)
     }
 }
 
-/* The sum of the squares of readings, by their weights or, where `all`, in their errors. */
+/* The sum of the squares of readings: by their weights, or, if `all`, by their expected errors. */
 static double readings_size(const lrcsi_fit_data *data, int all)
 {
     double size = 0.0;
@@ -276,8 +279,9 @@ static double readings_size(const lrcsi_fit_data *data, int all)
     return size;
 }
 
-/* What the residuals say of the errors, each part that is there taking two parameters: no less than
-   rounding, of those set aside too where the squares of all that are kept vanish. */
+/* The variance of errors that the residuals show, where each part that is present uses two
+   parameters. It is at least that of rounding; if the squares of all kept readings vanish, the
+   rounding of excluded readings counts too. */
 static void errors_estimate(fit_job *job)
 {
     int parts = 2 - job->absent[0] - job->absent[1];
@@ -317,9 +321,10 @@ static void fit_make(fit_job *job)
     }
 }
 
-/* ---- the account ---- */
+/* ---- the result ---- */
 
-/* The range of the angles that are kept, and how many there are, up to as many as parameters. */
+/* The range of angles of the kept readings, and the number of different angles, counted up to the
+   number of parameters. */
 static void angles_count(const lrcs_fit_reading *reading, const lrcsi_fit_data *data, lrcs_fit *fit)
 {
     double last = -1.0;
@@ -332,7 +337,7 @@ static void angles_count(const lrcs_fit_reading *reading, const lrcsi_fit_data *
     }
     fit->angles = 0;
     while (fit->angles < LRCS_FIT_PARAMETERS && last < fit->most_deg) {
-        double next = fit->most_deg; /* the least above the last */
+        double next = fit->most_deg; /* the smallest angle above the last one */
         for (uint32_t i = 0; i < data->count; i++) {
             double angle = fabs(reading[i].angle_deg);
             next = data->weight[i] > 0.0 && angle > last ? lrcsi_least(next, angle) : next;
@@ -342,7 +347,7 @@ static void angles_count(const lrcs_fit_reading *reading, const lrcsi_fit_data *
     }
 }
 
-/* From coordinates to the parameters' own units. */
+/* Converts from coordinates to the parameters' own units. */
 static double parameter_value(int p, double at, double unit)
 {
     return p < LRCS_FIT_S ? at * unit : p == LRCS_FIT_S ? exp(at) : expm1(at);
@@ -366,7 +371,9 @@ static void parameters_fill(const fit_job *job, double unit, lrcs_fit *fit)
         int part = p % 2;
         double at = job->best.at[p];
         int none = job->best.at[part] == 0.0;
-        double by_coordinate = p < LRCS_FIT_S ? unit : exp(at); /* s and 1 + m are exp */
+        double by_coordinate =
+            p < LRCS_FIT_S ? unit
+                           : exp(at); /* for s and 1 + m, the exponential of the coordinate */
         fit->parameter[p] = (lrcs_fit_parameter){
             .value = none ? 0.0 : parameter_value(p, at, unit),
             .error = job->spread.error[p] * by_coordinate,
@@ -379,7 +386,7 @@ static void parameters_fill(const fit_job *job, double unit, lrcs_fit *fit)
                             fit->parameter[LRCS_FIT_S].value, fit->parameter[LRCS_FIT_M].value};
 }
 
-/* The residuals, and their root mean square over those kept, in the readings' unit. */
+/* The residuals, and their root mean square over the kept readings, in the readings' unit. */
 static double points_fill(const fit_job *job, double scale, lrcs_fit_point *point)
 {
     const lrcsi_fit_data *data = &job->data;

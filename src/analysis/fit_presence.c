@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether a glint, or a diffuse part, stands out of the noise of readings. It decides by how much
-   the sum of squares must fall before a part counts as seen.
+/* Whether a glint or a diffuse part is significant compared with the noise of readings. It decides
+   by how much the sum of squares must fall before a part counts as present.
 
-   Without the part its shape, s or m, has no meaning, and of all shapes the luckiest is taken: the
-   usual t of one parameter would see a glint in every fifth series of pure noise. H. Hotelling
-   (1939) has the answer, M. Knowles and D. Siegmund (Int. Stat. Rev. 57 (1989) 205) its use here:
-   let v be the part's vector over the readings, freed of what the other part can take up (its
-   vector and the derivative of that), and L the length of the arc that v/|v| draws on the unit
-   sphere as the shape runs over its range. Noise of N dimensions comes as near to that arc as to
-   lower the sum of squares by its share q or more with a probability of at most
+   Without the part, its shape parameter (s or m) has no meaning, and the fit takes the most
+   favourable of all shapes: the usual t test of one parameter would find a glint in every fifth
+   series of pure noise. H. Hotelling (1939) gives the correct probability, and M. Knowles and D.
+   Siegmund (Int. Stat. Rev. 57 (1989) 205) its application here: let v be the part's vector over
+   the readings, made orthogonal to what the other part can represent (its vector and the derivative
+   of that), and L the length of the arc that v/|v| draws on the unit sphere as the shape runs over
+   its range. Noise of N dimensions comes so near to that arc that it lowers the sum of squares by a
+   share of q or more with a probability of at most
      (1 - q)^((N-2)/2) (sqrt(1 - q)/2 + L/(2 pi)),
-   a tube about the arc and half a cap at its end (a cap of angle a is at most sin(a)^(N-1)/2 of
-   the sphere). With known errors the power becomes exp(-fall/2). Exact for a linear rest, which the
-   derivative makes of the other part's shape. */
+   which is a tube about the arc and half a cap at its end (a cap of angle a is at most
+   sin(a)^(N-1)/2 of the sphere). With known errors the power becomes exp(-fall/2). The bound is
+   exact if the rest of the model is linear; the derivative of the other part's shape makes it so to
+   first order. */
 #include "analysis/fit_presence.h"
 
 #include <math.h>
@@ -61,7 +63,7 @@ static int presence_vector(const lrcsi_fit_data *data, int part,
     return 1;
 }
 
-/* The length of the arc, by chords. */
+/* The length of the arc, as the sum of chords. */
 static double presence_arc(const lrcsi_fit_data *data, int part,
                            const lrcsi_fit_parameters *without)
 {

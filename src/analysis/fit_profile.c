@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* How far readings determine the parameters of a fit: by the matrix of its derivatives, and by
-   walking away from the fit in one parameter while the others follow, until the readings object.
-   It decides where that is; what an interval without an end means is said elsewhere. */
+/* How well readings determine the parameters of a fit: by the matrix of its derivatives, and by
+   moving one parameter away from the fit, with the others minimized, until the sum of squares has
+   risen to the limit. This file decides where that is; fit.c decides what an interval without a
+   finite limit means. */
 #include "analysis/fit_profile.h"
 
 #include <math.h>
@@ -14,10 +15,11 @@
 
 #define PROFILE_SHAPES 12
 
-/* A limit is found where the root of the rise is right to this. */
+/* The relative error to which a limit is found, in the square root of the rise. */
 #define PROFILE_NEAR 1e-4
 
-/* A sum this much lower than the least is another minimum, not rounding. */
+/* A sum that is lower than the minimum by more than this share belongs to another minimum and is
+   not due to rounding. */
 #define PROFILE_LOWER 1e-6
 
 #define PROFILE_PIVOT 1e-12
@@ -29,7 +31,7 @@
 static void matrix_invert(double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS],
                           int in[LRCS_FIT_PARAMETERS])
 {
-    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) { /* Gauss and Jordan, pivots in order */
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) { /* Gauss-Jordan elimination, pivots in order */
         in[p] = m[p][p] > PROFILE_PIVOT;
         double pivot = in[p] ? 1.0 / m[p][p] : 0.0;
         for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
@@ -79,18 +81,19 @@ lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixe
     return spread;
 }
 
-/* ---- by walking ---- */
+/* ---- by profile ---- */
 
 typedef struct profile_walk {
     const lrcsi_fit_data *data;
     int parameter;
     double rise;
     const lrcsi_fit_parameters *best, *whole;
-    lrcsi_fit_parameters last; /* the least at the last place where the readings did not object */
-    lrcsi_fit_parameters low;  /* the least of all met */
+    lrcsi_fit_parameters last; /* the minimum at the last place below the limit */
+    lrcsi_fit_parameters low;  /* the lowest minimum found */
 } profile_walk;
 
-/* Descends from a spot with the walk's parameter at x; the lower end stays in *least. */
+/* Minimizes from a parameter vector with the profiled parameter fixed at x; the lower of this
+   minimum and *least is kept in *least. */
 static void walk_descend(const profile_walk *walk, double x, const lrcsi_fit_parameters *from,
                          lrcsi_fit_parameters *least)
 {
@@ -100,9 +103,9 @@ static void walk_descend(const profile_walk *walk, double x, const lrcsi_fit_par
     *least = parameters.square < least->square ? parameters : *least;
 }
 
-/* The best of some shapes of a part with the walk's parameter at x: a glint may hide between
-   readings or grow wide, and there may be a hill between. A and m ask for the glint's shape, B and
-   s for that of the diffuse part. */
+/* The best minimum over several shapes of a part, with the profiled parameter at x: a glint may lie
+   between readings or be wide, and a maximum may separate the two. A and m use shapes of the glint,
+   B and s those of the diffuse part. */
 static lrcsi_fit_parameters walk_shape(const profile_walk *walk, double x)
 {
     int p = walk->parameter;
@@ -123,7 +126,7 @@ static lrcsi_fit_parameters walk_shape(const profile_walk *walk, double x)
     return best;
 }
 
-/* The root of the rise at a place, 1 where it is the limit. */
+/* The square root of the relative rise at a place; it is 1 at the limit. */
 static double walk_rise(profile_walk *walk, double x, lrcsi_fit_parameters *parameters)
 {
     *parameters = walk->last;
@@ -138,8 +141,8 @@ static double walk_rise(profile_walk *walk, double x, lrcsi_fit_parameters *para
     return sqrt(lrcsi_most(0.0, parameters->square - walk->best->square) / walk->rise);
 }
 
-/* Where the root of the rise is 1 between a place below and one above it: false position, the end
-   that stays counted half (Illinois). */
+/* The place between x below and x above at which the root of the rise is 1: false position, with
+   the value at the end that does not move halved (Illinois). */
 static double walk_cut(profile_walk *walk, double in, double f_in, double out, double f_out)
 {
     double f_low = f_in - 1.0;
@@ -168,7 +171,7 @@ static double walk_cut(profile_walk *walk, double in, double f_in, double out, d
     return out;
 }
 
-/* The limit on one side, direction -1 or 1; an infinity where the end of the search is within. */
+/* The limit on one side, direction -1 or 1; an infinity if the search range ends before it. */
 static double walk_limit(profile_walk *walk, double stride, int direction)
 {
     const lrcsi_fit_data *data = walk->data;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which readings a fit trusts. It decides how large the errors of readings are taken to be, how a
-   descent is kept from following single readings, and which of them are set aside. */
+/* Which readings a fit uses. This file decides how large the errors of readings are taken to be,
+   how a minimization limits the influence of single readings, and which readings are excluded. */
 #include "analysis/fit_search.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 /* For a normal distribution the median of |x| is its standard deviation divided by 1.4826. */
 #define ROBUST_NORMAL 1.4826
 
-/* Readings are excluded beyond this many standard deviations: one in 2000 of normal errors. */
+/* Readings are excluded beyond this many standard deviations: one in 2000 for normal errors. */
 #define ROBUST_CUT    3.5
 #define ROBUST_FEWEST 8u
 
@@ -27,8 +27,8 @@
 /* Residuals this small relative to the readings are rounding errors. */
 #define ROBUST_ROUNDING 0x1p-44
 
-/* The value that `rank` of the others do not exceed, 0 the smallest (C. A. R. Hoare 1961); the
-   values change their order. */
+/* Returns the value of rank `rank` in ascending order, 0 for the smallest (C. A. R. Hoare 1961);
+   changes the order of the values. */
 static double value_ranked(double *value, uint32_t count, uint32_t rank)
 {
     uint32_t low = 0;
@@ -77,7 +77,8 @@ void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_para
     }
 }
 
-/* |y - f| * inverse into spare[]; returns the least of them that are not rounding alone. */
+/* Computes |y - f| * inverse into spare[]; returns the smallest size that is not due to rounding
+   alone. */
 static double offsets_fill(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters,
                            double *sum)
 {
@@ -92,8 +93,9 @@ static double offsets_fill(const lrcsi_fit_data *data, const lrcsi_fit_parameter
     return ROBUST_ROUNDING * size;
 }
 
-/* The standard deviation that the offsets in spare[] show, from their median: with as many
-   parameters few of them are small for no reason (Rousseeuw and Leroy 1987, ch. 5, Eq. 1.3). */
+/* The standard deviation of the values in spare[], from their median. A fit with nearly as many
+   parameters as readings leaves small residuals; the factor 1 + 5/(n - p) corrects for that
+   (Rousseeuw and Leroy 1987, ch. 5, Eq. 1.3). */
 static double offsets_scale(const lrcsi_fit_data *data, double rounding)
 {
     double few = 1.0 + 5.0 / (data->count - LRCS_FIT_PARAMETERS);
@@ -126,7 +128,8 @@ int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_parameters *param
     double rounding = offsets_fill(data, parameters, &sum);
     if (data->count >= ROBUST_FEWEST) {
         most = ROBUST_CUT * offsets_scale(data, rounding);
-        /* Where more than half agree to the last digit, the rest may still not be outliers. */
+        /* Even if more than half of the readings agree to the last digit, the others are not
+           necessarily outliers. */
         uint32_t seven = (uint32_t)((7 * (uint64_t)data->count + 9) / 10) - 1;
         most = lrcsi_most(most, 2.0 * value_ranked(data->spare, data->count, seven));
     }

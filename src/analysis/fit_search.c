@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Where the fit of readings starts: a grid of s and m, at each of whose nodes A and B have the
-   least sum of absolute residuals, which single readings cannot pull far. It decides the grid and
-   which of its nodes are starts. */
+/* Where the fit of readings starts: a grid of s and m. At each node A and B minimize the sum of
+   absolute residuals, on which single readings have little influence. This file decides the grid
+   and which of its nodes are starting points. */
 #include "analysis/fit_search.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@
 #define SEARCH_SLOPES 24
 #define SEARCH_FALLS  10
 
-/* Weighted least squares, the weights the inverse of the residuals before: five passes are near
-   enough to the least absolute sum for a start. */
+/* Least squares, reweighted with the inverse of the previous residuals: five passes come near
+   enough to the least absolute sum for a starting point. */
 #define SEARCH_PASSES 5
 #define SEARCH_FLOOR  0.01
 
@@ -40,8 +40,8 @@ static double node_sum(const lrcsi_fit_data *data)
     return sum;
 }
 
-/* Weighs readings and columns by the inverse of the residuals, which are taken for no less than
-   a share of their mean. */
+/* Weights readings and columns by the inverse of the residuals, each taken as at least a share of
+   their mean. */
 static void node_weigh(const lrcsi_fit_data *data, double mean)
 {
     double floor = lrcsi_most(SEARCH_FLOOR * mean, 0x1p-500);
@@ -77,7 +77,7 @@ static int is_least(double sum[SEARCH_SLOPES][SEARCH_FALLS], int slope, int fall
     for (int i = slope - 1; i <= slope + 1; i++) {
         for (int k = fall - 1; k <= fall + 1; k++) {
             int inside = i >= 0 && i < SEARCH_SLOPES && k >= 0 && k < SEARCH_FALLS;
-            int before = i < slope || (i == slope && k < fall); /* of equals the first */
+            int before = i < slope || (i == slope && k < fall); /* of equal minima the first */
             if (inside &&
                 (sum[i][k] < sum[slope][fall] || (before && sum[i][k] == sum[slope][fall]))) {
                 return 0;
@@ -87,7 +87,7 @@ static int is_least(double sum[SEARCH_SLOPES][SEARCH_FALLS], int slope, int fall
     return 1;
 }
 
-/* Enters a start in its order, the least first; the last one falls out. */
+/* Inserts a starting point in order, the smallest sum first; the last one is dropped. */
 static uint32_t start_enter(lrcsi_fit_parameters start[LRCSI_FIT_STARTS], uint32_t count,
                             const lrcsi_fit_parameters *parameters)
 {

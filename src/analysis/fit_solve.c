@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Weighted least squares of readings by A g(s) + B d(m), from one start to one local minimum. It
-   decides how the descent steps and when it ends; which readings count, and where to start, its
-   callers say.
+/* Weighted least squares of readings by A g(s) + B d(m), from one starting point to one local
+   minimum. This file decides the steps of the minimization and when it ends; its callers decide
+   which readings count and where to start.
 
-   A and B are solved for at every s and m (variable projection, G. Golub and V. Pereyra 1973, in
-   the form of L. Kaufman 1975): the Gauss-Newton matrix of log(s) and log(1 + m) alone is the
-   Schur complement of A and B in that of all four. Steps are damped after Levenberg and Marquardt
-   and clipped to the limits of the search. */
+   For every s and m, A and B are solved for (variable projection, G. Golub and V. Pereyra 1973, in
+   the form of L. Kaufman 1975): the Gauss-Newton matrix of log(s) and log(1 + m) alone is the Schur
+   complement of A and B in that of all four. Steps are damped after Levenberg and Marquardt and
+   clipped to the limits of the search. */
 #include "analysis/fit_solve.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@
 /* A column that is a multiple of another one to within rounding is redundant. */
 #define SOLVE_PIVOT 1e-13
 
-/* exp(-x) beyond it is 0 in all that follows. */
+/* For x above this, exp(-x) is 0 in all that follows. */
 #define SOLVE_FAR 700.0
 
 /* ---- columns, residuals and sums ---- */
@@ -80,7 +80,7 @@ static void gram_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_normal *n
     }
 }
 
-/* The slopes and the sum of squares, from residuals that do not cancel. */
+/* The slopes and the sum of squares, from the residuals themselves, so that nothing cancels. */
 static void slope_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_parameters *parameters,
                        lrcsi_fit_normal *normal)
 {
@@ -101,7 +101,7 @@ static void slope_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_paramete
 
 /* ---- A and B ---- */
 
-/* The changes of A and B, those of `moving` alone, that take their slopes to 0. */
+/* The changes of A and B that take their slopes to 0; only coordinates in `moving` change. */
 static void amplitude_step(const lrcsi_fit_normal *normal, unsigned moving, double step[2])
 {
     double a = normal->gram[0][0];
@@ -116,8 +116,8 @@ static void amplitude_step(const lrcsi_fit_normal *normal, unsigned moving, doub
     }
 }
 
-/* Which of A and B are above 0 in their best choice, found from slopes at A = B = 0 (or as
-   fixed). */
+/* Which of A and B are above 0 in the best solution, found from the slopes at A = B = 0 (or at
+   their values if fixed). */
 static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
 {
     double step[2];
@@ -125,7 +125,7 @@ static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
     double a = normal->gram[0][0];
     double b = normal->gram[1][1];
     if (free == 3u && !(a * b - normal->gram[0][1] * normal->gram[0][1] > SOLVE_PIVOT * a * b)) {
-        return a >= b ? 1u : 2u; /* one is the other's multiple */
+        return a >= b ? 1u : 2u; /* one column is a multiple of the other */
     }
     if (free != 3u || (step[0] >= 0.0 && step[1] >= 0.0)) {
         return free & ((step[0] > 0.0 ? 1u : 0u) | (step[1] > 0.0 ? 2u : 0u));
@@ -150,7 +150,7 @@ void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed,
     }
     slope_fill(data, order, parameters, normal);
     unsigned active = amplitude_active(normal, free);
-    for (int pass = 0; pass < 2 && active; pass++) { /* the second takes away rounding */
+    for (int pass = 0; pass < 2 && active; pass++) { /* the second pass removes rounding errors */
         amplitude_step(normal, active, step);
         for (int k = 0; k < 2; k++) {
             parameters->at[k] =
@@ -216,7 +216,7 @@ static solve_shape shape_make(const lrcsi_fit_data *data, unsigned fixed,
     return shape;
 }
 
-/* The damped step; 0 where nothing moves. */
+/* The damped step; 0 if no coordinate is free. */
 static int shape_step(const solve_shape *shape, double damping, double step[2])
 {
     double a = shape->matrix[0][0] * (1.0 + damping);

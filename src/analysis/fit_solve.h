@@ -34,10 +34,10 @@ typedef struct lrcsi_fit_normal {
     double slope[LRCS_FIT_PARAMETERS];                     /* columns times weighted residuals */
 } lrcsi_fit_normal;
 
-/* Fills the columns, weighted, at the s and m of a parameter vector. */
+/* Fills the columns, weighted, for the s and m of a parameter vector. */
 void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters);
 
-/* Fills rest[] at a parameter vector for all readings, not weighted. */
+/* Fills rest[] with the residuals of all readings at a parameter vector, unweighted. */
 void lrcsi_fit_residuals(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters);
 
 /* Solves for the best A and B >= 0 with the columns as they are; those in `fixed` (bits 1 << index)
@@ -46,7 +46,7 @@ void lrcsi_fit_residuals(const lrcsi_fit_data *data, const lrcsi_fit_parameters 
 void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed,
                           lrcsi_fit_parameters *parameters, lrcsi_fit_normal *normal);
 
-/* The same, but first fills the columns at the s and m of the parameter vector. */
+/* The same, but first fills the columns for the s and m of the parameter vector. */
 void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters,
                       lrcsi_fit_normal *normal);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Drawing as graphics hardware does it. It decides which facet owns which pixel, by that hardware's
-   arithmetic and rules; what the laser truly sees, visibility/raster.c and visibility/occlude.c
-   decide. */
+/* Draws a view as graphics hardware does. This file decides which facet owns which pixel, by the
+   arithmetic and rules of that hardware; visibility/raster.c and visibility/occlude.c decide what
+   the laser truly sees. */
 #include "analysis/gpu.h"
 
 #include <math.h>
@@ -10,28 +10,30 @@
 #include "base/single.h"
 #include "base/work.h"
 
-#define SUBPIXELS 256 /* along a pixel */
+#define SUBPIXELS 256 /* sub-pixels along a pixel */
 
-/* Corners are held within this many pixels of the window's corner. Then edge functions stay below
-   2^52, whole numbers that doubles hold. */
+/* Corners are kept within this many pixels of the window's corner. Edge functions then stay below
+   2^52: they are whole numbers that doubles represent exactly. */
 #define GUARD_BAND 0x1p15
 
-/* A window is no smaller than this part of the scene's reach, so that its matrix fits a float. */
+/* A window is at least this fraction of the extent of the scene, so that its matrix fits a
+   float. */
 #define WINDOW_LEAST 0x1p-100
 
-/* Of the window's side: what the depth range leaves free at its ends, so that neither end of the
-   scene is clipped, nor a scene without depth divided by 0. */
+/* The margin of the depth range at each end, as a fraction of the window's side: no end of the
+   scene is clipped, and the depth range of a scene without depth is not 0. */
 #define DEPTH_MARGIN 0x1p-7
 
 /* --- vertices --------------------------------------------------------------------------------- */
 
-/* What the host uploads for a pose: body to clip coordinates, which reach from -1 to 1. */
+/* What the host uploads for a pose: the transformation from body to clip coordinates, which range
+   from -1 to 1. */
 typedef struct clip_matrix {
     double turn[3][3], move[3];
     double unit; /* per scaled unit: a power of two */
 } clip_matrix;
 
-/* How near and how far the live facets reach. */
+/* The smallest and largest depth of the facets that are drawn. */
 static void depth_range(const lrcsi_view *view, double *least, double *most)
 {
     const lrcs_prepared *p = view->prepared;
@@ -46,8 +48,8 @@ static void depth_range(const lrcsi_view *view, double *least, double *most)
     }
 }
 
-/* Along a view axis, how far the centre of the scene is from the origin of views: nothing, mostly.
- */
+/* The distance along a view axis from the origin of views to the centre of the scene; 0 in most
+   scenes. */
 static double centre_along(const lrcsi_view *view, int axis)
 {
     const lrcs_prepared *p = view->prepared;
@@ -78,7 +80,7 @@ static clip_matrix clip_make(const lrcsi_gpu *gpu)
     return clip;
 }
 
-/* A clip coordinate as one of the window, from 0 to 2 `half`. */
+/* Converts a clip coordinate to a window coordinate, from 0 to 2 `half`. */
 static double window_coordinate(int single, const double *turn, double move, const double *p,
                                 double half)
 {
@@ -109,22 +111,23 @@ static lrcsi_gpu_vertex gpu_vertex(const lrcsi_gpu *gpu, const clip_matrix *clip
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* Twice the signed area of an edge and a pixel's centre, in sub-pixels: at + along x + up y for
-   pixel (x, y), positive inside; from `least` on the pixel is covered. */
+/* Twice the signed area of the triangle of an edge and the centre of a pixel, in sub-pixels: at +
+   along x + up y for pixel (x, y), positive inside. The pixel is covered if the value is `least` or
+   more. */
 typedef struct gpu_edge {
     int64_t at, along, up, least;
 } gpu_edge;
 
-/* A facet being drawn: edge k lies across from corner k. */
+/* A facet that is being drawn: edge k is opposite corner k. */
 typedef struct gpu_facet {
     gpu_edge edge[3];
-    double inverse;         /* of the sum of the edge functions */
-    double depth, rise[2];  /* at corner 0; to corners 1 and 2 */
+    double inverse;         /* sum of the edge functions */
+    double depth, rise[2];  /* depth at corner 0; differences to corners 1 and 2 */
     int64_t x0, x1, y0, y1; /* pixels x0 <= x < x1 */
 } gpu_facet;
 
-/* The top-left rule: of centres on an edge, those on a left one (going down, the inside to its
-   left) or a top one (level, going left) belong to the facet. */
+/* The top-left rule: a pixel centre on an edge belongs to the facet if the edge is a left one
+   (going down, with the inside to its left) or a top one (horizontal, going left). */
 static gpu_edge edge_make(const int64_t a[2], const int64_t b[2])
 {
     int64_t dx = b[0] - a[0];
@@ -146,7 +149,7 @@ static int64_t whole_above(int64_t a, int64_t b)
     return -whole_below(-a, b);
 }
 
-/* The pixels of the window whose centres stand between the least and the most of three
+/* The pixels of the window whose centres lie between the minimum and the maximum of three
    coordinates. */
 static void facet_extent(const lrcsi_gpu *gpu, int64_t a, int64_t b, int64_t c, int64_t *from,
                          int64_t *to)
@@ -161,7 +164,8 @@ static void facet_extent(const lrcsi_gpu *gpu, int64_t a, int64_t b, int64_t c, 
     *to = *to < gpu->size ? *to : gpu->size;
 }
 
-/* Snaps leave some facets without area: those cover nothing. Returns whether there is any. */
+/* Prepares a facet for drawing. Returns 0 if it covers nothing: snapping leaves some facets without
+   area. */
 static int facet_start(const lrcsi_gpu *gpu, uint32_t facet, gpu_facet *out)
 {
     const uint32_t *corner = gpu->view->prepared->scene->facet[facet].corner;
@@ -191,7 +195,8 @@ static int facet_start(const lrcsi_gpu *gpu, uint32_t facet, gpu_facet *out)
     return 1;
 }
 
-/* Depth where the edge functions of corners 1 and 2 are e1 and e2, as the buffer keeps it. */
+/* The depth, as the buffer stores it, at the point where the edge functions of corners 1 and 2 are
+   e1 and e2. */
 static double depth_kept(const lrcsi_gpu *gpu, const gpu_facet *f, int64_t e1, int64_t e2)
 {
     int single = gpu->single;
@@ -204,14 +209,14 @@ static double depth_kept(const lrcsi_gpu *gpu, const gpu_facet *f, int64_t e1, i
     return gpu->steps > 0 ? floor(depth * gpu->steps + 0.5) : lrcsi_single(gpu->short_depth, depth);
 }
 
-/* The pixels of row y that all three edges have inside. */
+/* The range of pixels of row y that are inside all three edges. */
 static void row_span(const gpu_facet *f, int64_t y, int64_t *from, int64_t *to)
 {
     *from = f->x0;
     *to = f->x1;
     for (int k = 0; k < 3; k++) {
         const gpu_edge *e = &f->edge[k];
-        int64_t short_of = e->least - (e->at + e->up * y); /* along x must reach this */
+        int64_t short_of = e->least - (e->at + e->up * y); /* along x must be at least this */
         if (e->along > 0) {
             int64_t x = whole_above(short_of, e->along);
             *from = x > *from ? x : *from;
@@ -247,7 +252,7 @@ static void facet_draw(lrcsi_gpu *gpu, uint32_t facet)
     }
 }
 
-/* --- all of it -------------------------------------------------------------------------------- */
+/* --- the whole view --------------------------------------------------------------------------- */
 
 size_t lrcsi_gpu_need(const lrcs_prepared *prepared, uint32_t size)
 {
@@ -288,7 +293,7 @@ static void gpu_draw(lrcsi_gpu *gpu)
     }
 }
 
-/* Makes the window of a needle seen along its axis wide enough, about the same centre. */
+/* Enlarges the window of a needle that is seen along its axis, about the same centre. */
 static void window_widen(lrcsi_view *view)
 {
     double wider = WINDOW_LEAST * view->prepared->radius - view->side;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How accurate a run is asked to be, and by which method, as the command line says it. */
+/* The options for accuracy and method of a run. */
 #include "cli/cli.h"
 
 #define RASTER_MOST 16384.0

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The command line: words to options, and what is said when they do not fit. It decides the
+/* Parses the command line into options and prints a message if it is invalid. This file decides the
    syntax, not what an option means. */
 #include "cli/cli.h"
 
@@ -87,8 +87,8 @@ static const cli_option *option_find(const cli_command *command, const char *nam
     return NULL;
 }
 
-/* One option at word[i]; moves *i past a value that stands apart. A value may begin with a minus
-   sign, but not like an option. */
+/* Reads the option at word[i]; advances *i if its value is a separate word. A value may begin with
+   a minus sign unless it looks like an option. */
 static int option_read(cli_args *args, int count, char **word, int *i)
 {
     const cli_command *command = args->command;

@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* What the commands share: the exit codes, the command line as it was given, and the messages
-   about it. The tool stands on the public headers alone. */
+/* What the commands share: the exit codes, the parsed command line, and the messages about it. The
+   tool uses only the public headers. */
 #ifndef LRCS_CLI_H
 #define LRCS_CLI_H
 
 #include <lrcs/host.h>
 
 #define CLI_PI      3.14159265358979323846
-#define CLI_DEGREES (180.0 / CLI_PI) /* per radian */
+#define CLI_DEGREES (180.0 / CLI_PI) /* degrees per radian */
 
 enum cli_exit {
     CLI_DONE = 0,
     CLI_FAILED = 1,
     CLI_USAGE = 2,
     CLI_DEGRADED = 3 /* done, but the tolerance was not met, memory forced a fallback, or readings
-                        leave a parameter open */
+                        leave a parameter undetermined */
 };
 
-/* What --json says it is. */
+/* The version of the JSON schema that --json states. */
 #define CLI_SCHEMA 1
 
-/* The pose options, which cli_pose_read reads: their part of a help text and of an option list. */
+/* The pose options, which cli_pose_read reads, for a help text and for an option list. */
 #define CLI_POSE_HELP                                                                              \
     "pose: one of these; without any, the laser stands on +z\n"                                    \
     "  --direction x,y,z     to the laser, body frame, any length\n"                               \
@@ -33,8 +33,8 @@ enum cli_exit {
         "quaternion", 1, 0                                                                         \
     }
 
-/* What a run's accuracy is asked with (cli_accuracy_read, cli_normals_read), and what a scene is
-   read with (cli_scene_options_read), likewise. */
+/* The options for a run's accuracy (cli_accuracy_read, cli_normals_read) and for reading a scene
+   (cli_scene_options_read), likewise. */
 #define CLI_ACCURACY_HELP                                                                          \
     "  --tolerance REL       relative error asked for (1e-4; with a --method, none unless "        \
     "given); "                                                                                     \
@@ -72,8 +72,9 @@ enum cli_exit {
 #define CLI_FILE 2
 
 typedef struct cli_option {
-    const char *name; /* without its dashes, of which one letter has one; NULL ends a list */
-    int has_value;    /* CLI_FILE: the name of a file to write */
+    const char *name; /* without its dashes (a name of one letter has one dash, others have two);
+                         NULL ends a list */
+    int has_value;    /* CLI_FILE if the value is the name of a file to write */
     int repeats;
 } cli_option;
 
@@ -81,8 +82,8 @@ typedef struct cli_args cli_args;
 
 typedef struct cli_command {
     const char *name;
-    const char *operand; /* what is not an option, "SCENE"; "FILE..." may be several, which are
-                            given without a name; NULL for none */
+    const char *operand; /* the operands, given without an option name: "SCENE", or "FILE..." if
+                            several are allowed; NULL for none */
     const char *operand_hint;
     const char *help;
     const cli_option *option;
@@ -91,7 +92,7 @@ typedef struct cli_command {
 
 typedef struct cli_given {
     const char *name;
-    const char *value; /* NULL: an option without one */
+    const char *value; /* NULL for an option without a value */
 } cli_given;
 
 struct cli_args {
@@ -101,74 +102,78 @@ struct cli_args {
     int given_count;
 };
 
-/* Reads the words after the command's name. 0, or CLI_USAGE with the message printed. The
+/* Parses the words after the command's name. Returns 0, or CLI_USAGE with the message printed. The
    caller frees args->given in any case. */
 int cli_args_read(const cli_command *command, int count, char **word, cli_args *args);
 
-/* What stands before an option's name: two dashes, or one before a single letter. */
+/* The prefix of an option's name: two dashes, or one before a single letter. */
 const char *cli_dashes(const char *name);
 
-/* The value of an option ("" for one without), or NULL where it was not given. */
+/* The value of an option ("" if it takes none), or NULL if it was not given. */
 const char *cli_value(const cli_args *args, const char *name);
 
-/* Reads an option's number, untouched where it was not given. 0 or CLI_USAGE. */
+/* Reads an option's number, which is unchanged if the option was not given. 0 or CLI_USAGE. */
 int cli_number(const cli_args *args, const char *name, double *value);
 
 /* The same for a whole number from `least` to `most`. */
 int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value);
 
-/* Reads exactly `count` numbers with commas between; 0, or -1. */
+/* Reads exactly `count` numbers separated by commas; 0, or -1. */
 int cli_list(const char *text, double *value, int count);
 
-/* The known name nearest to `text`: one that begins with it, else by edit distance. */
+/* The known name nearest to `text`: one that begins with `text`, or else the nearest by edit
+   distance. */
 const char *cli_nearest(const char *text, const char *best, const char *candidate);
 
-/* A message on stderr, "lrcs run: ...", and where help is. Returns CLI_USAGE. */
+/* Prints a message on stderr, "lrcs run: ...", and how to get help. Returns CLI_USAGE. */
 __attribute__((format(printf, 2, 3))) int cli_usage(const cli_command *command, const char *format,
                                                     ...);
 
-/* "lrcs: TEXT" on stderr, of an error or for want of memory. Returns CLI_FAILED. */
+/* Prints "lrcs: TEXT" on stderr for an error or lack of memory. Returns CLI_FAILED. */
 int cli_failed(const lrcs_host_error *error);
 int cli_out_of_memory(void);
 
-/* Ends a command: CLI_FAILED with a message where stdout could not be written, else `code`. */
+/* Ends a command: CLI_FAILED with a message if stdout could not be written, else `code`. */
 int cli_finish(int code);
 
-/* The pose that the options ask for; 0 or CLI_USAGE. */
+/* The pose that the options specify; 0 or CLI_USAGE. */
 int cli_pose_read(const cli_args *args, lrcs_pose *pose);
 
-/* Its direction to the laser, of length 1. */
+/* Its direction to the laser, a unit vector. */
 void cli_pose_unit(const lrcs_pose *pose, double s_hat[3]);
 
 /* --tolerance, --accept, --method and --resolution; --normals. 0 or CLI_USAGE. */
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options);
 int cli_normals_read(const cli_args *args, lrcs_host_options *load);
 
-/* Is a tolerance in force: under auto, and wherever one is given? Elsewhere none is missed. */
+/* 1 if a tolerance applies: under auto, and whenever one is given. Otherwise no tolerance can be
+   missed. */
 int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options);
 
-/* What let an answer count: "bound", "estimate", "any"; NULL where it missed its tolerance. */
+/* By what criterion an answer was accepted: "bound", "estimate", "any"; NULL if it missed its
+   tolerance. */
 const char *cli_accepted_by(uint32_t flags);
 
-/* Says so where an answer counts without a proof; else nothing. */
+/* Prints a line if an answer was accepted without a proof. */
 void cli_accepted_print(FILE *out, uint32_t flags);
 
-/* The flags of a result but for a missed tolerance where none is in force; and the exit code that
-   they mean, CLI_DONE or CLI_DEGRADED. */
+/* The flags of a result, without that of a missed tolerance if no tolerance applies; and the exit
+   code for them, CLI_DONE or CLI_DEGRADED. */
 uint32_t cli_flags_in_force(const cli_args *args, const lrcs_run_options *options, uint32_t flags);
 int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags);
 
-/* Four numbers A,B,s,m or a library material's name; 0 or CLI_USAGE. `option` is for messages. */
+/* Reads four numbers A,B,s,m or the name of a library material; 0 or CLI_USAGE. `option` is for
+   messages. */
 int cli_brdf_read(const cli_command *command, const char *text, const char *option,
                   lrcs_brdf *brdf);
 
-/* The same with errors: A+-DA,B+-DB,s+-DS,m+-DM, each +- one standard deviation, of which any may
-   be missing. */
+/* The same with errors: A+-DA,B+-DB,s+-DS,m+-DM. Each +- is one standard deviation; any may be
+   omitted. */
 int cli_brdf_error_read(const cli_command *command, const char *text, const char *option,
                         lrcs_brdf *brdf, lrcs_brdf_error *error);
 
-/* Scene options shared by run and info: --material (repeatable), --unit, --keep-transparent.
-   The bindings' array and names are the caller's to free (cli_scene_options_free). */
+/* Reads the scene options shared by run and info: --material (repeatable), --unit,
+   --keep-transparent. The caller frees the bindings' array and names (cli_scene_options_free). */
 int cli_scene_options_read(const cli_args *args, lrcs_host_options *options);
 void cli_scene_options_free(lrcs_host_options *options);
 
@@ -176,99 +181,100 @@ void cli_scene_options_free(lrcs_host_options *options);
    matches nothing is a usage error. */
 int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 
-/* Do shapes that the engine meshes stand in the scene, so that a tolerance changes it? */
+/* 1 if the scene contains shapes that the engine meshes, so that a tolerance changes it. */
 int cli_has_curved_shapes(const lrcs_scene *scene);
 
-/* What a result was made from: the scene's title, or the operand; where a material's numbers come
-   from, "given", "illustrative" or "published" (the library), "default" or "assumed" (so says the
-   scene file); a path's last name; and as keys of an open object: the files; title, materials worn
-   and options given. */
+/* What a result was made from: the scene's title, or the operand; the origin of a material's
+   numbers, "given", "illustrative" or "published" (the library), "default" or "assumed" (as the
+   scene file states); the last name of a path; and, as keys of an open object: the files, the
+   title, the assigned materials and the options given. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */
-/* The keys of errors, A_error and so on with their correlations; none where all are 0. */
+/* Writes the keys of errors, A_error and so on, with their correlations; none if all are 0. */
 void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json);
-int cli_errors_stated(const lrcs_scene *scene);          /* some material has errors */
-int cli_materials_open(const lrcs_scene *scene);         /* illustrative or default ones are worn */
+int cli_errors_stated(const lrcs_scene *scene);          /* 1 if some material has errors */
+int cli_materials_open(const lrcs_scene *scene);         /* 1 if some are illustrative or default */
 void cli_version_json(lrcs_host_json *json);             /* schema and version */
-void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* of the scene */
+void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* hash of the scene */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
 /* The same in one line for pictures: version, scene hash, files, materials, options. NULL without
    memory; the caller frees it. */
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
 
-/* The name of a scene's material for people: "(default)" where it has none. */
+/* The name of a scene's material as it is printed: "(default)" if it has none. */
 const char *cli_material_name(const lrcs_material *material);
 
-/* A sum with its carry. */
+/* A compensated sum with its carry. */
 typedef struct cli_sum {
     double value, low;
 } cli_sum;
 void cli_sum_add(cli_sum *sum, double value);
 double cli_sum_value(const cli_sum *sum);
 
-/* dBsm of a sigma > 0. */
+/* The value in dBsm of a sigma > 0. */
 double cli_dbsm(double sigma_m2);
 
-/* A bound >= 0 as "%.*g" shows it, but never less than it is. */
+/* A bound >= 0 as "%.*g" prints it, rounded up. */
 #define CLI_BOUND_SIZE 40
 void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
 
-/* A number after some text: all its digits, for machines. */
+/* A number after some text, with all digits needed to read it back. */
 void cli_number_put(FILE *out, const char *before, double value);
 
-/* Text on stdout, blanks after it up to `width`, control characters as '?'. */
+/* Prints text on stdout, padded with blanks to `width`; control characters are printed as '?'. */
 void cli_column(const char *text, int width);
 void cli_column_to(FILE *out, const char *text, int width); /* the same on `out` */
 
-/* Seconds on a clock that only goes forward. */
+/* Seconds on a monotonic clock. */
 double cli_seconds(void);
 
-/* Shows the stage of a command that takes more than two seconds, on stderr where that is a
-   terminal, and says what a Ctrl-C leaves. Every command is watched from its begin on; it names its
-   stages (texts that stay; with a scene that is being prepared, how many of its stages are done;
-   NULL: nothing is shown, for something else is), may say that it has done so many of so many
-   parts, or let a run say how far it is (lrcs_run_options.progress), and ends the watch before it
-   prints. */
+/* Shows the stage of a command that takes more than two seconds, on stderr if that is a terminal,
+   and says what remains after a Ctrl-C. Every command is watched from its start. It names its
+   stages (texts that stay valid; with a scene that is being prepared, the number of completed
+   stages is shown; NULL shows nothing, because something else is shown). It may report how many of
+   its parts are done, or let a run report its progress (lrcs_run_options.progress), and it ends the
+   watch before it prints. */
 void cli_watch_begin(const char *stage);
 void cli_watch_stage(const char *stage, const lrcs_host_scene *scene);
-void cli_watch_clear(void); /* before a line is printed to stderr; the watch goes on */
+void cli_watch_clear(void); /* call before a line is printed to stderr; the watch continues */
 void cli_watch_count(uint64_t done, uint64_t total);
 lrcs_progress *cli_watch_run(void);
 void cli_watch_end(void);
 
-/* "notice: ..." for each, on `out`. */
+/* Prints "notice: ..." for each notice, on `out`. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
 
-/* On stdout: the manual page, and completion for bash. */
+/* Prints on stdout the manual page, and the completion for bash. */
 void cli_manual_page(const cli_command *const *command, size_t count, const char *overview);
 void cli_manual_completion(const cli_command *const *command, size_t count);
 
-/* A file that an option asks for. */
+/* An output file that an option names. */
 typedef struct cli_output {
-    const char *option, *path; /* path: NULL where it was not given */
+    const char *option, *path; /* path is NULL if the option was not given */
 } cli_output;
 
-/* Does a path end so, in letters of either case, with something before? */
+/* 1 if a path ends with the extension, in upper or lower case, and has a character before it. */
 int cli_extension(const char *path, const char *extension);
 
-/* Can the files that options name be written, as far as can be told before the work: none is a
-   folder, and each lies in one that may be written? 0 or CLI_FAILED with the message printed. */
+/* Checks before the work, as far as possible, that the files named by options can be written: none
+   is a folder, and each lies in a writable folder. 0 or CLI_FAILED with the message printed. */
 int cli_outputs_places(const cli_args *args);
 
-/* No two outputs are one file; none would replace a file that the scene was read from. 0 or
-   CLI_USAGE. */
+/* Checks that no two outputs are the same file and that none would replace a file that the scene
+   was read from. 0 or CLI_USAGE. */
 int cli_outputs_apart(const cli_command *command, const cli_output *output, int count);
 int cli_outputs_spare(const cli_command *command, const cli_output *output, int count,
                       const lrcs_host_scene *scene);
 
-/* Writes a file, which appears whole or not at all. 0 or CLI_FAILED with the message printed. */
+/* Writes a file atomically: it appears complete or not at all. 0 or CLI_FAILED with the message
+   printed. */
 typedef int cli_writer(FILE *out, const void *context, lrcs_host_error *error);
 int cli_output_write(const char *path, cli_writer *write, const void *context);
 
-/* The sizes that a picture may have, in pixels. */
+/* The range of picture sizes, in pixels. */
 #define CLI_PICTURE_LEAST   16.0
 #define CLI_PICTURE_MOST    4096.0
 #define CLI_PICTURE_DEFAULT 512u

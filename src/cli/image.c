@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs image: what the laser sees from a pose, as a picture, as vector graphics, as a surface for
-   other programs. It decides what is drawn and where it goes; the host draws. */
+/* lrcs image: draws what the laser sees from a pose, as a picture, as vector graphics, or as a
+   surface for other programs. This file decides what is drawn and where it is written; the host
+   draws. */
 #include "cli/cli.h"
 
 #include <lrcs/picture.h>
@@ -67,7 +68,7 @@ typedef struct image_job {
 
 /* ---- options ---- */
 
-/* One of the endings, of which the second may be NULL. */
+/* Checks that a file has one of two endings; the second may be NULL. */
 static int ending_check(const image_job *job, int file, const char *ending, const char *other)
 {
     const char *path = job->file[file].path;
@@ -195,7 +196,7 @@ static int png_write(FILE *out, const void *context, lrcs_host_error *error)
     return status;
 }
 
-/* What is made for print is on white unless asked otherwise. */
+/* SVG is meant for print, so its background is white unless an option says otherwise. */
 static int svg_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const image_job *job = context;

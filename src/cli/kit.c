@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What writing a kit and judging by it share: its paths, its poses, its scenes as the engine reads
-   them back. What is written is vectors*.c, how it is judged compare*.c. */
+   them back. vectors/ writes kits, compare/ judges by them. */
 #include "cli/kit.h"
 
 #include <math.h>

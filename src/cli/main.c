@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The tool's front door: which command runs, and help for all of them. */
+/* The entry point: selects the command, and prints help for all commands. */
 #include "cli/cli.h"
 
 #include <stdlib.h>
@@ -64,7 +64,7 @@ static int unknown_command(const char *name)
     return cli_usage(NULL, "unknown command '%s'; the nearest is %s", name, best);
 }
 
-/* A command's help, and the library where it takes a material. */
+/* Prints a command's help, and the material library if it takes a material. */
 static int help_print(const cli_command *command)
 {
     const lrcs_brdf_entry *entry;
@@ -92,7 +92,7 @@ static int is_help(const char *word)
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
 }
 
-/* What make install puts where manuals and completions belong. */
+/* Prints the manual page or the completion, as make install installs them. */
 static int help_written(const char *word)
 {
     if (strcmp(word, "--man") == 0) {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* The manual page and the completion for bash, written from the commands' own help texts and option
-   lists, so that neither can say what the tool does not do. */
+/* The manual page and the completion for bash, generated from the help texts and option lists of
+   the commands, so that they always agree with the tool. */
 #include "cli/cli.h"
 
 #include <string.h>
 
 /* ---- the manual page (man 7 macros) ---- */
 
-/* One line as it stands: nothing in it may look like a request or an escape. */
+/* One line of text, escaped so that roff reads no request and no escape in it. */
 static const char *roff_line(const char *text)
 {
     if (*text == '.' || *text == '\'') {
@@ -65,7 +65,7 @@ void cli_manual_page(const cli_command *const *command, size_t count, const char
 
 /* ---- completion ---- */
 
-/* Values of options that take one of a few words. */
+/* The values of options that take one of a few words. */
 static const char *option_words(const char *name)
 {
     return strcmp(name, "method") == 0    ? "auto facet zbuffer exact"

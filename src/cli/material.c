@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What facets wear, as the command line says it: A,B,s,m or a library name, for all, for a
-   material's name or for a colour. */
+/* The materials of facets as the command line assigns them: A,B,s,m or a library name, to all
+   facets, to a material name or to a colour. */
 #include "cli/cli.h"
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@ static int brdf_fault(const cli_command *command, const char *option, const lrcs
     return cli_usage(command, "%s: %s (A, B, m >= 0 and s > 0)", option, fault);
 }
 
-/* Reads four numbers with commas between, each with its "+-" deviation or without; 0, or -1. */
+/* Reads four numbers separated by commas, each with or without its "+-" deviation; 0, or -1. */
 static int brdf_numbers(const char *text, double value[4], double deviation[4])
 {
     for (int i = 0; i < 4; i++) {
@@ -105,7 +105,8 @@ static int colour_read(const char *text, size_t size, unsigned char rgb[3])
     return 0;
 }
 
-/* One --material: what stands before the last '=' is a colour or a name; no number has one. */
+/* Reads one --material: a colour or a name is what precedes the last '=', since no number contains
+   one. */
 static int binding_read(const cli_command *command, const char *text, lrcs_binding *binding)
 {
     const char *equals = strrchr(text, '=');
@@ -196,9 +197,10 @@ const char *cli_material_name(const lrcs_material *material)
     return material->name[0] ? material->name : "(default)";
 }
 
-#define NEAR_MOST ((size_t)5) /* names that an error tells */
+#define NEAR_MOST ((size_t)5) /* names that an error lists */
 
-/* The colours of the scene nearest to one, by the sum of squares of the channels' differences. */
+/* The colours of the scene nearest to a colour, by the sum of squares of the channels'
+   differences. */
 static void colours_near(const lrcs_scene *scene, const unsigned char rgb[3],
                          char list[NEAR_MOST * 12])
 {
@@ -235,7 +237,8 @@ static void colours_near(const lrcs_scene *scene, const unsigned char rgb[3],
     }
 }
 
-/* A --material that no facet answers to: the message names what is most like it. */
+/* Reports a --material that matches no facet: the message lists the names or colours most like
+   it. */
 static int unmatched_binding(const cli_command *command, const lrcs_host_scene *host)
 {
     const lrcs_scene *scene = &host->scene;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs merge: the shards of a sweep, made whole. The rows go over byte by byte, so that the file is
-   the one that a single sweep would have made. */
+/* lrcs merge: joins the shards of a sweep. The rows are copied byte by byte, so that the file is
+   identical to that of a single sweep. */
 #include "cli/sweep/sweep.h"
 
 #include <stdlib.h>
@@ -58,11 +58,11 @@ static int by_first(const void *a, const void *b)
 {
     const merge_shard *x = a;
     const merge_shard *y = b;
-    int empty = (x->rows != 0) - (y->rows != 0); /* those without rows before all others */
+    int empty = (x->rows != 0) - (y->rows != 0); /* shards without rows come first */
     return empty ? empty : (x->first > y->first) - (x->first < y->first);
 }
 
-/* Every row once. */
+/* Checks that every row is present exactly once. */
 static int shards_check(const merge_shard *shard, int count)
 {
     uint64_t next = 0;
@@ -87,7 +87,7 @@ static int shards_check(const merge_shard *shard, int count)
 typedef struct merge_rows {
     const merge_shard *shard;
     int count, at;
-    sweep_text text; /* of shard `at`, what is left of it */
+    sweep_text text; /* the remaining text of shard `at` */
     const char *line;
     size_t size;
 } merge_rows;
@@ -105,7 +105,7 @@ static int merge_next(void *context, sweep_row *row)
     return 0;
 }
 
-/* Bytes to the output, and into its checksum. */
+/* Writes bytes to the output and adds them to its checksum. */
 static uint64_t sum_write(FILE *out, const char *bytes, size_t size, uint64_t sum)
 {
     fwrite(bytes, 1, size, out);
@@ -134,7 +134,7 @@ static void rows_write(FILE *out, merge_rows *rows)
     cli_rows_sum(out, head->format, sum);
 }
 
-/* The form of OUT is that of the shards, or a map. 0 or CLI_USAGE. */
+/* Checks that OUT has the format of the shards, or is a map. 0 or CLI_USAGE. */
 static int out_check(const cli_args *args, const sweep_file *file, const merge_shard *shard,
                      int count)
 {

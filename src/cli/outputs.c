@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Files that a command writes: that no two are one, that none replaces what the scene was read
-   from, and that each appears whole or not at all. What stands in them is the command's. */
+/* The files that a command writes: no two are the same, none replaces a file that the scene was
+   read from, and each appears complete or not at all. The command decides what they contain. */
 #include "cli/cli.h"
 
 #include <errno.h>
@@ -16,7 +16,7 @@ int cli_extension(const char *path, const char *extension)
     return size > end && strcasecmp(path + size - end, extension) == 0;
 }
 
-/* Can a file of that name be written: no folder, and in a folder that is there? */
+/* Checks that a file of that name can be written: it is not a folder, and its folder exists. */
 static int output_place(const char *path)
 {
     struct stat about;
@@ -32,7 +32,7 @@ static int output_place(const char *path)
     if (there && S_ISDIR(about.st_mode)) {
         errno = EISDIR;
     } else if ((there && !S_ISREG(about.st_mode)) || access(folder, W_OK | X_OK) == 0) {
-        return 0; /* a device is written as it is */
+        return 0; /* a device is written directly */
     }
     fprintf(stderr, "lrcs: %s: cannot write: %s\n", path, strerror(errno));
     return CLI_FAILED;

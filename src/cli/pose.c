@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The pose options: exactly one, or none for a laser on +z. */
+/* The pose options: at most one may be given; without one the laser is on +z. */
 #include "cli/cli.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What several commands print alike, and the clock that they share. */
+/* Output functions that several commands use, and their clock. */
 #include "cli/cli.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ double cli_dbsm(double sigma_m2)
     return 10.0 * log10(sigma_m2);
 }
 
-/* A step of the last digit more where the nearest is less. */
+/* Adds a unit to the last digit if the nearest number is less than the bound. */
 void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE])
 {
     snprintf(text, CLI_BOUND_SIZE, "%.*g", digits, bound);
@@ -29,7 +29,7 @@ void cli_number_put(FILE *out, const char *before, double value)
     fprintf(out, "%s%s", before, text);
 }
 
-/* Columns are counted in code points: every byte but the trailing ones of UTF-8. */
+/* The width is counted in code points: every byte except the continuation bytes of UTF-8. */
 void cli_column_to(FILE *out, const char *text, int width)
 {
     for (; *text; text++) {

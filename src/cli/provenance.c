@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a result was made from, as outputs tell it: the scene's title, its files with their hashes,
-   the unit, the materials worn and where their numbers come from, the options given. */
+/* What a result was made from, as outputs state it: the scene's title, its files with their hashes,
+   the unit, the assigned materials and the origin of their numbers, the options given. */
 #include "cli/cli.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs scene: a scene file to begin with, made from a model: its parts, its materials with their
-   colours, and every number that is assumed for them, ready to edit. As it is written it means what
-   the model alone means: the same facets, materials and sigma. */
+/* lrcs scene: writes a scene file made from a model, to be edited: its parts, its materials with
+   their colours, and every number that is assumed for them. As written it is equivalent to the
+   model alone: the same facets, materials and sigma. */
 #include "cli/info/info.h"
 
 #include <stdlib.h>
@@ -41,15 +41,15 @@ typedef struct scene_job {
     const char *path;
     lrcs_host_options load;
     lrcs_host_scene scene;
-    uint32_t *facets; /* of each material */
-    double *area;     /* m2, likewise */
-    char *text;       /* the scene file */
+    uint32_t *facets; /* by material */
+    double *area;     /* m2, by material */
+    char *text;       /* content of the scene file */
     size_t size;
 } scene_job;
 
 /* ---- TOML ---- */
 
-/* A basic string. */
+/* Writes a TOML basic string. */
 static void string_put(FILE *out, const char *text)
 {
     putc('"', out);
@@ -71,7 +71,7 @@ static void comment_put(FILE *out, const char *text)
     }
 }
 
-/* A number with as few digits as mean it. */
+/* Writes a number with as few digits as identify it. */
 static void number_put(FILE *out, const char *key, double value)
 {
     char text[LRCS_HOST_NUMBER_SIZE];
@@ -87,8 +87,8 @@ static void number_put(FILE *out, const char *key, double value)
 
 /* ---- paths ---- */
 
-/* The model's path as seen from the scene file's folder; the caller frees it. An absolute path
-   stays as it is. */
+/* The model's path relative to the scene file's folder; the caller frees it. An absolute path is
+   unchanged. */
 static char *path_from(const char *model, const char *scene)
 {
     char *folder = strdup(scene);
@@ -105,7 +105,7 @@ static char *path_from(const char *model, const char *scene)
     char *from = realpath(folder, NULL);
     char *to = realpath(model, NULL);
     char *path = NULL;
-    size_t same = 0; /* bytes of the folders that both are in */
+    size_t same = 0; /* length of the common folders */
     size_t ups = 0;
     for (size_t i = 0; from && to && from[i] == to[i] && to[i]; i++) {
         same = to[i] == '/' ? i + 1 : same;
@@ -142,7 +142,7 @@ static int contains(const char *text, const char *word)
     return 0;
 }
 
-/* The library's material that a name makes one think of, or NULL. */
+/* The library's material that a name suggests, or NULL. */
 static const char *suggestion(const char *name)
 {
     static const char *const word[][2] = {
@@ -221,7 +221,8 @@ static void head_put(const scene_job *job, const char *unnamed, FILE *out)
           out);
 }
 
-/* The objects of the model: names that --two-sided takes; their facets go where the part goes. */
+/* Writes the objects of the model: names that --two-sided takes; their facets belong to the
+   part. */
 static void objects_put(const scene_job *job, FILE *out)
 {
     const lrcs_mesh *model = &job->scene.model[0];
@@ -279,7 +280,7 @@ static void brdf_put(const lrcs_material *material, FILE *out)
     }
 }
 
-/* The first material of each name: a name stands for all that have it. */
+/* 1 for the first material of each name: a name stands for all materials that have it. */
 static int is_first(const lrcs_scene *scene, uint32_t index)
 {
     uint32_t i = 0;
@@ -289,7 +290,7 @@ static int is_first(const lrcs_scene *scene, uint32_t index)
     return i == index;
 }
 
-/* Are all materials of a name two-sided? The key would make them so. */
+/* 1 if all materials of a name are two-sided; the key makes them all so. */
 static int two_sided_all(const lrcs_scene *scene, const char *name)
 {
     int all = 1;
@@ -299,8 +300,8 @@ static int two_sided_all(const lrcs_scene *scene, const char *name)
     return all;
 }
 
-/* A material of the model, with a map from its name; `unnamed`, instead of a map, for facets
-   without a name. */
+/* Writes a material of the model, with a mapping from its name; if `unnamed` is not NULL, as the
+   material of facets without a name, without a mapping. */
 static void material_put(const scene_job *job, uint32_t index, const char *unnamed, FILE *out)
 {
     const lrcs_material *material = &job->scene.scene.material[index];
@@ -329,7 +330,7 @@ static void material_put(const scene_job *job, uint32_t index, const char *unnam
     }
 }
 
-/* A name for what has none, unlike all others. */
+/* Chooses a name, different from all others, for the unnamed material. */
 static void unnamed_choose(const lrcs_scene *scene, char name[32])
 {
     int taken = 1;
@@ -372,7 +373,8 @@ static void scene_put(const scene_job *job, FILE *out)
 
 /* ---- the command ---- */
 
-/* Materials of one name have one map: colours cannot tell them apart. 0 or CLI_USAGE. */
+/* Materials of the same name have the same mapping: colours cannot distinguish them. 0 or
+   CLI_USAGE. */
 static int names_check(const scene_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
@@ -417,8 +419,8 @@ static int scene_read(scene_job *job)
     return code;
 }
 
-/* What was made is read back before it is written: no model's names make a file that lrcs refuses.
- */
+/* Reads back what was made before it is written, so that no names in a model lead to a file that
+   lrcs refuses. */
 static int scene_check(const scene_job *job)
 {
     lrcs_recipe recipe;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs shape: sigma of a simple body from its closed form. */
+/* lrcs shape: sigma of a simple shape from its closed form. */
 #include "cli/cli.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ static const cli_option shape_options[] = {
     {"half-angle", 1, 0}, {"aspect", 1, 0}, {"direction", 1, 0}, {"parts", 1, 0},
     {"material", 1, 0},   {"json", 0, 0},   {"help", 0, 0},      {NULL, 0, 0}};
 
-/* What a kind is described by, as bits. */
+/* The dimensions of a kind, as bits. */
 enum {
     DIMENSION_SIZE2 = 1,
     DIMENSION_SIZE3 = 2,
@@ -69,7 +69,7 @@ static unsigned shape_dimensions(int kind)
     }
 }
 
-/* One number that a kind needs or must not have. */
+/* Reads one number that a kind requires or does not allow. */
 static int dimension_read(const cli_args *args, const char *name, int wanted, double *value)
 {
     int given = cli_value(args, name) != NULL;
@@ -125,7 +125,7 @@ static int parts_read(const cli_args *args, unsigned dimensions, lrcs_shape *sha
     return 0;
 }
 
-/* A cone's height is given, or its half-angle. */
+/* Reads a cone's height or its half-angle; exactly one must be given. */
 static int cone_read(const cli_args *args, unsigned dimensions, lrcs_shape *shape)
 {
     int cone = (dimensions & DIMENSION_CONE) != 0;

@@ -1,25 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* Adds up what single facets return, by part, by material and for the brightest facets. It decides
-   what a part is (a shape, a model, or each object of a model that has several) and which materials
-   are one (same name, same numbers); how the lists look is shares_report's. */
+/* Adds up the contributions of single facets to sigma, by part, by material and for the brightest
+   facets. This file decides what a part is (a shape, a model, or each object of a model that has
+   several) and which materials are treated as one (same name, same numbers); shares_report.c prints
+   the lists. */
 #include "cli/shares.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Sums of one row, before it is sorted. */
+/* Sums of one row, before sorting. */
 typedef struct shares_tally {
     cli_sum sigma, glint, diffuse;
     uint32_t facets;
 } shares_tally;
 
-/* Which row each facet belongs to. */
+/* Maps facets to rows. */
 typedef struct shares_plan {
     const lrcs_host_scene *base;
     const lrcs_scene *scene;
-    uint32_t *first_part;  /* by part of the scene: the row of its first object */
-    uint32_t *material_of; /* by material of the scene: its row */
+    uint32_t *first_part;  /* by part of the scene: the row of the part's first object */
+    uint32_t *material_of; /* by material of the scene: the row */
     uint32_t parts, materials;
 } shares_plan;
 
@@ -53,7 +54,7 @@ typedef struct shares_worn {
     const lrcs_material *material;
 } shares_worn;
 
-/* Materials that look alike in a report are one: those of one name and the same numbers. */
+/* Materials with the same name and the same numbers are treated as one. */
 static int material_compare(const void *a, const void *b)
 {
     const lrcs_material *x = ((const shares_worn *)a)->material;
@@ -84,7 +85,7 @@ static int materials_number(shares_plan *plan)
 
 /* ---- names ---- */
 
-/* "part", or "part/object" where a scene of several parts has a model of several objects. */
+/* "part", or "part/object" if a scene of several parts has a model of several objects. */
 static char *part_name(const shares_plan *plan, uint32_t part, uint32_t object)
 {
     const lrcs_mesh *mesh = part_objects(plan, part);
@@ -109,8 +110,8 @@ static int alike_compare(const void *a, const void *b)
     return strcmp(*((const shares_alike *)a)->name, *((const shares_alike *)b)->name);
 }
 
-/* "name #3" for objects whose name others have too, as 3DS files that allow 10 letters have many.
- */
+/* Numbers objects that share a name as "name #3"; they are frequent in 3DS files, whose names have
+   at most 10 letters. */
 static int alike_number(shares_alike *list, uint32_t count)
 {
     for (uint32_t i = 0; i < count;) {
@@ -133,7 +134,7 @@ static int alike_number(shares_alike *list, uint32_t count)
     return 0;
 }
 
-/* Tells parts of one name apart. */
+/* Distinguishes parts that have the same name. */
 static int parts_tell(const shares_plan *plan, cli_shares *shares)
 {
     shares_alike *list = calloc((size_t)plan->parts + 1, sizeof *list);
@@ -194,7 +195,7 @@ static void row_fill(shares_row *row, const shares_tally *tally)
     row->diffuse_m2 = cli_sum_value(&tally->diffuse);
 }
 
-/* Keeps a facet where it is among the brightest. */
+/* Inserts a facet if it is among the brightest. */
 static void facet_offer(const shares_plan *plan, uint32_t facet, const lrcs_facet_record *record,
                         cli_shares *shares)
 {
@@ -238,7 +239,7 @@ static void facets_add(const shares_plan *plan, const lrcs_facet_record *records
 
 /* ---- order ---- */
 
-/* The brightest first, of equals the one with more facets, then by name. */
+/* The brightest first; of equals the one with more facets, then by name. */
 static int row_compare(const void *a, const void *b)
 {
     const shares_row *x = a;
@@ -248,7 +249,7 @@ static int row_compare(const void *a, const void *b)
     return order ? order : strcmp(x->name, y->name);
 }
 
-/* Sorts, and drops what has no facets, which comes last. */
+/* Sorts, and drops rows without facets, which come last. */
 static void rows_sort(shares_row *row, uint32_t *count)
 {
     qsort(row, *count, sizeof *row, row_compare);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Shares of sigma as a table for people, cut to what matters, and as JSON, whole. */
+/* Prints the shares of sigma: as a table of the largest, and completely as JSON. */
 #include "cli/shares.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 /* ---- the table ---- */
 
-/* A share in percent; "-" of nothing. */
+/* Prints a share in percent; "-" if it is not defined. */
 static void percent_cell(double share)
 {
     if (isfinite(share)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Sums that do not lose what is small beside what is large. */
+/* Compensated sums, which do not lose small terms beside large ones. */
 #include "cli/cli.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Which stage a command is in, for people at a terminal: a line on stderr from two seconds on,
-   renewed each second by a signal, and what a Ctrl-C leaves. It decides what is shown; what is to
-   be computed in many poses has a bar of its own (sweep/progress.c). */
+/* Shows the stage of a command at a terminal: a line on stderr after two seconds, renewed each
+   second by a signal, and a message about what remains after a Ctrl-C. This file decides what is
+   shown; commands that compute many poses have a progress bar of their own (sweep/progress.c). */
 #include "cli/cli.h"
 
 #include <signal.h>
@@ -11,19 +11,19 @@
 
 #define WATCH_AFTER 2 /* s */
 
-/* Read by handlers. */
+/* Read by signal handlers. */
 static const char *volatile watch_stage;
 static const lrcs_host_scene *volatile watch_scene;
 static volatile sig_atomic_t watch_shown;
 static volatile sig_atomic_t watch_seconds;
-static volatile sig_atomic_t watch_running; /* a pose, which says how far it is */
+static volatile sig_atomic_t watch_running; /* 1 while a pose runs, which reports its progress */
 static volatile unsigned watch_done, watch_total;
 static lrcs_progress watch_progress;
 
 static const char watch_blank[] =
     "\r                                                                      \r";
 
-/* Adds text to a line, as a handler may. */
+/* Appends text to a line, with operations that a signal handler may use. */
 static size_t line_add(char *line, size_t used, size_t room, const char *text)
 {
     while (*text && used < room) {
@@ -94,7 +94,7 @@ static void tick(int number)
     watch_shown = write(STDERR_FILENO, line, used) >= 0;
 }
 
-/* A file appears when it is whole: there is nothing to save. */
+/* A file appears only when it is complete: nothing has to be saved. */
 static void stopped(int number)
 {
     static const char text[] = "\nlrcs: stopped: outputs that were complete are kept, none is half "
@@ -131,7 +131,7 @@ void cli_watch_begin(const char *stage)
     timer_set(WATCH_AFTER, 1);
 }
 
-/* What is shown disappears: something else comes to the terminal. */
+/* Clears the line, because something else is printed on the terminal. */
 void cli_watch_clear(void)
 {
     if (watch_shown) {
@@ -143,7 +143,7 @@ void cli_watch_clear(void)
 
 void cli_watch_stage(const char *stage, const lrcs_host_scene *scene)
 {
-    watch_stage = NULL; /* the rest belongs together */
+    watch_stage = NULL; /* a handler shows nothing until all are set */
     watch_done = watch_total = 0;
     watch_running = 0;
     watch_scene = scene;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What a code with a certain mistake would answer to a case: the sum of Eq. 2 over the truth's
-   facets, as the mistake sees them. */
+/* The answers that a code with a given mistake would produce for a case: the sum of Eq. 2 over the
+   truth's facets, with the mistake applied. */
 #include "cli/compare/compare.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The largest f_r cos. */
+/* The largest f_r cos of the case. */
 static double view_peak(const mistake_view *view)
 {
     double peak = 0.0;
@@ -20,7 +20,7 @@ static double view_peak(const mistake_view *view)
     return peak;
 }
 
-/* The records of a run of its own. 0 or CLI_FAILED. */
+/* The records of a run of its own, for mistakes that change the run. 0 or CLI_FAILED. */
 static int records_own(const compare_kit *kit, const compare_case *one,
                        const compare_mistake *mistake, lrcs_facet_record *own)
 {
@@ -42,8 +42,7 @@ static int records_own(const compare_kit *kit, const compare_case *one,
                : cli_failed(&error);
 }
 
-/* The records of the case as somebody sees it: the truth's, or those of another run. 0 or
-   CLI_FAILED. */
+/* The records of a case with a mistake: the truth's, or those of another run. 0 or CLI_FAILED. */
 static int view_make(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
                      mistake_view *view, lrcs_facet_record **own)
 {
@@ -64,7 +63,7 @@ static int view_make(const compare_kit *kit, compare_case *one, const compare_mi
     return records_own(kit, one, mistake, *own);
 }
 
-/* sigma / 4 pi of what somebody sees. */
+/* sigma / 4 pi with the mistake. */
 static double view_sum(const mistake_view *view, const compare_mistake *mistake, double peak)
 {
     mistake_area *area = mistake->area ? mistake->area : cli_mistake_seen;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Which area of a facet somebody sums, and which cosine and material they shade it with. Which
-   mistakes there are is compare_mistakes.c. */
+/* Mistakes in the area of a facet that is summed, and in the cosine and material that it is shaded
+   with. mistakes.c lists the mistakes. */
 #include "cli/compare/mistakes.h"
 
 #include <math.h>
 #include <string.h>
 
-#define TWINS_MOST 256u /* facets of scenes in which twins are looked for */
+#define TWINS_MOST 256u /* scenes with more facets are not searched for coincident facets */
 
 static int spot_fill(const mistake_view *view, uint32_t facet, mistake_spot *spot)
 {
@@ -49,7 +49,7 @@ double cli_area_one_sided(const mistake_view *view, uint32_t facet, int corner, 
     return view->records[facet].cos_theta > 0.0 ? area : 0.0;
 }
 
-/* Fronts taken for backs, and backs for fronts. */
+/* Front and back sides exchanged. */
 double cli_area_flipped(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
@@ -67,7 +67,7 @@ double cli_area_one_material(const mistake_view *view, uint32_t facet, int corne
     return area;
 }
 
-/* Materials that begin a facet late. */
+/* The material changes one facet too late. */
 double cli_area_next_material(const mistake_view *view, uint32_t facet, int corner,
                               mistake_spot *spot)
 {
@@ -78,7 +78,7 @@ double cli_area_next_material(const mistake_view *view, uint32_t facet, int corn
     return worn->two_sided || view->records[facet].cos_theta > 0.0 ? area : 0.0;
 }
 
-/* Shaded by the mean normal at each corner. */
+/* Shading by the mean normal at each corner. */
 double cli_area_smooth(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
@@ -105,7 +105,7 @@ static int facets_coincide(const lrcs_scene *scene, uint32_t a, uint32_t b)
     return 1;
 }
 
-/* Of facets in one place the last one, in place of the first. */
+/* Of coincident facets the last one is counted instead of the first. */
 double cli_area_last(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
 {
     const lrcs_scene *scene = &view->scene->host.scene;

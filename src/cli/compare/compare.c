@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs compare: another implementation's answers to a kit, judged case by case, and why they
-   differ. */
+/* lrcs compare: judges another implementation's answers to a kit case by case, and explains the
+   differences. */
 #include "cli/compare/compare.h"
 
 #include <string.h>
@@ -45,7 +45,7 @@ static const cli_option compare_options[] = {
 
 /* ---- options ---- */
 
-/* The two names that are no options. */
+/* Reads the two operands. */
 static int operands_read(compare_job *job, const char **folder)
 {
     const cli_args *args = job->args;
@@ -81,7 +81,7 @@ static int grade_read(compare_job *job)
                 : 0;
 }
 
-/* Nothing that is read is written over. */
+/* Checks that no output replaces a file that is read. */
 static int outputs_read(const compare_job *job, cli_output output[2])
 {
     const cli_command *command = job->args->command;

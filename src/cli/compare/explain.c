@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* Why answers differ: for each mistake of the catalogue, what it would have answered, with and
-   without a constant factor, against what was handed in. The one that removes most of the
-   differences is a finding; what it leaves is looked at again. An explanation is no proof: it says
-   how many cases it explains, and what none explains is said to be unexplained. */
+/* Finds why answers differ: compares the submitted answers with those that each mistake of the
+   catalogue would produce, with and without a constant factor. The mistake that removes most of the
+   differences is a finding; the remaining differences are examined again. An explanation is not a
+   proof: the report states how many cases it explains, and which cases remain unexplained. */
 #include "cli/compare/search.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define PROBE       16u  /* failing cases after which a hopeless mistake is given up */
-#define HOPELESS    0.1  /* share of them */
-#define LATER       0.1  /* of all failing cases, what a second finding must explain */
-#define PRICE       0.05 /* what a factor or a second mistake must gain to be believed */
-#define SURE        0.94 /* a score after which none is sought that is better */
-#define PAIRS_BELOW 0.9  /* where one mistake explains less, two at once are tried */
+#define PROBE       16u  /* failing cases after which a hopeless mistake is abandoned */
+#define HOPELESS    0.1  /* the share of them that must be explained */
+#define LATER       0.1  /* the share of all failing cases that a later finding must explain */
+#define PRICE       0.05 /* the gain by which a factor or a second mistake is justified */
+#define SURE        0.94 /* a score above which the search for a better one stops */
+#define PAIRS_BELOW 0.9  /* if one mistake explains less than this, pairs are tried */
 
 /* ---- the catalogue ---- */
 
@@ -27,7 +27,7 @@ static uint32_t explained_count(const compare_search *search, uint32_t failings,
     return count;
 }
 
-/* Is a mistake worth going on with, after so many failing cases? */
+/* 1 if a mistake is still promising after so many failing cases. */
 static int answers_hopeful(const compare_search *search, uint32_t failings)
 {
     int known;
@@ -36,7 +36,8 @@ static int answers_hopeful(const compare_search *search, uint32_t failings)
            explained_count(search, failings, cli_search_factor(search, failings, &known)) >= least;
 }
 
-/* The answers of a mistake; 1 where it is worth scoring, 0 where not, -1 with the message. */
+/* Computes the answers of a mistake; 1 if it is worth scoring, 0 if not, -1 with the message
+   printed. */
 static int answers_make(const compare_search *search, const compare_mistake *mistake)
 {
     uint32_t failings = search->failings;
@@ -53,7 +54,7 @@ static int answers_make(const compare_search *search, const compare_mistake *mis
     return 1;
 }
 
-/* Keeps the mistake where it explains more than the best so far. 0, or -1 on failure. */
+/* Keeps the mistake if it explains more than the best one so far. 0, or -1 on failure. */
 static int mistake_try(const compare_search *search, const compare_mistake *first,
                        const compare_mistake *second, search_score *best)
 {
@@ -91,8 +92,8 @@ static int singles_try(const compare_search *search, search_score *best)
     return code;
 }
 
-/* Every pair of a mistake in which areas are summed and one in how they are shaded; none that takes
-   a run of its own for each case. */
+/* Tries every pair of a mistake in the areas and one in the shading; mistakes that need a run of
+   their own for each case are left out. */
 static int pairs_try(const compare_search *search, search_score *best)
 {
     int code = 0;
@@ -108,7 +109,8 @@ static int pairs_try(const compare_search *search, search_score *best)
 
 /* ---- findings ---- */
 
-/* The best explanation of what fails still; 1 where there is one, 0 where not, -1 on failure. */
+/* Finds the best explanation of the remaining failures; 1 if there is one, 0 if not, -1 on
+   failure. */
 static int finding_next(compare_search *search)
 {
     compare_job *job = search->job;
@@ -118,7 +120,7 @@ static int finding_next(compare_search *search)
         code = pairs_try(search, &best);
     }
     if (job->findings > 0 && best.explained < LATER * job->failed) {
-        best.score = 0.0; /* of a few cases that are left, chance explains some */
+        best.score = 0.0; /* if only a few cases remain, some are explained by chance */
     }
     if (code != 0) {
         return -1;

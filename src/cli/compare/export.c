@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The verdict for machines: JSON, and JUnit XML as continuous integration reads it. */
+/* The verdict for programs: JSON, and JUnit XML for continuous integration. */
 #include "cli/compare/compare.h"
 
 #include <math.h>
@@ -154,7 +154,8 @@ int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
-/* Text inside an attribute. Names of a kit are letters, digits and '-'; findings are ours. */
+/* Text inside an attribute. It needs no escapes: names of a kit are letters, digits and '-', and
+   the findings are texts of this program. */
 static void xml_text(FILE *out, const char *text)
 {
     for (; *text; text++) {
@@ -206,7 +207,7 @@ static void tier_junit(FILE *out, const compare_job *job, int tier)
     fputs("</testsuite>\n", out);
 }
 
-/* No case of its own, but all of them together. */
+/* A test case that stands for all cases together. */
 static void bias_junit(FILE *out, const compare_job *job)
 {
     fputs("<testsuite name=\"all tiers\" tests=\"1\" failures=\"1\">\n"

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* Their visible areas, facet by facet, against the truth's: how facets differ, and which ones cost
-   most. It explains; the verdict is by sigma alone. */
+/* Compares the submitted visible areas with the truth's, facet by facet: how facets differ, and
+   which ones change sigma most. This only explains; the verdict depends on sigma alone. */
 #include "cli/compare/compare.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define SEEN         0.02 /* of a facet's projected area: what may be off */
-#define NONE_SEEN    1e-3 /* less of it is none, and all but that is all of it */
+#define SEEN         0.02 /* allowed error, as a share of a facet's projected area */
+#define NONE_SEEN    1e-3 /* a visible share below this is none; all but this is everything */
 #define COSINE_WRONG 1e-3
 #define COSINE_FLOAT 1e-9
 
 typedef struct facets_read {
     compare_job *job;
-    double **visible; /* by case: their areas, by facet; NULL: not handed in */
+    double **visible; /* by case: submitted areas by facet; NULL if none were submitted */
     compare_facets *found;
 } facets_read;
 
@@ -90,7 +90,8 @@ static int facets_file(facets_read *facets)
 
 /* ---- differing ---- */
 
-/* Facets of cases that fail come first, then those that change most of what the case is allowed. */
+/* Facets of failing cases come first, then those with the largest change relative to what the case
+   is allowed. */
 static int facet_before(const compare_facet *a, const compare_facet *b)
 {
     return a->failed != b->failed ? a->failed : a->weight > b->weight;
@@ -110,8 +111,8 @@ static void worst_take(compare_facets *facets, const compare_facet *off)
     }
 }
 
-/* How far an area may be off: a share of the facet, or a pixel along its outline where a raster was
-   asked for, two where others draw outlines across it, and a pixel. */
+/* The allowed error of an area: a share of the facet; or, if a raster was asked for, a pixel along
+   its outline (two if outlines of other facets cross it) and a pixel. */
 static double area_allowed(const compare_job *job, const compare_case *one, uint32_t facet,
                            double whole, double truth)
 {

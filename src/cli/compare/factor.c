@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What a constant factor between answers and truth may mean. */
+/* Known causes of a constant factor between answers and truth. */
 #include "cli/compare/search.h"
 
 #include <math.h>
 #include <stddef.h>
 
-#define FACTOR_NEAR 0.02 /* a ratio this near a known number is that number */
+#define FACTOR_NEAR 0.02 /* a ratio within this share of a known number is taken for that number   \
+                          */
 
 typedef struct factor_entry {
     double value;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* What a finding says, in a sentence, and which cases it explains: the mistake, a second one, a
-   factor; what the window cuts off; other mistakes that explain equally well. */
+/* Describes a finding in a sentence and decides which cases it explains: the mistake, a second one,
+   a factor; what the window cuts off; other mistakes that explain equally well. */
 #include "cli/compare/search.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
-#define TIED      2e-3 /* scores this near are equally good */
-#define TIES_MOST 3u   /* mistakes that explain equally well, and are named */
-#define CLIPPED   0.9  /* of the cases that are left, those that a window may cut something off */
+#define TIED      2e-3 /* scores that differ by less are equally good */
+#define TIES_MOST 3u   /* number of named mistakes that explain equally well */
+#define CLIPPED   0.9  /* share of the remaining cases that lose something at the window */
 
 compare_finding *cli_search_finding(compare_job *job, const char *name)
 {
@@ -60,7 +60,8 @@ compare_mistake cli_mistake_both(const compare_mistake *first, const compare_mis
     return both;
 }
 
-/* What is left of the differences that it explains, in the median; marks their cases. */
+/* The median share of the differences that remains in the cases that it explains; also marks these
+   cases. */
 static double finding_rest(const compare_search *search, const search_score *best, int mark)
 {
     uint32_t count = 0;
@@ -76,7 +77,7 @@ static double finding_rest(const compare_search *search, const search_score *bes
     return cli_search_median(search->room, count);
 }
 
-/* Adds to a text what there is room for. */
+/* Appends to a text, truncated to its size. */
 __attribute__((format(printf, 2, 3))) static void text_add(char text[COMPARE_TEXT],
                                                            const char *format, ...)
 {
@@ -107,7 +108,7 @@ static void finding_say(const compare_job *job, const search_score *best, compar
     }
 }
 
-/* The answers of a mistake to the cases that fail and to those that pass. 0 or -1. */
+/* Computes the answers of a mistake to the failing and to the passing cases. 0 or -1. */
 static int answers_all(const compare_search *search, const compare_mistake *mistake)
 {
     int code = 0;
@@ -119,7 +120,8 @@ static int answers_all(const compare_search *search, const compare_mistake *mist
     return code;
 }
 
-/* Does a mistake explain the cases of a finding, and no others? 1, 0, or -1 on failure. */
+/* Decides whether a mistake explains the cases of a finding and no others: 1, 0, or -1 on
+   failure. */
 static int mistake_fits(const compare_search *search, const compare_mistake *mistake, double factor,
                         int mark)
 {
@@ -136,7 +138,7 @@ static int mistake_fits(const compare_search *search, const compare_mistake *mis
     return 1;
 }
 
-/* Says which other mistakes explain the same cases equally well. 0 or -1. */
+/* Names the other mistakes that explain the same cases equally well. 0 or -1. */
 static int ties_say(const compare_search *search, const search_score *best,
                     compare_finding *finding)
 {
@@ -157,8 +159,8 @@ static int ties_say(const compare_search *search, const search_score *best,
     return 0;
 }
 
-/* Where the frame is wrong, the kit's square fits no more: most of the cases that are left show
-   less than they should, so part of the scene is outside. */
+/* If the frame is wrong, the kit's square no longer contains the scene: most of the remaining cases
+   show less than they should, because part of the scene is outside. */
 static void clipped_say(const compare_search *search, const search_score *best,
                         compare_finding *finding)
 {

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* Reasons that show in the table itself, before any physics: nothing but zeros, another unit than
-   its column says, rows that moved by one, too few digits. */
+/* Causes visible in the table itself, without physics: only zeros, another unit than the column
+   states, rows shifted by one, too few digits. */
 #include "cli/compare/search.h"
 
 #include <math.h>
 #include <string.h>
 
-#define MOST       0.9   /* of the failing cases, the share that a reason explains */
-#define LEAST      5u    /* failing cases, fewer prove nothing */
-#define DIGITS     9     /* as many do no harm */
-#define SAME_DIGIT 1e-11 /* of a number: so near to one of few digits it is that one */
+#define MOST       0.9   /* share of the failing cases that a cause must explain */
+#define LEAST      5u    /* number of failing cases; fewer prove nothing */
+#define DIGITS     9     /* with this many digits rounding is harmless */
+#define SAME_DIGIT 1e-11 /* relative: a number this near to one with few digits is taken for it */
 
-/* What they answered to a case, read in another way; NaN: cannot tell. */
+/* The answer to a case, interpreted in another way; NaN if not possible. */
 typedef double format_way(const compare_job *job, const compare_case *one, double at);
 
 /* ---- ways ---- */
 
-/* `at` log10 of m2, in whichever column. */
+/* The number taken as `at` times log10 of m2, whichever its column. */
 static double way_decibels(const compare_job *job, const compare_case *one, double at)
 {
     (void)job;
@@ -30,7 +30,7 @@ static double way_plain(const compare_job *job, const compare_case *one, double 
     return one->printed;
 }
 
-/* The answer `at` lines further. */
+/* The answer `at` lines below. */
 static double way_moved(const compare_job *job, const compare_case *one, double at)
 {
     double line = (double)(one - job->kit.list) + at;
@@ -46,14 +46,14 @@ static int case_near(const compare_job *job, const compare_case *one, double sig
     return fabs(sigma_m2 - one->sigma_m2) <= cli_compare_allowed(one, job->grade, job->pixels);
 }
 
-/* Does the reason at hand explain most of what fails? */
+/* 1 if the current cause explains most of the failures. */
 static int holds_most(const compare_search *search)
 {
     uint32_t right = cli_search_holds(search);
     return right >= LEAST && right >= MOST * search->failings;
 }
 
-/* Where most answers are right once they are read in another way, that is the finding. */
+/* Makes a finding if most answers are right when interpreted in another way. */
 static void format_say(compare_search *search, const char *name, const char *text, format_way *way,
                        double at)
 {
@@ -64,7 +64,8 @@ static void format_say(compare_search *search, const char *name, const char *tex
     compare_finding *finding =
         holds_most(search) ? cli_search_find(search, name, "%s", text) : NULL;
     for (uint32_t i = 0; finding && i < search->job->kit.cases; i++) {
-        compare_case *one = &search->job->kit.list[i]; /* what was no number may be one */
+        compare_case *one =
+            &search->job->kit.list[i]; /* an invalid number may become a valid one */
         if (one->given && !isfinite(one->theirs_m2) && one->explained == 0 &&
             cli_compare_failed(search->job, one) &&
             case_near(search->job, one, way(search->job, one, at))) {
@@ -76,14 +77,15 @@ static void format_say(compare_search *search, const char *name, const char *tex
 
 /* ---- digits ---- */
 
-/* The step of numbers with so many digits, significant or behind the point, at a number. */
+/* The step at a number of the numbers with so many digits, significant or after the decimal
+   point. */
 static double digit_step(double value, int digits, int significant)
 {
     double whole = significant && value != 0.0 ? floor(log10(fabs(value))) + 1.0 : 0.0;
     return pow(10.0, whole - digits);
 }
 
-/* Has every answer no more digits than these? */
+/* 1 if no answer has more digits than these. */
 static int digits_all(const compare_job *job, int digits, int significant)
 {
     for (uint32_t i = 0; i < job->kit.cases; i++) {
@@ -98,7 +100,7 @@ static int digits_all(const compare_job *job, int digits, int significant)
     return 1;
 }
 
-/* What half of the last digit is worth in m2. */
+/* Half a unit of the last digit, in m2. */
 static double digit_room(const compare_job *job, const compare_case *one, int digits,
                          int significant)
 {
@@ -115,7 +117,7 @@ static int case_rounded(const compare_job *job, const compare_case *one, int dig
                       cli_compare_allowed(one, job->grade, job->pixels);
 }
 
-/* Where all answers are that short, and what is cut off makes most failures. */
+/* Makes a finding if all answers have so few digits and rounding explains most failures. */
 static int digits_say(compare_search *search, int digits, int significant)
 {
     for (uint32_t i = 0; i < search->failings; i++) {
@@ -128,7 +130,7 @@ static int digits_say(compare_search *search, int digits, int significant)
                            digits, significant ? "digit" : "decimal", digits == 1 ? "" : "s");
 }
 
-/* The fewest that all answers have. */
+/* Finds the smallest number of digits that suffices for all answers. */
 static void digits_try(compare_search *search)
 {
     for (int significant = 0; significant < 2; significant++) {
@@ -144,7 +146,7 @@ static void digits_try(compare_search *search)
 
 /* ---- nothing ---- */
 
-/* Is every answer 0, though something is seen? */
+/* 1 if every answer is 0 although something is visible. */
 static int answers_blank(const compare_search *search)
 {
     uint32_t given = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Their item images against the truth's, pixel by pixel: which are turned or mirrored, count facets
-   from another number, lose facets or see through them. It explains; the verdict is by sigma
-   alone. */
+/* Compares the submitted item images with the truth's, pixel by pixel: which are rotated or
+   mirrored, number facets from another base, lose facets or show hidden ones. This only explains;
+   the verdict depends on sigma alone. */
 #include "cli/compare/compare.h"
 
 #include <dirent.h>
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define AGREE 0.98 /* of the pixels that show something: the rest are outlines */
+#define AGREE 0.98 /* share of the non-empty pixels; the others are outlines */
 
 typedef struct items_image {
     uint32_t side;
@@ -25,11 +25,11 @@ static uint32_t item_at(const items_image *image, uint32_t row, uint32_t column)
     return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
-/* A way to hold an image: rows and columns that run backwards, exchanged, and numbers moved. */
+/* A convention for images: rows and columns reversed or exchanged, and indices shifted. */
 typedef struct items_way {
     const char *text;
-    int exchange, rows, columns; /* rows, columns: backwards */
-    uint32_t add;                /* to the truth's facets, for theirs */
+    int exchange, rows, columns; /* rows, columns: 1 if reversed */
+    uint32_t add;                /* added to the truth's facet to get the submitted one */
 } items_way;
 
 static const items_way item_ways[COMPARE_IMAGE_WAYS] = {
@@ -53,14 +53,15 @@ static uint32_t item_turned(const items_image *image, const items_way *way, uint
     return way->exchange ? item_at(image, x, y) : item_at(image, y, x);
 }
 
-/* What theirs holds for a facet of the truth; 0 for none where they count from 1, too. */
+/* The value in the submitted image for a facet of the truth; 0 for none, also if indices start at
+   1. */
 static int item_same(uint32_t truth, uint32_t theirs, uint32_t add)
 {
     return truth == LRCS_NONE ? theirs == LRCS_NONE || (add > 0 && theirs == 0)
                               : theirs == truth + add;
 }
 
-/* The share of the pixels that show something in either, in which both agree. */
+/* The share of the pixels that are not empty in at least one of the images in which both agree. */
 static double images_agree(const items_image *truth, const items_image *theirs,
                            const items_way *way)
 {
@@ -78,8 +79,8 @@ static double images_agree(const items_image *truth, const items_image *theirs,
     return shown > 0 ? (double)same / (double)shown : 1.0;
 }
 
-/* The facets that lose most pixels, with how many of the truth's show something else. 0 or
-   CLI_FAILED. */
+/* The facets that lose most pixels, with the number of the truth's pixels that show something else.
+   0 or CLI_FAILED. */
 static int facets_lost(const lrcs_scene *scene, const items_image *truth, const items_image *theirs,
                        compare_image *image)
 {
@@ -105,7 +106,7 @@ static int facets_lost(const lrcs_scene *scene, const items_image *truth, const 
     return 0;
 }
 
-/* 1 where the image is there, 0 where not, -1 with the message printed. */
+/* Reads an image: 1 if it exists, 0 if not, -1 with the message printed. */
 static int image_read(const char *path, uint32_t side, items_image *image)
 {
     lrcs_host_error error;
@@ -153,7 +154,7 @@ static int image_judge(compare_job *job, const compare_case *one, const items_im
     return facets_lost(&job->kit.scene[one->scene].host.scene, truth, theirs, image);
 }
 
-/* 1 for an image that was handed in, 0 for none, -1 on failure. */
+/* 1 if an image was submitted, 0 if not, -1 on failure. */
 static int case_judge(compare_job *job, const compare_case *one)
 {
     char path[2][KIT_PATH];

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* How far an answer may be off in each class, and into which one each case falls. Why it is off is
-   compare_explain.c. */
+/* The allowed error in each class, and the class of each case. explain.c decides why answers
+   differ. */
 #include "cli/compare/compare.h"
 
 #include <math.h>
 
-#define EXACT_SHARE 1e-9 /* of sigma */
+#define EXACT_SHARE 1e-9 /* share of sigma */
 #define FLOAT_SHARE 1e-6
 
 const char *cli_compare_grade(int grade)
@@ -57,7 +57,7 @@ int cli_compare_lack(const compare_job *job, const compare_case *one)
                                                            : LACK_REASON;
 }
 
-/* A line of theirs: sigma, or dBsm, of which nothing at all is none. */
+/* Reads a submitted line: sigma, or dBsm, where an empty field stands for sigma = 0. */
 static int answer_read(const compare_job *job, const compare_table *table, const int *column)
 {
     int linear = column[2] >= 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A kit as its files say it: materials and cases from their tables, scenes through the engine when
-   they are needed. Nothing of the kit is taken from this program, so that an older kit judges as it
-   did. */
+/* Reads a kit from its files: materials and cases from their tables, scenes through the engine when
+   they are needed. Nothing of the kit is taken from this program, so that an older kit gives the
+   same verdict as before. */
 #include "cli/compare/compare.h"
 
 #include <stdlib.h>
@@ -82,7 +82,7 @@ static const char *const case_names[CASE_COLUMNS] = {
     "qz",       "sx",       "sy",       "sz",      "az_deg", "el_deg",
     "sigma_m2", "bound_m2", "float_m2", "edge_m2", "side_m", "image"};
 
-/* The scene of a line, which follows others of it. */
+/* The scene of a line; the lines of a scene are consecutive. */
 static compare_scene *scene_of(compare_kit *kit, const char *name, int tier)
 {
     if (kit->scenes > 0 && strcmp(kit->scene[kit->scenes - 1].name, name) == 0) {
@@ -193,7 +193,7 @@ void cli_compare_kit_free(compare_kit *kit)
 
 /* ---- scenes ---- */
 
-/* The mean of its facets' normals at each vertex, longer facets counting more. */
+/* The mean of the normals of the adjacent facets at each vertex, weighted by area. */
 static int normals_make(compare_scene *scene)
 {
     const lrcs_scene *mesh = &scene->host.scene;

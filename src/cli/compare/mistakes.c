@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The catalogue of mistakes: how somebody shades a facet, which area of it they sum, which pose
-   they take for the one asked for. Which of them explains what was handed in, compare_explain.c
-   decides. */
+/* The catalogue of mistakes: in the shading of a facet, in the area that is summed, in the pose.
+   explain.c decides which of them explains the submitted answers. */
 #include "cli/compare/mistakes.h"
 
 #include <math.h>
@@ -17,7 +16,7 @@ static int turn_to(const double direction[3], lrcs_pose *pose)
     return lrcs_pose_from_direction(direction, pose);
 }
 
-/* Components of s_hat exchanged and mirrored. */
+/* Exchanges and mirrors components of s_hat. */
 static int turn_axes(const compare_case *one, const compare_mistake *mistake, lrcs_pose *pose)
 {
     double s[3];
@@ -35,7 +34,7 @@ static int turn_transposed(const compare_case *one, const compare_mistake *mista
     return turn_to(s, pose);
 }
 
-/* The laser along another axis of the observation frame. */
+/* Puts the laser on another axis of the observation frame. */
 static int turn_along(const compare_case *one, const compare_mistake *mistake, lrcs_pose *pose)
 {
     return turn_to(one->pose.R[mistake->axes[0] - 1], pose);
@@ -67,7 +66,7 @@ static int turn_polar(const compare_case *one, const compare_mistake *mistake, l
     return turn_to(s, pose);
 }
 
-/* Azimuth and elevation exchanged. */
+/* Exchanges azimuth and elevation. */
 static int turn_exchanged(const compare_case *one, const compare_mistake *mistake, lrcs_pose *pose)
 {
     double az = one->azel_deg[1] / DEGREES_PER_RADIAN;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What the catalogue of mistakes is made of: shades and areas with a mistake in them. */
+/* The building blocks of the catalogue: shading and areas with a mistake. */
 #ifndef LRCS_CLI_COMPARE_MISTAKES_H
 #define LRCS_CLI_COMPARE_MISTAKES_H
 
 #include "cli/compare/compare.h"
 
-/* `at`: which power of the cosine; 1: its magnitude; which power in 1 / cos^6; a factor of tan^2;
-   which m; 0 without the glint, 1 without the diffuse term; steps in deg (twice); what is the
-   brightest; the most. */
+/* `at` is: the power of the cosine; 1 for its magnitude; the power in 1 / cos^6; a factor of tan^2;
+   the value of m; 0 without the glint, 1 without the diffuse term; the step in deg (twice); the
+   brightest value of a channel; the largest value. */
 mistake_shade cli_shade_cosine;
 mistake_shade cli_shade_degrees;
 mistake_shade cli_shade_power;

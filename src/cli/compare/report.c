@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* The verdict for people: a line a scene, a line a tier, and why. */
+/* The verdict as text: a line for each scene, a line for each tier, and the causes. */
 #include "cli/compare/compare.h"
 
 #include <math.h>
 #include <string.h>
 
-#define NAMES_MOST 8u /* unexplained cases that are named */
+#define NAMES_MOST 8u /* number of unexplained cases that are named */
 
 typedef struct report_line {
     uint32_t count[COMPARE_MISSING + 1];
-    double worst;           /* difference, of what is allowed */
-    const compare_case *at; /* there */
+    double worst;           /* largest difference, as a share of what is allowed */
+    const compare_case *at; /* the case where it occurs */
 } report_line;
 
 static double case_off(const compare_case *one)
@@ -19,7 +19,7 @@ static double case_off(const compare_case *one)
     return off == 0.0 ? 0.0 : one->sigma_m2 > 0.0 && isfinite(off) ? off / one->sigma_m2 : HUGE_VAL;
 }
 
-/* How far it is off, of what it is allowed. */
+/* The difference of a case as a share of what it is allowed. */
 static double case_share(const compare_job *job, const compare_case *one)
 {
     double off = fabs(one->theirs_m2 - one->sigma_m2);
@@ -88,7 +88,7 @@ static void tier_print(const compare_job *job, uint32_t tier)
     }
 }
 
-/* The tiers that a finding touches: " in tiers 1 2". */
+/* The tiers that a finding concerns: " in tiers 1 2". */
 static void finding_tiers(const compare_job *job, int mark)
 {
     for (int tier = 1; tier <= KIT_TIERS; tier++) {
@@ -126,7 +126,7 @@ static void findings_print(const compare_job *job)
     }
 }
 
-/* The first cases that lack something: "box nose, box a, ..". */
+/* Prints the first cases with a fault: "box nose, box a, ..". */
 static void lacks_print(const compare_job *job, int lack)
 {
     uint32_t named = 0;

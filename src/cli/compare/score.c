@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* How well a mistake's answers explain what was handed in: which cases tell, how much of their
-   differences goes, and which cases that pass speak against it. */
+/* How well the answers of a mistake explain the submitted ones: which cases count, how much of
+   their differences the mistake removes, and which passing cases contradict it. */
 #include "cli/compare/search.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define REMOVED        0.1  /* what may be left of a difference that is explained */
-#define REMOVED_RASTER 0.5  /* the same, where their class allows that much in any case */
-#define STRIKING       0.02 /* the same, where few cases speak for a mistake */
-#define PRECISE        0.6  /* of the cases that a mistake touches, those that it must explain */
-#define WITNESSES      64u  /* passing cases that a mistake must not touch */
-#define ENOUGH         3u   /* cases that make a finding by themselves */
+#define REMOVED        0.1  /* share of a difference that may remain if it is explained */
+#define REMOVED_RASTER 0.5  /* the same, if the class of the case allows that much in any case */
+#define STRIKING       0.02 /* the same, if few cases support a mistake */
+#define PRECISE        0.6  /* share of the cases changed by a mistake that it must explain */
+#define WITNESSES      64u  /* number of passing cases that a mistake must not change */
+#define ENOUGH         3u   /* number of cases that suffice for a finding */
 
-/* Shuffles a list, the same way every time, so that its beginning stands for all of it. */
+/* Shuffles a list, in the same way every time, so that its beginning is a representative sample. */
 static void list_shuffle(compare_case **list, uint32_t count)
 {
     uint32_t state = 1;
@@ -77,14 +77,14 @@ int cli_search_explained(const compare_search *search, const compare_case *one, 
            (left <= REMOVED_RASTER * off && left <= case_room(search, one, expected));
 }
 
-/* Would the mistake change the case at all? */
+/* 1 if the mistake changes the case at all. */
 static int case_touched(const compare_search *search, const compare_case *one, double expected)
 {
     return fabs(expected - one->sigma_m2) > case_room(search, one, expected);
 }
 
-/* An answer of 0 that is expected is no evidence where others tell more: many mistakes let facets
-   vanish. */
+/* An answer of 0 is no evidence if other failing cases have other answers: many mistakes make
+   facets vanish. */
 static int case_mute(const compare_search *search, const compare_case *one)
 {
     return search->telling && one->theirs_m2 == 0.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How somebody shades a facet: f_r cos theta with a mistake in it. Which mistakes there are is
-   compare_mistakes.c. */
+/* Mistakes in the shading of a facet: f_r cos theta with a mistake. mistakes.c lists the
+   mistakes. */
 #include "cli/compare/mistakes.h"
 
 #include <math.h>
@@ -13,13 +13,13 @@ double cli_mistake_right(const mistake_spot *spot, double at)
     return lrcs_brdf_eval(spot->brdf, spot->c) * spot->c;
 }
 
-/* With a power of the cosine in place of the first. */
+/* Another power of the cosine instead of the first. */
 double cli_shade_cosine(const mistake_spot *spot, double at)
 {
     return lrcs_brdf_eval(spot->brdf, spot->c) * pow(spot->c, at);
 }
 
-/* f_r at the cosine of so many radians as theta has degrees; at 1: its magnitude. */
+/* f_r at the cosine of theta in degrees taken for radians; at 1: the magnitude of that cosine. */
 double cli_shade_degrees(const mistake_spot *spot, double at)
 {
     double c = cos(acos(spot->c) * DEGREES_PER_RADIAN);
@@ -27,7 +27,7 @@ double cli_shade_degrees(const mistake_spot *spot, double at)
     return c > 0.0 ? lrcs_brdf_eval(spot->brdf, c) * spot->c : 0.0;
 }
 
-/* Both terms from their formulas, for mistakes inside the glint. */
+/* Both terms from their formulas, for mistakes in the glint term. */
 static double shade_terms(const mistake_spot *spot, double power, double exponent)
 {
     const lrcs_brdf *b = spot->brdf;
@@ -40,13 +40,13 @@ static double spot_tan2(const mistake_spot *spot)
     return 1.0 / (spot->c * spot->c) - 1.0;
 }
 
-/* 1 / cos^at in place of 1 / cos^6. */
+/* 1 / cos^at instead of 1 / cos^6. */
 double cli_shade_power(const mistake_spot *spot, double at)
 {
     return shade_terms(spot, at, spot_tan2(spot) / (spot->brdf->s * spot->brdf->s));
 }
 
-/* tan^2 at / s^2 in place of tan^2 / s^2; at 0: tan^2 / s. */
+/* tan^2 at / s^2 instead of tan^2 / s^2; at 0: tan^2 / s. */
 double cli_shade_slope(const mistake_spot *spot, double at)
 {
     double s = spot->brdf->s;
@@ -82,7 +82,7 @@ double cli_shade_lambert(const mistake_spot *spot, double at)
     return lrcs_brdf_eval(&brdf, spot->c) * spot->c;
 }
 
-/* At 0 without the glint term, at 1 without the diffuse one. */
+/* At 0 without the glint term, at 1 without the diffuse term. */
 double cli_shade_one_term(const mistake_spot *spot, double at)
 {
     lrcs_brdf brdf = *spot->brdf;
@@ -96,7 +96,7 @@ static double brdf_at(const mistake_spot *spot, double theta_deg)
     return lrcs_brdf_eval(spot->brdf, cos(theta_deg / DEGREES_PER_RADIAN));
 }
 
-/* f_r from a table in steps of `at` deg, with lines between its entries. */
+/* f_r from a table in steps of `at` deg, interpolated linearly. */
 double cli_shade_lines(const mistake_spot *spot, double at)
 {
     double theta = acos(spot->c) * DEGREES_PER_RADIAN;
@@ -112,7 +112,8 @@ double cli_shade_steps(const mistake_spot *spot, double at)
     return brdf_at(spot, at * floor(theta / at + 0.5)) * spot->c;
 }
 
-/* A channel of 8 bits, of which `at` is the brightest; 0: the brightest of the case. */
+/* A channel of 8 bits whose largest value stands for `at`; 0: for the brightest facet of the
+   case. */
 double cli_shade_bits(const mistake_spot *spot, double at)
 {
     double white = at > 0.0 ? at : spot->peak;

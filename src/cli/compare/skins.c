@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* A scene in which of facets in one plane the wrong one is seen: backs before fronts, then the last
-   before the first. Depths of one plane that differ by rounding make some pixels of that. */
+/* A scene in which the wrong one of coplanar facets is seen: backs before fronts, then the last
+   before the first. Depths of one plane that differ by rounding make this mistake in some
+   pixels. */
 #include "cli/compare/compare.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define MOVED 0x1p-30 /* of the scene's size: more than rounding, less than any distance in it */
+/* Relative to the scene's size: more than rounding, less than any distance in it. */
+#define MOVED 0x1p-30
 
-/* A facet's corners, its own, moved towards the laser. */
+/* Moves a facet's corners towards the laser; they become its own. */
 static void facet_move(const lrcs_scene *scene, uint32_t facet, const double direction[3],
                        double by, lrcs_point corner[3])
 {
@@ -32,7 +34,8 @@ static double scene_size(const lrcs_scene *scene)
     return size;
 }
 
-/* Moves every facet by its share: backs by all of it, fronts by up to half, the later the more. */
+/* Moves every facet by a share of the distance: backs by all of it, fronts by up to half, later
+   ones by more. */
 static void scene_move(const compare_case *one, const lrcs_scene *from, lrcs_scene *scene)
 {
     double most = MOVED * scene_size(from);

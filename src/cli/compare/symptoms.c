@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* Reasons that show without a mistake of the catalogue: which cases fail and by how much tells of
-   depths that are too coarse, of single precision, of a raster, of a factor that all share. */
+/* Causes recognized without a mistake of the catalogue. Which cases fail, and by how much,
+   indicates depths that are too coarse, single precision, a raster, or a factor that all answers
+   share. */
 #include "cli/compare/search.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define FIGHTS_MOST  256u  /* facets of scenes in which facets in one plane are looked for */
-#define SKINS_TOUCH  60    /* a distance of 2^-60 m stands for none */
-#define COARSEST     16.0  /* pixels a side of the coarsest raster that is believed in, */
-#define COARSE_SHARE 0.012 /* and what answers are off, of what it is allowed: usual is 0.02 */
-#define BIAS_CASES   20u   /* a factor that all share: of so many cases */
-#define BIAS_SHARE   0.75  /* this share is nearer to it than to the truth, and */
-#define BIAS_SPREADS 4.0   /* more than half by so many spreads of a fair coin */
-#define BIAS_LEAST   1e-4  /* and it is this far from 1 */
+#define FIGHTS_MOST  256u  /* scenes with more facets are not searched for coplanar facets */
+#define SKINS_TOUCH  60    /* a distance of 2^-60 m counts as none */
+#define COARSEST     16.0  /* pixels per side of the coarsest raster considered, */
+#define COARSE_SHARE 0.012 /* and the median share of the allowed difference: 0.02 is usual */
+#define BIAS_CASES   20u   /* a factor that all share: at least this many cases */
+#define BIAS_SHARE   0.75  /* of which this share lies nearer to the factor than to the truth, */
+#define BIAS_SPREADS 4.0   /* more than half by so many deviations of a fair coin, */
+#define BIAS_LEAST   1e-4  /* and the factor differs from 1 by this much */
 
 /* ---- classes ---- */
 
-/* The failing cases of a class. */
+/* Makes a finding of the failing cases of a class. */
 static void class_say(compare_search *search, int grade, const char *name, const char *text)
 {
     for (uint32_t i = 0; i < search->failings; i++) {
@@ -31,7 +32,7 @@ static void class_say(compare_search *search, int grade, const char *name, const
 
 /* ---- a coarser raster ---- */
 
-/* The pixels at which a case is within what a raster is allowed; 0 for one that never is. */
+/* The pixels per side at which a case is within what a raster is allowed; 0 if it never is. */
 static double case_pixels(const compare_case *one)
 {
     double off = fabs(one->theirs_m2 - one->sigma_m2);
@@ -39,8 +40,8 @@ static double case_pixels(const compare_case *one)
     return rest > 0.0 ? one->edge_m2 / rest : HUGE_VAL;
 }
 
-/* The share of what they are allowed that answers are off, in the median of those that are no
-   better than a raster's and have no other reason; 0 where few are. */
+/* The share of the allowed difference that the answers use: the median over those that are no
+   better than a raster's and have no other cause; 0 if there are few. */
 static double raster_share(const compare_search *search, double pixels)
 {
     const compare_job *job = search->job;
@@ -55,7 +56,8 @@ static double raster_share(const compare_search *search, double pixels)
     return 2 * count > job->given ? cli_search_median(search->room, count) : 0.0;
 }
 
-/* Where all that fail would pass with fewer pixels, and the others look like that too. */
+/* Makes a finding if all failing cases would pass with fewer pixels and the other cases are
+   consistent with that. */
 static void coarse_say(compare_search *search)
 {
     const compare_job *job = search->job;
@@ -74,8 +76,8 @@ static void coarse_say(compare_search *search)
 
 /* ---- depths ---- */
 
-/* Skins 2^-K m apart in a scene 8 m deep are called skins-K, those in one place by other names; 0
-   for scenes without. */
+/* Skins 2^-K m apart in a scene 8 m deep are named skins-K, coincident ones have other names; 0 for
+   scenes without skins. */
 static int skins_of(const compare_job *job, const compare_case *one)
 {
     const char *name = job->kit.scene[one->scene].name;
@@ -84,7 +86,7 @@ static int skins_of(const compare_job *job, const compare_case *one)
     return coincident || skins > SKINS_TOUCH ? SKINS_TOUCH : skins;
 }
 
-/* Where most of what fails are skins close to each other, the depths are too coarse. */
+/* If most of the failing cases are skins close to each other, the depths are too coarse. */
 static void depth_say(compare_search *search)
 {
     int coarsest = SKINS_TOUCH;
@@ -103,8 +105,8 @@ static void depth_say(compare_search *search)
 
 /* ---- facets in one plane ---- */
 
-/* Is an answer between the truth and what is seen where the wrong one of facets in one plane wins?
-   1, 0, or -1 on failure. */
+/* Decides whether an answer lies between the truth and the answer in which the wrong one of
+   coplanar facets is seen: 1, 0, or -1 on failure. */
 static int case_fights(const compare_search *search, compare_case *one)
 {
     static const compare_mistake wrong = {.name = "skins", .text = "", .skins = 1};
@@ -125,7 +127,7 @@ static int case_fights(const compare_search *search, compare_case *one)
     return fabs(most) > allowed && theirs / most > 0.0 && fabs(theirs) <= fabs(most) + allowed;
 }
 
-/* 0, or -1 on failure. */
+/* Makes a finding of such cases. 0, or -1 on failure. */
 static int fights_say(compare_search *search)
 {
     for (uint32_t i = 0; i < search->failings && search->job->findings < (uint32_t)COMPARE_FINDINGS;
@@ -147,7 +149,7 @@ static int fights_say(compare_search *search)
 
 /* ---- a factor ---- */
 
-/* The ratios of the answers that are not exact; how many there are. */
+/* The ratios of the answers that are not exact; returns their number. */
 static uint32_t bias_ratios(const compare_job *job, double *ratio)
 {
     uint32_t count = 0;
@@ -161,7 +163,8 @@ static uint32_t bias_ratios(const compare_job *job, double *ratio)
     return count;
 }
 
-/* The share of the ratios that lie nearer to the median than to 1, where that is no chance. */
+/* The share of the ratios that lie nearer to the median than to 1; 0 if it could be due to
+   chance. */
 static double bias_share(const double *ratio, uint32_t count, double median)
 {
     uint32_t nearer = 0;
@@ -174,7 +177,7 @@ static double bias_share(const double *ratio, uint32_t count, double median)
                : 0.0;
 }
 
-/* A factor that all answers share, though each by itself is within its class. */
+/* Finds a factor that all answers share although each of them is within its class. */
 static void bias_say(compare_search *search)
 {
     compare_job *job = search->job;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables with named columns, as other programs write them: which columns there are, and what a name
-   and an answer may look like. What it refuses, it refuses with line and column. */
+/* Tables with named columns, as other programs write them: which columns they have, and what a
+   valid name and a valid answer are. Faults are reported with line and column. */
 #include "cli/compare/compare.h"
 
 #include <math.h>
@@ -105,7 +105,7 @@ int cli_table_number(const compare_table *table, int column, double *value)
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
-/* What printf makes of numbers that are none. */
+/* Accepts what printf writes for nan and inf. */
 int cli_table_answer(const compare_table *table, int column, double *value)
 {
     lrcs_host_field field = table->text.field[column];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs sweep --brightest: the peaks of a sweep, and who makes each. Which rows are peaks is
-   sweep_peaks'; here they are run once more, with what each facet returns, and told. */
+/* lrcs sweep --brightest: the peaks of a sweep, and what contributes to each. peaks.c decides which
+   rows are peaks; here they are run once more, with the contribution of each facet, and printed. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@
 
 #define BRIGHTEST_MOST 1000.0
 #define BRIGHTEST_ROWS ((uint64_t)1 << 28)
-#define NAMED_MOST     3u   /* parts, materials or facets that a line names */
-#define NAMED_ENOUGH   0.95 /* nor more where these are so much of sigma */
+#define NAMED_MOST     3u   /* number of parts, materials or facets named in a line */
+#define NAMED_ENOUGH   0.95 /* naming stops when the named ones make this share of sigma */
 #define VALUE_WIDTH    12
 
 int cli_brightest_read(const cli_args *args, const sweep_plan *plan, const sweep_file *file,
@@ -120,7 +120,7 @@ static void numbers_print(const sweep_plan *plan, uint32_t rank, uint64_t row,
            100.0 * cli_share_of(shares, glint));
 }
 
-/* How many rows of a list are named: enough, or the most. */
+/* The number of rows of a list that are named: until their share suffices, at most NAMED_MOST. */
 static uint32_t rows_named(const cli_shares *shares, const shares_row *row, uint32_t count)
 {
     double told = 0.0;
@@ -150,7 +150,7 @@ static void rows_print(const cli_shares *shares, const char *what, const shares_
     putchar('\n');
 }
 
-/* Does a facet of a coarse curved part glint along its own normal, and make most of sigma? */
+/* 1 if a facet of a coarse curved part glints along its own normal and makes most of sigma. */
 static int is_facet_normal(const cli_shares *shares, const lrcs_host_glint *coarse, uint32_t count)
 {
     const shares_facet *facet = &shares->facet[0];

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Where the rows of a sweep go. It decides what is on disk at every moment: rows in FILE.partial,
-   each complete before the next, with a checksum after the last of them, and FILE itself only when
-   it is whole; and what --resume makes of what it finds. A process holds FILE.lock for as long. */
+/* The output file of a sweep. This file decides what is on disk at every moment: the rows in
+   FILE.partial, each complete before the next, with a checksum after the last of them, and FILE
+   itself only when it is complete; and what --resume does with the files that it finds. Meanwhile
+   the process holds a lock on FILE.lock. */
 #include "cli/sweep/sweep.h"
 
 #include <errno.h>
@@ -11,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define FILE_PERIOD 0.2 /* s: no more than this is lost with the process */
+#define FILE_PERIOD 0.2 /* s; at most the rows of this time are lost if the process ends */
 
 static int path_refuse(const char *path, const char *what)
 {
@@ -47,7 +48,7 @@ int cli_file_read(const cli_args *args, sweep_file *file)
     }
     file->npy = found == SWEEP_NPY;
     file->format = found == SWEEP_JSONL ? SWEEP_JSONL : SWEEP_CSV;
-    char *real = realpath(path, NULL); /* a link stays one */
+    char *real = realpath(path, NULL); /* a symbolic link is kept */
     size_t room = strlen(real ? real : path) + sizeof ".partial";
     file->path = real ? real : strdup(path);
     file->partial = malloc(room);
@@ -95,7 +96,8 @@ void cli_file_take(sweep_file *file, const sweep_row *row)
 
 /* ---- bytes on their way ---- */
 
-/* Rows are gathered in memory and handed over together. 0, or CLI_FAILED without memory. */
+/* Opens the buffer in which rows are collected before they are written together. 0, or CLI_FAILED
+   if out of memory. */
 static int waiting_begin(sweep_file *file)
 {
     free(file->waiting);
@@ -125,9 +127,10 @@ static int stream_fault(const sweep_file *file, lrcs_host_error *error)
     return LRCS_E_SYSTEM;
 }
 
-/* Hands over what is waiting: to standard output, with the checksum where `last`; or to the file,
-   where the checksum of all so far stands behind it, in one write, over the checksum of before,
-   which is never longer than what replaces it. Status: LRCS_OK; LRCS_E_SYSTEM. */
+/* Writes the buffered rows: to standard output, with the checksum if `last`; or to the file,
+   followed by the checksum of all rows so far, in one write, which overwrites the previous
+   checksum. The checksum is never longer than what overwrites it. Status: LRCS_OK;
+   LRCS_E_SYSTEM. */
 static int waiting_flush(sweep_file *file, int last, lrcs_host_error *error)
 {
     fflush(file->stream);
@@ -157,7 +160,7 @@ static int waiting_flush(sweep_file *file, int last, lrcs_host_error *error)
 
 /* ---- what is there already ---- */
 
-/* The head as it would be written, to be compared; freed by the caller, NULL without memory. */
+/* The head as it would be written, for comparison; the caller frees it. NULL if out of memory. */
 static char *head_bytes(int format, const sweep_head *head, const sweep_plan *plan, size_t *size)
 {
     char *bytes = NULL;
@@ -169,9 +172,10 @@ static char *head_bytes(int format, const sweep_head *head, const sweep_plan *pl
     return fclose(out) == 0 ? bytes : NULL;
 }
 
-/* Takes up the rows of a file that begins with the right head. 0: they end in order, in a checksum
-   or a line cut short, and file->size and file->sum are what they amount to; 1: it is not of this
-   sweep and shard, nothing is said; CLI_FAILED, with a message: a row is damaged. */
+/* Recovers the rows of a file that begins with the right head. Returns 0 if they end properly, in a
+   checksum or in a truncated line; file->size and file->sum are then set to match; 1, without a
+   message, if the file is not of this sweep and shard; CLI_FAILED, with a message, if a row is
+   damaged. */
 static int rows_recover(sweep_file *file, const char *path, const sweep_plan *plan,
                         const lrcs_host_file *there, const char *head, size_t head_size,
                         int *summed)
@@ -214,7 +218,7 @@ static int rows_recover(sweep_file *file, const char *path, const sweep_plan *pl
     return 0;
 }
 
-/* Goes on with FILE.partial: what follows the last whole row is written over. */
+/* Continues FILE.partial: whatever follows the last complete row is overwritten. */
 static int partial_continue(sweep_file *file, const sweep_plan *plan, const char *head,
                             size_t head_size)
 {
@@ -247,8 +251,8 @@ static int partial_continue(sweep_file *file, const sweep_plan *plan, const char
     return 0;
 }
 
-/* FILE is there, and --resume never replaces it: 0 where it is whole and of this very sweep, its
-   rows taken up; else CLI_FAILED. */
+/* FILE exists, and --resume never replaces it: 0 if it is complete and belongs to this very sweep,
+   with its rows recovered; else CLI_FAILED. */
 static int whole_recover(sweep_file *file, const sweep_plan *plan, const char *const head[2],
                          const size_t size[2])
 {
@@ -282,7 +286,7 @@ static int whole_recover(sweep_file *file, const sweep_plan *plan, const char *c
     return code;
 }
 
-/* A new FILE.partial; one that is there may be hours of work. */
+/* Creates FILE.partial. An existing one is never overwritten: it may contain hours of work. */
 static int partial_begin(sweep_file *file, const char *head, size_t head_size)
 {
     file->descriptor = open(file->partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -321,7 +325,7 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
     }
     int format = file->format == SWEEP_JSONL;
     if (code != 0 || !text[0] || !text[1]) {
-        code = CLI_FAILED; /* said already */
+        code = CLI_FAILED; /* already reported */
     } else if (resume && stat(file->path, &about) == 0) {
         code = whole_recover(file, plan, (const char *const *)text, size);
     } else if (resume && stat(file->partial, &about) == 0) {
@@ -349,7 +353,7 @@ int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
     return waiting_flush(file, 0, error);
 }
 
-/* The rows of FILE.npy.partial once more. */
+/* Reads the rows of FILE.npy.partial once more. */
 typedef struct map_rows {
     const sweep_plan *plan;
     sweep_text text;
@@ -387,7 +391,8 @@ static int map_make(const sweep_file *file, const sweep_plan *plan)
     return code ? code : remove(file->partial) == 0 ? 0 : path_refuse(file->partial, "remove");
 }
 
-/* Is FILE.partial still the file that was written, byte for byte as far as its size tells? */
+/* 1 if FILE.partial is still the file that this process wrote: the same file, with a size that
+   fits. */
 static int partial_is_ours(const sweep_file *file)
 {
     struct stat held;
@@ -397,7 +402,7 @@ static int partial_is_ours(const sweep_file *file)
            (uint64_t)held.st_size > file->size && (uint64_t)held.st_size <= file->size + 64;
 }
 
-/* With rows in the file, all of them or some. */
+/* Closes FILE.partial, which contains rows, all of them or some. */
 static int partial_close(sweep_file *file, const sweep_plan *plan, int all)
 {
     int ours = partial_is_ours(file);
@@ -425,7 +430,7 @@ static int partial_close(sweep_file *file, const sweep_plan *plan, int all)
 int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
 {
     lrcs_host_error error;
-    int whole = file->path && file->descriptor < 0; /* FILE was there already */
+    int whole = file->path && file->descriptor < 0; /* FILE already existed */
     if (!file->stream || whole) {
         return 0;
     }
@@ -433,7 +438,7 @@ int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
         cli_rows_mean(file->stream, file->format, &file->tally);
     }
     if (waiting_flush(file, all, &error) != LRCS_OK) {
-        return file->path ? cli_failed(&error) : 0; /* the tool's end looks at standard output */
+        return file->path ? cli_failed(&error) : 0; /* cli_finish checks standard output */
     }
     int code = 0;
     if (file->path && !all && file->next == plan->first) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* What the first line of a sweep's file says: all that its rows depend on, and nothing that differs
+/* The first line of a sweep's file: everything that its rows depend on, and nothing that differs
    between machines, threads or shards. Files that begin alike belong together. */
 #include "cli/sweep/sweep.h"
 
 #include <string.h>
 
-/* An option given again stands beside the first. Returns 0 where its text has no room. */
+/* Adds an option; if it is repeated, its texts are joined. Returns 0 if there is no room. */
 static int head_add(sweep_head *head, const char *key, const char *text)
 {
     const size_t room = sizeof head->option[0].text;
@@ -25,7 +25,7 @@ static int head_add(sweep_head *head, const char *key, const char *text)
     return size >= 0 && (size_t)size < left;
 }
 
-/* Options of these names as they were given. 0 or CLI_USAGE. */
+/* Adds the options of these names as they were given. 0 or CLI_USAGE. */
 static int head_given(const cli_args *args, const char *const *name, sweep_head *head)
 {
     for (int i = 0; i < args->given_count; i++) {
@@ -40,7 +40,8 @@ static int head_given(const cli_args *args, const char *const *name, sweep_head 
     return 0;
 }
 
-/* What rows depend on beside the scene, which its hash stands for. */
+/* Adds the options that rows depend on; the hash of the scene stands for all options of the
+   scene. */
 static int head_options(const cli_args *args, const sweep_plan *plan,
                         const lrcs_run_options *options, sweep_head *head)
 {
@@ -67,8 +68,8 @@ static int head_options(const cli_args *args, const sweep_plan *plan,
     return code;
 }
 
-/* Where the scene comes from: files with their hashes, by their last names, which are the same
-   wherever they lie; and what the command line made of them. */
+/* Adds the origin of the scene: its files with their hashes, by their last names, which do not
+   depend on where the files are stored; and the command-line options that changed it. */
 static int head_scene(const cli_args *args, const lrcs_host_scene *scene, sweep_head *head)
 {
     static const char *const told[] = {"unit", "material", "two-sided", "keep-transparent", NULL};
@@ -102,7 +103,7 @@ int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_o
     if (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK || head->dimensions == 0) {
         head->shape[head->dimensions++] = plan->kind == SWEEP_FIXED ? 1 : plan->poses;
     }
-    if (plan->extras > 0) { /* before all that users wrote: readers look for it */
+    if (plan->extras > 0) { /* before all texts from users: readers search for it */
         lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
         char text[64];
         snprintf(text, sizeof text, "%lu draws seed %lu", (unsigned long)how.draws,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* One sweep at a time writes a file. The lock is POSIX's (fcntl) on FILE.lock, which says who holds
-   it; it ends with its process, so that a file left behind by a crash locks nothing. Where the file
-   system knows no locks there is none. */
+/* Ensures that only one sweep at a time writes a file. The lock is a POSIX lock (fcntl) on
+   FILE.lock, which names its holder; it ends with its process, so that a file left by a crash locks
+   nothing. If the file system does not support locks, there is none. */
 #include "cli/sweep/sweep.h"
 
 #include <errno.h>
@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* "process PID on HOST", as its holder wrote it, in words. */
+/* Reports the holder of the lock by the text that it wrote, "process PID on HOST". */
 static void lock_refuse(const sweep_file *file, int descriptor)
 {
     char holder[300];
@@ -22,7 +22,8 @@ static void lock_refuse(const sweep_file *file, int descriptor)
             holder[0] ? holder : "another process");
 }
 
-/* 1: locked; 0: another process holds it; negative: no lock to be had, errno says why. */
+/* 1 if locked; 0 if another process holds the lock; negative if locking failed, with the reason in
+   errno. */
 static int lock_try(int descriptor)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -32,7 +33,7 @@ static int lock_try(int descriptor)
     return errno == EACCES || errno == EAGAIN ? 0 : -1;
 }
 
-/* Does the path still name the file that was opened? Its last holder may have removed it. */
+/* 1 if the path still names the file that was opened; its last holder may have removed it. */
 static int lock_is_there(const sweep_file *file, int descriptor)
 {
     struct stat held;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A sweep as a NumPy array, FILE.npy, and what says of which sweep it is, FILE.npy.head: the first
-   lines of the rows, a checksum of the map and how its rows fared. It decides the bytes of both,
-   and whether a map that is there is what a sweep would make. */
+/* A sweep as a NumPy array, FILE.npy, and a file that identifies the sweep, FILE.npy.head: the
+   first lines of the rows, a checksum of the map and counts of row results. This file decides the
+   bytes of both, and whether an existing map is the one that a sweep would make. */
 #include "cli/sweep/sweep.h"
 
 #include <stdlib.h>
@@ -76,7 +76,7 @@ int cli_map_write(const char *path, const sweep_text *text, sweep_next *next, vo
         npy_row(map.stream, text, &row);
     }
     int status = more == 0 ? LRCS_OK : LRCS_E_SYNTAX;
-    /* 2. What it amounts to, and its head; a device or standard output has none. */
+    /* 2. Its checksum and its head; a device or standard output has none. */
     if (status == LRCS_OK && map.temporary && fflush(map.stream) == 0) {
         status = lrcs_host_file_read(map.temporary, &made, &error);
         if (status == LRCS_OK) {
@@ -111,8 +111,8 @@ static double double_at(const unsigned char *bytes)
     return value;
 }
 
-/* The last line of a head: counts of rows that no map tells. 0, or -1 where it is none, or not that
-   of these bytes. */
+/* Reads the last line of a head: counts of row results that the map does not contain. 0, or -1 if
+   it is not such a line, or not that of these bytes. */
 static int map_tally_read(sweep_map *map)
 {
     static const char *const key[] = {"; missed=", "; starved=", "; estimated=", "; unjudged="};
@@ -171,7 +171,7 @@ int cli_map_recover(sweep_file *file, const sweep_plan *plan, const char *const 
 {
     sweep_map map;
     int same = cli_map_open(file->path, &map);
-    if (same == 0) { /* a merged map's rows were either */
+    if (same == 0) { /* the rows of a merged map may have been either */
         int format = map.text.format;
         same = map.text.head_size == head_size[format] &&
                        memcmp(map.text.head, head[format], head_size[format]) == 0

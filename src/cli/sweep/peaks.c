@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: MIT */
-/* Which rows of a sweep are peaks: brighter than all their neighbours, of equals the earlier. It
-   decides what a neighbour is. Along an axis it is one step away, diagonals included, and a range
-   of a full turn is closed; at a pole of azimuth and elevation all azimuths are one attitude. On
-   --sphere it is the next points around, in --poses the rows before and after. */
+/* Which rows of a sweep are peaks: brighter than all their neighbours; of equal rows the earlier
+   one counts. This file decides what a neighbour is. Along an axis it is one step away, diagonals
+   included, and a range of a full turn is closed; at a pole of azimuth and elevation all azimuths
+   are one attitude. With --sphere the neighbours are the next points around, with --poses the
+   previous and the next row. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
 #include <string.h>
 
 #define FULL_TURN 360.0
-#define SPREAD    2.0 /* next points of a sphere are no farther away than that many spacings */
+#define SPREAD    2.0 /* neighbours on a sphere are at most this many spacings apart */
 
-/* The rows as a grid: whole axes, and within each of their points the poses of a sphere or track.
- */
+/* The rows as a grid of complete axes; within each of its points the poses of a sphere or track. */
 typedef struct peaks_grid {
     const sweep_plan *plan;
     const double (*row)[2];
     uint64_t inner;
-    uint64_t stride[SWEEP_AXES], period[SWEEP_AXES]; /* period 0: the ends are ends */
-    uint32_t az, el;                                 /* axes; SWEEP_AXES: none */
+    uint64_t stride[SWEEP_AXES], period[SWEEP_AXES]; /* period 0: the axis is not closed */
+    uint32_t az, el;                                 /* indices of axes; SWEEP_AXES for none */
 } peaks_grid;
 
-/* After how many steps an axis is where it began: 0 for never. */
+/* The number of steps after which an axis is back at its start; 0 for never. */
 static uint64_t axis_period(const sweep_axis *axis)
 {
     size_t size = strlen(axis->name);
@@ -66,7 +66,7 @@ static int at_pole(const peaks_grid *grid, const uint64_t *place)
            fabs(cli_range_at(&grid->plan->axis[grid->el].range, place[grid->el])) == 90.0;
 }
 
-/* Is it an attitude that another row has already? */
+/* 1 if an earlier row has the same attitude. */
 static int row_repeats(const peaks_grid *grid, const uint64_t *place)
 {
     for (uint32_t i = 0; i < grid->plan->axes; i++) {
@@ -79,9 +79,9 @@ static int row_repeats(const peaks_grid *grid, const uint64_t *place)
 
 /* ---- poses that stand on no axis ---- */
 
-/* Points next to each other on a Fibonacci lattice have numbers that differ by Fibonacci numbers
-   (R. Swinbank, R. J. Purser, Q. J. R. Meteorol. Soc. 132 (2006) 1769); of those, the ones that
-   are near: a point has 4 pi / N of the sphere. */
+/* 1 if two points of a Fibonacci lattice are neighbours: their indices differ by a Fibonacci number
+   (R. Swinbank, R. J. Purser, Q. J. R. Meteorol. Soc. 132 (2006) 1769), and they are near each
+   other: a point has 4 pi / N of the sphere. */
 static int points_are_next(const peaks_grid *grid, uint64_t a, uint64_t b)
 {
     const double near = SPREAD * SPREAD * 12.566370614359172954 / (double)grid->inner;
@@ -103,7 +103,9 @@ static int sphere_outshines(const peaks_grid *grid, uint64_t first, uint64_t at,
     uint64_t next = 2;
     for (uint64_t step = 1; step < grid->inner;) {
         for (int side = 0; side < 2; side++) {
-            uint64_t other = side == 0 ? at + step : at - step; /* below 0: beyond all */
+            uint64_t other = side == 0
+                                 ? at + step
+                                 : at - step; /* wraps round below 0 and is then out of range */
             if (other < grid->inner && row_outshines(grid, first + other, row) &&
                 points_are_next(grid, first + other, first + at)) {
                 return 1;
@@ -125,7 +127,7 @@ static int track_outshines(const peaks_grid *grid, uint64_t first, uint64_t at, 
 
 /* ---- neighbours ---- */
 
-/* The row of places that may lie one step outside of their axes; 0 where it is none. */
+/* The row of places that may lie one step outside of their axes; 0 if there is no such row. */
 static int row_of_places(const peaks_grid *grid, const int64_t *place, uint64_t *row)
 {
     *row = 0;
@@ -140,7 +142,7 @@ static int row_of_places(const peaks_grid *grid, const int64_t *place, uint64_t 
     return 1;
 }
 
-/* Does any row at these places, or of the poses around, outshine it? */
+/* 1 if any row at these places, or of the neighbouring poses, is brighter. */
 static int places_outshine(const peaks_grid *grid, const int64_t *place, uint64_t row)
 {
     uint64_t first;
@@ -153,7 +155,7 @@ static int places_outshine(const peaks_grid *grid, const int64_t *place, uint64_
                                              : row_outshines(grid, first, row);
 }
 
-/* Counts through all places around, like an odometer. */
+/* Visits all neighbouring places, like an odometer. */
 static int row_is_peak(const peaks_grid *grid, uint64_t row)
 {
     uint64_t place[SWEEP_AXES] = {0};

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Which rows a sweep has: the command line's axes, and from the number of a row to its values and
-   its pose. It decides their order; how a scene changes along its axes is sweep_scene's. */
+/* The rows of a sweep: the axes of the command line, and the values and the pose of a row from its
+   number. This file decides their order; scene.c decides how a scene changes along its axes. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define PLAN_ROWS ((uint64_t)1 << 53) /* more than anyone waits for */
+#define PLAN_ROWS ((uint64_t)1 << 53) /* far more than can be computed */
 
 /* ---- axes ---- */
 
@@ -28,7 +28,7 @@ int cli_axis_add(const cli_args *args, sweep_plan *plan, const char *option, con
     return 0;
 }
 
-/* --az and --el in the order given; the one not given stays 0. */
+/* --az and --el in the order given; an axis that is not given is 0. */
 static int azel_axes(const cli_args *args, sweep_plan *plan)
 {
     int code = 0;
@@ -49,7 +49,7 @@ static int azel_axes(const cli_args *args, sweep_plan *plan)
     return code;
 }
 
-/* SEQ:a,b,c where each may be a range. */
+/* SEQ:a,b,c, each of which may be a range. */
 static int euler_axes(const cli_args *args, sweep_plan *plan)
 {
     static const char *const name[3] = {"euler_a_deg", "euler_b_deg", "euler_c_deg"};
@@ -107,7 +107,7 @@ static int rotate_axes(const cli_args *args, sweep_plan *plan)
 
 /* ---- which kind ---- */
 
-/* Two ways to say where the laser stands are one too many; a turn starts from a pose. */
+/* Only one way to specify the direction may be given; a rotation starts from a pose. */
 static int ways_check(const cli_args *args)
 {
     static const struct {
@@ -118,7 +118,7 @@ static int ways_check(const cli_args *args)
     const char *first = NULL;
     int way = 0;
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++) {
-        int turned = way == 2 && given[i].way >= 5; /* which cli_pose_read looks at */
+        int turned = way == 2 && given[i].way >= 5; /* cli_pose_read checks this one */
         if (!cli_value(args, given[i].name) || given[i].way == way || turned) {
             continue;
         }
@@ -217,7 +217,7 @@ static void columns_name(sweep_plan *plan)
     }
 }
 
-/* K/N: the K-th of N nearly equal runs of rows. */
+/* K/N: part K of N nearly equal parts of the rows. */
 static int shard_read(const cli_args *args, sweep_plan *plan)
 {
     const char *text = cli_value(args, "shard");

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs sweep --plot: the rows as curves, about a pole, or as a map. It decides which of what varies
-   runs along which axis, and the words; the host draws. */
+/* lrcs sweep --plot: the rows as curves, as a polar diagram, or as a map. This file decides which
+   quantity runs along which axis, and the texts; the host draws. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define PLOT_MARKS 40u  /* fewer points are marked */
-#define PLOT_DEEP  60.0 /* dB that a map's colours span at most */
+#define PLOT_MARKS 40u  /* points are marked if there are fewer */
+#define PLOT_DEEP  60.0 /* the colours of a map span at most this many dB */
 #define PLOT_ROWS  ((uint64_t)1 << 28)
 
 /* ---- words ---- */
 
-/* "az_deg" in words and its unit; others as they are. */
+/* Converts "az_deg" to words and its unit; other names are unchanged. */
 static void axis_words(const char *name, char text[160], const char **unit)
 {
     static const char *const units[][2] = {{"_deg", "deg"},  {".A", "1/sr"},    {".B", "1/sr"},
@@ -68,7 +68,7 @@ static int is_angle(const plot_axis *axis)
 
 /* ---- what varies ---- */
 
-/* Everything with more than one value: the axes, and the time of a track. */
+/* Lists everything with more than one value: the axes, and the time of a track. */
 static uint32_t varying_list(const sweep_plan *plan, plot_axis axis[SWEEP_AXES + 1])
 {
     uint32_t count = 0;
@@ -83,7 +83,8 @@ static uint32_t varying_list(const sweep_plan *plan, plot_axis axis[SWEEP_AXES +
     return count;
 }
 
-/* A map's axes ascend; ranges do, or are turned round. */
+/* 1 if the times of a track ascend: the axes of a map must ascend. Ranges do so, or are
+   reversed. */
 static int track_ascends(const sweep_plan *plan)
 {
     for (uint64_t i = 1; plan->kind == SWEEP_TRACK && i < plan->track.count; i++) {
@@ -94,7 +95,8 @@ static int track_ascends(const sweep_plan *plan)
     return 1;
 }
 
-/* Curves run along the one with more values, of two alike the faster; maps along the slower. */
+/* Curves run along the axis with more values (if equal, the faster one); a map's second axis is the
+   slower one. */
 static void plot_choose(const plot_axis *axis, uint32_t count, sweep_plot *plot)
 {
     plot->x = axis[0];
@@ -113,8 +115,8 @@ static void plot_choose(const plot_axis *axis, uint32_t count, sweep_plot *plot)
     plot->map = plot->mollweide || (plot->y.count > PLOT_CURVES && !plot->polar);
 }
 
-/* Directions all around, with a step that three of make the distance between them: a map over
-   azimuth and elevation. */
+/* Directions of the whole sphere, as a map over azimuth and elevation whose step is a third of the
+   distance between them. */
 static void sphere_choose(const sweep_plan *plan, sweep_plot *plot)
 {
     static const uint32_t step[] = {1, 2, 3, 5};
@@ -128,7 +130,7 @@ static void sphere_choose(const sweep_plan *plan, sweep_plot *plot)
     plot->map = 1;
 }
 
-/* Azimuth of at most a turn, elevation from pole to pole at most. */
+/* 1 if azimuth spans at most a full turn and elevation at most pole to pole. */
 static int mollweide_fits(const sweep_plan *plan, const sweep_plot *plot)
 {
     static const double most[2] = {360.0, 90.0};
@@ -149,7 +151,7 @@ static int mollweide_fits(const sweep_plan *plan, const sweep_plot *plot)
     return 1;
 }
 
-/* Can it be drawn about a pole, or as a map, if it is to be? */
+/* Checks that a polar diagram or a map, if asked for, is possible. */
 static int kind_check(const cli_args *args, const sweep_plan *plan, const sweep_plot *plot)
 {
     if (plot->polar && plot->y.count > PLOT_CURVES) {
@@ -266,7 +268,7 @@ int cli_plot_spares(const cli_args *args, const sweep_plot *plot, const sweep_fi
 
 /* ---- notes ---- */
 
-/* Below the title: what stayed as it was, and how well sigma is known. */
+/* The text below the title: the fixed values, and how accurate sigma is. */
 static void plot_note(const sweep_plot *plots, uint32_t count, char note[512])
 {
     const sweep_plan *plan = plots->plan;
@@ -348,7 +350,7 @@ static uint64_t plot_row(const sweep_plot *plot, uint64_t x, uint64_t y)
 
 static double plot_shown(const sweep_plot *plot, double sigma)
 {
-    return plot->dbsm ? cli_dbsm(sigma) : sigma; /* of 0: not finite, and not drawn */
+    return plot->dbsm ? cli_dbsm(sigma) : sigma; /* dBsm of 0 is not finite and not drawn */
 }
 
 /* The value of an axis at one of its places. */
@@ -363,7 +365,7 @@ static double axis_value(const sweep_plot *plot, const plot_axis *axis, uint64_t
                                       : cli_range_at(&plan->axis[axis->column].range, place);
 }
 
-/* The words of an axis; of a track's time with its unit, and the date it is counted from. */
+/* The title of an axis; for the time of a track with its unit and its epoch. */
 static void time_title(const sweep_plot *plot, const plot_axis *axis, char text[192])
 {
     const sweep_plan *plan = plot->plan;
@@ -379,7 +381,7 @@ static void time_title(const sweep_plot *plot, const plot_axis *axis, char text[
 
 /* ---- drawing ---- */
 
-/* The numbers of one sweep. */
+/* The values of one sweep. */
 typedef struct plot_values {
     double *x, *y, *z;  /* values along both axes, and sigma: z[y][x]; x is allocated */
     double *low, *high; /* the ends of bands, as z; NULL: none */
@@ -387,13 +389,13 @@ typedef struct plot_values {
 
 typedef struct plot_sheet {
     const sweep_plot *plot;
-    uint32_t count; /* of sweeps */
+    uint32_t count; /* number of sweeps */
     plot_values values[PLOT_CURVES];
     char title[256], note[512], x_name[192], y_name[192], about[4000];
     int png;
 } plot_sheet;
 
-/* The name of a curve: of its sweep, of its value along y, or both. */
+/* The name of a curve: its sweep, its value along y, or both. */
 static void curve_name(const sweep_plot *plot, double y, char name[400])
 {
     char value[192] = "";
@@ -480,8 +482,8 @@ static int sheet_write(FILE *out, const void *context, lrcs_host_error *error)
     return sheet->plot->map ? sheet_map(out, sheet, error) : sheet_curves(out, sheet, error);
 }
 
-/* Values along both axes in ascending order, as a map needs them, and sigma with them: ranges that
-   descend are turned round. 0 or CLI_FAILED. */
+/* The values along both axes in ascending order, as a map needs them, and sigma in that order:
+   descending ranges are reversed. 0 or CLI_FAILED. */
 static int values_fill(const sweep_plot *plot, plot_values *values)
 {
     const plot_axis *along[2] = {&plot->x, &plot->y};
@@ -524,7 +526,7 @@ static void sheet_free(plot_sheet *sheet)
     }
 }
 
-/* What the sweeps were made from, for the file. */
+/* Writes what the sweeps were made from, for the file. */
 static void plot_about(const sweep_plot *plots, uint32_t count, char *text, size_t size)
 {
     size_t used = (size_t)snprintf(text, size, "lrcs %s sweep", lrcs_version());
@@ -537,7 +539,7 @@ static void plot_about(const sweep_plot *plots, uint32_t count, char *text, size
     }
 }
 
-/* Values and words of a drawing; freed in any case. 0 or CLI_FAILED. */
+/* The values and texts of a drawing; the caller frees them in any case. 0 or CLI_FAILED. */
 static int sheet_make(const sweep_plot *plot, uint32_t count, plot_sheet *sheet)
 {
     int code = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How far a sweep is and how long it will still take, for people at a terminal. */
+/* The progress bar of a sweep and its remaining time, for people at a terminal. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 sweep_progress cli_progress_make(uint64_t first, uint64_t total)
 {
     double now = cli_seconds();
-    cli_watch_stage(NULL, NULL); /* the bar takes its place */
+    cli_watch_stage(NULL, NULL); /* the progress bar replaces it */
     int on = isatty(STDERR_FILENO) && first < total;
     if (on) { /* the first pose may take long */
         fprintf(stderr, "\r[%*s] %3.0f %%  %llu of %llu ", PROGRESS_BAR, "",

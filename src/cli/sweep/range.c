@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Ranges A:B:STEP, exactly: decimal numbers as whole multiples of one power of ten. It decides how
-   many values there are and which doubles they are, not what they mean. */
+/* Ranges A:B:STEP, exactly: decimal numbers as integer multiples of one power of ten. This file
+   decides how many values there are and which doubles they are, not what they mean. */
 #include "cli/sweep/sweep.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Whole numbers that doubles hold, and powers of ten that they hold: one division rounds once. */
+/* Integers and powers of ten that doubles represent exactly: one division then rounds only once. */
 #define RANGE_MOST     ((int64_t)1 << 53)
 #define RANGE_DECIMALS 22
 
@@ -61,7 +61,7 @@ static const char *range_number_read(const char *text, size_t size, range_number
     return NULL;
 }
 
-/* digits * 10^(exponent + decimals), or 0 from *good. */
+/* digits * 10^(exponent + decimals); on overflow 0, and *good becomes 0. */
 static int64_t range_scaled(const range_number *number, int decimals, int *good)
 {
     int64_t digits = number->digits;
@@ -72,7 +72,7 @@ static int64_t range_scaled(const range_number *number, int decimals, int *good)
     return digits;
 }
 
-/* From first, last, step. */
+/* Makes a range from first, last and step; returns what is wrong, or NULL. */
 static const char *range_make(const range_number number[3], sweep_range *range)
 {
     int decimals = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A whole sweep read back from its file, to be drawn or summed up without computing: the first
-   lines say what varied, from which the plan of the rows is made again; the rows are checked as
-   --resume and merge check them. Shards and files that are not whole are refused. */
+/* Reads a whole sweep back from its file, to draw or summarize it without computing. The first
+   lines state what varied, and the plan of the rows is made again from them; the rows are checked
+   as --resume and merge check them. Shards and incomplete files are refused. */
 #include "cli/sweep/sweep.h"
 
 #include <stdlib.h>
@@ -9,8 +9,8 @@
 
 /* ---- the first lines as keys and texts ---- */
 
-/* One more key; an option's texts are those that head.c has joined. The hash has its own place;
-   what the text knows already is left out. */
+/* Adds a key; the texts of a repeated option are joined as head.c has written them. The hash has
+   its own field; keys that the text already has are left out. */
 static int word_put(sweep_data *data, const char *key, const char *text)
 {
     static const char *const known[] = {"lrcs", "version", "rows", "shape"};
@@ -33,7 +33,7 @@ static int word_put(sweep_data *data, const char *key, const char *text)
     return 0;
 }
 
-/* Ends the text at `at` after its closing quote, with "" in CSV or \" in JSON taken for one;
+/* Terminates the text at its closing quote, with "" in CSV or \" in JSON replaced by a quote;
    returns what follows. */
 static char *quoted_end(char *at, char escape)
 {
@@ -49,7 +49,7 @@ static char *quoted_end(char *at, char escape)
     return next;
 }
 
-/* A CSV field of the line of names; returns the next, or NULL. */
+/* A CSV field of the line of column names; returns the next field, or NULL. */
 static char *csv_name(char *at, const char **name)
 {
     char *end = at;
@@ -73,7 +73,7 @@ static char *csv_name(char *at, const char **name)
     return end + 1;
 }
 
-/* Where the next "; key=" begins, or NULL; a title may hold "; ", too. */
+/* The place where the next "; key=" begins, or NULL; a title may also contain "; ". */
 static char *csv_next(char *at)
 {
     for (at = strstr(at, "; "); at; at = strstr(at + 1, "; ")) {
@@ -156,7 +156,7 @@ static void given_put(sweep_data *data, const char *name, const char *value)
 }
 
 /* The options --joint and --vary, in the order of their columns. Texts of one option are joined by
-   " and ", which a name may hold, too: what follows decides where each ends. */
+   " and ", which a name may also contain: the text that follows decides where each ends. */
 static void scene_given(sweep_data *data)
 {
     static const char *const name[2] = {"joint", "vary"};
@@ -187,8 +187,8 @@ static void scene_given(sweep_data *data)
     }
 }
 
-/* The options that make the plan. Those of a file of poses are not among them: its rows are the
-   poses. */
+/* The options that define the plan. Those of a file of poses are not among them, because its rows
+   are the poses. */
 static void plan_given(sweep_data *data)
 {
     static const char *const pose[] = {"az",        "el",   "rotate", "sphere",
@@ -233,7 +233,7 @@ static int data_refuse(const sweep_data *data, const char *what)
     return CLI_FAILED;
 }
 
-/* What varies, from the first lines; the rows of a file of poses are still to be filled in. */
+/* Makes the plan from the first lines; the rows of a file of poses are filled in later. */
 static int data_plan(sweep_data *data, const cli_command *command)
 {
     sweep_track track = {.row = NULL};
@@ -273,7 +273,7 @@ static int data_plan(sweep_data *data, const cli_command *command)
                                     "written by another version of lrcs?");
 }
 
-/* CSV or JSON lines: all rows, from the first to the checksum. */
+/* Reads all rows of CSV or JSON lines, from the first to the checksum. */
 static int text_read(sweep_data *data)
 {
     uint64_t first;

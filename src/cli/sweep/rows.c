@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* How rows look: CSV with '#' before what is no row, or JSON lines. It decides their bytes, which
-   depend on nothing but the sweep and its results; where they go is sweep_file's. */
+/* The format of rows: CSV, with '#' before lines that are no rows, or JSON lines. This file decides
+   their bytes, which depend only on the sweep and its results; file.c decides where they are
+   written. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ double cli_tally_error(const sweep_tally *tally)
     return tally->rows > 1 ? sqrt(tally->square / (n - 1.0) / n) : (double)NAN;
 }
 
-/* Nothing stands for what is no number. */
+/* A number that is not finite is left out. */
 static void number_put(FILE *out, const char *before, double value)
 {
     if (isfinite(value)) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What a sweep changes in a scene: joint angles, material parameters, dimensions of shapes. It
-   decides whom an option means and what values fit; the scene is then built anew, tessellated for
-   itself. */
+/* What a sweep changes in a scene: joint angles, material parameters, dimensions of shapes. This
+   file decides which parts or materials an option means and which values are valid; the scene is
+   then built anew and tessellated for itself. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 enum scene_key { SCENE_JOINT, SCENE_MATERIAL, SCENE_SHAPE };
 
-/* What --vary can change, and in which kinds of shapes (bits). */
+/* The parameters that --vary can change, and the kinds of shapes that have them (bits). */
 #define KIND(kind) (1u << LRCS_SHAPE_##kind)
 static const struct {
     const char *name;
@@ -39,7 +39,8 @@ static const struct {
 
 /* ---- the command line ---- */
 
-/* Where the range of NAME:A:B:STEP or NAME:A begins; names may hold colons. NULL: nowhere. */
+/* The start of the range in NAME:A:B:STEP or NAME:A; names may contain colons. NULL if there is
+   none. */
 static const char *range_find(const char *text)
 {
     const char *found = NULL;
@@ -60,7 +61,7 @@ static int key_find(const char *name)
     return -1;
 }
 
-/* Splits "NAME.KEY"; the key, or -1 with the message printed. */
+/* Splits "NAME.KEY"; returns the key, or -1 with the message printed. */
 static int whom_split(const cli_args *args, char *whom)
 {
     char *dot = strrchr(whom, '.');
@@ -120,7 +121,8 @@ int cli_scene_axes_read(const cli_args *args, sweep_plan *plan)
 
 /* ---- whom it means ---- */
 
-/* Is a part meant: all ('*'), by its name, or by one of several with commas between? */
+/* 1 if a part is selected: by '*' (all), by its name, or by one of several names separated by
+   commas. */
 static int part_is_meant(const char *whom, const char *name)
 {
     size_t size = strlen(name);
@@ -136,7 +138,7 @@ static int part_is_meant(const char *whom, const char *name)
     return 0;
 }
 
-/* May this part's dimension change, or has it the joint? A cone has a length or a half angle. */
+/* 1 if this part has the dimension or the joint. A cone has a length or a half angle. */
 static int part_fits(const lrcs_recipe_part *part, int key)
 {
     if (scene_keys[key].key == SCENE_JOINT) {
@@ -235,7 +237,7 @@ static int material_axis_check(const cli_args *args, const sweep_axis *axis,
     return 0;
 }
 
-/* The joint of a track's column, as an axis. */
+/* The joint of a column of a track, as an axis. */
 static sweep_axis joint_axis(const sweep_track *track, uint32_t joint)
 {
     sweep_axis axis = {.option = "poses", .key = SCENE_JOINT};
@@ -266,7 +268,7 @@ int cli_scene_axes_check(const cli_args *args, const sweep_plan *plan, const lrc
 
 /* ---- the scene of a row ---- */
 
-/* A material's parameter, bound by the material's name after all other bindings. */
+/* Sets a material's parameter by a binding to the material's name, after all other bindings. */
 static void material_set(lrcs_recipe *recipe, uint32_t bound, const sweep_axis *axis, double value,
                          const lrcs_scene *scene)
 {

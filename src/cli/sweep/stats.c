@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* How sigma is spread over the rows of a sweep: weights, mean, percentiles, histogram and
-   cumulative distribution. A map of azimuth and elevation weighs each row by the solid angle of its
-   cell; all other rows weigh the same (for --sphere that is the solid angle). Statistics are those
-   of the rows: how sigma varies between them is not known. How they are written is stats_write's.
- */
+/* The distribution of sigma over the rows of a sweep: weights, mean, percentiles, histogram and
+   cumulative distribution. A map of azimuth and elevation weights each row by the solid angle of
+   its cell; in all other sweeps rows have equal weights (for --sphere that is the solid angle). The
+   statistics are those of the rows: how sigma varies between them is not known. stats_write.c
+   writes them. */
 #include "cli/sweep/sweep.h"
 
 #include <float.h>
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STATS_DEEP 100.0 /* dB that the histogram reaches below the most */
+#define STATS_DEEP 100.0 /* the histogram reaches this many dB below the maximum */
 
 const int cli_stats_percent[STATS_PERCENTS] = {1, 5, 10, 25, 50, 75, 90, 95, 99};
 
@@ -25,7 +25,7 @@ static int by_sigma(const void *a, const void *b)
 
 /* ---- weights ---- */
 
-/* Are both azimuth and elevation varied, the latter from pole to pole at most? */
+/* 1 if azimuth and elevation are both varied, elevation within the poles. */
 static int is_map(const sweep_plan *plan)
 {
     int varied = plan->kind == SWEEP_AZEL;
@@ -38,8 +38,9 @@ static int is_map(const sweep_plan *plan)
     return varied;
 }
 
-/* The width of a cell along one axis of a map: of azimuth, the same for all but the ends of a full
-   turn, which are one direction; of elevation, the difference of sines, cut off at the poles. */
+/* The width of a cell along one axis of a map: for azimuth the same for all, except the ends of a
+   full turn, which are one direction; for elevation the difference of sines, clipped at the
+   poles. */
 static double axis_weight(const sweep_plan *plan, uint64_t row, uint32_t axis)
 {
     const sweep_axis *along = &plan->axis[axis];
@@ -74,8 +75,8 @@ static const char *weights_text(const sweep_plan *plan, int map)
 
 /* ---- percentiles ---- */
 
-/* The first of ascending rows at which `part` of the weight is reached. `slack` of the weight is
-   left for the rounding of sums. */
+/* The first of the rows in ascending order at which `part` of the weight is reached. `slack` is a
+   share of the weight that allows for the rounding of sums. */
 static uint64_t row_at(const stats_row *row, uint64_t rows, double part, double slack)
 {
     double below = 0.0;
@@ -87,12 +88,12 @@ static uint64_t row_at(const stats_row *row, uint64_t rows, double part, double 
 }
 
 /* Percentiles of sigma moved to one end of its bound: -1 below, 1 above. Sigma of every row lies
-   between its ends, and a percentile grows with every sigma, so that the percentiles of the ends
-   enclose it. Where weights are not whole numbers, two sums of n weights differ by at most 2 n u of
-   the whole, u = DBL_EPSILON / 2. */
+   between its ends, and a percentile increases with every sigma, so that the percentiles of the
+   ends enclose it. If weights are not whole numbers, two sums of n weights differ by at most 2 n u
+   of the whole, u = DBL_EPSILON / 2. */
 static void percentiles_at(sweep_stats *stats, stats_row *end, int side)
 {
-    int whole = stats->whole == (double)stats->rows; /* all weights are 1, and sums exact */
+    int whole = stats->whole == (double)stats->rows; /* all weights are 1, and sums are exact */
     double slack = whole ? 0.0 : side * (double)stats->rows * DBL_EPSILON * stats->whole;
     for (uint64_t i = 0; i < stats->rows; i++) {
         end[i] = stats->row[i];
@@ -124,9 +125,9 @@ static void percentiles_at(sweep_stats *stats, stats_row *end, int side)
 
 /* ---- mean ---- */
 
-/* The weighted mean, and that of the bounds. Products and the division round by u each and the
-   compensated sums by less than 2 u, all terms being positive: 8 u of the mean is more than that,
-   and 16 u of the bound. */
+/* The weighted mean, and that of the bounds. Products and the division have relative errors of u
+   each and the compensated sums of less than 2 u, as all terms are positive: 8 u of the mean
+   exceeds the total, and so does 16 u of the bound. */
 static void mean_make(sweep_stats *stats)
 {
     cli_sum mean = {0.0, 0.0};
@@ -151,8 +152,8 @@ static void mean_make(sweep_stats *stats)
 
 /* ---- histogram ---- */
 
-/* The narrowest bins in round numbers of dB of which there are few enough, from the least sigma
-   above 0 to the most. */
+/* Chooses the narrowest bins with a round width in dB such that few enough cover the range from the
+   smallest sigma above 0 to the largest. */
 static void bins_choose(sweep_stats *stats)
 {
     static const int tenths[] = {1, 2, 5, 10, 20, 50};
@@ -162,7 +163,7 @@ static void bins_choose(sweep_stats *stats)
         at++;
     }
     if (at == stats->rows) {
-        return; /* nothing returns anything */
+        return; /* sigma is 0 in all rows */
     }
     double high = cli_dbsm(most);
     double low = fmax(cli_dbsm(stats->row[at].sigma), high - STATS_DEEP);
@@ -172,7 +173,7 @@ static void bins_choose(sweep_stats *stats)
     }
     double first = ceil(low * 10.0 / tenths[k]) - 1.0;
     double last = fmax(ceil(high * 10.0 / tenths[k]), first + 1.0);
-    /* edges in m2 round: the most lies in the last bin even so */
+    /* edges in m2 are rounded: the maximum must still lie in the last bin */
     last += pow(10.0, 0.1 * (last * tenths[k] / 10.0)) < most;
     stats->bins = (uint32_t)(last - first);
     for (uint32_t i = 0; i <= stats->bins; i++) {

@@ -68,7 +68,7 @@ static void place_print(FILE *out, const char *label, const sweep_plan *plan, co
     fputc('\n', out);
 }
 
-/* How far a value may be off, rounded up. */
+/* Prints the largest possible error of a value, rounded up. */
 static void within_print(FILE *out, const stats_value *value)
 {
     char text[CLI_BOUND_SIZE];
@@ -191,7 +191,7 @@ static int stats_json(FILE *out, const void *context, lrcs_host_error *error)
 
 /* ---- CSV ---- */
 
-/* The histogram: one row for each bin, the first for all that is less. */
+/* The histogram: one row for each bin; the first row is for everything below. */
 static int stats_csv(FILE *out, const void *context, lrcs_host_error *error)
 {
     const sweep_stats *stats = context;
@@ -269,8 +269,8 @@ static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
-/* The cumulative distribution as steps at the rows from the first edge on, of many rows some; and
-   the outline of the histogram. 0 or CLI_FAILED; x is the caller's to free. */
+/* The cumulative distribution as steps at the rows from the first edge on (if there are many rows,
+   at some of them); and the outline of the histogram. 0 or CLI_FAILED; the caller frees x. */
 static int chart_make(const sweep_stats *stats, stats_chart *chart)
 {
     uint64_t each = stats->rows / CHART_POINTS + 1;

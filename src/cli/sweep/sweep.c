@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs sweep: sigma over attitudes and over what can change in a scene. */
+/* lrcs sweep: sigma over attitudes and over the quantities of a scene that can vary. */
 #include "cli/sweep/sweep.h"
 #include "cli/info/info.h"
 
@@ -80,22 +80,23 @@ typedef struct sweep_job {
     sweep_plot plot;
     uint32_t brightest;
     int stats;
-    double (*row)[2]; /* sigma and bound of every row, for these two */
+    double (*row)[2]; /* sigma and bound of every row, for the two outputs above */
     double (*band)[2];
     lrcs_run_options options;
     lrcs_host_options load;
     lrcs_host_scene scene;
     uint32_t threads;
-    uint32_t notices;        /* of all results, bits */
+    uint32_t notices;        /* of all results, as bits */
     lrcs_host_glint *coarse; /* curved parts whose facets are too coarse for their glint */
     uint32_t coarse_count;
 } sweep_job;
 
-/* Set by a signal: the sweep ends after the poses that are running. */
+/* Set by a signal: the sweep ends after the poses that are being computed. */
 static volatile sig_atomic_t sweep_stop;
 
-/* The first Ctrl-C, or a batch system's warning, ends the sweep in order; one that comes seconds
-   later ends it at once. (A signal may come twice, to a process and to its group.) */
+/* The first Ctrl-C, or the warning of a batch system, ends the sweep in order; another one that
+   comes seconds later ends it at once. (A signal may arrive twice, sent to a process and to its
+   group.) */
 static void stop_signal(int number)
 {
     static volatile time_t since;
@@ -108,7 +109,7 @@ static void stop_signal(int number)
     sweep_stop = 1;
 }
 
-/* A signal that the shell has told to ignore stays ignored. */
+/* A signal that the shell has set to be ignored stays ignored. */
 static void signals_watch(void)
 {
     static const int number[] = {SIGINT, SIGTERM};
@@ -152,7 +153,7 @@ static int job_read(sweep_job *job)
     return code;
 }
 
-/* No output may replace a file that is read. */
+/* Checks that no output replaces a file that is read. */
 static int job_files_check(const sweep_job *job)
 {
     lrcs_host_error error;
@@ -207,7 +208,7 @@ static int job_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs
     return cli_scene_of_row(&job->plan, index, &job->scene, &job->load.build, scene, error);
 }
 
-/* The rows up to `end`: all of one scene, or (NULL) each of its own. */
+/* Computes the rows up to `end`: all of one scene, or, if it is NULL, each of its own scene. */
 static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
 {
     lrcs_host_error error;
@@ -228,7 +229,7 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
     return cli_failed(&error);
 }
 
-/* One scene after another, the poses of each in threads. */
+/* Computes one scene after another, the poses of each in threads. */
 static int scenes_run(sweep_job *job)
 {
     int code = 0;
@@ -269,7 +270,7 @@ static int job_run(sweep_job *job)
 
 /* ---- the command ---- */
 
-/* For people; the rows say all of it too. */
+/* Prints a summary for people; the rows contain all of it too. */
 static void job_say(const sweep_job *job)
 {
     const sweep_tally *tally = &job->file.tally;
@@ -306,7 +307,7 @@ static void job_say(const sweep_job *job)
     }
 }
 
-/* Room for what is told of all rows together. */
+/* Allocates memory for what depends on all rows. */
 static int job_room(sweep_job *job)
 {
     if (job->plot.asked || job->brightest > 0 || job->stats) {
@@ -329,7 +330,7 @@ static int job_room(sweep_job *job)
 static int job_show(sweep_job *job)
 {
     int code = job->plot.asked ? cli_plot_write(job->args, &job->plot, 1) : 0;
-    if (code == 0 && job->stats) { /* stdout is for rows where no file is */
+    if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
         sweep_stats stats;
         code = cli_stats_make(&job->plan, &job->head, (const double(*)[2])job->row, &stats);
         code = code ? code : cli_stats_write(job->args, job->file.path ? stdout : stderr, &stats);
@@ -344,7 +345,7 @@ static int job_show(sweep_job *job)
 
 static int job_rows(sweep_job *job)
 {
-    signals_watch(); /* before the rows that are there are read: that may take seconds */
+    signals_watch(); /* before the existing rows are read, which may take seconds */
     cli_watch_stage("rows that are there", NULL);
     int code = job_room(job);
     code = code ? code : cli_file_open(job->args, &job->file, &job->head, &job->plan);
@@ -367,7 +368,7 @@ static int job_rows(sweep_job *job)
     return job->file.tally.missed > 0 || job->file.tally.starved > 0 ? CLI_DEGRADED : CLI_DONE;
 }
 
-/* Where the glint is off by more than any bound says. */
+/* Prints where the error of the glint may exceed the bound. */
 static void coarse_say(const sweep_job *job)
 {
     double worst = 0.0;

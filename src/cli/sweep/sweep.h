@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A sweep between its command line, its rows and its files. */
+/* Shared by the files of a sweep: its plan, its rows and its files. */
 #ifndef LRCS_CLI_SWEEP_H
 #define LRCS_CLI_SWEEP_H
 
@@ -8,23 +8,24 @@
 #include <lrcs/sweep.h>
 
 #define SWEEP_AXES    8
-#define SWEEP_JOINTS  8 /* that a file of poses turns */
+#define SWEEP_JOINTS  8 /* joints whose angles a file of poses states */
 #define SWEEP_COLUMNS 20
-#define SWEEP_FIELDS  6 /* of a row after its values: sigma to flags */
-#define SWEEP_EXTRAS  4 /* before its flags, where materials state errors: their uncertainty */
+#define SWEEP_FIELDS  6 /* fields of a row after its values: sigma to flags */
+/* fields before the flags for the uncertainty, if materials state errors */
+#define SWEEP_EXTRAS 4
 
 /* ---- ranges ---- */
 
-/* A, A + STEP, .. as whole multiples of a power of ten: value i is the double nearest to the
-   decimal number, and no step drifts. */
+/* A, A + STEP, .. as integer multiples of a power of ten: value i is the double nearest to the
+   decimal number, so that no error accumulates. */
 typedef struct sweep_range {
     int64_t first, step; /* (first + i step) / 10^decimals */
     uint64_t count;
     int decimals;
 } sweep_range;
 
-/* Reads "A:B:STEP", both ends included where the steps meet them, or "A" alone. NULL, or what is
-   wrong with it. */
+/* Reads "A:B:STEP", including B if a step reaches it, or "A" alone. Returns NULL, or what is wrong
+   with it. */
 const char *cli_range_read(const char *text, size_t size, sweep_range *range);
 double cli_range_at(const sweep_range *range, uint64_t i);
 
@@ -36,7 +37,7 @@ typedef struct sweep_track {
     uint64_t count;
     int quaternions;
     uint64_t hash;  /* of the file's bytes */
-    char epoch[40]; /* the date, ISO 8601, that times are counted from; "": times are as given */
+    char epoch[40]; /* the date, ISO 8601, from which times are counted; "" if times are as given */
     uint32_t joints;
     char joint_name[SWEEP_JOINTS][112]; /* their columns: "joint:PART" */
     double (*joint)[SWEEP_JOINTS];      /* of each row, deg; NULL without joints */
@@ -49,7 +50,7 @@ int cli_track_read(const char *path, sweep_track *track);
 /* ---- the plan: which rows there are ---- */
 
 enum sweep_kind {
-    SWEEP_FIXED, /* one pose: the scene varies */
+    SWEEP_FIXED, /* one pose: only the scene varies */
     SWEEP_AZEL,
     SWEEP_EULER,
     SWEEP_ROTATE,
@@ -57,34 +58,34 @@ enum sweep_kind {
     SWEEP_TRACK
 };
 
-/* One thing that varies: the last axis fastest, what changes the scene before what changes the
-   pose. */
+/* A quantity that varies. The last axis varies fastest; axes that change the scene come before
+   those that change the pose. */
 typedef struct sweep_axis {
     const char *option; /* "az", ... */
-    char name[128];     /* its column */
+    char name[128];     /* name of its column */
     sweep_range range;
-    char whom[100]; /* of a scene's axis: part or material */
-    int key;        /* what of it */
+    char whom[100]; /* of an axis of the scene: part or material */
+    int key;        /* the parameter */
 } sweep_axis;
 
 typedef struct sweep_plan {
     sweep_axis axis[SWEEP_AXES];
-    uint32_t axes, scene_axes; /* scene_axes: but for the joints of a track */
+    uint32_t axes, scene_axes; /* scene_axes: without the joints of a track */
     int kind;
     lrcs_pose base;
     char sequence[4];    /* SWEEP_EULER */
     double about[3];     /* SWEEP_ROTATE */
     sweep_track track;   /* SWEEP_TRACK */
-    uint64_t poses;      /* of each scene */
-    uint64_t rows;       /* of all scenes */
-    uint64_t first, end; /* those of this shard */
+    uint64_t poses;      /* number of poses of each scene */
+    uint64_t rows;       /* number of rows of all scenes */
+    uint64_t first, end; /* the rows of this shard */
     uint32_t extras;     /* of a row: SWEEP_EXTRAS or 0 */
-    uint32_t columns;    /* values of a row */
+    uint32_t columns;    /* number of values of a row */
     const char *column[SWEEP_COLUMNS];
 } sweep_plan;
 
-/* The plan that options ask for; with the poses of `track` (or NULL), which becomes the plan's,
-   instead of those that options give. 0, CLI_FAILED or CLI_USAGE with the message printed. The
+/* The plan that options specify. With `track` (or NULL) the plan takes its poses, and owns them,
+   instead of those that options specify. 0, CLI_FAILED or CLI_USAGE with the message printed. The
    caller frees the plan in any case. */
 int cli_plan_read(const cli_args *args, const sweep_track *track, sweep_plan *plan);
 void cli_plan_free(sweep_plan *plan);
@@ -95,23 +96,23 @@ int cli_plan_pose(const sweep_plan *plan, uint64_t row, lrcs_pose *pose);
 
 /* ---- what changes the scene ---- */
 
-/* --joint and --vary, before what changes the pose. 0 or CLI_USAGE. */
+/* Reads --joint and --vary; call before the axes of the pose are added. 0 or CLI_USAGE. */
 int cli_scene_axes_read(const cli_args *args, sweep_plan *plan);
 
-/* Do parts, materials and values fit the scene? 0 or CLI_USAGE. */
+/* Checks that parts, materials and values fit the scene. 0 or CLI_USAGE. */
 int cli_scene_axes_check(const cli_args *args, const sweep_plan *plan, const lrcs_host_scene *base);
 
-/* The scene of a row, prepared, from the one that was read, which must outlive it; in any thread.
-   Status: as lrcs_host_scene_vary and lrcs_host_scene_prepare. */
+/* The prepared scene of a row, made from the one that was read, which must outlive it; may be
+   called in any thread. Status: as lrcs_host_scene_vary and lrcs_host_scene_prepare. */
 int cli_scene_of_row(const sweep_plan *plan, uint64_t row, const lrcs_host_scene *base,
                      const lrcs_build_options *build, lrcs_host_scene *scene,
                      lrcs_host_error *error);
 
-/* Adds an axis, NULL-terminated or not. 0 or CLI_USAGE. */
+/* Adds an axis; the text need not be NUL-terminated. 0 or CLI_USAGE. */
 int cli_axis_add(const cli_args *args, sweep_plan *plan, const char *option, const char *name,
                  const char *text, size_t size);
 
-/* Do all rows together have a mean: one --sphere of one scene? */
+/* 1 if the mean of all rows is meaningful: one --sphere of one scene. */
 int cli_plan_has_mean(const sweep_plan *plan);
 
 /* Position of a row along an axis. */
@@ -125,17 +126,18 @@ typedef struct sweep_row {
     uint64_t index;
     double value[SWEEP_COLUMNS];
     double sigma_m2, bound_m2, sigma_glint_m2, sigma_diffuse_m2;
-    double extra[SWEEP_EXTRAS]; /* deviation, low and high end, m2; 1 where a sample gives them */
+    double
+        extra[SWEEP_EXTRAS]; /* deviation, lower and upper end, m2; 1 if they come from a sample */
     uint32_t flags;
 } sweep_row;
 
 /* The names of the extras. */
 extern const char *const cli_row_extra[SWEEP_EXTRAS];
 
-/* The key of the first lines that says that rows have them. */
+/* The key in the first lines which states that rows have extras. */
 #define SWEEP_UNCERTAINTY "uncertainty"
 
-/* What the first line says: nothing in it depends on the machine, the number of threads or the
+/* The content of the first line: nothing in it depends on the machine, the number of threads or the
    shard. */
 typedef struct sweep_head {
     uint64_t scene_hash, rows;
@@ -152,15 +154,15 @@ typedef struct sweep_head {
 int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
                   const lrcs_host_scene *scene, sweep_head *head);
 
-/* What all rows say together. */
+/* Statistics of all rows. */
 typedef struct sweep_tally {
-    uint64_t rows, missed, starved; /* missed: the tolerance; starved: short of memory */
-    uint64_t estimated, unjudged;   /* accepted by estimate; accepted whatever they are */
-    double mean, square, bound;     /* of sigma; sum of squared deviations; sum of bounds */
+    uint64_t rows, missed, starved; /* missed: the tolerance; starved: out of memory */
+    uint64_t estimated, unjudged;   /* accepted by estimate; accepted without a condition */
+    double mean, square, bound;     /* mean of sigma; sum of squared deviations; sum of bounds */
 } sweep_tally;
 
 void cli_tally_add(sweep_tally *tally, const sweep_row *row);
-/* sigma's standard error, as if directions were drawn at random. */
+/* The standard error of sigma, as if directions were drawn at random. */
 double cli_tally_error(const sweep_tally *tally);
 
 /* The first lines, one row, and for --sphere a line after the rows. */
@@ -181,52 +183,53 @@ typedef struct sweep_text {
     int format;       /* SWEEP_CSV or SWEEP_JSONL, by its first byte */
     const char *head; /* its first lines */
     size_t head_size;
-    const char *at, *end; /* what follows */
-    uint64_t line;        /* that `at` stands at, from 1 */
-    uint64_t rows;        /* of the whole sweep */
+    const char *at, *end; /* the text that follows */
+    uint64_t line;        /* number of the line at `at`, from 1 */
+    uint64_t rows;        /* number of rows of the whole sweep */
     uint64_t shape[SWEEP_AXES + 1];
     uint32_t dimensions;
-    uint32_t columns; /* values of a row */
+    uint32_t columns; /* number of values of a row */
     uint32_t extras;  /* SWEEP_EXTRAS or 0 */
     int has_mean;     /* one --sphere */
-    int flagged;      /* rows may be accepted unproved: a map of them shows their flags */
-    char fault[200];  /* what is wrong with the line at `at` */
+    int flagged; /* 1 if rows may be accepted without a proof: a map of them contains their flags */
+    char fault[200]; /* what is wrong with the line at `at` */
 } sweep_text;
 
-/* 0, or -1 where the bytes are no rows of a sweep. */
+/* Returns 0, or -1 if the bytes are not rows of a sweep. */
 int cli_text_open(const char *bytes, size_t size, sweep_text *text);
 
-/* The next row; line and line_size say where it stands. Every field is held against what it must
-   be: as many as the head names, finite, dBsm that of sigma, bound >= 0, glint and diffuse adding
-   up, flags known, and with a plan (or NULL) the values of that row. 1; 0 after the last row, whose
-   line may be cut short; -1 where a whole line is no such row: text->fault says why. */
+/* Reads the next row; line and line_size give its place. Every field is checked: there are as many
+   as the head names, numbers are finite, dBsm is that of sigma, bound >= 0, glint and diffuse add
+   up, flags are known, and with a plan (or NULL) the values are those of that row. Returns 1; 0
+   after the last row, whose line may be truncated; -1 if a complete line is not a valid row:
+   text->fault states why. */
 int cli_text_next(sweep_text *text, const sweep_plan *plan, sweep_row *row, const char **line,
                   size_t *line_size);
 
-/* After the last row: 1 where nothing follows but the mean of a sphere and a checksum that agrees;
-   0 where there is no checksum, or one cut short; -1, with text->fault, where it does not agree or
-   something else follows. */
+/* Call after the last row: 1 if nothing follows except the mean of a sphere and a checksum that
+   agrees; 0 if there is no checksum, or a truncated one; -1, with text->fault, if it does not agree
+   or something else follows. */
 int cli_text_end(sweep_text *text);
 
-/* Reads all rows of a text that follow one another, through to the checksum; `path` is for
-   messages, a plan may be NULL as may `take`, which gets each row. Says which is the first and how
-   many there are. 0, or CLI_FAILED with the message printed. */
+/* Reads all consecutive rows of a text up to the checksum; `path` is for messages; the plan may be
+   NULL, and so may `take`, which is called for each row. Returns the first row and the number of
+   rows. 0, or CLI_FAILED with the message printed. */
 typedef void sweep_take(void *context, const sweep_row *row);
 int cli_text_rows(const char *path, const sweep_text *text, const sweep_plan *plan,
                   sweep_take *take, void *context, uint64_t *first, uint64_t *rows);
 
 /* ---- maps ---- */
 
-/* Writes FILE.npy, a NumPy array of shape (.., 2), sigma and bound, or (.., 3), where
-   text->flagged: 0 in the third place where the bound meets the tolerance, 1 where the estimate was
-   accepted, 2 where any answer was, -1 where the tolerance is missed. And FILE.npy.head, the first
-   lines of its rows with a checksum of the map. The rows are those that `next` gives in order (1: a
-   row; 0: the end; else it has failed and said so). 0 or CLI_FAILED. */
+/* Writes FILE.npy, a NumPy array of shape (.., 2), sigma and bound, or, if text->flagged, (.., 3),
+   whose third item is 0 if the bound meets the tolerance, 1 if the estimate was accepted, 2 if any
+   answer was, -1 if the tolerance is missed. Also writes FILE.npy.head, the first lines of its rows
+   with a checksum of the map. `next` returns the rows in order (1: a row; 0: the end; else it has
+   failed and printed a message). 0 or CLI_FAILED. */
 typedef int sweep_next(void *context, sweep_row *row);
 int cli_map_write(const char *path, const sweep_text *text, sweep_next *next, void *context);
 
-/* FILE.npy and FILE.npy.head in memory: the first lines, what all rows say together, and where the
-   numbers of the rows begin, `numbers` of them each. */
+/* FILE.npy and FILE.npy.head in memory: the first lines, the statistics of all rows, and the start
+   of the numbers of the rows, `numbers` for each row. */
 typedef struct sweep_map {
     lrcs_host_file file, beside;
     sweep_text text;
@@ -235,59 +238,60 @@ typedef struct sweep_map {
     uint32_t numbers;
 } sweep_map;
 
-/* 0; -1 where a file is missing, or the map is not that of its head's checksum. Closed in any
-   case. */
+/* Returns 0; -1 if a file is missing, or the map does not have the checksum in its head. The caller
+   closes it in any case. */
 int cli_map_open(const char *path, sweep_map *map);
 void cli_map_row(const sweep_map *map, uint64_t index, sweep_row *row);
 void cli_map_close(sweep_map *map);
 
 /* ---- files ---- */
 
-/* Where rows go: to standard output, or to FILE.partial, which becomes FILE when it is whole and is
-   valid at every line before. */
+/* The destination of rows: standard output, or FILE.partial, which becomes FILE when it is complete
+   and is valid after every line before that. */
 typedef struct sweep_file {
     int format;                       /* of the rows: SWEEP_CSV or SWEEP_JSONL */
-    int npy;                          /* they become a map at the end */
+    int npy;                          /* 1 if the rows become a map at the end */
     char *path, *partial, *lock_path; /* NULL: standard output */
-    int lock;                         /* descriptor of FILE.lock; 0: not locked */
-    int descriptor;                   /* of FILE.partial; 0: not open */
-    FILE *stream;                     /* rows not yet handed to the system, in memory */
+    int lock;                         /* descriptor of FILE.lock; 0 if not locked */
+    int descriptor;                   /* descriptor of FILE.partial; 0 if not open */
+    FILE *stream;                     /* rows not yet written, in memory */
     char *waiting;                    /* those bytes */
     size_t waiting_size;
-    uint64_t size, sum; /* bytes in FILE.partial before its checksum, and that */
-    uint64_t next;      /* the first row that is still to come */
+    uint64_t size, sum; /* number of bytes in FILE.partial before its checksum, and that checksum */
+    uint64_t next;      /* the next row to be written */
     sweep_tally tally;
-    double flushed;    /* when rows were last handed to the system, s */
-    double (*row)[2];  /* sigma and bound of every row, or NULL; whoever made it frees it */
+    double flushed;    /* time of the last write, s */
+    double (*row)[2];  /* sigma and bound of every row, or NULL; freed by its creator */
     double (*band)[2]; /* the interval of its material uncertainty, likewise */
 } sweep_file;
 
-/* What -o and --json ask for; 0 or CLI_USAGE. */
+/* Reads -o and --json; 0 or CLI_USAGE. */
 int cli_file_read(const cli_args *args, sweep_file *file);
 
-/* Locks the file; then begins, or goes on where --resume finds rows of the same head. A second
-   process is told who holds the lock. 0 or CLI_FAILED. */
+/* Locks the file; then begins, or continues if --resume finds rows with the same head. A second
+   process is refused with a message that names the holder of the lock. 0 or CLI_FAILED. */
 int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head,
                   const sweep_plan *plan);
 
-/* One more row. Status: LRCS_OK; LRCS_E_SYSTEM where it could not be written. */
+/* Writes one row. Status: LRCS_OK; LRCS_E_SYSTEM if it could not be written. */
 int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
                  lrcs_host_error *error);
 
-/* Ends: with all rows FILE.partial becomes FILE; with some it stays as it is, with none it goes.
-   0 or CLI_FAILED. */
+/* Ends the output: with all rows FILE.partial becomes FILE; with some it is kept, with none it is
+   removed. 0 or CLI_FAILED. */
 int cli_file_close(sweep_file *file, const sweep_plan *plan, int all);
 void cli_file_free(sweep_file *file);
 
-/* Takes up a row that is written, now or before. */
+/* Adds a row that is in the file, now or from before, to the statistics. */
 void cli_file_take(sweep_file *file, const sweep_row *row);
 
-/* Takes up the rows of FILE.npy where FILE.npy.head begins with one of these heads and has the
-   map's checksum. 0, or -1 with nothing taken. */
+/* Adds the rows of FILE.npy if FILE.npy.head begins with one of these heads and has the map's
+   checksum. 0, or -1 with nothing added. */
 int cli_map_recover(sweep_file *file, const sweep_plan *plan, const char *const head[2],
                     const size_t head_size[2]);
 
-/* FILE.lock: 0, or CLI_FAILED where another process holds it, with a message that says who. */
+/* Locks FILE.lock: 0, or CLI_FAILED with a message that names the holder if another process holds
+   it. */
 int cli_lock_take(sweep_file *file);
 void cli_lock_drop(sweep_file *file);
 
@@ -297,12 +301,12 @@ void cli_lock_drop(sweep_file *file);
 typedef struct sweep_data {
     const char *path;
     sweep_plan plan;
-    sweep_head head; /* its options; hash and rows are the text's */
+    sweep_head head; /* its options; the text holds the hash and the number of rows */
     double (*row)[2];
     double (*band)[2]; /* as of sweep_plot */
     sweep_tally tally;
     sweep_text text;
-    /* what these stand on */
+    /* memory to which the members above point */
     lrcs_host_file file;
     sweep_map map;
     char *words;
@@ -312,7 +316,7 @@ typedef struct sweep_data {
     cli_args args;
 } sweep_data;
 
-/* 0, or CLI_FAILED or CLI_USAGE with the message printed. Freed in any case. */
+/* 0, or CLI_FAILED or CLI_USAGE with the message printed. The caller frees it in any case. */
 int cli_data_read(const char *path, const cli_command *command, sweep_data *data);
 void cli_data_free(sweep_data *data);
 
@@ -321,34 +325,34 @@ const char *cli_head_text(const sweep_head *head, const char *key);
 
 /* ---- plots ---- */
 
-/* One of the things that vary. */
+/* One of the quantities that vary. */
 typedef struct plot_axis {
-    uint32_t column; /* of the plan; that after its axes: the time of a track */
+    uint32_t column; /* column of the plan; the one after its axes is the time of a track */
     uint64_t count;
     const char *name;
 } plot_axis;
 
 /* What is drawn of a sweep: curves along x, one for each value of y, or a map. */
 typedef struct sweep_plot {
-    const char *option; /* that names the files: "plot", "o" */
+    const char *option; /* the option that names the files: "plot", "o" */
     int asked, dbsm, polar, map, mollweide;
-    int open;           /* materials are illustrative or assumed: no bound holds what that costs */
-    const char *accept; /* as --accept, or NULL */
-    const char *title;  /* of what: the scene's, or its file */
-    const sweep_head *head; /* what it was made from; NULL: not told */
+    int open; /* 1 if materials are illustrative or assumed: no bound includes their error */
+    const char *accept;     /* as --accept, or NULL */
+    const char *title;      /* the scene's, or the name of its file */
+    const sweep_head *head; /* what it was made from; NULL: not stated */
     const char *name;       /* in the legend, of all curves, or NULL */
-    plot_axis x, y;         /* y: one value where only one thing varies */
-    int swapped;            /* x is the faster of two */
+    plot_axis x, y;         /* y: a single value if only one quantity varies */
+    int swapped;            /* 1 if x is the faster of two axes */
     const sweep_plan *plan;
     double (*row)[2];  /* sigma and bound, m2 */
     double (*band)[2]; /* the interval of its material uncertainty, m2; NULL: none */
 } sweep_plot;
 
-#define PLOT_CURVES 7u /* more values than that, both ways, make a map */
+#define PLOT_CURVES 7u /* more values than this along both axes make a map */
 
-/* What --plot (or -o of lrcs plot), --dbsm, --polar and --projection ask for; that no plot replaces
-   anything; 0 or CLI_USAGE. Then the drawing, of one sweep or the curves of several along the same
-   axis, as 0 or CLI_FAILED; and one drawing as SVG. title and row are the caller's to set. */
+/* Reads --plot (or -o of lrcs plot), --dbsm, --polar and --projection, and checks that no plot
+   replaces a file; 0 or CLI_USAGE. Then draws one sweep, or the curves of several along the same
+   axis; 0 or CLI_FAILED. Also one drawing as SVG. The caller sets title and row. */
 int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot);
 int cli_plot_spares(const cli_args *args, const sweep_plot *plot, const sweep_file *file,
                     const lrcs_host_scene *scene);
@@ -357,20 +361,21 @@ int cli_plot_svg(FILE *out, const sweep_plot *plot);
 
 /* ---- peaks ---- */
 
-/* The brightest rows that outshine all their neighbours, at most `most` of them, the brightest
-   first, from sigma and bound of every row. Returns how many; rows without a return are none. */
+/* Finds the brightest rows that are brighter than all their neighbours, at most `most` of them, the
+   brightest first, from sigma and bound of every row. Returns their number; rows with sigma = 0 are
+   not counted. */
 uint32_t cli_peaks_find(const sweep_plan *plan, const double (*row)[2], uint32_t most,
                         uint64_t *peak);
 
-/* Who makes sigma of a row: it is run once more. `base` was read, and is prepared where it must be;
-   shares are to be freed in any case. 0 or CLI_FAILED. */
+/* The contributions to sigma of a row, which is run once more. `base` was read, and is prepared if
+   necessary; the caller frees the shares in any case. 0 or CLI_FAILED. */
 int cli_row_shares(const sweep_plan *plan, uint64_t row, lrcs_host_scene *base,
                    const lrcs_run_options *options, const lrcs_build_options *build,
                    cli_shares *shares);
 
-/* --brightest: how many, 0 where it was not given, as 0 or CLI_USAGE; then their table on stdout,
-   as 0 or CLI_FAILED. Peaks that are the normal of a facet of a coarse curved part are marked:
-   there flat facets glint where the body need not. */
+/* --brightest: reads the number of peaks, 0 if it was not given; 0 or CLI_USAGE. Then prints their
+   table on stdout; 0 or CLI_FAILED. Peaks that are the normal of a facet of a coarse curved part
+   are marked: flat facets glint there although the curved body need not. */
 int cli_brightest_read(const cli_args *args, const sweep_plan *plan, const sweep_file *file,
                        uint32_t *most);
 int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t most,
@@ -383,23 +388,23 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
 #define STATS_PERCENTS 9
 #define STATS_BINS     30
 
-/* A row and what it weighs. */
+/* A row and its weight. */
 typedef struct stats_row {
     double sigma, bound, weight;
     uint64_t index;
 } stats_row;
 
-/* A number with the interval that holds it whatever sigma of each row is within its bound. */
+/* A number with the interval that contains it for every sigma within the bounds of the rows. */
 typedef struct stats_value {
     double least, value, most;
 } stats_value;
 
-/* How sigma is spread over the rows. Shares are of the weight of all rows. */
+/* The distribution of sigma over the rows. Shares are of the weight of all rows. */
 typedef struct sweep_stats {
     const sweep_plan *plan;
     const sweep_head *head;
     uint64_t rows;
-    stats_row *row;      /* ascending in sigma */
+    stats_row *row;      /* sorted by ascending sigma */
     double whole;        /* the weight of all rows */
     const char *weights; /* how rows are weighted, in words */
     stats_value mean;
@@ -407,26 +412,26 @@ typedef struct sweep_stats {
     stats_value percentile[STATS_PERCENTS];
     uint32_t bins; /* of equal width in dB; bin i is (edge[i], edge[i + 1]] */
     double edge_dbsm[STATS_BINS + 1], edge_m2[STATS_BINS + 1];
-    stats_value cdf[STATS_BINS + 1]; /* the share of rows of at most edge_m2 */
+    stats_value cdf[STATS_BINS + 1]; /* the share of rows with sigma of at most edge_m2 */
 } sweep_stats;
 
 extern const int cli_stats_percent[STATS_PERCENTS];
 
-/* --stats and --stats-file: are statistics asked for, and do the files' names fit? 0 or
+/* --stats and --stats-file: whether statistics are asked for; checks the files' names. 0 or
    CLI_USAGE. */
 int cli_stats_read(const cli_args *args, int *asked);
 
-/* Sums up; freed in any case. 0 or CLI_FAILED. */
+/* Computes the statistics; the caller frees them in any case. 0 or CLI_FAILED. */
 int cli_stats_make(const sweep_plan *plan, const sweep_head *head, const double (*row)[2],
                    sweep_stats *stats);
 void cli_stats_free(sweep_stats *stats);
 
-/* The table for people, where --stats is given; and every --stats-file. 0 or CLI_FAILED. */
+/* Writes the table for people, if --stats is given, and every --stats-file. 0 or CLI_FAILED. */
 int cli_stats_write(const cli_args *args, FILE *out, const sweep_stats *stats);
 
 /* ---- progress ---- */
 
-/* A bar with the time left, on stderr where that is a terminal. */
+/* A progress bar with the remaining time, on stderr if that is a terminal. */
 typedef struct sweep_progress {
     int on;
     uint64_t first, total;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Reading rows back, to go on with them, to join them, to make a map of them. It reads what
-   sweep_rows writes and takes nothing else: every field of a row is held against what it must be, a
-   checksum against what stands before it. A last line that is cut short is no row. */
+/* Reads rows back, to continue, join or map them. It accepts only what rows.c writes: every field
+   of a row is checked, and a checksum is compared with the preceding bytes. A truncated last line
+   is not a row. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 /* ---- the head ---- */
 
-/* The first lines as a string, for their keys; NULL where there is none. */
+/* The first lines as a string, to search for keys; NULL if out of memory. */
 static char *head_copy(const sweep_text *text)
 {
     char *copy = malloc(text->head_size + 1);
@@ -23,7 +23,7 @@ static char *head_copy(const sweep_text *text)
     return copy;
 }
 
-/* What follows a key; rows and shape stand before anything that a user wrote. */
+/* The text after a key; rows and shape precede everything that a user wrote. */
 static const char *head_value(const char *head, const char *csv, const char *json)
 {
     const char *key = head[0] == '#' ? csv : json;
@@ -31,7 +31,7 @@ static const char *head_value(const char *head, const char *csv, const char *jso
     return at ? at + strlen(key) : NULL;
 }
 
-/* N x M .. or [N, M, ..]; their product must be the number of rows. */
+/* Reads N x M .. or [N, M, ..]; the product must be the number of rows. */
 static int head_shape(const char *at, sweep_text *text)
 {
     uint64_t product = 1;
@@ -51,8 +51,8 @@ static int head_shape(const char *at, sweep_text *text)
     }
 }
 
-/* Names between index and sigma_m2: of the second line, where commas in quotes separate nothing, or
-   of the list in the first. */
+/* The number of names between index and sigma_m2: in the second line, where commas in quotes do not
+   separate, or in the list of the first line. */
 static uint32_t head_columns(const char *head, uint32_t extras)
 {
     const char *at = head[0] == '#' ? strchr(head, '\n') + 1 : strstr(head, "\"columns\": [");
@@ -138,7 +138,7 @@ static int text_refuse(sweep_text *text, const char *name, const char *found, co
     return -1;
 }
 
-/* Flags in words, blanks or commas and quotes between them. */
+/* Reads flags as words separated by blanks, or by commas and quotes. */
 static int flags_read(const char *at, uint32_t *flags)
 {
     *flags = 0;
@@ -158,8 +158,8 @@ static int flags_read(const char *at, uint32_t *flags)
     return 0;
 }
 
-/* Cuts a row into index, values and fields, in place. Returns their number; those that have no room
-   are counted, and that is all. */
+/* Splits a row into index, values and fields, in place. Returns their number; fields beyond `room`
+   are only counted. */
 static uint32_t csv_split(char *line, const char **field, uint32_t room)
 {
     uint32_t count = 0;
@@ -176,8 +176,9 @@ static uint32_t csv_split(char *line, const char **field, uint32_t room)
     return count;
 }
 
-/* The same of {"key": value, ..., "flags": [..]}; 0 where that is not its form. The keys of fields
-   must be theirs; those of values are what the user named, in the head's order. */
+/* The same for {"key": value, ..., "flags": [..]}; 0 if the line does not have this form. The keys
+   of fields must be the known ones; those of values are the names that the user chose, in the order
+   of the head. */
 static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint32_t columns,
                             uint32_t extras)
 {
@@ -215,7 +216,7 @@ static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint3
     return whole ? count : 0;
 }
 
-/* An empty field, or null, where there is no number. */
+/* Reads a number; an empty field, or null, means that there is none. */
 static int field_number(const sweep_text *text, const char *field, double *value)
 {
     *value = (double)NAN;
@@ -224,7 +225,7 @@ static int field_number(const sweep_text *text, const char *field, double *value
                : lrcs_host_number_read(field, strlen(field), value);
 }
 
-/* Are two doubles as near as a libm and another one make them? */
+/* 1 if two doubles are as close as the results of two different libms. */
 static int about_equal(double a, double b, double relative)
 {
     return fabs(a - b) <= relative * fmax(fabs(a), fabs(b));
@@ -256,8 +257,8 @@ static int values_read(sweep_text *text, const sweep_plan *plan, const char *con
     return 0;
 }
 
-/* A deviation, the ends of its interval, 1 or 0 (sampled): all finite. By first order the ends lie
-   one deviation below sigma, but not below 0, and above. */
+/* Reads a deviation, the ends of its interval, and 1 or 0 (sampled): all finite. To first order the
+   ends lie one deviation below sigma, but not below 0, and one above. */
 static int extras_read(sweep_text *text, const char *const *field, double sigma, sweep_row *row)
 {
     for (uint32_t i = 0; i < text->extras; i++) {
@@ -304,7 +305,7 @@ static int fields_read(sweep_text *text, const char *const *field, sweep_row *ro
         return text_refuse(text, "sigma_dbsm", field[FIELD_DBSM],
                            sigma > 0.0 ? expected : "none, for a sigma of 0");
     }
-    /* each is a sum of its own, and is rounded */
+    /* both are separate sums and are rounded */
     if (!about_equal(number[FIELD_GLINT] + number[FIELD_DIFFUSE], sigma, 1e-9)) {
         return text_refuse(text, "sigma_glint_m2 and sigma_diffuse_m2", field[FIELD_GLINT],
                            "what adds up to sigma_m2");
@@ -323,7 +324,7 @@ static int fields_read(sweep_text *text, const char *const *field, sweep_row *ro
     return 0;
 }
 
-/* A copy of a whole line. */
+/* Reads a row from a copy of a complete line. */
 static int row_read(sweep_text *text, const sweep_plan *plan, char *line, sweep_row *row)
 {
     const char *field[1 + SWEEP_COLUMNS + SWEEP_FIELDS + SWEEP_EXTRAS];
@@ -350,7 +351,7 @@ static int row_read(sweep_text *text, const sweep_plan *plan, char *line, sweep_
     return fault ? fault : fields_read(text, field + 1 + text->columns, row);
 }
 
-/* The lines after the rows begin so. */
+/* The beginnings of the lines after the rows. */
 static const char *const mean_lead[] = {"# mean_sigma_m2=", "{\"mean_sigma_m2\": "};
 static const char *const sum_lead[] = {"# checksum=fnv1a:", "{\"checksum\": \"fnv1a:"};
 
@@ -395,7 +396,7 @@ int cli_text_end(sweep_text *text)
         text->line++;
     }
     if (!memchr(text->at, '\n', (size_t)(text->end - text->at))) {
-        return 0; /* the end, or a line cut short */
+        return 0; /* the end, or a truncated line */
     }
     uint64_t sum = cli_sum_more(SWEEP_SUM_BEGIN, text->head, (size_t)(text->at - text->head));
     char expected[80];

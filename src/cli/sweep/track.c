@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* An attitude time series from CSV: a time and a quaternion or a direction in every row, and the
-   angles of joints. It decides which column is which, by the names in the first line or by their
-   number; what a pose is made of them is the plan's. */
+/* Reads an attitude time series from CSV: each row has a time, a quaternion or a direction, and the
+   angles of joints. This file decides which column is which, by the names in the first line or by
+   their number; plan.c makes poses from them. */
 #include "cli/sweep/sweep.h"
 
 #include <lrcs/table.h>
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a column is: index into a track's row, by its name. */
+/* The meaning of a column: an index into a track's row, by name. */
 typedef struct track_name {
     const char *name;
     int place, quaternion;
@@ -24,10 +24,10 @@ static const track_name track_names[] = {
 typedef struct track_reader {
     lrcs_host_table table;
     lrcs_host_error error;
-    int place[LRCS_HOST_FIELDS]; /* of each column, that of a joint from PLACE_JOINT on; -1: not
-                                    looked at */
+    int place[LRCS_HOST_FIELDS]; /* by column; that of a joint from PLACE_JOINT on; -1 if the column
+                                    is ignored */
     int dates;                   /* times are ISO 8601 */
-    int64_t epoch;               /* the first of them in whole seconds, and the rest */
+    int64_t epoch;               /* the first time in whole seconds, and the fraction */
     double epoch_part;
 } track_reader;
 
@@ -71,7 +71,8 @@ static int joint_read(track_reader *reader, sweep_track *track, uint32_t column)
     return 0;
 }
 
-/* The first line's names. x, y, z are a direction's, but a quaternion's beside a w. */
+/* Reads the names in the first line. x, y, z are a direction's, or a quaternion's if there is a
+   w. */
 static int names_read(track_reader *reader, sweep_track *track)
 {
     const lrcs_host_table *table = &reader->table;
@@ -107,7 +108,7 @@ static int names_read(track_reader *reader, sweep_track *track)
     return 0;
 }
 
-/* Without names: four columns are time and direction, five time and quaternion. */
+/* Without names, four columns are time and direction, five are time and quaternion. */
 static int columns_assume(track_reader *reader, sweep_track *track)
 {
     uint32_t count = reader->table.columns;
@@ -122,7 +123,7 @@ static int columns_assume(track_reader *reader, sweep_track *track)
     return 0;
 }
 
-/* Digits as a number from `least` to `most`; -1 where there are none such. */
+/* Reads digits as a number from `least` to `most`; -1 if they are not such a number. */
 static int digits_read(const char *text, int count, int least, int most)
 {
     int number = 0;
@@ -135,8 +136,8 @@ static int digits_read(const char *text, int count, int least, int most)
     return number >= least && number <= most ? number : -1;
 }
 
-/* Days from 1970-01-01 of a date of the Gregorian calendar: years that begin in March have their
-   leap day at their end. */
+/* The number of days since 1970-01-01 of a date of the Gregorian calendar. Years are counted from
+   March, so that the leap day is at their end. */
 static int64_t days_of(int year, int month, int day)
 {
     int64_t y = month > 2 ? year : year - 1;
@@ -144,8 +145,8 @@ static int64_t days_of(int year, int month, int day)
     return 365 * y + y / 4 - y / 100 + y / 400 + (153 * from_march + 2) / 5 + day - 719469;
 }
 
-/* An ISO 8601 date in UTC, YYYY-MM-DDThh:mm:ss[.fraction]Z, as seconds from 1970 without leap
-   seconds: whole ones, and the rest. 0, or -1. */
+/* Reads an ISO 8601 date in UTC, YYYY-MM-DDThh:mm:ss[.fraction]Z, as seconds since 1970 without
+   leap seconds: whole seconds and the fraction. 0, or -1. */
 static int date_read(const lrcs_host_field *field, int64_t *seconds, double *part)
 {
     static const signed char month_days[12] = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
@@ -183,7 +184,7 @@ static int date_read(const lrcs_host_field *field, int64_t *seconds, double *par
     return 0;
 }
 
-/* A time: seconds, or a date, counted from that of the first row. 0 or CLI_FAILED. */
+/* Reads a time: seconds, or a date, counted from that of the first row. 0 or CLI_FAILED. */
 static int time_read(track_reader *reader, sweep_track *track, uint32_t column, double *value)
 {
     const lrcs_host_field *field = &reader->table.field[column];
@@ -238,7 +239,7 @@ static int row_read(track_reader *reader, sweep_track *track)
     return 0;
 }
 
-/* The first row: names, or what tells by its number of fields. */
+/* The first row: reads names, or decides by the number of fields. */
 static int first_read(track_reader *reader, sweep_track *track)
 {
     const lrcs_host_field *field = reader->table.field;
