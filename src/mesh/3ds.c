@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads 3D Studio files: the root, the editor section, the objects in it. It decides in which
-   order things are taken (materials first, wherever they stand) and leaves animation alone.
-   Each level of the tree has one function; nothing descends by recursion, whatever the bytes say.
- */
+/* Reads 3D Studio files: the root, the editor section, the objects in it. It decides the order in
+   which items are read (materials first, wherever they are in the file) and ignores animation. Each
+   level of the tree has one function; there is no recursion for any input. */
 #include <lrcs/read.h>
 
 #include "base/bytes.h"
@@ -10,8 +9,8 @@
 #include "base/work.h"
 #include "mesh/3ds.h"
 
-/* A named object: meshes are read, lights and cameras passed over. The name is stored once, also
-   where there are several meshes: a long name and many of them must not multiply. */
+/* A named object: meshes are read, lights and cameras are skipped. The name is stored once even if
+   the object has several meshes, so that a long name is not stored once per mesh. */
 static int tds_read_object(lrcsi_tds_walk *walk, lrcsi_tds_chunk object)
 {
     lrcsi_span name;
@@ -36,7 +35,7 @@ static int tds_read_object(lrcsi_tds_walk *walk, lrcsi_tds_chunk object)
     return next;
 }
 
-/* Materials may stand behind the objects that use them, so the editor section is passed twice. */
+/* Materials may follow the objects that use them, so the editor section is read twice. */
 static int tds_read_editor(lrcsi_tds_walk *walk, lrcsi_tds_chunk editor, unsigned id)
 {
     lrcsi_tds_chunk chunk;
@@ -85,7 +84,7 @@ static int tds_read_all(lrcsi_tds_walk *walk, lrcsi_tds_chunk root, unsigned id)
     return next;
 }
 
-/* The root: what it claims beyond the file, and what the file holds beyond it, is noticed. */
+/* The root. A length that exceeds the file, and bytes after the root, are reported as notices. */
 static int tds_find_root(lrcsi_tds_walk *walk, lrcsi_tds_chunk *root)
 {
     if (walk->size == 0) {
@@ -131,7 +130,8 @@ int lrcs_3ds_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrc
     return status;
 }
 
-/* The second walk, into blocks that the first has measured. The scratch is released. */
+/* The second pass: fills the blocks whose sizes the first pass has counted. The scratch is
+   released. */
 static int tds_fill(lrcsi_tds_walk *walk, lrcsi_tds_chunk root, lrcs_work *work)
 {
     size_t mark = work->used;

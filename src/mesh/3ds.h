@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The 3DS reader's parts: chunks and the walk over them, materials, meshes. A file is a tree of
-   chunks, each an id (2 bytes), a length that includes this header of 6 (4 bytes), and what it
-   holds, little-endian. One walk serves counting and reading: while it counts nothing is stored,
-   but everything is checked.
-   Source for the ids: Autodesk, 3D Studio File Toolkit (1996). */
+   chunks, each an id (2 bytes), a length that includes this header of 6 (4 bytes), and its content,
+   little-endian. The same pass serves counting and reading: while it counts, it stores nothing but
+   checks everything. Source for the ids: Autodesk, 3D Studio File Toolkit (1996). */
 #ifndef LRCSI_3DS_H
 #define LRCSI_3DS_H
 
@@ -40,7 +39,7 @@ enum lrcsi_tds_id {
     LRCSI_TDS_LAST_NODE = 0xb007
 };
 
-/* What remains unread of a chunk. */
+/* The unread rest of a chunk. */
 typedef struct lrcsi_tds_chunk {
     unsigned id;
     size_t at, end;
@@ -56,36 +55,39 @@ typedef struct lrcsi_tds_walk {
     /* NULL while counting: */
     lrcs_mesh *mesh;
     char *text;        /* where the next name goes */
-    lrcsi_index names; /* materials by their bytes in the file; of equal names the first */
+    lrcsi_index names; /* materials by the bytes of their names in the file; of equal names the
+                          first */
 } lrcsi_tds_walk;
 
-/* Says where the walk stopped; returns `status`. */
+/* Records where the reader stopped; returns `status`. */
 int lrcsi_tds_fail(const lrcsi_tds_walk *walk, int status, size_t at, const char *item,
                    const char *expected, uint64_t found);
 
-/* The next chunk inside `parent`, which moves on behind it: 1, or 0 at the end, or a status.
-   Fewer bytes than a header at the end of a chunk are passed over, with a notice. */
+/* Reads the next chunk inside `parent`, which is advanced past it. Returns 1, or 0 at the end, or a
+   status. Bytes at the end of a chunk that are too few for a header are skipped, with a notice. */
 int lrcsi_tds_next(lrcsi_tds_walk *walk, lrcsi_tds_chunk *parent, lrcsi_tds_chunk *chunk);
 
-/* LRCS_OK where `count` items of `size` bytes are left in the chunk, else a status. */
+/* LRCS_OK if `count` items of `size` bytes are left in the chunk, else a status. */
 int lrcsi_tds_check(const lrcsi_tds_walk *walk, const lrcsi_tds_chunk *chunk, size_t count,
                     size_t size, const char *item);
 
-/* A name up to its terminator, which must stand inside the chunk; the chunk moves on behind it. */
+/* Reads a name up to its terminator, which must be inside the chunk; the chunk is advanced past
+   it. */
 int lrcsi_tds_name(const lrcsi_tds_walk *walk, lrcsi_tds_chunk *chunk, lrcsi_span *name,
                    const char *item);
 
 /* Adds a name to the mesh's text, or to its count; NULL while counting. */
 const char *lrcsi_tds_store_name(lrcsi_tds_walk *walk, lrcsi_span name);
 
-/* Adds to one of the counts; LRCS_E_LIMIT beyond what indices reach. */
+/* Adds to one of the counts; LRCS_E_LIMIT if it exceeds the range of indices. */
 int lrcsi_tds_add(const lrcsi_tds_walk *walk, uint32_t *sum, uint32_t count, size_t at,
                   const char *item);
 
-/* One material (what is left of a chunk 0xAFFF). */
+/* Reads one material (the rest of a chunk 0xAFFF). */
 int lrcsi_tds_read_material(lrcsi_tds_walk *walk, lrcsi_tds_chunk material);
 
-/* One mesh (what is left of a chunk 0x4100); `name` is its part's, NULL while counting. */
+/* Reads one mesh (the rest of a chunk 0x4100); `name` is the name of its part, NULL while
+   counting. */
 int lrcsi_tds_read_trimesh(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const char *name);
 
 #endif

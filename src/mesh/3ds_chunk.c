@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Steps through the chunks of a 3DS file and takes items from them, never beyond a chunk, a chunk
-   never beyond its parent. It does not know what any chunk means. */
+/* Steps through the chunks of a 3DS file and reads items from them. It never reads beyond the end
+   of a chunk, and no chunk extends beyond its parent. It does not interpret chunks. */
 #include "mesh/3ds.h"
 
 #include <string.h>

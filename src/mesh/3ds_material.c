@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Reads one material of a 3DS file: name, diffuse colour, transparency, two-sidedness. It decides
-   which of several colours counts, and not what the material reflects. */
+   which of several colours is used, but not what the material reflects. */
 #include "mesh/3ds.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ static int tds_float_colour(const lrcsi_tds_walk *walk, size_t at, unsigned char
     return LRCS_OK;
 }
 
-/* How much a colour chunk is preferred: what the user saw on screen first. */
+/* The preference among colour chunks: the colour that the user saw on screen comes first. */
 static int tds_colour_rank(unsigned id)
 {
     switch (id) {

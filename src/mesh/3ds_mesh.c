@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads one mesh of a 3DS file: vertices as stored, faces, material groups, smoothing groups, in
-   whatever order they stand. Its matrix is noticed and never applied: vertices are in world space
-   already. */
+/* Reads one mesh of a 3DS file: vertices as stored, faces, material groups and smoothing groups, in
+   any order. Its matrix is checked but never applied: the vertices already are in world space. */
 #include "mesh/3ds.h"
 
 #include <math.h>
 
 #include "base/bytes.h"
 
-/* A facet whose last group names a material that the file does not define, until its mesh ends. */
+/* Marks, while a mesh is read, a facet whose last group names a material that the file does not
+   define. */
 #define TDS_UNDEFINED (LRCS_NONE - 1)
 
-/* One mesh: its two lists, wherever they stand among its chunks, and where it begins in the
-   whole. */
+/* One mesh: its two lists, wherever they are among its chunks, and the index of its first items in
+   the whole. */
 typedef struct tds_trimesh {
     lrcsi_tds_chunk vertices, faces; /* end = 0: none seen */
     uint32_t vertex_count, face_count;
     uint32_t first_vertex, first_facet;
 } tds_trimesh;
 
-/* Remembers a mesh's list and its count; a second list of the kind is refused, for no reader
-   could tell which the faces mean. */
+/* Records a list of a mesh and its count. A second list of the same kind is refused, because no
+   reader could decide which one the faces refer to. */
 static int tds_find_list(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, size_t size,
                          lrcsi_tds_chunk *list, uint32_t *count, const char *item)
 {
@@ -77,7 +77,7 @@ static int tds_read_faces(const lrcsi_tds_walk *walk, const tds_trimesh *mesh)
     return LRCS_OK;
 }
 
-/* The head of a material group: name and count, with as many faces behind it. */
+/* Reads the head of a material group: its name and count, followed by that many faces. */
 static int tds_read_group_head(const lrcsi_tds_walk *walk, lrcsi_tds_chunk *chunk, lrcsi_span *name,
                                size_t *count)
 {
@@ -159,7 +159,7 @@ static int tds_read_detail(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const td
     }
 }
 
-/* Groups and smoothing in their place, behind the faces in the face list. */
+/* Groups and smoothing in their regular place, after the faces in the face list. */
 static int tds_read_face_details(lrcsi_tds_walk *walk, const tds_trimesh *mesh)
 {
     lrcsi_tds_chunk inside = mesh->faces;
@@ -175,7 +175,7 @@ static int tds_read_face_details(lrcsi_tds_walk *walk, const tds_trimesh *mesh)
     return next;
 }
 
-/* Groups and smoothing in file order, also those beside the face list. */
+/* Groups and smoothing in file order, including those outside the face list. */
 static int tds_read_details(lrcsi_tds_walk *walk, lrcsi_tds_chunk parent, const tds_trimesh *mesh)
 {
     lrcsi_tds_chunk chunk;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* The report on a mesh: what is counted, and its box, area and volume. Which points and edges are
-   the same is decided in topology.c, convexity in convex.c.
+/* The report on a mesh: its counts, box, area and volume. topology.c decides which points and edges
+   are the same, and convex.c decides convexity.
 
    Area and volume are computed in double-double on coordinates divided by a power of two near the
-   box's size, so that nothing overflows and only what is beyond notice underflows. With u = 2^-53
-   and coordinate differences exact, each component of a facet's normal errs by at most 20 u^2
-   times its largest product: a sliver of aspect q loses a factor q of that, so its area is good to
-   a few u up to q = 10^15. Volume: the corners relative to the box centre are exact, and each
-   facet's determinant errs by at most 64 u^2 times the sum of its products. Sums are
+   box's size, so that nothing overflows and only negligible terms underflow. With u = 2^-53 and
+   coordinate differences exact, each component of a facet's normal errs by at most 20 u^2 times its
+   largest product: for a sliver of aspect q the relative error is q times larger, so the error of
+   its area is a few u up to q = 10^15. Volume: the corners relative to the box centre are exact,
+   and each facet's determinant errs by at most 64 u^2 times the sum of its products. Sums are
    double-double. */
 #include <lrcs/mesh.h>
 
@@ -19,7 +19,7 @@
 #include "mesh/same.h"
 #include "mesh/topology.h"
 
-/* A mesh on its way to being measured. */
+/* The state of the check of a mesh. */
 typedef struct measured_mesh {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
@@ -77,7 +77,7 @@ static void dd_cross(const lrcsi_dd a[3], const lrcsi_dd b[3], lrcsi_dd c[3])
     }
 }
 
-/* Length without overflow or underflow of the squares; 4 u. */
+/* The length, without overflow or underflow of the squares; relative error at most 4 u. */
 static double vector_length(const lrcsi_dd v[3])
 {
     double x = fabs(lrcsi_dd_value(v[0]));
@@ -150,7 +150,7 @@ static void count_edge_uses(const lrcsi_topology *t, lrcs_mesh_report *report)
     }
 }
 
-/* Each facet is compared with the first of its place, the earliest one there. */
+/* Each facet is compared with the first facet in the same place, the one of lowest index. */
 static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, lrcs_work *work,
                             lrcs_mesh_report *report)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides convexity by exact signs alone. What must hold:
+/* Decides convexity by exact signs alone. The conditions:
      1. every edge is used by two facets, in opposite directions;
-     2. the facets are one piece across edges, and those around each point one cycle;
-     3. at each edge the two facets form a convex crease or continue each other flat: the third
-        corner of the one lies below the plane of the other, or in it and across the edge;
+     2. the facets are connected across edges, and those around each point form one cycle;
+     3. at each edge the two facets form a convex crease or are coplanar continuations of each
+     other: the third corner of one lies below the plane of the other, or in it and across the edge;
      4. around each point the facets bound a convex cone (below).
    Then the surface is closed, connected and locally convex, hence the boundary of a convex body
    (van Heijenoort 1952, "On locally convex manifolds"; the extreme point that the theorem asks
@@ -32,11 +32,11 @@ typedef struct convex_mesh {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
     const lrcsi_topology *topology;
-    const unsigned char *crease; /* edge -> 1 where it is not flat */
+    const unsigned char *crease; /* edge -> 1 if it is not flat */
     uint32_t facet_count;
 } convex_mesh;
 
-/* A facet seen from one of its points: `corner` is the place of that point. */
+/* A facet seen from one of its points: `corner` is the index of that point among its corners. */
 typedef struct fan_place {
     uint32_t facet;
     uint32_t corner;
@@ -66,14 +66,14 @@ static int edges_are_paired(const lrcsi_topology *t)
     return t->edge_count > 0;
 }
 
-/* The corner of a facet that does not lie on one of its edges. */
+/* The corner of a facet opposite one of its edges. */
 static uint32_t corner_off_edge(const lrcsi_topology *t, uint32_t facet, uint32_t edge)
 {
     const uint32_t *side = t->facet_edge[facet].corner;
     return side[0] == edge ? 2 : side[1] == edge ? 0 : 1;
 }
 
-/* An axis along which a facet is not seen edge-on; `sign` tells how it then turns. */
+/* An axis along which a facet is not seen edge-on; `sign` is the sense in which it then turns. */
 static void facet_axis(const double *a, const double *b, const double *c, double axis[3], int *sign)
 {
     for (int k = 0; k < 3; k++) {
@@ -87,8 +87,8 @@ static void facet_axis(const double *a, const double *b, const double *c, double
     }
 }
 
-/* 1 where, turning about v as facet a b c turns, the ray to q comes less than pi after that to p;
-   0 where it coincides or is opposite, else -1. All in the plane of a, b, c. */
+/* 1 if the ray to q comes less than pi after the ray to p, turning about v in the sense of facet a
+   b c; 0 if the two rays coincide or are opposite; else -1. All in the plane of a, b, c. */
 static int turn_in_plane(const double *a, const double *b, const double *c, const double *v,
                          const double *p, const double *q)
 {
@@ -128,7 +128,7 @@ static int edges_are_convex(const convex_mesh *m, unsigned char *crease)
     return 1;
 }
 
-/* Condition 2, first half: facets reached from the first one across edges are all there are. */
+/* Condition 2, first half: all facets can be reached from the first one across edges. */
 static int facets_are_one_piece(const convex_mesh *m, uint32_t *queue, unsigned char *seen)
 {
     const lrcsi_topology *t = m->topology;
@@ -180,7 +180,7 @@ static fan_place fan_next(const convex_mesh *m, fan_place p)
     return (fan_place){g, side[0] == edge ? 0 : side[1] == edge ? 1 : 2};
 }
 
-/* Case m = 0: one facet only, its second ray left out, holds the first ray. */
+/* Case m = 0: only one facet, its second ray excluded, contains the first ray. */
 static int flat_fan_winds_once(const convex_mesh *m, fan_place start, uint32_t size)
 {
     const double *v = corner_position(m, start.facet, start.corner);
@@ -196,8 +196,8 @@ static int flat_fan_winds_once(const convex_mesh *m, fan_place start, uint32_t s
     return held == 1;
 }
 
-/* Passes the chain that starts at the crease *p and leaves *p at the next crease. Returns 1 where
-   it spans less than pi, 0 where pi, -1 where more. */
+/* Walks along the chain that starts at the crease *p, and sets *p to the next crease. Returns 1 if
+   the chain spans less than pi, 0 if it spans pi, -1 if it spans more. */
 static int chain_span(const convex_mesh *m, fan_place *p, uint32_t size)
 {
     const double *v = corner_position(m, p->facet, p->corner);
@@ -239,7 +239,7 @@ static int creased_fan_is_convex(const convex_mesh *m, fan_place start, uint32_t
     return 1;
 }
 
-/* Condition 4, and the second half of 2, at the point of `start`, on which `size` facets stand. */
+/* Condition 4, and the second half of 2, at the point of `start`, which `size` facets share. */
 static int fan_is_convex(const convex_mesh *m, fan_place start, uint32_t size)
 {
     uint32_t creases = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Numbering distinct names, over a list and text that the caller keeps. Two names are one where
-   their UTF-8 texts are. */
+/* Numbers distinct names. The caller owns the list and the text. Two names are equal if and only if
+   their UTF-8 texts are equal. */
 #include "mesh/distinct.h"
 
 #include "base/text.h"

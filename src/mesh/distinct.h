@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Distinct names as a file brings them, numbered in order of appearance. */
+/* The distinct names in a file, numbered in order of appearance. */
 #ifndef LRCSI_DISTINCT_H
 #define LRCSI_DISTINCT_H
 
@@ -15,8 +15,8 @@ typedef struct lrcsi_distinct {
 int lrcsi_distinct_make(const char **name, uint32_t most, lrcs_work *work,
                         lrcsi_distinct *distinct);
 
-/* The number of a name. One whose UTF-8 text (lrcsi_text_utf8) is new is written to *text, which
-   moves behind it, and takes the next number. */
+/* The number of a name. One whose UTF-8 text (lrcsi_text_utf8) is new is written to *text, which is
+   advanced past it, and gets the next number. */
 uint32_t lrcsi_distinct_add(lrcsi_distinct *distinct, const char *bytes, size_t size, char **text);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tells the format of a file by its bytes, and where they say nothing by its name. It does not
-   promise that the file can be read. */
+/* Decides the format of a file from its bytes, or from its name if the bytes do not show it. The
+   file may still be unreadable. */
 #include <lrcs/read.h>
 
 #include <string.h>
@@ -9,8 +9,9 @@
 #include "mesh/3ds.h"
 #include "mesh/stl.h"
 
-/* 1 where the bytes start with the root chunk of a 3DS file: its id, and a length either within
-   the file or, in one cut short, followed by the header of a chunk that stands there. */
+/* 1 if the bytes start with the root chunk of a 3DS file: its id, and a length that is either
+   within the file or, in a truncated file, followed by the header of a chunk that may occur
+   there. */
 static int format_is_3ds(const unsigned char *bytes, size_t size)
 {
     if (size < 6 || lrcsi_bytes_u16(bytes) != LRCSI_TDS_ROOT) {
@@ -27,7 +28,7 @@ static int format_is_blank(unsigned char byte)
     return byte == ' ' || (byte >= '\t' && byte <= '\r');
 }
 
-/* 1 where the first line that is neither blank nor a comment starts with a word of OBJ. */
+/* 1 if the first line that is neither blank nor a comment starts with a keyword of OBJ. */
 static int format_is_obj(const unsigned char *bytes, size_t size)
 {
     static const char *const word[] = {"v", "vn", "vt", "vp", "f",      "o",
@@ -54,7 +55,7 @@ static int format_is_obj(const unsigned char *bytes, size_t size)
     return 0;
 }
 
-/* 1 where the name ends so (given in lower case). */
+/* 1 if the name has this ending (given in lower case). */
 static int format_ends(const char *name, const char *ending)
 {
     size_t size = strlen(name);

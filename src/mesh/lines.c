@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Lines, words, names and numbers of OBJ and MTL text. It decides where a statement and its words
-   end and how a failure is told; which words there are, its callers know. */
+   end and how a failure is reported. The keywords are known to its callers only. */
 #include "mesh/lines.h"
 
 #include "base/decimal.h"
@@ -19,7 +19,7 @@ static int is_newline(char c)
     return c == '\n' || c == '\r';
 }
 
-/* Passes over the line ending at `at`, unless the bytes end there. */
+/* Skips the line ending at `at`, unless the bytes end there. */
 static void pass_newline(lrcsi_lines *lines)
 {
     if (lines->at < lines->end) {
@@ -120,7 +120,7 @@ int lrcsi_lines_fail(lrcsi_lines *lines, int status, const char *item, const cha
     return lrcsi_where_text(where, status, offset, line, item, expected, found, size);
 }
 
-/* Of a word: "nan", "-inf" and their like, as printf and others write them. */
+/* 1 if a word is "nan", "-inf" or similar, as printf and others write them. */
 static int is_non_finite_word(const lrcsi_lines *lines)
 {
     const char *at = lines->at;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Wavefront MTL: colour (Kd) and transparency (d, Tr) of the materials that an OBJ file uses.
-   All else a library says (shading, textures) has no meaning here and is passed over. The bytes
-   are walked twice: once to see that they are right, once to write. */
+/* Wavefront MTL: colour (Kd) and transparency (d, Tr) of the materials that an OBJ file uses. All
+   other statements of a library (shading, textures) have no meaning here and are skipped. The bytes
+   are read twice: once to check them, once to write the materials. */
 #include "base/text.h"
 #include "base/where.h"
 #include "mesh/lines.h"
@@ -20,11 +20,11 @@ typedef struct mtl_walk {
     lrcs_where *where;
     lrcs_mesh *mesh;       /* NULL while the bytes are only checked */
     lrcs_surface *current; /* NULL: none yet, or one that the mesh does not use */
-    uint32_t next;         /* where to look first: libraries tend to keep the order of use */
+    uint32_t next;         /* where the search begins: libraries tend to keep the order of use */
     int has_d;             /* `d` was given: `Tr` no longer counts */
 } mtl_walk;
 
-/* 1 where lrcsi_text_utf8 would make `name` of these bytes. */
+/* 1 if lrcsi_text_utf8 turns these bytes into `name`. */
 static int name_matches(const char *bytes, size_t size, const char *name)
 {
     int utf8 = lrcsi_text_is_utf8(bytes, size);
@@ -64,7 +64,7 @@ static double clamp_unit(double x)
     return x < 0.0 ? 0.0 : x > 1.0 ? 1.0 : x;
 }
 
-/* "Kd r g b", or "Kd r" for a grey; a spectral curve or CIE XYZ is left alone. */
+/* "Kd r g b", or "Kd r" for a grey; a spectral curve or CIE XYZ is ignored. */
 static int read_diffuse(mtl_walk *w)
 {
     lrcsi_lines from = w->lines;
@@ -94,8 +94,8 @@ static int read_diffuse(mtl_walk *w)
     return LRCS_OK;
 }
 
-/* "d x", "d -halo x", "Tr x": transparency is 1 - d, or Tr. Where a material has both, d counts:
-   exporters do not agree on the sense of Tr. */
+/* "d x", "d -halo x", "Tr x": transparency is 1 - d, or Tr. If a material has both, d is used,
+   because exporters do not agree on the sense of Tr. */
 static int read_transparency(mtl_walk *w, int is_d)
 {
     lrcsi_lines from = w->lines;

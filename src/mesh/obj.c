@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Wavefront OBJ. One walk over the statements serves both calls: it counts, and where it has a
-   mesh to fill it stores as well. lrcs_obj_read counts first, so what fails, fails before
-   anything is taken. It decides what facets, parts and materials a file holds; the material
-   library is a file of its own (mtl.c). */
+/* Wavefront OBJ. The same pass over the statements serves both calls: it counts, and if it is given
+   a mesh to fill, it also stores. lrcs_obj_read counts first, so any failure occurs before memory
+   is allocated. It decides what facets, parts and materials a file holds; the material library is
+   another file, read by mtl.c. */
 #include "base/text.h"
 #include "base/where.h"
 #include "base/work.h"
@@ -32,11 +32,11 @@ typedef struct obj_walk {
     lrcs_where *where;
     lrcs_mesh_counts counts;
     uint32_t vertex_limit, normal_limit; /* positive indices are at most this */
-    uint32_t vertex_most, normal_most;   /* the largest positive index met */
+    uint32_t vertex_most, normal_most;   /* the largest positive index so far */
     uint32_t notices;
     uint32_t smooth;
     obj_name part, material, library;
-    /* Only where a mesh is filled. */
+    /* Only if a mesh is filled. */
     lrcs_mesh *mesh;
     lrcsi_distinct parts, materials;
     char *text;
@@ -53,7 +53,7 @@ static void set_name(obj_walk *w, obj_name *name)
     name->pending = 1;
 }
 
-/* Bytes of text a name takes, and the notice where it is not UTF-8. */
+/* The bytes of text that a name takes; adds a notice if it is not UTF-8. */
 static size_t name_text(obj_walk *w, const obj_name *name)
 {
     if (!lrcsi_text_is_utf8(name->bytes, name->size)) {
@@ -146,7 +146,8 @@ static int read_point(obj_walk *w, const char *item, lrcs_point *points, uint32_
     return LRCS_OK;
 }
 
-/* An integer at `at`, saturated far beyond any index. Returns what follows, NULL where none is. */
+/* An integer at `at`, saturated far beyond any index. Returns the end of it, or NULL if there is
+   none. */
 static const char *read_integer(const char *at, const char *end, int64_t *value)
 {
     int negative = at < end && *at == '-';
@@ -162,8 +163,8 @@ static const char *read_integer(const char *at, const char *end, int64_t *value)
     return at;
 }
 
-/* The indices of "v", "v/t", "v//n" or "v/t/n", those that are missing left alone. Returns 0 where
-   the word is none of these. */
+/* The indices of "v", "v/t", "v//n" or "v/t/n", those that are missing are not changed. Returns 0
+   if the word has none of these forms. */
 static int parse_corner(const char *word, size_t size, int64_t index[3])
 {
     const char *end = word + size;
@@ -175,7 +176,8 @@ static int parse_corner(const char *word, size_t size, int64_t index[3])
     return at == end;
 }
 
-/* From an index that the file gives to a place in a list of `count` so far. 0: there is none. */
+/* Converts an index in the file to one in a list that has `count` items so far. Returns 0 if there
+   is no such item. */
 static int resolve(int64_t index, uint32_t count, uint32_t limit, uint32_t *most, uint32_t *place)
 {
     if (index == 0 || index > limit || -index > (int64_t)count) {
@@ -215,7 +217,7 @@ static int read_corner(obj_walk *w, uint32_t *corner, uint32_t *normal)
     return LRCS_OK;
 }
 
-/* A polygon, fanned from its first vertex as its corners come. */
+/* Reads a polygon as a fan of facets around its first vertex. */
 static int read_face(obj_walk *w)
 {
     lrcs_facet corner = {{0, 0, 0}};
@@ -256,8 +258,8 @@ static int read_smooth(obj_walk *w)
     return LRCS_OK;
 }
 
-/* The first file that `mtllib` names. It ends with ".mtl", so that names may have blanks and
-   several may stand in the line, or else with the line. */
+/* The first file that `mtllib` names. The name ends at ".mtl", so that it may contain blanks and
+   the line may hold several names; without ".mtl" it ends with the line. */
 static void read_library(obj_walk *w)
 {
     if (w->library.size > 0) {
@@ -349,7 +351,7 @@ int lrcs_obj_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrc
     return status;
 }
 
-/* The mesh's blocks, and for as long as it is read the tables of names. */
+/* The mesh's blocks and, only while it is read, the tables of names. */
 static int obj_take(obj_walk *w, const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh,
                     size_t *kept)
 {
@@ -368,7 +370,7 @@ static int obj_take(obj_walk *w, const lrcs_mesh_counts *counts, lrcs_work *work
     return status;
 }
 
-/* Closes the mesh: names, and the numbers of what proved distinct. */
+/* Completes the mesh: names, and the numbers of distinct materials and parts. */
 static void obj_finish(obj_walk *w)
 {
     lrcs_mesh *mesh = w->mesh;

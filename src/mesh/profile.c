@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Bodies of revolution as facets: where the rows of vertices stand, and what can be proved about
-   the facets between them. It makes no mesh (tessellate.c).
+/* Bodies of revolution as facets: the positions of the rows of vertices, and proofs about the
+   facets between them. It makes no mesh (tessellate.c does).
 
    Sectors. Every row is a regular N-gon; with h = pi/N its vertices stand at mu = sqrt(2 h / sin
    2h) times the true radius rho, its sides' middles at kappa = mu cos h times it. The N-gon then
    has exactly the area pi rho^2 of its circle, so that discs, caps and bases are exact.
 
    Rings. Two neighbouring rows are joined by planar trapezoids, one a sector, each cut into two
-   facets. Its patch is the true surface between the two true circles and the two half-planes of
-   the sector; its two facets, being of one plane, share that patch in proportion to their areas.
-   Vector areas (integral of the normal, in the sector's middle plane) of patch and trapezoid:
+   facets. Its patch is the true surface between the two true circles and the two half-planes of the
+   sector; its two facets are coplanar and share that patch in proportion to their areas. Vector
+   areas (integral of the normal, in the sector's middle plane) of patch and trapezoid:
        outward   patch X = 2 sin h  Int rho dz      trapezoid tan h kappa (rho0 + rho1) dz'
        upward    patch V = h (rho0^2 - rho1^2)      trapezoid the same, by the choice of kappa
    Straight walls (cylinder, cone, frustum) keep their height: the trapezoid's outward part is
@@ -53,28 +53,30 @@
 /* D is 1 minus a quotient of sums of positive products: 20 roundings or functions good to 2 units
    reach it, and so A/A' - 1. */
 #define SLACK (64.0 * UNIT)
-/* A paraboloid's slope is kept inside these, which only a radius or a length below 1e-300 of the
-   other can leave: flatter is flat, and no narrower radius can be told from a line. */
+/* A paraboloid's slope is clamped to these limits. It exceeds them only if the radius or the length
+   is below 1e-300 of the other: a flatter one is flat, and a narrower one is indistinguishable from
+   a line. */
 #define SLOPE_LEAST 1e-300
 #define SLOPE_MOST  1e300
-/* Absolute error of a coordinate near the end of double's range, generously. */
+/* A generous bound on the absolute error of a coordinate near the lower end of the range of
+   doubles. */
 #define COARSE 1e-322
-/* Facets blurred beyond this part of themselves get USELESS numbers: finite, for a facet may have
-   no area to multiply them with. */
+/* Facets that rounding changes by more than this fraction of themselves get USELESS numbers. These
+   are finite, because they may be multiplied by a facet area of zero. */
 #define BLUR_MOST 0x1p-6
 #define USELESS   1e300
 /* Rounding of a reach, relative: terms are positive and good to 1e-9 even where 2^24 rings make
    differences of neighbours small. */
 #define REACH_MARGIN (1.0 + 1e-6)
 
-/* A strip's patch and facet: areas and vector areas in any one unit. */
+/* A strip's patch and facet: areas and vector areas, all in the same arbitrary unit. */
 typedef struct profile_strip {
     double area, across, up; /* A, X, V */
     double gain;             /* X' / X */
     double low, high;        /* elevation of the true normal on the lower and the upper circle */
 } profile_strip;
 
-/* Of a profile that has strips. */
+/* For a profile that has strips. */
 static int profile_straight(const lrcsi_profile *profile)
 {
     return profile->kind == LRCS_SHAPE_CYLINDER || profile->kind == LRCS_SHAPE_CONE ||
@@ -172,13 +174,13 @@ static profile_strip strip_make(const lrcsi_profile *profile, uint32_t i)
                                                   : strip_round(profile, i);
 }
 
-/* What rounding does to the facets of strip i: at most so many radians of tilt, and so much of
-   their area. A corner displaced by e tilts its facet by at most e over the altitude that stands
-   on the opposite side, and changes its area by at most that part. Coordinates are good to a
-   relative `e` (straight walls have exact z); all corners of a row share one z. With l the slant
-   height, two corners of a facet lie on a row of radius r, their altitudes at least
-   w l / (w + l), w >= 2 r sin h (r over that: 1/(2 sin h) + r/l), the third's is l. Rows of equal
-   radius have equal x and y, which cancels all but the error along the row. */
+/* The effect of rounding on the facets of strip i: returns an upper bound of their tilt (rad) and
+   of the relative change of their area. A corner displaced by e tilts its facet by at most e over
+   the altitude that stands on the opposite side, and changes its area by at most that fraction.
+   Coordinates are good to a relative `e` (straight walls have exact z); all corners of a row share
+   one z. With l the slant height, two corners of a facet lie on a row of radius r, their altitudes
+   at least w l / (w + l), w >= 2 r sin h (r over that: 1/(2 sin h) + r/l), the third's is l. Rows
+   of equal radius have equal x and y, which cancels all but the error along the row. */
 static double profile_blur(const lrcsi_profile *profile, uint32_t i)
 {
     double below = lrcsi_profile_radius(profile, i);
@@ -207,7 +209,7 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     double across = s.gain * s.across; /* X' */
     double facet = hypot(across, s.up);
     lrcs_curvature c = {0.0, 0.0, 0.0, 0.0};
-    if (!(facet > 0.0)) { /* no area: nothing to err on */
+    if (!(facet > 0.0)) { /* no area: no error */
         return c;
     }
     double nu = atan2(s.up, across);
@@ -308,9 +310,9 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
     return most;
 }
 
-/* The numbers for a facet tilted and resized by rounding. The turn vector changes by at most
-   gamma / sin gamma < 2 times the tilt. A facet that rounding moves by a part of itself has no
-   numbers that mean anything. */
+/* The numbers for a facet tilted and resized by rounding. The turn vector changes by at most gamma
+   / sin gamma < 2 times the tilt. A facet that rounding moves by a large fraction of its own size
+   has no meaningful numbers. */
 lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
 {
     if (!(blur <= BLUR_MOST)) {
@@ -327,11 +329,11 @@ lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
      its angle psi has psi' = C / |w|^2 in 1/k .. k, and psi'' = -2 psi' (w.w')/|w|^2;
      (log|w|)' = (w.w')/|w|^2, at most g = (k - 1/k)/2 in size, so |psi''| <= 2 k g;
      (log|w|)'' = psi'^2 - 1 - ((w.w')/|w|^2)^2, at most 2 h = k^2 - 1 in size.
-   So the turn vector tau, of length t, becomes D tau + r, |D| <= k, |r| <= k g t^2; and |N n| /
-   |N f| = exp(x), |x - q.tau| <= h t^2, |q| <= g, |x| <= G t with G = g + h turn: with E =
-   exp(G turn), |exp(x) - 1 - q.tau| <= (h + G^2 E / 2) t^2 and |exp(x) - 1| <= G E t. Integrated
-   over the patch, per unit of facet, tau gives `bias` and t^2 spread^2. Where G turn exceeds 1,
-   |N n| / |N f| within 1/k .. k serves. */
+   So the turn vector tau, of length t, becomes D tau + r, |D| <= k, |r| <= k g t^2; and |N n| / |N
+   f| = exp(x), |x - q.tau| <= h t^2, |q| <= g, |x| <= G t with G = g + h turn: with E = exp(G
+   turn), |exp(x) - 1 - q.tau| <= (h + G^2 E / 2) t^2 and |exp(x) - 1| <= G E t. Integrated over the
+   patch, per unit of facet, tau gives `bias` and t^2 spread^2. If G turn exceeds 1, |N n| / |N f|
+   within 1/k .. k is used instead. */
 lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, double *uneven)
 {
     double k = fmax(1.0, ratio);
@@ -353,7 +355,8 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
         (k * c->bias + k * (g + G * E) * square) * outward, k * c->spread * sqrt(E) * outward};
 }
 
-/* How far a point of the unit circle goes when its sector becomes a triangle of the N-gon. */
+/* The largest distance by which a point of the unit disc moves when its sector is mapped to a
+   triangle of the N-gon. */
 static double sector_reach(const lrcsi_profile *profile)
 {
     double h = profile->half;
@@ -376,7 +379,7 @@ static double profile_height(const lrcsi_profile *profile, uint32_t i)
     return profile->height * cos(profile_polar(profile, i));
 }
 
-/* By how much rho^2 exceeds r^2 within strip i, at most. */
+/* An upper bound of rho^2 - r^2 within strip i. */
 static double strip_bulge(const lrcsi_profile *profile, uint32_t i)
 {
     double below = lrcsi_profile_radius(profile, i);
@@ -397,10 +400,11 @@ static double strip_bulge(const lrcsi_profile *profile, uint32_t i)
     double cubes = (y1 - y0) * ((y1 + y0) / (q + p)) * (q * q + q * p + p * p);
     double unit = profile->slope > 0.0 ? profile->base / profile->slope : 0.0;
     double rise = cubes / (p * p) * unit;
-    return fmin(whole, rise * rise / 36.0); /* fmin passes over what is no number */
+    return fmin(whole, rise * rise / 36.0); /* fmin ignores a NaN */
 }
 
-/* How far points of strip i go, its rows standing at most `off` off their heights. */
+/* An upper bound of the distance by which points of strip i move, given that its rows are at most
+   `off` off their true heights. */
 static double strip_reach(const lrcsi_profile *profile, uint32_t i, double off)
 {
     double below = lrcsi_profile_radius(profile, i);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Bodies of revolution cut into sectors and rings, and how far their facets stand from the true
-   surface. Every tessellated kind but plate and box is one. */
+/* Bodies of revolution cut into sectors and rings, and the distance of their facets from the true
+   surface. Every tessellated kind except plate and box is a body of revolution. */
 #ifndef LRCSI_PROFILE_H
 #define LRCSI_PROFILE_H
 
 #include <lrcs/shape.h>
 
-/* A body's wall, from the base up. The sphere's is its upper half: the lower mirrors it. */
+/* A body's wall, from the base up. For the sphere it is the upper half; the lower half is its
+   mirror image. */
 typedef struct lrcsi_profile {
     int kind;
     double base, top, height; /* m: radii at z = 0 and at the upper end, and the end's z */
@@ -17,24 +18,26 @@ typedef struct lrcsi_profile {
     double step;              /* rad of meridian between rings; 0 for straight walls */
 } lrcsi_profile;
 
-/* For a shape that lrcs_shape_check accepts, neither plate nor box, and divisions in range. */
+/* Makes the profile of a shape that lrcs_shape_check accepts and that is neither plate nor box, for
+   divisions in range. */
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
 /* True radius of row i, 0 (base) .. strips (upper end), m; exactly 0 at an apex. */
 double lrcsi_profile_radius(const lrcsi_profile *profile, uint32_t i);
 
-/* What row i + 1 of the mesh lies above row i, m. */
+/* The height of row i + 1 of the mesh above row i, m. */
 double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i);
 
 /* The numbers of lrcs_curvature, proved, over all facets of the wall. */
 lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile);
 
-/* The numbers for facets that rounding tilts by at most `blur` rad, and resizes by that part. */
+/* The numbers for facets that rounding tilts by at most `blur` rad, and whose areas it changes by
+   at most that fraction. */
 lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *curvature, double blur);
 
-/* The numbers after a linear map whose largest singular value is `ratio` times its least, which
-   patches and facets go through alike. Returned also: 1 + uneven bounds by how much more it
-   stretches areas at one place of a patch than on average over the facet, or less. */
+/* The numbers after a linear map whose largest singular value is `ratio` times its least, applied
+   to patches and facets alike. Also returned: `uneven`. 1 + uneven bounds the factor by which the
+   map stretches areas at one place of a patch more, or less, than on average over the facet. */
 lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *curvature, double ratio,
                                        double *uneven);
 

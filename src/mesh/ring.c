@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The ring of a point v: the facets v b c that have it, each run so that v comes first. Its spokes
-   are the rays from v through b (where the facet starts) and c (where it ends). Let m be any
+/* The ring of a point v: the facets v b c that contain it, each with its corners listed from v. Its
+   spokes are the rays from v through b (where the facet starts) and c (where it ends). Let m be any
    vector.
 
    Theorem. Suppose that
@@ -11,16 +11,16 @@
       as ends;
    4. if there is such a spoke, some direction is in no sector; if not, some direction is in exactly
       one.
-   Then any two facets of the ring meet in nothing but v and the side that they have in common.
+   Then any two facets of the ring meet only in v and in the side that they have in common.
    Proof. Going round counter-clockwise, the number of sectors above a direction rises by one at a
    start and falls by one at an end (2). If every spoke is both, the number is the same everywhere:
    one (4). If not, it is k + 1 from the spoke that is a start only to the one that is an end only
-   and k beyond, and k = 0 (4). So the insides of sectors do not overlap. Nor are two spokes one
-   ray, seen against m: just before that ray there would be two sectors if both are ends, just after
-   it if both are starts; and a lone start in one ray with the lone end would leave no direction
-   free. So points of two facets that coincide, seen against m, are v or on one spoke that bounds
-   both sectors. m is parallel to neither facet (1): the points are the same where they lie on that
-   spoke, along which both facets have the same side. QED
+   and k beyond, and k = 0 (4). So the insides of sectors do not overlap. Nor do two spokes
+   coincide, seen against m: just before that ray there would be two sectors if both are ends, just
+   after it if both are starts; and a lone start in one ray with the lone end would leave no
+   direction free. So if points of two facets coincide, seen against m, they are v or lie on one
+   spoke that bounds both sectors. m is parallel to neither facet (1): the points are the same where
+   they lie on that spoke, along which both facets have the same side. QED
 
    4 is decided with a line through v: g = m x w for some w. A sector crosses the ray along w, seen
    against m, if it starts with g . (b - v) < 0 and ends with g . (c - v) > 0, and the opposite ray
@@ -45,7 +45,7 @@
 /* 10 u */
 #define RING_FILTER (10.0 * LRCSI_U)
 
-/* The point of a smaller ring is no apex. */
+/* The point of a smaller ring is not an apex. */
 enum { FAN_FACETS = 32 };
 
 /* m's largest component. */
@@ -55,10 +55,10 @@ enum { FAN_FACETS = 32 };
 typedef struct vertex_ring {
     float m[3];             /* sum of the facets' normals, then m */
     uint32_t count;         /* facets */
-    uint32_t start, end;    /* of the spokes that are not both, the last one seen */
+    uint32_t start, end;    /* the last spoke seen that is not both a start and an end */
     unsigned char open;     /* spokes that are starts only; 2 for more */
     unsigned char up, down; /* sectors above the directions w and -w; 2 for more */
-    unsigned char refused;  /* a condition is not met, or not surely */
+    unsigned char refused;  /* a condition is not met, or not proved */
 } vertex_ring;
 
 static void count_one_more(unsigned char *count)
@@ -113,7 +113,7 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
     }
 }
 
-/* Rounds m to whole numbers: what is added and taken away has an ulp of 1. */
+/* Rounds m to integers: the number that is added and subtracted has an ulp of 1. */
 static void round_means(vertex_ring *rings, uint32_t vertex_count)
 {
     const double whole = 0x1.8p52;
@@ -222,8 +222,8 @@ static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const vertex_rin
            lrcsi_exact_turn(vertex[v].x, vertex[r->end].x, vertex[r->start].x, m) > 0;
 }
 
-/* Of a facet's points with many facets the one with the most, a proved one before others; or
-   LRCS_NONE. */
+/* Among a facet's points that many facets share, the one with the most facets, preferring proved
+   ones; or LRCS_NONE. */
 static uint32_t apex_of(const lrcs_facet *facet, const uint32_t *weld, const vertex_ring *rings,
                         const unsigned char *proved)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* It decides which facets stand on the same three points, by sorting; what that means for a report
-   or for the laser others decide. */
+/* It finds, by sorting, which facets have the same three points. It does not decide what that means
+   for a report or for visibility. */
 #include "mesh/same.h"
 
 #include "base/sort.h"

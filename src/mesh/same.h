@@ -7,8 +7,8 @@
 
 #include "mesh/topology.h"
 
-/* The three points of a facet in ascending order, and the parity of the reordering: facets of one
-   place and one parity are wound the same way. */
+/* The three points of a facet in ascending order, and the parity of the reordering: facets in the
+   same place with the same parity have the same winding. */
 typedef struct lrcsi_same_key {
     uint32_t low, middle, high;
     int odd;
@@ -21,9 +21,10 @@ static inline int lrcsi_same_place(const lrcsi_same_key *a, const lrcsi_same_key
     return a->low == b->low && a->middle == b->middle && a->high == b->high;
 }
 
-/* The facets that are not degenerate, those of one place together, by index.
-   Returned: order[*count], where the work area's next block will be: to be read before that is
-   taken. Status: LRCS_OK; LRCS_E_MEMORY. Work: lrcsi_same_need bytes at most. Linear time. */
+/* Lists the facets that are not degenerate; those in the same place are consecutive, by index.
+   Returned: order[*count]. It lies where the next block of the work area will be, so it must be
+   read before that block is allocated. Status: LRCS_OK; LRCS_E_MEMORY. Work: lrcsi_same_need bytes
+   at most. Linear time. */
 size_t lrcsi_same_need(uint32_t facet_count);
 int lrcsi_same_order(const lrcsi_topology *topology, const lrcs_facet *facet, uint32_t facet_count,
                      lrcs_work *work, const uint32_t **order, uint32_t *count);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The kinds of bodies, their names, and which dimensions each must have. It says nothing of how a
-   body is cut into facets (tessellate.c) nor of what it reflects. */
+/* The kinds of bodies, their names, and which dimensions each must have. It does not decide how a
+   body is divided into facets (tessellate.c does), nor what it reflects. */
 #include <lrcs/shape.h>
 
 #include <math.h>
@@ -65,7 +65,7 @@ static int shape_check_one(double value, int used, const char *item, double most
     return LRCS_OK;
 }
 
-/* A cone has its height from just one of two numbers. */
+/* A cone's height is given by exactly one of two numbers. */
 static int shape_check_cone(const lrcs_shape *shape, lrcs_where *where)
 {
     const double radian = LRCSI_PI / 180.0;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Cutting a triangle in space by half-spaces (Sutherland and Hodgman 1974), for areas that bound
-   something from above. It decides nothing exactly. */
+/* Cutting a triangle in space by half-spaces (Sutherland and Hodgman 1974), for upper bounds of
+   areas. It decides nothing exactly. */
 #include "mesh/slice.h"
 
 #include <math.h>
 
 /* Corners of coordinates below 1 come out within some 2^-48, which changes areas by no more than
-   that times the perimeter: of a triangle less high than this, no share of the area is sure; of
-   others it is to within the margin, 3 2^-48 / (SLICE_LOW / 2). */
+   that times the perimeter: for a triangle lower than this no share of the area is certain; for
+   others it is certain to within the margin, 3 2^-48 / (SLICE_LOW / 2). */
 #define SLICE_LOW    1e-7
 #define SLICE_MARGIN (1.0 + 1e-6)
 /* Rounding of the two ends of an extent. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads STL: decides between the binary and the text kind, reads the binary one (a header of 80
-   bytes, a count, then 50 bytes a facet: normal, three corners, a word of no meaning, little-endian
+/* Reads STL: decides whether a file is binary or text, reads the binary kind (a header of 80 bytes,
+   a count, then 50 bytes per facet: normal, three corners, a word without meaning; little-endian
    floats), and welds corners at equal positions into vertices. It trusts the winding; stored
-   normals are only compared with it.
-   Source of the format: 3D Systems, StereoLithography Interface Specification (1989). */
+   normals are only compared with it. Source of the format: 3D Systems, StereoLithography Interface
+   Specification (1989). */
 #include <lrcs/read.h>
 
 #include "mesh/stl.h"
@@ -26,10 +26,10 @@ int lrcsi_stl_is_binary(const unsigned char *bytes, size_t size)
            (size - STL_HEADER) / STL_FACET == lrcsi_bytes_u32(bytes + 80);
 }
 
-/* 1 where the stored normal points against the corners' winding: n . (e x f) < 0 beyond doubt.
-   Each product n_i e_j f_k carries at most 7 roundings (two differences, two products, three
-   sums), so the sum is in error by at most 8 u times the sum of their magnitudes, u = 2^-53.
-   Zero and non-finite normals say nothing. */
+/* 1 if the stored normal is proved to oppose the corners' winding: n . (e x f) < 0. Each product
+   n_i e_j f_k carries at most 7 roundings (two differences, two products, three sums), so the sum
+   is in error by at most 8 u times the sum of their magnitudes, u = 2^-53. Zero and non-finite
+   normals are ignored. */
 static int stl_opposed(double corner[3][3], const double normal[3])
 {
     double sum = 0.0;
@@ -47,8 +47,8 @@ static int stl_opposed(double corner[3][3], const double normal[3])
     return sum < -8.0 * LRCSI_U * size;
 }
 
-/* The vertex at a position, added where it is new. -0 becomes 0, so that equal positions have
-   equal bits. */
+/* The vertex at a position, added if it is new. -0 becomes 0, so that equal positions have equal
+   bits. */
 static uint32_t stl_weld(lrcsi_stl_walk *walk, const double x[3])
 {
     lrcs_mesh *mesh = walk->mesh;
@@ -175,7 +175,7 @@ static void stl_name_part(lrcsi_stl_walk *walk, lrcs_mesh *mesh, char *text)
     }
 }
 
-/* Fills the blocks; the table and the vertices that welding saved are given back. */
+/* Fills the blocks, then releases the table and the unused vertices. */
 static int stl_fill(lrcsi_stl_walk *walk, lrcs_mesh *mesh, lrcs_work *work)
 {
     walk->slots = lrcsi_store_slots(mesh->vertex_count);

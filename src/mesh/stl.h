@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The STL reader's parts: telling the two kinds apart, the text kind, and the sink that both fill.
- */
+/* The STL reader's parts: distinguishing the two kinds, the text kind, and the sink that both
+   fill. */
 #ifndef LRCSI_STL_H
 #define LRCSI_STL_H
 
@@ -21,16 +21,16 @@ typedef struct lrcsi_stl_walk {
     size_t slots;
 } lrcsi_stl_walk;
 
-/* 1 where the bytes are a binary file of exactly the size that its count asks for. No text can be
-   taken for one: its count would be at least 0x09090909, its size over 7 GB. */
+/* 1 if the bytes are a binary file of exactly the size that its count requires. No text is mistaken
+   for one: its count would be at least 0x09090909, its size over 7 GB. */
 int lrcsi_stl_is_binary(const unsigned char *bytes, size_t size);
 
-/* 1 where the bytes start like a text file: "solid" and a line, then "facet", "endsolid", "solid"
-   or nothing; or "facet normal" at once. A binary file may start with "solid" too. */
+/* 1 if the bytes start like a text file: "solid" and a line, then "facet", "endsolid", "solid" or
+   nothing; or "facet normal" at once. A binary file may start with "solid" too. */
 int lrcsi_stl_is_text(const unsigned char *bytes, size_t size);
 
-/* Adds a facet, welding its corners; its numbers are finite, the normal's need not be.
-   Status: LRCS_OK; LRCS_E_LIMIT (which the caller reports). */
+/* Adds a facet, welding its corners; the corners are finite, the normal need not be. Status:
+   LRCS_OK; LRCS_E_LIMIT (which the caller reports). */
 int lrcsi_stl_add(lrcsi_stl_walk *walk, double corner[3][3], const double normal[3]);
 
 /* Reads a text file. Status: LRCS_OK; _SYNTAX, _TRUNCATED, _NUMBER, _LIMIT. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads the text kind of STL: words between white space, in either case of letters, lines ending
-   in LF, CR LF or CR. A solid's name is its line, whatever stands there; "endsolid" may be missing;
-   stored normals need not be numbers (some writers print "nan" for slivers). */
+/* Reads the text kind of STL: words separated by white space, in upper or lower case; lines end
+   with LF, CR LF or CR. A solid's name is the rest of its line, whatever it contains; "endsolid"
+   may be missing; stored normals need not be numbers (some writers print "nan" for slivers). */
 #include "mesh/stl.h"
 
 #include <math.h>
@@ -54,7 +54,7 @@ static size_t stl_word_size(const stl_place *place)
     return end - place->at;
 }
 
-/* 1 where the next word is this one (given in lower case), which is then passed. */
+/* 1 if the next word is this one (given in lower case), which is then consumed. */
 static int stl_take_word(stl_place *place, const char *word)
 {
     stl_skip_space(place);
@@ -77,7 +77,7 @@ static int stl_take_word(stl_place *place, const char *word)
     return 1;
 }
 
-/* The next word as a number: 1, and passed, or 0. */
+/* Reads the next word as a number. Returns 1 and consumes it, or 0. */
 static int stl_take_number(stl_place *place, double *value)
 {
     stl_skip_space(place);
@@ -90,8 +90,8 @@ static int stl_take_number(stl_place *place, double *value)
     return 1;
 }
 
-/* 1 where "facet normal" and a number come next: a file without line breaks goes on like that
-   behind its name, a name does not. */
+/* 1 if "facet normal" and a number come next: a file without line breaks continues like that after
+   the name, but a name does not contain it. */
 static int stl_facet_follows(stl_place place)
 {
     double value;
@@ -99,7 +99,7 @@ static int stl_facet_follows(stl_place place)
            stl_take_number(&place, &value);
 }
 
-/* Passes the rest of a line, as far as it is a name. */
+/* Skips the rest of a line, as far as it is a name. */
 static lrcsi_span stl_take_name(stl_place *place)
 {
     while (!stl_at_line_end(place) && stl_is_space(place->bytes[place->at])) {
@@ -120,15 +120,15 @@ static lrcsi_span stl_take_name(stl_place *place)
     return name;
 }
 
-/* The start of the text, behind a byte order mark. */
+/* The start of the text, after a byte order mark. */
 static stl_place stl_begin(const unsigned char *bytes, size_t size)
 {
     int bom = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0;
     return (stl_place){bytes, size, bom ? 3 : 0, 1};
 }
 
-/* A binary file of fewer than 2^24 facets has a zero among its first 84 bytes, its count's highest:
-   no text has. The words decide for the others. */
+/* A binary file of fewer than 2^24 facets has a zero among its first 84 bytes, the highest byte of
+   its count; a text has none. For other files the words decide. */
 int lrcsi_stl_is_text(const unsigned char *bytes, size_t size)
 {
     stl_place place = stl_begin(bytes, size);
@@ -147,7 +147,7 @@ int lrcsi_stl_is_text(const unsigned char *bytes, size_t size)
            stl_take_word(&place, "endsolid") || stl_take_word(&place, "solid");
 }
 
-/* What was expected is not there. */
+/* Reports that the expected word is missing. */
 static int stl_fail(const lrcsi_stl_walk *walk, const stl_place *place, int status,
                     const char *item, const char *expected)
 {
@@ -156,7 +156,7 @@ static int stl_fail(const lrcsi_stl_walk *walk, const stl_place *place, int stat
                             (const char *)place->bytes + place->at, stl_word_size(place));
 }
 
-/* 1 where the next word begins as printf writes a number that is not finite. */
+/* 1 if the next word begins as printf writes a number that is not finite. */
 static int stl_is_not_finite(stl_place place)
 {
     unsigned char sign = place.at < place.size ? place.bytes[place.at] : 0;
@@ -203,7 +203,7 @@ static int stl_read_normal(const lrcsi_stl_walk *walk, stl_place *place, double 
     return status;
 }
 
-/* A facet, its first word already passed. */
+/* Reads a facet whose first word is already consumed. */
 static int stl_read_text_facet(lrcsi_stl_walk *walk, stl_place *place)
 {
     double normal[3];

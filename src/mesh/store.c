@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Lays a mesh's blocks out in the work area and knows what they and the readers' scratch take. It
-   does not know any format. */
+/* Lays out a mesh's blocks in the work area, and computes the bytes for them and for the readers'
+   scratch. It does not know any format. */
 #include "mesh/store.h"
 
 #include <lrcs/read.h>
@@ -30,7 +30,8 @@ uint64_t lrcsi_store_mix(uint64_t key)
     return key ^ key >> 31;
 }
 
-/* Where there are normals, their blocks, no corner having one yet. 0: no room. */
+/* Allocates the blocks of normals, if there are normals; no corner has one yet. Returns 0 if there
+   is no room. */
 static int store_normals(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh)
 {
     if (counts->normals == 0) {

@@ -5,20 +5,20 @@
 
 #include <lrcs/mesh.h>
 
-/* Takes a mesh's blocks for these counts, the vertices last, so that a reader which welds can give
-   the rest of them back. Materials, parts and facets are cleared: no material (LRCS_NONE), part 0,
-   hard, no normals. `text` is where counts->text_bytes of names may be written.
-   Status: LRCS_OK; LRCS_E_MEMORY (nothing taken). */
+/* Allocates a mesh's blocks for these counts, the vertices last, so that a reader that welds can
+   release the rest of them. Materials, parts and facets are cleared: no material (LRCS_NONE), part
+   0, hard, no normals. `text` is where counts->text_bytes of names may be written. Status: LRCS_OK;
+   LRCS_E_MEMORY (nothing taken). */
 int lrcsi_store_take(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh, char **text);
 
-/* Slots of an open-addressing table for `count` entries: a power of two, at least twice as many
-   (SIZE_MAX where there is none). */
+/* The number of slots of an open-addressing table for `count` entries: a power of two, at least 2
+   count (SIZE_MAX if there is none). */
 size_t lrcsi_store_slots(size_t count);
 
 /* Spreads 64 bits over all of them: an entry's first slot is lrcsi_store_mix(key) & (slots - 1). */
 uint64_t lrcsi_store_mix(uint64_t key);
 
-/* Where a name's bytes lie in the input. */
+/* The position of a name's bytes in the input. */
 typedef struct lrcsi_span {
     size_t at, size;
 } lrcsi_span;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A shape's facet mesh, row by row from the base up. Where rows stand and how well they serve is
-   decided in profile.c; this file places vertices and joins them. Azimuths are exact fractions of
-   a turn, folded to an eighth of it, so that the mesh has the exact symmetry of its polygon. */
+/* A shape's facet mesh, row by row from the base up. profile.c decides the positions of the rows
+   and proves their errors; this file places vertices and joins them. Azimuths are exact fractions
+   of a turn, folded to an eighth of it, so that the mesh has the exact symmetry of its polygon. */
 #include "mesh/tessellate.h"
 
 #include <math.h>
@@ -17,12 +17,12 @@
 #define ALONG_MOST  (1u << 24)
 #define WALL_SMOOTH 1u /* smoothing group of a curved wall; flat parts are hard */
 
-/* A disc of many sides is no fan of slivers that all meet in its middle: rings lead there, each
-   with about an eighth of the sides of the one outside it. */
-#define RING_LEAST 64u /* sides from which on a ring is put inside */
+/* A disc of many sides is not a fan of slivers that all meet at its centre. Instead it is divided
+   into rings, each with about an eighth of the sides of the ring outside it. */
+#define RING_LEAST 64u /* a polygon with this many sides or more gets a ring inside */
 #define RINGS_MOST 10
 
-/* A mesh under construction: the row placed last, and which way is up. */
+/* A mesh under construction: the last row placed, and the direction of z. */
 typedef struct row_builder {
     lrcs_mesh *mesh;
     uint32_t first;  /* first vertex of the last row */
@@ -47,7 +47,7 @@ static int shape_has_apex(const lrcs_shape *shape)
     return shape_has_rings(shape) || shape->kind == LRCS_SHAPE_CONE;
 }
 
-/* Discs that ALL adds: one under an apex, two on an open wall. */
+/* The number of discs that ALL adds: one if the wall has an apex, two if it has none. */
 static uint32_t shape_caps(const lrcs_shape *shape)
 {
     if (shape->parts == LRCS_SHAPE_WALL || shape->kind == LRCS_SHAPE_SPHERE ||
@@ -104,7 +104,7 @@ static void mesh_facet(lrcs_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, uint
     mesh->facet_smooth[i] = smooth;
 }
 
-/* A facet a, b, c, counter-clockwise from outside while z is not mirrored. */
+/* Adds a facet a, b, c, counter-clockwise seen from outside if z is not mirrored. */
 static void row_facet(const row_builder *row, uint32_t a, uint32_t b, uint32_t c)
 {
     if (row->mirror > 0.0) {
@@ -114,16 +114,17 @@ static void row_facet(const row_builder *row, uint32_t a, uint32_t b, uint32_t c
     }
 }
 
-/* The corner of a polygon of `few` corners that is nearest to the middle of side k of `many`. */
+/* The corner of a polygon with `few` corners that is nearest to the middle of side k of one with
+   `many`. */
 static uint32_t ring_nearest(uint32_t k, uint32_t many, uint32_t few)
 {
     return (uint32_t)(((2 * (uint64_t)k + 1) * few + many) / (2 * (uint64_t)many)) % few;
 }
 
-/* Joins the last row to one with fewer corners, or with more: each side of the longer row goes to
-   the nearest corner of the shorter. Of two polygons about one centre, the shorter one inside, the
-   facets do not overlap: a side's ends lie, seen from the centre, between that corner and one of
-   its neighbours, so that they are beyond the side that joins those two. */
+/* Joins the last row to one with fewer or more corners: each side of the longer row is joined to
+   the nearest corner of the shorter one. Of two polygons about one centre, the shorter one inside,
+   the facets do not overlap: a side's ends lie, seen from the centre, between that corner and one
+   of its neighbours, so that they are beyond the side that joins those two. */
 static void row_zip(const row_builder *row, uint32_t first, uint32_t count)
 {
     int inward = row->count > count;
@@ -183,8 +184,9 @@ static void row_add(row_builder *row, double r, double z, uint32_t count)
     row->count = count;
 }
 
-/* The rings inside a polygon of `around` sides, the widest first: their corners, and their radii as
-   parts of the polygon's. A ring is half as wide as its own sides are long. Returns how many. */
+/* The rings inside a polygon of `around` sides, the widest first: their numbers of corners, and
+   their radii as fractions of the polygon's. A ring is half as wide as its own sides are long.
+   Returns the number of rings. */
 static int list_rings(uint32_t around, uint32_t corners[RINGS_MOST], double radius[RINGS_MOST])
 {
     int rings = 0;
@@ -198,7 +200,7 @@ static int list_rings(uint32_t around, uint32_t corners[RINGS_MOST], double radi
     return rings;
 }
 
-/* From the row placed last, a polygon of radius r, to a point in its middle. */
+/* Fills the disc from the last row, a polygon of radius r, to its centre. */
 static void disc_close(row_builder *row, double r, double z)
 {
     uint32_t corners[RINGS_MOST];
@@ -210,8 +212,7 @@ static void disc_close(row_builder *row, double r, double z)
     row_add(row, 0.0, z, 1);
 }
 
-/* The same from the point out to a polygon of `around` corners, which is the row placed last
-   then. */
+/* The same from the centre out to a polygon of `around` corners, which is then the last row. */
 static void disc_open(row_builder *row, double r, double z, uint32_t around)
 {
     uint32_t corners[RINGS_MOST];
@@ -223,7 +224,7 @@ static void disc_open(row_builder *row, double r, double z, uint32_t around)
     row_add(row, r, z, around);
 }
 
-/* Rows 1 .. strips of the wall above the row placed last, at z = 0. */
+/* Adds rows 1 .. strips of the wall above the last row, which is at z = 0. */
 static double wall_add(row_builder *row, const lrcsi_profile *profile, int apex)
 {
     uint32_t around = row->count;
@@ -292,8 +293,8 @@ static void make_box(const double size[3], lrcs_mesh *mesh)
     }
 }
 
-/* Vertices inside a disc's rim, and its facets: each ring adds as many as its two rows have
-   corners, the middle as many as the last row. */
+/* Vertices inside a disc's rim, and its facets: each ring adds as many facets as its two rows have
+   corners, the centre as many as the last row. */
 static void disc_counts(uint32_t around, uint64_t *vertices, uint64_t *facets)
 {
     uint32_t corners[RINGS_MOST];
@@ -374,7 +375,7 @@ double lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *div
     return lrcsi_profile_reach(&profile);
 }
 
-/* Room for the mesh, empty; 0 where there is none. */
+/* Allocates an empty mesh; returns 0 if there is no room. */
 static int mesh_take(const lrcs_mesh_counts *counts, const char *name, lrcs_work *work,
                      lrcs_mesh *mesh)
 {

@@ -5,16 +5,17 @@
 
 #include <lrcs/shape.h>
 
-/* 1 where the divisions suit the shape and its mesh has at most 2^32 - 2 vertices and facets. */
+/* 1 if the divisions are valid for the shape and its mesh has at most 2^32 - 2 vertices and
+   facets. */
 int lrcsi_tessellate_fits(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
-/* What the mesh will hold, for divisions that fit. */
+/* The counts of the mesh, for valid divisions. */
 lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
 /* The curvature that lrcs_shape_mesh will report. O(along). */
 lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
-/* How far lrcsi_profile_reach says points go; 0 for plate and box. O(along). */
+/* The distance of lrcsi_profile_reach; 0 for plate and box. O(along). */
 double lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
 #endif

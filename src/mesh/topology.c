@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Welds points, marks degenerate facets and groups sides into edges. It decides only what is the
-   same: whether the result is closed, oriented or convex is decided by its readers.
+/* Welds points, marks degenerate facets and groups sides into edges. It decides only which points
+   and edges are the same; its callers decide whether the result is closed, oriented or convex.
 
-   Points are welded in a hash table; where coordinates are such that this takes too many probes,
-   by sorting their bit patterns (radix, stable). Sides go to their lower ends by one counting sort,
-   and are sorted by their upper ends there. Time is linear, but for a logarithm of the number of
+   Points are welded in a hash table; if that takes too many probes, by sorting the bit patterns of
+   coordinates (radix, stable). One counting sort groups sides by their lower ends; within a group
+   they are sorted by their upper ends. Time is linear, except for a logarithm of the number of
    edges at a vertex that has many. */
 #include "mesh/topology.h"
 
@@ -18,7 +18,8 @@
 /* A side is 3 * facet + k, from corner k to the next. */
 enum { SIDES = 3 };
 
-/* Probes a point, on average, before hashing is given up: ordinary meshes take 1.5. */
+/* The average number of probes per point at which hashing is abandoned; ordinary meshes take
+   1.5. */
 #define WELD_PROBES 8u
 
 /* --- points ----------------------------------------------------------------------------------- */
@@ -44,8 +45,8 @@ static size_t weld_scratch(uint32_t vertex_count)
     return sorted > hashed ? sorted : hashed;
 }
 
-/* Names each point by the first at its position: the slots hold those. 0 where the probes that are
-   allowed are spent. */
+/* Represents each point by the first one at its position; the slots hold these representatives.
+   Returns 0 if the allowed number of probes is exceeded. */
 static int weld_hashed(const lrcs_point *vertex, uint32_t count, uint32_t *slot, size_t slots,
                        uint32_t *weld)
 {
@@ -69,7 +70,8 @@ static int weld_hashed(const lrcs_point *vertex, uint32_t count, uint32_t *slot,
     return 1;
 }
 
-/* Sorts vertex indices by position, equal positions by index, and names the first of each. */
+/* Sorts vertex indices by position, equal positions by index; the first of each position represents
+   it. */
 static int weld_sorted(const lrcs_point *vertex, uint32_t count, lrcs_work *work, uint32_t *weld)
 {
     uint64_t *key = lrcsi_work_take(work, count, sizeof *key);
@@ -144,7 +146,7 @@ static void sink_use(lrcsi_edge_use *use, size_t i, size_t n)
     use[i] = sinking;
 }
 
-/* By insertion where they are few, as at most vertices. */
+/* Insertion sort if there are few, as at most vertices; else heap sort. */
 static void sort_uses(lrcsi_edge_use *use, size_t n)
 {
     if (n > 32) {
@@ -174,7 +176,8 @@ static void sort_uses(lrcsi_edge_use *use, size_t n)
 static uint32_t group_sides(const lrcsi_topology *t, uint32_t vertex_count, const lrcs_facet *facet,
                             uint32_t facet_count, uint32_t *place)
 {
-    /* 1. How many sides have their lower end at each vertex; then where those begin. */
+    /* 1. Counts the sides whose lower end is at each vertex; then computes the index where they
+       begin. */
     memset(place, 0, ((size_t)vertex_count + 1) * sizeof *place);
     for (uint32_t f = 0; f < facet_count; f++) {
         const uint32_t *corner = facet[f].corner;
@@ -187,7 +190,7 @@ static uint32_t group_sides(const lrcsi_topology *t, uint32_t vertex_count, cons
     for (uint32_t v = 0; v < vertex_count; v++) {
         place[v + 1] += place[v];
     }
-    /* 2. Sides go there, in order; place[v] is then where those of v end. */
+    /* 2. Stores the sides there, in order; place[v] is then the end of those of v. */
     for (uint32_t f = 0; f < facet_count; f++) {
         const uint32_t *corner = facet[f].corner;
         const uint32_t at[3] = {t->weld[corner[0]], t->weld[corner[1]], t->weld[corner[2]]};
@@ -197,7 +200,7 @@ static uint32_t group_sides(const lrcsi_topology *t, uint32_t vertex_count, cons
             t->use[place[low]++] = (lrcsi_edge_use){SIDES * f + k, at[k] ^ other ^ low};
         }
     }
-    /* 3. Those of each vertex are sorted by their upper ends. */
+    /* 3. Sorts the sides of each vertex by their upper ends. */
     uint32_t edges = 0;
     uint32_t begin = 0;
     for (uint32_t v = 0; v < vertex_count; v++) {
@@ -246,7 +249,7 @@ size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count)
     return lrcsi_work_add(stays, most > edges ? most : edges);
 }
 
-/* Everything but the release on failure. */
+/* lrcsi_topology_make without the release on failure. */
 static int topology_build(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                           uint32_t facet_count, lrcs_work *work, lrcsi_topology *t)
 {

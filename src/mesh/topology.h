@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which facets share which points and edges, by bitwise equal positions (-0 equals 0), whatever
-   the file's own indices say. Degenerate facets (exactly no area) have no place in it. */
+/* Which facets share which points and edges, decided by bitwise equal positions (-0 equals 0) and
+   not by the indices of the file. Degenerate facets (area exactly zero) are left out. */
 #ifndef LRCSI_TOPOLOGY_H
 #define LRCSI_TOPOLOGY_H
 
@@ -8,32 +8,32 @@
 
 /* An undirected edge between two welded points, low < high, and the facets on it. */
 typedef struct lrcsi_edge {
-    uint32_t low, high; /* indices of representative vertices: positions are theirs */
+    uint32_t low, high; /* indices of representative vertices, which have the positions */
     uint32_t first_use; /* into use[] */
-    uint32_t uses;      /* how many facets stand on it */
+    uint32_t uses;      /* number of facets that share it */
 } lrcsi_edge;
 
 /* One facet's side on an edge. */
 typedef struct lrcsi_edge_use {
     uint32_t facet;
-    uint32_t forward; /* 1: the facet runs it from low to high, 0: from high to low */
+    uint32_t forward; /* 1: the facet traverses it from low to high, 0: from high to low */
 } lrcsi_edge_use;
 
 typedef struct lrcsi_topology {
     uint32_t *weld; /* vertex -> representative: the lowest vertex index at that position */
-    unsigned char *degenerate; /* facet -> 1 where it has exactly no area */
+    unsigned char *degenerate; /* facet -> 1 if its area is exactly zero */
     lrcsi_edge *edge;          /* sorted by (low, high) */
     lrcsi_edge_use *use;       /* grouped by edge; within one, by facet */
     lrcs_facet *facet_edge;    /* facet -> its edges (corner[k]: the side from corner k to k + 1);
-                                  LRCS_NONE where it is degenerate */
+                                  LRCS_NONE if it is degenerate */
     uint32_t edge_count;
 } lrcsi_topology;
 
 /* Upper bound of what lrcsi_topology_make takes; what it returns stays in the work area. */
 size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count);
 
-/* Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (3 facet_count above 2^32 - 2). Linear time, but for
-   a logarithm where one vertex has many edges. */
+/* Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (3 facet_count above 2^32 - 2). Linear time, except
+   for a logarithm if one vertex has many edges. */
 int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                         uint32_t facet_count, lrcs_work *work, lrcsi_topology *topology);
 
