@@ -55,8 +55,7 @@ typedef struct report_job {
     report_bytes picture[REPORT_PICTURES][2];
     lrcs_run_options sweep_options;
     lrcs_host_options sweep_load;
-    lrcs_host_scene
-        sweep_scene; /* as coarse as its tolerance allows; empty if that of the run is used */
+    lrcs_host_scene sweep_scene; /* as coarse as its tolerance allows; empty if not needed */
     report_sweep sweep[REPORT_SWEEPS];
     uint64_t peak[REPORT_PEAKS];
     cli_shares peak_shares[REPORT_PEAKS];
