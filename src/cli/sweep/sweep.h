@@ -155,7 +155,7 @@ int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_o
 
 /* Statistics of all rows. */
 typedef struct sweep_tally {
-    uint64_t rows, missed, starved; /* missed: the tolerance; starved: out of memory */
+    uint64_t rows, missed, starved; /* missed: the tolerance; starved: short of memory */
     uint64_t estimated, unjudged;   /* accepted by estimate; accepted without a condition */
     double mean, square, bound;     /* mean of sigma; sum of squared deviations; sum of bounds */
 } sweep_tally;
