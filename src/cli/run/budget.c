@@ -127,11 +127,11 @@ static int rung_scene(run_job *job, int rung)
 }
 
 /* Runs settings, the cheapest first:
-     1. no shadows;
-     2. rasters, and tolerances by the method that suffices; if no tolerance changes anything,
-        clipping instead. The first of them is expected to take as long as the scene took to
-   prepare: rasters come before it as long as they take less. Once it has an answer, rasters of the
-   same mesh cannot improve it. */
+   1. no shadows;
+   2. rasters, and tolerances by the method that suffices; if no tolerance changes anything,
+      clipping instead. The first of them is expected to take as long as the scene took to prepare:
+      rasters come before it as long as they take less. Once it has an answer, rasters of the same
+      mesh cannot improve it. */
 static void settings_run(run_job *job, int rung, int answers)
 {
     const int last = rung == RUNG_NONE ? RUNG_NONE : RUNGS - 1;
