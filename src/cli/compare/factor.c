@@ -5,8 +5,9 @@
 #include <math.h>
 #include <stddef.h>
 
-#define FACTOR_NEAR 0.02 /* a ratio within this share of a known number is taken for that number   \
-                          */
+#define FACTOR_NEAR                                                                                \
+    0.02 /* a ratio within this share of a known number is taken for that number                   \
+          */
 
 typedef struct factor_entry {
     double value;
