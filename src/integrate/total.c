@@ -470,8 +470,8 @@ static void block_run(total_job *job, total_batch *batch)
         job->sums.rounding += count * LRCSI_FACET_UNDERFLOW;
     }
     batch->waiting -= count;
-    memcpy(batch->place, batch->place + LRCSI_LANES, sizeof batch->place / 2);
-    memcpy(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
+    memmove(batch->place, batch->place + LRCSI_LANES, sizeof batch->place / 2);
+    memmove(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
 }
 
 /* Does a facet that is seen from that side show? Of redundant ones another is seen instead. */
