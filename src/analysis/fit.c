@@ -176,11 +176,10 @@ typedef struct fit_job {
     uint32_t starts;
     uint32_t kept;
     lrcsi_fit_parameters whole; /* the best fit of all four parameters */
-    lrcsi_fit_parameters
-        best;      /* the same, or the best fit without a part that is not significant */
-    int absent[2]; /* A or B of the part that is not significant */
-    double error;  /* standard deviation of a weighted residual */
-    double rise;   /* of the sum of squares at the confidence limits */
+    lrcsi_fit_parameters best;  /* that, or the best without an insignificant part */
+    int absent[2];              /* A or B of the part that is not significant */
+    double error;               /* standard deviation of a weighted residual */
+    double rise;                /* of the sum of squares at the confidence limits */
     lrcsi_fit_spread spread;
     double limit[LRCS_FIT_PARAMETERS][2];
 } fit_job;

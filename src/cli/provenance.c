@@ -149,7 +149,7 @@ void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrc
     lrcs_host_json_end(json);
 }
 
-/* Does an option name a file to write? What a result is does not depend on where it goes. */
+/* 1 if an option names a file to write: a result does not depend on where it is written. */
 static int names_output(const cli_command *command, const char *name)
 {
     for (const cli_option *option = command->option; option->name; option++) {

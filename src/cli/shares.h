@@ -19,8 +19,7 @@ typedef struct shares_facet {
     uint32_t facet;
     uint32_t scene_part, scene_material; /* indices in the scene */
     const char *part, *material;
-    double
-        theta_deg; /* angle between the direction to the laser and the normal of the visible side */
+    double theta_deg; /* between the laser and the normal of the visible side */
     double visible_area_m2, sigma_m2, glint_m2;
 } shares_facet;
 
@@ -33,9 +32,11 @@ typedef struct cli_shares {
     uint32_t facets;
 } cli_shares;
 
-/* The shares of a run. Given: scene and records of the run, and its sigma; base, which was read and
-   has the names: the scene itself, or the one that it was varied from. Returned: shares, which the
-   caller frees in any case. 0 or CLI_FAILED with the message printed. */
+/* The shares of a run.
+   Given: scene and records of the run, and its sigma; base, which was read and has the names: the
+   scene itself, or the one that it was varied from.
+   Returned: shares, which the caller frees in any case. 0 or CLI_FAILED with the message printed.
+ */
 int cli_shares_make(const lrcs_host_scene *base, const lrcs_scene *scene,
                     const lrcs_facet_record *records, double sigma_m2, cli_shares *shares);
 void cli_shares_free(cli_shares *shares);

@@ -436,15 +436,21 @@ enum { CLIP_DONE, CLIP_GIVEN_UP, CLIP_NOT_BEGUN };
    which ones are, where that was found. */
 static int run_clip_within(sigma_run *run, const lrcsi_cost *cost, double ns)
 {
-    const sigma_run before = *run;
+    const lrcsi_plan plan = run->plan;
+    const lrcsi_total total = run->total;
+    const uint32_t flags = run->flags;
+    const uint32_t size = run->size;
+    const int undecided = run->undecided;
+    const lrcsi_proximity_band *doubt = run->doubt;
+    const uint64_t most = run->meter.most;
     uint64_t steps = lrcsi_cost_steps(ns);
     uint64_t left = run->meter.most - run->meter.taken;
     size_t mark = run->work->used;
     int result = CLIP_GIVEN_UP;
     run->meter.most = run->meter.taken + (steps < left ? steps : left);
     if (run_classify(run) != LRCS_OK || run->meter.spent) {
-        run->undecided = before.undecided;
-        run->doubt = before.doubt;
+        run->undecided = undecided;
+        run->doubt = doubt;
     } else if (lrcsi_cost_clip(cost, run->classification.undecided_count) > ns) {
         mark = run->work->used;
         result = CLIP_NOT_BEGUN;
@@ -454,14 +460,14 @@ static int run_clip_within(sigma_run *run, const lrcsi_cost *cost, double ns)
         int status = run_exact(run);
         result = status == LRCS_OK && !run->meter.spent ? CLIP_DONE : CLIP_GIVEN_UP;
     }
-    run->meter.most = before.meter.most;
+    run->meter.most = most;
     if (result != CLIP_DONE) {
         run->work->used = mark;
         run->meter.spent = 0;
-        run->plan = before.plan;
-        run->flags = before.flags;
-        run->size = before.size;
-        run->total = before.total;
+        run->plan = plan;
+        run->flags = flags;
+        run->size = size;
+        run->total = total;
     }
     return result;
 }

@@ -354,7 +354,7 @@ typedef struct total_batch {
     int seen;                      /* one that reflects shows */
     uint32_t waiting;              /* places of facets that wait for a block to fill up */
     uint32_t place[2 * LRCSI_LANES];
-    double side[2 * LRCSI_LANES]; /* 1; where back sides reflect, -1 for those */
+    signed char side[2 * LRCSI_LANES]; /* 1; if back sides reflect, -1 for those */
     lrcsi_shades shades;
     double area[LRCSI_LANES]; /* S, then S cos(theta), then of that the visible part */
     double most[LRCSI_LANES]; /* that may be visible; by method facet all of `area`, and unused */
@@ -470,12 +470,12 @@ static void block_run(total_job *job, total_batch *batch)
         job->sums.rounding += count * LRCSI_FACET_UNDERFLOW;
     }
     batch->waiting -= count;
-    memcpy(batch->place, batch->place + LRCSI_LANES, sizeof batch->place / 2);
-    memcpy(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
+    memmove(batch->place, batch->place + LRCSI_LANES, sizeof batch->place / 2);
+    memmove(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
 }
 
 /* Does a facet that is seen from that side show? Of redundant ones another is seen instead. */
-static inline int side_shows(const total_job *job, uint32_t facet, double side)
+static inline int side_shows(const total_job *job, uint32_t facet, int side)
 {
     int most = side > 0 ? LRCSI_REDUNDANT : LRCSI_REDUNDANT_FROM_BEHIND;
     return job->visible ? area_shows(job, facet) : job->view->prepared->redundant[facet] < most;
@@ -484,7 +484,7 @@ static inline int side_shows(const total_job *job, uint32_t facet, double side)
 /* Of places listed, all of facets that reflect, those stay that blocks serve: not those of clear
    shapes, none that is hidden, none with curved normals, which are summed at once. Returns how many
    stay. */
-static uint32_t places_filter(total_job *job, uint32_t *list, uint32_t count, double side)
+static uint32_t places_filter(total_job *job, uint32_t *list, uint32_t count, int side)
 {
     const uint32_t *facet = job->view->prepared->batches.facet;
     uint32_t left = count;
@@ -523,7 +523,7 @@ static uint32_t places_filter(total_job *job, uint32_t *list, uint32_t count, do
 /* Places from `place` on of facets that reflect on the side towards the laser, which is 1, or -1
    for their back: those that are picked and show wait for a block, which is run once it is full. */
 static void batch_add(total_job *job, total_batch *batch, uint32_t place,
-                      const uint64_t pick[LRCSI_LANES], double side)
+                      const uint64_t pick[LRCSI_LANES], int side)
 {
     uint32_t *list = batch->place + batch->waiting;
     uint32_t count = 0;
@@ -535,7 +535,7 @@ static void batch_add(total_job *job, total_batch *batch, uint32_t place,
         count = places_filter(job, list, count, side);
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
-        batch->side[batch->waiting + i] = side;
+        batch->side[batch->waiting + i] = (signed char)side;
     }
     batch->waiting += count;
     batch->seen |= count > 0;
@@ -544,27 +544,35 @@ static void batch_add(total_job *job, total_batch *batch, uint32_t place,
     }
 }
 
+/* The cosine of the incidence at a place. */
+static inline double place_dot(const lrcsi_batches *b, uint32_t at, const double d[3])
+{
+    return lrcsi_view_dot(b->normal[0][at], b->normal[1][at], b->normal[2][at], d);
+}
+
 /* Adds the areas of the back sides picked that show and do not reflect. */
-static void batch_backs(total_job *job, total_batch *batch, uint32_t place, const double *dot,
+static void batch_backs(total_job *job, total_batch *batch, uint32_t place,
                         const uint64_t pick[LRCSI_LANES])
 {
     const lrcsi_batches *b = &job->view->prepared->batches;
-    const double *whole = b->area + place;
-    double area[LRCSI_LANES] = {0};
+    const double *d = job->view->unit;
+    double area[LRCSI_LANES] = {0}; /* projected */
     uint32_t count = 0;
     if (job->visible || b->redundant) {
         for (uint32_t i = 0; i < LRCSI_LANES; i++) {
             if (pick[i] >> 63) {
                 uint32_t facet = b->facet[place + i];
                 if (side_shows(job, facet, -1)) {
-                    area[count] = job->visible ? facet_area(job, facet) : -dot[i] * whole[i];
+                    area[count] = job->visible ? facet_area(job, facet)
+                                               : -place_dot(b, place + i, d) * b->area[place + i];
                 }
                 job->total.back_sides += area[count++] > 0;
             }
         }
     } else {
-        for (int i = 0; i < LRCSI_LANES; i++) {
-            area[i] = lrcsi_bits_masked(-dot[i] * whole[i], ~((pick[i] >> 63) - 1));
+        for (uint32_t i = 0; i < LRCSI_LANES; i++) {
+            uint32_t at = place + i;
+            area[i] = lrcsi_bits_masked(-place_dot(b, at, d) * b->area[at], ~((pick[i] >> 63) - 1));
             count += (uint32_t)(pick[i] >> 63);
         }
         job->total.back_sides += count;
@@ -575,7 +583,6 @@ static void batch_backs(total_job *job, total_batch *batch, uint32_t place, cons
 /* Which of LRCSI_LANES places hold facets that blocks serve, as sign bits: those that show their
    front, and their back, to the laser. */
 typedef struct total_pick {
-    double dot[LRCSI_LANES];
     uint64_t front[LRCSI_LANES], back[LRCSI_LANES];
     uint64_t any_front, any_back, any_other; /* none where the sign bit is clear */
 } total_pick;
@@ -599,7 +606,6 @@ static void places_pick(const total_job *job, const total_batch *batch, uint32_t
         double dot = lrcsi_view_dot(x[i], y[i], z[i], d);
         uint64_t front = lrcsi_bits_of(low - dot) & lrcsi_bits_of(dot - high);
         uint64_t back = lrcsi_bits_of(low + dot) & lrcsi_bits_of(-far - dot);
-        pick->dot[i] = dot;
         pick->front[i] = front;
         pick->back[i] = back;
         fronts |= front;
@@ -631,7 +637,7 @@ static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint3
     } else if (batch->back_reflects && batch->back_shows) {
         batch_add(job, batch, place, pick.back, -1);
     } else if (batch->back_shows) {
-        batch_backs(job, batch, place, pick.dot, pick.back);
+        batch_backs(job, batch, place, pick.back);
     } else if (batch->back_reflects) {
         for (uint32_t i = 0; i < count; i++) {
             job->total.hidden += (uint32_t)(pick.back[i] >> 63);

@@ -5,8 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#define FACTOR_NEAR 0.02 /* a ratio within this share of a known number is taken for that number   \
-                          */
+#define FACTOR_NEAR 0.02 /* a ratio this near to a known number is taken for that number */
 
 typedef struct factor_entry {
     double value;

@@ -61,7 +61,7 @@ static int item_same(uint32_t truth, uint32_t theirs, uint32_t add)
                               : theirs == truth + add;
 }
 
-/* The share of the pixels that are not empty in at least one of the images in which both agree. */
+/* Of the pixels that are not empty in at least one of the images, the share in which both agree. */
 static double images_agree(const items_image *truth, const items_image *theirs,
                            const items_way *way)
 {

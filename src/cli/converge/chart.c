@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs converge as a chart: for each dial what it costs and how true it is, on logarithmic axes.
-   It decides which curves there are and how they look; the host draws them. */
+/* The chart of lrcs converge: for each kind of setting its cost and its error, on logarithmic axes.
+   This file decides which curves there are and how they look; the host draws them. */
 #include "cli/converge/converge.h"
 
 #include <math.h>
 
 #define CHART_SERIES (3 * CONVERGE_DIALS)
 
-/* What is known of a setting, each a curve. */
+/* The quantities of a setting, each a curve. */
 enum chart_quantity { CHART_ERROR, CHART_BOUND, CHART_ESTIMATE };
 
 typedef struct chart_curve {
@@ -39,8 +39,8 @@ static double setting_quantity(const converge_setting *setting, int quantity)
                                      : setting->estimate_m2;
 }
 
-/* Whether a dial has a curve: some value known; an estimate of 0 all along says only that nothing
-   was sampled. */
+/* 1 if a kind of setting has a curve: some value is known. An estimate that is 0 everywhere only
+   means that nothing was sampled. */
 static int curve_known(const converge_job *job, int dial, int quantity)
 {
     for (uint32_t i = 0; i < job->settings; i++) {
@@ -98,8 +98,8 @@ static void curve_add(const converge_job *job, chart_curves *all, int dial, int 
     }
 }
 
-/* The curves of a dial; the upper one has the settings' names. A preview's bound is that of its
-   raster, which is no reason to choose it. */
+/* Adds the curves of a kind of setting; the upper one has the settings' names. A preview has the
+   bound of its raster, which is no reason to choose it. */
 static void dial_add(const converge_job *job, chart_curves *all, int dial)
 {
     int bounds = dial != CONVERGE_PREVIEW && curve_known(job, dial, CHART_BOUND);
@@ -131,7 +131,8 @@ static void short_names(const converge_job *job, chart_curves *all)
     }
 }
 
-/* What the truth itself is not known better than, nor a double: never 0, which the axis lacks. */
+/* The smallest value of the axis: the uncertainty of the truth, or of a double; never 0, which a
+   logarithmic axis cannot show. */
 static double chart_floor(const converge_job *job)
 {
     double floor = cli_converge_relative(job, job->truth.bound_m2);
@@ -141,7 +142,8 @@ static double chart_floor(const converge_job *job)
     return floor > 0.0 ? floor : 1e-16; /* m2 */
 }
 
-/* The scene without its folders; where the truth is from, and the laser. */
+/* The title, the scene without its folders; the note, the origin of the truth and the direction of
+   the laser. */
 static void chart_words(const converge_job *job, char title[256], char note[256])
 {
     const double *d = job->pose.direction;

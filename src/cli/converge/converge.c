@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs converge: what accuracy costs in time, for one scene from one pose. */
+/* lrcs converge: the cost of accuracy in time, for one scene from one pose. */
 #include "cli/converge/converge.h"
 
 #include <string.h>
@@ -93,7 +93,7 @@ static int csv_write(FILE *out, const void *job, lrcs_host_error *error)
     return LRCS_OK;
 }
 
-/* No output may replace a file that the scene was read from. */
+/* Checks that no output would replace a file that the scene was read from. */
 static int files_check(const converge_job *job)
 {
     const cli_args *args = job->args;
@@ -123,7 +123,7 @@ static int files_write(const converge_job *job)
 
 /* ---- the command ---- */
 
-/* The errors against their bounds: one above is a fault of the engine. */
+/* Checks the errors against their bounds: an error above its bound is a fault of the engine. */
 static int settings_check(const converge_job *job)
 {
     int code = CLI_DONE;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs one scene from one pose with every dial at every position, and finds out what is true. It
-   decides which positions there are, how often each is run, and which truth they are held to. */
+/* Runs one scene from one pose with every setting of every dial, and finds the truth. This file
+   decides which settings there are, how often each is run, and with which truth they are
+   compared. */
 #include "cli/converge/converge.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 #define RASTER_LEAST 16u
 #define RASTER_MOST  4096u
 #define BUSY_SHARE   0.8
-#define FACETS_MOST  250000u /* no finer mesh of shapes is kept */
+#define FACETS_MOST  250000u /* meshes of shapes with more facets are not kept */
 #define PREVIEWS     3       /* tolerances 1e-1 .. 1e-3 met by an estimate */
 
 const converge_mesh *cli_converge_finest(const converge_job *job)
@@ -21,15 +22,15 @@ const converge_mesh *cli_converge_finest(const converge_job *job)
 
 /* ---- meshes ---- */
 
-/* Reads the scene with its shapes built for a tolerance, and keeps and prepares it where that is
-   another mesh than the last one and not too large. */
+/* Reads the scene with its shapes built for a tolerance; keeps and prepares it if the mesh differs
+   from the last one and is not too large. */
 static int mesh_read(converge_job *job, int digits)
 {
     lrcs_host_error error;
     converge_mesh *mesh = &job->mesh[job->meshes];
     mesh->digits = digits;
     job->load.build.tolerance = pow(10.0, -digits);
-    job->load.build.facets_only = 1; /* it is their price that is asked for */
+    job->load.build.facets_only = 1; /* the cost of facets is measured */
     int code = cli_scene_read(job->args, &job->load, &mesh->scene);
     if (code != 0) {
         lrcs_host_scene_free(&mesh->scene);
@@ -54,7 +55,7 @@ static int mesh_read(converge_job *job, int digits)
     return 0;
 }
 
-/* Keeps every mesh that differs; where there is but one, no tolerance made it. */
+/* Keeps every mesh that differs; if there is only one, it does not depend on the tolerance. */
 int cli_converge_meshes(converge_job *job)
 {
     int code = mesh_read(job, 1);
@@ -129,8 +130,8 @@ static int setting_add(converge_job *job, int dial, int method, uint32_t resolut
     return setting_run(job, setting);
 }
 
-/* What lrcs run --accept estimate does, on the mesh that it makes; nothing where nothing is hidden,
-   for that is proved. */
+/* Adds what lrcs run --accept estimate does, on the mesh that it makes; nothing if nothing is
+   hidden, because that is proved. */
 static int previews_add(converge_job *job)
 {
     uint32_t mesh = 0;
@@ -153,8 +154,8 @@ static int previews_add(converge_job *job)
     return code;
 }
 
-/* What is enough for a mesh in this pose: facet where the planner proves it, else exact. Where
-   closed forms need no mesh at all, it says so. */
+/* The method that suffices for a mesh in this pose: facet if the planner proves it, else exact.
+   Also returns whether closed forms need no mesh at all. */
 static int method_enough(converge_job *job, uint32_t mesh, int *method, int *closed)
 {
     lrcs_host_error error;
@@ -169,13 +170,13 @@ static int method_enough(converge_job *job, uint32_t mesh, int *method, int *clo
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
-/* Ever finer rasters, until half of the time is gone. */
+/* Adds finer and finer rasters until half of the time is used. */
 static int rasters_add(converge_job *job, uint32_t mesh)
 {
     int code = 0;
     double last = 0.0;
     for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && code == 0; n *= 2) {
-        if (job->spent + last > 0.5 * job->seconds) { /* nor would this one be faster */
+        if (job->spent + last > 0.5 * job->seconds) { /* this one would not be faster */
             size_t used = strlen(job->left_out);
             snprintf(job->left_out + used, sizeof job->left_out - used,
                      "%szbuffer %lu and finer, for time",
@@ -188,7 +189,7 @@ static int rasters_add(converge_job *job, uint32_t mesh)
     return code;
 }
 
-/* Every mesh, by the method that is enough for it; the others on the finest mesh. */
+/* Adds every mesh with the method that suffices for it; the other methods on the finest mesh. */
 static int settings_add(converge_job *job)
 {
     uint32_t finest = job->meshes - 1;
@@ -199,19 +200,19 @@ static int settings_add(converge_job *job)
         code = method_enough(job, i, &method, &closed);
         code = code ? code : setting_add(job, CONVERGE_MESH, method, 0, i);
     }
-    if (code == 0 && method != LRCS_METHOD_FACET) { /* else it is there already */
+    if (code == 0 && method != LRCS_METHOD_FACET) { /* otherwise it has already been added */
         code = setting_add(job, CONVERGE_FACET, LRCS_METHOD_FACET, 0, finest);
     }
     code = code ? code : rasters_add(job, finest);
     code = code ? code : previews_add(job);
-    if (code == 0 && closed) { /* on the coarsest mesh: it is not looked at */
+    if (code == 0 && closed) { /* on the coarsest mesh, which is not used */
         code = setting_add(job, CONVERGE_CLOSED, LRCS_METHOD_CLOSED, 0, 0);
     }
     return code ? code : setting_add(job, CONVERGE_EXACT, LRCS_METHOD_EXACT, 0, finest);
 }
 
-/* Runs settings again in turn, so that what else the machine does falls on all of them alike,
-   while none has had more than its share of the time, or a hundredth of it all. */
+/* Runs settings again in turn, so that other load of the machine affects them all alike, until each
+   has had its share of the time, or a hundredth of the total. */
 static int settings_repeat(converge_job *job)
 {
     double share = fmax((job->seconds - job->spent) / job->settings, 0.01 * job->seconds);
@@ -250,7 +251,7 @@ static void setting_median(converge_setting *setting)
 
 /* ---- the truth ---- */
 
-/* A shape as it stands in its own frame: moved at most. */
+/* 1 if a shape is not rotated or scaled; it may be translated. */
 static int stands_plain(const lrcs_recipe_part *part)
 {
     const lrcs_place plain = lrcs_place_default();
@@ -267,7 +268,7 @@ static int stands_plain(const lrcs_recipe_part *part)
     return !part->joint.used;
 }
 
-/* The closed form of a single shape in a material that reflects from outside only. */
+/* The truth by the closed form of a single shape whose material reflects only outside. */
 static int truth_closed(converge_job *job)
 {
     const lrcs_recipe *recipe = &job->mesh[0].scene.recipe;
@@ -307,9 +308,9 @@ static void truth_exact(converge_job *job)
              (unsigned long)cli_converge_finest(job)->scene.scene.facet_count);
 }
 
-/* Holds each setting to the truth. A bound counts where both are against the true shapes, or
-   where the truth is exact on the same mesh; and such a truth cannot judge its own mesh, which is
-   therefore not listed. */
+/* Compares each setting with the truth. A bound counts if both are against the true shapes, or if
+   the truth is exact on the same mesh; such a truth cannot judge its own mesh, which is therefore
+   not listed. */
 static void settings_judge(converge_job *job, int closed)
 {
     uint32_t kept = 0;
@@ -328,7 +329,7 @@ static void settings_judge(converge_job *job, int closed)
     job->settings = kept;
 }
 
-/* Says so where the runs waited for the processor, for then their times are too long. */
+/* Writes a note if the runs waited for the processor, because their times are then too long. */
 static void busy_note(converge_job *job)
 {
     double waited = 0.0;

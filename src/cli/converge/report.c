@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What lrcs converge says in numbers and words: the table, JSON, CSV, and the sentence that sums
-   them up. It decides what is cheapest: the least pose time among the bounds that suffice. */
+/* The output of lrcs converge in numbers and words: the table, JSON, CSV, and the summary sentence.
+   This file decides which setting is cheapest: the one with the least pose time among those whose
+   bounds suffice. */
 #include "cli/converge/converge.h"
 
 #include <math.h>
@@ -25,7 +26,8 @@ double cli_converge_relative(const converge_job *job, double value_m2)
     return truth > 0.0 ? value_m2 / truth : value_m2;
 }
 
-/* Known and not negative as it is, not known as NaN, which no writer shows as a number. */
+/* A known value is not negative and is unchanged; NaN, which no writer shows as a number, if not
+   known. */
 double cli_converge_known(double value)
 {
     return value >= 0.0 ? value : (double)NAN;
@@ -33,7 +35,7 @@ double cli_converge_known(double value)
 
 /* ---- the sentence ---- */
 
-/* As --tolerance has it: bound <= tolerance * sigma. */
+/* As for --tolerance: bound <= tolerance * sigma. */
 static const converge_setting *setting_cheapest(const converge_job *job, double tolerance)
 {
     const converge_setting *best = NULL;

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs fit as charts: readings beside the fit, and what is left of them. It decides which series
+/* The charts of lrcs fit: readings with the fit, and residuals. This file decides which series
    there are and when an axis is logarithmic; the host draws them. */
 #include "cli/fit/fit.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define CHART_CURVE 400u /* points of a fitted curve */
-#define CHART_RANGE 20.0 /* a fit that spans more is drawn on a logarithmic axis */
-#define CHART_FLOOR 0.2  /* of the least fitted value: what is read below it stands on the floor */
-#define CHART_DEPTH 1e-6 /* of the largest: the floor is not below it */
-#define CHART_EDGE  6.0  /* standard errors: residuals beyond stand there with their number */
+#define CHART_CURVE 400u /* number of points of a fitted curve */
+#define CHART_RANGE 20.0 /* a fit with a larger ratio of values is drawn on a logarithmic axis */
+/* share of the least fitted value: readings below it are drawn on the floor */
+#define CHART_FLOOR 0.2
+#define CHART_DEPTH 1e-6 /* share of the largest value: the floor is not below it */
+#define CHART_EDGE  6.0  /* standard errors: larger residuals are drawn there with their number */
 
 typedef struct chart_points {
     double *x, *y;
     uint32_t count;
 } chart_points;
 
-/* The number of a residual that stands on the edge, "" for the others. */
+/* The label of a residual that is drawn on the edge, "" for the others. */
 typedef struct chart_label {
     char text[16];
 } chart_label;
@@ -32,7 +33,7 @@ static double end_angle(const fit_material *material, int most)
     return angle;
 }
 
-/* The readings, or their residuals, that are kept or that are not. */
+/* Takes the readings, or their residuals, that are kept or that are excluded. */
 static void points_take(const fit_job *job, int residuals, int outlier, chart_points *points)
 {
     const fit_material *material = &job->material[0];
@@ -47,7 +48,7 @@ static void points_take(const fit_job *job, int residuals, int outlier, chart_po
     }
 }
 
-/* The fit over all angles; its part without the glint or without the rest. */
+/* Takes the fit over all angles, or one of its two parts, glint or diffuse. */
 static void curve_take(const fit_job *job, int parts, chart_points *points)
 {
     const fit_material *material = &job->material[0];
@@ -55,7 +56,7 @@ static void curve_take(const fit_job *job, int parts, chart_points *points)
     double first = end_angle(material, 0);
     double last = end_angle(material, 1);
     if (parts != 3 && (brdf.A == 0.0 || brdf.B == 0.0)) {
-        points->count = 0; /* the part is the fit, or nothing */
+        points->count = 0; /* the part equals the fit, or is 0 */
         return;
     }
     brdf.A = parts & 1 ? brdf.A : 0.0;
@@ -125,7 +126,7 @@ static void series_take(const fit_job *job, int residuals, chart_points points[C
     }
 }
 
-/* Residuals beyond the edge come to stand on it. */
+/* Moves residuals beyond the edge onto it. */
 static void edge_take(chart_points *points, chart_label *label, const char **text)
 {
     for (uint32_t i = 0; i < points->count; i++) {
@@ -139,8 +140,8 @@ static void edge_take(chart_points *points, chart_label *label, const char **tex
     }
 }
 
-/* A fit that spans decades has a logarithmic axis, with a floor where readings need one; curves
-   end where they fall below. */
+/* A fit that spans decades has a logarithmic axis, with a floor if readings need one; curves end
+   where they fall below it. */
 static void axis_choose(chart_points points[CHART_SERIES], lrcs_host_chart *chart)
 {
     const chart_points *fit = &points[CHART_FIT];
@@ -189,7 +190,7 @@ static int chart_draw(const fit_job *job, int residuals, int png, FILE *out,
     if (!residuals) {
         axis_choose(points, &chart);
     }
-    for (int i = 0; i < CHART_SERIES; i++) { /* those that have points */
+    for (int i = 0; i < CHART_SERIES; i++) { /* only series that have points */
         lrcs_host_series one = chart_looks[residuals][i];
         one.x = points[i].x;
         one.y = points[i].y;

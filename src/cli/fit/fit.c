@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs fit: a material from measured BRDF against angle. */
+/* lrcs fit: fits a material to measured BRDF against angle. */
 #include "cli/fit/fit.h"
 
 #include <float.h>
@@ -67,7 +67,8 @@ static int is_output(const cli_given *given)
     return is_chart(given) || strcmp(given->name, "csv") == 0;
 }
 
-/* An output that is no chart's name, another output, or the data themselves. */
+/* Checks that a chart's name has a known extension, and that an output is neither another output
+   nor the data. */
 static int output_check(const cli_args *args, int index)
 {
     const cli_given *given = &args->given[index];
@@ -133,7 +134,7 @@ static int fit_read(fit_job *job)
 
 /* ---- materials ---- */
 
-/* The file's name without folders and ending, in memory that the caller frees. */
+/* The file's name without folders and extension; the caller frees it. */
 static char *stem_make(const char *path)
 {
     const char *name = cli_base_name(path);
@@ -147,7 +148,7 @@ static char *stem_make(const char *path)
     return stem;
 }
 
-/* Gives readings without a material the name asked for, or the file's. */
+/* Gives readings without a material the name asked for, or that of the file. */
 static int material_name(fit_job *job)
 {
     lrcs_host_readings *readings = &job->readings;
@@ -184,14 +185,15 @@ static int material_take(const lrcs_host_readings *readings, uint32_t index, fit
     return 0;
 }
 
-/* The error expected of a reading of a kind (lrcs_fit_noise) but for a common factor. */
+/* The expected error of a reading for a kind of errors (lrcs_fit_noise), up to a common factor. */
 static double noise_size(const fit_material *material, int noise, uint32_t i, double most)
 {
     return noise == LRCS_FIT_RELATIVE ? fmax(material->point[i].fitted, 1e-4 * most) : 1.0;
 }
 
-/* The logarithm of the likelihood of all residuals, but for a constant: of errors after Cauchy,
-   whom outliers do not impress. Their width is the likeliest (by expectation and maximisation). */
+/* The logarithm of the likelihood of all residuals, up to a constant, for errors with a Cauchy
+   distribution, on which outliers have little influence. Its width is the likeliest one (by
+   expectation and maximisation). */
 static double noise_likelihood(const fit_material *material, int noise)
 {
     double most = 0.0;
@@ -223,7 +225,7 @@ static int noise_fit(const fit_job *job, int noise, fit_material *material, lrcs
                         material->point);
 }
 
-/* With relative errors and with absolute ones: the likelier fit stays. */
+/* Fits with relative errors and with absolute ones, and keeps the likelier fit. */
 static int noise_choose(const fit_job *job, fit_material *material, lrcs_work *work)
 {
     int status = noise_fit(job, LRCS_FIT_RELATIVE, material, work);
@@ -287,7 +289,7 @@ static int materials_make(fit_job *job)
     return code;
 }
 
-/* What the file holds against what was asked of it. */
+/* Checks the content of the file against the options. */
 static int readings_check(fit_job *job)
 {
     const cli_args *args = job->args;

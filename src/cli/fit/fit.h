@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Fits of materials, between their command and its reports. */
+/* Shared by the files of lrcs fit: the materials and their fits. */
 #ifndef LRCS_CLI_FIT_H
 #define LRCS_CLI_FIT_H
 
 #include "cli/cli.h"
 
-/* One material: its readings, the fit, the readings beside it. */
+/* One material: its readings, the fit, and the value of the fit for each reading. */
 typedef struct fit_material {
     const char *name;
     lrcs_fit_reading *reading;
-    uint32_t *line; /* in the file */
+    uint32_t *line; /* line of each reading in the file */
     lrcs_fit_point *point;
     uint32_t count;
     int noise; /* lrcs_fit_noise */
@@ -19,14 +19,14 @@ typedef struct fit_material {
 typedef struct fit_job {
     const cli_args *args;
     lrcs_fit_options options;
-    int noise_asked; /* or given; else the readings tell which suits them */
-    double panel;    /* reflectance; 0: readings are f_r itself */
+    int noise_asked; /* 1 if given; else the kind that suits the readings is chosen */
+    double panel;    /* reflectance of the reference panel; 0 if readings are f_r itself */
     lrcs_host_readings readings;
     fit_material *material;
     uint32_t materials;
 } fit_job;
 
-/* How many of the four parameters are not determined. */
+/* The number of parameters, of four, that are not determined. */
 int cli_fit_open(const lrcs_fit *fit);
 
 /* The reports: the table or JSON on stdout, CSV, and charts of the fit and of its residuals. */

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* What lrcs fit says in numbers and words: the table with a material line to paste, JSON, and CSV
-   of the residuals. */
+/* The output of lrcs fit in numbers and words: the table with a material line to copy, JSON, and
+   CSV of the residuals. */
 #include "cli/fit/fit.h"
 
 #include <math.h>
 #include <string.h>
 
-#define REPORT_LINES_MOST 12u /* outliers named in the table */
+#define REPORT_LINES_MOST 12u /* number of outliers listed in the table */
 
-/* Parameters trade against each other beyond this correlation. */
+/* Beyond this correlation, parameters can compensate for each other. */
 #define REPORT_TRADE 0.95
 
 static const char *const report_name[LRCS_FIT_PARAMETERS] = {"A", "B", "s", "m"};
@@ -26,7 +26,8 @@ int cli_fit_open(const lrcs_fit *fit)
     return open;
 }
 
-/* The verdict's sentence; where readings do not reach far enough, how far they do. */
+/* The sentence of the verdict; if readings do not reach far enough, it states how far they
+   reach. */
 static report_statement statement_make(const lrcs_fit *fit, int parameter)
 {
     report_statement statement;
@@ -71,7 +72,7 @@ static void outliers_print(const fit_material *material)
     printf("%s%s\n", named < outliers ? ", ..." : "", outliers ? ")" : "");
 }
 
-/* A number right-aligned, or a word for one that there is not. */
+/* Prints a number right-aligned, or a word if there is no number. */
 static void cell_print(double value, int width, const char *none)
 {
     if (value < HUGE_VAL) {
@@ -139,7 +140,8 @@ static void residuals_print(const fit_job *job, const fit_material *material)
     }
 }
 
-/* A name that stands between quotes, of a shell or a scene file; what would end them is '?'. */
+/* Prints a name between quotes, of a shell or a scene file; a character that would end them becomes
+   '?'. */
 static void name_print(const char *name, char quote)
 {
     for (; *name; name++) {
@@ -149,10 +151,11 @@ static void name_print(const char *name, char quote)
     }
 }
 
-/* Below this share of a value its error is not handed on: the value has six digits. */
+/* Below this share of a value its error is not passed on: the value has six digits. */
 #define REPORT_ERROR_LEAST 5e-7
 
-/* The standard error that a scene file gets: 0 where there is none, as for a term left out. */
+/* The standard error that is written for a scene file: 0 if there is none, as for a term left
+   out. */
 static double error_of(const lrcs_fit *fit, int p)
 {
     const lrcs_fit_parameter *one = &fit->parameter[p];
@@ -214,7 +217,7 @@ void cli_fit_table(const fit_job *job)
 
 /* ---- CSV ---- */
 
-/* A text field, quoted only where it must be. */
+/* A text field, quoted only if necessary. */
 static void csv_name(FILE *out, const char *name)
 {
     int quote = strpbrk(name, ",;\"\r\n") != NULL;

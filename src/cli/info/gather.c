@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Looks at all that a scene holds: counts, areas, defects, whether facets serve the glint. It
-   decides what the mesh itself gives notice of. */
+/* Gathers the properties of a scene: counts, areas, defects, whether facets are fine enough for the
+   glint. This file decides which properties of the mesh cause a notice. */
 #include "cli/info/info.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ static int materials_count(cli_info *info)
     return 0;
 }
 
-/* Parts as files and shapes count them. */
+/* The number of parts as files and shapes define them. */
 static uint32_t parts_count(const lrcs_host_scene *scene)
 {
     uint32_t count = 0;
@@ -60,7 +60,7 @@ static int mesh_examine(cli_info *info)
     return status;
 }
 
-/* Looks at a scene that was built from what `base` was read from. */
+/* Gathers the properties of a scene that was built from what `base` was read from. */
 static int info_look(const char *operand, const lrcs_host_scene *base, cli_info *info)
 {
     lrcs_host_error error;
@@ -119,7 +119,7 @@ int cli_coarse_glint(const lrcs_host_scene *base, const lrcs_build_options *buil
         status = lrcs_host_glint_check(&smooth.scene, &all, &found, &error);
     }
     for (uint32_t i = 0; status == LRCS_OK && i < found; i++) {
-        int model = base->scene.part[all[i].part].kind < 0; /* shapes meet the tolerance */
+        int model = base->scene.part[all[i].part].kind < 0; /* shapes already meet the tolerance */
         if (model && all[i].error > INFO_GLINT_WARN) {
             all[used++] = all[i];
         }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs info: what a scene holds, and what is wrong or remarkable in it. */
+/* lrcs info: the content of a scene, and its defects and peculiarities. */
 #include "cli/info/info.h"
 
 #include <string.h>

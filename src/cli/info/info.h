@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* What a scene holds, between the commands that tell it. */
+/* The content of a scene, shared by the commands that report it. */
 #ifndef LRCS_CLI_INFO_H
 #define LRCS_CLI_INFO_H
 
 #include "cli/cli.h"
 
-/* Where the glint error passes this, a run is warned about. */
+/* If the glint error exceeds this, a run prints a warning. */
 #define INFO_GLINT_WARN 1e-2
 
-/* How many sentences cli_info_notice knows, and the room for one. */
+/* The number of sentences of cli_info_notice, and the size of one. */
 #define INFO_NOTICES     4
 #define INFO_NOTICE_SIZE 160
 
@@ -19,34 +19,34 @@ typedef struct info_material {
 
 typedef struct cli_info {
     lrcs_host_scene scene;
-    uint32_t parts; /* as files and shapes count them */
+    uint32_t parts; /* as files and shapes define them */
     lrcs_mesh_report report;
-    info_material *material; /* of each of the scene's */
+    info_material *material; /* for each material of the scene */
     lrcs_host_glint *glint;
     uint32_t glint_count;
 } cli_info;
 
-/* Reads the command's scene with what its files say of normals, and looks at all of it. To be freed
-   in any case. 0 or an exit code with the message printed. */
+/* Reads the command's scene, including the normals in its files, and gathers its properties. The
+   caller frees them in any case. 0 or an exit code with the message printed. */
 int cli_info_read(const cli_args *args, const lrcs_host_options *options, cli_info *info);
 
-/* The same of a scene that has been read, which must outlive the info. */
+/* The same for a scene that has been read, which must outlive the info. */
 int cli_info_make(const cli_args *args, const lrcs_host_scene *base,
                   const lrcs_build_options *build, cli_info *info);
 void cli_info_free(cli_info *info);
 
-/* Curved parts of models whose flat facets are too coarse for their glint, as info finds them:
-   none where normals are curved. The list is the caller's to free. 0 or CLI_FAILED. */
+/* The curved parts of models whose flat facets are too coarse for their glint, as info finds them;
+   none if normals are curved. The caller frees the list. 0 or CLI_FAILED. */
 int cli_coarse_glint(const lrcs_host_scene *base, const lrcs_build_options *build,
                      lrcs_host_glint **list, uint32_t *count);
 
 /* The area of a facet, m2. */
 double cli_facet_area(const lrcs_scene *scene, uint32_t facet);
 
-/* Whether a material is worth a line: the default is not when nothing wears it. */
+/* 1 if a material is listed: the default material is not if it is assigned to no facet. */
 int cli_info_shows(const cli_info *info, uint32_t material);
 
-/* Sentence `i` about the mesh, or NULL; of the glint, the worst only. */
+/* Sentence `i` about the mesh, or NULL; about the glint, only the worst. */
 const char *cli_info_notice(const cli_info *info, int i, char text[INFO_NOTICE_SIZE]);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs plot: what sweeps wrote, drawn again without computing: one file as lrcs sweep --plot draws
-   it, or the curves of several together. It decides which files fit together; sweep/plot.c draws.
- */
+/* lrcs plot: draws the output of sweeps again without computing: one file as lrcs sweep --plot
+   draws it, or the curves of several together. This file decides which files fit together;
+   sweep/plot.c draws. */
 #include "cli/sweep/sweep.h"
 
 #include <stdlib.h>
@@ -47,7 +47,7 @@ typedef struct plot_job {
     int stats;
 } plot_job;
 
-/* No output replaces a file that is read. */
+/* Checks that no output replaces a file that is read. */
 static int outputs_check(const plot_job *job)
 {
     const cli_args *args = job->args;
@@ -66,7 +66,7 @@ static int outputs_check(const plot_job *job)
     return code;
 }
 
-/* Says in what a file differs from the first. */
+/* Reports how a file differs from the first. */
 static void differences_say(const plot_job *job, uint32_t k)
 {
     const sweep_data *first = &job->data[0];
@@ -93,7 +93,8 @@ static void differences_say(const plot_job *job, uint32_t k)
     }
 }
 
-/* Curves of several files: along one axis, no more than there are colours. */
+/* Checks the curves of several files: they need a common axis, and there are no more than
+   colours. */
 static int overlay_check(const plot_job *job)
 {
     const cli_args *args = job->args;
@@ -119,7 +120,7 @@ static int overlay_check(const plot_job *job)
                            (unsigned long long)curves);
 }
 
-/* Legends: titles where all differ, else the names of the files. */
+/* Chooses the texts of the legend: titles if all differ, else the names of the files. */
 static void names_choose(plot_job *job)
 {
     int differ = 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs profile --plot: the density of sigma over range as steps, one a bin, and a pulse's response
-   as a curve. */
+/* lrcs profile --plot: the density of sigma over range as steps, one for each bin, and the response
+   of a pulse as a curve. */
 #include "cli/profile/profile.h"
 
 #include <stdlib.h>

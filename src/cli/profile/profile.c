@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs profile: how much of sigma comes from which range. It reads the options, runs the profile
-   and the pulse, and lists the rows; the core divides sigma among bins. */
+/* lrcs profile: the distribution of sigma over range. This file reads the options, runs the profile
+   and the pulse, and lists the rows; the core assigns sigma to bins. */
 #include "cli/profile/profile.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Bins in a pulse's width, from which its response is computed: the error is 1e-5 of it. */
+/* Bins per pulse width from which its response is computed: the error is 1e-5 of the response. */
 #define PULSE_BINS 256.0
 
-/* A response is listed so many widths beyond the bins: there it is 3e-8 of its peak. */
+/* A response is listed up to this many widths beyond the bins: there it is 3e-8 of its peak. */
 #define PULSE_WIDTHS 2.5
 
 static const char profile_help[] =
@@ -55,7 +55,7 @@ double cli_profile_sigma(const lrcs_profile_bin *bin)
 
 /* ---- options ---- */
 
-/* A length > 0; 0 where it was not given. */
+/* Reads a length > 0; 0 if it was not given. */
 static int length_read(const cli_args *args, const char *name, double *length)
 {
     int code = cli_number(args, name, length);
@@ -103,7 +103,7 @@ static int options_read(profile_job *job)
 
 /* ---- the run ---- */
 
-/* Responses at the centres of all rows, from a profile with finer bins. */
+/* Computes the responses at the centres of all rows, from a profile with finer bins. */
 static int pulse_run(profile_job *job)
 {
     const lrcs_profile *coarse = &job->profile.list;
@@ -131,7 +131,7 @@ static int pulse_run(profile_job *job)
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
-/* The bins, and those beyond them that a pulse reaches. */
+/* Lists the bins, and the rows beyond them that a pulse reaches. */
 static int rows_list(profile_job *job)
 {
     const lrcs_profile *p = &job->profile.list;

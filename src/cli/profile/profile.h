@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* A range profile between its command and its outputs. */
+/* Shared by the files of lrcs profile: the profile and its outputs. */
 #ifndef LRCS_CLI_PROFILE_H
 #define LRCS_CLI_PROFILE_H
 
 #include "cli/cli.h"
 
-/* A row of the tables: a bin, or what a pulse returns beyond all bins. */
+/* A row of the tables: a bin, or the response of a pulse beyond all bins. */
 typedef struct profile_row {
     double near_m, far_m; /* the bin's edges */
     lrcs_profile_bin bin;
@@ -16,8 +16,8 @@ typedef struct profile_job {
     const cli_args *args;
     lrcs_pose pose;
     lrcs_host_options load;
-    double bin_m, fwhm_m; /* fwhm_m: 0: no pulse */
-    double asked;         /* tolerance; 0: none */
+    double bin_m, fwhm_m; /* fwhm_m is 0 if there is no pulse */
+    double asked;         /* tolerance; 0 for none */
     int met;
     const char *csv, *plot;
     lrcs_host_scene scene;
@@ -26,7 +26,7 @@ typedef struct profile_job {
     uint32_t rows;
 } profile_job;
 
-/* Of both terms of the BRDF. */
+/* The sum of both terms of the BRDF. */
 double cli_profile_sigma(const lrcs_profile_bin *bin);
 
 /* The tables on stdout, and CSV and chart as files. */

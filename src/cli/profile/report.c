@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What lrcs profile writes: a table for people, JSON, CSV. */
+/* The output of lrcs profile: a table for people, JSON, CSV. */
 #include "cli/profile/profile.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* More bins than this are left to --csv and --json: the table shows the strongest. */
+/* If there are more bins than this, the table shows only the strongest; --csv and --json contain
+   all of them. */
 #define TABLE_ROWS 40u
 
 static double total_sigma(const profile_job *job)
@@ -148,7 +149,7 @@ static void row_print(const profile_job *job, const profile_row *row)
     putchar('\n');
 }
 
-/* All bins, or of many the strongest. */
+/* Prints all bins, or, if there are many, the strongest. */
 static void rows_print(const profile_job *job)
 {
     profile_row *sorted = calloc((size_t)job->rows + 1, sizeof *sorted);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* How to make all of a report again: the command lines, as a shell takes them. */
+/* The command lines that reproduce all of a report, quoted for a shell. */
 #include "cli/report/report.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* A word as it is, or in single quotes where a shell would take it apart. */
+/* Writes a word as it is, or in single quotes if a shell would split or change it. */
 static void word_quote(FILE *out, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -30,7 +30,7 @@ static int is_one_of(const char *name, const char *const *list)
     return *list != NULL;
 }
 
-/* The options that were given, of those that a list names. */
+/* Adds those of the options in a list that were given. */
 static void given_add(FILE *out, const cli_args *args, const char *const *list)
 {
     for (int i = 0; i < args->given_count; i++) {

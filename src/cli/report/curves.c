@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What a report shows of other directions, and of accuracy: cuts, the map, its peaks and who makes
-   them, error against time. */
+/* The part of a report on other directions and on accuracy: cuts, the map, its peaks and what
+   contributes to them, error against time. */
 #include "cli/report/report.h"
 
 #include <math.h>
 #include <string.h>
 
-#define NAMED_MOST   3u   /* parts or materials told of a peak */
-#define NAMED_ENOUGH 0.95 /* nor more where these are so much of sigma */
+#define NAMED_MOST   3u   /* number of parts or materials named for a peak */
+#define NAMED_ENOUGH 0.95 /* naming stops when the named ones make this share of sigma */
 
 /* ---- what is drawn ---- */
 
@@ -16,7 +16,7 @@ static const double polar_box[4] = {LRCS_HOST_CHART_POLAR_LEFT, LRCS_HOST_CHART_
 static const double chart_box[4] = {0.0, LRCS_HOST_CHART_TITLE, LRCS_HOST_CHART_WIDTH,
                                     LRCS_HOST_CHART_HEIGHT - LRCS_HOST_CHART_TITLE};
 
-/* The brightest and darkest row, and the widest bound, of a sweep. */
+/* The smallest and largest sigma, and the largest bound, of a sweep. */
 static void extremes(const report_sweep *sweep, double *least, double *most, double *bound)
 {
     *least = HUGE_VAL;
@@ -105,7 +105,7 @@ static void map_section(FILE *out, const report_job *job)
 
 /* ---- peaks ---- */
 
-/* The few rows that make most of a peak. */
+/* The few rows that contribute most to a peak. */
 static void most_cell(FILE *out, const cli_shares *shares, const shares_row *row, uint32_t count,
                       const char *nameless)
 {

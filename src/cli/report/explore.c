@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* The interactive page of lrcs report --explore: a body that turns, the map of sigma over all
-   directions, and what is known where the view is. It decides what the page is given: the map as it
-   was computed, and a mesh to look at, which is reduced where the scene has many facets. What is
-   done with that is explore.js. */
+/* The interactive page of lrcs report --explore: a body that can be rotated, the map of sigma over
+   all directions, and the values for the current direction. This file decides what data the page
+   gets: the map as it was computed, and a mesh for display, which is reduced if the scene has many
+   facets. explore.js uses them. */
 #include "cli/report/report.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* More facets than this are reduced: a browser draws so many in a fraction of a second. */
+/* A mesh with more facets than this is reduced: a browser draws this many in a fraction of a
+   second. */
 #define EXPLORE_FACETS 20000u
-#define EXPLORE_GRID   1024.0 /* cells along the box's longest side, to begin with */
+#define EXPLORE_GRID   1024.0 /* initial number of cells along the longest side of the box */
 
 static const char explore_script[] = {
 #include "explore.inc"
@@ -43,7 +44,7 @@ static int cell_order(const void *a, const void *b)
     return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
 }
 
-/* All vertices of a cell become the first of them: place[v] is the one that stands for v. */
+/* Merges all vertices of a cell into the first of them: place[v] replaces v. */
 static void vertices_join(const lrcs_scene *scene, const double least[3], double cell,
                           explore_cell *order, uint32_t *place)
 {
@@ -62,8 +63,8 @@ static void vertices_join(const lrcs_scene *scene, const double least[3], double
     }
 }
 
-/* The facets that are left: seen at all, and with three corners. In `mesh` unless it has no room.
- */
+/* The facets that remain: those that are not left out and still have three different corners.
+   Stores them in `mesh` unless it has no room. */
 static uint32_t facets_keep(const lrcs_scene *scene, const uint32_t *place, explore_mesh *mesh)
 {
     uint32_t used = 0;
@@ -84,7 +85,7 @@ static uint32_t facets_keep(const lrcs_scene *scene, const uint32_t *place, expl
     return used;
 }
 
-/* Numbers the points that facets use from 0. */
+/* Numbers the points that facets use, from 0. */
 static void points_keep(const lrcs_scene *scene, uint32_t *place, explore_mesh *mesh)
 {
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
@@ -137,7 +138,8 @@ static int mesh_reduce(const lrcs_scene *scene, const double least[3], double si
 
 /* ---- as data ---- */
 
-/* "name":"...", the numbers as base64 of their bytes, the lowest first, as browsers keep them. */
+/* Writes "name":"...", the numbers as base64 of their bytes, little-endian, as browsers store
+   them. */
 static void words_put(FILE *out, const char *name, const void *item, size_t count, size_t size)
 {
     unsigned char *bytes = malloc(count * size + 1);

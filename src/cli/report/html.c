@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What pages are made of: sections, facts, tables, figures, numbers. It decides how each is marked
-   up, well-formed as XML too; what stands in them is the sections' own, how they look the style
-   sheet's. */
+/* The elements of pages: sections, facts, tables, figures, numbers. This file decides the markup of
+   each, which is also well-formed XML; the sections decide the content, and the style sheet the
+   appearance. */
 #include "cli/report/report.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PLAIN_BELOW 1e7 /* whole numbers below it need no power of ten */
+#define PLAIN_BELOW 1e7 /* whole numbers below this are written without a power of ten */
 
 /* ---- memory to write to ---- */
 
@@ -54,7 +54,7 @@ void cli_page_name(FILE *out, const char *name, const char *nameless)
     }
 }
 
-/* "-2.5e-06" with a minus sign and a power of ten. */
+/* Writes "-2.5e-06" with a minus sign and a power of ten. */
 static void number_put(FILE *out, const char *text)
 {
     for (; *text && *text != 'e'; text++) {
@@ -169,7 +169,7 @@ void cli_page_table(FILE *out, const char *label, const char *columns)
             "<thead><tr>",
             label);
     for (const char *at = columns; at; at = strchr(at, '|')) {
-        at += at > columns; /* past the bar */
+        at += at > columns; /* past the '|' */
         int number = *at == '#';
         fprintf(out, "<th scope=\"col\"%s>%.*s</th>", number ? " class=\"n\"" : "",
                 (int)strcspn(at, "|") - number, at + number);
@@ -245,14 +245,14 @@ void cli_page_table_end(FILE *out)
 
 /* ---- figures ---- */
 
-/* An attribute's value within a tag's bytes, or where they end. */
+/* The value of an attribute within a tag's bytes, or their end. */
 static const char *svg_after(const char *at, const char *what)
 {
     const char *found = strstr(at, what);
     return found ? found + strlen(what) : at + strlen(at);
 }
 
-/* The drawing's own head gives way to one that says what it shows and which part of it is seen. */
+/* Replaces the head of the drawing by one with a description and the box that is visible. */
 void cli_page_figure(FILE *out, const report_bytes *svg, const char *label, const double box[4])
 {
     const char *body = svg_after(svg_after(svg->bytes, "<svg "), ">");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The page as a whole: its head, what stands first, the way through its sections, its foot. */
+/* The page as a whole: its head, the summary, the navigation between sections, its foot. */
 #include "cli/report/report.h"
 
 #include <math.h>
@@ -33,7 +33,7 @@ static void page_way(FILE *out)
     fputs("</ul></nav>\n", out);
 }
 
-/* sigma and how well it is known, in one breath. */
+/* sigma and its accuracy in one sentence. */
 static void lead_sigma(FILE *out, const report_job *job)
 {
     const lrcs_result *r = &job->result;

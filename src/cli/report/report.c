@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs report: all that is known of a scene from a pose, as one page that needs nothing beside it.
-   It decides what is asked for and in which order it is measured. */
+/* lrcs report: everything about a scene from one pose, as a self-contained page. This file decides
+   what is computed and in which order. */
 #include "cli/report/report.h"
 
 #include <stdlib.h>
@@ -46,8 +46,8 @@ static const cli_option report_options[] = {
     {"explore", 0, 0}, {"help", 0, 0},       {NULL, 0, 0}};
 
 #define REPORT_SECONDS   40.0
-#define REPORT_COMPARE   0.25 /* of the time is for the comparison */
-#define REPORT_TOLERANCE 1e-2 /* of cuts and map */
+#define REPORT_COMPARE   0.25 /* share of the time for the comparison */
+#define REPORT_TOLERANCE 1e-2 /* tolerance of cuts and map */
 #define REPORT_JOBS      1024.0
 
 /* ---- options ---- */
@@ -66,7 +66,7 @@ static int path_read(report_job *job)
     return 0;
 }
 
-/* A step that meets 0, 90, 180 and 270 deg. */
+/* Reads a step that divides 90 deg, so that 0, 90, 180 and 270 deg are included. */
 static int step_read(const cli_args *args, const char *name, uint32_t *step)
 {
     int code = cli_whole(args, name, 1.0, 90.0, step);
@@ -114,8 +114,8 @@ static int report_read(report_job *job)
 
 /* ---- the comparison ---- */
 
-/* What accuracy costs. Of shapes, meshes are compared up to the run's own
-   tolerance; none that would take most of the time for its first run. */
+/* Compares accuracy and cost. Meshes of shapes are compared up to the run's own tolerance; a
+   setting whose first run would take most of the time is left out. */
 static int report_compare(report_job *job)
 {
     converge_job *compare = &job->converge;
@@ -124,7 +124,7 @@ static int report_compare(report_job *job)
                               .pose = job->pose,
                               .load = job->load,
                               .seconds = REPORT_COMPARE * job->seconds};
-    compare->load.build.normals = LRCS_NORMALS_FLAT; /* as lrcs converge has it */
+    compare->load.build.normals = LRCS_NORMALS_FLAT; /* as in lrcs converge */
     compare->digits = 1;
     while (compare->digits < CONVERGE_MESHES && least > 1.5 * job->options.tolerance &&
            (least > 1e-3 || 3.0 * job->pose_s < compare->seconds)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A report between its command, what it measures and its page. */
+/* Shared by the files of lrcs report: the command, its measurements and its page. */
 #ifndef LRCS_CLI_REPORT_H
 #define LRCS_CLI_REPORT_H
 
@@ -9,21 +9,23 @@
 
 #include <lrcs/picture.h>
 
-#define REPORT_PEAKS 6u  /* told of the map */
-#define REPORT_ROWS  40u /* of materials or curved parts; the others are counted */
+#define REPORT_PEAKS 6u /* number of peaks of the map that are listed */
+/* number of materials or curved parts that are listed; the others are counted */
+#define REPORT_ROWS 40u
 
-/* The sweeps that are drawn: three cuts through the axes, and all directions. */
+/* The sweeps that are drawn: three cuts through the axes, and the sphere of all directions. */
 enum report_sweep_kind { REPORT_CUT_XY, REPORT_CUT_XZ, REPORT_CUT_YZ, REPORT_MAP, REPORT_SWEEPS };
 
-/* What the laser sees, coloured by sigma and by material, each on white and on dark. */
+/* What the laser sees, coloured by sigma and by material, each on a white and on a dark
+   background. */
 enum report_picture_kind { REPORT_BY_SIGMA, REPORT_BY_MATERIAL, REPORT_PICTURES };
 
 typedef struct report_bytes {
-    char *bytes; /* NULL: none */
+    char *bytes; /* NULL for none */
     size_t size;
 } report_bytes;
 
-/* A sweep as its own command line says it. */
+/* A sweep as its command line specifies it. */
 typedef struct report_sweep {
     char az[40], el[40];
     cli_given given[6];
@@ -31,15 +33,15 @@ typedef struct report_sweep {
     sweep_plan plan;
     sweep_plot plot;
     double (*row)[2]; /* sigma and bound, m2 */
-    report_bytes svg; /* none where all is dark */
+    report_bytes svg; /* none if sigma is 0 everywhere */
 } report_sweep;
 
 typedef struct report_job {
     const cli_args *args;
     const char *path;
-    double seconds;              /* for sweeps and comparisons, about */
-    uint32_t cut_step, map_step; /* deg; 0: from the time that there is */
-    uint32_t threads;            /* 0: one a processor */
+    double seconds;              /* approximate time for sweeps and comparisons */
+    uint32_t cut_step, map_step; /* deg; 0 if chosen by the available time */
+    uint32_t threads;            /* 0 for one per processor */
     lrcs_pose pose;
     lrcs_run_options options;
     lrcs_host_options load;
@@ -53,65 +55,66 @@ typedef struct report_job {
     report_bytes picture[REPORT_PICTURES][2];
     lrcs_run_options sweep_options;
     lrcs_host_options sweep_load;
-    lrcs_host_scene sweep_scene; /* as coarse as its tolerance; empty: that of the run serves */
+    lrcs_host_scene sweep_scene; /* as coarse as its tolerance allows; empty if not needed */
     report_sweep sweep[REPORT_SWEEPS];
     uint64_t peak[REPORT_PEAKS];
     cli_shares peak_shares[REPORT_PEAKS];
     uint32_t peaks;
     converge_job converge;
     report_bytes chart;
-    report_bytes verdict; /* as lrcs run prints it */
+    report_bytes verdict; /* as printed by lrcs run */
 } report_job;
 
 /* ---- what it measures: 0 or an exit code with the message printed ---- */
 
-/* The run of its scene, with pictures and shares. */
+/* Runs the scene, with pictures and shares. */
 int cli_report_run(report_job *job);
 
-/* The sweeps, their drawings and peaks. */
+/* Computes the sweeps, their drawings and peaks. */
 int cli_report_sweeps(report_job *job);
 
-/* The map alone, in all of the time, of a scene that is prepared. */
+/* Computes the map alone, with all of the time, for a prepared scene. */
 int cli_report_map(report_job *job);
 
-/* Writes into memory: begin, write to the stream, end. NULL and -1 without memory. */
+/* Writes into memory: begin, write to the stream, end. NULL and -1 if out of memory. */
 FILE *cli_report_bytes_begin(report_bytes *bytes);
 int cli_report_bytes_end(FILE *out);
 
 /* ---- the page ---- */
 
-/* All of it: a cli_writer. */
+/* Writes the whole page: a cli_writer. */
 cli_writer cli_report_page;
 
-/* The interactive page: a cli_writer. */
+/* Writes the interactive page: a cli_writer. */
 cli_writer cli_report_explore_page;
 
 /* Its style sheet. */
 void cli_report_style(FILE *out);
 
-/* A section with its heading, and its end. */
+/* Begins a section with its heading; ends it. */
 void cli_page_section(FILE *out, const char *id, const char *title);
 void cli_page_section_end(FILE *out);
 
-/* Text as it is; formatted text, which is escaped; a name, or what stands for none. */
+/* Writes text as it is; formatted text, which is escaped; a name, or a replacement if there is
+   none. */
 void cli_page_text(FILE *out, const char *text);
 __attribute__((format(printf, 2, 3))) void cli_page_say(FILE *out, const char *format, ...);
 void cli_page_name(FILE *out, const char *name, const char *nameless);
 
-/* A number for people, to some digits, with its value for scripts; one that is not finite is a
-   dash. id: NULL for none. Likewise a count. */
+/* Writes a number for people, with some digits, and its full value for scripts; one that is not
+   finite is a dash. id: NULL for none. Likewise a count. */
 void cli_page_number(FILE *out, const char *id, double value, int digits);
-void cli_page_bound(FILE *out, const char *id, double bound, int digits); /* shown no smaller */
+void cli_page_bound(FILE *out, const char *id, double bound, int digits); /* rounded up */
 void cli_page_count(FILE *out, uint64_t value);
 void cli_page_percent(FILE *out, double share);
 
-/* A fact: its name; then comes its value; then its end. */
+/* Begins a fact with its name; its value follows; ends it. */
 void cli_page_fact(FILE *out, const char *name);
 void cli_page_fact_end(FILE *out);
 
-/* A table that scrolls by itself where it is wide: columns as "name|name|#number", where '#' stands
-   before those of numbers; rows, the last of which may be what others add up to; cells: of words,
-   which wrap, unless a number. */
+/* A table that scrolls by itself if it is wide: columns as "name|name|#number", where '#' marks
+   those of numbers; rows, the last of which may be the sum of the others; cells, whose text wraps
+   unless it is a number. */
 void cli_page_table(FILE *out, const char *label, const char *columns);
 void cli_page_row(FILE *out);
 void cli_page_row_others(FILE *out);
@@ -122,20 +125,21 @@ void cli_page_name_cell(FILE *out, const char *name, const char *nameless);
 void cli_page_number_cell(FILE *out, double value, int digits);
 void cli_page_bound_cell(FILE *out, double bound, int digits);
 void cli_page_count_cell(FILE *out, uint64_t value);
-void cli_page_share_cells(FILE *out, double share); /* in percent, and as a bar */
+void cli_page_share_cells(FILE *out, double share); /* a share in percent, and as a bar */
 void cli_page_table_end(FILE *out);
 
-/* A drawing with what it shows in words, of which box of its paper is shown: left, top, width,
-   height; a caption follows, and its end. */
+/* A drawing with a description, showing the given box of it: left, top, width, height; a caption
+   follows; ends it. */
 void cli_page_figure(FILE *out, const report_bytes *svg, const char *label, const double box[4]);
 void cli_page_picture(FILE *out, const report_bytes picture[2], const char *label);
 void cli_page_figure_end(FILE *out);
 
-/* The verdict of lrcs run on the run of the page: gathered, 0 or an exit code; and as markup. */
+/* Computes the verdict of lrcs run for the run of the page, 0 or an exit code; writes it as
+   markup. */
 int cli_report_verdict_make(report_job *job);
 void cli_report_verdict(FILE *out, const report_job *job);
 
-/* What is folded until it is asked for: begins under a title, ends. */
+/* Begins a folded section with its title; ends it. */
 void cli_page_fold(FILE *out, const char *title);
 void cli_page_fold_end(FILE *out);
 

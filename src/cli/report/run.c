@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The run that a report is about: the scene from its pose, with what each facet returns and what
-   the laser sees of it. */
+/* The run of a report: the scene from its pose, with the contribution of each facet and the
+   pictures of what the laser sees. */
 #include "cli/report/report.h"
 
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static int picture_draw(report_job *job, const lrcs_host_picture *picture, repor
     return status == LRCS_OK ? code : cli_failed(&error);
 }
 
-/* One image serves all that need the same side: that of the legend at hand. */
+/* All pictures of the same size share one image: the size that the legend leaves. */
 static int picture_make(report_job *job, int kind)
 {
     lrcs_host_error error;
@@ -44,7 +44,7 @@ static int picture_make(report_job *job, int kind)
         return cli_out_of_memory();
     }
     lrcs_run_options coarse = job->options;
-    coarse.method = LRCS_METHOD_FACET; /* of it only the image counts */
+    coarse.method = LRCS_METHOD_FACET; /* only its image is used */
     if (lrcs_host_scene_run(&job->scene, &job->pose, &coarse, &result, NULL, &job->image, NULL,
                             &error) != LRCS_OK) {
         return cli_failed(&error);
@@ -75,7 +75,7 @@ int cli_report_run(report_job *job)
     if (status != LRCS_OK) {
         return cli_failed(&error);
     }
-    job->options.progress = NULL; /* sweeps have threads */
+    job->options.progress = NULL; /* sweeps run in threads */
     cli_watch_stage("pictures", NULL);
     int code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
                                &job->shares);

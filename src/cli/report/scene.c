@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* What a report says of the scene itself: the model, its materials, and all that was noticed. */
+/* The part of a report on the scene: the model, its materials, and all notices. */
 #include "cli/report/report.h"
 
 #include <math.h>
 #include <string.h>
 
-/* How many rows a table leaves out. */
+/* Writes how many rows a table leaves out. */
 static void more_say(FILE *out, uint32_t more)
 {
     if (more > 0) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a report says of sigma from its pose: the value with its certificate, what was simulated and
-   what was left out, and who makes it. */
+/* The part of a report on sigma from its pose: the value with its certificate, the effects that
+   were simulated and those left out, and what contributes to it. */
 #include "cli/report/report.h"
 
 #include <math.h>

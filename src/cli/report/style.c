@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How the page looks: one column of text, wide things in boxes of their own, light and dark. Charts
-   are drawn on white with few colours, each of which is looked up here in the dark. */
+/* The style of the page: one column of text, wide elements in boxes of their own, light and dark.
+   Charts are drawn on white with few colours; each of these is replaced here for dark mode. */
 #include "cli/report/report.h"
 
 static const char *const style_parts[] = {

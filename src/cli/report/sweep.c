@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The sweeps of a report: three cuts and a map. Each is what a command line of lrcs sweep says, so
-   that the page can name the command that makes it again; how fine they are is decided by the time
-   that there is. */
+/* The sweeps of a report: three cuts and a map. Each is specified as a command line of lrcs sweep,
+   so that the page can state the command that reproduces it; the available time decides their
+   resolution. */
 #include "cli/report/report.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define SWEEP_PART 0.65 /* of the time is for sweeps */
+#define SWEEP_PART 0.65 /* share of the time for sweeps */
 
 /* ---- how fine ---- */
 
@@ -21,7 +21,7 @@ static const struct {
 
 #define SWEEP_STEPS (sizeof sweep_steps / sizeof sweep_steps[0])
 
-/* Directions that differ. */
+/* The number of different directions. */
 static double map_poses(uint32_t map)
 {
     return (360.0 / map) * (180.0 / map - 1.0) + 2.0;
@@ -32,8 +32,8 @@ static double steps_poses(uint32_t cut, uint32_t map)
     return 3.0 * (360.0 / cut) + map_poses(map);
 }
 
-/* The time of a processor that a pose takes in the scene of the sweeps: of the second run, since
-   the first finds out how much memory it needs. */
+/* The processor time of a pose in the scene of the sweeps, measured in the second run, because the
+   first finds out how much memory it needs. */
 static int pose_measure(report_job *job, const lrcs_host_scene *scene, double *seconds)
 {
     lrcs_host_error error;
@@ -49,7 +49,7 @@ static int pose_measure(report_job *job, const lrcs_host_scene *scene, double *s
     return 0;
 }
 
-/* How many poses a time is enough for, about. */
+/* The approximate number of poses that can be computed in a time. */
 static int poses_count(report_job *job, const lrcs_host_scene *scene, double time, double *poses)
 {
     double seconds = 0.0;
@@ -83,7 +83,7 @@ static void word_add(report_sweep *sweep, const char *name, const char *value)
     sweep->given[sweep->args.given_count++] = (cli_given){name, value};
 }
 
-/* Its command line. */
+/* Writes the command line of a sweep. */
 static void words_make(const report_job *job, int kind, report_sweep *sweep)
 {
     unsigned long cut = job->cut_step;
@@ -115,20 +115,20 @@ static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
     code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
     sweep->plot.title = cli_base_name(job->args->operand);
     sweep->plot.open = cli_materials_open(&job->scene.scene);
-    sweep->plot.map = kind == REPORT_MAP; /* however few rows it has */
+    sweep->plot.map = kind == REPORT_MAP; /* even if it has few rows */
     return code;
 }
 
 typedef struct sweep_walk {
     report_sweep *sweep;
-    uint64_t *list; /* rows to be run: one of each direction */
+    uint64_t *list; /* rows to be run: one for each direction */
     uint64_t listed;
     sweep_progress *progress;
-    uint64_t before; /* rows of the sweeps before */
+    uint64_t before; /* number of rows of the sweeps before */
 } sweep_walk;
 
 /* The first row of the same direction: a full turn ends where it began, and at a pole all azimuths
-   are one. */
+   are the same direction. */
 static uint64_t row_first(const sweep_plan *plan, uint64_t row)
 {
     uint64_t els = plan->axis[1].range.count;
@@ -178,7 +178,7 @@ static int walk_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *w
     return 0;
 }
 
-/* Runs each direction once, and gives all rows of it the same. */
+/* Runs each direction once, and gives its result to all its rows. */
 static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
 {
     const sweep_plan *plan = &walk->sweep->plan;
@@ -204,7 +204,7 @@ static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *
     return code;
 }
 
-/* Draws it, unless nothing returns anything anywhere. */
+/* Draws a sweep, unless sigma is 0 everywhere. */
 static int sweep_draw(report_sweep *sweep)
 {
     int dark = 1;
@@ -226,7 +226,7 @@ static int sweep_draw(report_sweep *sweep)
 
 /* ---- all of them ---- */
 
-/* The scene as coarse as its tolerance has it, where shapes depend on that. */
+/* The scene as coarse as its tolerance allows, if shapes depend on that. */
 static int scene_choose(report_job *job, lrcs_host_scene **scene)
 {
     lrcs_host_error error;

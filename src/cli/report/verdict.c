@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What stands first on the page beside sigma: the verdict of lrcs run, in its words. It decides how
-   those lines become markup, not what they say. */
+/* The text beside sigma at the top of the page: the verdict of lrcs run, in its words. This file
+   decides how those lines become markup, not their text. */
 #include "cli/report/report.h"
 #include "cli/run/run.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define VERDICT_INDENT 13u /* where the text of a line stands, after its name */
+#define VERDICT_INDENT 13u /* column of the text of a line, after its name */
 
 int cli_report_verdict_make(report_job *job)
 {
@@ -37,7 +37,7 @@ int cli_report_verdict_make(report_job *job)
     return code;
 }
 
-/* Lines are "name       text"; without a name they go on with the one before. The first is a
+/* Lines are "name       text"; a line without a name continues the previous one. The first is a
    paragraph, the others are a list. */
 void cli_report_verdict(FILE *out, const report_job *job)
 {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --time-budget: the best answer that a time buys. Settings are tried one after another,
-   always the one that is expected to take the least time, as those before it suggest. How long one
-   takes is not known before, so a process of its own runs them and reports every answer; when the
-   time is up the best one counts, and what still runs is stopped. It decides which settings are
-   tried; each is an ordinary run, which the same options give again. */
+/* lrcs run --time-budget: the most accurate answer that can be computed in a given time. Settings
+   are tried one after another, always the one that is expected to take the least time, judging by
+   those before it. Their actual times are not known in advance, so a separate process runs them and
+   reports every answer; when the time is up, the best answer counts, and the running setting is
+   stopped. This file decides which settings are tried; each is an ordinary run, which the same
+   options reproduce. */
 #include "cli/run/run.h"
 
 #include <errno.h>
@@ -14,15 +15,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* A bound above this share of sigma says little: there a likely error decides. */
+/* A bound above this share of sigma says little: beyond it a likely error decides. */
 #define BOUND_TELLS 0.1
 
-/* Tolerances tried, two to a decade: rungs 0 .. 22 are 1e-1, 3e-2, 1e-2, ... 1e-12. */
+/* The tolerances that are tried, two per decade: rungs 0 .. 22 are 1e-1, 3e-2, 1e-2, ... 1e-12. */
 #define RUNGS     23
 #define RUNG_NONE (-1) /* for scenes that no tolerance changes */
 
-/* The rasters that are tried, from cheap to dear; of those accepted by estimate samples are all
-   that is looked at. */
+/* The rasters that are tried, in order of cost; those accepted by estimate evaluate only
+   samples. */
 static const struct {
     uint32_t size;
     int accept;
@@ -33,21 +34,21 @@ static const struct {
 
 #define RASTERS (sizeof rasters / sizeof rasters[0])
 
-/* An answer on its way to the parent. Its reasons are constant texts, at the same place in both
-   processes. */
+/* An answer on its way to the parent process. Its reasons are constant texts, at the same address
+   in both processes. */
 typedef struct budget_answer {
     lrcs_result result;
     int rung;
-    int named;  /* the method was chosen, not found by auto */
-    int sought; /* by a tolerance, or by clipping: of equal answers these count */
-    int accept; /* LRCS_ACCEPT_ESTIMATE: a raster as cheap as drawing it */
+    int named;  /* 1 if the method was specified, not chosen by auto */
+    int sought; /* 1 if found by a tolerance or by clipping; of equal answers these are preferred */
+    int accept; /* LRCS_ACCEPT_ESTIMATE for a raster that costs no more than drawing it */
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
-/* The process that tries settings, and where its answers come from. */
+/* The process that tries settings, and the pipe of its answers. */
 typedef struct budget_runner {
     pid_t process;
-    int end; /* of its pipe; negative: it has ended */
+    int end; /* read end of its pipe; negative if the process has ended */
 } budget_runner;
 
 static const char *rung_text(int rung, char text[16])
@@ -70,7 +71,7 @@ static double rung_tolerance(int rung)
 
 /* ---- in the runner ---- */
 
-/* Runs one setting and reports it, with the seconds that it took; 0, or -1 where nobody listens. */
+/* Runs one setting and reports it with the seconds that it took; 0, or -1 if the pipe is closed. */
 static int setting_run(run_job *job, int rung, int sought, int answers, double *seconds)
 {
     lrcs_host_error error;
@@ -90,8 +91,8 @@ static int setting_run(run_job *job, int rung, int sought, int answers, double *
                : -1;
 }
 
-/* A raster on the mesh at hand; the next one is expected to take as many times longer as it has
-   more pixels in a row, for part of the time goes with the facets. */
+/* Runs a raster on the current mesh. The time of the next one is expected to grow in proportion to
+   its pixels per row, because part of the time depends on the facets. */
 static int raster_run(run_job *job, int rung, size_t i, int answers, double *expected)
 {
     double seconds = 0.0;
@@ -106,8 +107,8 @@ static int raster_run(run_job *job, int rung, size_t i, int answers, double *exp
     return over;
 }
 
-/* Reads the scene with its shapes built for ever finer rungs, from this one on, until it is another
-   than the last one, and prepares it. Returns its rung; RUNGS: there is none. */
+/* Reads the scene with its shapes built for finer and finer rungs, starting with this one, until
+   the mesh differs from the last one, and prepares it. Returns its rung; RUNGS if there is none. */
 static int rung_scene(run_job *job, int rung)
 {
     lrcs_host_error error;
@@ -125,19 +126,19 @@ static int rung_scene(run_job *job, int rung)
     return rung < RUNGS && lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? rung : RUNGS;
 }
 
-/* What is cheapest first:
+/* Runs settings, the cheapest first:
    1. no shadows;
-   2. rasters, and tolerances by whatever method is enough; where no tolerance changes anything,
+   2. rasters, and tolerances by the method that suffices; if no tolerance changes anything,
       clipping instead. The first of them is expected to take as long as the scene took to prepare:
-      rasters go before it as long as they take less. Once it has an answer, rasters of the same
-      mesh have nothing to add. */
+      rasters come before it as long as they take less. Once it has an answer, rasters of the same
+      mesh cannot improve it. */
 static void settings_run(run_job *job, int rung, int answers)
 {
     const int last = rung == RUNG_NONE ? RUNG_NONE : RUNGS - 1;
     const int method = rung == RUNG_NONE ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;
     const int shapes = cli_has_curved_shapes(&job->scene.scene);
     const double first = job->scene.seconds_prepare;
-    double expected = 0.0; /* of the next raster */
+    double expected = 0.0; /* expected time of the next raster */
     size_t raster = 0;
     job->options.method = LRCS_METHOD_FACET;
     int over = setting_run(job, rung, 0, answers, &expected);
@@ -153,7 +154,7 @@ static void settings_run(run_job *job, int rung, int answers)
     }
 }
 
-/* Where there is no room for another process, it has ended before it began. */
+/* Starts the process; if that fails, it counts as ended. */
 static void runner_start(run_job *job, int rung, budget_runner *runner)
 {
     int end[2];
@@ -163,7 +164,7 @@ static void runner_start(run_job *job, int rung, budget_runner *runner)
     }
     runner->process = fork();
     if (runner->process == 0) {
-        signal(SIGINT, SIG_DFL); /* the parent says what a Ctrl-C leaves */
+        signal(SIGINT, SIG_DFL); /* the parent reports what remains after a Ctrl-C */
         close(end[0]);
         settings_run(job, rung, end[1]);
         _exit(0);
@@ -188,9 +189,9 @@ static void runner_stop(budget_runner *runner)
     }
 }
 
-/* What an answer may be off by: its bound, and what curved normals add to it. Where that says
-   little, the likely error of a raster in its place: ranked after every bound that tells, before
-   those that do not. */
+/* The error that an answer may have: its bound, and the contribution of curved normals. If that
+   says little, the likely error of a raster instead, ranked after every informative bound and
+   before the others. */
 static double answer_error(const budget_answer *answer)
 {
     const lrcs_result *r = &answer->result;
@@ -206,21 +207,22 @@ static int answer_beats(const budget_answer *answer, const budget_answer *best)
     return error < least || (error <= least && answer->sought && !best->sought);
 }
 
-/* Milliseconds left for poll: no end where there is no answer yet. */
+/* Milliseconds left, as a time-out for poll: infinite if there is no answer yet. */
 static int time_left(const run_budget *budget)
 {
     double left = budget->asked_ms - 1e3 * (cli_seconds() - budget->start);
     return !budget->answered ? -1 : left > 1e9 ? 1000000000 : left > 0.0 ? (int)ceil(left) : 0;
 }
 
-/* Takes answers until the time is up, none is to come, or one meets the tolerance asked for. */
+/* Receives answers until the time is up, no more are to come, or one meets the tolerance asked
+   for. */
 static void runner_watch(run_job *job, budget_runner *runner, budget_answer *best)
 {
     while (!cli_run_meets(&best->result, job->asked)) {
         struct pollfd wait = {.fd = runner->end, .events = POLLIN};
         int ready = poll(&wait, 1, time_left(&job->budget));
         if (ready < 0 && errno == EINTR) {
-            continue; /* the watch */
+            continue; /* interrupted by the signal of the watch */
         }
         budget_answer answer;
         if (ready <= 0 || read(runner->end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
@@ -267,7 +269,7 @@ int cli_run_budget_read(run_job *job)
     return 0;
 }
 
-/* Makes the run's settings those of the answer, and its scene the one that they give. */
+/* Sets the run's options to those of the answer, and its scene to the one that they lead to. */
 static int budget_settle(run_job *job, const budget_answer *best)
 {
     char *same = job->budget.same;
@@ -323,7 +325,7 @@ int cli_run_budget(run_job *job)
         return cli_failed(&error);
     }
     cli_watch_stage("trying settings", NULL);
-    fflush(NULL); /* or both would write what is buffered */
+    fflush(NULL); /* otherwise both processes would write the buffered output */
     runner_start(job, rung, &runner);
     if (runner.end >= 0) {
         runner_watch(job, &runner, &best);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --precision, --depth-bits: what graphics hardware gives, and why it differs from the
-   reference. The answer is emulated; its bound is proved by the reference beside it, which it
-   cannot be farther from than both are seen to be apart. */
+/* lrcs run --precision, --depth-bits: the result of graphics hardware, and why it differs from the
+   reference. The answer is emulated; its bound is proved by the reference: the bound is the
+   reference's own plus the difference between the two. */
 #include "cli/run/run.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #define DEPTHS 3
 
-/* Neither a method that draws nothing nor outputs that show another answer go with it. */
+/* Rejects methods that draw nothing and outputs that would show another answer. */
 static int emulation_alone(const run_job *job)
 {
     static const char *const clash[] = {"image",  "polygons", "explain", "time-budget",
@@ -76,13 +76,13 @@ int cli_run_emulation_read(run_job *job)
 }
 
 /* |emulated - truth| <= |emulated - reference| + |reference - truth|, rounded outward: the
-   difference and the sum are good to u each, 2^-53. */
+   difference and the sum have relative errors of u each, 2^-53. */
 static double proved_bound(double emulated, const lrcs_result *reference)
 {
     return (fabs(emulated - reference->sigma_m2) + reference->bound_m2) * (1.0 + 0x1p-50);
 }
 
-/* Makes a reference's result that of the emulation, as far as they differ. */
+/* Replaces those members of a reference's result in which the emulation differs. */
 static void result_replace(run_job *job)
 {
     const run_emulation *e = &job->emulation;
@@ -171,7 +171,7 @@ void cli_run_emulation_json(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
-/* A difference, in square metres and as part of the reference. */
+/* Prints a difference, in square metres and as a share of the reference. */
 static void table_off(const run_emulation *e, const char *name, double off, const char *why)
 {
     printf("  %-10s %+.3g m2", name, off);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --explain: what each effect takes and does, measured by leaving it out, or by simulating
-   it where the planner does not. Which effects are on, and why, is the planner's; timings are this
-   machine's, and what is smaller than their scatter is said to be so. Stages of the pose are told
-   by runs that end after each of them. */
+/* lrcs run --explain: the time and the change of sigma that each effect causes, measured by leaving
+   it out, or by simulating it if the planner does not. The planner decides which effects are on,
+   and why; timings are those of this machine, and those smaller than their scatter are marked. The
+   stages of the pose are timed by runs that end after each of them. */
 #include "cli/run/run.h"
 
 #include <math.h>
 #include <string.h>
 #include <time.h>
 
-/* Rounds of measurements: one, and as many more as this time allows. */
+/* Rounds of measurements: at least one, and more as long as this time allows. */
 #define ROUNDS_MOST  101u
 #define ROUNDS_SPENT 2.0 /* seconds */
 
@@ -22,8 +22,8 @@ static const char *const prepare_stage[LRCS_HOST_PREPARE_STAGES] = {
 static const char *const pose_stage[LRCS_HOST_POSE_STAGES] = {"view", "classify", "visibility",
                                                               "sum"};
 
-/* Seconds of every round: as planned, with each effect flipped, as planned once more, and up to
-   each stage. */
+/* Seconds of every round: as planned, with each effect flipped, as planned again, and up to each
+   stage. */
 typedef struct explain_times {
     double first[ROUNDS_MOST], last[ROUNDS_MOST];
     double flipped[LRCS_EFFECTS][ROUNDS_MOST];
@@ -55,7 +55,8 @@ static double processor_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* One more run; 0 or CLI_FAILED. The processor's time: waiting for others is no part of it. */
+/* Runs the pose once more; 0 or CLI_FAILED. Measures the processor's time, which does not include
+   waiting for other processes. */
 static int explain_pose(const run_job *job, const lrcs_run_options *options, lrcs_result *result,
                         double *seconds)
 {
@@ -67,7 +68,7 @@ static int explain_pose(const run_job *job, const lrcs_run_options *options, lrc
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
-/* The pose up to a stage, by the method and raster that answered; likewise. */
+/* Runs the pose up to a stage, by the method and raster that gave the answer; likewise. */
 static int explain_stage(const run_job *job, int stage, double *seconds)
 {
     lrcs_host_error error;
@@ -80,8 +81,8 @@ static int explain_stage(const run_job *job, int stage, double *seconds)
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
-/* One round: runs close together, so that a machine that slows down slows them all. Adds to what
-   was spent. */
+/* One round: its runs follow each other closely, so that a slower machine affects them all. Adds
+   its time to *spent. */
 static int explain_round(run_job *job, explain_times *times, uint32_t round, double *spent)
 {
     lrcs_result result = {0};
@@ -109,9 +110,10 @@ static int explain_round(run_job *job, explain_times *times, uint32_t round, dou
     return code;
 }
 
-/* What an effect takes: the median over rounds of the difference between runs with and without it.
-   The scatter is its standard error, as for normal errors of n rounds: 1.86 of the median deviation
-   over sqrt(n); where rounds are few, 1.09 of how far equal runs of a round lie apart. */
+/* The time of an effect: the median over rounds of the difference between runs with and without it.
+   The scatter is its standard error, as for normal errors of n rounds: 1.86 times the median
+   deviation over sqrt(n); with few rounds, 1.09 times the difference between equal runs of a
+   round. */
 static void explain_effect(const run_job *job, const explain_times *times, uint32_t rounds,
                            int effect, run_explained_effect *out)
 {
@@ -131,9 +133,9 @@ static void explain_effect(const run_job *job, const explain_times *times, uint3
     out->scatter = fmax(1.86 * median(away, rounds), 1.09 * median(equal, rounds)) / sqrt(rounds);
 }
 
-/* What each stage takes: the median over rounds of the difference between runs up to it and up to
-   the one before; not less than nothing, which scatter may make it. The scatter as an effect's: of
-   runs that are shorter than the pose it is less in proportion. */
+/* The time of each stage: the median over rounds of the difference between runs up to it and up to
+   the one before, at least 0. The scatter is that of an effect, reduced in proportion for runs that
+   are shorter than the pose. */
 static void explain_stages(const explain_times *times, uint32_t rounds, run_explained *out)
 {
     double difference[ROUNDS_MOST];
@@ -180,7 +182,7 @@ int cli_run_explain(run_job *job)
     return code;
 }
 
-/* A value of an effect, or none where a run cannot switch it. */
+/* A value of an effect, or none if a run cannot switch the effect. */
 static double where_switched(int effect, double value)
 {
     return is_switched(effect) ? value : (double)NAN;
@@ -210,7 +212,7 @@ void cli_run_explain_stages_json(const run_job *job, lrcs_host_json *json)
 
 /* ---- the table ---- */
 
-/* Text from column `from` on, where the cursor stands, broken at blanks before column `to`. */
+/* Prints text from column `from` on, where the cursor is, wrapped at blanks before column `to`. */
 static void print_wrapped(const char *text, int from, int to)
 {
     int at = from;
@@ -227,7 +229,7 @@ static void print_wrapped(const char *text, int from, int to)
     putchar('\n');
 }
 
-/* How sigma changes where the effect is flipped. */
+/* The change of sigma if the effect is flipped. */
 static void sigma_column(const run_job *job, double flipped)
 {
     char text[32] = "same";
@@ -246,8 +248,8 @@ static int decimals(double value)
     return value >= 9.95 ? 0 : value >= 0.995 ? 1 : value >= 0.0995 ? 2 : 4;
 }
 
-/* A measured value, in brackets for an effect that is off; lost in the scatter: only how much that
-   is. */
+/* Prints a measured value, in brackets for an effect that is off; if it is lost in the scatter,
+   only the size of the scatter. */
 static void measure_column(double value, int lost, int on, const char *unit, int width)
 {
     char text[48];
@@ -272,7 +274,7 @@ static void stage_print(const char *name, double seconds, double all)
            share);
 }
 
-/* scatter: of each, or NULL. What is lost in it is at most so much. */
+/* scatter: of each stage, or NULL. Stages lost in it are shown as at most this value. */
 static void stages_list(const char *label, const char *const *name, const double *seconds,
                         const double *scatter, int count)
 {

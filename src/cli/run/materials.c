@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What sigma owes to its materials: --sensitivity, and the material uncertainty where materials
-   state errors. It is no part of the bound. */
+/* The dependence of sigma on materials: --sensitivity, and the material uncertainty if materials
+   state errors. It is not part of the bound. */
 #include "cli/run/run.h"
 
 #include <stdlib.h>
@@ -45,7 +45,7 @@ int cli_run_materials(run_job *job)
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
-/* Is a material assigned to some facet that counts? */
+/* 1 if a material is assigned to a facet that is not left out. */
 static int is_assigned(const lrcs_scene *scene, uint32_t material)
 {
     for (uint32_t f = 0; f < scene->facet_count; f++) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The files that lrcs run writes: their options, what they may not replace, and the writing. */
+/* The files that lrcs run writes: their options, the files that they must not replace, and the
+   writing. */
 #include "cli/run/run.h"
 
 #include <stdlib.h>
@@ -20,7 +21,7 @@ static int to_stdout(const char *path)
     return path && strcmp(path, "-") == 0;
 }
 
-/* No two outputs in one place, a file or standard output. */
+/* Checks that no two outputs are the same file, or both standard output. */
 static int files_apart(const run_job *job)
 {
     const cli_command *command = job->args->command;
@@ -39,7 +40,7 @@ static int files_apart(const run_job *job)
     return cli_outputs_apart(command, file, FILES);
 }
 
-/* A picture is PNG: under the ending of another format no program would open it. */
+/* A picture is a PNG file: with the extension of another format no program could open it. */
 static int image_check(const cli_args *args, const char *path)
 {
     static const char *const other[] = {".jpg", ".jpeg", ".gif", ".svg", ".pdf"};

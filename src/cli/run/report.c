@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* What lrcs run prints. The keys and their order are the contract of DESIGN.md, section 4. */
+/* The output of lrcs run. The keys and their order are the contract of DESIGN.md, section 4. */
 #include "cli/run/run.h"
 
 #include <math.h>
 
-/* Every notice of a run: the scene's, the result's, and of options that had no effect. To the
-   JSON array that is open, or to stderr. */
+/* Writes every notice of a run: those of the scene, of the result, and of options that had no
+   effect. They go to the open JSON array, or to stderr. */
 static void notice_say(lrcs_host_json *json, const char *text)
 {
     if (json) {
@@ -31,7 +31,7 @@ static void notices_say(const run_job *job, lrcs_host_json *json)
     }
 }
 
-/* Negative stands for not known. */
+/* A negative number means not known. */
 static void known_number(lrcs_host_json *json, const char *key, double value)
 {
     lrcs_host_json_number(json, key, value >= 0.0 ? value : (double)NAN);

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What stopping may take beyond a time budget. */
+/* The time that stopping may take beyond a time budget. */
 #define BUDGET_GRACE_MS 20.0
 
-/* Facets that take seconds or more. */
+/* With this many facets a run takes seconds or more. */
 #define RUN_MANY 200000u
 
 #define STEPS_MOST 4294967295.0
@@ -101,7 +101,7 @@ static int options_read(run_job *job)
 
 /* ---- the run ---- */
 
-/* Room for what the outputs show. */
+/* Allocates memory for what the outputs show. */
 static int run_room(run_job *job)
 {
     job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
@@ -116,7 +116,7 @@ static int run_room(run_job *job)
     return 0;
 }
 
-/* Silence is no answer where shapes became very many facets. */
+/* Prints a notice if shapes became very many facets and the run takes long. */
 static void run_patience(const run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
@@ -155,7 +155,7 @@ static int run_pose(run_job *job)
     return 0;
 }
 
-/* A search for the best settings comes with their result; files and shares need the run itself. */
+/* A search for the best settings already has their result; files and shares need the run itself. */
 static int run_scene(run_job *job)
 {
     int searched = job->budget.asked_ms > 0.0;
@@ -175,8 +175,8 @@ static int run_scene(run_job *job)
                : code;
 }
 
-/* The flag of a result that was searched for speaks of a tolerance that was tried; where no
-   tolerance is in force none is missed. */
+/* The flag of a result of a search refers to a tolerance that was tried; if no tolerance applies,
+   none is missed. */
 static void run_judge(run_job *job)
 {
     uint32_t *flags = &job->result.flags;
@@ -191,7 +191,7 @@ static void run_judge(run_job *job)
 
 /* ---- the command ---- */
 
-/* Files first: a table on stdout that says "picture" must be true. */
+/* Files come first: a table on stdout that mentions a picture must be true. */
 static int run_outputs(run_job *job)
 {
     int code = cli_run_open(job);
@@ -210,7 +210,7 @@ static int run_outputs(run_job *job)
         }
     }
     int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
-    /* a bound that tells nothing of sigma is no answer that a time bought */
+    /* a bound that exceeds sigma is not a useful answer for a time budget */
     int empty = job->budget.asked_ms > 0.0 && job->result.bound_m2 > job->result.sigma_m2;
     return late || empty ? CLI_DEGRADED
                          : cli_accuracy_code(job->args, &job->options, job->result.flags);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A run between its command and its report. */
+/* Shared by the files of lrcs run: the run and its report. */
 #ifndef LRCS_CLI_RUN_H
 #define LRCS_CLI_RUN_H
 
@@ -7,12 +7,12 @@
 
 #include <lrcs/picture.h>
 
-/* What flipping an effect told of it: an effect that is on was left out, one that is off was
-   simulated. All zero where a run cannot switch it. */
+/* The result of flipping an effect: an effect that is on was left out, one that is off was
+   simulated. All zero if a run cannot switch it. */
 typedef struct run_explained_effect {
-    double seconds;  /* what it takes, or would take */
-    double scatter;  /* how far single measurements lie from that */
-    double sigma_m2; /* flipped */
+    double seconds;  /* time that it takes, or would take */
+    double scatter;  /* deviation of single measurements from that */
+    double sigma_m2; /* sigma with the effect flipped */
 } run_explained_effect;
 
 typedef struct run_explained {
@@ -23,37 +23,38 @@ typedef struct run_explained {
     run_explained_effect effect[LRCS_EFFECTS];
 } run_explained;
 
-/* --time-budget: what was asked for and what came of it. */
+/* --time-budget: the time asked for, and the outcome. */
 typedef struct run_budget {
-    double asked_ms; /* 0: no budget */
-    double start;    /* of the command, by the clock that does not jump */
-    double spent_ms; /* until the answer stood */
+    double asked_ms; /* 0 for no budget */
+    double start;    /* start of the command on the monotonic clock */
+    double spent_ms; /* time until the answer was known */
     int answered;
-    char same[128]; /* the options that give the same answer again */
+    char same[128]; /* the options that reproduce the answer */
 } run_budget;
 
-/* --precision, --depth-bits: hardware emulated, and what its answer is off by. */
+/* --precision, --depth-bits: emulated hardware, and the error of its answer. */
 typedef struct run_emulation {
     int asked;
     lrcs_emulation_options options;
-    lrcs_emulation sampled; /* by double arithmetic with a depth of 64 bits */
-    lrcs_emulation deep;    /* at the precision asked for, with all the depth that it has */
+    lrcs_emulation sampled; /* with double arithmetic and a depth of 64 bits */
+    lrcs_emulation deep;    /* at the precision asked for, with its full depth resolution */
     lrcs_emulation answer;
     double reference_m2, reference_bound_m2; /* by method exact */
     int reference_method;
 } run_emulation;
 
-/* What the bound does not hold, and how much that is. */
+/* What the bound does not include, and its size. */
 typedef struct run_open {
-    double back_area_m2, back_share; /* one-sided backs that show; of the silhouette */
-    double back_sigma_m2;            /* sigma if they reflected; NAN: not known */
-    uint32_t coarse;                 /* curved parts whose facets are too coarse for their glint */
-    double glint_m2, glint_error_m2; /* their part of sigma, and an estimate of its error */
-    double glint_most_m2;            /* of one facet */
+    double back_area_m2,
+        back_share; /* area of one-sided backs that are visible; their share of the silhouette */
+    double back_sigma_m2; /* sigma if they reflected; NAN if not known */
+    uint32_t coarse;      /* number of curved parts whose facets are too coarse for their glint */
+    double glint_m2, glint_error_m2; /* their contribution to sigma, and an estimate of its error */
+    double glint_most_m2;            /* largest contribution of one facet */
     uint32_t glint_facet;
 } run_open;
 
-/* All that a run is made of, and all that it makes. */
+/* The inputs and results of a run. */
 typedef struct run_job {
     const cli_args *args;
     lrcs_pose pose;
@@ -67,9 +68,9 @@ typedef struct run_job {
     lrcs_image image;
     lrcs_host_polygons polygons;
     double seconds;
-    double asked; /* tolerance; 0: none, a time budget in its place */
+    double asked; /* tolerance; 0 if none, because a time budget replaces it */
     int met;
-    int explain; /* asked for */
+    int explain; /* 1 if asked for */
     run_explained explained;
     run_budget budget;
     run_emulation emulation;
@@ -78,13 +79,13 @@ typedef struct run_job {
     run_open open;
     int sensitivity_asked;
     lrcs_uncertainty_options sampling;
-    lrcs_uncertainty uncertainty;  /* not stated: no material has errors */
-    lrcs_sensitivity *sensitivity; /* by material; NULL: not wanted */
-    lrcs_attitude_slope attitude;  /* where asked for */
+    lrcs_uncertainty uncertainty;  /* not stated if no material has errors */
+    lrcs_sensitivity *sensitivity; /* by material; NULL if not asked for */
+    lrcs_attitude_slope attitude;  /* if asked for */
 } run_job;
 
-/* The options of output files, as 0 or CLI_USAGE; once the scene is read, that none of them would
-   replace a file that it was read from, likewise; and their writing, as 0 or CLI_FAILED. */
+/* Reads the options of output files, 0 or CLI_USAGE; checks, once the scene is read, that none of
+   them would replace a file that it was read from, likewise; writes them, 0 or CLI_FAILED. */
 int cli_run_outputs_read(run_job *job);
 int cli_run_outputs_check(const run_job *job);
 int cli_run_outputs_write(const run_job *job);
@@ -92,56 +93,56 @@ int cli_run_outputs_write(const run_job *job);
 /* The picture that --image draws. */
 lrcs_host_picture cli_run_picture(const run_job *job);
 
-/* Does a file's table take the place of the one for people? */
+/* 1 if a file goes to standard output and replaces the table for people. */
 int cli_run_outputs_stdout(const run_job *job);
 
-/* --explain: runs the pose again and again, each effect flipped in turn, and up to each stage; 0 or
-   CLI_FAILED. Then as keys of an effect's JSON object and of "seconds", and as a table after the
+/* --explain: runs the pose repeatedly, with each effect flipped in turn, and up to each stage; 0 or
+   CLI_FAILED. Then writes keys of an effect's JSON object and of "seconds", and a table after the
    result's. */
 int cli_run_explain(run_job *job);
 void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json);
 void cli_run_explain_stages_json(const run_job *job, lrcs_host_json *json);
 void cli_run_explain_table(const run_job *job);
 
-/* Is a result as good as a tolerance, by its bound and by the estimate of what curved normals add?
-   None, 0, is never met. */
+/* 1 if a result meets a tolerance, by its bound and by the estimate of what curved normals add. A
+   tolerance of 0 means none and is never met. */
 int cli_run_meets(const lrcs_result *result, double tolerance);
 
-/* --time-budget: its value, as 0 or CLI_USAGE; and on a scene just read for the coarsest tolerance,
-   the search: then result and seconds stand, and options and scene are those that give them again.
-   0, CLI_FAILED or CLI_USAGE. */
+/* --time-budget: reads its value, 0 or CLI_USAGE; then searches, on a scene just read for the
+   coarsest tolerance: result and seconds are set, and options and scene are those that reproduce
+   them. 0, CLI_FAILED or CLI_USAGE. */
 int cli_run_budget_read(run_job *job);
 int cli_run_budget(run_job *job);
 
-/* --precision and --depth-bits: their values, as 0 or CLI_USAGE; the run, which makes the result
-   that of the hardware with a bound proved by the reference, 0 or CLI_FAILED; then as a JSON object
-   of its own, and as part of the table. */
+/* --precision and --depth-bits: reads their values, 0 or CLI_USAGE; runs the emulation, which makes
+   the result that of the hardware with a bound proved by the reference, 0 or CLI_FAILED; then
+   writes it as a JSON object of its own, and as part of the table. */
 int cli_run_emulation_read(run_job *job);
 int cli_run_emulate(run_job *job);
 void cli_run_emulation_json(const run_job *job, lrcs_host_json *json);
 void cli_run_emulation_table(const run_job *job);
 
-/* Finds what the bound does not hold, 0 or CLI_FAILED; as keys of an open object; and the verdict
-   in words, the last lines of a table. */
+/* Finds what the bound does not include, 0 or CLI_FAILED; writes it as keys of an open object, and
+   as the verdict in words, the last lines of a table. */
 int cli_run_open(run_job *job);
 void cli_run_open_json(const run_job *job, lrcs_host_json *json);
 void cli_run_verdict(const run_job *job, FILE *out);
 
-/* --sensitivity, --draws and --seed: their values, as 0 or CLI_USAGE; the material uncertainty and
-   the derivatives, where they are wanted, 0 or CLI_FAILED; as keys of an open object; as lines of
-   the table; and of the verdict. */
+/* --sensitivity, --draws and --seed: reads their values, 0 or CLI_USAGE; computes the material
+   uncertainty and the derivatives, if asked for, 0 or CLI_FAILED; writes them as keys of an open
+   object, as lines of the table, and as lines of the verdict. */
 int cli_run_materials_read(run_job *job);
 int cli_run_materials(run_job *job);
 void cli_run_materials_json(const run_job *job, lrcs_host_json *json);
 void cli_run_materials_table(const run_job *job);
 void cli_run_materials_verdict(const run_job *job, FILE *out);
 
-/* The result on stdout: as JSON with the contract's keys in the contract's order, or as a table
+/* Prints the result on stdout: as JSON with the keys and the order of the contract, or as a table
    for people. */
 void cli_run_json(const run_job *job);
 void cli_run_table(const run_job *job);
 
-/* The notices on stderr, which go with the table. */
+/* Prints the notices on stderr, which accompany the table. */
 void cli_run_notices(const run_job *job);
 
 #endif

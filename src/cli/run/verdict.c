@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What a run's bound does not hold: the unit that was assumed, back sides that return nothing,
-   glints of facets too coarse for them, the origin of the materials. Gathered from the records of
-   the facets; told in words as the last lines of a run, and as JSON. */
+/* What a run's bound does not include: the unit that was assumed, back sides that reflect nothing,
+   glints of facets that are too coarse for them, the origin of the materials. Computed from the
+   records of the facets; printed as the last lines of a run, and as JSON. */
 #include "cli/info/info.h"
 #include "cli/run/run.h"
 
@@ -9,12 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From this share of sigma on a single facet's own glint is said to dominate. */
+/* From this share of sigma on, the glint of a single facet is said to dominate. */
 #define GLINT_DOMINATES 0.5
 
 /* ---- what is found ---- */
 
-/* Backs that show of materials that are not two-sided, and what they would return. */
+/* Finds visible backs of materials that are not two-sided, and what they would contribute. */
 static void backs_find(const run_job *job, run_open *open)
 {
     const lrcs_scene *scene = &job->scene.scene;
@@ -34,8 +34,8 @@ static void backs_find(const run_job *job, run_open *open)
     open->back_sigma_m2 = job->records ? job->result.sigma_m2 + more : (double)NAN;
 }
 
-/* The glint of facets of curved parts that are too coarse for it: how much of sigma that is, how
-   far off it may be, and whether one facet's own makes most of sigma. */
+/* The glint of facets of curved parts that are too coarse for it: its share of sigma, its possible
+   error, and whether a single facet makes most of sigma. */
 static void glint_sum(const run_job *job, const lrcs_host_glint *list, uint32_t count,
                       run_open *open)
 {

@@ -171,7 +171,7 @@ int cli_map_recover(sweep_file *file, const sweep_plan *plan, const char *const 
 {
     sweep_map map;
     int same = cli_map_open(file->path, &map);
-    if (same == 0) { /* the rows of a merged map may have been either */
+    if (same == 0) { /* the rows of a merged map may have had either format */
         int format = map.text.format;
         same = map.text.head_size == head_size[format] &&
                        memcmp(map.text.head, head[format], head_size[format]) == 0

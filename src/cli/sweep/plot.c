@@ -384,7 +384,7 @@ static void time_title(const sweep_plot *plot, const plot_axis *axis, char text[
 /* The values of one sweep. */
 typedef struct plot_values {
     double *x, *y, *z;  /* values along both axes, and sigma: z[y][x]; x is allocated */
-    double *low, *high; /* the ends of bands, as z; NULL: none */
+    double *low, *high; /* the ends of bands, as z; NULL if none */
 } plot_values;
 
 typedef struct plot_sheet {

@@ -126,8 +126,7 @@ typedef struct sweep_row {
     uint64_t index;
     double value[SWEEP_COLUMNS];
     double sigma_m2, bound_m2, sigma_glint_m2, sigma_diffuse_m2;
-    double
-        extra[SWEEP_EXTRAS]; /* deviation, lower and upper end, m2; 1 if they come from a sample */
+    double extra[SWEEP_EXTRAS]; /* deviation, lower and upper end, m2; 1 if from a sample */
     uint32_t flags;
 } sweep_row;
 
@@ -156,7 +155,7 @@ int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_o
 
 /* Statistics of all rows. */
 typedef struct sweep_tally {
-    uint64_t rows, missed, starved; /* missed: the tolerance; starved: out of memory */
+    uint64_t rows, missed, starved; /* missed: the tolerance; starved: short of memory */
     uint64_t estimated, unjudged;   /* accepted by estimate; accepted without a condition */
     double mean, square, bound;     /* mean of sigma; sum of squared deviations; sum of bounds */
 } sweep_tally;
@@ -303,7 +302,7 @@ typedef struct sweep_data {
     sweep_plan plan;
     sweep_head head; /* its options; the text holds the hash and the number of rows */
     double (*row)[2];
-    double (*band)[2]; /* as of sweep_plot */
+    double (*band)[2]; /* as in sweep_plot */
     sweep_tally tally;
     sweep_text text;
     /* memory to which the members above point */
@@ -345,7 +344,7 @@ typedef struct sweep_plot {
     int swapped;            /* 1 if x is the faster of two axes */
     const sweep_plan *plan;
     double (*row)[2];  /* sigma and bound, m2 */
-    double (*band)[2]; /* the interval of its material uncertainty, m2; NULL: none */
+    double (*band)[2]; /* the interval of its material uncertainty, m2; NULL if none */
 } sweep_plot;
 
 #define PLOT_CURVES 7u /* more values than this along both axes make a map */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A scene of the kit as OBJ with its MTL, as STL and as JSON: the same facets in the same order in
-   each, numbers to the last digit. STL knows no materials; JSON holds all there is. */
+/* Writes a scene of the kit as OBJ with its MTL, as STL and as JSON: the same facets in the same
+   order in each, with all digits of the numbers. STL has no materials; JSON contains everything. */
 #include "cli/vectors/vectors.h"
 
 typedef struct files_scene {
@@ -64,7 +64,7 @@ static int mtl_write(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
-/* Normals are left to the reader: zero is what the format says for that. */
+/* Normals are zero: in this format the reader then computes them. */
 static int stl_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const files_scene *file = context;

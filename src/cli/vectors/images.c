@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What the laser sees of a case, pixel by pixel: facet and depth at the centre of each, raw for
-   programs and as PNG to look at. Row 0 on top, column 0 left, little-endian on every machine. */
+/* Writes what the laser sees of a case, pixel by pixel: facet and depth at the centre of each, as
+   raw data for programs and as PNG for people. Row 0 is at the top, column 0 at the left;
+   little-endian on every machine. */
 #include "cli/vectors/vectors.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@ typedef struct images_case {
     const vectors_case *one;
     const lrcs_scene *scene;
     const lrcs_image *image;
-    double *depth; /* m towards the laser, NaN for none */
+    double *depth; /* m towards the laser, NaN if there is no facet */
     double farthest, nearest;
 } images_case;
 
@@ -44,7 +45,7 @@ static int depth_raw(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
-/* Writes pixels that `colour` makes of indices. */
+/* Writes pixels with colours computed by `colour` from their indices. */
 typedef void images_colour(const images_case *file, size_t i, unsigned char *pixel);
 
 static int png_make(FILE *out, const images_case *file, uint32_t channels, images_colour *colour,
@@ -92,7 +93,8 @@ static int depth_png(FILE *out, const void *context, lrcs_host_error *error)
     return png_make(out, context, 1, depth_colour, error);
 }
 
-/* Where the line of sight through a point of the view plane meets a facet's plane. */
+/* The depth at which the line of sight through a point of the view plane intersects a facet's
+   plane. */
 static double facet_depth(const images_case *file, uint32_t facet, double x, double y)
 {
     const lrcs_pose *pose = &file->one->pose;

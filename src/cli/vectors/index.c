@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a kit holds, as tables: materials.csv and cases.csv, all that is needed to take part, and
-   kit.json, the same in one file for programs that would rather have that. */
+/* The content of a kit as tables: materials.csv and cases.csv, which suffice for taking part, and
+   kit.json, the same in one file for programs that prefer it. */
 #include "cli/vectors/vectors.h"
 
 static const char *const tier_text[KIT_TIERS] = {

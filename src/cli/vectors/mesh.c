@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A scene of the tables as facets. It decides their order, their winding (counter-clockwise from
-   outside) and where they part; all coordinates are rounded to single precision, so that a code
-   that works in it starts from the same body. Plain loops of its own: a kit that came from the
-   engine's own meshes would not try them. */
+/* Makes facets from a scene of the tables. This file decides their order, their winding
+   (counter-clockwise seen from outside) and the division into facets; all coordinates are rounded
+   to single precision, so that a code that works in single precision starts from the same body. It
+   has simple loops of its own: a kit from the engine's own meshes would not test them. */
 #include "cli/vectors/vectors.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ typedef struct mesh_build {
     const vectors_scene *scene;
     const vectors_item *item;
     lrcs_pose turn;
-    uint32_t first; /* vertex of the item: none before it is shared */
+    uint32_t first; /* first vertex of the item: earlier ones are not shared */
 } mesh_build;
 
 static void *room_grow(void *list, uint32_t *room, uint32_t used, size_t size)
@@ -38,13 +38,14 @@ static lrcs_point point_place(const mesh_build *build, const double p[3])
     for (int k = 0; k < 3; k++) {
         const double *row = build->turn.R[k];
         double x = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + build->item->at[k];
-        x = fabs(x) < 1e-12 && build->item->at[k] == 0.0 ? 0.0 : x; /* of a rounded turn */
+        x = fabs(x) < 1e-12 && build->item->at[k] == 0.0 ? 0.0
+                                                         : x; /* rounding error of a rotation */
         placed.x[k] = (double)(float)((x + build->scene->move[k]) * build->scene->scale);
     }
     return placed;
 }
 
-/* The index of a point; those of one item are shared. */
+/* The index of a point; points of the same item are shared. */
 static uint32_t point_add(mesh_build *build, const double p[3])
 {
     vectors_mesh *mesh = build->mesh;
@@ -79,7 +80,7 @@ static char face_letter(const vectors_item *item, size_t face)
     return item->wear[face < last ? face : last];
 }
 
-/* A triangle, left out where two corners are one. */
+/* Adds a triangle unless two of its corners coincide. */
 static void triangle_add(mesh_build *build, size_t face, const double *a, const double *b,
                          const double *c)
 {
@@ -134,7 +135,7 @@ static void box_add(mesh_build *build)
     }
 }
 
-/* A point of a circle; the quarters are exact. */
+/* A point of a circle; those at multiples of 90 deg are exact. */
 static void circle_point(double radius, int i, int count, double z, double p[3])
 {
     double angle = 2.0 * CLI_PI * i / count;
@@ -143,7 +144,7 @@ static void circle_point(double radius, int i, int count, double z, double p[3])
     p[2] = z;
 }
 
-/* What lies between two circles, radius and height of each, from below. */
+/* Adds the surface between two circles, given by their radii and heights, from below. */
 static void belt_add(mesh_build *build, double r0, double z0, double r1, double z1)
 {
     int count = build->item->count;
@@ -158,7 +159,7 @@ static void belt_add(mesh_build *build, double r0, double z0, double r1, double 
     }
 }
 
-/* A cap in fans from its first corner, seen from above or from below. */
+/* A cap as a triangle fan from its first corner, seen from above or from below. */
 static void cap_add(mesh_build *build, size_t face, double radius, double z)
 {
     int count = build->item->count;
@@ -193,7 +194,8 @@ static void ball_add(mesh_build *build)
     }
 }
 
-/* The height of a corner of the quilt: no two neighbours alike, the same on every machine. */
+/* The height of a corner of the quilt: neighbours have different heights, which are the same on
+   every machine. */
 static double quilt_height(const vectors_item *item, int i, int k)
 {
     return item->size[2] * ((7 * i + 3 * k + i * k) % 5 - 2);

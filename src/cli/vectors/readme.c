@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* README.md of a kit: conventions, formats, what to hand in and how it is judged. Somebody with a
-   code and none of our knowledge must be able to take part from this page alone. */
+/* Writes README.md of a kit: conventions, formats, what to submit and how it is judged. This page
+   alone must suffice for somebody who has another code and does not know this project. */
 #include "cli/vectors/vectors.h"
 
 static const char *const readme_text[] = {

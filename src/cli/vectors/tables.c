@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The kit's materials, attitudes and scenes, as tables. It decides what is tried; what a row means
-   in facets is vectors_mesh.c. A change here is a new KIT_VERSION. */
+/* The kit's materials, attitudes and scenes, as tables. This file decides what is tested; mesh.c
+   makes facets from a row. A change here requires a new KIT_VERSION. */
 #include "cli/vectors/vectors.h"
 
 #include <stddef.h>
@@ -20,7 +20,7 @@ const vectors_material cli_vectors_materials[] = {
     {"dark", {0.0, 0.005, 0.3, 0.0}, 0, {40, 40, 40}, 'k'},
     {NULL, {0.0, 0.0, 0.0, 0.0}, 0, {0, 0, 0}, '\0'}};
 
-/* tNN: turned about y by some NN deg; xNN: about x. */
+/* tNN: rotated about y by some NN deg; xNN: about x. */
 const vectors_attitude cli_vectors_attitudes[] = {
     {"nose", VECTORS_TILTS | VECTORS_TURNS | VECTORS_EDGES, {1, 0, 0, 0}},
     {"t05", VECTORS_TILTS, {23, 0, 1, 0}},
@@ -70,7 +70,7 @@ const vectors_attitude cli_vectors_attitudes[] = {
         VECTORS_NONE, 0, HERE, HERE, UP, NULL                                                      \
     }
 
-/* Two skins, a bright one below half of a dark one, DOWN apart in a scene 8 m deep. */
+/* Two skins DOWN apart in a scene 8 m deep, a bright one below half of a dark one. */
 #define SKINS(DOWN)                                                                                \
     {PLATE, 0, {2, 2, 0}, {0, 0, -(DOWN)}, UP, "r"}, {PLATE, 0, {1, 2, 0}, {0.5, 0, 0}, UP, "k"},  \
         {BOX, 0, {0.25, 0.25, 0.25}, {2, 0, 4}, UP, "o"},                                          \
@@ -104,7 +104,7 @@ static const vectors_item scene_bracket[] = {{PLATE, 0, {1, 1, 0}, HERE, UP, "r"
                                              {PLATE, 0, {1, 1, 0}, {0.5, 0, 0.5}, {0, -90, 0}, "b"},
                                              END};
 
-/* The bus and the arrays shadow each other in closed form. */
+/* The bus and the arrays shadow each other; the shadows have closed forms. */
 static const vectors_item scene_wings[] = {{BOX, 0, {1, 1, 1}, HERE, UP, "frmobw"},
                                            {PLATE, 0, {2, 1, 0}, {1.625, 0, 0}, UP, "c"},
                                            {PLATE, 0, {2, 1, 0}, {-1.625, 0, 0}, UP, "t"},

@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* The truth of a scene's cases: the exact method over the OBJ as it was written, so that what is
-   judged is what others read. It also decides what single precision and a raster are allowed, which
-   are no bounds but the size of what such codes lose. */
+/* The truth of a scene's cases: the exact method for the OBJ file as written, so that the judged
+   scene is the one that others read. This file also decides what errors are allowed for single
+   precision and for a raster; these are not bounds but the typical size of the errors of such
+   codes. */
 #include "cli/vectors/vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define SINGLE       0x1p-24 /* half the spacing of numbers near 1, single precision */
-#define SINGLE_LEAST 0x1p-96 /* relative to which its least number, 2^-126, is some roundings */
+#define SINGLE 0x1p-24 /* unit roundoff of single precision */
+/* relative to this, the least normal number, 2^-126, is a few roundings */
+#define SINGLE_LEAST 0x1p-96
 #define EDGE_ON      (4.0 * SINGLE)
-#define PARTLY_SEEN  0.999 /* less of a facet is taken for an outline inside it */
+/* a visible fraction below this counts as an outline inside the facet */
+#define PARTLY_SEEN 0.999
 
 typedef struct truth_run {
     const vectors_job *job;
     lrcs_host_scene host;
-    lrcs_facet_record *records; /* of one case */
+    lrcs_facet_record *records; /* records of one case */
     lrcs_image image;
     FILE *out; /* NAME.facets.csv */
 } truth_run;
@@ -24,8 +27,8 @@ typedef struct truth_run {
 /* ---- what is allowed ---- */
 
 /* A few roundings in single precision: 16 in the sum, 4 in the cosine, whose error the BRDF
-   enlarges; close to grazing and at narrow glints that is much. What underflows may be lost, what
-   is edge-on may show a trace. */
+   amplifies; near grazing incidence and in narrow glints the effect is large. Values that underflow
+   may be lost, and edge-on facets may contribute a little. */
 static double facet_float(const lrcs_facet_record *record, const lrcs_brdf *brdf)
 {
     lrcs_brdf glint = *brdf;
@@ -44,8 +47,9 @@ static double facet_float(const lrcs_facet_record *record, const lrcs_brdf *brdf
                    lrcs_brdf_eval(&diffuse, c) * (16.0 + 4.0 * (1.0 + brdf->m) / c));
 }
 
-/* Half a pixel along the outline of each facet, errors of different facets independent: a raster's
-   usual error is a tenth of that, its worst is where an outline lies along rows or columns. */
+/* Half a pixel along the outline of each facet, with the errors of different facets independent:
+   the usual error of a raster is a tenth of that; it is largest if an outline lies along rows or
+   columns. */
 static double facet_edge(const lrcs_scene *scene, const lrcs_facet_record *record, uint32_t facet,
                          const lrcs_pose *pose)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs vectors: a conformance kit for other implementations. It decides the order of work and which
-   cases there are; the same bytes come of it every time. */
+/* lrcs vectors: writes a conformance kit for other implementations. This file decides the order of
+   work and which cases there are; the output has the same bytes every time. */
 #include "cli/vectors/vectors.h"
 
 #include <dirent.h>
@@ -45,7 +45,7 @@ static int folder_fail(const char *path)
     return CLI_FAILED;
 }
 
-/* Holds it anything, and no kit? What is not a kit is left alone. */
+/* 1 if the folder contains files but no kit: such a folder is not written to. */
 static int folder_foreign(const char *path)
 {
     char inside[KIT_PATH];
@@ -83,7 +83,7 @@ static int folders_make(const char *path)
 
 /* ---- cases ---- */
 
-/* The numbers of an attitude as they are printed, and the pose of those. */
+/* The numbers of an attitude as they are printed, and the pose made from the printed numbers. */
 static int case_make(const vectors_scene *scene, const vectors_attitude *attitude,
                      vectors_case *one)
 {
@@ -112,7 +112,7 @@ static int case_make(const vectors_scene *scene, const vectors_attitude *attitud
     return cli_kit_pose(one->quaternion, one->direction, &one->pose) == LRCS_OK ? 0 : CLI_FAILED;
 }
 
-/* Every attitude of the scene's sets; the first one, off all axes where there is such, has
+/* Adds every attitude of the scene's sets; the first one, if possible off all axes, has
    pictures. */
 static int cases_add(vectors_job *job, const vectors_scene *scene)
 {
@@ -151,7 +151,7 @@ static void bindings_make(vectors_job *job)
     }
 }
 
-/* Room for every table's rows, the last one as well. */
+/* Allocates memory for the rows of all tables, including the last one. */
 static int job_room(vectors_job *job)
 {
     size_t scenes = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the rooms of lrcs vectors share: the scenes of the kit as tables, their meshes, and the
-   truth of each case. */
+/* Shared by the files of lrcs vectors: the scenes of the kit as tables, their meshes, and the truth
+   of each case. */
 #ifndef LRCS_CLI_VECTORS_H
 #define LRCS_CLI_VECTORS_H
 
@@ -11,7 +11,7 @@ typedef struct vectors_material {
     lrcs_brdf brdf;
     int two_sided;
     unsigned char rgb[3]; /* for viewers of the OBJ */
-    char letter;          /* what items wear it by */
+    char letter;          /* letter by which items refer to it */
 } vectors_material;
 
 enum vectors_kind {
@@ -20,17 +20,18 @@ enum vectors_kind {
     VECTORS_BOX,
     VECTORS_ROUND, /* cylinder, cone, frustum: size is radius below, radius above, height */
     VECTORS_BALL,  /* size is radius, 0, 0 */
-    VECTORS_QUILT, /* a plate of count x count fields, each tilted its own way by size[2] */
-    VECTORS_FAN    /* a disc of count triangles about its centre: slivers */
+    VECTORS_QUILT, /* a plate of count x count fields, each tilted differently by size[2] */
+    VECTORS_FAN    /* a disc of count triangles around its centre: slivers */
 };
 
-/* A body of a scene. `wear` has a letter for each of its faces (box: +x -x +y -y +z -z; round:
-   wall, above, below), '-' leaves the face out; the last one holds for the rest. */
+/* A body of a scene. `wear` has the material's letter for each of its faces (box: +x -x +y -y +z
+   -z; round: wall, above, below); '-' leaves the face out; the last letter applies to all remaining
+   faces. */
 typedef struct vectors_item {
     int kind;
-    int count; /* divisions */
+    int count; /* number of divisions */
     double size[3], at[3];
-    double turn_deg[3]; /* XYZ, before `at` */
+    double turn_deg[3]; /* rotations about X, Y, Z, applied before `at` */
     const char *wear;
 } vectors_item;
 
@@ -38,35 +39,35 @@ typedef struct vectors_scene {
     const char *name;
     int tier;
     unsigned attitudes;       /* bits, vectors_attitude.set */
-    double scale;             /* of everything, a power of two */
-    double move[3];           /* before the scale */
-    const vectors_item *item; /* up to one of kind VECTORS_NONE */
-    const char *about;        /* what it tries */
+    double scale;             /* of all coordinates, a power of two */
+    double move[3];           /* translation before the scale */
+    const vectors_item *item; /* terminated by one of kind VECTORS_NONE */
+    const char *about;        /* what it tests */
 } vectors_scene;
 
 #define VECTORS_TILTS 1u /* from the normal +z of a plate to grazing and beyond */
-#define VECTORS_TURNS 2u /* no symmetry in common with anything */
+#define VECTORS_TURNS 2u /* not symmetric to anything */
 #define VECTORS_EDGES 4u /* exactly along the axes of the body */
 
-/* An attitude: a quaternion of whole numbers, body to observation, of any length. */
+/* An attitude: a quaternion of integers, body to observation frame, of any length. */
 typedef struct vectors_attitude {
     const char *name;
     unsigned set;
     double quaternion[4];
 } vectors_attitude;
 
-/* The tables, ended by a NULL name. */
+/* The tables, terminated by a NULL name. */
 extern const vectors_material cli_vectors_materials[];
 extern const vectors_attitude cli_vectors_attitudes[];
 extern const vectors_scene cli_vectors_scenes[];
 
-/* A scene as facets. Every coordinate is a number of single precision. */
+/* A scene as facets. Every coordinate is representable in single precision. */
 typedef struct vectors_mesh {
     lrcs_point *vertex;
     lrcs_facet *facet;
-    uint32_t *wear; /* by facet: an index of cli_vectors_materials */
+    uint32_t *wear; /* by facet: an index into cli_vectors_materials */
     uint32_t vertices, facets, vertex_room, facet_room;
-    int failed; /* out of memory */
+    int failed; /* 1 if out of memory */
 } vectors_mesh;
 
 /* 0 or CLI_FAILED with the message printed; the caller frees it in any case. */
@@ -80,17 +81,17 @@ typedef struct vectors_case {
     double quaternion[4]; /* unit, w first */
     double direction[3];  /* unit, body frame */
     double azel_deg[2];
-    lrcs_pose pose; /* from these numbers as they are printed */
+    lrcs_pose pose; /* made from these numbers as they are printed */
     lrcs_result result;
-    double float_m2;  /* what single precision is allowed */
-    double edge_m2;   /* what a raster of N pixels is allowed, times N */
-    double window[3]; /* left, top, side, m: the square of the observation frame that is shown */
-    int image;        /* are there pictures of it? */
+    double float_m2;  /* the error allowed for single precision */
+    double edge_m2;   /* the error allowed for a raster of N pixels, times N */
+    double window[3]; /* left, top, side, m: the visible square of the observation frame */
+    int image;        /* 1 if there are pictures of it */
 } vectors_case;
 
 typedef struct vectors_job {
     const char *folder;
-    uint32_t resolution; /* of the pictures; 0: none */
+    uint32_t resolution; /* of the pictures; 0 for none */
     lrcs_binding *binding;
     uint32_t bindings;
     vectors_case *list; /* in the order of the tables */

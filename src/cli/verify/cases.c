@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The hard cases of `lrcs verify --hard`: bodies and facets on which plain double formulas fail,
-   and what is right. References are made by test/vectors/hard.py at 50 digits; the tests compare
-   them to its output. */
+/* The hard cases of `lrcs verify --hard`: bodies and facets for which plain double formulas fail,
+   with the correct answers. References are computed by test/vectors/hard.py with 50 digits; the
+   tests compare them with its output. */
 #include "cli/verify/verify.h"
 
 #include <math.h>
@@ -33,7 +33,7 @@ static void hand_plate(hard_mesh *mesh, const double corner[3], const double u[3
     hand_facet(mesh, i, i + 2, i + 3);
 }
 
-/* side x side at a corner, front on +z. */
+/* A square with the given side, from a corner; front on +z. */
 static void hand_square(hard_mesh *mesh, double x, double y, double z, double side)
 {
     hand_plate(mesh, (const double[3]){x, y, z}, (const double[3]){side, 0.0, 0.0},
@@ -65,7 +65,7 @@ static void build_tilted_plate(hard_mesh *mesh)
                (const double[3]){-2.0, 1.0, 0.5});
 }
 
-/* The tip stands 2^-40 off the middle of the long side. */
+/* The tip is 2^-40 away from the middle of the long side. */
 static void build_needle(hard_mesh *mesh)
 {
     const double third = 1.0 / 3.0;
@@ -100,7 +100,7 @@ static void build_large_box(hard_mesh *mesh)
     hand_box(mesh, 0x1p300, 0x1p300, 0x1p300);
 }
 
-/* A plate, and a black wall on its edge that shades it. */
+/* A plate, and a black wall on its edge that shadows it. */
 static void hand_bracket(hard_mesh *mesh, double at, double side)
 {
     hand_square(mesh, at, at, at, side);
@@ -184,7 +184,8 @@ static void build_screened_facet(hard_mesh *mesh)
 static void build_t_junction(hard_mesh *mesh)
 {
     hand_box(mesh, 3.0, 2.0, 1.0);
-    uint32_t middle = hand_vertex(mesh, 1.5, 1.0, 1.0); /* on the top's diagonal, from 7 to 4 */
+    /* on the diagonal of the top, from 7 to 4 */
+    uint32_t middle = hand_vertex(mesh, 1.5, 1.0, 1.0);
     mesh->facet[10] = (lrcs_facet){{4, 5, middle}};
     hand_facet(mesh, 5, 7, middle);
 }
@@ -194,7 +195,7 @@ static void build_nothing(hard_mesh *mesh)
     mesh->facets = 0;
 }
 
-/* One corner of the plate is no coordinate. */
+/* One corner of the plate has a coordinate that is not a number. */
 static void build_nan(hard_mesh *mesh)
 {
     build_plate(mesh);

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs verify --hard: each hard case by the plain formula, by the engine and by its reference, as a
-   table. It decides what counts as right: the reference, itself rounded once, within the bound; or
-   a refusal where there is no answer. */
+   table. This file decides what counts as right: the reference, itself rounded once, lies within
+   the bound; or the engine refuses a case that has no answer. */
 #include "cli/verify/verify.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* One case run: what the plain formula says, what the engine does. */
+/* The results of a case: of the plain formula and of the engine. */
 typedef struct hard_row {
     const hard_case *one;
     double naive, engine, bound, error;
-    int status; /* the engine's, negative where it refused */
+    int status; /* status of the engine, negative if it refused */
     int good;
 } hard_row;
 
@@ -97,7 +97,8 @@ static void row_json(const hard_row *row, lrcs_host_json *json)
     lrcs_host_number_text(row->naive, naive);
     lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(json, "case", row->one->name);
-    lrcs_host_json_text(json, "naive", naive); /* as text: nan and inf are answers here */
+    /* as text: nan and inf are possible answers here */
+    lrcs_host_json_text(json, "naive", naive);
     lrcs_host_json_text(json, "status", lrcs_status_text(row->status));
     lrcs_host_json_number(json, "engine_m2", answered ? row->engine : (double)NAN);
     lrcs_host_json_number(json, "reference_m2", row->one->reference_m2);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* sigma as one writes it down at first: the formulas as printed, in plain double arithmetic, a ray
-   from each facet's centroid for the shadow. Correct on paper, and what `lrcs verify --hard` shows
-   the engine against. Nothing else may use it. */
+/* sigma by a straightforward implementation: the formulas as printed, in plain double arithmetic,
+   with a ray from each facet's centroid for the shadow. Correct mathematically; `lrcs verify
+   --hard` compares the engine with it. Nothing else may use it. */
 #include "cli/verify/verify.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ double cli_naive_sphere(const hard_case *one, const hard_mesh *mesh)
     return 4.0 * square * b->A * slopes + 8.0 * square * b->B / (b->m + 3.0);
 }
 
-/* The wall alone. */
+/* Only the wall. */
 double cli_naive_cylinder(const hard_case *one, const hard_mesh *mesh)
 {
     (void)mesh;
@@ -42,7 +42,7 @@ double cli_naive_cylinder(const hard_case *one, const hard_mesh *mesh)
     return both * (glint + diffuse);
 }
 
-/* The wall alone, nose-on. */
+/* Only the wall, nose-on. */
 double cli_naive_cone(const hard_case *one, const hard_mesh *mesh)
 {
     (void)mesh;
@@ -52,7 +52,7 @@ double cli_naive_cone(const hard_case *one, const hard_mesh *mesh)
            naive_brdf(&one->brdf, cos(0.5 * CLI_PI - half));
 }
 
-/* The wall alone, nose-on; P(u) of the glint as a difference, the diffuse part as a power. */
+/* Only the wall, nose-on; P(u) of the glint as a difference, the diffuse part as a power. */
 static double naive_p(double u, double s)
 {
     double root = sqrt(u);
@@ -120,10 +120,11 @@ static const double *corner(const hard_mesh *mesh, uint32_t f, int i)
     return mesh->vertex[mesh->facet[f].corner[i]].x;
 }
 
-/* What a ray starts off its surface by, and what its determinant may be zero by. */
+/* The offset of a ray from its surface, and the threshold below which its determinant counts as
+   zero. */
 #define NAIVE_EPSILON 1e-6
 
-/* Does the ray meet the facet? T. Moller and B. Trumbore, J. Graphics Tools 2 (1997) 21. */
+/* 1 if the ray intersects the facet. T. Moller and B. Trumbore, J. Graphics Tools 2 (1997) 21. */
 static int ray_meets(const double from[3], const double along[3], const hard_mesh *mesh, uint32_t f)
 {
     double p[3];
@@ -179,7 +180,7 @@ static double area_by_heron(const double p[3], const double q[3], const double n
     return sqrt(half * (half - a) * (half - b) * (half - c));
 }
 
-/* Eq. 2 over the facets whose centroid the laser sees. */
+/* Eq. 2 over the facets whose centroid is visible to the laser. */
 static double naive_sum(const hard_case *one, const hard_mesh *mesh,
                         double (*area)(const double[3], const double[3], const double[3]))
 {

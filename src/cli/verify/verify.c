@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs verify: the engine (shape to facets to sigma) against closed forms, on this machine. The
-   hard cases are hard.c's. */
+/* lrcs verify: compares the engine (shape to facets to sigma) with closed forms, on this machine.
+   hard.c handles the hard cases. */
 #include "cli/verify/verify.h"
 
 #include <math.h>
@@ -94,7 +94,7 @@ static void case_json(const verify_case *one, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
-/* One shape in one material, ready to be looked at. */
+/* One shape in one material, prepared. */
 static int shape_scene(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_host_scene *scene,
                        lrcs_host_error *error)
 {
@@ -111,7 +111,7 @@ static int shape_scene(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_host
     return status == LRCS_OK ? lrcs_host_scene_prepare(scene, error) : status;
 }
 
-/* An axis and an angle from it: s_hat = (sin, 0, cos), as elevation 90 - angle. */
+/* An axis and an angle from it: s_hat = (sin, 0, cos), that is elevation 90 - angle. */
 static int case_run(const lrcs_host_scene *scene, const lrcs_shape *shape, verify_case *one,
                     lrcs_host_error *error)
 {
@@ -189,7 +189,8 @@ static int verify_command(const cli_args *args)
     lrcs_host_json writer = lrcs_host_json_make(stdout);
     lrcs_host_json *json = cli_value(args, "json") ? &writer : NULL;
     verify_tally tally = {0, 0, 0.0, 0.0};
-    cli_watch_stage(isatty(STDOUT_FILENO) ? NULL : "cases", NULL); /* rows show it themselves */
+    /* rows already show the progress */
+    cli_watch_stage(isatty(STDOUT_FILENO) ? NULL : "cases", NULL);
     if (cli_value(args, "hard")) {
         return cli_hard_verify(json != NULL);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs verify --hard: cases, the plain formulas they are shown against, and the table. */
+/* lrcs verify --hard: the cases, the plain formulas for comparison, and the table. */
 #ifndef LRCS_CLI_VERIFY_H
 #define LRCS_CLI_VERIFY_H
 
@@ -8,9 +8,9 @@
 #define HARD_VERTICES 192u
 #define HARD_FACETS   96u
 
-/* Facets made by hand: material 0 is the case's, 1 is black. */
+/* Facets constructed one by one: material 0 is the case's, 1 is black. */
 typedef struct hard_mesh {
-    uint32_t vertices, facets, wears; /* wears: the material of facets to come */
+    uint32_t vertices, facets, wears; /* wears: the material assigned to subsequent facets */
     lrcs_point vertex[HARD_VERTICES];
     lrcs_facet facet[HARD_FACETS];
     uint32_t material[HARD_FACETS];
@@ -19,11 +19,11 @@ typedef struct hard_mesh {
 
 typedef struct hard_case hard_case;
 
-/* A body with a closed form, or facets where `build` is given. */
+/* A body with a closed form, or facets if `build` is given. */
 struct hard_case {
     const char *name;
     double (*naive)(const hard_case *one, const hard_mesh *mesh);
-    double reference_m2; /* NaN: the engine has to refuse it */
+    double reference_m2; /* NaN if the engine must refuse the case */
     lrcs_brdf brdf;
     lrcs_shape shape;
     double aspect_deg;
@@ -34,7 +34,7 @@ struct hard_case {
 /* Case i, or NULL beyond the last. */
 const hard_case *cli_hard_case(size_t i);
 
-/* Plain double implementations as a textbook has them, none of which is to be trusted. */
+/* Plain double implementations as in a textbook, none of which is reliable. */
 double cli_naive_sphere(const hard_case *one, const hard_mesh *mesh);
 double cli_naive_cylinder(const hard_case *one, const hard_mesh *mesh);
 double cli_naive_cone(const hard_case *one, const hard_mesh *mesh);
@@ -43,7 +43,7 @@ double cli_naive_steps(const hard_case *one, const hard_mesh *mesh);
 double cli_naive_facets(const hard_case *one, const hard_mesh *mesh);
 double cli_naive_heron(const hard_case *one, const hard_mesh *mesh);
 
-/* The table, or JSON: CLI_DONE where every answer lies within its bound, else CLI_FAILED. */
+/* Prints the table, or JSON: CLI_DONE if every answer lies within its bound, else CLI_FAILED. */
 int cli_hard_verify(int as_json);
 
 #endif
