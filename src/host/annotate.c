@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a picture says of itself, so that it can be read without its page: the title, where the
-   laser stands, and how the body's axes lie in the view. */
+/* The annotations of a picture, so that it can be read by itself: the title, the direction to the
+   laser, and the body's axes in the view. */
 #include "host/annotate.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #define ANNOTATE_MARGIN 16.0
 #define ANNOTATE_TYPE   14.0
 
-/* Words in a room: smaller ones where they would not fit. */
+/* Draws text within a width, in a smaller size if it would not fit. */
 static void words_draw(lrcsi_plotter *plotter, lrcsi_words words, double room)
 {
     double width = words.size * lrcsi_letters_width(words.text);
@@ -21,7 +21,7 @@ static void words_draw(lrcsi_plotter *plotter, lrcsi_words words, double room)
     plotter->text(plotter, &words);
 }
 
-/* Seen from the laser an axis of the body is a column of R; the farthest is drawn first. */
+/* Seen from the laser, an axis of the body is a column of R; the farthest axis is drawn first. */
 static void axes_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, lrcsi_spot corner,
                       double length)
 {
@@ -60,7 +60,7 @@ void lrcsi_annotate(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, do
 {
     const double *d = colouring->picture->pose->direction;
     char pose[80];
-    /* + 0.0 makes no negative zero of one */
+    /* + 0.0 turns a negative zero into zero */
     double az = atan2(d[1], d[0]) * (180.0 / LRCSI_PI) + 0.0;
     double el = atan2(d[2], hypot(d[0], d[1])) * (180.0 / LRCSI_PI) + 0.0;
     snprintf(pose, sizeof pose, "azimuth %.4g deg, elevation %.4g deg", az, el);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a picture says of itself: title, pose, axes. */
+/* The annotations of a picture: title, pose, axes. */
 #ifndef LRCSI_HOST_ANNOTATE_H
 #define LRCSI_HOST_ANNOTATE_H
 
@@ -8,8 +8,8 @@
 
 #define LRCSI_ANNOTATE_TITLE 34.0 /* the height of title and pose, units of the paper */
 
-/* Draws the title and the pose at the top of paper of a width, and the body's axes from `corner`,
-   at most `length` long. */
+/* Draws the title and the pose at the top of paper of the given width, and the body's axes from
+   `corner`, at most `length` long. */
 void lrcsi_annotate(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double width,
                     lrcsi_spot corner, double length);
 

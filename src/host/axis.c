@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which round numbers an axis begins and ends with, which of them it names and how. It knows
-   nothing of pixels but how many texts there is room for. */
+/* Chooses the round numbers at which an axis begins and ends, which of them are labelled, and how.
+   Of the layout it knows only the number of labels that fit. */
 #include "host/axis.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ static lrcsi_tick *tick_add(lrcsi_axis *axis, double value, int major)
     return tick;
 }
 
-/* mantissa x 10^decade, without the printf that asks the locale for its point. */
+/* Writes mantissa x 10^decade without printf, whose decimal point depends on the locale. */
 static void axis_decimal(char text[48], long mantissa, int decade)
 {
     static const long power[] = {1, 10, 100, 1000, 10000, 100000, 1000000};
@@ -70,7 +70,7 @@ static void log_ticks(lrcsi_axis *axis, double texts)
     double span = log10(axis->most / axis->least);
     int step = (int)ceil(span / fmax(texts, 1.0));
     int plain = first >= -3 && last <= 5;
-    int between = 3.0 * span <= texts && (plain || span < 2.0); /* 2 and 5 are named as well */
+    int between = 3.0 * span <= texts && (plain || span < 2.0); /* 2 and 5 are labelled too */
     step = step > 1 ? step : 1;
     for (int decade = first; decade <= last; decade++) {
         for (long k = 1; k < 10; k++) {
@@ -132,7 +132,7 @@ static void linear_range(lrcsi_axis *axis, double least, double most, double tex
     linear_ticks(axis, step);
 }
 
-/* Angles in parts of a turn that people know; -1 where they are too few or too many for that. */
+/* Steps of angles in familiar fractions of a turn; -1 if that gives too few or too many. */
 static int degree_range(lrcsi_axis *axis, double least, double most, double texts)
 {
     static const struct {

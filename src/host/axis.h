@@ -7,14 +7,14 @@
 
 #define LRCSI_AXIS_TICKS 256u
 
-/* What an axis can show: a logarithmic one from LEAST on, a linear one from -MOST on. */
+/* The values that an axis can show: a logarithmic one from LEAST, a linear one from -MOST. */
 #define LRCSI_AXIS_LEAST 1e-290
 #define LRCSI_AXIS_MOST  1e290
 
 typedef struct lrcsi_tick {
     double value;
     int major;      /* has a text */
-    char text[48];  /* "0.5"; "10" where `raised` is its exponent */
+    char text[48];  /* "0.5"; "10" if `raised` is its exponent */
     char raised[8]; /* "-6", or "" */
 } lrcsi_tick;
 
@@ -27,12 +27,12 @@ typedef struct lrcsi_axis {
 
 enum lrcsi_axis_kind { LRCSI_AXIS_LINEAR, LRCSI_AXIS_LOG, LRCSI_AXIS_DEG };
 
-/* The axis that covers least .. most in round numbers, with about `texts` of them named at most.
-   Where there is no such range it covers 0 .. 1, or 0.1 .. 1. */
+/* The axis that covers least .. most in round numbers, with at most about `texts` labels. If there
+   is no such range it covers 0 .. 1, or 0.1 .. 1. */
 lrcsi_axis lrcsi_axis_make(int kind, double least, double most, double texts);
 
-/* Where a value lies: 0 at least, 1 at most, outside beyond; -HUGE_VAL for what a logarithm
-   does not have. */
+/* The position of a value: 0 at `least`, 1 at `most`, outside 0 .. 1 beyond them; -HUGE_VAL if it
+   has no logarithm. */
 double lrcsi_axis_at(const lrcsi_axis *axis, double value);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Which materials a binding means whose name none of them has: one with * or ?, or in letters of
-   the other case. It replaces such bindings by bindings of the names that they match. Which binding
-   a surface gets is the core's business: among those of a name, the last one. So patterns come
-   first in the list, names that differ in case then, full names last. */
+/* Which materials a binding means if none of them has its name: one with * or ?, or one that
+   differs in case. It replaces such bindings by bindings of the names that they match. The core
+   decides which binding a surface gets: the last one for its name. Therefore patterns come first in
+   the list, then names that differ in case, and exact names last. */
 #include "host/binding.h"
 
 #include <string.h>
@@ -16,11 +16,11 @@ typedef struct binding_names {
     uint32_t count;
 } binding_names;
 
-/* How a binding's name is read, and the names that answer then. */
+/* How a binding's name is interpreted, and the names that it then matches. */
 typedef struct binding_match {
     int rank;          /* binding_rank */
     int fold;          /* 1: letters of either case match */
-    uint32_t count;    /* names that answer, 0 if none does */
+    uint32_t count;    /* number of names that match */
     const char *first; /* of them, or "" */
 } binding_match;
 
@@ -76,9 +76,9 @@ static int name_answers(const char *text, const char *name, const binding_match 
                                         : strcmp(text, name) == 0;
 }
 
-/* The strictest reading of a binding's name that any name answers to: the name itself, a pattern in
-   its own letters, a name or a pattern in letters of either case. The name itself where none does,
-   for others to complain about. */
+/* The strictest interpretation of a binding's name that matches any name: the exact name, a
+   case-sensitive pattern, or a name or pattern without regard to case. If nothing matches, the
+   exact name, so that the caller reports it. */
 static binding_match binding_read(const lrcs_binding *binding, const binding_names *names)
 {
     int pattern = is_named(binding) && lrcsi_name_is_pattern(binding->name);
@@ -101,8 +101,8 @@ static binding_match binding_read(const lrcs_binding *binding, const binding_nam
     return reading[0];
 }
 
-/* Letters of the other case were meant: which name that is, and whether there are others (a model
-   read twice gives each name twice). */
+/* For a name that differs in case: the matching name, and whether there are others (a model read
+   twice gives each name twice). */
 static void folded_note(lrcs_host_scene *scene, const lrcs_binding *binding,
                         const binding_names *names, const binding_match *match)
 {
@@ -121,8 +121,8 @@ static void folded_note(lrcs_host_scene *scene, const lrcs_binding *binding,
 
 /* ---- the list ---- */
 
-/* The bindings of a rank, each as those that it stands for; returns how many bindings there are
-   then. */
+/* Appends the bindings of a rank, each replaced by those that it represents. Returns the new number
+   of bindings. */
 static uint32_t rank_add(const lrcs_recipe *recipe, const binding_names names[2],
                          const binding_match *match, int rank, lrcs_binding *all, uint32_t used)
 {

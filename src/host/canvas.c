@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Lines, convex areas and words as pixels. It decides how much of each pixel a stroke covers; a
-   whole stroke is collected before it is coloured, so that it does not darken where it meets
-   itself. */
+   whole stroke is collected before it is coloured, so that it does not become darker where it
+   overlaps itself. */
 #include "host/canvas.h"
 
 #include "host/fail.h"
@@ -35,7 +35,7 @@ static void canvas_touch(lrcsi_canvas *canvas, const double reach[4], uint32_t p
     }
 }
 
-/* Colours what the stroke covers, and forgets it. */
+/* Colours what the stroke covers, and clears it. */
 static void canvas_settle(lrcsi_canvas *canvas, uint32_t colour)
 {
     const double ink[3] = {(double)(colour >> 16 & 255u), (double)(colour >> 8 & 255u),
@@ -57,8 +57,8 @@ static void canvas_settle(lrcsi_canvas *canvas, uint32_t colour)
     box[2] = box[3] = 0;
 }
 
-/* A piece of a line, in pixels, with round ends: a pixel is covered as far as its centre lies
-   inside. */
+/* A piece of a line, in pixels, with round ends. The coverage of a pixel follows from the distance
+   of its centre. */
 static void canvas_piece(lrcsi_canvas *canvas, lrcsi_spot a, lrcsi_spot b, double half)
 {
     const double reach[4] = {fmin(a.x, b.x) - half - 1.0, fmin(a.y, b.y) - half - 1.0,
@@ -161,8 +161,8 @@ static void canvas_area(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t
     canvas_settle(canvas, colour);
 }
 
-/* The direction in which a curve through three spots passes the middle one, times a length; zero
-   where they make a corner. */
+/* The direction in which a curve through three spots passes the middle one, times a length; zero if
+   they form a corner. */
 static lrcsi_spot stroke_tangent(lrcsi_spot a, lrcsi_spot b, lrcsi_spot c)
 {
     double in = hypot(b.x - a.x, b.y - a.y);
@@ -189,7 +189,7 @@ static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_spot *spot, uint32_t
         double chord = hypot(b.x - a.x, b.y - a.y);
         lrcsi_spot ta = stroke_tangent(before, a, b);
         lrcsi_spot tb = stroke_tangent(a, b, after);
-        /* where only one end is on a curve, the other goes straight for what the first leaves */
+        /* if only one end is on a curve, the curvature at the other end is zero */
         if (ta.x == 0.0 && ta.y == 0.0) {
             ta = (lrcsi_spot){1.5 * (b.x - a.x) / chord - 0.5 * tb.x,
                               1.5 * (b.y - a.y) / chord - 0.5 * tb.y};
@@ -212,7 +212,7 @@ static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_spot *spot, uint32_t
     }
 }
 
-/* One text from a spot on the base line, in pixels. */
+/* Draws a text from a point on the base line, in pixels. */
 static void canvas_letters(lrcsi_canvas *canvas, const char *text, lrcsi_spot from, double size,
                            int upwards, double half)
 {

@@ -10,8 +10,8 @@ typedef struct lrcsi_canvas {
     uint32_t width, height;
     double scale;       /* pixels a unit of the paper */
     unsigned char *rgb; /* width x height */
-    float *cover;       /* of the stroke at hand; all zero between strokes */
-    uint32_t box[4];    /* what it touches: x and y from, x and y to (not included) */
+    float *cover;       /* of the current stroke; all zero between strokes */
+    uint32_t box[4];    /* the pixels that it touches: x and y from, x and y to (exclusive) */
 } lrcsi_canvas;
 
 /* White paper of width x height units. Status: LRCS_OK; LRCS_E_SYSTEM (memory). */

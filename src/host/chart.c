@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A chart from its description: where everything stands and in which order it is drawn. Numbers
-   become ticks in axis.c, strokes become SVG or pixels behind the plotter. */
+/* A chart from its description: the layout and the order of drawing. axis.c chooses ticks; the
+   plotter writes SVG or pixels. */
 #include "host/axis.h"
 #include "host/canvas.h"
 #include "host/label.h"
@@ -37,7 +37,7 @@ static double chart_y(const chart_plan *plan, double value)
            lrcsi_axis_at(&plan->y, value) * (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
 }
 
-/* A value as the axis will show it; 0 where it cannot. */
+/* A value as the axis shows it; returns 0 if it cannot. */
 static int chart_shows(int log, double floor, double *value)
 {
     if (log && floor > 0.0 && *value <= floor) {
@@ -59,7 +59,7 @@ static int chart_point(const chart_plan *plan, const lrcs_host_series *series, u
     return 1;
 }
 
-/* The least and the most that an axis has to show, a little room about it. */
+/* The least and the largest value that an axis has to show, with a small margin. */
 static void chart_range(const lrcs_host_chart *chart, int vertical, double range[2])
 {
     int log = vertical ? chart->y_log : chart->x_log;
@@ -95,7 +95,7 @@ static void chart_range(const lrcs_host_chart *chart, int vertical, double range
 
 /* ---- the frame ---- */
 
-/* What lies below the floor is not to be told apart. */
+/* Fills the region below the floor, where values are indistinguishable. */
 static void chart_floor(const chart_plan *plan)
 {
     double y = chart_y(plan, plan->chart->floor);
@@ -106,7 +106,7 @@ static void chart_floor(const chart_plan *plan)
     plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_FLOOR);
 }
 
-/* Lines at the major ticks, or the minor ones where they are not a hatching. */
+/* Lines at the major ticks, or at the minor ones if these are not too dense. */
 static void chart_grid(const chart_plan *plan, int major)
 {
     uint32_t colour = major ? LRCSI_COLOUR_GRID : LRCSI_COLOUR_MINOR;
@@ -156,8 +156,8 @@ static void run_draw(const chart_plan *plan, const lrcs_host_series *series, con
     }
 }
 
-/* A series' line, in runs of some length; its dashes begin anew with each. What cannot be shown is
-   a gap in it. */
+/* A series' line, in runs; dashes restart with each run. Values that cannot be shown leave a
+   gap. */
 static void series_line(const chart_plan *plan, const lrcs_host_series *series)
 {
     lrcsi_spot run[256];
@@ -175,7 +175,7 @@ static void series_line(const chart_plan *plan, const lrcs_host_series *series)
     run_draw(plan, series, run, count);
 }
 
-/* Below a point that lies under the floor. */
+/* The mark for a point that lies below the floor. */
 static void arrow_draw(const chart_plan *plan, uint32_t colour, lrcsi_spot at)
 {
     const lrcsi_spot head[3] = {
@@ -214,7 +214,7 @@ static void series_labels(const chart_plan *plan, const lrcs_host_series *series
     }
 }
 
-/* What the floor stands for, below the list of series. */
+/* The meaning of the floor, below the list of series. */
 static void legend_floor(const chart_plan *plan, double x, double y)
 {
     const lrcs_host_chart *chart = plan->chart;
@@ -244,7 +244,7 @@ static void chart_legend(const chart_plan *plan)
     }
 }
 
-/* The paper that the data are drawn on. */
+/* The background of the data. */
 static void chart_ground(const chart_plan *plan)
 {
     int floor = plan->chart->y_log && plan->chart->floor > 0.0;
@@ -260,7 +260,7 @@ static void chart_ground(const chart_plan *plan)
     }
 }
 
-/* Where an end of a band stands, within the frame. */
+/* The position of an end of a band, clamped to the frame. */
 static double band_y(const chart_plan *plan, double value)
 {
     int shown = chart_shows(plan->chart->y_log, plan->chart->floor, &value);
@@ -286,7 +286,7 @@ static void series_band(const chart_plan *plan, const lrcs_host_series *series)
     }
 }
 
-/* All bands first, then all lines: none crosses out a marker. */
+/* All bands first, then all lines, then markers, so that nothing covers a marker. */
 static void chart_data(const chart_plan *plan)
 {
     const lrcs_host_chart *chart = plan->chart;
@@ -304,7 +304,7 @@ static void chart_data(const chart_plan *plan)
     }
 }
 
-/* Marks and numbers of both axes, and what is said about them. */
+/* Marks and numbers of both axes, and their titles. */
 static void chart_say(const chart_plan *plan)
 {
     const lrcs_host_chart *chart = plan->chart;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* From the numbers of a run to colours, and the scale that covers them. It decides how a run looks,
-   never a number of the result, nor where anything stands on the paper. */
+/* From the numbers of a run to colours, and the scale that covers them. It decides the appearance
+   of a run, but no number of the result and no layout. */
 #include "host/colouring.h"
 
 #include "base/constant.h"
@@ -14,9 +14,9 @@
 #define SCALE_BINS  800  /* a histogram of -400 .. 400 dB */
 #define SCALE_TEXTS 9.0
 #define LOOK_DEG    (180.0 / LRCSI_PI)
-#define LOOK_PLAIN  0xc8c8c8u /* what has no colour of its own, under a lamp */
+#define LOOK_PLAIN  0xc8c8c8u /* facets without a colour of their own, shaded */
 #define LOOK_LEVEL  1e-9      /* a slope that no colour shows */
-#define LOOK_CREASE 0.05      /* cosines that differ by more: an edge to show */
+#define LOOK_CREASE 0.05      /* cosines that differ by more show an edge */
 
 static const char *const look_names[] = {"sigma", "theta", "range", "facet", "material", "shaded"};
 
@@ -55,7 +55,7 @@ static const lrcs_material *facet_wears(const lrcsi_colouring *colouring, uint32
     return &scene->material[scene->facet_material[facet]];
 }
 
-/* sigma per visible projected area in dB, or -HUGE_VAL where nothing comes back. */
+/* sigma per visible projected area in dB, or -HUGE_VAL if nothing is returned. */
 static double facet_return(const lrcs_facet_record *record)
 {
     if (!(record->sigma_m2 > 0.0) || !(record->visible_area_m2 > 0.0)) {
@@ -77,8 +77,8 @@ static void corner_view(const lrcsi_colouring *colouring, uint32_t facet, int co
     }
 }
 
-/* The plane of a facet over the picture, about the scene's centre; level where it stands on edge.
-   Returned: the least and the most height of its corners. */
+/* The plane of a facet over the picture, about the scene's centre; level if the facet is edge-on.
+   Returned: the least and the largest height of its corners. */
 static void facet_plane(const lrcsi_colouring *colouring, uint32_t facet, double at[3],
                         double height[2])
 {
@@ -119,7 +119,7 @@ static double histogram_at(const double area[SCALE_BINS], double share)
 }
 
 /* The scale covers all returns seen but the weakest and strongest half percent of the area, in
-   steps of 5 dB; what lies beyond has the end's colour. */
+   steps of 5 dB; values beyond them have the colours of its ends. */
 static void sigma_range(const lrcs_host_picture *picture, double range[2])
 {
     double area[SCALE_BINS] = {0};
@@ -142,7 +142,7 @@ static void sigma_range(const lrcs_host_picture *picture, double range[2])
     range[0] = fmin(range[0], range[1] - 10.0);
 }
 
-/* All corners of what is seen. */
+/* All corners of the visible facets. */
 static void height_range(const lrcsi_colouring *colouring, double range[2])
 {
     range[0] = HUGE_VAL;
@@ -185,7 +185,7 @@ static int material_alike(const lrcs_material *a, const lrcs_material *b)
            memcmp(a->rgb, b->rgb, sizeof a->rgb) == 0;
 }
 
-/* The place of a material among those that look apart, or their number. */
+/* The index of a material among those that look different, or their number. */
 static uint32_t material_find(const lrcsi_colouring *colouring, uint32_t material)
 {
     const lrcs_material *all = colouring->picture->scene->material;
@@ -199,7 +199,7 @@ static uint32_t material_find(const lrcsi_colouring *colouring, uint32_t materia
     return i;
 }
 
-/* Is there a material before this one that is used and looks like it? */
+/* Is there an earlier material that is used and looks the same? */
 static int material_repeats(const lrcs_scene *scene, const unsigned char *used, uint32_t material)
 {
     for (uint32_t i = 0; i < material; i++) {
@@ -210,7 +210,7 @@ static int material_repeats(const lrcs_scene *scene, const unsigned char *used, 
     return 0;
 }
 
-/* What facets wear, in the order of the scene's list, each with a colour of its own. */
+/* The materials assigned to facets, in the order of the scene's list, each with its own colour. */
 static void materials_list(lrcsi_colouring *colouring)
 {
     const lrcs_scene *scene = colouring->picture->scene;
@@ -279,7 +279,7 @@ lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
     return colouring;
 }
 
-/* What has no value on the scale: darker where it slants. */
+/* The colour of a facet without a value on the scale: darker at larger incidence. */
 static uint32_t look_grey(const lrcs_facet_record *record)
 {
     return lrcsi_palette_shade(0x787878u, 0.375 + 0.625 * fmin(fabs(record->cos_theta), 1.0));

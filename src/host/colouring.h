@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a picture's colours stand for: which colour each facet has, and the scale they are read by.
- */
+/* The meaning of a picture's colours: the colour of each facet, and the scale of the colours. */
 #ifndef LRCSI_COLOURING_H
 #define LRCSI_COLOURING_H
 
@@ -18,29 +17,29 @@ typedef struct lrcsi_colouring {
     uint32_t materials;                      /* that look apart; by material only */
     uint32_t material[LRCSI_LOOK_MATERIALS]; /* one of each */
     uint32_t hue[LRCSI_LOOK_MATERIALS];      /* its false colour */
-    uint32_t more;                           /* how many there are beside these */
+    uint32_t more;                           /* number of further ones */
 } lrcsi_colouring;
 
-/* Without records, what does not depend on them: all but the scale. */
+/* Without records, fills only what does not depend on them: everything except the scale. */
 lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture);
 
-/* What is behind a picture, and the colour of words on it. */
+/* The background of a picture, and the colour of words on it. */
 uint32_t lrcsi_colouring_ground(const lrcsi_colouring *colouring);
 uint32_t lrcsi_colouring_ink(const lrcsi_colouring *colouring);
 
-/* What the scale stands for, or NULL. */
+/* The title of the scale, or NULL. */
 const char *lrcsi_colouring_name(const lrcsi_colouring *colouring);
 
 /* The colour of a facet at a point of the observation frame (m, about the body's origin). */
 uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet,
                                 const double view[2]);
 
-/* The false colour of a material, and its name for people. */
+/* The false colour of a material, and its display name. */
 uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t material);
 const char *lrcsi_colouring_material_name(const lrcsi_colouring *colouring, uint32_t material);
 
-/* Does a facet have a slope that its colours follow? Then height = at[0] + at[1] x + at[2] y on its
-   plane, above the scene's centre, m. */
+/* Does a facet have a slope that its colour depends on? Then height = at[0] + at[1] x + at[2] y on
+   its plane, above the scene's centre, m. */
 int lrcsi_colouring_slope(const lrcsi_colouring *colouring, uint32_t facet, double at[3]);
 
 /* Does an outline run between two facets that meet in the picture? */

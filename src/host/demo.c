@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Holds the built-in scene as the Makefile's bytes. */
+/* Holds the built-in scene, as bytes that the Makefile generates. */
 #include "host/demo.h"
 
 static const char demo_text[] = {

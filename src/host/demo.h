@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The built-in scene: examples/satellite.toml, byte for byte, put here by the Makefile. */
+/* The built-in scene: examples/satellite.toml, byte for byte, embedded by the Makefile. */
 #ifndef LRCSI_HOST_DEMO_H
 #define LRCSI_HOST_DEMO_H
 

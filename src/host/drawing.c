@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Visible polygons as vector graphics: one path a facet, in metres, under one transform to the
-   paper. What colours mean is look.c, the strip below it legend.c. */
+/* Visible polygons as vector graphics: one path per facet, in metres, under one transform to the
+   paper. colouring.c decides colours, legend.c the strip below. */
 #include "host/legend.h"
 #include "host/palette.h"
 #include "host/svg.h"
@@ -66,7 +66,8 @@ static void scale_stops(FILE *out)
     fputs("</linearGradient>\n", out);
 }
 
-/* Along the steepest way up the facet's plane, from the scale's one end to the other. */
+/* A gradient along the steepest ascent of the facet's plane, from one end of the scale to the
+   other. */
 static void slope_write(FILE *out, const lrcsi_colouring *colouring, uint32_t facet,
                         const double at[3])
 {
@@ -91,7 +92,7 @@ static void ring_write(FILE *out, const lrcs_polygons *polygons, const lrcs_ring
     putc('Z', out);
 }
 
-/* The rings from `first` on that lie on one facet; the one after them. */
+/* Draws the rings from `first` on that lie on one facet. Returns the index after them. */
 static uint32_t facet_write(FILE *out, const lrcsi_colouring *colouring,
                             const lrcs_polygons *polygons, uint32_t first)
 {

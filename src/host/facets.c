@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The per-facet table of a run, CSV after RFC 4180 with plain line ends. */
+/* The per-facet table of a run, CSV as in RFC 4180, but with line ends of LF. */
 #include <lrcs/host.h>
 
 #include <string.h>

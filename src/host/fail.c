@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The sentences of the host layer: what failed and where, and what is worth a notice. It decides
-   their wording's frame, not when they are said. */
+/* The sentences of the host layer: errors, with their place, and notices. It decides their form,
+   not when they are issued. */
 #include "host/fail.h"
 
 #include <errno.h>
@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A name from a file may hold anything; what would move a terminal's cursor becomes '?'. */
+/* A name from a file may hold any bytes; control characters become '?', because they could move a
+   terminal's cursor. */
 static void text_tame(char *text)
 {
     for (; *text; text++) {

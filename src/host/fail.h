@@ -12,14 +12,14 @@ __attribute__((format(printf, 3, 4))) int lrcsi_host_fail(lrcs_host_error *error
 /* LRCS_E_SYSTEM for a file: "PATH: cannot WHAT: " and errno's text. */
 int lrcsi_host_fail_file(lrcs_host_error *error, const char *path, const char *what);
 
-/* LRCS_E_SYSTEM for want of memory. */
+/* LRCS_E_SYSTEM because of lack of memory. */
 int lrcsi_host_fail_memory(lrcs_host_error *error, size_t bytes);
 
-/* A reader's status with its account of the place. */
+/* A reader's status with the place that it reports. */
 int lrcsi_host_fail_where(lrcs_host_error *error, int status, const char *path,
                           const lrcs_where *where);
 
-/* Adds a sentence; the same one twice is kept once. Dropped where there is no memory for it. */
+/* Adds a sentence; a repeated sentence is kept once. Dropped if there is no memory for it. */
 __attribute__((format(printf, 2, 3))) void lrcsi_host_note(lrcs_host_notices *notices,
                                                            const char *format, ...);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Whole files in, whole files out. It decides how a file is read (once, up to a limit) and that
-   an output shows its name only when complete; nothing is synced to disk. */
+/* Whole files in, whole files out. A file is read once, up to a limit. An output gets its name only
+   when it is complete; nothing is synced to disk. */
 #include "host/file.h"
 
 #include <errno.h>
@@ -10,10 +10,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Far above any mesh of 2^32 facets' worth of sense; a guard against /dev/zero. */
+/* Far above the size of any sensible mesh of 2^32 facets; a guard against /dev/zero. */
 #define FILE_MOST ((size_t)1 << 34)
 
-/* Reads to the end, growing; the first size is the file's own where it tells one. */
+/* Reads to the end into a growing buffer, whose first size is that of the file if it is known. */
 static int file_fill(FILE *stream, size_t guess, const char *path, lrcs_host_file *file,
                      lrcs_host_error *error)
 {
@@ -84,7 +84,7 @@ void lrcs_host_file_free(lrcs_host_file *file)
     *file = (lrcs_host_file){NULL, 0};
 }
 
-/* "FOLDER/.lrcs-PID-TRY.tmp" beside the path, created here and by no one else. */
+/* "FOLDER/.lrcs-PID-TRY.tmp" beside the path, created here exclusively. */
 static int temporary_open(lrcs_host_output *output)
 {
     const char *slash = strrchr(output->path, '/');

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reading a file and knowing which one it was. */
+/* Reading a file and recording which one it was. */
 #ifndef LRCSI_HOST_FILE_H
 #define LRCSI_HOST_FILE_H
 
@@ -7,7 +7,7 @@
 
 #include "host/fail.h"
 
-/* lrcs_host_file_read, and what the system says about the file that was read. */
+/* lrcs_host_file_read, and the system's record of the file that was read. */
 int lrcsi_host_file_read(const char *path, lrcs_host_file *file, struct stat *about,
                          lrcs_host_error *error);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether a mesh of curved bodies is fine enough for the glint of what it wears: an estimate,
-   from the angles between neighbours that share a smoothing group, or between vertex normals. */
+/* Whether a mesh of curved bodies is fine enough for the glint of its assigned material: an
+   estimate, from the angles between neighbours that share a smoothing group, or between vertex
+   normals. */
 #include "host/fail.h"
 
 #include <math.h>
@@ -9,8 +10,8 @@
 #include "base/constant.h"
 #include "optics/comb.h"
 
-/* Neighbours that turn by less are taken for halves of one flat polygon, by more (60 deg) for
-   faces of a box that its maker smoothed. */
+/* Neighbours that turn by less are treated as halves of one flat polygon; those that turn by more
+   (60 deg), as faces of a box with a smoothing group. */
 #define FLAT_TURN  1e-3
 #define SHARP_TURN (LRCSI_PI / 3.0)
 
@@ -76,7 +77,7 @@ static void glint_normal(const lrcs_scene *scene, uint32_t facet, double n[3])
     }
 }
 
-/* The angle between two facets' normals; 0 where one has none. */
+/* The angle between two facets' normals; 0 if one has none. */
 static double facets_turn(const lrcs_scene *scene, uint32_t a, uint32_t b)
 {
     double n[3];
@@ -171,7 +172,7 @@ static lrcs_host_glint glint_entry(const lrcs_scene *scene, uint32_t part, uint3
                              lrcsi_comb_around(s, 1e-3)};
 }
 
-/* One entry a run of equal part and material: the median turn. */
+/* One entry per run of facets with equal part and material: the median turn. */
 static uint32_t models_glint(const lrcs_scene *scene, const glint_turn *turns, size_t count,
                              lrcs_host_glint *list)
 {
@@ -188,7 +189,7 @@ static uint32_t models_glint(const lrcs_scene *scene, const glint_turn *turns, s
     return used;
 }
 
-/* Shapes wear one material; a plane-faced one has no turn. */
+/* A shape has one assigned material; one with plane faces has no turn. */
 static uint32_t shapes_glint(const lrcs_scene *scene, lrcs_host_glint *list)
 {
     uint32_t used = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Text and bytes for an HTML page that is well-formed XML too. It decides what stands for
-   characters that are markup or may not stand in a page; the page is the caller's. */
+/* Text and bytes for an HTML page that is well-formed XML too. It replaces characters that are
+   markup or not allowed in a page; the caller decides the page. */
 #include <lrcs/host.h>
 
 #include "base/text.h"
@@ -9,7 +9,7 @@
 
 #define SEQUENCE_MOST 4 /* bytes; the terminator ends a shorter one */
 
-/* U+FFFE and U+FFFF, which XML leaves out. */
+/* U+FFFE and U+FFFF, which XML excludes. */
 static int html_is_none(const char *at, size_t count)
 {
     return count == 3 && memcmp(at, "\xef\xbf", 2) == 0 && (unsigned char)at[2] >= 0xbe;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which files a scene was read from, so that no output replaces one of them. A file is known by
    device and node, whatever path leads to it. Models and scene files are regular files: devices and
-   pipes are refused. It decides nothing about what the files hold. */
+   pipes are refused. It does not interpret the files. */
 #include "host/input.h"
 
 #include <stdlib.h>
@@ -20,7 +20,8 @@ int lrcsi_host_input_read(lrcs_host_scene *scene, const char *path, lrcs_host_fi
                           lrcs_host_error *error)
 {
     struct stat about;
-    /* before it is opened: a pipe without a writer would wait for ever, a device need not end */
+    /* before it is opened: a pipe without a writer would block for ever, and a device may have no
+       end */
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)) {
         return lrcsi_host_fail(error, LRCS_E_SYSTEM,
                                "%s: expected a regular file, found a device, pipe or socket", path);
@@ -60,7 +61,7 @@ int lrcs_host_output_check(const char *path, const lrcs_host_scene *scene, lrcs_
     return LRCS_OK;
 }
 
-/* What the system says about the folder that a path lies in; 0, or -1 where there is none. */
+/* The system's record of the folder that contains a path; returns 0, or -1 if there is none. */
 static int folder_stat(const char *path, struct stat *about)
 {
     size_t size = (size_t)(lrcsi_host_basename(path) - path);
@@ -86,7 +87,7 @@ int lrcs_host_output_same(const char *path, const char *other)
     if (there != stat(other, &b)) {
         return 0;
     }
-    if (there != 0) { /* neither is there: they are one where folder and name are */
+    if (there != 0) { /* neither exists: they are the same if folder and name are equal */
         if (strcmp(lrcsi_host_basename(path), lrcsi_host_basename(other)) != 0 ||
             folder_stat(path, &a) != 0 || folder_stat(other, &b) != 0) {
             return 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* JSON, RFC 8259, as a stream of items. It decides commas, lines and escapes; what the keys are
-   is the caller's. Bytes that are not UTF-8 become U+FFFD, so that every reader accepts it. */
+/* JSON, RFC 8259, as a stream of items. It decides commas, lines and escapes; the caller decides
+   the keys. Bytes that are not UTF-8 become U+FFFD, so that every reader accepts it. */
 #include <lrcs/host.h>
 
 #include "base/text.h"

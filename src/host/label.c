@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Places texts one after another, each at the first free one of eight places round its point; what
-   finds none is left out, for a missing number misleads nobody. */
+/* Places texts one after another, each at the first free one of eight places around its point. A
+   text without a free place is omitted. */
 #include "host/label.h"
 
 #include "host/letters.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The strip below a picture: a bar of some metres on the left; the colour scale beside it, or names
-   of materials above it. It decides what stands where in that strip, not what colours mean. */
+/* The strip below a picture: a scale bar on the left; the colour scale beside it, or names of
+   materials above it. It decides the layout of that strip, not what colours mean. */
 #include "host/legend.h"
 
 #include "host/letters.h"
@@ -85,7 +85,7 @@ static void words_fit(lrcsi_plotter *plotter, lrcsi_words words, double room)
     plotter->text(plotter, &words);
 }
 
-/* How many named ticks there are from one number to the next, so that all have room. */
+/* The number of ticks from one labelled tick to the next, so that all labels fit. */
 static uint32_t numbers_step(const lrcsi_axis *scale, double width)
 {
     double widest = 0.0;
@@ -98,7 +98,7 @@ static uint32_t numbers_step(const lrcsi_axis *scale, double width)
     return (uint32_t)ceil((LEGEND_TYPE * widest + 6.0) / apart);
 }
 
-/* Numbers under the scale, 0 among them where it is. */
+/* Numbers under the scale, among them 0 if it is on the scale. */
 static void scale_numbers(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double left,
                           double width, double y, uint32_t ink)
 {
@@ -137,7 +137,8 @@ static void scale_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
                                .anchor = LRCSI_ANCHOR_MIDDLE,
                                .colour = ink};
     words_fit(plotter, title, bar);
-    for (int i = 0; i < LEGEND_STEPS; i++) { /* each to the end: no gaps between them */
+    for (int i = 0; i < LEGEND_STEPS; i++) { /* each extends to the end, so that there are no
+                                                gaps */
         rectangle_draw(plotter, left + bar * i / LEGEND_STEPS, y, left + bar, y + LEGEND_BAR,
                        lrcsi_palette_even((i + 0.5) / LEGEND_STEPS));
     }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What stands beside a picture: how its colours are read, and how long a metre is. */
+/* The legend of a picture: its colour scale and its scale bar. */
 #ifndef LRCSI_HOST_LEGEND_H
 #define LRCSI_HOST_LEGEND_H
 
 #include "host/colouring.h"
 #include "host/plotter.h"
 
-/* How high a legend is on paper of a width, no higher than `most`. */
+/* The height of a legend on paper of the given width, at most `most`. */
 double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double most);
 
 /* Draws it with its top at `top`, all across the paper.

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The letters' strokes, and how wide a text of them is.
-   The Hershey Fonts were originally created by Dr. A. V. Hershey while working at the U. S.
-   National Bureau of Standards (1967). The format of the font data was originally created by James
-   Hurt, Cognition, Inc., 900 Technology Park Drive, Billerica, MA 01821. This is the plain roman
-   ("futural"), ASCII 32 to 126; anyone may use it for any purpose with this acknowledgement. */
+/* The letters' strokes, and the width of a text. The Hershey Fonts were originally created by Dr.
+   A. V. Hershey while working at the U. S. National Bureau of Standards (1967). The format of the
+   font data was originally created by James Hurt, Cognition, Inc., 900 Technology Park Drive,
+   Billerica, MA 01821. This is the plain roman ("futural"), ASCII 32 to 126; anyone may use it for
+   any purpose with this acknowledgement. */
 #include "host/letters.h"
 
 #include <stddef.h>
@@ -111,11 +111,11 @@ static const char *const letter_strokes[] = {
 
 #define LETTER_EM   29.0 /* capitals are 0.72 em high */
 #define LETTER_BASE 9
-/* The font was made for wide plotters: so narrow it is as wide as a common sans serif. */
+/* The font was made for wide plotters: with this factor it is as wide as a common sans serif. */
 #define LETTER_NARROW 0.92
 #define LETTER_SPACE  0.33 /* em */
 
-/* What the font lacks is a question mark, once for all bytes of a UTF-8 sequence. */
+/* A character that the font lacks becomes one question mark for all bytes of its UTF-8 sequence. */
 static const char *letter_find(char letter)
 {
     unsigned char byte = (unsigned char)letter;

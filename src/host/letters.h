@@ -5,20 +5,20 @@
 
 #include "host/plotter.h"
 
-/* Width of a text in em: near enough to a common sans serif's to lay out SVG by it too. */
+/* Width of a text in em: close enough to that of a common sans serif to lay out SVG too. */
 double lrcsi_letters_width(const char *text);
 
-/* The next spot of a text's strokes in em, x to the right from the text's beginning, y up from the
+/* The next point of a text's strokes in em, x to the right from the text's beginning, y up from the
    base line. */
 typedef struct lrcsi_letters {
-    const char *text; /* the letter at hand */
+    const char *text; /* the current letter */
     const char *at;   /* in its strokes; NULL before the first */
     double x;         /* where it begins */
 } lrcsi_letters;
 
 enum lrcsi_letters_move { LRCSI_LETTERS_END, LRCSI_LETTERS_JUMP, LRCSI_LETTERS_DRAW };
 
-/* Returned: END, or how to go to *spot. */
+/* Returns END, or how to move to *spot. */
 int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_spot *spot);
 
 #endif

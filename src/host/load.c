@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* From a path to a scene, and on to sigma. It decides what kind of file a path holds, where the
-   files that it names lie, and which notices are due; the geometry is the core's. */
+/* From a path to a scene, and on to sigma. It decides the kind of a file, the folders of the files
+   that it names, and which notices to issue. The core computes the geometry. */
 #include "host/binding.h"
 #include "host/demo.h"
 #include "host/input.h"
@@ -64,7 +64,7 @@ static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char
     return status;
 }
 
-/* A model file by itself: one part, in metres after the unit. */
+/* A recipe for a single model file: one part, converted to metres by its unit. */
 static int recipe_from_model(lrcs_host_scene *scene, const char *path, double unit_m,
                              lrcs_host_error *error)
 {
@@ -165,7 +165,8 @@ static int scene_from_recipe(lrcs_host_scene *scene, const char *path,
                : lrcsi_host_fail_where(error, status, path, &step.where);
 }
 
-/* Every part's model; a file named twice is read twice, which is rare and simple. */
+/* Every part's model; a file named twice is read twice, because that is rare and the code is
+   simpler. */
 static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host_file *given,
                        lrcs_host_error *error)
 {
@@ -179,7 +180,7 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
         if (!recipe->part[i].file) {
             continue;
         }
-        if (strcmp(recipe->part[i].file, path) == 0) { /* the model that was given is in memory */
+        if (strcmp(recipe->part[i].file, path) == 0) { /* the given model is already in memory */
             status = lrcsi_host_model_read(scene, path, given, &scene->model[i], error);
             continue;
         }
@@ -241,7 +242,7 @@ static int is_default(const lrcs_brdf *brdf)
     return brdf->A == other.A && brdf->B == other.B && brdf->s == other.s && brdf->m == other.m;
 }
 
-/* Facets by material: omitted and unbound ones are counted, worn ones checked. */
+/* Facets by material: counts omitted and unbound ones, and checks the assigned materials. */
 static void scene_notes(lrcs_host_scene *host, const uint32_t *worn)
 {
     const lrcs_scene *scene = &host->scene;
@@ -341,7 +342,7 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
     return LRCS_OK;
 }
 
-/* A scene of a recipe that is the caller's, and of models that are (or NULL). */
+/* A scene of the caller's recipe and of the caller's models (or NULL). */
 static int scene_from(const lrcs_recipe *recipe, lrcs_mesh *model, const char *two_sided,
                       const lrcs_build_options *build, lrcs_host_scene *scene,
                       lrcs_host_error *error)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A map from its description: which points share a cell, which colour each has, where contours run
-   and where everything stands. */
+/* A map from its description: which points share a cell, the colour of each cell, the contours and
+   the layout. */
 #include "base/constant.h"
 #include "host/axis.h"
 #include "host/canvas.h"
@@ -11,12 +11,12 @@
 
 #include <math.h>
 
-#define MAP_COLUMNS 360u /* cells that can be told apart */
+#define MAP_COLUMNS 360u /* the largest number of cells that can be distinguished */
 #define MAP_ROWS    240u
 #define MAP_RIGHT   (LRCSI_CHART_WIDTH - 130.0)
 #define MAP_BAR     16.0 /* width of the scale of colours */
 #define MAP_STEPS   128
-#define MAP_LAP     1.0 /* cells reach that far under the next: no gaps shine through */
+#define MAP_LAP     1.0 /* cells overlap the next by this much, so that no gaps are visible */
 #define MAP_NOTHING 0xbdbdbdu
 #define MAP_TEXTS   9.0
 
@@ -38,8 +38,8 @@ typedef struct map_plan {
 
 /* ---- cells ---- */
 
-/* The place of a cell's middle among the points, and its value there; the last cell may be smaller.
-   Means of what is finite, of nothing NAN. */
+/* The position of a cell's middle among the points, and its value there; the last cell may be
+   smaller. The value is the mean of the finite values, NAN if there are none. */
 static double cell_place(const double *place, uint32_t cell, uint32_t each, uint32_t count)
 {
     uint32_t first = cell * each;
@@ -74,8 +74,8 @@ static double map_y(const map_plan *plan, double value)
            lrcsi_axis_at(&plan->y, value) * (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
 }
 
-/* Where a column or row of cells begins: halfway from the one before, and the first at its point.
- */
+/* The beginning of a column or row of cells: halfway from the one before; the first begins at its
+   point. */
 static double cell_begin(const double *place, uint32_t cell, uint32_t each, uint32_t count)
 {
     uint32_t first = cell * each;
@@ -121,7 +121,7 @@ static lrcsi_spot ellipse_spot(double longitude, double height)
                         ELLIPSE_Y - ELLIPSE_HIGH * height};
 }
 
-/* What brings a longitude into -180 .. 180. */
+/* The term that reduces a longitude to -180 .. 180. */
 static double ellipse_turn(double longitude)
 {
     return -360.0 * floor((longitude + 180.0) / 360.0);
@@ -140,8 +140,8 @@ static void ellipse_piece(const map_plan *plan, double west, double east, const 
     plan->plotter->area(plan->plotter, corner, 4, colour);
 }
 
-/* Cells of one colour between two longitudes and two latitudes: cut where the map ends at 180
-   degrees, in strips whose sides are straight. */
+/* Cells of one colour between two longitudes and two latitudes: cut at 180 degrees, where the map
+   ends, and divided into strips with straight sides. */
 static void ellipse_cells(const map_plan *plan, double west, double east, const double latitude[2],
                           uint32_t colour)
 {
@@ -170,7 +170,7 @@ static void ellipse_line(const map_plan *plan, double longitude, uint32_t colour
     plan->plotter->line(plan->plotter, spot, 61, &ink);
 }
 
-/* What is not covered, below the cells. */
+/* The background below the cells, for what they do not cover. */
 static void ellipse_ground(const map_plan *plan)
 {
     lrcsi_spot spot[120];
@@ -225,7 +225,7 @@ static void ellipse_graticule(const map_plan *plan)
 
 /* ---- rows of cells ---- */
 
-/* In steps, so that neighbours that look alike are one. */
+/* Colours in steps, so that neighbours of equal colour are merged. */
 static uint32_t cell_colour_of(const map_plan *plan, uint32_t column, uint32_t row)
 {
     double value = cell_value(plan, column, row);
@@ -263,7 +263,7 @@ static void row_draw(const map_plan *plan, uint32_t row)
 
 /* ---- contours ---- */
 
-/* Where a level is crossed on the way from corner to corner. */
+/* The point between two corners at which a level is crossed. */
 static lrcsi_spot contour_cross(const lrcsi_spot corner[4], const double z[4], int side,
                                 double level)
 {
@@ -273,8 +273,8 @@ static lrcsi_spot contour_cross(const lrcsi_spot corner[4], const double z[4], i
     return (lrcsi_spot){a->x + part * (b->x - a->x), a->y + part * (b->y - a->y)};
 }
 
-/* The pieces of a contour between four points, two of them where it is a saddle: then the mean says
-   which corners belong together. */
+/* The pieces of a contour between four points, two of them at a saddle: then the mean decides which
+   corners are connected. */
 static void contour_square(const map_plan *plan, const lrcsi_spot corner[4], const double z[4],
                            double level, const lrcsi_ink *ink)
 {
@@ -332,7 +332,7 @@ static void map_scale(const map_plan *plan)
 {
     double left = MAP_RIGHT + 24.0;
     double high = LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP;
-    for (int i = MAP_STEPS; i-- > 0;) { /* each from the bottom: no gaps between them */
+    for (int i = MAP_STEPS; i-- > 0;) { /* each begins at the bottom, so that there are no gaps */
         box_fill(plan->plotter, left, LRCSI_CHART_BOTTOM - high * (i + 1) / MAP_STEPS,
                  left + MAP_BAR, LRCSI_CHART_BOTTOM, lrcsi_palette_even((i + 0.5) / MAP_STEPS));
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Blocks and work areas from the heap. It decides how areas grow (at least doubling, a bounded
-   number of times) and knows nothing of what is kept in them. */
+   number of times) and does not depend on their content. */
 #include "host/memory.h"
 
 #include <stdlib.h>
@@ -46,7 +46,7 @@ char *lrcsi_host_copy(lrcs_host_scene *scene, const char *text, size_t size)
     return copy;
 }
 
-/* What a step that did not fit is given next. */
+/* The size of the next work area for a step that did not fit. */
 static size_t step_grown(size_t need, const lrcs_work *work)
 {
     size_t twice = need <= SIZE_MAX / 2 ? 2 * need : SIZE_MAX;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* One model file: which reader it goes to, where its material file is sought, and what is said
-   of it. It decides no geometry and no reflection. */
+/* One model file: its reader, the search for its material file, and the notices about it. It
+   decides no geometry and no reflection. */
 #include "host/model.h"
 
 #include <dirent.h>
@@ -22,8 +22,8 @@ char *lrcsi_host_beside(lrcs_host_scene *scene, const char *beside, const char *
     return path;
 }
 
-/* Puts the name that a folder entry really has into the last part of `path`, where one equals it
-   but for case. */
+/* Replaces the last part of `path` by the name of a folder entry that differs from it only in case,
+   if there is one. */
 static int match_case(char *path)
 {
     char *name = path + (lrcsi_host_basename(path) - path);
@@ -46,7 +46,7 @@ static int match_case(char *path)
 }
 
 /* The material file's path: the name that the OBJ gives, beside the OBJ whatever folder it was
-   exported from; then STEM.mtl. NULL where neither is there. */
+   exported from; then STEM.mtl. NULL if neither exists. */
 static char *material_path(lrcs_host_scene *scene, const char *path, const char *named)
 {
     if (named) {

@@ -10,8 +10,8 @@
 int lrcsi_host_model_read(lrcs_host_scene *scene, const char *path, const lrcs_host_file *file,
                           lrcs_mesh *mesh, lrcs_host_error *error);
 
-/* "FOLDER/NAME", FOLDER being the one that `beside` lies in; NAME itself where it is absolute.
-   Owned by the scene; NULL where there is no memory. */
+/* "FOLDER/NAME", FOLDER being the one that `beside` lies in; NAME itself if it is absolute. Owned
+   by the scene; NULL if there is no memory. */
 char *lrcsi_host_beside(lrcs_host_scene *scene, const char *beside, const char *name);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Names as people type them: patterns, upper and lower case, and how alike two names are. It
-   decides what matches; what a match means is up to the caller. */
+/* Names as users type them: patterns, upper and lower case, and the similarity of two names. It
+   decides what matches; the caller decides what a match means. */
 #include "host/names.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ static unsigned char fold_byte(unsigned char c, int fold)
     return fold && c >= 'A' && c <= 'Z' ? (unsigned char)(c - 'A' + 'a') : c;
 }
 
-/* The bytes of the UTF-8 character at `at`; of what is none, one. */
+/* The number of bytes of the UTF-8 character at `at`; 1 if it is not valid. */
 static size_t utf8_size(const char *at)
 {
     size_t size = 1;
@@ -30,7 +30,8 @@ int lrcsi_name_is_pattern(const char *text)
 }
 
 /* A mismatch after a * goes back to that star, which takes one character more. Earlier stars need
-   no second look: what stands between two stars may as well be found at its first place. */
+   no second look: the text between two stars can be matched at its first occurrence without
+   loss. */
 int lrcsi_name_matches(const char *pattern, const char *name, int fold)
 {
     const char *star = NULL;
@@ -110,7 +111,7 @@ unsigned lrcs_host_name_distance(const char *text, const char *name)
     return text[0] && strncmp(text, name, strlen(text)) == 0 ? 0 : edit_distance(text, name, 0);
 }
 
-/* 1 where one contains the other, in letters of either case; the empty text contains nothing. */
+/* 1 if one contains the other, ignoring case; the empty text contains nothing. */
 static int contains(const char *whole, const char *part)
 {
     size_t size = strlen(whole);
@@ -132,7 +133,7 @@ static unsigned unlikeness(const char *text, const char *name)
     return contains(name, text) || contains(text, name) ? 0 : edit_distance(text, name, 1);
 }
 
-/* Insertion into a short sorted list; names of equal likeness keep their order. */
+/* Insertion into a short sorted list; names of equal similarity keep their order. */
 uint32_t lrcs_host_names_near(const char *text, const char *const *name, uint32_t count,
                               const char **near, uint32_t most)
 {

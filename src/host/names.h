@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether what was typed stands for a name. */
+/* Decides whether typed text matches a name. */
 #ifndef LRCSI_HOST_NAMES_H
 #define LRCSI_HOST_NAMES_H
 
@@ -13,7 +13,7 @@ int lrcsi_name_matches(const char *pattern, const char *name, int fold);
 /* 1 if a text has a * or ?. */
 int lrcsi_name_is_pattern(const char *text);
 
-/* 1 if two names are the same but for upper and lower case (A to Z). */
+/* 1 if two names are equal except for upper and lower case (A to Z). */
 int lrcsi_name_same_folded(const char *a, const char *b);
 
 #endif

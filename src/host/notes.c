@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a scene's reader should be told of before any result: sizes that rest on an assumed unit,
-   and maps of a scene file that no material answers to. It decides what is remarkable, and changes
-   nothing. */
+/* Notices to be given before any result: sizes that depend on an assumed unit, and maps of a scene
+   file that match no material. It decides what to report, and changes nothing. */
 #include "host/notes.h"
 
 #include "host/binding.h"
@@ -15,7 +14,8 @@
 
 /* ---- sizes ---- */
 
-/* The box of facets first .. first + count - 1 but for those left out. 0 where there are none. */
+/* The box of facets first .. first + count - 1 except those left out. Returns 0 if there are
+   none. */
 static int facets_box(const lrcs_scene *scene, uint32_t first, uint32_t count, double least[3],
                       double most[3])
 {
@@ -54,8 +54,7 @@ static double part_size(const lrcs_scene *scene, const lrcs_part *part)
     return size;
 }
 
-/* A model whose unit nobody stated: what was assumed, and where that is unlikely what else it may
-   be. */
+/* A model without a stated unit: the assumed unit and, if that is unlikely, a likelier one. */
 static void unit_note(lrcs_host_scene *host, uint32_t part)
 {
     static const struct {
@@ -111,7 +110,7 @@ static int models_answer(const lrcs_host_scene *host, const lrcs_binding *bindin
     return 0;
 }
 
-#define NEAR_MOST 4u /* names told */
+#define NEAR_MOST 4u /* names reported */
 
 static void map_name_note(lrcs_host_scene *host, const char *name)
 {

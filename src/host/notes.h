@@ -5,7 +5,7 @@
 
 #include "host/fail.h"
 
-/* Adds what should be said of a scene that was just read and built. */
+/* Adds the notices about a scene that was just read and built. */
 void lrcsi_host_scene_notes(lrcs_host_scene *host);
 
 #endif

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* snprintf takes its decimal separator from the program's locale, whatever it is and however
-   many bytes it has; every other byte of "%.17g" is known. */
+/* snprintf takes its decimal separator from the program's locale, which may be any number of bytes;
+   every other byte of "%.17g" is known. */
 void lrcs_host_number_text(double value, char text[LRCS_HOST_NUMBER_SIZE])
 {
     char raw[64];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which colours stand for numbers and names. What they stand for is decided elsewhere. */
+/* The colours for numbers and names. It does not decide what they represent. */
 #include "host/palette.h"
 #include "base/constant.h"
 
@@ -45,8 +45,8 @@ uint32_t lrcsi_palette_even(double value)
     return palette_join(rgb);
 }
 
-/* Hues go round by the golden ratio, so that any few neighbours are far apart; every third is
-   pale. */
+/* Successive hues differ by the golden ratio of a turn, so that any few neighbours are far apart;
+   every third is pale. */
 uint32_t lrcsi_palette_distinct(uint32_t number)
 {
     double turn = fmod(0.6180339887498949 * (number % 65536u) + 0.08, 1.0);

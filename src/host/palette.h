@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Colours, 0xRRGGBB, that eyes of every kind tell apart. */
+/* Colours, 0xRRGGBB, that people with any colour vision can distinguish. */
 #ifndef LRCSI_HOST_PALETTE_H
 #define LRCSI_HOST_PALETTE_H
 
@@ -8,15 +8,15 @@
 /* One of the eight of lrcs_host_colour. */
 uint32_t lrcsi_palette_named(int colour);
 
-/* A perceptually even scale from 0 to 1: straight in RGB from knot to knot. */
+/* A perceptually uniform scale from 0 to 1, linear in RGB between knots. */
 #define LRCSI_PALETTE_KNOTS 9
 uint32_t lrcsi_palette_even(double value);
 
 /* A colour for each number; those of neighbours differ. */
 uint32_t lrcsi_palette_distinct(uint32_t number);
 
-/* Colours that are told apart on either ground of a picture, and from the grey of what returns
-   nothing. O(count). */
+/* Colours that are distinct on either background of a picture, and from the grey of facets that
+   return nothing. O(count). */
 void lrcsi_palette_apart(uint32_t count, uint32_t *colour);
 
 /* The same colour in less light, 0 .. 1. */

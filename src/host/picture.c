@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The picture of a run as pixels: where the drawing stands among them, and how cells of the run's
-   image become smooth. What colours mean is look.c, the strip below it legend.c. */
+/* The picture of a run as pixels: the position of the drawing, and the averaging of cells of the
+   run's image. colouring.c decides colours, legend.c the strip below. */
 #include "host/annotate.h"
 #include "host/canvas.h"
 #include "host/legend.h"

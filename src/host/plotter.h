@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a chart is drawn with: lines, areas and words, on paper whose unit is about a pixel, x to
-   the right, y down. A plotter writes SVG or colours pixels; the chart does not know which. */
+/* The drawing interface of charts: lines, areas and words, on paper whose unit is about a pixel, x
+   to the right, y down. A plotter writes SVG or colours pixels; the chart does not know which. */
 #ifndef LRCSI_PLOTTER_H
 #define LRCSI_PLOTTER_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A chart about a pole: which rings and spokes there are, and where data stand among them. */
+/* A chart about a pole: its rings and spokes, and the positions of data. */
 #include "base/constant.h"
 #include "host/axis.h"
 #include "host/letters.h"
@@ -28,7 +28,7 @@ static lrcsi_spot polar_spot(const polar_plan *plan, double deg, double part)
                         plan->pole.y - away * sin(deg * POLAR_RAD)};
 }
 
-/* The distances that have to be shown: negative ones, which are decibels, not all of them. */
+/* The range of distances to be shown; of negative ones, which are decibels, only a part. */
 static void polar_range(const lrcs_host_chart *chart, double range[2])
 {
     range[0] = HUGE_VAL;
@@ -86,7 +86,7 @@ static void polar_ground(const polar_plan *plan)
     }
 }
 
-/* A line as long as its points can be shown; what lies below the pole stands on it. */
+/* A line as long as its points can be shown; points below the pole are drawn at it. */
 static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
 {
     const lrcsi_ink ink = lrcsi_series_ink(series);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of readings, as goniometers and spreadsheets write them. It decides what a column is, and
-   refuses what it would have to guess; what readings mean, the fit says. */
+/* Tables of readings, as goniometers and spreadsheets write them. It decides the role of each
+   column and refuses ambiguous tables. The fit interprets the readings. */
 #include <lrcs/table.h>
 
 #include <math.h>
@@ -19,7 +19,7 @@ enum readings_role {
     ROLE_NONE = ROLES
 };
 
-/* What columns of a role are called: their names begin so, in either case of letters. */
+/* The names of columns of each role: a column's name begins with one of these, ignoring case. */
 static const char *const role_names[ROLES][5] = {
     [ROLE_ANGLE] = {"angle", "theta", "incidence"},
     [ROLE_VALUE] = {"brdf", "reading", "value", "f_r", "ratio"},
@@ -101,7 +101,8 @@ static int header_read(readings_table *table)
     return LRCS_OK;
 }
 
-/* What the columns are, from the first line. Returns 1 where that was their names, else 0. */
+/* Decides the roles of the columns from the first line. Returns 1 if that line holds names, else
+   0. */
 static int columns_read(readings_table *table)
 {
     double number;
@@ -134,7 +135,7 @@ static int role_read(const readings_table *table, int role, const char *expected
     return lrcs_host_field_read(&table->text, table->role[role], expected, value, table->error);
 }
 
-/* Nothing read: an empty field or a word for it. */
+/* No reading: an empty field or a word for it. */
 static int value_is_missing(const lrcs_host_field *field)
 {
     static const char *const word[] = {"", "nan", "na", "n/a", "null"};
@@ -180,7 +181,7 @@ static int reading_read(readings_table *table, lrcs_fit_reading *reading)
     return status != LRCS_OK ? status : weight > 0.0;
 }
 
-/* The index of a material's name, entered where it is new; LRCS_NONE without memory. */
+/* The index of a material's name, entered if it is new; LRCS_NONE without memory. */
 static uint32_t name_index(lrcs_host_readings *out, const char *text, size_t size)
 {
     for (uint32_t i = 0; i < out->name_count; i++) {

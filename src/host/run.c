@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A scene's preparation and runs, with work areas from the heap. It decides how much memory is
-   tried, and measures the time; what a coarser raster costs in bound is the core's. */
+/* A scene's preparation and runs, with work areas from the heap. It decides how much memory to try,
+   and measures the time. The core computes the effect of a coarser raster on the bound. */
 #include "host/run.h"
 
 #include <stdlib.h>
@@ -52,10 +52,10 @@ typedef struct sigma_step {
     lrcs_result *result;
     lrcs_facet_record *records;
     lrcs_image *image;
-    int tries; /* with more memory, where an answer was degraded for want of it */
+    int tries; /* with more memory, if the answer was degraded because of lack of memory */
 } sigma_step;
 
-/* Does the heap have what the next try asks for? */
+/* Does the heap have the memory that the next try needs? */
 static int heap_holds(const lrcs_work *work)
 {
     size_t twice = work->size <= SIZE_MAX / 4 ? 2 * work->size : SIZE_MAX / 2;
@@ -74,7 +74,7 @@ static int run_sigma(void *context, lrcs_work *work)
     return degraded && step->tries-- > 0 && heap_holds(work) ? LRCS_E_MEMORY : status;
 }
 
-/* The bytes to begin with: less than asked is a coarser raster, and a flag. */
+/* The bytes to begin with: fewer than requested give a coarser raster, and a flag. */
 static size_t sigma_room(const lrcs_host_scene *scene, const lrcs_run_options *options,
                          const lrcs_image *image, const lrcsi_host_area *area)
 {

@@ -6,7 +6,7 @@
 #include "host/memory.h"
 
 /* lrcs_host_scene_run in an area that is the caller's, for any number of poses. The result is the
-   same whatever the area has served before. */
+   same whatever the area was used for before. */
 int lrcsi_host_sigma(const lrcs_host_scene *scene, const lrcs_pose *pose,
                      const lrcs_run_options *options, lrcsi_host_area *area, lrcs_result *result,
                      lrcs_facet_record *records, lrcs_image *image, lrcs_host_error *error);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What charts of every kind share: their paper, how series look, titles and legends. */
+/* Common parts of all kinds of charts: paper, appearance of series, titles and legends. */
 #ifndef LRCSI_HOST_SERIES_H
 #define LRCSI_HOST_SERIES_H
 
@@ -42,7 +42,7 @@ void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_spot
 /* The frame of what is drawn between left and right. */
 void lrcsi_chart_box(lrcsi_plotter *plotter, double left, double right);
 
-/* A line of text, smaller where it would be wider than its room. */
+/* A line of text, in a smaller size if it would not fit. */
 void lrcsi_chart_words(lrcsi_plotter *plotter, lrcsi_words words, double room);
 
 /* The two lines above a chart. */

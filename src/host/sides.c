@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Facets that reflect from both sides because the user says so: all of them, those of parts that
    are not closed, or those of a named part or material. It decides which facets are meant; a
-   material that only some of its facets wear so is taken twice. */
+   material that becomes two-sided on only some of its facets is copied. */
 #include "host/sides.h"
 
 #include <stdlib.h>
@@ -89,7 +89,7 @@ static int part_mark(sides_job *job, uint32_t index)
     return status;
 }
 
-/* Facets that are meant wear a copy of their material that is two-sided. */
+/* Assigns to the selected facets a two-sided copy of their material. */
 static int materials_split(const sides_job *job)
 {
     lrcs_scene *scene = &job->host->scene;

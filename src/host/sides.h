@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which facets reflect from both sides, beyond what files say. */
+/* Which facets reflect from both sides, in addition to those that files specify. */
 #ifndef LRCSI_HOST_SIDES_H
 #define LRCSI_HOST_SIDES_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* SVG 1.1 as text. It decides how a plotter's strokes are written; words stay words, in whatever
-   sans serif the reader has. Bytes that are not UTF-8 and control characters become '?', so that
+/* SVG 1.1 as text. It decides how a plotter's strokes are written; text remains text, in the
+   viewer's sans serif font. Bytes that are not UTF-8 and control characters become '?', so that
    every XML parser takes it. */
 #include "host/svg.h"
 

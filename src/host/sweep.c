@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Many poses over one prepared scene, or each over its own. It decides what each thread keeps (a
-   work area of its own), how many threads there are where memory is short, and how a pose that
-   fails is told; in which order poses are run is the workers's (host/workers). */
+   work area of its own), how many threads there are if memory is short, and how a pose that fails
+   is reported. The workers (host/workers) decide the order of poses. */
 #include <lrcs/sweep.h>
 
 #include <stdlib.h>
@@ -32,7 +32,7 @@ typedef struct sweep_run {
     lrcs_host_error *error;
 } sweep_run;
 
-/* One pose of a scene, with its material uncertainty where that is wanted. */
+/* One pose of a scene, with its material uncertainty if requested. */
 static int sweep_pose(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
                       sweep_slot *one)
 {

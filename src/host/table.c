@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of text. It decides what a line and a field are, and refuses what it would have to guess;
-   what columns mean is for those who read them. */
+/* Tables of text. It decides what a line and a field are, and refuses ambiguous text. Its callers
+   interpret the columns. */
 #include <lrcs/table.h>
 
 #include <string.h>
@@ -14,7 +14,7 @@ static int byte_is_blank(char c)
     return c == ' ' || c == '\t';
 }
 
-/* The next line that holds something; 0 where the text ends. */
+/* The next line that is not empty; 0 at the end of the text. */
 static int text_line_next(lrcs_host_table *table, const char **line, const char **end)
 {
     while (table->at < table->end) {
@@ -37,7 +37,7 @@ static int text_line_next(lrcs_host_table *table, const char **line, const char 
     return 0;
 }
 
-/* Commas may be in numbers of some countries: semicolons and tabs come first. */
+/* Some countries use commas in numbers, so semicolons and tabs have precedence as separators. */
 static char line_separator(const char *line, const char *end)
 {
     size_t size = (size_t)(end - line);
@@ -71,7 +71,7 @@ static lrcs_host_field field_cut(const lrcs_host_table *table, const char **line
     return (lrcs_host_field){at, (size_t)(last - at)};
 }
 
-/* How many fields a line has; one more than there is room for where they do not fit. */
+/* How many fields a line has; one more than fit if there are too many. */
 static uint32_t line_split(lrcs_host_table *table, const char *line, const char *end)
 {
     for (uint32_t fields = 0; fields < LRCS_HOST_FIELDS;) {

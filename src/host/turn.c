@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A pose turned about an axis of the body. How a matrix comes from the axis is base/rotate's. */
+/* A pose turned about an axis of the body. base/rotate computes the matrix from the axis. */
 #include <lrcs/sweep.h>
 
 #include <string.h>

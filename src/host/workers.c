@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Jobs in threads. It decides which member does which job (the next one, whoever is free), how far
-   the fast may run ahead of the slow (a ring of slots), and when to stop; it knows nothing of what
-   the jobs are. The calling thread is a member too: it hands over what is ready, works where
-   nothing is, and is all there is where the system grants no threads. */
+   the fast may run ahead of the slow (a ring of slots), and when to stop; it does not depend on
+   what the jobs are. The calling thread is a member too: it hands over results that are ready and
+   works if there are none. It does all jobs if the system grants no threads. */
 #include "host/workers.h"
 
 #include <lrcs/sweep.h>
@@ -10,7 +10,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-/* Slots a member: enough for jobs of unequal length, and for a slow hand-over now and then. */
+/* Slots per member: enough for jobs of unequal length and an occasional slow hand-over. */
 #define CREW_SLOTS 16u
 /* The core keeps no large arrays on the stack; some systems give threads very little. */
 #define CREW_STACK ((size_t)1 << 20)
@@ -110,8 +110,8 @@ static int workers_lead(workers_ring *ring)
     return status;
 }
 
-/* Starts what threads the system grants, signals left to the calling thread. Returns their number.
- */
+/* Starts as many threads as the system grants; only the calling thread receives signals. Returns
+   their number. */
 static uint32_t workers_start(workers_ring *ring, workers_member *member)
 {
     sigset_t all;
@@ -137,7 +137,8 @@ static uint32_t workers_start(workers_ring *ring, workers_member *member)
     return started;
 }
 
-/* With the ring and its locks made. What was done before a cancel is taken all the same. */
+/* Runs the work once the ring and its locks exist. Jobs done before a cancel are still handed
+   over. */
 static int workers_work(workers_ring *ring, workers_member *member)
 {
     uint32_t started = workers_start(ring, member);

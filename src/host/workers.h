@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Jobs in threads, what they make handed over in order. */
+/* Jobs in threads, whose results are handed over in order. */
 #ifndef LRCSI_WORKERS_H
 #define LRCSI_WORKERS_H
 
