@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A bounding-volume tree over facets: boxes in blocks of eight, block upon block. It finds the
-   facets whose boxes meet, and decides nothing else. */
+/* A bounding-volume tree over facets: boxes in blocks of eight, in levels. It finds the facets
+   whose boxes intersect, and decides nothing else. */
 #ifndef LRCSI_TREE_H
 #define LRCSI_TREE_H
 
@@ -25,9 +25,9 @@ typedef struct lrcsi_tree_slabs {
     double direction[3][LRCSI_TREE_LANES], low[LRCSI_TREE_LANES], high[LRCSI_TREE_LANES];
 } lrcsi_tree_slabs;
 
-/* What a block of facets with one vertex in common fills as seen from there: for every other corner
-   x, axis . (x - vertex) / |x - vertex| >= cosine. The axis has length 1. A cosine of 0 or less
-   bounds nothing. */
+/* A cone that contains a block of facets with a common vertex, seen from that vertex: for every
+   other corner x, axis . (x - vertex) / |x - vertex| >= cosine. The axis has length 1. A cosine of
+   0 or less bounds nothing. */
 typedef struct lrcsi_tree_cone {
     double axis[3], cosine;
 } lrcsi_tree_cone;
@@ -52,7 +52,7 @@ typedef struct lrcsi_tree {
 typedef struct lrcsi_tree_walk {
     const lrcsi_tree *tree;
     lrcsi_box box;
-    uint32_t without; /* a label of which whole blocks are left out, or LRCS_NONE */
+    uint32_t without; /* a label whose whole blocks are left out, or LRCS_NONE */
     int last, level;  /* the level whose boxes are sought; where the walk is now */
     uint32_t leaf;    /* where slabs are compared too: the leaf that walks; else LRCS_NONE */
     uint32_t apart;   /* blocks that slabs have left out */
@@ -67,7 +67,7 @@ lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet);
 /* A lane's box. */
 lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane);
 
-/* The lanes of a block whose boxes meet `box` (closed, finite, no end of it -0), as bits. */
+/* The lanes of a block whose boxes intersect `box` (closed, finite, no end of it -0), as bits. */
 unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box);
 
 /* The number of the lowest bit of a mask that is not 0. */
@@ -84,18 +84,18 @@ size_t lrcsi_tree_need(uint32_t facet_count);
 /* Facets marked in `skip` (which may be NULL) are left out. label[facet] (or NULL: LRCS_NONE for
    all) is what walks may leave out; where `apexes`, it is a vertex at which the facet is to have
    its place in the order, so that those of one label are together. Status: LRCS_OK; LRCS_E_MEMORY.
-   Work: linear in time but where facets are of ever finer scales, 90 times that at most. */
+   Work: linear in time, except for facets of ever finer scales: at most 90 times that. */
 int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
                     const unsigned char *skip, const uint32_t *label, int apexes, lrcs_work *work,
                     lrcsi_tree *tree);
 
-/* A walk over the places of all facets whose boxes meet `box`; of facets of the label `without`
-   (LRCS_NONE: none) some may be left out. */
+/* Starts a walk over the places of all facets whose boxes intersect `box`. Facets of the label
+   `without` (LRCS_NONE: none) may be left out. */
 lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, uint32_t without);
 
 /* A walk over the blocks of level 0 that come after `leaf`, meet its box, and do not have the label
-   that it has: with the pairs within leaves, every pair of facets whose boxes meet comes up once,
-   but some of one label. */
+   that it has: together with the pairs within leaves, every pair of facets whose boxes intersect
+   occurs once, except some pairs of one label. */
 lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
 
 /* Fills the slabs of a tree, from the vertices and facets that it was made of; then leaves out from
