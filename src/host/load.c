@@ -202,7 +202,7 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
     return status;
 }
 
-/* ---- notices about what the facets wear ---- */
+/* ---- notices about the assigned materials ---- */
 
 static const lrcs_brdf_entry *library_entry(const lrcs_brdf *brdf)
 {

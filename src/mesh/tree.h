@@ -19,8 +19,8 @@ typedef struct lrcsi_tree_block {
 } lrcsi_tree_block;
 
 /* Slabs that bound what is in the eight boxes: low <= direction . x <= high for every corner x; the
-   direction is the mean normal, of length 1, or 0 where there is none. For parallel layers, which
-   fill boxes badly where they are at an angle to the axes. */
+   direction is the mean normal, of length 1, or 0 if there is none. For parallel layers, which fill
+   boxes badly where they are at an angle to the axes. */
 typedef struct lrcsi_tree_slabs {
     double direction[3][LRCSI_TREE_LANES], low[LRCSI_TREE_LANES], high[LRCSI_TREE_LANES];
 } lrcsi_tree_slabs;
@@ -38,7 +38,7 @@ typedef struct lrcsi_tree_cone {
 typedef struct lrcsi_tree {
     uint32_t count;  /* facets in it */
     uint32_t *order; /* place -> facet */
-    int levels;      /* 0 where there are no facets */
+    int levels;      /* 0 if there are no facets */
     uint32_t blocks[LRCSI_TREE_LEVELS];
     lrcsi_tree_block *block[LRCSI_TREE_LEVELS];
     uint32_t *label[LRCSI_TREE_LEVELS]; /* of each block: that of all facets below, or LRCS_NONE */

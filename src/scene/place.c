@@ -134,7 +134,7 @@ void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3])
 #define ROTATION_NEAR 0x1p-40
 
 /* D = R^T R - I in double-double: the error of every entry is at most 2^-101. Returns its Frobenius
-   norm, rounded up, or 0 where D is 0 exactly. */
+   norm, rounded up, or 0 if D is exactly 0. */
 static double rotation_defect(const double R[3][3], lrcsi_dd D[3][3])
 {
     double square = 0.0;
@@ -151,8 +151,8 @@ static double rotation_defect(const double R[3][3], lrcsi_dd D[3][3])
     return square > 0.0 ? 1.000001 * sqrt(square) + 0x1p-98 : 0.0;
 }
 
-/* The rotation or reflection nearest to R, the polar factor R (I + D)^(-1/2) = R (I - D/2 +
-   (3/8) D^2 - ...): for |D| <= 2^-40 the next term is below 2^-121. Returns 0 where D is larger. */
+/* The rotation or reflection nearest to R, the polar factor R (I + D)^(-1/2) = R (I - D/2 + (3/8)
+   D^2 - ...): for |D| <= 2^-40 the next term is below 2^-121. Returns 0 if D is larger. */
 static int nearest_rotation(const double R[3][3], lrcsi_dd out[3][3])
 {
     lrcsi_dd D[3][3];

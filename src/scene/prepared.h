@@ -119,18 +119,19 @@ struct lrcs_prepared {
     const lrcs_scene *scene;
     int exponent;             /* scene coordinate = vertex * 2^exponent */
     lrcs_point *vertex;       /* scaled */
-    unsigned char *skip;      /* facet: 1 where degenerate or omitted; it takes part in nothing */
+    unsigned char *skip;      /* facet: 1 if degenerate or omitted; such a facet is ignored
+                                 everywhere */
     unsigned char *redundant; /* facet: a lrcsi_redundant */
     uint32_t *twin; /* facet: the one in the same place with the opposite winding, or LRCS_NONE;
                        NULL if no facet has any */
     unsigned char *referenced; /* vertex: 1 if a live facet has it as a corner */
     lrcsi_normal *normal;
-    lrcsi_batches batches;   /* facets that are not skipped, by material */
-    lrcsi_topology topology; /* of all facets; its edges may include skipped ones */
-    lrcsi_across across;     /* across the sides of facets that are not redundant */
-    lrcsi_intersections
-        intersections;  /* between facets that are not redundant, but not between twins */
-    lrcsi_runs runs;    /* facets that follow one another */
+    lrcsi_batches batches;             /* facets that are not skipped, by material */
+    lrcsi_topology topology;           /* of all facets; its edges may include skipped ones */
+    lrcsi_across across;               /* across the sides of facets that are not redundant */
+    lrcsi_intersections intersections; /* between facets that are not redundant, but not between a
+                                          facet and its twin */
+    lrcsi_runs runs;                   /* facets that follow one another */
     uint32_t *piece;    /* facet: its piece of surface (scene/solid.h) if all are closed; else
                            NULL */
     double centre[3];   /* of the box around the live facets */

@@ -6,9 +6,9 @@
 #include "scene/prepared.h"
 
 /* Pieces of surface, connected across edges: piece[facet] identifies its piece by its first facet.
-   Returned: 1 where every edge of the live facets has exactly two of them, in opposite directions,
-   and none is coincident with another (coincident facets enclose no volume, so no such scene is
-   solid); else 0, and piece is undefined. */
+   Returned: 1 if every edge of the live facets has exactly two of them, in opposite directions, and
+   none is coincident with another (coincident facets enclose no volume, so no such scene is solid);
+   else 0, and piece is undefined. */
 int lrcsi_solid_pieces(const lrcs_prepared *prepared, uint32_t *piece);
 
 /* Proves that the winding number of the live facets is nowhere negative: their pieces are closed
