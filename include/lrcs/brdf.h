@@ -35,13 +35,13 @@ enum lrcs_brdf_warning {
     LRCS_BRDF_DARK = 1 << 3          /* A = 0 and B = 0 */
 };
 
-/* Checks the four numbers: LRCS_E_NUMBER where they are not finite or outside the domain
+/* Checks the four numbers: LRCS_E_NUMBER if they are not finite or outside the domain
    (A, B, m < 0; s < 0; s = 0 with A > 0), else warning bits, 0 for none. */
 int lrcs_brdf_check(const lrcs_brdf *brdf);
 
-/* Checks the errors of a brdf: LRCS_E_NUMBER where a number is not finite, a deviation is negative,
+/* Checks the errors of a brdf: LRCS_E_NUMBER if a number is not finite, a deviation is negative,
    a correlation lies outside [-1, 1] or the six are not those of any four quantities (their matrix
-   has an eigenvalue below 0 by more than rounding); LRCS_E_ARGUMENT where A or s has an error and s
+   has an eigenvalue below 0 by more than rounding); LRCS_E_ARGUMENT if A or s has an error and s
    is 0: without a slope there is no glint to be uncertain of. Else LRCS_OK. */
 int lrcs_brdf_error_check(const lrcs_brdf *brdf, const lrcs_brdf_error *error);
 
@@ -50,7 +50,7 @@ const char *lrcs_brdf_warning_text(int bit);
 
 /* f_r at an incidence angle.
    Given: brdf in its domain; cos_theta in [-1, 1].
-   Returned: f_r, 1/sr; 0 where cos_theta <= 0. The cosine alone determines tan^2 only to a
+   Returned: f_r, 1/sr; 0 if cos_theta <= 0. The cosine alone determines tan^2 only to a
    relative 2^-52 / theta^2; the engine itself therefore works from tan^2.
    Notes: 1. May overflow to infinity only where f_r itself exceeds the largest double. */
 double lrcs_brdf_eval(const lrcs_brdf *brdf, double cos_theta);

@@ -46,15 +46,15 @@ enum lrcs_fit_verdict {
 
 typedef struct lrcs_fit_parameter {
     double value;
-    double error;     /* standard error, linearised about the fit; HUGE_VAL where not defined */
-    double low, high; /* 95 % confidence limits; 0 and HUGE_VAL where there is none */
+    double error;     /* standard error, linearised about the fit; HUGE_VAL if not defined */
+    double low, high; /* 95 % confidence limits; 0 and HUGE_VAL if there is none */
     int verdict;      /* lrcs_fit_verdict */
 } lrcs_fit_parameter;
 
 typedef struct lrcs_fit {
-    lrcs_brdf brdf; /* s is 0 where A is 0, m is 0 where B is 0 */
+    lrcs_brdf brdf; /* s is 0 if A is 0, m is 0 if B is 0 */
     lrcs_fit_parameter parameter[LRCS_FIT_PARAMETERS];
-    double correlation[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS]; /* 0 where not defined */
+    double correlation[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS]; /* 0 if not defined */
     double rms;      /* of the residuals of the readings kept, 1/sr */
     double noise;    /* their standard deviation with kept - 4 degrees of freedom (kept - 2 where a
                         term is left out): in 1/sr, relative, or in sigmas; in sigmas its square is

@@ -256,7 +256,7 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
 /* ---- readings to fit ---- */
 
 typedef struct lrcs_host_reading {
-    lrcs_fit_reading fit; /* sigma is 0 where the file has none */
+    lrcs_fit_reading fit; /* sigma is 0 if the file has none */
     uint32_t material;    /* an index of lrcs_host_readings' names */
     uint32_t line;        /* in the file, from 1 */
 } lrcs_host_reading;

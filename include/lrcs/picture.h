@@ -50,7 +50,7 @@ void lrcs_host_picture_svg(FILE *out, const lrcs_host_picture *picture,
 /* Writes the scene's facets in the body frame (m) with the visible part of each, for ParaView and
    VTK: XML PolyData (.vtp, text) or the legacy format (.vtk, binary).
    Cell data: cos_theta, area_m2, visible_area_m2 (projected), visible_fraction (of the projected
-   area; 0 where that is 0), sigma_m2, material, part. Field data: direction (to the laser, body
+   area; 0 if that is 0), sigma_m2, material, part. Field data: direction (to the laser, body
    frame, unit length). */
 void lrcs_host_vtk_write(FILE *out, const lrcs_host_picture *picture, int xml);
 

@@ -43,7 +43,7 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m);
 /* The range profile of a pose, by exact visibility.
    Given: prepared; pose; bin_m, the width of a bin, m, > 0; work.
    Returned: profile, from the first bin to the last that may hold anything, in the work area;
-   count is 0 where nothing that reflects faces the laser.
+   count is 0 if nothing that reflects faces the laser.
    Status: LRCS_OK; LRCS_E_ARGUMENT (the width, or the pose); LRCS_E_NUMBER (the pose, or sigma
    beyond double range); LRCS_E_MEMORY; LRCS_E_LIMIT (the scene's depth takes more than
    LRCS_PROFILE_BINS bins, its distance from the origin numbers beyond LRCS_PROFILE_INDEX, or a grid
@@ -55,7 +55,7 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m);
    2. On a facet d(sigma) is spread evenly over its visible projected area, so that the density over
    range is piecewise linear; a bin's sigma is its integral, in closed form.
    3. A facet normal to the line of sight has one range, and counts wholly in one bin: at a bin's
-   edge in the farther one. Is it so close to an edge that its side cannot be told, the bounds of
+   edge in the farther one. Is it so close to an edge that its side cannot be decided, the bounds of
    both bins hold all of it. For a line of sight along an axis of the body frame all sides are told
    exactly; else what is within 2^-94 of the scene's size is not. */
 int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, double bin_m,

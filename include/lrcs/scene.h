@@ -138,7 +138,7 @@ typedef struct lrcs_part {
     double tilted;    /* rad, bound on the rotation of facet normals by rounding in placing, where
                          reach > 0; included in curvature */
     double reach;     /* m, bound on the distance of a point of the true surface from its place on
-                         the facets; 0 where the facets are the truth */
+                         the facets; 0 if the facets are the truth */
     int articulated;  /* has a joint */
     int smoothed;     /* its model has smoothing groups or vertex normals */
     int rigid;        /* an engine-made shape placed by rotations, reflections and one scale for all
@@ -199,7 +199,7 @@ lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat, 0 */
 
 /* Builds the scene: vertex = translate + rotate (scale (joint (vertex))). Identity steps are exact,
    and so is scaling by powers of two; mirroring reverses the winding.
-   Given: recipe; models[i] the mesh of part i (ignored for shapes; models may be NULL where all
+   Given: recipe; models[i] the mesh of part i (ignored for shapes; models may be NULL if all
    are shapes); options.
    Returned: scene, in the work area. Its names point into the recipe, the models and the library.
    Materials: for each model part, one for each material of the model, used or not, in the model's

@@ -41,7 +41,7 @@ const char *lrcs_version(void);
    failure; `found` holds a printable UTF-8 excerpt or a number, truncated to fit. */
 typedef struct lrcs_where {
     uint64_t offset;      /* byte offset in the input */
-    uint32_t line;        /* line, counted from 1; 0 where the format has no lines */
+    uint32_t line;        /* line, counted from 1; 0 if the format has no lines */
     const char *item;     /* what was being read: "face index", "chunk 0x4110" */
     const char *expected; /* what the format requires there */
     char found[64];       /* what was found instead */

@@ -23,7 +23,7 @@ typedef int lrcs_host_sweep_scene(void *context, uint64_t index, lrcs_host_scene
                                   lrcs_host_error *error);
 
 /* Callback: takes one result. Called on the thread that called lrcs_host_sweep_run, in order of
-   index, once per index. uncertainty: of the materials, or NULL where none was asked for. Status:
+   index, once per index. uncertainty: of the materials, or NULL if none was asked for. Status:
    LRCS_OK; any other status ends the sweep with it and its error. */
 typedef int lrcs_host_sweep_take(void *context, uint64_t index, const lrcs_pose *pose,
                                  const lrcs_result *result, const lrcs_uncertainty *uncertainty,

@@ -55,7 +55,7 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
    shapes by their closed forms (LRCS_METHOD_CLOSED) in s and m are differences of order 8 of the
    closed form, good to about 1e-9 of
    themselves and 1e-11 of the term. An effect left out (lrcs_run_options.without) has
-   derivative 0. ds and dm are 0 where A or B is 0; at s = 0 dA
+   derivative 0. ds and dm are 0 if A or B is 0; at s = 0 dA
    and ds are 0, the limit from above.
    2. First order: the square root of g' C g, summed over sources (lrcs_material.source): the
    materials of one source are off together, those of different sources independently.

@@ -17,7 +17,7 @@
 #define SEARCH_PASSES 5
 #define SEARCH_FLOOR  0.01
 
-static lrcsi_fit_parameters node_spot(const lrcsi_fit_data *data, int slope, int fall)
+static lrcsi_fit_parameters node_parameters(const lrcsi_fit_data *data, int slope, int fall)
 {
     lrcsi_fit_parameters parameters = {{0.0}, 0.0};
     const int step[2] = {slope, fall};
@@ -112,13 +112,13 @@ uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_parameters start
     uint32_t count = 0;
     for (int i = 0; i < SEARCH_SLOPES; i++) {
         for (int k = 0; k < SEARCH_FALLS; k++) {
-            lrcsi_fit_parameters parameters = node_spot(data, i, k);
+            lrcsi_fit_parameters parameters = node_parameters(data, i, k);
             sum[i][k] = node_least(data, &parameters);
         }
     }
     for (int i = 0; i < SEARCH_SLOPES; i++) {
         for (int k = 0; k < SEARCH_FALLS; k++) {
-            lrcsi_fit_parameters parameters = node_spot(data, i, k);
+            lrcsi_fit_parameters parameters = node_parameters(data, i, k);
             parameters.square = sum[i][k];
             count = is_least(sum, i, k) ? start_enter(start, count, &parameters) : count;
         }

@@ -7,7 +7,7 @@
 #include "base/dd.h"
 
 /* Given: deg, finite.
-   Returned: each within 0.51 ulp (or 2^-1074); exactly 0, 0.5 and +-1 where these are the exact
+   Returned: each within 0.51 ulp (or 2^-1074); exactly 0, 0.5 and +-1 if these are the exact
    values; zeros are +0. */
 void lrcsi_degrees_sincos(double deg, double *sine, double *cosine);
 

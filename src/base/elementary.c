@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Exponential and logarithm. Argument reduction after Cody and Waite (1980), then Taylor series,
-   whose coefficients are their own derivation; integers made and used by way of the bits of
+   whose coefficients are their own derivation; integers made and used via the bits of
    doubles, since compilers without AVX-512 have no other conversion for lanes.
 
    ln 2 = LN2_HIGH + LN2_LOW within 2^-86. LN2_HIGH has 32 bits: k LN2_HIGH is exact for |k| <= 2^11

@@ -230,7 +230,7 @@ int lrcsi_exact_side(const double a[3], const double b[3], const double c[3], co
     return exact_det_sign(bb, cc, pp);
 }
 
-/* 1 where the filter proves some component of p x q to differ from zero. */
+/* 1 if the filter proves some component of p x q to differ from zero. */
 static int surely_not_parallel(const double p[3], const double q[3])
 {
     for (int k = 0; k < 3; k++) {

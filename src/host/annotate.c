@@ -22,8 +22,8 @@ static void words_draw(lrcsi_plotter *plotter, lrcsi_words words, double room)
 }
 
 /* Seen from the laser, an axis of the body is a column of R; the farthest axis is drawn first. */
-static void axes_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, lrcsi_spot corner,
-                      double length)
+static void axes_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
+                      lrcsi_plot_point corner, double length)
 {
     static const char *const name[3] = {"x", "y", "z"};
     static const int hue[2][3] = {{1, 4, 2}, {6, 3, 5}}; /* on dark and on white */
@@ -41,7 +41,7 @@ static void axes_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, 
     for (int i = 0; i < 3; i++) {
         int axis = order[i];
         uint32_t colour = lrcsi_palette_named(hue[colouring->picture->white != 0][axis]);
-        const lrcsi_spot line[2] = {
+        const lrcsi_plot_point line[2] = {
             corner, {corner.x + length * R[0][axis], corner.y - length * R[1][axis]}};
         const lrcsi_ink ink = {colour, 1.8, {0.0, 0.0}};
         const lrcsi_words words = {.text = name[axis],
@@ -56,7 +56,7 @@ static void axes_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, 
 }
 
 void lrcsi_annotate(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double width,
-                    lrcsi_spot corner, double length)
+                    lrcsi_plot_point corner, double length)
 {
     const double *d = colouring->picture->pose->direction;
     char pose[80];

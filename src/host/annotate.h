@@ -11,6 +11,6 @@
 /* Draws the title and the pose at the top of paper of the given width, and the body's axes from
    `corner`, at most `length` long. */
 void lrcsi_annotate(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double width,
-                    lrcsi_spot corner, double length);
+                    lrcsi_plot_point corner, double length);
 
 #endif

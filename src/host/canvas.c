@@ -59,7 +59,7 @@ static void canvas_settle(lrcsi_canvas *canvas, uint32_t colour)
 
 /* A piece of a line, in pixels, with round ends. The coverage of a pixel follows from the distance
    of its centre. */
-static void canvas_piece(lrcsi_canvas *canvas, lrcsi_spot a, lrcsi_spot b, double half)
+static void canvas_piece(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_point b, double half)
 {
     const double reach[4] = {fmin(a.x, b.x) - half - 1.0, fmin(a.y, b.y) - half - 1.0,
                              fmax(a.x, b.x) + half + 1.0, fmax(a.y, b.y) + half + 1.0};
@@ -82,8 +82,8 @@ static void canvas_piece(lrcsi_canvas *canvas, lrcsi_spot a, lrcsi_spot b, doubl
 }
 
 /* A straight stretch, dashed: `gone` is the length since the line began. */
-static void canvas_stretch(lrcsi_canvas *canvas, lrcsi_spot a, lrcsi_spot b, const lrcsi_ink *ink,
-                           double gone)
+static void canvas_stretch(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_point b,
+                           const lrcsi_ink *ink, double gone)
 {
     double half = 0.5 * ink->width * canvas->scale;
     double length = hypot(b.x - a.x, b.y - a.y);
@@ -97,20 +97,21 @@ static void canvas_stretch(lrcsi_canvas *canvas, lrcsi_spot a, lrcsi_spot b, con
         double begin = fmax(from, 0.0) / length;
         double end = fmin(from + on, length) / length;
         if (end > begin) {
-            canvas_piece(canvas, (lrcsi_spot){a.x + begin * (b.x - a.x), a.y + begin * (b.y - a.y)},
-                         (lrcsi_spot){a.x + end * (b.x - a.x), a.y + end * (b.y - a.y)}, half);
+            canvas_piece(
+                canvas, (lrcsi_plot_point){a.x + begin * (b.x - a.x), a.y + begin * (b.y - a.y)},
+                (lrcsi_plot_point){a.x + end * (b.x - a.x), a.y + end * (b.y - a.y)}, half);
         }
     }
 }
 
-static void canvas_line(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t count,
+static void canvas_line(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
                         const lrcsi_ink *ink)
 {
     lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
     double gone = 0.0;
     for (uint32_t i = 0; i + 1 < count; i++) {
-        lrcsi_spot a = {spot[i].x * canvas->scale, spot[i].y * canvas->scale};
-        lrcsi_spot b = {spot[i + 1].x * canvas->scale, spot[i + 1].y * canvas->scale};
+        lrcsi_plot_point a = {spot[i].x * canvas->scale, spot[i].y * canvas->scale};
+        lrcsi_plot_point b = {spot[i + 1].x * canvas->scale, spot[i + 1].y * canvas->scale};
         canvas_stretch(canvas, a, b, ink, gone);
         gone += hypot(b.x - a.x, b.y - a.y);
     }
@@ -118,14 +119,14 @@ static void canvas_line(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t
 }
 
 /* Where the horizontal at y, in pixels, runs inside a convex polygon: from span[0] to span[1]. */
-static void area_span(const lrcsi_spot *spot, uint32_t count, double scale, double y,
+static void area_span(const lrcsi_plot_point *spot, uint32_t count, double scale, double y,
                       double span[2])
 {
     span[0] = HUGE_VAL;
     span[1] = -HUGE_VAL;
     for (uint32_t i = 0; i < count; i++) {
-        const lrcsi_spot *a = &spot[i];
-        const lrcsi_spot *b = &spot[(i + 1) % count];
+        const lrcsi_plot_point *a = &spot[i];
+        const lrcsi_plot_point *b = &spot[(i + 1) % count];
         double ay = a->y * scale - y;
         double by = b->y * scale - y;
         if ((ay < 0.0) != (by < 0.0)) {
@@ -136,7 +137,7 @@ static void area_span(const lrcsi_spot *spot, uint32_t count, double scale, doub
     }
 }
 
-static void canvas_area(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t count,
+static void canvas_area(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
                         uint32_t colour)
 {
     lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
@@ -163,49 +164,50 @@ static void canvas_area(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t
 
 /* The direction in which a curve through three spots passes the middle one, times a length; zero if
    they form a corner. */
-static lrcsi_spot stroke_tangent(lrcsi_spot a, lrcsi_spot b, lrcsi_spot c)
+static lrcsi_plot_point stroke_tangent(lrcsi_plot_point a, lrcsi_plot_point b, lrcsi_plot_point c)
 {
     double in = hypot(b.x - a.x, b.y - a.y);
     double out = hypot(c.x - b.x, c.y - b.y);
     double cosine = ((b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y)) / (in * out);
     if (!(cosine > STROKE_CORNER)) {
-        return (lrcsi_spot){0.0, 0.0};
+        return (lrcsi_plot_point){0.0, 0.0};
     }
     /* of the parabola through them, over lengths of chords */
-    return (lrcsi_spot){((b.x - a.x) * out / in + (c.x - b.x) * in / out) / (in + out),
-                        ((b.y - a.y) * out / in + (c.y - b.y) * in / out) / (in + out)};
+    return (lrcsi_plot_point){((b.x - a.x) * out / in + (c.x - b.x) * in / out) / (in + out),
+                              ((b.y - a.y) * out / in + (c.y - b.y) * in / out) / (in + out)};
 }
 
 /* A stroke of a letter: the font gives spots on a curve, which cubics join where they turn little,
    and corners, which stay corners. A straight piece between two corners stays straight. */
-static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_spot *spot, uint32_t count, double half)
+static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_plot_point *spot, uint32_t count,
+                          double half)
 {
     int closed = count > 3 && spot[0].x == spot[count - 1].x && spot[0].y == spot[count - 1].y;
     for (uint32_t i = 0; i + 1 < count; i++) {
-        lrcsi_spot a = spot[i];
-        lrcsi_spot b = spot[i + 1];
-        lrcsi_spot before = i > 0 ? spot[i - 1] : closed ? spot[count - 2] : a;
-        lrcsi_spot after = i + 2 < count ? spot[i + 2] : closed ? spot[1] : b;
+        lrcsi_plot_point a = spot[i];
+        lrcsi_plot_point b = spot[i + 1];
+        lrcsi_plot_point before = i > 0 ? spot[i - 1] : closed ? spot[count - 2] : a;
+        lrcsi_plot_point after = i + 2 < count ? spot[i + 2] : closed ? spot[1] : b;
         double chord = hypot(b.x - a.x, b.y - a.y);
-        lrcsi_spot ta = stroke_tangent(before, a, b);
-        lrcsi_spot tb = stroke_tangent(a, b, after);
+        lrcsi_plot_point ta = stroke_tangent(before, a, b);
+        lrcsi_plot_point tb = stroke_tangent(a, b, after);
         /* if only one end is on a curve, the curvature at the other end is zero */
         if (ta.x == 0.0 && ta.y == 0.0) {
-            ta = (lrcsi_spot){1.5 * (b.x - a.x) / chord - 0.5 * tb.x,
-                              1.5 * (b.y - a.y) / chord - 0.5 * tb.y};
+            ta = (lrcsi_plot_point){1.5 * (b.x - a.x) / chord - 0.5 * tb.x,
+                                    1.5 * (b.y - a.y) / chord - 0.5 * tb.y};
         }
         if (tb.x == 0.0 && tb.y == 0.0) {
-            tb = (lrcsi_spot){1.5 * (b.x - a.x) / chord - 0.5 * ta.x,
-                              1.5 * (b.y - a.y) / chord - 0.5 * ta.y};
+            tb = (lrcsi_plot_point){1.5 * (b.x - a.x) / chord - 0.5 * ta.x,
+                                    1.5 * (b.y - a.y) / chord - 0.5 * ta.y};
         }
-        lrcsi_spot last = a;
+        lrcsi_plot_point last = a;
         for (int k = 1; k <= STROKE_PIECES && chord > 0.0; k++) {
             double t = (double)k / STROKE_PIECES;
             double fa = t * (1.0 - t) * (1.0 - t) * chord; /* Hermite's cubics */
             double fb = t * t * (t - 1.0) * chord;
             double to = t * t * (3.0 - 2.0 * t);
-            lrcsi_spot next = {a.x + to * (b.x - a.x) + fa * ta.x + fb * tb.x,
-                               a.y + to * (b.y - a.y) + fa * ta.y + fb * tb.y};
+            lrcsi_plot_point next = {a.x + to * (b.x - a.x) + fa * ta.x + fb * tb.x,
+                                     a.y + to * (b.y - a.y) + fa * ta.y + fb * tb.y};
             canvas_piece(canvas, last, next, half);
             last = next;
         }
@@ -213,12 +215,12 @@ static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_spot *spot, uint32_t
 }
 
 /* Draws a text from a point on the base line, in pixels. */
-static void canvas_letters(lrcsi_canvas *canvas, const char *text, lrcsi_spot from, double size,
-                           int upwards, double half)
+static void canvas_letters(lrcsi_canvas *canvas, const char *text, lrcsi_plot_point from,
+                           double size, int upwards, double half)
 {
     lrcsi_letters letters = {text, NULL, 0.0};
-    lrcsi_spot stroke[STROKE_MOST];
-    lrcsi_spot at;
+    lrcsi_plot_point stroke[STROKE_MOST];
+    lrcsi_plot_point at;
     uint32_t count = 0;
     for (int move; (move = lrcsi_letters_next(&letters, &at)) != LRCSI_LETTERS_END;) {
         if (move == LRCSI_LETTERS_JUMP || count == STROKE_MOST) {
@@ -226,8 +228,8 @@ static void canvas_letters(lrcsi_canvas *canvas, const char *text, lrcsi_spot fr
             stroke[0] = count == STROKE_MOST ? stroke[count - 1] : stroke[0];
             count = count == STROKE_MOST && move == LRCSI_LETTERS_DRAW ? 1 : 0;
         }
-        stroke[count++] = (lrcsi_spot){from.x + size * (upwards ? -at.y : at.x),
-                                       from.y - size * (upwards ? at.x : at.y)};
+        stroke[count++] = (lrcsi_plot_point){from.x + size * (upwards ? -at.y : at.x),
+                                             from.y - size * (upwards ? at.x : at.y)};
     }
     canvas_stroke(canvas, stroke, count, half);
 }
@@ -240,7 +242,7 @@ static void canvas_text(lrcsi_plotter *plotter, const lrcsi_words *words)
     double width = size * lrcsi_letters_width(words->text);
     double raised = words->raised ? 0.75 * size * lrcsi_letters_width(words->raised) : 0.0;
     double back = 0.5 * words->anchor * (width + raised);
-    lrcsi_spot from = {words->at.x * canvas->scale, words->at.y * canvas->scale};
+    lrcsi_plot_point from = {words->at.x * canvas->scale, words->at.y * canvas->scale};
     from.x -= words->upwards ? 0.0 : back;
     from.y += words->upwards ? back : 0.0;
     canvas_letters(canvas, words->text, from, size, words->upwards, half);

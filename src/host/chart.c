@@ -47,7 +47,7 @@ static int chart_shows(int log, double floor, double *value)
 }
 
 static int chart_point(const chart_plan *plan, const lrcs_host_series *series, uint32_t i,
-                       lrcsi_spot *spot)
+                       lrcsi_plot_point *spot)
 {
     const lrcs_host_chart *chart = plan->chart;
     double x = series->x[i];
@@ -55,7 +55,7 @@ static int chart_point(const chart_plan *plan, const lrcs_host_series *series, u
     if (!chart_shows(chart->x_log, 0.0, &x) || !chart_shows(chart->y_log, chart->floor, &y)) {
         return 0;
     }
-    *spot = (lrcsi_spot){chart_x(plan, x), chart_y(plan, y)};
+    *spot = (lrcsi_plot_point){chart_x(plan, x), chart_y(plan, y)};
     return 1;
 }
 
@@ -99,10 +99,10 @@ static void chart_range(const lrcs_host_chart *chart, int vertical, double range
 static void chart_floor(const chart_plan *plan)
 {
     double y = chart_y(plan, plan->chart->floor);
-    const lrcsi_spot corner[4] = {{LRCSI_CHART_LEFT, y},
-                                  {plan->right, y},
-                                  {plan->right, LRCSI_CHART_BOTTOM},
-                                  {LRCSI_CHART_LEFT, LRCSI_CHART_BOTTOM}};
+    const lrcsi_plot_point corner[4] = {{LRCSI_CHART_LEFT, y},
+                                        {plan->right, y},
+                                        {plan->right, LRCSI_CHART_BOTTOM},
+                                        {LRCSI_CHART_LEFT, LRCSI_CHART_BOTTOM}};
     plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_FLOOR);
 }
 
@@ -130,20 +130,20 @@ static void chart_ticks(const chart_plan *plan)
 {
     for (uint32_t i = 0; i < plan->x.count; i++) {
         const lrcsi_tick *tick = &plan->x.tick[i];
-        const lrcsi_spot at = {chart_x(plan, tick->value), LRCSI_CHART_BOTTOM};
+        const lrcsi_plot_point at = {chart_x(plan, tick->value), LRCSI_CHART_BOTTOM};
         lrcsi_chart_tick(plan->plotter, tick, at, 0);
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
         const lrcsi_tick *tick = &plan->y.tick[i];
-        const lrcsi_spot at = {LRCSI_CHART_LEFT, chart_y(plan, tick->value)};
+        const lrcsi_plot_point at = {LRCSI_CHART_LEFT, chart_y(plan, tick->value)};
         lrcsi_chart_tick(plan->plotter, tick, at, 1);
     }
 }
 
 /* ---- the data ---- */
 
-static void run_draw(const chart_plan *plan, const lrcs_host_series *series, const lrcsi_spot *spot,
-                     uint32_t count)
+static void run_draw(const chart_plan *plan, const lrcs_host_series *series,
+                     const lrcsi_plot_point *spot, uint32_t count)
 {
     const lrcsi_ink ink = lrcsi_series_ink(series);
     int joined = series->dash != LRCS_HOST_NO_LINE;
@@ -151,7 +151,7 @@ static void run_draw(const chart_plan *plan, const lrcs_host_series *series, con
         plan->plotter->line(plan->plotter, spot, count, &ink);
     }
     for (uint32_t i = 0; i < count; i++) {
-        lrcsi_board_spot(plan->board, spot[i], LRCSI_CHART_RING);
+        lrcsi_board_point(plan->board, spot[i], LRCSI_CHART_RING);
         lrcsi_board_line(plan->board, spot[i > 0 && joined ? i - 1 : i], spot[i]);
     }
 }
@@ -160,7 +160,7 @@ static void run_draw(const chart_plan *plan, const lrcs_host_series *series, con
    gap. */
 static void series_line(const chart_plan *plan, const lrcs_host_series *series)
 {
-    lrcsi_spot run[256];
+    lrcsi_plot_point run[256];
     uint32_t count = 0;
     for (uint32_t i = 0; i < series->count; i++) {
         if (!chart_point(plan, series, i, &run[count])) {
@@ -176,9 +176,9 @@ static void series_line(const chart_plan *plan, const lrcs_host_series *series)
 }
 
 /* The mark for a point that lies below the floor. */
-static void arrow_draw(const chart_plan *plan, uint32_t colour, lrcsi_spot at)
+static void arrow_draw(const chart_plan *plan, uint32_t colour, lrcsi_plot_point at)
 {
-    const lrcsi_spot head[3] = {
+    const lrcsi_plot_point head[3] = {
         {at.x - 3.2, at.y + 9.5}, {at.x + 3.2, at.y + 9.5}, {at.x, at.y + 14.5}};
     lrcsi_chart_stroke(plan->plotter, at.x, at.y + LRCSI_CHART_MARK, at.x, at.y + 10.0, colour,
                        1.4);
@@ -189,7 +189,7 @@ static void arrow_draw(const chart_plan *plan, uint32_t colour, lrcsi_spot at)
 static void series_marks(const chart_plan *plan, const lrcs_host_series *series)
 {
     for (uint32_t i = 0; i < series->count; i++) {
-        lrcsi_spot at;
+        lrcsi_plot_point at;
         if (!chart_point(plan, series, i, &at)) {
             continue;
         }
@@ -204,7 +204,7 @@ static void series_marks(const chart_plan *plan, const lrcs_host_series *series)
 static void series_labels(const chart_plan *plan, const lrcs_host_series *series)
 {
     for (uint32_t i = 0; series->label && i < series->count; i++) {
-        lrcsi_spot at;
+        lrcsi_plot_point at;
         lrcsi_words words = {
             .text = series->label[i], .size = 10.5, .colour = lrcsi_palette_named(series->colour)};
         if (words.text && chart_point(plan, series, i, &at) &&
@@ -223,14 +223,14 @@ static void legend_floor(const chart_plan *plan, double x, double y)
         .at = {x + LRCSI_CHART_SAMPLE + 8.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
         .size = LRCSI_CHART_SMALL,
         .colour = LRCSI_COLOUR_TEXT};
-    const lrcsi_spot corner[4] = {{x, y - 5.0},
-                                  {x + LRCSI_CHART_SAMPLE, y - 5.0},
-                                  {x + LRCSI_CHART_SAMPLE, y + 6.0},
-                                  {x, y + 6.0}};
+    const lrcsi_plot_point corner[4] = {{x, y - 5.0},
+                                        {x + LRCSI_CHART_SAMPLE, y - 5.0},
+                                        {x + LRCSI_CHART_SAMPLE, y + 6.0},
+                                        {x, y + 6.0}};
     plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_FLOOR);
     lrcsi_chart_stroke(plan->plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y - 5.0,
                        LRCSI_COLOUR_FAINT, 1.2);
-    arrow_draw(plan, LRCSI_COLOUR_FAINT, (lrcsi_spot){x + 0.5 * LRCSI_CHART_SAMPLE, y - 8.5});
+    arrow_draw(plan, LRCSI_COLOUR_FAINT, (lrcsi_plot_point){x + 0.5 * LRCSI_CHART_SAMPLE, y - 8.5});
     plan->plotter->text(plan->plotter, &words);
 }
 
@@ -278,10 +278,11 @@ static void series_band(const chart_plan *plan, const lrcs_host_series *series)
             !chart_shows(plan->chart->x_log, 0.0, &x[1])) {
             continue;
         }
-        const lrcsi_spot corner[4] = {{chart_x(plan, x[0]), band_y(plan, series->low[i - 1])},
-                                      {chart_x(plan, x[0]), band_y(plan, series->high[i - 1])},
-                                      {chart_x(plan, x[1]), band_y(plan, series->high[i])},
-                                      {chart_x(plan, x[1]), band_y(plan, series->low[i])}};
+        const lrcsi_plot_point corner[4] = {
+            {chart_x(plan, x[0]), band_y(plan, series->low[i - 1])},
+            {chart_x(plan, x[0]), band_y(plan, series->high[i - 1])},
+            {chart_x(plan, x[1]), band_y(plan, series->high[i])},
+            {chart_x(plan, x[1]), band_y(plan, series->low[i])}};
         plan->plotter->area(plan->plotter, corner, 4, tint);
     }
 }

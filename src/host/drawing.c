@@ -146,7 +146,7 @@ void lrcs_host_picture_svg(FILE *out, const lrcs_host_picture *picture,
     lrcsi_svg svg =
         lrcsi_svg_begin(out, DRAWING_WIDTH, plan.height, picture->title, picture->about);
     if (!picture->white) {
-        const lrcsi_spot corner[4] = {
+        const lrcsi_plot_point corner[4] = {
             {0.0, 0.0}, {DRAWING_WIDTH, 0.0}, {DRAWING_WIDTH, plan.height}, {0.0, plan.height}};
         svg.plotter.area(&svg.plotter, corner, 4, lrcsi_colouring_ground(&colouring));
     }

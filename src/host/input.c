@@ -20,7 +20,7 @@ int lrcsi_host_input_read(lrcs_host_scene *scene, const char *path, lrcs_host_fi
                           lrcs_host_error *error)
 {
     struct stat about;
-    /* before it is opened: a pipe without a writer would block for ever, and a device may have no
+    /* before it is opened: a pipe without a writer would block forever, and a device may have no
        end */
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)) {
         return lrcsi_host_fail(error, LRCS_E_SYSTEM,

@@ -22,18 +22,18 @@ static lrcsi_room box_about(double x, double y, double half_x, double half_y)
                         (float)(y + half_y)};
 }
 
-void lrcsi_board_spot(lrcsi_board *board, lrcsi_spot spot, double half)
+void lrcsi_board_point(lrcsi_board *board, lrcsi_plot_point spot, double half)
 {
     board_take(board, box_about(spot.x, spot.y, half, half));
 }
 
-void lrcsi_board_line(lrcsi_board *board, lrcsi_spot a, lrcsi_spot b)
+void lrcsi_board_line(lrcsi_board *board, lrcsi_plot_point a, lrcsi_plot_point b)
 {
     int steps = 1 + (int)(hypot(b.x - a.x, b.y - a.y) / LABEL_STEP);
     for (int i = 0; i <= steps; i++) {
         double part = (double)i / steps;
-        lrcsi_spot at = {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
-        lrcsi_board_spot(board, at, 1.0);
+        lrcsi_plot_point at = {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+        lrcsi_board_point(board, at, 1.0);
     }
 }
 
@@ -53,8 +53,8 @@ static int board_free(const lrcsi_board *board, const lrcsi_room *want)
     return 1;
 }
 
-int lrcsi_board_text(lrcsi_board *board, lrcsi_spot spot, double clear, const char *text,
-                     double size, lrcsi_spot *at)
+int lrcsi_board_text(lrcsi_board *board, lrcsi_plot_point spot, double clear, const char *text,
+                     double size, lrcsi_plot_point *at)
 {
     static const double place[8][2] = {{0, -1}, {1, -1}, {1, 0},  {-1, -1},
                                        {0, 1},  {1, 1},  {-1, 0}, {-1, 1}};
@@ -66,7 +66,7 @@ int lrcsi_board_text(lrcsi_board *board, lrcsi_spot spot, double clear, const ch
         lrcsi_room want = box_about(x, y, half_x + 1.0, half_y + 1.0);
         if (board_free(board, &want)) {
             board_take(board, want);
-            *at = (lrcsi_spot){x - half_x, y + half_y};
+            *at = (lrcsi_plot_point){x - half_x, y + half_y};
             return 1;
         }
     }

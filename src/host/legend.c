@@ -43,7 +43,7 @@ static double length_choose(double most, char name[32])
 static void legend_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                           uint32_t ink)
 {
-    const lrcsi_spot spot[2] = {{x0, y0}, {x1, y1}};
+    const lrcsi_plot_point spot[2] = {{x0, y0}, {x1, y1}};
     const lrcsi_ink line = {ink, 1.2, {0.0, 0.0}};
     plotter->line(plotter, spot, 2, &line);
 }
@@ -74,7 +74,7 @@ static void length_draw(lrcsi_plotter *plotter, double y, double width, double s
 static void rectangle_draw(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                            uint32_t colour)
 {
-    const lrcsi_spot corner[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    const lrcsi_plot_point corner[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
     plotter->area(plotter, corner, 4, colour);
 }
 

@@ -140,7 +140,7 @@ double lrcsi_letters_width(const char *text)
     return width;
 }
 
-int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_spot *spot)
+int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_plot_point *spot)
 {
     int move = LRCSI_LETTERS_DRAW;
     while (*letters->text) {

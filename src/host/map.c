@@ -87,7 +87,7 @@ static double cell_begin(const double *place, uint32_t cell, uint32_t each, uint
 static void box_fill(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                      uint32_t colour)
 {
-    const lrcsi_spot corner[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    const lrcsi_plot_point corner[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
     plotter->area(plotter, corner, 4, colour);
 }
 
@@ -114,11 +114,11 @@ static double ellipse_height(double degrees)
 }
 
 /* Of a longitude in -180 .. 180 at a height. */
-static lrcsi_spot ellipse_spot(double longitude, double height)
+static lrcsi_plot_point ellipse_spot(double longitude, double height)
 {
     double narrow = sqrt(fmax(1.0 - height * height, 0.0));
-    return (lrcsi_spot){ELLIPSE_X + ELLIPSE_WIDE * narrow * longitude / 180.0,
-                        ELLIPSE_Y - ELLIPSE_HIGH * height};
+    return (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_WIDE * narrow * longitude / 180.0,
+                              ELLIPSE_Y - ELLIPSE_HIGH * height};
 }
 
 /* The term that reduces a longitude to -180 .. 180. */
@@ -135,8 +135,8 @@ static void ellipse_piece(const map_plan *plan, double west, double east, const 
     double high = fmin(height[1] + MAP_LAP / ELLIPSE_HIGH, 1.0);
     double lap = 180.0 * MAP_LAP / ELLIPSE_WIDE;
     east = fmin(east + lap, 180.0);
-    const lrcsi_spot corner[4] = {ellipse_spot(west, low), ellipse_spot(east, low),
-                                  ellipse_spot(east, high), ellipse_spot(west, high)};
+    const lrcsi_plot_point corner[4] = {ellipse_spot(west, low), ellipse_spot(east, low),
+                                        ellipse_spot(east, high), ellipse_spot(west, high)};
     plan->plotter->area(plan->plotter, corner, 4, colour);
 }
 
@@ -162,7 +162,7 @@ static void ellipse_cells(const map_plan *plan, double west, double east, const 
 
 static void ellipse_line(const map_plan *plan, double longitude, uint32_t colour, double width)
 {
-    lrcsi_spot spot[61];
+    lrcsi_plot_point spot[61];
     const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
     for (int i = 0; i <= 60; i++) {
         spot[i] = ellipse_spot(longitude, sin(LRCSI_PI * (i - 30) / 60.0));
@@ -173,16 +173,16 @@ static void ellipse_line(const map_plan *plan, double longitude, uint32_t colour
 /* The background below the cells, for what they do not cover. */
 static void ellipse_ground(const map_plan *plan)
 {
-    lrcsi_spot spot[120];
+    lrcsi_plot_point spot[120];
     for (int i = 0; i < 120; i++) {
         double t = LRCSI_PI * i / 60.0;
-        spot[i] =
-            (lrcsi_spot){ELLIPSE_X + ELLIPSE_WIDE * cos(t), ELLIPSE_Y - ELLIPSE_HIGH * sin(t)};
+        spot[i] = (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_WIDE * cos(t),
+                                     ELLIPSE_Y - ELLIPSE_HIGH * sin(t)};
     }
     plan->plotter->area(plan->plotter, spot, 120, ELLIPSE_EMPTY);
 }
 
-static void ellipse_number(const map_plan *plan, int degrees, lrcsi_spot at, int anchor)
+static void ellipse_number(const map_plan *plan, int degrees, lrcsi_plot_point at, int anchor)
 {
     char text[16];
     snprintf(text, sizeof text, "%d", degrees);
@@ -193,10 +193,10 @@ static void ellipse_number(const map_plan *plan, int degrees, lrcsi_spot at, int
                                .colour = LRCSI_COLOUR_TEXT};
     if (anchor == LRCSI_ANCHOR_MIDDLE) { /* on the map */
         double half = 0.5 * LRCSI_CHART_SMALL * lrcsi_letters_width(text) + 2.0;
-        const lrcsi_spot corner[4] = {{at.x - half, at.y - 7.0},
-                                      {at.x + half, at.y - 7.0},
-                                      {at.x + half, at.y + 7.0},
-                                      {at.x - half, at.y + 7.0}};
+        const lrcsi_plot_point corner[4] = {{at.x - half, at.y - 7.0},
+                                            {at.x + half, at.y - 7.0},
+                                            {at.x + half, at.y + 7.0},
+                                            {at.x - half, at.y + 7.0}};
         plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_PAPER);
     }
     plan->plotter->text(plan->plotter, &words);
@@ -210,8 +210,8 @@ static void ellipse_graticule(const map_plan *plan)
     }
     for (int degrees = -60; degrees <= 60; degrees += 30) {
         double height = ellipse_height(degrees);
-        lrcsi_spot left = ellipse_spot(-180.0, height);
-        lrcsi_spot right = ellipse_spot(180.0, height);
+        lrcsi_plot_point left = ellipse_spot(-180.0, height);
+        lrcsi_plot_point right = ellipse_spot(180.0, height);
         lrcsi_chart_stroke(plan->plotter, left.x, left.y, right.x, right.y, 0x777777u, 0.5);
         left.x -= 8.0;
         ellipse_number(plan, degrees, left, LRCSI_ANCHOR_RIGHT);
@@ -264,21 +264,21 @@ static void row_draw(const map_plan *plan, uint32_t row)
 /* ---- contours ---- */
 
 /* The point between two corners at which a level is crossed. */
-static lrcsi_spot contour_cross(const lrcsi_spot corner[4], const double z[4], int side,
-                                double level)
+static lrcsi_plot_point contour_cross(const lrcsi_plot_point corner[4], const double z[4], int side,
+                                      double level)
 {
-    const lrcsi_spot *a = &corner[side];
-    const lrcsi_spot *b = &corner[(side + 1) % 4];
+    const lrcsi_plot_point *a = &corner[side];
+    const lrcsi_plot_point *b = &corner[(side + 1) % 4];
     double part = (level - z[side]) / (z[(side + 1) % 4] - z[side]);
-    return (lrcsi_spot){a->x + part * (b->x - a->x), a->y + part * (b->y - a->y)};
+    return (lrcsi_plot_point){a->x + part * (b->x - a->x), a->y + part * (b->y - a->y)};
 }
 
 /* The pieces of a contour between four points, two of them at a saddle: then the mean decides which
    corners are connected. */
-static void contour_square(const map_plan *plan, const lrcsi_spot corner[4], const double z[4],
-                           double level, const lrcsi_ink *ink)
+static void contour_square(const map_plan *plan, const lrcsi_plot_point corner[4],
+                           const double z[4], double level, const lrcsi_ink *ink)
 {
-    lrcsi_spot spot[4];
+    lrcsi_plot_point spot[4];
     int count = 0;
     for (int side = 0; side < 4; side++) {
         if ((z[side] >= level) != (z[(side + 1) % 4] >= level)) {
@@ -290,8 +290,8 @@ static void contour_square(const map_plan *plan, const lrcsi_spot corner[4], con
     } else if (count == 4) {
         int middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) >= level;
         int round = middle == (z[0] >= level); /* corners 1 and 3 are cut off, not 0 and 2 */
-        const lrcsi_spot pair[4] = {spot[round ? 0 : 3], spot[round ? 1 : 0], spot[round ? 2 : 1],
-                                    spot[round ? 3 : 2]};
+        const lrcsi_plot_point pair[4] = {spot[round ? 0 : 3], spot[round ? 1 : 0],
+                                          spot[round ? 2 : 1], spot[round ? 3 : 2]};
         plan->plotter->line(plan->plotter, pair, 2, ink);
         plan->plotter->line(plan->plotter, pair + 2, 2, ink);
     }
@@ -301,7 +301,7 @@ static void contours_between(const map_plan *plan, uint32_t column, uint32_t row
 {
     static const uint32_t step[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     const lrcs_host_map *map = plan->map;
-    lrcsi_spot corner[4];
+    lrcsi_plot_point corner[4];
     double z[4];
     double turn = ellipse_turn(cell_place(map->x, column, plan->wide, map->columns));
     for (int k = 0; k < 4; k++) {
@@ -311,7 +311,7 @@ static void contours_between(const map_plan *plan, uint32_t column, uint32_t row
         double y = cell_place(map->y, r, plan->high, map->rows);
         z[k] = cell_value(plan, c, r);
         corner[k] = map->mollweide ? ellipse_spot(x + turn, ellipse_height(y))
-                                   : (lrcsi_spot){map_x(plan, x), map_y(plan, y)};
+                                   : (lrcsi_plot_point){map_x(plan, x), map_y(plan, y)};
         if (!isfinite(z[k]) || (map->mollweide && x + turn > 180.0)) {
             return; /* nothing there, or on both sides of the map */
         }
@@ -366,12 +366,12 @@ static void map_frame(const map_plan *plan)
     lrcsi_chart_box(plan->plotter, LRCSI_CHART_LEFT, MAP_RIGHT);
     for (uint32_t i = 0; i < plan->x.count; i++) {
         const lrcsi_tick *tick = &plan->x.tick[i];
-        const lrcsi_spot at = {map_x(plan, tick->value), LRCSI_CHART_BOTTOM};
+        const lrcsi_plot_point at = {map_x(plan, tick->value), LRCSI_CHART_BOTTOM};
         lrcsi_chart_tick(plan->plotter, tick, at, 0);
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
         const lrcsi_tick *tick = &plan->y.tick[i];
-        const lrcsi_spot at = {LRCSI_CHART_LEFT, map_y(plan, tick->value)};
+        const lrcsi_plot_point at = {LRCSI_CHART_LEFT, map_y(plan, tick->value)};
         lrcsi_chart_tick(plan->plotter, tick, at, 1);
     }
 }

@@ -97,8 +97,8 @@ static void picture_draw(const lrcsi_colouring *colouring, const lrcs_image *ima
         }
     }
     if (at->title > 0.0) {
-        const lrcsi_spot corner = {(at->left + 0.09 * at->side) / at->unit,
-                                   (at->top + 0.91 * at->side) / at->unit};
+        const lrcsi_plot_point corner = {(at->left + 0.09 * at->side) / at->unit,
+                                         (at->top + 0.91 * at->side) / at->unit};
         lrcsi_annotate(colouring, &canvas->plotter, size / at->unit, corner,
                        0.06 * at->side / at->unit);
     }

@@ -6,9 +6,9 @@
 
 #include <lrcs/host.h>
 
-typedef struct lrcsi_spot {
+typedef struct lrcsi_plot_point {
     double x, y;
-} lrcsi_spot;
+} lrcsi_plot_point;
 
 /* Colours are 0xRRGGBB. */
 typedef struct lrcsi_ink {
@@ -21,21 +21,22 @@ enum lrcsi_anchor { LRCSI_ANCHOR_LEFT, LRCSI_ANCHOR_MIDDLE, LRCSI_ANCHOR_RIGHT }
 
 typedef struct lrcsi_words {
     const char *text;
-    const char *raised; /* an exponent after it, or NULL */
-    lrcsi_spot at;      /* on the base line */
-    double size;        /* em */
-    int anchor;         /* lrcsi_anchor */
-    int upwards;        /* read from below */
+    const char *raised;  /* an exponent after it, or NULL */
+    lrcsi_plot_point at; /* on the base line */
+    double size;         /* em */
+    int anchor;          /* lrcsi_anchor */
+    int upwards;         /* read from below */
     int bold;
     uint32_t colour;
 } lrcsi_words;
 
 typedef struct lrcsi_plotter lrcsi_plotter;
 struct lrcsi_plotter {
-    void (*line)(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t count,
+    void (*line)(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
                  const lrcsi_ink *ink);
     /* A convex polygon, filled. */
-    void (*area)(lrcsi_plotter *plotter, const lrcsi_spot *spot, uint32_t count, uint32_t colour);
+    void (*area)(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
+                 uint32_t colour);
     void (*text)(lrcsi_plotter *plotter, const lrcsi_words *words);
 };
 

@@ -17,15 +17,15 @@ typedef struct polar_plan {
     const lrcs_host_chart *chart;
     lrcsi_plotter *plotter;
     lrcsi_axis axis;
-    lrcsi_spot pole;
+    lrcsi_plot_point pole;
     double radius;
 } polar_plan;
 
-static lrcsi_spot polar_spot(const polar_plan *plan, double deg, double part)
+static lrcsi_plot_point polar_point(const polar_plan *plan, double deg, double part)
 {
     double away = plan->radius * part;
-    return (lrcsi_spot){plan->pole.x + away * cos(deg * POLAR_RAD),
-                        plan->pole.y - away * sin(deg * POLAR_RAD)};
+    return (lrcsi_plot_point){plan->pole.x + away * cos(deg * POLAR_RAD),
+                              plan->pole.y - away * sin(deg * POLAR_RAD)};
 }
 
 /* The range of distances to be shown; of negative ones, which are decibels, only a part. */
@@ -47,10 +47,10 @@ static void polar_range(const lrcs_host_chart *chart, double range[2])
 
 static void ring_draw(const polar_plan *plan, double part, uint32_t colour, double width)
 {
-    lrcsi_spot spot[181];
+    lrcsi_plot_point spot[181];
     const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
     for (int i = 0; i <= 180; i++) {
-        spot[i] = polar_spot(plan, 2.0 * i, part);
+        spot[i] = polar_point(plan, 2.0 * i, part);
     }
     plan->plotter->line(plan->plotter, spot, 181, &ink);
 }
@@ -58,8 +58,8 @@ static void ring_draw(const polar_plan *plan, double part, uint32_t colour, doub
 static void spoke_draw(const polar_plan *plan, int deg)
 {
     char text[16];
-    lrcsi_spot end = polar_spot(plan, deg, 1.0);
-    lrcsi_spot name = polar_spot(plan, deg, 1.0 + 15.0 / plan->radius);
+    lrcsi_plot_point end = polar_point(plan, deg, 1.0);
+    lrcsi_plot_point name = polar_point(plan, deg, 1.0 + 15.0 / plan->radius);
     snprintf(text, sizeof text, "%d", deg);
     const lrcsi_words words = {.text = text,
                                .at = {name.x, name.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
@@ -90,13 +90,13 @@ static void polar_ground(const polar_plan *plan)
 static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
 {
     const lrcsi_ink ink = lrcsi_series_ink(series);
-    lrcsi_spot run[256];
+    lrcsi_plot_point run[256];
     uint32_t count = 0;
     for (uint32_t i = 0; i < series->count; i++) {
         int shown = isfinite(series->x[i]) && isfinite(series->y[i]);
         if (shown) {
             double part = fmax(lrcsi_axis_at(&plan->axis, series->y[i]), 0.0);
-            run[count++] = polar_spot(plan, series->x[i], part);
+            run[count++] = polar_point(plan, series->x[i], part);
         }
         if (shown && count < sizeof run / sizeof run[0] && i + 1 < series->count) {
             continue;
@@ -122,11 +122,11 @@ static void polar_numbers(const polar_plan *plan)
         }
         double size = LRCSI_CHART_SMALL - 1.0;
         double half = 0.5 * size * lrcsi_letters_width(tick->text) + 2.0;
-        lrcsi_spot at = polar_spot(plan, 75.0, part);
-        const lrcsi_spot box[4] = {{at.x - half, at.y - 7.0},
-                                   {at.x + half, at.y - 7.0},
-                                   {at.x + half, at.y + 7.0},
-                                   {at.x - half, at.y + 7.0}};
+        lrcsi_plot_point at = polar_point(plan, 75.0, part);
+        const lrcsi_plot_point box[4] = {{at.x - half, at.y - 7.0},
+                                         {at.x + half, at.y - 7.0},
+                                         {at.x + half, at.y + 7.0},
+                                         {at.x - half, at.y + 7.0}};
         const lrcsi_words words = {.text = tick->text,
                                    .at = {at.x, at.y + LRCSI_CHART_DROP * size},
                                    .size = size,

@@ -12,7 +12,7 @@
 void lrcsi_chart_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                         uint32_t colour, double width)
 {
-    const lrcsi_spot spot[2] = {{x0, y0}, {x1, y1}};
+    const lrcsi_plot_point spot[2] = {{x0, y0}, {x1, y1}};
     const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
     plotter->line(plotter, spot, 2, &ink);
 }
@@ -26,10 +26,11 @@ void lrcsi_chart_words(lrcsi_plotter *plotter, lrcsi_words words, double room)
 
 /* ---- axes ---- */
 
-void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_spot at, int upright)
+void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_plot_point at,
+                      int upright)
 {
     double length = tick->major ? 5.0 : 3.0;
-    lrcsi_spot end = {at.x - (upright ? length : 0.0), at.y + (upright ? 0.0 : length)};
+    lrcsi_plot_point end = {at.x - (upright ? length : 0.0), at.y + (upright ? 0.0 : length)};
     lrcsi_words words = {.text = tick->text,
                          .raised = tick->raised[0] ? tick->raised : NULL,
                          .at = {at.x, at.y + 19.0},
@@ -37,7 +38,7 @@ void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_spot
                          .anchor = LRCSI_ANCHOR_MIDDLE,
                          .colour = LRCSI_COLOUR_TEXT};
     if (upright) {
-        words.at = (lrcsi_spot){at.x - 9.0, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
+        words.at = (lrcsi_plot_point){at.x - 9.0, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
         words.anchor = LRCSI_ANCHOR_RIGHT;
     }
     lrcsi_chart_stroke(plotter, at.x, at.y, end.x, end.y, LRCSI_COLOUR_TEXT, 0.9);
@@ -48,11 +49,11 @@ void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_spot
 
 void lrcsi_chart_box(lrcsi_plotter *plotter, double left, double right)
 {
-    const lrcsi_spot corner[5] = {{left, LRCSI_CHART_TOP},
-                                  {right, LRCSI_CHART_TOP},
-                                  {right, LRCSI_CHART_BOTTOM},
-                                  {left, LRCSI_CHART_BOTTOM},
-                                  {left, LRCSI_CHART_TOP}};
+    const lrcsi_plot_point corner[5] = {{left, LRCSI_CHART_TOP},
+                                        {right, LRCSI_CHART_TOP},
+                                        {right, LRCSI_CHART_BOTTOM},
+                                        {left, LRCSI_CHART_BOTTOM},
+                                        {left, LRCSI_CHART_TOP}};
     const lrcsi_ink ink = {LRCSI_COLOUR_TEXT, 0.9, {0.0, 0.0}};
     plotter->line(plotter, corner, 5, &ink);
 }
@@ -72,26 +73,27 @@ lrcsi_ink lrcsi_series_ink(const lrcs_host_series *series)
 }
 
 /* The corners of a marker about the origin, half a width of 1; their number. */
-static uint32_t marker_corners(int marker, lrcsi_spot corner[24])
+static uint32_t marker_corners(int marker, lrcsi_plot_point corner[24])
 {
-    static const lrcsi_spot square[4] = {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}};
-    static const lrcsi_spot triangle[3] = {{0.0, -1.25}, {1.15, 0.8}, {-1.15, 0.8}};
-    static const lrcsi_spot diamond[4] = {{0.0, -1.3}, {1.3, 0.0}, {0.0, 1.3}, {-1.3, 0.0}};
-    const lrcsi_spot *from = marker == LRCS_HOST_SQUARE     ? square
-                             : marker == LRCS_HOST_TRIANGLE ? triangle
-                             : marker == LRCS_HOST_DIAMOND  ? diamond
-                                                            : NULL;
+    static const lrcsi_plot_point square[4] = {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}};
+    static const lrcsi_plot_point triangle[3] = {{0.0, -1.25}, {1.15, 0.8}, {-1.15, 0.8}};
+    static const lrcsi_plot_point diamond[4] = {{0.0, -1.3}, {1.3, 0.0}, {0.0, 1.3}, {-1.3, 0.0}};
+    const lrcsi_plot_point *from = marker == LRCS_HOST_SQUARE     ? square
+                                   : marker == LRCS_HOST_TRIANGLE ? triangle
+                                   : marker == LRCS_HOST_DIAMOND  ? diamond
+                                                                  : NULL;
     uint32_t count = !from ? 24 : from == triangle ? 3 : 4;
     for (uint32_t i = 0; i < count; i++) {
         double turn = 2.0 * LRCSI_PI * i / 24.0;
-        corner[i] = from ? from[i] : (lrcsi_spot){cos(turn), sin(turn)};
+        corner[i] = from ? from[i] : (lrcsi_plot_point){cos(turn), sin(turn)};
     }
     return count;
 }
 
-void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series, lrcsi_spot at)
+void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
+                         lrcsi_plot_point at)
 {
-    lrcsi_spot corner[25];
+    lrcsi_plot_point corner[25];
     uint32_t colour = lrcsi_palette_named(series->colour);
     const lrcsi_ink ink = {colour, 1.4, {0.0, 0.0}};
     if (series->marker == LRCS_HOST_NO_MARKER) {
@@ -167,17 +169,17 @@ double lrcsi_chart_legend(lrcsi_plotter *plotter, const lrcs_host_chart *chart, 
     for (uint32_t i = 0; i < chart->series_count; i++) {
         const lrcs_host_series *series = &chart->series[i];
         const lrcsi_ink ink = lrcsi_series_ink(series);
-        const lrcsi_spot sample[2] = {{x, y}, {x + LRCSI_CHART_SAMPLE, y}};
+        const lrcsi_plot_point sample[2] = {{x, y}, {x + LRCSI_CHART_SAMPLE, y}};
         if (!series->name) {
             continue;
         }
         if (series->dash != LRCS_HOST_NO_LINE) {
             plotter->line(plotter, sample, 2, &ink);
         }
-        lrcsi_series_marker(plotter, series, (lrcsi_spot){x + 0.5 * LRCSI_CHART_SAMPLE, y});
+        lrcsi_series_marker(plotter, series, (lrcsi_plot_point){x + 0.5 * LRCSI_CHART_SAMPLE, y});
         words.text = series->name;
-        words.at =
-            (lrcsi_spot){x + LRCSI_CHART_SAMPLE + 8.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
+        words.at = (lrcsi_plot_point){x + LRCSI_CHART_SAMPLE + 8.0,
+                                      y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
         plotter->text(plotter, &words);
         y += LRCSI_CHART_LINE;
     }

@@ -31,13 +31,15 @@
 #define LRCSI_COLOUR_PAPER 0xffffffu
 
 lrcsi_ink lrcsi_series_ink(const lrcs_host_series *series);
-void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series, lrcsi_spot at);
+void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
+                         lrcsi_plot_point at);
 
 void lrcsi_chart_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                         uint32_t colour, double width);
 
 /* A mark at a spot of an axis, with its number below or, on an upright axis, to the left. */
-void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_spot at, int upright);
+void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_plot_point at,
+                      int upright);
 
 /* The frame of what is drawn between left and right. */
 void lrcsi_chart_box(lrcsi_plotter *plotter, double left, double right);

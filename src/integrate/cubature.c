@@ -364,7 +364,7 @@ static void cube_gradient(const cube_cell *cell, const double chord[3], double g
     }
 }
 
-/* Levels whose zero halves a cell; 0 where none of it is below, as where no normal turns. They are
+/* Levels whose zero halves a cell; 0 if none of it is below, as where no normal turns. They are
    linear in position, so that areas add up whatever rounding does to normals: across the largest
    turn, midway, or where the cell has corners enough, along a diagonal. */
 static int cube_levels(const cube_cell *cell, double level[CORNERS])

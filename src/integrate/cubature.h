@@ -35,7 +35,7 @@ typedef struct lrcsi_cubature {
     lrcsi_cubature_cell *waiting; /* room for parts: nothing is kept there between triangles */
 } lrcsi_cubature;
 
-/* The parts that wait at most: bytes, and room for them in a work area, NULL where it has none. */
+/* The parts that wait at most: bytes, and room for them in a work area, NULL if it has none. */
 size_t lrcsi_cubature_need(void);
 lrcsi_cubature_cell *lrcsi_cubature_cells(lrcs_work *work);
 

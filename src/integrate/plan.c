@@ -36,7 +36,7 @@ static int plan_term(const lrcs_run_options *options, int effect)
 {
     return effect_in(options->without, effect) ? LRCSI_TERM_OUT
            : effect_in(options->with, effect)  ? LRCSI_TERM_FORCED
-                                               : LRCSI_TERM_WORN;
+                                               : LRCSI_TERM_ASSIGNED;
 }
 
 static void plan_choose(lrcsi_plan *plan, int method, const char *reason)
@@ -180,7 +180,7 @@ typedef struct term_text {
     const char *worn, *none, *unseen, *forced;
 } term_text;
 
-/* A term that a facet wears but none that may be seen adds nothing, and counts as off. */
+/* A term that a facet has but none that may be seen adds nothing, and counts as off. */
 static lrcs_effect term_effect(int term, int worn, int seen, const term_text *text)
 {
     if (worn && term == LRCSI_TERM_OUT) {

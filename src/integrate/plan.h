@@ -8,9 +8,9 @@
 
 /* A term of the BRDF. */
 enum lrcsi_term {
-    LRCSI_TERM_OUT,   /* its amplitude is taken for 0 */
-    LRCSI_TERM_WORN,  /* as the materials say */
-    LRCSI_TERM_FORCED /* evaluated even where its amplitude is 0 */
+    LRCSI_TERM_OUT,      /* its amplitude is taken for 0 */
+    LRCSI_TERM_ASSIGNED, /* as the materials say */
+    LRCSI_TERM_FORCED    /* evaluated even where its amplitude is 0 */
 };
 
 typedef struct lrcsi_plan {

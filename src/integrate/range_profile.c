@@ -73,9 +73,9 @@ typedef struct profile_job {
     uint32_t low, high; /* bins low <= i < high may hold something */
     lrcsi_sum glint, diffuse;
     double bound, additions, range_err;
-    lrcsi_visible *visible; /* of every facet; NULL where no facet stands for a curved shape */
+    lrcsi_visible *visible; /* of every facet; NULL if no facet stands for a curved shape */
     lrcsi_proximity_band margin;
-    const lrcsi_proximity_band *doubt; /* margin, or NULL where none was made */
+    const lrcsi_proximity_band *doubt; /* margin, or NULL if none was made */
     int tessellation_known;
     double tessellation;
 } profile_job;
@@ -159,7 +159,8 @@ static lrcsi_dd range_of(const lrcsi_view *view, const double x[3], double *err)
     return sum;
 }
 
-/* The bins that the range of a corner may be in: two where it cannot be told from their edge. */
+/* The bins that the range of a corner may be in: two where it cannot be distinguished from their
+ * edge. */
 static void corner_bins(const profile_job *job, lrcsi_dd range, double err, uint32_t *low,
                         uint32_t *high)
 {

@@ -33,7 +33,7 @@ typedef struct sigma_run {
     lrcsi_plan plan;
     lrcsi_classification classification;
     lrcsi_proximity_band margin;
-    const lrcsi_proximity_band *doubt; /* margin, or NULL where none was made */
+    const lrcsi_proximity_band *doubt; /* margin, or NULL if none was made */
     lrcsi_visible *visible;
     const unsigned char *answer;  /* of facets of which visible[] tells nothing, or NULL */
     lrcsi_curved *curved;         /* NULL: all facets are flat */
@@ -121,7 +121,7 @@ static int run_meets(const lrcsi_total *total, double tolerance)
    the bound has an estimate. One that knows nothing is none: where sigma is 0, samples have met
    nothing that reflects; where a depth is undecided, an owner is a guess; where steps are spent,
    facets count by half. */
-static int run_likely(const sigma_run *run, double tolerance)
+static int run_estimate_meets(const sigma_run *run, double tolerance)
 {
     const lrcsi_total *t = &run->total;
     double most = tolerance * (t->glint + t->diffuse);
@@ -130,11 +130,11 @@ static int run_likely(const sigma_run *run, double tolerance)
            t->curvature <= most;
 }
 
-/* What the answer is to be flagged with: 0 where its bound meets the tolerance. */
+/* What the answer is to be flagged with: 0 if its bound meets the tolerance. */
 static uint32_t run_verdict(const sigma_run *run, const lrcs_run_options *options)
 {
     return run_meets(&run->total, options->tolerance) ? 0u
-           : options->accept != LRCS_ACCEPT_BOUND && run_likely(run, options->tolerance)
+           : options->accept != LRCS_ACCEPT_BOUND && run_estimate_meets(run, options->tolerance)
                ? LRCS_FLAG_ACCEPTED_BY_ESTIMATE
            : options->accept == LRCS_ACCEPT_ANY ? LRCS_FLAG_ACCEPTED_UNJUDGED
                                                 : LRCS_FLAG_TOLERANCE_NOT_MET;

@@ -116,7 +116,7 @@ static int is_lit(int state)
     return state == PATCH_SEEN || state == PATCH_MIXED;
 }
 
-/* The share of a facet that is hidden or in doubt, at most. */
+/* The share of a facet that is hidden or undecided, at most. */
 static double share_lost(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
                          const lrcsi_proximity_band *margin)
 {
@@ -142,7 +142,7 @@ typedef struct sector_way {
     double rows; /* by the share of the sector in rows that are not seen all along; 2: not so */
 } sector_way;
 
-/* The share of a facet's sector in rows that meet a band, at most; 1 where it has no rows. A cone's
+/* The share of a facet's sector in rows that meet a band, at most; 1 if it has no rows. A cone's
    facets have sectors of their own. */
 static double sector_rows(const lrcsi_view *view, uint32_t facet,
                           const lrcsi_proximity_band *margin)

@@ -7,11 +7,11 @@
 #include "visibility/proximity_band.h"
 #include "visibility/visible.h"
 
-/* 1 where that error can be bounded: every part's curvature is known. */
+/* 1 if that error can be bounded: every part's curvature is known. */
 int lrcsi_tessellation_known(const lrcs_prepared *prepared, int unshadowed);
 
 /* A bound on it for one facet that is not skipped and its patch, scaled, without the 4 pi.
-   Given: what the facet wears; the visible areas of all facets; the margin of doubt, or NULL where
+   Given: what the facet has; the visible areas of all facets; the proximity band, or NULL if
    every front is wholly visible or what could be hidden is in the visible area's bounds. */
 double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
                                 const lrcsi_incidence *incidence, const lrcsi_visible *visible,

@@ -178,7 +178,7 @@ static int tessellation_known(const total_job *job)
 }
 
 /* Counts a facet of which nothing, or only a part, is visible. An area computed by clipping that
-   cannot be told from none, or from all, counts as that. */
+   cannot be distinguished from none, or from all, counts as that. */
 static void count_shown(lrcsi_total *total, double projected, const lrcsi_visible *visible)
 {
     int below = visible->area < projected;

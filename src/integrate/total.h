@@ -44,9 +44,9 @@ typedef struct lrcsi_areas {
     const unsigned char *answer;
 } lrcsi_areas;
 
-/* Given: the view, its plan, and the visible areas (answer NULL where shapes are curved); where the
+/* Given: the view, its plan, and the visible areas (answer NULL if shapes are curved); where the
    plan does not know every front facet to be wholly visible, on the true shapes as on their meshes,
-   the margin of doubt about the true shapes (NULL: none was made).
+   the proximity band about the true shapes (NULL: none was made).
    Facets with curved normals come with their own sums in curved[facet_count]; NULL: all are flat.
    Shapes that are clear (NULL: none is looked for) count by their closed forms in place of their
    facets.

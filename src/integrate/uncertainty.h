@@ -25,7 +25,7 @@ lrcs_brdf lrcsi_uncertainty_node(const lrcs_material *material, uint32_t k, uint
 /* Bytes for lrcsi_uncertainty_make. */
 size_t lrcsi_uncertainty_need(const lrcs_scene *scene, const lrcs_uncertainty_options *how);
 
-/* Given: sigma, about which the interval lies; node[count][material_count], or count 1 where
+/* Given: sigma, about which the interval lies; node[count][material_count], or count 1 if
    nothing bends: the materials' own. What the plan leaves out is 0 there. Status: LRCS_OK;
    LRCS_E_MEMORY. */
 int lrcsi_uncertainty_make(const lrcs_scene *scene, double sigma, const lrcsi_node *node,

@@ -20,7 +20,7 @@ typedef struct lrcsi_intersections {
     uint32_t *first; /* facet_count + 1: entries of facet i are touch[first[i] .. first[i+1]) */
     lrcsi_intersection *touch; /* by facet, then by other */
     uint32_t count;
-    unsigned char *rim; /* facet: not 0 where another touches its inside, or meets its rim other
+    unsigned char *rim; /* facet: not 0 if another touches its inside, or meets its rim other
                            than in one of its corners or along a side that both have; then also a
                            bit for each of its sides (lrcsi_intersection_along) */
     int self; /* a facet meets the inside or a side of another of its own piece; 0 if not asked */

@@ -279,9 +279,9 @@ static int cross_sign(touch_cross *c, int i, int j, int k)
 }
 
 /* Step 3. Where f[i] is cut by the plane of the other: the one or two ends of that, and how they
-   lie to each side of the other. Returned: 1 where they have an end inside of every side, and so
+   lie to each side of the other. Returned: 1 if they have an end inside of every side, and so
    the cut meets the open inside of the other if the other's corners are on either side of the plane
-   of f[i], or the cut is but a point; 0 where not; -1 where one side has all strictly outside. */
+   of f[i], or the cut is but a point; 0 if not; -1 if one side has all strictly outside. */
 static int cut_meets(touch_cross *c, int i)
 {
     const int *side = c->of[i];

@@ -17,7 +17,7 @@ typedef struct lrcsi_pair_facet {
     const double *x[3];
     double normal[3], weight[3]; /* computed, and what bounds the error */
     int axis;                    /* along which it is seen most broadly */
-    int turn;                    /* how it turns there, exactly; 0 where it is degenerate */
+    int turn;                    /* how it turns there, exactly; 0 if it is degenerate */
 } lrcsi_pair_facet;
 
 /* How each of a pair meets the inside of the other (a lrcsi_intersection_kind), and whether it does
@@ -30,8 +30,8 @@ typedef struct lrcsi_pair_result {
 
 void lrcsi_pair_plane(lrcsi_pair_facet *f);
 
-/* F has its plane; that of T is added where it is needed. Neither may be degenerate. Returns 0
-   where they meet in nothing but corners and sides of both: *result then is that. */
+/* F has its plane; that of T is added where it is needed. Neither may be degenerate. Returns 0 if
+ * they meet in nothing but corners and sides of both: *result then is that. */
 int lrcsi_pair_meet(const lrcsi_pair_facet *f, lrcsi_pair_facet *t, lrcsi_pair_result *result);
 
 /* Does a corner of either lie inside a side of the other? */

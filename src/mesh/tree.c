@@ -13,10 +13,10 @@
    e = d - d_B,
        d . x = d_B . x + e . x,
    the first bounded by B's own slab, the second by B's box. If B's mean normal is that of A, e is
-   all but 0, and thin layers are told apart however wide they are. The slab of either is compared
-   with the box of the other too. Errors: |d_k|, |d_Bk| <= 1; let W be the sum of the boxes' largest
-   |x_k|. Slabs are sums of three products, within 4 u W; e is off by u |e_k| <= 2 u, its products
-   and four sums round by less than 20 u W in all: 64 u W covers both sides.
+   all but 0, and thin layers are distinguished however wide they are. The slab of either is
+   compared with the box of the other too. Errors: |d_k|, |d_Bk| <= 1; let W be the sum of the
+   boxes' largest |x_k|. Slabs are sums of three products, within 4 u W; e is off by u |e_k| <= 2 u,
+   its products and four sums round by less than 20 u W in all: 64 u W covers both sides.
 
    Cones. Let v be a corner of every facet in two blocks, and let the directions from v to their
    other corners lie within alpha of an axis a in the one, within beta of b in the other, both less
@@ -347,7 +347,7 @@ static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double
 }
 
 /* The direction of the slab of a block: the mean of its facets', or above level 0 of the slabs
-   below it, turned to one side; of length 1, or 0 where there is none. */
+   below it, turned to one side; of length 1, or 0 if there is none. */
 static void mean_direction(const lrcs_point *vertex, const lrcs_facet *facet,
                            const lrcsi_tree *tree, int level, uint32_t b, double d[3])
 {
@@ -471,7 +471,7 @@ static double dot_product(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* To length 1; 0 where there is no direction. */
+/* To length 1; 0 if there is no direction. */
 static int normalise(double v[3])
 {
     double size = lrcsi_length(v);

@@ -49,7 +49,7 @@ lrcsi_angle lrcsi_closed_angle_difference(lrcsi_angle a, lrcsi_angle b);
 /* The angle in [0, pi] in radians, for sine >= 0: relative error 6 units. */
 double lrcsi_closed_radians(lrcsi_angle a);
 
-/* F per unit of surface at that angle to its normal; 0 where the cosine is not positive. */
+/* F per unit of surface at that angle to its normal; 0 if the cosine is not positive. */
 lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta);
 
 /* amount *= factor, by part; the factors' relative error is `units` of 2^-53, or they are off by
@@ -62,7 +62,7 @@ void lrcsi_closed_scale(lrcsi_amount *amount, double factor, double units);
 /* sum += amount. */
 void lrcsi_closed_add(lrcsi_amount *sum, const lrcsi_amount *amount);
 
-/* LRCS_OK where a closed form holds for shape and material; else as lrcs_closed_eval. */
+/* LRCS_OK if a closed form holds for shape and material; else as lrcs_closed_eval. */
 int lrcsi_closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf);
 
 /* For such a shape, not a plate or box: the integral of F over its lit surface, without the 4 pi,

@@ -19,7 +19,7 @@ typedef struct lrcsi_arc_law {
     double gain, nu;
 } lrcsi_arc_law;
 
-/* A point of an arc: y and q, and what F counts with there; 0 where q is not positive. */
+/* A point of an arc: y and q, and what F counts with there; 0 if q is not positive. */
 typedef struct lrcsi_arc_point {
     double y, q, weight;
 } lrcsi_arc_point;

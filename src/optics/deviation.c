@@ -79,7 +79,7 @@ static tan2_point tan2_at(double u)
     return (tan2_point){u, 0.0, 0.0, 0};
 }
 
-/* At a finite u; log_u is 0 where u is. */
+/* At a finite u; log_u is 0 if u is. */
 static void point_know(tan2_point *at)
 {
     if (!at->known) {
@@ -201,7 +201,7 @@ static void size_add(deviation_size *sum, double amplitude, const deviation_size
     sum->bend += times(amplitude, part->bend);
 }
 
-/* tan^2 over the angles within `turn` of theta that face the laser; 0 where none does. */
+/* tan^2 over the angles within `turn` of theta that face the laser; 0 if none does. */
 static int range_around(double theta, double turn, tan2_range *range)
 {
     double slack = 8.0 * LRCSI_U * (theta + turn);
@@ -218,7 +218,7 @@ static int range_around(double theta, double turn, tan2_range *range)
 }
 
 /* The least of the three bounds, and what holds of every single point of the patch. */
-static lrcsi_deviation stray_of(const deviation_size *all, const lrcs_curvature *c)
+static lrcsi_deviation deviation_of(const deviation_size *all, const lrcs_curvature *c)
 {
     double second = times(c->bias, all->slope) + times(0.5 * c->spread * c->spread, all->bend);
     double first = times(c->spread * sqrt(1.0 + c->area_error), all->slope_most);
@@ -260,7 +260,7 @@ lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, do
         deviation_size part = diffuse_size(brdf->m, front, &here, &range);
         size_add(&all, brdf->B, &part);
     }
-    return stray_of(&all, curvature);
+    return deviation_of(&all, curvature);
 }
 
 double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double tan2,

@@ -76,7 +76,7 @@ static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
     return part;
 }
 
-/* w^(m/2) by roots; 0 where m is none of those. */
+/* w^(m/2) by roots; 0 if m is none of those. */
 static double diffuse_root(double w, double m)
 {
     return m == 0.5 ? sqrt(sqrt(w)) : m == 1.0 ? sqrt(w) : m == 2.0 ? w : m == 0.0 ? 1.0 : 0.0;

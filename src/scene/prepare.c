@@ -283,8 +283,8 @@ static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
                              : status;
 }
 
-/* Contacts, unless the scene is convex by construction. Pieces of surface are told apart first, for
-   contacts within one. They stay, as does which facets were asked, beneath the contacts. */
+/* Contacts, unless the scene is convex by construction. Pieces of surface are distinguished first,
+   for contacts within one. They stay, as does which facets were asked, beneath the contacts. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     if (lrcsi_convex_made(p, &p->solid, &p->grazing_cos)) {

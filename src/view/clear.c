@@ -154,7 +154,7 @@ static double slab_surface(const clear_body *body, double height)
     return 1.001 * turn * wide * slant * height + 32 * LRCSI_U * wide * wide;
 }
 
-/* One direction n for a pair, a unit vector to 8 u: 1 where it separates them, `slab` then being
+/* One direction n for a pair, a unit vector to 8 u: 1 if it separates them, `slab` then being
    what may be hidden all the same. `knows` says that slabs of P across n are known. */
 static int is_separating(const clear_body *P, const clear_body *Q, const double d[3],
                          const double n[3], int knows, double *slab)

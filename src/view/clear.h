@@ -7,7 +7,7 @@
 #include "view/view.h"
 
 typedef struct lrcsi_clear {
-    unsigned char *part; /* part: 1 where no other part hides any of its true surface that faces the
+    unsigned char *part; /* part: 1 if no other part hides any of its true surface that faces the
                             laser, nor shows any inside of it that reflects; NULL: none */
     double *slab;        /* part: if it touches a separating plane to within rounding, the largest
                             area of that surface that can still be hidden, scaled */
@@ -15,7 +15,7 @@ typedef struct lrcsi_clear {
     int all; /* every part with live facets is clear */
 } lrcsi_clear;
 
-/* Bytes; 0 where no shape has a closed form. */
+/* Bytes; 0 if no shape has a closed form. */
 size_t lrcsi_clear_need(const lrcs_prepared *prepared);
 
 /* For a view that knows what back sides do (backs_reflect). Status: LRCS_OK; LRCS_E_MEMORY. What it

@@ -62,15 +62,16 @@ static double grazing_dot(const lrcsi_view *view, uint32_t facet)
 #define GRAZING_LEAST 0x1p-500
 
 /* |N . d| and its error: what was computed, or near grazing the exact number, to 2 u; nearer to
-   edge-on than can be told, only a lower bound. */
-typedef struct tilt_dot {
+   edge-on than can be decided, only a lower bound. */
+typedef struct incidence_dot {
     double value, off;
     int least;
-} tilt_dot;
+} incidence_dot;
 
-static tilt_dot tilt_dot_of(const lrcsi_view *view, uint32_t facet, double product, double off)
+static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, double product,
+                                      double off)
 {
-    tilt_dot dot = {fabs(product), off, 0};
+    incidence_dot dot = {fabs(product), off, 0};
     if (!(dot.value > GRAZING_DOT * off)) {
         dot.value = fabs(grazing_dot(view, facet));
         dot.off = 2 * LRCSI_U * dot.value;
@@ -83,7 +84,7 @@ static tilt_dot tilt_dot_of(const lrcsi_view *view, uint32_t facet, double produ
     return dot;
 }
 
-static double tilt_projected(const lrcsi_view *view, tilt_dot dot)
+static double incidence_projected(const lrcsi_view *view, incidence_dot dot)
 {
     return dot.value / (2 * view->length);
 }
@@ -91,8 +92,8 @@ static double tilt_projected(const lrcsi_view *view, tilt_dot dot)
 /* tan^2 = |N x d|^2 / (N . d)^2. Near normal incidence the cross product drowns in its own error
    and only an upper bound of tan^2 is known; near grazing the dot product does, and is taken
    exactly. */
-static lrcsi_incidence tilt_make(const lrcsi_view *view, uint32_t facet, double product,
-                                 const double cross_product[3])
+static lrcsi_incidence incidence_make(const lrcsi_view *view, uint32_t facet, double product,
+                                      const double cross_product[3])
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
     int facing = view->facing[facet];
@@ -102,7 +103,7 @@ static lrcsi_incidence tilt_make(const lrcsi_view *view, uint32_t facet, double 
     }
     double off = normal_off(n) * view->length;
     double cross = lrcsi_length(cross_product);
-    tilt_dot dot = tilt_dot_of(view, facet, product, off);
+    incidence_dot dot = incidence_dot_of(view, facet, product, off);
     double relative = dot.off / dot.value;
     incidence.error = dot.least ? 2 : 2 * relative + n->error / n->length + 8 * LRCSI_U;
     incidence.tan2_err = 4 * relative + 12 * LRCSI_U;
@@ -115,7 +116,7 @@ static lrcsi_incidence tilt_make(const lrcsi_view *view, uint32_t facet, double 
     incidence.tan2_err = dot.least ? HUGE_VAL : incidence.tan2_err;
     incidence.tan2 = (cross / dot.value) * (cross / dot.value);
     incidence.cos_theta = facing * lrcsi_least(1, dot.value / (n->length * view->length));
-    incidence.projected = tilt_projected(view, dot);
+    incidence.projected = incidence_projected(view, dot);
     return incidence;
 }
 
@@ -126,7 +127,8 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
         return 0;
     }
     double product = lrcsi_product_dot(n->high, n->low, view->direction);
-    return tilt_projected(view, tilt_dot_of(view, facet, product, normal_off(n) * view->length));
+    return incidence_projected(
+        view, incidence_dot_of(view, facet, product, normal_off(n) * view->length));
 }
 
 lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet)
@@ -134,7 +136,7 @@ lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet)
     const lrcsi_normal *n = &view->prepared->normal[facet];
     double cross[3];
     double dot = normal_products(n->high, n->low, view->direction, cross);
-    return tilt_make(view, facet, dot, cross);
+    return incidence_make(view, facet, dot, cross);
 }
 
 /* Normals side by side, component by component: so compilers handle two or more at once. Idle
@@ -171,7 +173,7 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
     lanes_multiply(&lanes, view->direction);
     for (uint32_t i = 0; i < count; i++) {
         const double cross[3] = {lanes.cross[0][i], lanes.cross[1][i], lanes.cross[2][i]};
-        incidence[i] = tilt_make(view, facet[i], lanes.dot[i], cross);
+        incidence[i] = incidence_make(view, facet[i], lanes.dot[i], cross);
     }
 }
 

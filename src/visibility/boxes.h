@@ -31,7 +31,7 @@ static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
 /* Bytes at most. */
 size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
 
-/* Makes the boxes of runs. Given cast[facet]: not 0 where it can hide something. Status: LRCS_OK;
+/* Makes the boxes of runs. Given cast[facet]: not 0 if it can hide something. Status: LRCS_OK;
    LRCS_E_MEMORY. They stay in the work area. */
 int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                      lrcsi_boxes *boxes);

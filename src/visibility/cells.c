@@ -52,7 +52,7 @@
 
 /* --- one cell --------------------------------------------------------------------------------- */
 
-/* Nothing can be told of the cell. */
+/* Nothing can be decided about the cell. */
 static void cells_leave(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
@@ -154,7 +154,7 @@ typedef struct cells_seen {
     double clear;
 } cells_seen;
 
-/* Drops what is behind surfaces that cover the cell. 1 where the component around the nearest facet
+/* Drops what is behind surfaces that cover the cell. 1 if the component around the nearest facet
    does; else the segment of the component at which to cut, if it has one. *uncertainty: what any
    facet of a thin cell may be off by. */
 static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
@@ -276,7 +276,7 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
 
 /* --- all blocks ------------------------------------------------------------------------------- */
 
-static lrcsi_visible facet_told(const lrcsi_cells_work *c, uint32_t facet, double *off)
+static lrcsi_visible facet_decided(const lrcsi_cells_work *c, uint32_t facet, double *off)
 {
     const lrcsi_cells_found *a = &c->area[facet];
     double whole = lrcsi_view_incidence(c->view, facet).projected;
@@ -327,7 +327,7 @@ static uint32_t areas_tell(const lrcsi_cells_work *c, int as_clipping, lrcsi_vis
             continue;
         }
         double off;
-        lrcsi_visible area = facet_told(c, f, &off);
+        lrcsi_visible area = facet_decided(c, f, &off);
         if (off <= facet_accuracy(c, f, as_clipping)) {
             visible[f] = area;
             c->open[f] = 0;
@@ -362,7 +362,7 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
 }
 
-/* Takes what the view needs, and files its facets and events in blocks. 0 where there is not enough
+/* Takes what the view needs, and files its facets and events in blocks. 0 if there is not enough
    memory. */
 static int cells_make(const lrcsi_classification *classification, lrcs_work *work,
                       lrcsi_cells_work *c)

@@ -55,7 +55,7 @@ enum alone_order {
     ORDER_NEW = 0x7ffffff0, /* not looked at yet */
     ORDER_FRONT,            /* nearer, wherever a line meets both */
     ORDER_BEHIND,           /* farther */
-    ORDER_ASKED,            /* it cannot be told but on a line that meets both */
+    ORDER_ASKED,            /* it cannot be decided but on a line that meets both */
     ORDER_APART,            /* a side of f has all of it beyond: no candidate */
     ORDER_UNKNOWN           /* they touch, in a line that is not known */
 };
@@ -163,7 +163,7 @@ static int facet_apart(const lrcsi_alone *a, const lrcsi_view_side own[3], uint3
     return apart;
 }
 
-/* Lists what may be in front of f. 0 where the meter is spent. */
+/* Lists what may be in front of f. 0 if the meter is spent. */
 static int alone_facets(lrcsi_alone *a)
 {
     const lrcsi_grid *grid = &a->grid;
@@ -230,7 +230,7 @@ static int edge_idle(lrcsi_alone *a, const uint32_t owner[2])
     return idle;
 }
 
-/* An edge, unless its facets are behind f. 0 where there is no room. */
+/* An edge, unless its facets are behind f. 0 if there is no room. */
 static int alone_edge(lrcsi_alone *a, uint32_t edge)
 {
     lrcsi_cells_work *c = &a->cells;
@@ -258,7 +258,7 @@ static int alone_edge(lrcsi_alone *a, uint32_t edge)
     return 1;
 }
 
-/* What a facet that touches f brings along. 0 where there is no room. */
+/* What a facet that touches f brings along. 0 if there is no room. */
 static int alone_contact(lrcsi_alone *a, uint32_t other)
 {
     lrcsi_cells_work *c = &a->cells;
@@ -295,7 +295,7 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
     return 1;
 }
 
-/* 0 where there is no room, or the meter is spent. */
+/* 0 if there is no room, or the meter is spent. */
 static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
@@ -324,7 +324,7 @@ static void facet_leave(lrcsi_alone *a, double area)
     a->uncertainty[1] += 0.5 * area;
 }
 
-/* f's record, its triangle as a cell, and the error of its rim. 0 where rounding may have turned
+/* f's record, its triangle as a cell, and the error of its rim. 0 if rounding may have turned
    the triangle over. */
 static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
@@ -474,8 +474,8 @@ static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32
 }
 
 /* 1 a candidate surely covers the place, -1 surely not, or it is behind f, 0 it passes too near a
-   side. Most are told apart by their boxes; what else they need is found for those that are left,
-   and kept as far as there is room. */
+   side. Most are distinguished by their boxes; what else they need is found for those that are
+   left, and kept as far as there is room. */
 static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t candidate, double g)
 {
     const double *at = place->at;
@@ -514,7 +514,7 @@ static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t cand
     return guess && !inside ? -1 : inside;
 }
 
-/* Is a facet that covers the place in front of f there? 1 yes, -1 no, 0 it cannot be told so. */
+/* Is a facet that covers the place in front of f there? 1 yes, -1 no, 0 that cannot be decided. */
 static int place_front(lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
 {
     uint32_t *order = &a->order[other];
@@ -534,8 +534,8 @@ static int place_front(lrcsi_alone *a, const alone_place *place, uint32_t other,
     return *order == ORDER_FRONT ? 1 : *order == ORDER_BEHIND ? -1 : 0;
 }
 
-/* Is f hidden at a place? 1 by the component told in the place, 0 no, -1 it cannot be told so. Of a
-   component that ends nowhere in the cell no more need be known. */
+/* Is f hidden at a place? 1 by the component told in the place, 0 no, -1 that cannot be decided. Of
+   a component that ends nowhere in the cell no more need be known. */
 static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                      alone_place *place)
 {
@@ -576,7 +576,7 @@ static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
     int answer = -1;
     for (int t = 0; t < LRCSI_CELLS_TRIES && answer < 0; t++) {
         *place = (alone_place){.way = WAY_PLACED};
-        lrcsi_cells_spot(cell, t, place->at);
+        lrcsi_cells_sample_point(cell, t, place->at);
         place->clear = lrcsi_cells_sides_clear(s, place->at);
         if (!(place->clear > margin)) {
             continue;
@@ -593,7 +593,7 @@ static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
     }
     if (answer < 0) {
         *place = (alone_place){.way = WAY_GUESSED};
-        lrcsi_cells_spot(cell, 0, place->at);
+        lrcsi_cells_sample_point(cell, 0, place->at);
         place_lift(a, place);
         place->way = WAY_GUESSED;
         place->box = place_box(a, place);
@@ -620,7 +620,7 @@ static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_
                                                (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
 }
 
-/* Cuts a cell along a segment, or halves one without that is only odd in shape. 0 where that is not
+/* Cuts a cell along a segment, or halves one without that is only odd in shape. 0 if that is not
    possible. */
 static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const lrcsi_cells_segment *cut)
@@ -631,7 +631,7 @@ static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi
                      lrcsi_cells_halve(&a->cells, cell, s);
 }
 
-/* Does one cell: 1 where it has shown a piece. Else it is hidden, cut, or cannot be told. */
+/* Does one cell: 1 if it has shown a piece. Else it is hidden, cut, or cannot be decided. */
 static int cell_do(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;

@@ -35,7 +35,7 @@ typedef struct lrcsi_alone {
     uint64_t parts;           /* that it may yet be cut into */
     double rim;               /* area within the error of its sides */
     double bent;              /* by which the area of a needle's pieces may be wrong beside */
-    double uncertainty[2];    /* area that could not be told: hidden, visible by a guess */
+    double uncertainty[2];    /* area that could not be decided: hidden, visible by a guess */
     int hidden;               /* some of it is */
 } lrcsi_alone;
 

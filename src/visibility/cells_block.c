@@ -116,7 +116,7 @@ static void blocks_put_edge(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t 
     }
 }
 
-/* Files casting facets, or events. 0 where they find no memory, or are listed too often. */
+/* Files casting facets, or events. 0 if they find no memory, or are listed too often. */
 static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lrcs_work *work)
 {
     size_t count = (size_t)c->side * c->side;

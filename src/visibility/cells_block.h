@@ -23,9 +23,9 @@ typedef struct lrcsi_cells_grid {
 /* Bytes at most. */
 size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared);
 
-/* Places the blocks and files casting facets and events. 0 where they find no memory, are listed
+/* Places the blocks and files casting facets and events. 0 if they find no memory, are listed
    too often, or where much of the view lies outside of the bulk: blocks there are so large that
-   nothing is told. */
+   nothing is decided. */
 int lrcsi_cells_grid_make(const lrcsi_classification *classification, lrcs_work *work,
                           lrcsi_cells_grid *c);
 

@@ -33,7 +33,7 @@ void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, dou
 double lrcsi_cells_thin(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s, double clear,
                         uint32_t segments, double off);
 
-/* Charges all of a cell that has no room for a sample, where it is a sliver; 0 where it is none. */
+/* Charges all of a cell that has no room for a sample, where it is a sliver; 0 if it is none. */
 int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                            const lrcsi_cells_sides *s);
 

@@ -98,7 +98,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 
 /* Corner i weighs 1, 1 + 0.2 i, 1 + 1.5 / (1 + i): no two weigh the same but in the first place, or
    samples in cells that look alike from two corners would all lie on a line between facets. */
-void lrcsi_cells_spot(const lrcsi_cells_cell *cell, int number, double at[2])
+void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double at[2])
 {
     double sum = 0;
     at[0] = at[1] = 0;
@@ -117,7 +117,7 @@ int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lr
 {
     int answer = LRCSI_CELLS_UNSURE;
     for (int t = 0; t < LRCSI_CELLS_TRIES && answer == LRCSI_CELLS_UNSURE; t++) {
-        lrcsi_cells_spot(cell, t, at);
+        lrcsi_cells_sample_point(cell, t, at);
         *clear = lrcsi_cells_sides_clear(s, at);
         c->look++;
         if (*clear > 4 * (cell->inset + c->off + s->g)) {

@@ -9,8 +9,8 @@
 void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s);
 
 /* Divides a cell along the line of a segment, which is struck, and its strip charged; a cell with
-   many corners is halved instead. The part on the left comes next, the one on the right waits. 0
-   where there is no room. */
+   many corners is halved instead. The part on the left comes next, the one on the right waits. 0 if
+   there is no room. */
 int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                        const lrcsi_cells_sides *s, const lrcsi_cells_segment *along);
 

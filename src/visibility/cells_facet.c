@@ -138,7 +138,7 @@ static void facet_flatten(lrcsi_cells_facet *f)
     }
 }
 
-/* The plane and its error, as told above; HUGE_VAL where it is so narrow that only corners tell. */
+/* The plane and its error, as told above; HUGE_VAL if it is so narrow that only corners tell. */
 static void facet_slope(lrcsi_cells_facet *f, const double z[3])
 {
     const double dx[2] = {f->x[1] - f->x[0], f->x[2] - f->x[0]};

@@ -82,7 +82,7 @@ void lrcsi_cells_facet_height(const lrcsi_cells_facet *f, const double at[2], do
 double lrcsi_cells_facet_limit(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign);
 
 /* Which of two facets that surely cover a place is nearer there, exactly: 1 the second, -1 the
-   first, 0 it cannot be told. */
+   first, 0 it cannot be decided. */
 int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t second);
 
 #endif

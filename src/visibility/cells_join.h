@@ -15,7 +15,7 @@ enum {
 int lrcsi_cells_apart(const lrcsi_view *view, uint32_t facet);
 
 /* Who continues a facet across a side of its own numbering, events of the view being the only edges
-   where nobody does (visibility/event.h); LRCS_NONE where nobody does. */
+   where nobody does (visibility/event.h); LRCS_NONE if nobody does. */
 uint32_t lrcsi_cells_joined(const lrcsi_view *view, uint32_t facet, int k);
 
 /* Who continues it for all that is done in cells, with the kinds of facets. */

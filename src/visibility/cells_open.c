@@ -172,7 +172,7 @@ static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cel
     }
 }
 
-/* Its segments likewise. 0 where they find no room. */
+/* Its segments likewise. 0 if they find no room. */
 static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.events;

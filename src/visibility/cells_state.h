@@ -52,7 +52,7 @@ typedef struct lrcsi_cells_border {
 enum {
     LRCSI_CELLS_SEEN = 1,   /* a cell shows it */
     LRCSI_CELLS_HIDDEN = 2, /* it is hidden in a cell */
-    LRCSI_CELLS_OPEN = 4,   /* nothing can be told of it in a cell */
+    LRCSI_CELLS_OPEN = 4,   /* nothing can be decided about it in a cell */
     LRCSI_CELLS_SPARED = 8  /* a cell was charged whole */
 };
 
@@ -66,8 +66,8 @@ typedef struct lrcsi_cells_work {
     lrcsi_cells_facet *facet;
     lrcsi_cells_found *area;
     uint32_t *listed; /* facet: the look that found it in the list */
-    uint32_t *met; /* facet: 2 look + 1 where it surely covers the sample, 2 look where perhaps */
-    uint32_t *joined;          /* facet: the look whose component it is in */
+    uint32_t *met;    /* facet: 2 look + 1 if it surely covers the sample, 2 look where perhaps */
+    uint32_t *joined; /* facet: the look whose component it is in */
     uint32_t *component, *hit; /* hit: what may cover the sample */
     uint32_t components, hits, look;
     lrcsi_cells_border *border; /* of the component, at the border of the cell */

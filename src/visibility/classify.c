@@ -65,8 +65,8 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
 }
 
 /* Does the segment p q cross the open inside of the facet, in projection? Two convex figures of
-   the plane are apart just if some line along a side of either parts them. *along: it lies on the
-   line of a side that parts them. */
+   the plane are apart if and only if some line along a side of either parts them. *along: it lies
+   on the line of a side that parts them. */
 static int segment_crosses(const lrcsi_view *view, const crossing_ask *ask, uint32_t p, uint32_t q,
                            int *along)
 {

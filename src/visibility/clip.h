@@ -29,7 +29,7 @@ void lrcsi_clip_box(const lrcsi_clip_polygon *polygon, double low[2], double hig
 double lrcsi_clip_perimeter(const lrcsi_clip_polygon *polygon);
 
 /* Splits a piece into what lies left of the line and what lies right of it. Either may come out
-   with less than three corners: then it is nothing. 0 where one would have too many. */
+   with less than three corners: then it is nothing. 0 if one would have too many. */
 int lrcsi_clip_split(const lrcsi_clip_polygon *from, const lrcsi_clip_line *line,
                      lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 

@@ -64,7 +64,7 @@ int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
 }
 
 /* Where, in projection, side p q of one facet and side r s of another cross: 1 the latter is nearer
-   there, -1 farther; 0 where they do not cross, or meet. */
+   there, -1 farther; 0 if they do not cross, or meet. */
 static int sides_order(const lrcsi_view *view, const double *p, const double *q, const double *r,
                        const double *s)
 {
@@ -292,7 +292,7 @@ static void ends_finely(const contact_heights *h, contact_finely *f, lrcsi_conta
 }
 
 /* Rounds the ends of a segment that no clipping will shorten, since it meets the facet. That may
-   turn its line anywhere: it is the rounded one that parts. 1 where it is so short. */
+   turn its line anywhere: it is the rounded one that parts. 1 if it is so short. */
 static int ends_round(contact_finely *f)
 {
     int brief = 1;

@@ -12,7 +12,7 @@ enum lrcsi_contact_kind {
     LRCSI_CONTACT_FRONT,  /* in the segment told; elsewhere all is in front */
     LRCSI_CONTACT_BEHIND, /* in the segment told; elsewhere all is behind */
     LRCSI_CONTACT_FLAT,   /* the two lie in one plane, exactly */
-    LRCSI_CONTACT_UNKNOWN /* in a segment, somewhere in the facet: it cannot be told better */
+    LRCSI_CONTACT_UNKNOWN /* in a segment, somewhere in the facet: it cannot be decided better */
 };
 
 /* A facet in the target's frame, and where it meets the target's plane. */
@@ -28,8 +28,8 @@ typedef struct lrcsi_contact {
 /* A lrcsi_contact_kind; the ends and the position error are told of a segment only. */
 int lrcsi_contact_find(const lrcsi_target *target, uint32_t other, lrcsi_contact *contact);
 
-/* 1 where `other` is nearer wherever a line meets both, because one lies on one side of the other's
-   plane; -1 where it is farther; 0 where that does not tell. Exact. */
+/* 1 if `other` is nearer wherever a line meets both, because one lies on one side of the other's
+   plane; -1 if it is farther; 0 if that does not tell. Exact. */
 int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other);
 
 /* The same of two facets that do not touch, neither of which lies on one side of the other's plane:

@@ -74,7 +74,7 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
 size_t lrcsi_grid_need(size_t cells, size_t entries);
 
 /* Makes an empty grid coarser until the facets whose boxes are made touch LRCSI_GRID_FACET_CELLS
-   cells at most, on average. 1 where it had to be. */
+   cells at most, on average. 1 if it had to be. */
 int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes);
 
 /* Bytes at most for a grid of facets. */

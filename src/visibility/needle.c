@@ -112,7 +112,7 @@ double lrcsi_needle_place(const lrcsi_needle *n, const double x[3], lrcsi_dd out
 /* --- segments --------------------------------------------------------------------------------- */
 
 /* Narrows the part of a segment, between shares of its length, to where sign (x - bound) is not
-   negative in one coordinate. 0 where that is nowhere. */
+   negative in one coordinate. 0 if that is nowhere. */
 static int clip_share(lrcsi_dd from, lrcsi_dd to, double bound, int sign, lrcsi_dd part[2])
 {
     lrcsi_dd limit = {bound, 0};

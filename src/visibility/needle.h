@@ -21,8 +21,8 @@ typedef struct lrcsi_needle {
     double corner[2][2]; /* the others in the view plane, as seen from the first, rounded */
 } lrcsi_needle;
 
-/* 1 where a facet of such a frame in the view (visibility/target.h: corners, reach) is a needle,
-   and then its frame; 0 where it is none, or one too thin for double-double. */
+/* 1 if a facet of such a frame in the view (visibility/target.h: corners, reach) is a needle,
+   and then its frame; 0 if it is none, or one too thin for double-double. */
 int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corner[3][2],
                       double reach, lrcsi_needle *needle);
 
@@ -39,7 +39,7 @@ double lrcsi_needle_segment(const lrcsi_needle *needle, const double p[3], const
                             double end[2][2]);
 
 /* On which side of p -> q, seen in the view, the point of the frame lies: positive on the left.
-   0 where that is not sure, or, where a guess will do, where it is as good as on the line. */
+   0 if that is not sure, or, where a guess will do, where it is as good as on the line. */
 double lrcsi_needle_side(const lrcsi_needle *needle, const double p[3], const double q[3],
                          const double at[2], int guess);
 

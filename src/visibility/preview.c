@@ -34,7 +34,7 @@ typedef struct preview_border {
    many pixels they pass, and how many the longest one along a row or column. */
 typedef struct preview_counts {
     uint32_t covered, owned, borders, longest;
-    uint32_t met;   /* 1 where a border passes that may be another's, too */
+    uint32_t met;   /* 1 if a border passes that may be another's, too */
     float share;    /* of it that is seen */
     uint32_t round; /* in which that was found: 0 from its samples, LRCS_NONE not yet */
 } preview_counts;
@@ -65,7 +65,7 @@ typedef struct preview_facet {
     lrcsi_plane plane;
     double err; /* of its heights */
     int ordinary;
-    float close;           /* ordinary: depths that differ by no more are not told apart */
+    float close;           /* ordinary: depths that differ by no more are not distinguished */
     uint32_t met;          /* the owner last met at a depth too close for floats, or LRCS_NONE, */
     lrcsi_plane met_plane; /* its plane, */
     double met_err;        /* the error of its heights, */
@@ -200,7 +200,7 @@ static int box_sampled(const lrcsi_raster *r, const double low[3], const double 
     return 1;
 }
 
-/* Draws a facet if it is ordinary, or if it is not, as asked for. Returns 0 where it is not. Those
+/* Draws a facet if it is ordinary, or if it is not, as asked for. Returns 0 if it is not. Those
    that cover no sample count as ordinary. Floats are subnormal below 2^-126: the last term. */
 static int preview_draw(preview_job *job, uint32_t facet, int ordinary)
 {
@@ -424,11 +424,11 @@ static void preview_shares(preview_job *job)
    all of d where that is far more than chance, by hardly any of it where it is not. What may be
    left of the bias is twice what chance leaves of it, since one correction serves facets that
    reflect differently, and what no facet has room for. */
-typedef struct preview_lean {
+typedef struct preview_bias {
     double less; /* the part of what a facet shows that is taken off */
     double more; /* the part of what it does not show, of one that shows some, that is added */
     double left; /* the part of what it shows that may still be too much, or too little */
-} preview_lean;
+} preview_bias;
 
 static int preview_few(const preview_job *job, uint32_t facet)
 {
@@ -436,7 +436,7 @@ static int preview_few(const preview_job *job, uint32_t facet)
            lrcsi_view_reflects(job->view, facet);
 }
 
-static preview_lean preview_lean_of(const preview_job *job)
+static preview_bias preview_bias_of(const preview_job *job)
 {
     double pixel = job->raster.pixel * job->raster.pixel;
     double over = 0;   /* shares less samples */
@@ -454,7 +454,7 @@ static preview_lean preview_lean_of(const preview_job *job)
     }
     double chance = sqrt(LIKELY_SQUARE * job->outline) * pixel;
     double both = sqrt(over * over + chance * chance);
-    preview_lean bias = {0, 0, 0};
+    preview_bias bias = {0, 0, 0};
     if (both > 0 && shares > 0) {
         double wanted = over * (over / both) * (over / both);
         double taken = lrcsi_least(shares, lrcsi_most(-room, wanted));
@@ -465,7 +465,7 @@ static preview_lean preview_lean_of(const preview_job *job)
     return bias;
 }
 
-static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const preview_lean *bias)
+static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const preview_bias *bias)
 {
     const preview_counts *c = &job->counts[facet];
     double area = lrcsi_view_projected(job->view, facet);
@@ -534,7 +534,7 @@ int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
         preview_facets(&job);
         preview_count(&job);
         preview_shares(&job);
-        preview_lean bias = preview_lean_of(&job);
+        preview_bias bias = preview_bias_of(&job);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
             visible[f] = lrcsi_grid_casts(view, f) ? preview_area(&job, f, &bias)
                                                    : (lrcsi_visible){0, 0, 0, 0, 0};

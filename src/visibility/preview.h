@@ -12,8 +12,8 @@
 /* Bytes at most. */
 size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size);
 
-/* Finds visible[facet_count] from size x size samples. *undecided: 1 where some depth could not be
-   told, else 0. Status: LRCS_OK; LRCS_E_MEMORY. Nothing stays in the work area. */
+/* Finds visible[facet_count] from size x size samples. *undecided: 1 if some depth could not be
+ * decided, else 0. Status: LRCS_OK; LRCS_E_MEMORY. Nothing stays in the work area. */
 int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
                        lrcsi_visible *visible, int *undecided);
 

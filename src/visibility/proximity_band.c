@@ -18,7 +18,7 @@
 #define COS_MARGIN 1e-9
 
 /* What one run needs; the edges' grid lists events by index. */
-typedef struct margin_job {
+typedef struct band_job {
     const lrcsi_view *view;
     double *share, *rows;
     uint32_t *edge, *part; /* event: its topology edge, the part for which it is one */
@@ -26,9 +26,9 @@ typedef struct margin_job {
     uint32_t count;
     lrcsi_grid grid;
     double low[3], high[3]; /* bounds of the curved parts in the view */
-} margin_job;
+} band_job;
 
-static uint32_t margin_part(const margin_job *job, uint32_t facet)
+static uint32_t band_part(const band_job *job, uint32_t facet)
 {
     return job->view->prepared->scene->facet_part[facet];
 }
@@ -37,14 +37,14 @@ static uint32_t margin_part(const margin_job *job, uint32_t facet)
  */
 
 /* Is an edge an event of a part: do not exactly two of its facets continue each other there? */
-static int part_event(const margin_job *job, const lrcsi_edge *edge, uint32_t part)
+static int part_event(const band_job *job, const lrcsi_edge *edge, uint32_t part)
 {
     const lrcsi_edge_use *use = job->view->prepared->topology.use + edge->first_use;
     uint32_t count = 0;
     uint32_t forward = 0;
     int facing = 0;
     for (uint32_t i = 0; i < edge->uses; i++) {
-        if (margin_part(job, use[i].facet) == part && !job->view->prepared->skip[use[i].facet]) {
+        if (band_part(job, use[i].facet) == part && !job->view->prepared->skip[use[i].facet]) {
             count++;
             forward += use[i].forward;
             facing += job->view->facing[use[i].facet];
@@ -54,7 +54,7 @@ static int part_event(const margin_job *job, const lrcsi_edge *edge, uint32_t pa
 }
 
 /* Lists (edge, part) once each, or only counts them where job->edge is NULL. */
-static void list_events(margin_job *job)
+static void list_events(band_job *job)
 {
     const lrcsi_topology *topology = &job->view->prepared->topology;
     job->count = 0;
@@ -62,10 +62,10 @@ static void list_events(margin_job *job)
         const lrcsi_edge *edge = &topology->edge[e];
         const lrcsi_edge_use *use = topology->use + edge->first_use;
         for (uint32_t i = 0; i < edge->uses; i++) {
-            uint32_t part = margin_part(job, use[i].facet);
+            uint32_t part = band_part(job, use[i].facet);
             int met = 0;
             for (uint32_t k = 0; k < i && !met; k++) {
-                met = margin_part(job, use[k].facet) == part;
+                met = band_part(job, use[k].facet) == part;
             }
             if (met || !part_event(job, edge, part)) {
                 continue;
@@ -79,7 +79,7 @@ static void list_events(margin_job *job)
     }
 }
 
-static int margin_events(margin_job *job, lrcs_work *work)
+static int band_events(band_job *job, lrcs_work *work)
 {
     list_events(job);
     uint32_t *edge = lrcsi_work_take(work, job->count, sizeof *edge);
@@ -98,7 +98,7 @@ static int margin_events(margin_job *job, lrcs_work *work)
  */
 
 /* The farthest that a corner of a facet may be off, and what is computed of it. */
-static double facet_off(const margin_job *job, uint32_t facet)
+static double facet_off(const band_job *job, uint32_t facet)
 {
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
     double off = 0;
@@ -112,7 +112,7 @@ static double facet_off(const margin_job *job, uint32_t facet)
    edge is off at a share t of its length is linear in t. A point of it that is near the facet is no
    farther from its end a than the facet's farthest corner and the width are, t length <= far +
    wide, and what b is off counts for t of itself. */
-static lrcsi_slice edge_slice(const margin_job *job, uint32_t facet, const lrcsi_edge *edge,
+static lrcsi_slice edge_slice(const band_job *job, uint32_t facet, const lrcsi_edge *edge,
                               double slack)
 {
     const lrcsi_view *view = job->view;
@@ -160,7 +160,7 @@ static lrcsi_slice edge_slice(const margin_job *job, uint32_t facet, const lrcsi
 
 /* Does all of an edge lie so far behind a facet's plane that no point of it, seen within `slack` of
    a point of the facet, is less than 2 slack behind that one? */
-static int edge_behind(const margin_job *job, uint32_t facet, const lrcsi_edge *edge, double slack)
+static int edge_behind(const band_job *job, uint32_t facet, const lrcsi_edge *edge, double slack)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_normal *n = &p->normal[facet];
@@ -181,7 +181,7 @@ static int edge_behind(const margin_job *job, uint32_t facet, const lrcsi_edge *
 
 /* Is an edge of a part's own a rim beyond which its wall faces the laser, or may? Where the meter
    is spent, perhaps. */
-static int own_rim(const margin_job *job, const lrcsi_edge *edge, uint32_t part)
+static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge_use *use = p->topology.use + edge->first_use;
@@ -191,7 +191,7 @@ static int own_rim(const margin_job *job, const lrcsi_edge *edge, uint32_t part)
         return 1;
     }
     for (uint32_t i = 0; i < edge->uses; i++) {
-        if (margin_part(job, use[i].facet) != part || p->skip[use[i].facet]) {
+        if (band_part(job, use[i].facet) != part || p->skip[use[i].facet]) {
             continue;
         }
         const lrcsi_normal *n = &p->normal[use[i].facet];
@@ -204,12 +204,12 @@ static int own_rim(const margin_job *job, const lrcsi_edge *edge, uint32_t part)
     return count == 1 && facing;
 }
 
-/* How near an event must come to matter to a facet; 0 where it cannot. */
-static double event_slack(const margin_job *job, uint32_t facet, uint32_t event)
+/* How near an event must come to matter to a facet; 0 if it cannot. */
+static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
-    uint32_t part = margin_part(job, facet);
+    uint32_t part = band_part(job, facet);
     if (job->part[event] == part) {
         int inside = job->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part);
         return inside && own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
@@ -222,7 +222,7 @@ static double event_slack(const margin_job *job, uint32_t facet, uint32_t event)
 
 /* Adds the shares of area and of rows near events that the box may hold; all of both where the
    meter is spent. */
-static void add_events(margin_job *job, uint32_t facet, const double low[3], const double high[3])
+static void add_events(band_job *job, uint32_t facet, const double low[3], const double high[3])
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge *edge = p->topology.edge;
@@ -265,11 +265,11 @@ static int facet_matters(const lrcsi_view *view, uint32_t facet)
                                p->proximity.reach[p->scene->facet_part[facet]] > 0);
 }
 
-static void facet_share(margin_job *job, uint32_t facet)
+static void facet_share(band_job *job, uint32_t facet)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
-    double reach = p->proximity.reach[margin_part(job, facet)];
+    double reach = p->proximity.reach[band_part(job, facet)];
     double wide = 2 * (reach + p->proximity.most) + facet_off(job, facet) + LRCSI_NEAR_OFF;
     double low[3];
     double high[3];
@@ -285,7 +285,7 @@ static void facet_share(margin_job *job, uint32_t facet)
     add_events(job, facet, low, high);
     if (reach > 0 &&
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
-            p->proximity.grazing_cos[margin_part(job, facet)] + COS_MARGIN * COS_MARGIN) {
+            p->proximity.grazing_cos[band_part(job, facet)] + COS_MARGIN * COS_MARGIN) {
         job->share[facet] = 1;
     }
 }
@@ -294,14 +294,14 @@ static void facet_share(margin_job *job, uint32_t facet)
 
 /* The shares near facets of other parts. Facets seen edge-on never hide, nor do back sides of what
    is closed. */
-static void margin_contacts(margin_job *job)
+static void band_contacts(band_job *job)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     for (size_t i = 0; i < p->proximity.count; i++) {
         const lrcsi_near *near = &p->proximity.near[i];
         int facing = view->facing[near->other];
-        int shut = p->solid || lrcsi_proximity_closed(p, margin_part(job, near->other));
+        int shut = p->solid || lrcsi_proximity_closed(p, band_part(job, near->other));
         if (facing > 0 || (facing < 0 && !shut)) {
             job->share[near->facet] += (double)near->share;
             job->rows[near->facet] += (double)near->rows;
@@ -309,7 +309,7 @@ static void margin_contacts(margin_job *job)
     }
 }
 
-static void margin_box(margin_job *job)
+static void band_box(band_job *job)
 {
     const lrcs_prepared *p = job->view->prepared;
     for (int k = 0; k < 3; k++) {
@@ -317,7 +317,7 @@ static void margin_box(margin_job *job)
         job->high[k] = -HUGE_VAL;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        if (p->skip[f] || p->proximity.reach[margin_part(job, f)] == 0) {
+        if (p->skip[f] || p->proximity.reach[band_part(job, f)] == 0) {
             continue;
         }
         double low[3];
@@ -332,7 +332,7 @@ static void margin_box(margin_job *job)
 
 /* --- regions ---------------------------------------------------------------------------------- */
 
-static void margin_regions(const lrcsi_proximity_band *margin)
+static void band_regions(const lrcsi_proximity_band *margin)
 {
     const lrcs_prepared *p = margin->classification->view->prepared;
     const uint32_t *part = p->scene->facet_part;
@@ -373,7 +373,7 @@ void lrcsi_proximity_band_settle(const lrcsi_proximity_band *margin, const lrcsi
 }
 
 /* Edges, each for every part that has a facet on it; some counted twice, perhaps. */
-static size_t margin_edges(const lrcs_prepared *p)
+static size_t band_edges(const lrcs_prepared *p)
 {
     const lrcsi_topology *topology = &p->topology;
     const uint32_t *part = p->scene->facet_part;
@@ -392,7 +392,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     if (!p->proximity.reach) {
         return 0;
     }
-    size_t edges = margin_edges(p);
+    size_t edges = band_edges(p);
     size_t need = 2 * lrcsi_work_bytes(p->scene->facet_count, sizeof(double));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
@@ -401,13 +401,13 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
 }
 
 /* Scratch goes as the shares are done. */
-static int margin_shares(margin_job *job, lrcs_work *work)
+static int band_shares(band_job *job, lrcs_work *work)
 {
     size_t mark = work->used;
-    int status = margin_events(job, work);
+    int status = band_events(job, work);
     if (status == LRCS_OK) {
-        margin_contacts(job);
-        margin_box(job);
+        band_contacts(job);
+        band_box(job);
         for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
             if (facet_matters(job->view, f)) {
                 facet_share(job, f);
@@ -431,14 +431,14 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_w
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
-    margin_job job = {.view = view, .share = m.share, .rows = m.rows};
+    band_job job = {.view = view, .share = m.share, .rows = m.rows};
     int status =
-        m.share && m.rows && m.region && m.hidden ? margin_shares(&job, work) : LRCS_E_MEMORY;
+        m.share && m.rows && m.region && m.hidden ? band_shares(&job, work) : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    margin_regions(&m);
+    band_regions(&m);
     *margin = m;
     return LRCS_OK;
 }

@@ -7,31 +7,30 @@
    point by more than e (lrcs_part.reach; 0 for plate, box and models, whose facets are the truth).
    Let x be a true point of part P, y its place on a facet of P, and d the direction to the laser.
 
-   Claim. Another part Q hides x from the laser just if its facets hide y, unless within the slack r
-   of lrcsi_proximity_slack there is
-     (1) a facet of Q near y in space (of closed Q: one that faces the laser), or
-     (2) an event edge of Q near y in projection and not 2 r behind it: one on which not exactly two
-         facets of Q stand that continue each other and face the same way (contours and rims).
-   Proof. Moving a point z within the ball of radius r about y, its ray meets more or fewer facets
-   of Q only across (1) or (2); across a back-facing facet of a closed Q it leaves or enters the
-   inside, from which the ray meets a front. So Q's facets hide all z of the ball, or none. None:
-   were x hidden by b in W, the place of b on S, at most e_Q from it, would hide a point of the
-   ball. All: where e_Q = 0 the truth is S itself and x lies in the ball. Else let V(B) be all
-   points of and behind B, convex. Every z lies within e_Q of V(B), so the ball of radius r - e_Q
-   lies in V(B), and x in it: the ray of x meets B, and leaves it at a point u. It hides x but where
-   all that it meets are openings. Then let s in S hide the topmost z, w in W be what s is the place
-   of, and walk on B's surface from the ray of x to w, at most max(e_P, e_Q) away in projection: on
-   its upper side from u, which lies in an opening, if w is there; else on its lower side. The walk
-   leaves the opening over its rim, whose place is an event edge within max(e_P, e_Q) + e_Q of y in
-   projection; and not behind it, for the upper side is concave and both ends of the walk lie above
-   y - e, the lower convex and w above y + r - e_Q, so that where its rim lies lower the walk climbs
-   past y on W itself, and (1) holds. []
+   Claim. Another part Q hides x from the laser if and only if its facets hide y, unless within the
+   slack r of lrcsi_proximity_slack there is (1) a facet of Q near y in space (of closed Q: one that
+   faces the laser), or (2) an event edge of Q near y in projection and not 2 r behind it: one on
+   which not exactly two facets of Q stand that continue each other and face the same way (contours
+   and rims). Proof. Moving a point z within the ball of radius r about y, its ray meets more or
+   fewer facets of Q only across (1) or (2); across a back-facing facet of a closed Q it leaves or
+   enters the inside, from which the ray meets a front. So Q's facets hide all z of the ball, or
+   none. None: were x hidden by b in W, the place of b on S, at most e_Q from it, would hide a point
+   of the ball. All: where e_Q = 0 the truth is S itself and x lies in the ball. Else let V(B) be
+   all points of and behind B, convex. Every z lies within e_Q of V(B), so the ball of radius r -
+   e_Q lies in V(B), and x in it: the ray of x meets B, and leaves it at a point u. It hides x but
+   where all that it meets are openings. Then let s in S hide the topmost z, w in W be what s is the
+   place of, and walk on B's surface from the ray of x to w, at most max(e_P, e_Q) away in
+   projection: on its upper side from u, which lies in an opening, if w is there; else on its lower
+   side. The walk leaves the opening over its rim, whose place is an event edge within max(e_P, e_Q)
+   + e_Q of y in projection; and not behind it, for the upper side is concave and both ends of the
+   walk lie above y - e, the lower convex and w above y + r - e_Q, so that where its rim lies lower
+   the walk climbs past y on W itself, and (1) holds. []
 
    A part's own fronts are never hidden by it: they are the upper side of B. The inside of an open
    part, where it reflects (two-sided), is the lower side, seen through an opening: x is visible
-   just if the projected opening holds its projection, y likewise. Projected openings, true and of
-   facets, are convex and within e of each other: both agree unless y lies within 2 e in projection
-   of a rim beyond which the wall faces the laser, or may.
+   if and only if the projected opening holds its projection, y likewise. Projected openings, true
+   and of facets, are convex and within e of each other: both agree unless y lies within 2 e in
+   projection of a rim beyond which the wall faces the laser, or may.
 
    Facets within the rounding of edge-on (lrcsi_proximity.graze) count as doubtful, all of them:
    rounding may have folded a facet mesh over there.
@@ -58,10 +57,10 @@ typedef struct lrcsi_proximity_band {
     double *share;         /* facet: of its area, 0 .. 1 */
     double *rows;          /* facet: of its rows (scene/proximity.h), those that meet such a band */
     uint32_t *region;      /* facet of a curved part: its region, named by one of its facets */
-    unsigned char *hidden; /* region: 1 where other parts hide all of it, in truth too */
+    unsigned char *hidden; /* region: 1 if other parts hide all of it, in truth too */
 } lrcsi_proximity_band;
 
-/* Bytes at most; 0 where prepared->proximity was not asked for. */
+/* Bytes at most; 0 if prepared->proximity was not asked for. */
 size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 
 /* For a scene with prepared->proximity.reach; nothing is known to be hidden yet. Facets that

@@ -68,7 +68,7 @@ static void line_place(query_line *line)
     line->y = line->cells.y0;
 }
 
-/* 0 where no point inside the facet was found. */
+/* 0 if no point inside the facet was found. */
 static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet)
 {
     *line = (query_line){.grid = facets, .facet = facet};

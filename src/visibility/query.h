@@ -23,7 +23,7 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
 int lrcsi_query_uniform(const lrcsi_classification *classification, lrcs_work *work,
                         lrcsi_grid *facets, unsigned char *answer);
 
-/* 1 where an undecided facet is proved to be hidden, all of it behind one component; else 0, as
+/* 1 if an undecided facet is proved to be hidden, all of it behind one component; else 0, as
    where the view's meter is spent. It may ask classification for the facet's crossings, which are
    then at hand (visibility/classify.h). */
 int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid *facets,

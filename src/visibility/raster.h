@@ -22,15 +22,15 @@ typedef struct lrcsi_raster {
     double off;               /* bound on the error of a sample's pixel coordinates */
     double reach;             /* no sample is farther from the view's origin, |x| + |y| */
     uint32_t tiles;           /* along each side */
-    unsigned char *wanted;    /* tiles * tiles: 1 where samples are drawn */
+    unsigned char *wanted;    /* tiles * tiles: 1 if samples are drawn */
     uint32_t *owner;          /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
     double *depth;            /* N * N: height of the owner's plane, where its facet was drawn */
-    unsigned char *pure;      /* N * N: 1 where the owner covers the whole pixel and is visible all
+    unsigned char *pure;      /* N * N: 1 if the owner covers the whole pixel and is visible all
                                  over it; set by claims alone */
     double *slack;            /* facet drawn: error bound of such a height; claimed: -1 */
     uint32_t *covered;        /* facet drawn: samples it would own if alone; else 0 */
     uint32_t *owned;          /* facet drawn: samples it owns; else 0 */
-    unsigned char *undecided; /* facet: 1 where a depth could not be told */
+    unsigned char *undecided; /* facet: 1 if a depth could not be decided */
 } lrcsi_raster;
 
 /* The plane of a facet: height = at + along x + up y, x and y in pixels. */
@@ -73,7 +73,7 @@ double lrcsi_raster_slack(const lrcsi_raster *raster, uint32_t facet);
 /* A vertex in pixel coordinates; returns how far each may be off, that of samples included. */
 double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2]);
 
-/* The owner of a sample: LRCS_NONE where nobody is, also outside wanted tiles. */
+/* The owner of a sample: LRCS_NONE if nobody is, also outside wanted tiles. */
 static inline uint32_t lrcsi_raster_owner(const lrcsi_raster *raster, uint32_t x, uint32_t y)
 {
     size_t tile = (size_t)(y / LRCSI_RASTER_TILE) * raster->tiles + x / LRCSI_RASTER_TILE;

@@ -132,7 +132,7 @@ static sample_height sample_height_of(const lrcsi_view *view, uint32_t facet, co
 }
 
 /* Where all corners of `first` lie on one side of the other's plane, or on it, so does what the
-   line meets of it, strictly inside as it counts: 1 first is nearer, -1 second; 0 where corners
+   line meets of it, strictly inside as it counts: 1 first is nearer, -1 second; 0 if corners
    lie on both sides. Exact, and enough wherever two facets do not pierce each other: along
    contours, folds, and the rims on which one stands on the other. */
 static int sample_side(const lrcsi_view *view, uint32_t first, uint32_t second)
@@ -164,7 +164,7 @@ static int angle_holds(const lrcsi_view *view, uint32_t facet, int at, const dou
 }
 
 /* Which of the two is nearer along a side that leaves the first's corner `i` within the second's
-   angle at its corner `j`, the same point; 0 where no side does. */
+   angle at its corner `j`, the same point; 0 if no side does. */
 static int sample_sides_at(const lrcsi_view *view, uint32_t first, int i, uint32_t second, int j)
 {
     for (int k = 1; k <= 2; k++) {
@@ -186,7 +186,7 @@ static int points_agree(const double *p, const double *q)
 
 /* Two facets that meet at a common corner only, each with its other corners on both sides of the
    other's plane (one has part of the line where the planes meet, the other its continuation beyond
-   the corner): 1 first is nearer, -1 second, wherever a line meets both; 0 where they have no
+   the corner): 1 first is nearer, -1 second, wherever a line meets both; 0 if they have no
    corner in common. What they both cover of the view is convex and reaches to the corner, and
    their heights differ on all of it, so in one sense; there it is bounded by a side of one of them
    that lies within the angle of the other. Exact. */
@@ -204,7 +204,7 @@ static int sample_corner(const lrcsi_view *view, uint32_t first, uint32_t second
     return 0;
 }
 
-/* Two facets that pierce each other, on a line where they meet as far as can be told: which is
+/* Two facets that pierce each other, on a line where they meet as far as can be decided: which is
    nearer just beside it, on the side to which the line counts as moved. Heights fall by
    N_k / (N . d) there. Where they meet elsewhere it may be wrong; but both are then undecided, and
    so mixed is the pixel (visibility/visible.c), so that no bound rests on it. */

@@ -32,23 +32,23 @@
 #define ROW_SEEN  3.0  /* and so much more, times its width and share (1 - share) */
 
 /* A facet on the raster. */
-typedef struct drift_facet {
+typedef struct sampled_facet {
     const lrcsi_raster *raster;
     lrcsi_edges edges;
     const uint32_t *component; /* of each facet */
     uint32_t facet;
     double share; /* of its samples, that it owns */
-} drift_facet;
+} sampled_facet;
 
 /* A sum of offsets along a line, over the steps that count. */
-typedef struct drift_sum {
+typedef struct miscount_sum {
     double sum, low, high;
     double bias;     /* signed: too much of the facet is positive */
     double miscount; /* of a side: what the share of samples errs for its offsets */
-} drift_sum;
+} miscount_sum;
 
 /* Does the facet cover the sample in the middle of a pixel? */
-static int drift_covers(const lrcsi_edges *e, double x, double y)
+static int sampled_covers(const lrcsi_edges *e, double x, double y)
 {
     for (int k = 0; k < 3; k++) {
         if (e->at[k] + e->along[k] * (x + 0.5) + e->up[k] * (y + 0.5) < 0) {
@@ -59,7 +59,7 @@ static int drift_covers(const lrcsi_edges *e, double x, double y)
 }
 
 /* Does the sample show the facet, or beside the facet one of its component? */
-static int drift_shows(const drift_facet *d, int axis, double along, double across)
+static int sampled_shows(const sampled_facet *d, int axis, double along, double across)
 {
     const lrcsi_raster *r = d->raster;
     double x = axis == 0 ? along : across;
@@ -70,26 +70,26 @@ static int drift_shows(const drift_facet *d, int axis, double along, double acro
     uint32_t owner = lrcsi_raster_owner(r, (uint32_t)x, (uint32_t)y);
     return owner == d->facet ||
            (owner != LRCS_NONE && d->component[owner] == d->component[d->facet] &&
-            !drift_covers(&d->edges, x, y));
+            !sampled_covers(&d->edges, x, y));
 }
 
 /* Where samples put a line that passes at `across`: midway between the two about it. Through a
    sample itself it may count as passing on either side. */
-static double drift_limit(const drift_facet *d, int axis, double along, double across)
+static double sampled_limit(const sampled_facet *d, int axis, double along, double across)
 {
     double limit = floor(across + 0.5);
     double sample = floor(across);
     if (fabs(across - sample - 0.5) > 4 * d->edges.position_err) {
         return limit;
     }
-    int at = drift_shows(d, axis, along, sample);
-    return at != drift_shows(d, axis, along, sample - 1)   ? sample
-           : at != drift_shows(d, axis, along, sample + 1) ? sample + 1
-                                                           : limit;
+    int at = sampled_shows(d, axis, along, sample);
+    return at != sampled_shows(d, axis, along, sample - 1)   ? sample
+           : at != sampled_shows(d, axis, along, sample + 1) ? sample + 1
+                                                             : limit;
 }
 
 /* One step. Of a facet's own side every one counts. */
-static void drift_step(drift_sum *s, double offset, int above, int below, int side)
+static void miscount_step(miscount_sum *s, double offset, int above, int below, int side)
 {
     if (above != below || side != 0) {
         s->sum += offset;
@@ -101,13 +101,13 @@ static void drift_step(drift_sum *s, double offset, int above, int below, int si
 
 /* A side that passes between the facet's inner sample of a step and its limit makes too much of
    what it shows there, or of what it does not: both count in the share of the facet's samples. */
-static double drift_miscount(const drift_facet *d, int axis, double along, double inner,
-                             double offset)
+static double sampled_miscount(const sampled_facet *d, int axis, double along, double inner,
+                               double offset)
 {
     double x = axis == 0 ? along : inner;
     double y = axis == 0 ? inner : along;
     const lrcsi_raster *r = d->raster;
-    if (!(x >= 0 && y >= 0 && x < r->size && y < r->size) || !drift_covers(&d->edges, x, y)) {
+    if (!(x >= 0 && y >= 0 && x < r->size && y < r->size) || !sampled_covers(&d->edges, x, y)) {
         return 0;
     }
     int owns = lrcsi_raster_owner(r, (uint32_t)x, (uint32_t)y) == d->facet;
@@ -115,7 +115,7 @@ static double drift_miscount(const drift_facet *d, int axis, double along, doubl
 }
 
 /* Cuts the line a b off where it leaves the facet: from a + t[0] (b - a) to a + t[1] (b - a).
-   Returns 0 where nothing is left. */
+   Returns 0 if nothing is left. */
 static int drift_clip(const lrcsi_edges *e, const double a[2], const double b[2], double t[2])
 {
     for (int k = 0; k < 3; k++) {
@@ -133,11 +133,12 @@ static int drift_clip(const lrcsi_edges *e, const double a[2], const double b[2]
     return t[0] < t[1];
 }
 
-/* Walks the part of the line a b that lies over the facet. side: 1 or -1 where the line is a side
+/* Walks the part of the line a b that lies over the facet. side: 1 or -1 if the line is a side
    of the facet, which lies above or below it, else 0. */
-static drift_sum drift_walk(const drift_facet *d, const double a[2], const double b[2], int side)
+static miscount_sum miscount_walk(const sampled_facet *d, const double a[2], const double b[2],
+                                  int side)
 {
-    drift_sum s = {0};
+    miscount_sum s = {0};
     double t[2] = {0, 1};
     int axis = fabs(b[1] - a[1]) > fabs(b[0] - a[0]);
     double run = b[axis] - a[axis];
@@ -150,38 +151,39 @@ static drift_sum drift_walk(const drift_facet *d, const double a[2], const doubl
     double last = lrcsi_least(to - 0.5, d->raster->size - 1.0);
     for (double step = lrcsi_most(ceil(from - 0.5), 0); step <= last; step++) {
         double across = a[!axis] + slope * (step + 0.5 - a[axis]);
-        double limit = drift_limit(d, axis, step, across);
-        drift_step(&s, across - limit, drift_shows(d, axis, step, limit),
-                   drift_shows(d, axis, step, limit - 1), side);
+        double limit = sampled_limit(d, axis, step, across);
+        miscount_step(&s, across - limit, sampled_shows(d, axis, step, limit),
+                      sampled_shows(d, axis, step, limit - 1), side);
         if (side != 0) {
-            s.miscount += side * drift_miscount(d, axis, step, limit - (side < 0), across - limit);
+            s.miscount +=
+                side * sampled_miscount(d, axis, step, limit - (side < 0), across - limit);
         }
     }
     return s;
 }
 
 /* A line that parts what is seen from what another facet hides. */
-static void drift_add(const drift_facet *d, const double a[2], const double b[2],
-                      lrcsi_sampling_error *sampling_error)
+static void miscount_add(const sampled_facet *d, const double a[2], const double b[2],
+                         lrcsi_sampling_error *sampling_error)
 {
-    drift_sum s = drift_walk(d, a, b, 0);
+    miscount_sum s = miscount_walk(d, a, b, 0);
     sampling_error->square += STRAY * (s.high - s.low) * (s.high - s.low);
     sampling_error->bias += s.bias;
 }
 
-static void drift_add_edge(const drift_facet *d, uint32_t edge,
-                           lrcsi_sampling_error *sampling_error)
+static void miscount_add_edge(const sampled_facet *d, uint32_t edge,
+                              lrcsi_sampling_error *sampling_error)
 {
     const lrcsi_edge *e = &d->raster->view->prepared->topology.edge[edge];
     double a[2];
     double b[2];
     lrcsi_raster_point(d->raster, e->low, a);
     lrcsi_raster_point(d->raster, e->high, b);
-    drift_add(d, a, b, sampling_error);
+    miscount_add(d, a, b, sampling_error);
 }
 
 /* The line where the planes of two facets meet, as far as it may pass over the facet's box. */
-static void drift_add_meeting(const drift_facet *d, uint32_t other,
+static void drift_add_meeting(const sampled_facet *d, uint32_t other,
                               lrcsi_sampling_error *sampling_error)
 {
     const lrcsi_edges *box = &d->edges;
@@ -201,10 +203,10 @@ static void drift_add_meeting(const drift_facet *d, uint32_t other,
     up /= steep;
     const double a[2] = {x - along * far - up * reach, y - up * far + along * reach};
     const double b[2] = {x - along * far + up * reach, y - up * far - along * reach};
-    drift_add(d, a, b, sampling_error);
+    miscount_add(d, a, b, sampling_error);
 }
 
-static void drift_add_touches(const drift_facet *d, lrcsi_sampling_error *sampling_error)
+static void drift_add_touches(const sampled_facet *d, lrcsi_sampling_error *sampling_error)
 {
     const lrcsi_view *view = d->raster->view;
     const lrcsi_intersections *intersections = &view->prepared->intersections;
@@ -218,13 +220,13 @@ static void drift_add_touches(const drift_facet *d, lrcsi_sampling_error *sampli
             continue;
         }
         for (int k = 0; k < 3; k++) {
-            drift_add_edge(d, view->prepared->topology.facet_edge[touch->other].corner[k],
-                           sampling_error);
+            miscount_add_edge(d, view->prepared->topology.facet_edge[touch->other].corner[k],
+                              sampling_error);
         }
     }
 }
 
-static void drift_add_sides(const drift_facet *d, lrcsi_sampling_error *sampling_error)
+static void drift_add_sides(const sampled_facet *d, lrcsi_sampling_error *sampling_error)
 {
     const uint32_t *corner = d->raster->view->prepared->scene->facet[d->facet].corner;
     double p[3][2];
@@ -238,7 +240,7 @@ static void drift_add_sides(const drift_facet *d, lrcsi_sampling_error *sampling
         int axis = fabs(b[1] - a[1]) > fabs(b[0] - a[0]);
         double slope = (b[!axis] - a[!axis]) / (b[axis] - a[axis]);
         int above = c[!axis] - a[!axis] > slope * (c[axis] - a[axis]);
-        drift_sum s = drift_walk(d, a, b, above ? 1 : -1);
+        miscount_sum s = miscount_walk(d, a, b, above ? 1 : -1);
         double stray = s.high - s.low;
         sampling_error->square += SIDES * d->share * (1 - d->share) * stray * stray;
         sampling_error->square += MISCOUNT * s.miscount * s.miscount;
@@ -246,7 +248,7 @@ static void drift_add_sides(const drift_facet *d, lrcsi_sampling_error *sampling
 }
 
 /* In square pixels. */
-static double drift_area(const lrcsi_raster *raster, uint32_t facet)
+static double miscount_area(const lrcsi_raster *raster, uint32_t facet)
 {
     return lrcsi_view_projected(raster->view, facet) * raster->scale * raster->scale;
 }
@@ -262,22 +264,22 @@ static double drift_hiders(const lrcsi_raster *raster, uint32_t facet, const uin
     for (uint32_t i = 0; i < crossings; i++) {
         const lrcsi_edge *edge = &p->topology.edge[crossing[i]];
         for (uint32_t k = 0; k < edge->uses; k++) {
-            area += 0.5 * drift_area(raster, p->topology.use[edge->first_use + k].facet);
+            area += 0.5 * miscount_area(raster, p->topology.use[edge->first_use + k].facet);
         }
     }
     for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        area += drift_area(raster, p->intersections.touch[i].other);
+        area += miscount_area(raster, p->intersections.touch[i].other);
     }
     return area;
 }
 
 /* Of a facet that owns some of its samples, not all. */
-static lrcsi_sampling_error drift_parted(const drift_facet *d, const uint32_t *crossing,
+static lrcsi_sampling_error drift_parted(const sampled_facet *d, const uint32_t *crossing,
                                          uint32_t crossings)
 {
     lrcsi_sampling_error sampling_error = {PARTED, 0};
     for (uint32_t i = 0; i < crossings; i++) {
-        drift_add_edge(d, crossing[i], &sampling_error);
+        miscount_add_edge(d, crossing[i], &sampling_error);
     }
     drift_add_touches(d, &sampling_error);
     drift_add_sides(d, &sampling_error);
@@ -288,9 +290,9 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const lrcsi_classification *clas
                                                 uint32_t crossings, const lrcsi_raster *raster,
                                                 uint32_t facet)
 {
-    drift_facet d = {raster, lrcsi_raster_edges(raster, facet), classification->component, facet,
-                     0};
-    double area = drift_area(raster, facet);
+    sampled_facet d = {raster, lrcsi_raster_edges(raster, facet), classification->component, facet,
+                       0};
+    double area = miscount_area(raster, facet);
     uint32_t owned = raster->owned[facet];
     uint32_t covered = raster->covered[facet];
     lrcsi_sampling_error sampling_error = {SMALL * area * area, 0};
@@ -313,7 +315,7 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const lrcsi_classification *clas
 lrcsi_sampling_error lrcsi_sampling_error_row(const lrcsi_raster *raster, uint32_t facet,
                                               double longest, double share)
 {
-    double area = drift_area(raster, facet);
+    double area = miscount_area(raster, facet);
     double width = longest > 0 ? lrcsi_least(1, 2 * area / longest) : 0;
     return (lrcsi_sampling_error){width * (ROW + ROW_SEEN * share * (1 - share)), 0};
 }

@@ -11,7 +11,7 @@
 /* A facet's edge functions in pixel coordinates, positive inside: value = at + along x + up y. */
 typedef struct lrcsi_edges {
     double at[3], along[3], up[3];
-    double over[3];          /* 1 / along, 0 where the side runs along the rows */
+    double over[3];          /* 1 / along, 0 if the side runs along the rows */
     double near[3], far[3];  /* half a pixel, and how far along a row a value changes by off, and by
                                 off and what it changes over half a pixel */
     double position_err;     /* error bound of the corners' pixel coordinates and of samples' */

@@ -28,7 +28,8 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *tar
    there by its corners' shares, its coordinates rounded. */
 double lrcsi_target_lift_off(const lrcsi_target *target);
 
-/* The same in the frame that its parts are told apart in: of its shares, where it is a needle. */
+/* The same in the frame that its parts are distinguished in: of its shares, where it is a needle.
+ */
 void lrcsi_target_refine(const lrcsi_target *target, lrcsi_needle *needle, lrcsi_target *refined);
 
 /* A point of the refined frame in that of the view axes, within 3 u of the reach. */

@@ -43,7 +43,7 @@ typedef struct pixel_marks {
     lrcsi_row *row;       /* row of the raster, of those touched */
     unsigned char *mixed; /* pixel of the raster, of those touched: visibility may change in it */
     /* Pixels of which nothing is known of a facet yet, one list behind the other in facet order: 2
-       at for pixel number `at`, + 1 where the facet covers all of it; each ends with LRCS_NONE. */
+       at for pixel number `at`, + 1 if the facet covers all of it; each ends with LRCS_NONE. */
     uint32_t *open;
     size_t open_room, open_count, open_read;
 } pixel_marks;
@@ -337,7 +337,7 @@ static void mark_changes(pixel_marks *m, uint32_t facet)
 }
 
 /* Visits a facet that owns samples: what is certain of it is kept in *visible until
-   certain_finish, its pixels as open. Returns 0 where there is no room for these. */
+   certain_finish, its pixels as open. Returns 0 if there is no room for these. */
 static int certain_begin(pixel_marks *m, uint32_t facet, lrcsi_visible *visible)
 {
     size_t first = m->open_count;

@@ -57,13 +57,13 @@ static void labels_cover_nothing(void **state)
     unsigned placed = 0;
     for (int i = 0; i < 200; i++) {
         seed = seed * 1664525u + 1013904223u;
-        lrcsi_spot at = {(seed >> 8) % 300, (seed >> 18) % 200};
-        lrcsi_board_spot(&board, at, 4.0);
+        lrcsi_plot_point at = {(seed >> 8) % 300, (seed >> 18) % 200};
+        lrcsi_board_point(&board, at, 4.0);
         if (i % 3 == 0) {
-            lrcsi_board_line(&board, at, (lrcsi_spot){at.x + 20.0, at.y + 9.0});
+            lrcsi_board_line(&board, at, (lrcsi_plot_point){at.x + 20.0, at.y + 9.0});
         }
         uint32_t before = board.count;
-        lrcsi_spot left;
+        lrcsi_plot_point left;
         if (!lrcsi_board_text(&board, at, 6.0, "4096", 10.0, &left)) {
             assert_int_equal(board.count, before);
             continue;
@@ -87,7 +87,7 @@ static void a_full_board_forgets_and_goes_on(void **state)
     static lrcsi_board board;
     board = (lrcsi_board){.frame = {0.0F, 0.0F, 9.0F, 9.0F}};
     for (uint32_t i = 0; i < LRCSI_LABEL_ROOMS + 10; i++) {
-        lrcsi_board_spot(&board, (lrcsi_spot){5.0, 5.0}, 1.0);
+        lrcsi_board_point(&board, (lrcsi_plot_point){5.0, 5.0}, 1.0);
     }
     assert_int_equal(board.count, LRCSI_LABEL_ROOMS);
 }
@@ -98,7 +98,7 @@ static void every_letter_has_a_width_and_ends(void **state)
     for (int c = 32; c < 127; c++) {
         const char text[2] = {(char)c, '\0'};
         lrcsi_letters letters = {text, NULL, 0.0};
-        lrcsi_spot at;
+        lrcsi_plot_point at;
         unsigned spots = 0;
         double width = lrcsi_letters_width(text);
         assert_true(width > 0.2 && width < 1.1);
@@ -214,7 +214,7 @@ static void a_stroke_colours_its_pixels_and_no_others(void **state)
 {
     (void)state;
     lrcsi_canvas canvas;
-    const lrcsi_spot line[2] = {{4.0, 10.0}, {16.0, 10.0}};
+    const lrcsi_plot_point line[2] = {{4.0, 10.0}, {16.0, 10.0}};
     const lrcsi_ink ink = {0x0072b2u, 2.0, {0.0, 0.0}};
     assert_int_equal(lrcsi_canvas_make(20.0, 20.0, 1.0, &canvas, NULL), LRCS_OK);
     canvas.plotter.line(&canvas.plotter, line, 2, &ink);
@@ -234,7 +234,7 @@ static void an_area_covers_parts_of_pixels(void **state)
 {
     (void)state;
     lrcsi_canvas canvas;
-    const lrcsi_spot corner[4] = {{2.5, 3.25}, {8.0, 3.25}, {8.0, 6.0}, {2.5, 6.0}};
+    const lrcsi_plot_point corner[4] = {{2.5, 3.25}, {8.0, 3.25}, {8.0, 6.0}, {2.5, 6.0}};
     assert_int_equal(lrcsi_canvas_make(10.0, 10.0, 1.0, &canvas, NULL), LRCS_OK);
     canvas.plotter.area(&canvas.plotter, corner, 4, 0x000000u);
     assert_int_equal(canvas.rgb[3 * (10 * 4 + 4)], 0);   /* inside */
@@ -249,7 +249,7 @@ static void nothing_outside_the_canvas_is_touched(void **state)
 {
     (void)state;
     lrcsi_canvas canvas;
-    const lrcsi_spot line[3] = {{-50.0, -50.0}, {60.0, 70.0}, {-1e9, 5.0}};
+    const lrcsi_plot_point line[3] = {{-50.0, -50.0}, {60.0, 70.0}, {-1e9, 5.0}};
     const lrcsi_ink ink = {0u, 3.0, {40.0, 30.0}};
     const lrcsi_words words = {.text = "out of it", .at = {5.0, -2.0}, .size = 30.0};
     assert_int_equal(lrcsi_canvas_make(10.0, 10.0, 1.0, &canvas, NULL), LRCS_OK);

@@ -12,7 +12,7 @@ static double view_peak(const mistake_view *view)
 {
     double peak = 0.0;
     for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
-        mistake_spot spot;
+        mistake_point spot;
         if (cli_mistake_seen(view, i, 0, &spot) > 0.0) {
             peak = fmax(peak, cli_mistake_right(&spot, 0.0));
         }
@@ -72,7 +72,7 @@ static double view_sum(const mistake_view *view, const compare_mistake *mistake,
     double sum = 0.0;
     for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
         for (int corner = 0; corner < corners; corner++) {
-            mistake_spot spot = {.peak = peak};
+            mistake_point spot = {.peak = peak};
             double part = area(view, i, corner, &spot);
             sum += part > 0.0 ? part * shade(&spot, mistake->at) / corners : 0.0;
         }

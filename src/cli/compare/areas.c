@@ -8,7 +8,7 @@
 
 #define TWINS_MOST 256u /* scenes with more facets are not searched for coincident facets */
 
-static int spot_fill(const mistake_view *view, uint32_t facet, mistake_spot *spot)
+static int point_fill(const mistake_view *view, uint32_t facet, mistake_point *spot)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
     const lrcs_material *material = &scene->material[scene->facet_material[facet]];
@@ -17,40 +17,41 @@ static int spot_fill(const mistake_view *view, uint32_t facet, mistake_spot *spo
     return view->records[facet].cos_theta > 0.0 || material->two_sided;
 }
 
-double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
+double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot)
 {
     (void)corner;
-    return spot_fill(view, facet, spot) ? view->records[facet].visible_area_m2 : 0.0;
+    return point_fill(view, facet, spot) ? view->records[facet].visible_area_m2 : 0.0;
 }
 
-double cli_area_unshadowed(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
+double cli_area_unshadowed(const mistake_view *view, uint32_t facet, int corner,
+                           mistake_point *spot)
 {
     (void)corner;
-    return spot_fill(view, facet, spot) ? view->records[facet].area_m2 * spot->c : 0.0;
+    return point_fill(view, facet, spot) ? view->records[facet].area_m2 * spot->c : 0.0;
 }
 
-double cli_area_backs(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
+double cli_area_backs(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot)
 {
     (void)corner;
-    spot_fill(view, facet, spot);
+    point_fill(view, facet, spot);
     return view->records[facet].visible_area_m2;
 }
 
-double cli_area_all(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
+double cli_area_all(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot)
 {
     (void)corner;
-    spot_fill(view, facet, spot);
+    point_fill(view, facet, spot);
     return view->records[facet].area_m2 * spot->c;
 }
 
-double cli_area_one_sided(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
+double cli_area_one_sided(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot)
 {
     double area = cli_mistake_seen(view, facet, corner, spot);
     return view->records[facet].cos_theta > 0.0 ? area : 0.0;
 }
 
 /* Front and back sides exchanged. */
-double cli_area_flipped(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
+double cli_area_flipped(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
     int two_sided = scene->material[scene->facet_material[facet]].two_sided;
@@ -59,7 +60,7 @@ double cli_area_flipped(const mistake_view *view, uint32_t facet, int corner, mi
 }
 
 double cli_area_one_material(const mistake_view *view, uint32_t facet, int corner,
-                             mistake_spot *spot)
+                             mistake_point *spot)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
     double area = cli_mistake_seen(view, facet, corner, spot);
@@ -69,7 +70,7 @@ double cli_area_one_material(const mistake_view *view, uint32_t facet, int corne
 
 /* The material changes one facet too late. */
 double cli_area_next_material(const mistake_view *view, uint32_t facet, int corner,
-                              mistake_spot *spot)
+                              mistake_point *spot)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
     const lrcs_material *worn = &scene->material[scene->facet_material[facet ? facet - 1 : 0]];
@@ -79,7 +80,7 @@ double cli_area_next_material(const mistake_view *view, uint32_t facet, int corn
 }
 
 /* Shading by the mean normal at each corner. */
-double cli_area_smooth(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
+double cli_area_smooth(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
     const double *n = view->scene->normal[scene->facet[facet].corner[corner]].x;
@@ -106,7 +107,7 @@ static int facets_coincide(const lrcs_scene *scene, uint32_t a, uint32_t b)
 }
 
 /* Of coincident facets the last one is counted instead of the first. */
-double cli_area_last(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot)
+double cli_area_last(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
     double area = cli_mistake_seen(view, facet, corner, spot);

@@ -205,11 +205,11 @@ int cli_compare_explain(compare_job *job);
 /* ---- mistakes ---- */
 
 /* The point at which a facet is shaded. */
-typedef struct mistake_spot {
+typedef struct mistake_point {
     const lrcs_brdf *brdf;
     double c;    /* the cosine that is used, 0 .. 1 */
     double peak; /* the largest f_r cos of the case */
-} mistake_spot;
+} mistake_point;
 
 /* A case with a mistake: the pose and the records that are used. */
 typedef struct mistake_view {
@@ -219,12 +219,12 @@ typedef struct mistake_view {
 } mistake_view;
 
 /* f_r cos with a mistake; `at` is the mistake's parameter. */
-typedef double mistake_shade(const mistake_spot *spot, double at);
+typedef double mistake_shade(const mistake_point *spot, double at);
 
 /* The projected area with a mistake, for a corner (0 .. 2) of a facet: a third of the facet's area.
    Also sets how it is shaded; 0 if the facet does not contribute. */
 typedef double mistake_area(const mistake_view *view, uint32_t facet, int corner,
-                            mistake_spot *spot);
+                            mistake_point *spot);
 
 /* A mistake: whatever is not NULL or 0 differs from the truth. */
 typedef struct compare_mistake {
@@ -244,10 +244,10 @@ typedef struct compare_mistake {
 extern const compare_mistake cli_compare_mistakes[];
 
 /* f_r cos without a mistake. */
-double cli_mistake_right(const mistake_spot *spot, double at);
+double cli_mistake_right(const mistake_point *spot, double at);
 
 /* The area without a mistake. */
-double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_spot *spot);
+double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot);
 
 /* The records of a case if of coplanar facets the wrong one is seen; the true records must be there
    already. 0 or CLI_FAILED with the message printed. */

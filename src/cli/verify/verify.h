@@ -10,7 +10,7 @@
 
 /* Facets constructed one by one: material 0 is the case's, 1 is black. */
 typedef struct hard_mesh {
-    uint32_t vertices, facets, wears; /* wears: the material assigned to subsequent facets */
+    uint32_t vertices, facets, wears; /* has: the material assigned to subsequent facets */
     lrcs_point vertex[HARD_VERTICES];
     lrcs_facet facet[HARD_FACETS];
     uint32_t material[HARD_FACETS];
