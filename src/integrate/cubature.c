@@ -230,9 +230,9 @@ static double cube_turn(const cube_cell *cell)
 }
 
 /* An error of f_r cos that nobody looks for. */
-static double nothing_to(const lrcsi_cubature *sum)
+static double negligible_below(const lrcsi_cubature *sum)
 {
-    return lrcsi_most(sum->nothing, sum->tolerance * sum->had);
+    return lrcsi_most(sum->negligible, sum->tolerance * sum->had);
 }
 
 /* Decides whether a rule may be trusted with the cell, or never hear of its glint. */
@@ -253,7 +253,7 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
         cell->unheard = (glint ? 0 : most.glint) + (diffuse ? 0 : most.diffuse);
         double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
         double scale = lrcsi_most(had, sum->least * sum->whole);
-        glint = diffuse = cell->unheard <= nothing_to(sum) ||
+        glint = diffuse = cell->unheard <= negligible_below(sum) ||
                           cell->unheard * sum->whole <= sum->tolerance * scale;
     }
     cell->trusted = turn <= MOST_TURN && diffuse && glint;
@@ -492,7 +492,7 @@ static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_
     double off = fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
     double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
     double most = sum->tolerance * (all.glint + all.diffuse + had * (area / sum->whole));
-    int agree = off <= most + nothing_to(sum) * area;
+    int agree = off <= most + negligible_below(sum) * area;
     if (!must && !agree) {
         return 0;
     }
@@ -516,7 +516,8 @@ static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cu
     }
     double area = cube_area(cell);
     double value = cell->value.glint + cell->value.diffuse;
-    if (cell->trusted && cell->rough * value <= sum->tolerance * value + nothing_to(sum) * area) {
+    if (cell->trusted &&
+        cell->rough * value <= sum->tolerance * value + negligible_below(sum) * area) {
         sum_keep(sum, cell);
         sum->estimate += cell->rough * value + cell->unheard * area;
         return 0;
@@ -587,10 +588,10 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     sum.most = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
     double far = cell.theta + cube_turn(&cell);
     sum.least = far < LRCSI_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(far)), brdf->m + 1) : 0;
-    sum.nothing =
+    sum.negligible =
         NOTHING * tolerance *
         (sum.most.glint * lrcsi_least(1, brdf->s * brdf->s) + sum.most.diffuse / (brdf->m + 1));
-    sum.nothing = lrcsi_most(sum.nothing, LEAST_TOLD * (brdf->A + brdf->B));
+    sum.negligible = lrcsi_most(sum.negligible, LEAST_TOLD * (brdf->A + brdf->B));
     return sum;
 }
 

@@ -21,7 +21,7 @@ typedef struct lrcsi_cubature {
     double position_err;   /* by how much a normal may be off where it is evaluated, rad */
     lrcsi_reflection most; /* bounds on the parts of f_r cos over all of them */
     double least;          /* a diffuse f_r cos that is nowhere undercut */
-    double nothing;        /* f_r cos below this is not looked for */
+    double negligible;     /* f_r cos below this is not looked for */
     double had;            /* f_r cos that other surfaces have to set against this one's: an error
                               of the tolerance times this, per area, is small enough */
     lrcsi_sum glint, diffuse;
@@ -40,8 +40,8 @@ size_t lrcsi_cubature_need(void);
 lrcsi_cubature_cell *lrcsi_cubature_cells(lrcs_work *work);
 
 /* An empty sum over surfaces whose normals lie between these three (as below), with such room,
-   which sums may share: whole, position_err and the meter are the caller's to set, and nothing and
-   had where there are other surfaces. */
+   which sums may share: whole, position_err and the meter are the caller's to set, and negligible
+   and had where there are other surfaces. */
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
                                    double tolerance, lrcsi_cubature_cell *waiting);
 

@@ -27,16 +27,16 @@
 #define CUBATURE_LEAST 1e-9
 #define CUBATURE_MOST  1e-2
 
-/* All facets wanted. What is had of them tells how little matters on the next: a dark sliver is
-   worth no more work than it can add. Each may err by its share of the sum, by area and by count:
-   all together by twice the aim. */
+/* All facets to integrate over. The sum so far tells how small a contribution is still worth work:
+   a dark sliver gets no more than it can add. Each facet may err by its share of the sum, by area
+   and by count: all together by twice the aim. */
 typedef struct curve_all {
     const lrcsi_view *view;
     const lrcsi_curving *how;
-    double nothing;   /* f_r cos that is nothing to the brightest of them */
-    double projected; /* area of all */
+    double negligible; /* f_r cos below this is negligible beside the brightest facet */
+    double projected;  /* area of all */
     double count;
-    double had; /* integral of f_r cos over what is visible of those done */
+    double done; /* integral of f_r cos over the visible parts of the facets done so far */
 } curve_all;
 
 /* A facet at work. */
@@ -79,10 +79,10 @@ static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
     job->sum.position_err = SLIP_WHOLE;
     job->sum.meter = view->meter;
     job->sum.moments = all->how->moments;
-    job->sum.nothing = lrcsi_most(job->sum.nothing, all->nothing);
-    job->sum.had =
-        all->had > 0 ? all->had / all->projected + all->had / all->count / job->incidence.projected
-                     : 0;
+    job->sum.negligible = lrcsi_most(job->sum.negligible, all->negligible);
+    job->sum.had = all->done > 0 ? all->done / all->projected +
+                                       all->done / all->count / job->incidence.projected
+                                 : 0;
 }
 
 static curve_all all_make(const lrcsi_view *view, const lrcsi_curving *how)
@@ -92,7 +92,7 @@ static curve_all all_make(const lrcsi_view *view, const lrcsi_curving *how)
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (lrcsi_curve_wanted(view, f)) {
             job_start(&job, &all, f);
-            all.nothing = job.sum.nothing;
+            all.negligible = job.sum.negligible;
             all.projected += job.incidence.projected;
             all.count++;
         }
@@ -102,7 +102,7 @@ static curve_all all_make(const lrcsi_view *view, const lrcsi_curving *how)
 
 static void all_have(curve_all *all, const lrcsi_curved *curved)
 {
-    all->had += (curved->glint + curved->diffuse) / FOUR_PI;
+    all->done += (curved->glint + curved->diffuse) / FOUR_PI;
 }
 
 static void job_whole(curve_job *job)

@@ -46,7 +46,8 @@ typedef struct lrcsi_classification {
                             nothing */
     uint32_t *region; /* facet -> the region of uniform facets that it is in, likewise named, once
                          lrcsi_classify_regions has been called */
-    signed char *joinable; /* facet: its facing where it may be seen like its neighbours, else 0 */
+    signed char *joinable; /* facet: its facing if it can hide others, else 0: neighbours that face
+                              alike join one component */
     unsigned char *undecided; /* facet: 1 undecided; 0 uniform, or of no area in this view */
     uint32_t undecided_count;
 } lrcsi_classification;
