@@ -21,7 +21,6 @@
 
 #include "base/constant.h"
 #include "base/range.h"
-#include "visibility/target.h"
 
 #define OFF (160 * LRCSI_U * LRCSI_U)
 
@@ -72,8 +71,8 @@ static lrcsi_dd dot_finely(const lrcsi_dd a[3], const lrcsi_dd b[3])
     return lrcsi_dd_add(sum, lrcsi_dd_mul(a[2], b[2]));
 }
 
-int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corner[3][2],
-                      double reach, lrcsi_needle *n)
+int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
+                      const double corner[3][2], double reach, lrcsi_needle *n)
 {
     double turn = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
     const double *bulk = view->prepared->bulk;
@@ -82,13 +81,12 @@ int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corne
     if (turn * least > reach * reach) {
         return 0;
     }
-    n->origin = lrcsi_target_own(view, facet, 0);
+    n->origin = point[0];
     n->direction = view->direction;
     n->length = view->length;
     n->reach = 0;
     for (int i = 0; i < 2; i++) {
-        const double *x = lrcsi_target_own(view, facet, i + 1);
-        n->reach = lrcsi_most(n->reach, gap_between(x, n->origin, n->side[i]));
+        n->reach = lrcsi_most(n->reach, gap_between(point[i + 1], n->origin, n->side[i]));
         n->corner[i][0] = corner[i + 1][0];
         n->corner[i][1] = corner[i + 1][1];
     }

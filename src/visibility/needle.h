@@ -21,10 +21,11 @@ typedef struct lrcsi_needle {
     double corner[2][2]; /* the others in the view plane, as seen from the first, rounded */
 } lrcsi_needle;
 
-/* 1 if a facet of such a frame in the view (visibility/target.h: corners, reach) is a needle,
-   and then its frame; 0 if it is none, or one too thin for double-double. */
-int lrcsi_needle_make(const lrcsi_view *view, uint32_t facet, const double corner[3][2],
-                      double reach, lrcsi_needle *needle);
+/* Given a facet's corners as points of the scene and as seen from the first (corner, reach:
+   visibility/target.h): 1 if it is a needle in the view, and then its frame; 0 if it is none, or
+   one too thin for double-double. */
+int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
+                      const double corner[3][2], double reach, lrcsi_needle *needle);
 
 /* A scene point in the frame; returns by how much that may be off. */
 double lrcsi_needle_place(const lrcsi_needle *needle, const double x[3], lrcsi_dd out[2]);

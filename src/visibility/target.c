@@ -156,8 +156,10 @@ double lrcsi_target_lift_off(const lrcsi_target *t)
 
 void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_target *refined)
 {
+    const double *const point[3] = {t->origin, lrcsi_target_own(t->view, t->facet, 1),
+                                    lrcsi_target_own(t->view, t->facet, 2)};
     *refined = *t;
-    if (lrcsi_needle_make(t->view, t->facet, t->corner, t->reach, needle)) {
+    if (lrcsi_needle_make(t->view, point, t->corner, t->reach, needle)) {
         *refined = (lrcsi_target){.view = t->view,
                                   .facet = t->facet,
                                   .origin = t->origin,

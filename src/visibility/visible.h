@@ -6,16 +6,8 @@
 
 #include <math.h>
 
-#include "visibility/classify.h"
 #include "visibility/raster.h"
-
-/* Projected areas in scaled units; 0 <= low <= area <= high <= the facet's projected area, but for
-   rounding. The truth lies between low and high. */
-typedef struct lrcsi_visible {
-    double area, low, high;
-    double likely; /* of a sampled area: its likely error; else 0 */
-    double bias;   /* the part of it that has a sign, too much being positive */
-} lrcsi_visible;
+#include "visibility/visible_area.h"
 
 /* A facet that nothing is known to hide: all of it is visible, certainly so for |cos(theta)| >
    graze; below it the area is an upper bound (low is 0). graze = 1 makes every facet so. */
@@ -31,19 +23,7 @@ static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_incidence *inci
 void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
                             lrcsi_visible *visible);
 
-/* What exact queries tell of facets before any sample is taken. */
-typedef struct lrcsi_known {
-    lrcsi_classification *classification;
-    lrcsi_grid facets;
-    unsigned char *answer; /* facet: a lrcsi_query_answer; hidden where it casts nothing; undecided
-                              where samples are to tell */
-    uint32_t listed;       /* the event edges that cross facet f < listed are
-                              crossing[first[f] .. first[f + 1]), of undecided ones that samples are
-                              to tell of */
-    uint32_t *first, *crossing;
-} lrcsi_known;
-
-/* Bytes for that, at most. */
+/* Bytes for lrcsi_visible_known, at most. */
 size_t lrcsi_visible_known_need(const lrcs_prepared *prepared);
 
 /* Asks of uniform facets whether they are visible, of undecided ones whether they are hidden.

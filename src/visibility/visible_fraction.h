@@ -3,7 +3,8 @@
 #ifndef LRCSI_VISIBLE_FRACTION_H
 #define LRCSI_VISIBLE_FRACTION_H
 
-#include "visibility/visible.h"
+#include "visibility/raster.h"
+#include "visibility/visible_area.h"
 
 /* Sums over the facets of one component that share samples; areas in scaled units. */
 typedef struct lrcsi_fraction_remainder {

@@ -25,7 +25,10 @@ static int look(int thin)
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
     lrcsi_target target;
     lrcsi_target_make(&view, 0, &target);
-    return lrcsi_needle_make(&view, 0, (const double(*)[2])target.corner, target.reach, &needle);
+    const double *const point[3] = {lrcsi_target_own(&view, 0, 0), lrcsi_target_own(&view, 0, 1),
+                                    lrcsi_target_own(&view, 0, 2)};
+    return lrcsi_needle_make(&view, point, (const double(*)[2])target.corner, target.reach,
+                             &needle);
 }
 
 /* The point of shares (u, v), moved by s of the direction. */
