@@ -49,10 +49,10 @@ watched() { # NAME TEXT WORDS...
     same "$name" "$(python3 -B watch.py "$tool" 120 "$@")" "True True True"
 }
 watched a_stage_is_shown_and_a_stop_said '\r(preparing, [0-5] of 5 stages done|pose.*), [0-9]+ s' run ball.toml --tolerance 1e-9 --facets out.csv
-# a ball with curved normals behind slats: seconds in one pose, which says how far it is
+# a ball with curved normals behind very many slats: a long pose, which says how far it is
 python3 -c '
 import math
-n, slats = 300, 200
+n, slats = 200, 6000
 for i in range(slats):
     x = -1 + 2 * i / slats
     print("v", x, -1, 3, "\nv", x + 0.5 / slats, -1, 3, "\nv", x + 0.3 / slats, 1, 3)

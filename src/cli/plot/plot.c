@@ -66,29 +66,32 @@ static int outputs_check(const plot_job *job)
     return code;
 }
 
+/* Appends to the list the options of `head` that `other` lacks, or, if `values`, has otherwise. */
+static void differences_list(const sweep_head *head, const sweep_head *other, int values,
+                             char *list, size_t size)
+{
+    for (uint32_t i = 0; i < head->options && i < SWEEP_OPTIONS; i++) {
+        const char *key = head->option[i].key;
+        const char *text = cli_head_text(other, key);
+        size_t used = strlen(list);
+        if (!text || (values && strcmp(text, head->option[i].text) != 0)) {
+            snprintf(list + used, size - used, "%s%s", used > 0 ? ", " : "", key);
+        }
+    }
+}
+
 /* Reports how a file differs from the first. */
 static void differences_say(const plot_job *job, uint32_t k)
 {
     const sweep_data *first = &job->data[0];
     const sweep_data *other = &job->data[k];
     char list[800] = "";
-    size_t used = 0;
     if (first->head.scene_hash != other->head.scene_hash) {
-        used += (size_t)snprintf(list, sizeof list, "scene");
+        snprintf(list, sizeof list, "scene");
     }
-    for (int side = 0; side < 2; side++) {
-        const sweep_head *head = side == 0 ? &first->head : &other->head;
-        const sweep_head *against = side == 0 ? &other->head : &first->head;
-        for (uint32_t i = 0; i < head->options && used < 600; i++) {
-            const char *key = head->option[i].key;
-            const char *text = cli_head_text(against, key);
-            if (side == 1 ? !text : !text || strcmp(text, head->option[i].text) != 0) {
-                used += (size_t)snprintf(list + used, sizeof list - used, "%s%s",
-                                         used > 0 ? ", " : "", key);
-            }
-        }
-    }
-    if (used > 0) {
+    differences_list(&first->head, &other->head, 1, list, sizeof list);
+    differences_list(&other->head, &first->head, 0, list, sizeof list);
+    if (list[0] != '\0') {
         fprintf(stderr, "notice: %s differs from %s in %s\n", other->path, first->path, list);
     }
 }

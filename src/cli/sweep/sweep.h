@@ -8,7 +8,8 @@
 #include <lrcs/sweep.h>
 
 #define SWEEP_AXES    8
-#define SWEEP_JOINTS  8 /* joints whose angles a file of poses states */
+#define SWEEP_OPTIONS 24 /* that the head of a file may hold */
+#define SWEEP_JOINTS  8  /* joints whose angles a file of poses states */
 #define SWEEP_COLUMNS 20
 #define SWEEP_FIELDS  6 /* fields of a row after its values: sigma to flags */
 /* fields before the flags for the uncertainty, if materials state errors */
@@ -145,7 +146,7 @@ typedef struct sweep_head {
     struct {
         const char *key;
         char text[1200];
-    } option[24];
+    } option[SWEEP_OPTIONS];
     uint32_t options;
 } sweep_head;
 
