@@ -200,11 +200,17 @@ static double answer_error(const budget_answer *answer)
     return bound > tells && r->estimate_m2 >= 0.0 ? fmin(bound, tells + r->estimate_m2) : bound;
 }
 
+/* Is an answer better than the best so far? Errors within a thousandth of each other count as
+   equal: of these an answer found by a tolerance or by clipping is preferred. */
 static int answer_beats(const budget_answer *answer, const budget_answer *best)
 {
+    const double alike = 1.001;
     double error = answer_error(answer);
     double least = answer_error(best);
-    return error < least || (error <= least && answer->sought && !best->sought);
+    if (answer->sought != best->sought) {
+        return answer->sought ? error <= alike * least : alike * error < least;
+    }
+    return error < least;
 }
 
 /* Milliseconds left, as a time-out for poll: infinite if there is no answer yet. */
