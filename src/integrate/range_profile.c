@@ -76,6 +76,7 @@ typedef struct profile_job {
     lrcsi_visible *visible; /* of every facet; NULL if no facet stands for a curved shape */
     lrcsi_proximity_band margin;
     const lrcsi_proximity_band *doubt; /* margin, or NULL if none was made */
+    lrcsi_patch patch;                 /* of the last facet that has one */
     int tessellation_known;
     double tessellation;
 } profile_job;
@@ -351,7 +352,7 @@ static void facet_profile(profile_job *job, uint32_t facet, lrcsi_occluding *o)
     lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
     lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
     lrcsi_facet_terms terms =
-        lrcsi_facet_terms_make(job->view, &job->plan, facet, &incidence, &whole);
+        lrcsi_facet_terms_make(job->view, &job->plan, facet, &incidence, &whole, &job->patch);
     profile_facet f = {.glint = terms.glint / incidence.projected,
                        .diffuse = terms.diffuse / incidence.projected,
                        .rounding = terms.rounding / incidence.projected};
@@ -409,9 +410,8 @@ static void bent_charge(profile_job *job, uint32_t facet)
     profile_facet f;
     profile_facet other;
     lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
-    lrcs_brdf brdf = lrcsi_plan_brdf(&job->plan, lrcsi_prepared_material(job->prepared, facet));
-    lrcsi_patch_parts parts =
-        lrcsi_tessellation_parts(job->view, facet, &brdf, &incidence, job->visible, job->doubt);
+    lrcsi_patch_parts parts = lrcsi_tessellation_parts(job->view, &job->plan, facet, &incidence,
+                                                       job->visible, job->doubt, &job->patch);
     facet_ranges(job, facet, &f);
     facet_ranges(job, parts.partner, &other);
     double reach = reach_of(job, facet, &f);
