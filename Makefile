@@ -11,6 +11,7 @@
 #   make operations misra   steps a pose takes, beside the most; MISRA C:2012 and its deviations
 #   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
 #   make gpu                the paper's method in OpenGL, judged by the conformance kit
+#   make hard               the hard cases beside plain formulas, which fail on most of them
 #   make bench scaling      what poses cost on this machine, beside other engines, and how that grows
 # Compiling prints one line a file; V=1 prints the commands instead.
 
@@ -247,6 +248,10 @@ gpu: $(TOOL)
 GPU_PIXELS = 512
 .PHONY: gpu
 
+# The hard cases: the plain formula in doubles, the engine, and the reference with 50 digits.
+hard: cmocka $(BUILD)/test/integrate/test_plain
+	$(BUILD)/test/integrate/test_plain table
+
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
 	$(BUILD)/test/integrate/test_large $(BIG_ROWS)
@@ -289,7 +294,7 @@ cmocka:
 
 .PHONY: all demo charts study install uninstall clean cmocka
 .PHONY: test asan tsan lint purity layers amalgamation stack flight operations misra portable
-.PHONY: fuzz fuzz-long coverage test-core bounds agree estimate shadows bench scaling big
+.PHONY: fuzz fuzz-long coverage test-core bounds agree estimate shadows bench scaling hard big
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
