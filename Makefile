@@ -48,6 +48,7 @@ HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
 EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c))) $(STUDY)
+INCLUDED = $(BUILD)/demo.inc $(BUILD)/explore.inc $(BUILD)/readme.inc
 STUDY    = $(BUILD)/examples/study/study
 CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 JOINED   = $(BUILD)/amalgamation
@@ -90,7 +91,7 @@ tsan: cmocka
 	    $(BUILD)/tsan/test/host/test_sweep
 	$(BUILD)/tsan/test/host/test_sweep
 
-lint: $(BUILD)/demo.inc $(BUILD)/explore.inc
+lint: $(INCLUDED)
 	sh test/lint.sh $(BUILD)
 
 purity: $(LIB)
@@ -360,16 +361,18 @@ $(FLIGHT)/task.elf: $(wildcard examples/flight/*) $(JOINED)/lrcs.c
 	    -T examples/flight/board_m7.ld -o $@ examples/flight/task.c examples/flight/main.c \
 	    examples/flight/board_m7.c $(JOINED)/lrcs.c -lm
 
-# The built-in scene and the explorer's script, as the bytes of C arrays.
+# The built-in scene, the explorer's script and the text of a kit, as the bytes of C arrays.
 $(BUILD)/demo.inc: examples/satellite.toml
 $(BUILD)/explore.inc: src/cli/report/explore.js
-$(BUILD)/demo.inc $(BUILD)/explore.inc:
+$(BUILD)/readme.inc: src/cli/vectors/readme.md
+$(INCLUDED):
 	@mkdir -p $(@D)
 	$(call say,gen)
 	$(Q)od -An -v -td1 $< | sed 's/-*[0-9][0-9]*/&,/g' >$@
 
 $(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
 $(BUILD)/src/cli/report/explore.o: $(BUILD)/explore.inc
+$(BUILD)/src/cli/vectors/index.o: $(BUILD)/readme.inc
 
 $(BUILD)/src/%.o: src/%.c
 	@mkdir -p $(@D)
