@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The content of a kit as tables: materials.csv and cases.csv, which suffice for taking part, and
-   kit.json, the same in one file for programs that prefer it; and README.md, which is readme.md with
-   the list of scenes. */
+   kit.json, the same in one file for programs that prefer it; and README.md, which is readme.md
+   with the list of scenes. */
 #include "cli/vectors/vectors.h"
 
 static const char readme_text[] = {
