@@ -233,4 +233,5 @@ static int profile_command(const cli_args *args)
 
 const cli_command cli_profile_command = {
     "profile",    "SCENE",         "give a .3ds, .obj or .stl model, a scene file, or demo",
-    profile_help, profile_options, profile_command};
+    profile_help, profile_options, profile_command,
+    NULL};
