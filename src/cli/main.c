@@ -24,7 +24,7 @@ static const char main_help[] =
     "  profile SCENE   which part of sigma comes from which range, in bins, and to a pulse\n"
     "  info SCENE      what a model holds: parts, materials, area, volume, defects\n"
     "  shape KIND      sigma of a simple body from its closed form\n"
-    "  verify          the engine against closed forms, or on hard cases, on this machine\n"
+    "  verify          the engine against closed forms on this machine\n"
     "  converge SCENE  what accuracy costs in time: every method against the truth\n"
     "  sweep SCENE     sigma over attitudes, joints, materials: tables and maps, in threads\n"
     "  merge FILE...   the shards of a sweep made whole\n"
