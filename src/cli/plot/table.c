@@ -63,7 +63,7 @@ static int head_text(const lrcs_host_file *file, const char *key, char text[TABL
 static double head_number(const lrcs_host_file *file, const char *key)
 {
     char text[TABLE_TEXT];
-    double value = NAN;
+    double value;
     return head_text(file, key, text) &&
                    lrcs_host_number_read(text, strlen(text), &value) == LRCS_OK
                ? value
@@ -121,7 +121,7 @@ int cli_table_kind(const char *path)
 /* Reads a field that may be empty, which is NAN. */
 static int number_take(const table_job *job, uint32_t column, double *value, lrcs_host_error *error)
 {
-    *value = NAN;
+    *value = (double)NAN;
     return job->table.field[column].size == 0
                ? LRCS_OK
                : lrcs_host_field_read(&job->table, column, "a number", value, error);
@@ -144,7 +144,7 @@ static int columns_find(const table_job *job, const char *const *name, uint32_t 
 static int profile_row_take(table_job *job, const uint32_t column[5], lrcs_host_error *error)
 {
     profile_job *profile = &job->profile;
-    double value[5] = {NAN, NAN, NAN, NAN, NAN}; /* near, far, glint, diffuse, pulse */
+    double value[5] = {0.0}; /* near, far, glint, diffuse, pulse */
     profile_row *more = realloc(profile->row, (profile->rows + 1) * sizeof *more);
     if (!more) {
         snprintf(error->text, sizeof error->text, "out of memory");
@@ -188,11 +188,11 @@ static int profile_read(table_job *job, lrcs_host_error *error)
     return status;
 }
 
-/* The digits k of "1e-k" at the end of a text, 0 if there is none. */
+/* The digit k of "1e-k" in a text, 0 if there is none. */
 static int digits_of(const char *text)
 {
     const char *at = strstr(text, "1e-");
-    return at && at[3] >= '1' && at[3] <= '9' ? atoi(at + 3) : 0;
+    return at && at[3] >= '1' && at[3] <= '9' ? at[3] - '0' : 0;
 }
 
 static int converge_row_take(table_job *job, const uint32_t column[8], lrcs_host_error *error)
