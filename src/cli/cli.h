@@ -91,6 +91,8 @@ typedef struct cli_command {
     const char *help;
     const cli_option *option;
     int (*run)(const cli_args *args);
+    const char *help_more; /* the rest of a long help text (C compilers need accept only 4095
+                              characters in one literal); or NULL */
 } cli_command;
 
 typedef struct cli_given {

@@ -257,4 +257,5 @@ static int image_command(const cli_args *args)
 
 const cli_command cli_image_command = {
     "image",    "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
-    image_help, image_options, image_command};
+    image_help, image_options, image_command,
+    NULL};

@@ -69,6 +69,7 @@ static int help_print(const cli_command *command)
 {
     const lrcs_brdf_entry *entry;
     fputs(command ? command->help : main_help, stdout);
+    fputs(command && command->help_more ? command->help_more : "", stdout);
     for (const cli_option *o = command ? command->option : NULL; o && o->name; o++) {
         if (strcmp(o->name, "material") != 0) {
             continue;

@@ -211,5 +211,5 @@ static int verify_command(const cli_args *args)
     return tally.failed == 0 ? CLI_DONE : CLI_FAILED;
 }
 
-const cli_command cli_verify_command = {"verify",    NULL,           NULL,
-                                        verify_help, verify_options, verify_command};
+const cli_command cli_verify_command = {"verify",       NULL,           NULL, verify_help,
+                                        verify_options, verify_command, NULL};

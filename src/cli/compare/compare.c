@@ -155,4 +155,5 @@ static int compare_command(const cli_args *args)
 
 const cli_command cli_compare_command = {
     "compare",    "DIR THEIRS.csv...", "give a kit's folder and a table of answers to it",
-    compare_help, compare_options,     compare_command};
+    compare_help, compare_options,     compare_command,
+    NULL};

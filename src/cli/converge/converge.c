@@ -142,4 +142,5 @@ static int converge_command(const cli_args *args)
 
 const cli_command cli_converge_command = {
     "converge",    "SCENE",          "give a .3ds, .obj or .stl model, a scene file, or demo",
-    converge_help, converge_options, converge_command};
+    converge_help, converge_options, converge_command,
+    NULL};

@@ -356,4 +356,5 @@ static int fit_command(const cli_args *args)
 
 const cli_command cli_fit_command = {
     "fit",    "DATA.csv",  "give a table of angles (deg) and BRDF readings",
-    fit_help, fit_options, fit_command};
+    fit_help, fit_options, fit_command,
+    NULL};

@@ -206,4 +206,5 @@ static int plot_command(const cli_args *args)
 }
 
 const cli_command cli_plot_command = {"plot",    "FILE...",    "give files that lrcs sweep wrote",
-                                      plot_help, plot_options, plot_command};
+                                      plot_help, plot_options, plot_command,
+                                      NULL};

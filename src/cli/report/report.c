@@ -224,4 +224,5 @@ static int report_command(const cli_args *args)
 
 const cli_command cli_report_command = {
     "report",    "SCENE",        "give a .3ds, .obj or .stl model, a scene file, or demo",
-    report_help, report_options, report_command};
+    report_help, report_options, report_command,
+    NULL};
