@@ -42,10 +42,10 @@ static const char plot_help[] =
     "  lrcs plot profile.csv -o profile.svg\n"
     "  lrcs plot ball.csv --stats --stats-file ball.json --stats-file ball.svg\n";
 
-static const cli_option plot_options[] = {{"o", CLI_FILE, 1}, {"dbsm", 0, 0},
-                                          {"polar", 0, 0},    {"projection", 1, 0},
-                                          {"stats", 0, 0},    {"stats-file", CLI_FILE, 1},
-                                          {"help", 0, 0},     {NULL, 0, 0}};
+static const cli_option plot_options[] = {{"o", CLI_CHART, 1}, {"dbsm", 0, 0},
+                                          {"polar", 0, 0},     {"projection", 1, 0},
+                                          {"stats", 0, 0},     {"stats-file", CLI_FILE, 1},
+                                          {"help", 0, 0},      {NULL, 0, 0}};
 
 typedef struct plot_job {
     const cli_args *args;
@@ -221,9 +221,6 @@ static int table_run(const cli_args *args, const char *path, int kind)
         } else if (strcmp(one->name, "o") != 0) {
             return cli_usage(args->command, "--%s is for sweeps: %s is %s", one->name, path,
                              what[kind]);
-        } else if (!cli_extension(one->value, ".svg") && !cli_extension(one->value, ".png")) {
-            return cli_usage(args->command, "-o: expected FILE.svg or FILE.png, found '%s'",
-                             one->value);
         } else if (lrcs_host_output_same(one->value, path)) {
             return cli_usage(args->command, "-o %s: would overwrite what is read", one->value);
         } else {
