@@ -59,6 +59,20 @@ const char *cli_base_name(const char *path)
     return slash && slash[1] ? slash + 1 : path;
 }
 
+void cli_table_head(FILE *out, const char *command, const char *title, const lrcs_host_scene *scene,
+                    const double direction[3])
+{
+    fprintf(out, "# lrcs %s %s; scene_hash=%016llx; title=%s", lrcs_version(), command,
+            (unsigned long long)lrcs_scene_hash(&scene->scene), cli_base_name(title));
+    for (const lrcs_host_input *input = scene->input; input; input = input->next) {
+        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
+                (unsigned long long)input->hash);
+    }
+    for (int k = 0; k < 3; k++) {
+        cli_number_put(out, k == 0 ? "; direction=" : ",", direction[k]);
+    }
+}
+
 void cli_version_json(lrcs_host_json *json)
 {
     lrcs_host_json_count(json, "schema", CLI_SCHEMA);
@@ -149,17 +163,6 @@ void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrc
     lrcs_host_json_end(json);
 }
 
-/* 1 if an option names a file to write: a result does not depend on where it is written. */
-static int names_output(const cli_command *command, const char *name)
-{
-    for (const cli_option *option = command->option; option->name; option++) {
-        if (strcmp(option->name, name) == 0) {
-            return option->has_value == CLI_FILE;
-        }
-    }
-    return 0;
-}
-
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
 {
     char *text = NULL;
@@ -177,8 +180,8 @@ char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
     const char *before = "; options: ";
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
-        if (names_output(args->command, given->name)) {
-            continue;
+        if (cli_is_output(args->command, given->name)) {
+            continue; /* a result does not depend on where it is written */
         }
         fprintf(out, "%s%s%s%s%s", before, cli_dashes(given->name), given->name,
                 given->value ? "=" : "", given->value ? given->value : "");

@@ -58,7 +58,7 @@
 /* The most points of a rule. */
 #define POINTS_MOST 8
 /* Below this slope of the glint, a double is too coarse for its flank. */
-#define SLOPE_LEAST 1e-3
+#define GLINT_SLOPE_LEAST 1e-3
 
 /* Rules for the mean over [-1, 1]: the points >= 0 of those with 2, 3, 4, 6 and 8 points, and their
    weights, each for x and -x. Generated to 50 digits with Newton's method. */
@@ -109,8 +109,8 @@ int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
 }
 
 /* u = tan^2 theta of the normal at an azimuth, given sine and cosine of its angle from the axis. */
-static double tan2_at(const patch_frame *f, double sine, double cosine, double phi, double *c,
-                      double *p)
+static double patch_tan2(const patch_frame *f, double sine, double cosine, double phi, double *c,
+                         double *p)
 {
     const double n[3] = {sine * cos(phi), sine * sin(phi), cosine};
     const double *g = f->g;
@@ -160,7 +160,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
     }
     f->cosine = at->mirrored ? -f->cosine : f->cosine;
     f->area /= facets;
-    f->u = tan2_at(f, f->sine, f->cosine, f->phi, &f->c, &f->p);
+    f->u = patch_tan2(f, f->sine, f->cosine, f->phi, &f->c, &f->p);
     patch->blur = 2 * (lrcsi_profile_blur(&profile, at->row) + part->tilted);
     return isfinite(f->area) && (!f->fourth || profile.step > 0);
 }
@@ -235,8 +235,8 @@ static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf
 /* --- the mean --------------------------------------------------------------------------------- */
 
 /* Adds F at one normal. Returns 0 if rounding says too much about it. */
-static int add_point(const patch_frame *f, const lrcs_brdf *brdf, double alpha, double phi,
-                     double weight, lrcsi_patch *patch)
+static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double alpha, double phi,
+                           double weight, lrcsi_patch *patch)
 {
     double sine = f->sine;
     double cosine = f->cosine;
@@ -247,7 +247,7 @@ static int add_point(const patch_frame *f, const lrcs_brdf *brdf, double alpha, 
         cosine = copysign(fabs(cos(alpha)), f->cosine);
         weight *= f->fourth ? sine / (cosine * cosine * cosine * cosine) : sine;
     }
-    double u = tan2_at(f, sine, cosine, phi, &c, &p);
+    double u = patch_tan2(f, sine, cosine, phi, &c, &p);
     double du = 1.01 * (2 * p * TURN_OFF + TURN_OFF * TURN_OFF + 2 * u * c * TURN_OFF) / (c * c);
     double glint_off = brdf->A > 0 ? du * (2 + 1 / (brdf->s * brdf->s)) : 0;
     double diffuse_off = du * (0.5 * brdf->m + 1);
@@ -265,8 +265,8 @@ static int add_point(const patch_frame *f, const lrcs_brdf *brdf, double alpha, 
 }
 
 /* The sum over the points of both rules, times `share`. */
-static int add_points(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *along,
-                      const gauss_rule *around, double share, lrcsi_patch *patch)
+static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *along,
+                            const gauss_rule *around, double share, lrcsi_patch *patch)
 {
     int known = 1;
     int rows = f->step > 0 ? 2 * along->half : 1;
@@ -281,8 +281,8 @@ static int add_points(const patch_frame *f, const lrcs_brdf *brdf, const gauss_r
             if (k % 2 && y == 0) {
                 continue;
             }
-            known = add_point(f, brdf, f->alpha + x * f->step, f->phi + y * f->half,
-                              weight * around->weight[k / 2], patch);
+            known = patch_add_point(f, brdf, f->alpha + x * f->step, f->phi + y * f->half,
+                                    weight * around->weight[k / 2], patch);
         }
     }
     return known;
@@ -300,13 +300,13 @@ static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
         f.sine = sin(f.alpha);
         f.cosine = copysign(cos(f.alpha), whole->cosine);
     }
-    f.u = tan2_at(&f, f.sine, f.cosine, f.phi, &f.c, &f.p);
+    f.u = patch_tan2(&f, f.sine, f.cosine, f.phi, &f.c, &f.p);
     return f;
 }
 
 /* Adds one piece, `share` of the patch in those variables. Returns 0 if the laser may see some of
    it edge-on, or if rounding says too much about it. */
-static int add_piece(const patch_frame *f, const lrcs_brdf *brdf, double share, lrcsi_patch *patch)
+static int patch_add(const patch_frame *f, const lrcs_brdf *brdf, double share, lrcsi_patch *patch)
 {
     if (!(normal_moved(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half)) < 0.25 * f->c)) {
         return 0;
@@ -321,7 +321,7 @@ static int add_piece(const patch_frame *f, const lrcs_brdf *brdf, double share, 
     const gauss_rule *along =
         f->step > 0 ? rule_choose(f, brdf, 1, enough, &along_error) : &rules[0];
     patch->remainder += share * (along_error + around_error);
-    return add_points(f, brdf, along, around, share, patch);
+    return patch_add_points(f, brdf, along, around, share, patch);
 }
 
 /* The mean over the patch that patch->at names: in one piece, or in 4 or 16, if more are needed for
@@ -342,7 +342,7 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
         known = 1;
         for (int i = 0; i < rows * n && known; i++) {
             patch_frame piece = frame_piece(&f, n, i / n, i % n);
-            known = add_piece(&piece, brdf, 1.0 / (rows * n), patch);
+            known = patch_add(&piece, brdf, 1.0 / (rows * n), patch);
         }
         enough =
             known && patch->remainder <= 4 * REMAINDER_ENOUGH * (patch->glint + patch->diffuse);
@@ -369,7 +369,7 @@ int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_
     const lrcs_part *part = &scene->part[index];
     lrcsi_patch made = {.part = index, .side = view->facing[facet]};
     if (!plan->patches || made.side == 0 || !lrcsi_patch_exists(view->prepared, facet) ||
-        (brdf->A > 0 && !(brdf->s >= SLOPE_LEAST)) ||
+        (brdf->A > 0 && !(brdf->s >= GLINT_SLOPE_LEAST)) ||
         !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,
                                 &made.at)) {
         return 0;

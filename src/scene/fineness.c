@@ -155,7 +155,7 @@ static int has_patches(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
     lrcsi_axes axes;
     int flat = part->shape.kind == LRCS_SHAPE_PLATE || part->shape.kind == LRCS_SHAPE_BOX ||
                part->shape.kind == LRCS_SHAPE_DISC;
-    return fineness->parts > 1 && !fineness->facets_only && !flat &&
+    return fineness->parts > 1 && !flat &&
            lrcsi_placer_make(&part->place, &part->joint, &placer) == LRCS_OK &&
            lrcsi_placer_axes(&placer, &axes);
 }

@@ -14,6 +14,12 @@ static double total_sigma(const profile_job *job)
     return job->profile.list.sigma_glint_m2 + job->profile.list.sigma_diffuse_m2;
 }
 
+/* 1 if some normals are curved: then what their integral may be off by is estimated. */
+static int is_curved(const profile_job *job)
+{
+    return job->profile.list.curvature_estimate_m2 >= 0.0;
+}
+
 /* ---- CSV ---- */
 
 static void fields_write(FILE *out, const double *value, int count)
@@ -27,20 +33,20 @@ void cli_profile_csv(const profile_job *job, FILE *out)
 {
     double s_hat[3];
     cli_pose_unit(&job->pose, s_hat);
-    fprintf(out, "# lrcs %s profile; scene_hash=%016llx", lrcs_version(),
-            (unsigned long long)lrcs_scene_hash(&job->scene.scene));
-    for (const lrcs_host_input *input = job->scene.input; input; input = input->next) {
-        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
-                (unsigned long long)input->hash);
-    }
-    for (int k = 0; k < 3; k++) {
-        cli_number_put(out, k == 0 ? "; direction=" : ",", s_hat[k]);
+    cli_table_head(out, "profile", job->title, &job->scene, s_hat);
+    cli_number_put(out, "; sigma_m2=", total_sigma(job));
+    if (job->fwhm_m > 0.0) {
+        cli_number_put(out, "; pulse_fwhm_m=", job->fwhm_m);
     }
     cli_number_put(out, "; bound_of_the_sum_m2=", job->profile.list.bound_m2);
-    fprintf(out, "%s\n",
-            cli_materials_open(&job->scene.scene) ? "; materials=illustrative or assumed" : "");
+    fprintf(out, "%s\n", job->open ? "; materials=illustrative or assumed" : "");
     fputs("near_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);
-    fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m\n" : "\n", out);
+    fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m" : "", out);
+    fputs(!is_curved(job)     ? ""
+          : job->fwhm_m > 0.0 ? ",curvature_estimate_m2,pulse_estimate_m"
+                              : ",curvature_estimate_m2",
+          out);
+    putc('\n', out);
     for (uint32_t i = 0; i < job->rows; i++) {
         const profile_row *row = &job->row[i];
         double sigma = cli_profile_sigma(&row->bin);
@@ -53,7 +59,12 @@ void cli_profile_csv(const profile_job *job, FILE *out)
                                  sigma / job->bin_m,
                                  row->pulse_m,
                                  row->pulse_bound_m};
+        const double estimate[2] = {row->bin.curvature_estimate_m2, row->pulse_estimate_m};
         fields_write(out, value, job->fwhm_m > 0.0 ? 9 : 7);
+        if (is_curved(job)) {
+            putc(',', out);
+            fields_write(out, estimate, job->fwhm_m > 0.0 ? 2 : 1);
+        }
         putc('\n', out);
     }
 }
@@ -80,6 +91,9 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     lrcs_host_json_number(json, "sigma_glint_m2", p->sigma_glint_m2);
     lrcs_host_json_number(json, "sigma_diffuse_m2", p->sigma_diffuse_m2);
     lrcs_host_json_number(json, "bound_m2", p->bound_m2);
+    lrcs_host_json_text(json, "normals", lrcs_normals_text(job->scene.scene.normals));
+    lrcs_host_json_number(json, "curvature_estimate_m2",
+                          is_curved(job) ? p->curvature_estimate_m2 : (double)NAN);
     lrcs_host_json_text(json, "bound_refers_to",
                         p->tessellation_known
                             ? "the facets of models, and true curved shapes"
@@ -116,9 +130,15 @@ void cli_profile_json(const profile_job *job)
         lrcs_host_json_number(&json, "sigma_glint_m2", row->bin.sigma_glint_m2);
         lrcs_host_json_number(&json, "sigma_diffuse_m2", row->bin.sigma_diffuse_m2);
         lrcs_host_json_number(&json, "density_m", cli_profile_sigma(&row->bin) / job->bin_m);
+        if (is_curved(job)) {
+            lrcs_host_json_number(&json, "curvature_estimate_m2", row->bin.curvature_estimate_m2);
+        }
         if (job->fwhm_m > 0.0) {
             lrcs_host_json_number(&json, "pulse_m", row->pulse_m);
             lrcs_host_json_number(&json, "pulse_bound_m", row->pulse_bound_m);
+        }
+        if (job->fwhm_m > 0.0 && is_curved(job)) {
+            lrcs_host_json_number(&json, "pulse_estimate_m", row->pulse_estimate_m);
         }
         lrcs_host_json_end(&json);
     }
@@ -189,11 +209,18 @@ static void verdict_print(const profile_job *job)
     if (worst > 1e-6 * total_sigma(job) && !cli_has_curved_shapes(&job->scene.scene)) {
         printf("             A face within rounding of a bin's edge may be on either side of it\n");
     }
+    if (is_curved(job)) {
+        cli_bound_text(total_sigma(job) > 0.0 ? p->curvature_estimate_m2 / total_sigma(job) : 0.0,
+                       2, all);
+        printf("             Estimated, not proved: the integral over curved normals, to %s of "
+               "sigma\n",
+               all);
+    }
     if (!p->tessellation_known) {
         printf("             Left open: how far curved shapes are from the facets that stand for "
                "them\n");
     }
-    if (cli_materials_open(&job->scene.scene)) {
+    if (job->open) {
         printf("             Left open: materials, which are illustrative or default ones\n");
     }
 }
@@ -205,7 +232,7 @@ void cli_profile_table(const profile_job *job)
     char bound[CLI_BOUND_SIZE];
     cli_pose_unit(&job->pose, s_hat);
     printf("scene        ");
-    cli_column(cli_scene_title(job->args, &job->scene), 0);
+    cli_column(job->title, 0);
     printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
     printf("direction    %.10g, %.10g, %.10g   to the laser, body frame\n", s_hat[0], s_hat[1],
            s_hat[2]);
