@@ -65,9 +65,10 @@ typedef struct vertex_ring {
     unsigned char refused;  /* a condition is not met, or not proved */
 } vertex_ring;
 
-static void count_one_more(unsigned char *count)
+/* A count that stops at 2, and one more if `more` is 1; without a branch. */
+static unsigned char one_more(unsigned char count, int more)
 {
-    *count = (unsigned char)(*count < 2 ? *count + 1 : 2);
+    return (unsigned char)(count + (more & (count < 2)));
 }
 
 static void difference(const double *a, const double *b, double d[3])
@@ -119,8 +120,9 @@ static void round_means(vertex_ring *rings, uint32_t vertex_count)
         double most = x > y ? x : y;
         most = z > most ? z : most;
         r->refused = !(most > 0.0);
-        for (int k = 0; k < 3 && most > 0.0; k++) {
-            r->m[k] = (float)(((double)r->m[k] / most * RING_SCALE + whole) - whole);
+        double scale = most > 0.0 ? RING_SCALE / most : 0.0;
+        for (int k = 0; k < 3; k++) {
+            r->m[k] = (float)(((double)r->m[k] * scale + whole) - whole);
         }
     }
 }
@@ -132,6 +134,10 @@ static void match_spokes(const lrcsi_topology *topology, const unsigned char *sk
     for (uint32_t e = 0; e < topology->edge_count; e++) {
         const lrcsi_edge *edge = &topology->edge[e];
         const lrcsi_edge_use *use = topology->use + edge->first_use;
+        if (edge->uses == 2 && use[0].forward != use[1].forward &&
+            !(skip && (skip[use[0].facet] || skip[use[1].facet]))) {
+            continue; /* most edges */
+        }
         uint32_t uses[2] = {0, 0}; /* from high to low, from low to high */
         for (uint32_t i = 0; i < edge->uses; i++) {
             uses[use[i].forward] += !skip || !skip[use[i].facet];
@@ -144,7 +150,7 @@ static void match_spokes(const lrcsi_topology *topology, const unsigned char *sk
             uint32_t to = uses[1] ? edge->high : edge->low;
             rings[from].start = to;
             rings[to].end = from;
-            count_one_more(&rings[from].open);
+            rings[from].open = one_more(rings[from].open, 1);
         }
     }
 }
@@ -193,14 +199,11 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
             double start =
                 (g[0] * side[corner][0] + g[1] * side[corner][1]) + g[2] * side[corner][2];
             double end = -((g[0] * side[last][0] + g[1] * side[last][1]) + g[2] * side[last][2]);
-            if (!(turn > turn_error && fabs(start) > line_error[corner] &&
-                  fabs(end) > line_error[last])) {
-                r->refused = 1;
-            } else if (start < 0.0 && end > 0.0) {
-                count_one_more(&r->up);
-            } else if (start > 0.0 && end < 0.0) {
-                count_one_more(&r->down);
-            }
+            int sure = (turn > turn_error) & (fabs(start) > line_error[corner]) &
+                       (fabs(end) > line_error[last]);
+            r->refused |= (unsigned char)!sure;
+            r->up = one_more(r->up, (start < 0.0) & (end > 0.0));
+            r->down = one_more(r->down, (start > 0.0) & (end < 0.0));
         }
     }
 }

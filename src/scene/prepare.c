@@ -33,16 +33,19 @@ static int scene_check(const lrcs_scene *scene, double *most)
             return LRCS_E_NUMBER;
         }
     }
-    *most = 0;
+    double largest = 0;
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         const uint32_t *corner = scene->facet[f].corner;
+        double of_facet = 0;
         for (int k = 0; k < 3; k++) {
             if (corner[k] >= scene->vertex_count) {
                 return LRCS_E_INDEX;
             }
             const double *x = scene->vertex[corner[k]].x;
-            *most = lrcsi_most(*most, lrcsi_most(fabs(x[0]), lrcsi_most(fabs(x[1]), fabs(x[2]))));
+            double of_corner = lrcsi_most(fabs(x[0]), lrcsi_most(fabs(x[1]), fabs(x[2])));
+            of_facet = lrcsi_most(of_facet, of_corner);
         }
+        largest = lrcsi_most(largest, of_facet);
         for (int k = 0; scene->corner_normal && k < 9; k++) {
             if (!(fabs(scene->corner_normal[3 * (size_t)f + (size_t)k / 3].x[k % 3]) <= 1.0)) {
                 return LRCS_E_NUMBER;
@@ -58,6 +61,7 @@ static int scene_check(const lrcs_scene *scene, double *most)
             return LRCS_E_NUMBER;
         }
     }
+    *most = largest;
     return LRCS_OK;
 }
 
