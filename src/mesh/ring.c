@@ -43,6 +43,7 @@
 
 #include "base/constant.h"
 #include "base/exact.h"
+#include "base/vec3.h"
 #include "base/work.h"
 
 /* 10 u */
@@ -71,13 +72,6 @@ static unsigned char one_more(unsigned char count, int more)
     return (unsigned char)(count + (more & (count < 2)));
 }
 
-static void difference(const double *a, const double *b, double d[3])
-{
-    d[0] = b[0] - a[0];
-    d[1] = b[1] - a[1];
-    d[2] = b[2] - a[2];
-}
-
 /* Each facet's normal, its largest component brought to 1, is added to m at its corners. */
 static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
                         const uint32_t *weld, const unsigned char *skip, vertex_ring *rings)
@@ -89,8 +83,8 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
         const uint32_t *c = facet[f].corner;
         double p[3];
         double q[3];
-        difference(vertex[c[0]].x, vertex[c[1]].x, p);
-        difference(vertex[c[0]].x, vertex[c[2]].x, q);
+        lrcsi_vec3_between(vertex[c[0]].x, vertex[c[1]].x, p);
+        lrcsi_vec3_between(vertex[c[0]].x, vertex[c[2]].x, q);
         double x = p[1] * q[2] - p[2] * q[1];
         double y = p[2] * q[0] - p[0] * q[2];
         double z = p[0] * q[1] - p[1] * q[0];
@@ -172,9 +166,9 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
         }
         const uint32_t *c = facet[f].corner;
         double side[3][3]; /* from each corner to the next */
-        difference(vertex[c[0]].x, vertex[c[1]].x, side[0]);
-        difference(vertex[c[1]].x, vertex[c[2]].x, side[1]);
-        difference(vertex[c[2]].x, vertex[c[0]].x, side[2]);
+        lrcsi_vec3_between(vertex[c[0]].x, vertex[c[1]].x, side[0]);
+        lrcsi_vec3_between(vertex[c[1]].x, vertex[c[2]].x, side[1]);
+        lrcsi_vec3_between(vertex[c[2]].x, vertex[c[0]].x, side[2]);
         const double *p = side[0];
         const double *q = side[2]; /* turned round: the normal is q x p */
         const double plus[3] = {q[1] * p[2], q[2] * p[0], q[0] * p[1]};

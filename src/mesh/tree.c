@@ -36,6 +36,7 @@
 #include "base/length.h"
 #include "base/range.h"
 #include "base/sort.h"
+#include "base/vec3.h"
 #include "base/work.h"
 
 enum { TREE_LANES = LRCSI_TREE_LANES };
@@ -359,13 +360,13 @@ static void mean_direction(const lrcs_point *vertex, const lrcs_facet *facet,
             const lrcsi_tree_slabs *below = &tree->slabs[level][b];
             const double n[3] = {below->direction[0][i], below->direction[1][i],
                                  below->direction[2][i]};
-            double sign = n[0] * d[0] + n[1] * d[1] + n[2] * d[2] < 0.0 ? -1.0 : 1.0;
+            double sign = lrcsi_vec3_dot(n, d) < 0.0 ? -1.0 : 1.0;
             for (int k = 0; k < 3; k++) {
                 d[k] += sign * n[k];
             }
         }
     }
-    double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double size = sqrt(lrcsi_vec3_dot(d, d));
     int sign = d[0] + d[1] + d[2] < 0.0 ? -1 : 1; /* layers of either winding have one direction */
     for (int k = 0; k < 3; k++) {
         d[k] = size > 0.0 ? sign * fmax(-1.0, fmin(1.0, d[k] / size)) : 0.0;
@@ -389,7 +390,7 @@ void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lr
                 const uint32_t *corner = facet[tree->order[i]].corner;
                 for (int c = 0; c < 3; c++) {
                     const double *x = vertex[corner[c]].x;
-                    double place = d[0] * x[0] + d[1] * x[1] + d[2] * x[2];
+                    double place = lrcsi_vec3_dot(d, x);
                     low = place < low ? place : low;
                     high = place > high ? place : high;
                 }
@@ -464,11 +465,6 @@ static unsigned narrowed(lrcsi_tree_walk *w, int level, unsigned mask)
 
 /* ---- cones ---- */
 
-static double dot_product(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* To length 1; 0 if there is no direction. */
 static int normalise(double v[3])
 {
@@ -516,7 +512,7 @@ static lrcsi_tree_cone leaf_cone(const lrcs_point *vertex, const lrcs_facet *fac
     int found = normalise(cone.axis);
     for (uint32_t i = 0; i < count; i++) {
         for (int n = 0; n < 2; n++) {
-            cone.cosine = fmin(cone.cosine, dot_product(cone.axis, direction[i][n]));
+            cone.cosine = fmin(cone.cosine, lrcsi_vec3_dot(cone.axis, direction[i][n]));
         }
     }
     cone.cosine = found ? cone.cosine - CONE_MARGIN : -1.0;
@@ -543,7 +539,7 @@ static lrcsi_tree_cone block_cone(const lrcsi_tree *tree, int level, uint32_t b)
     }
     int found = normalise(cone.axis);
     for (uint32_t i = 0; i < count; i++) {
-        double c = fmin(1.0, dot_product(cone.axis, below[i].axis)) - CONE_MARGIN;
+        double c = fmin(1.0, lrcsi_vec3_dot(cone.axis, below[i].axis)) - CONE_MARGIN;
         double all = -1.0;
         if (c > 0.0 && below[i].cosine > 0.0) {
             all = c * below[i].cosine - sqrt((1.0 - c) * (1.0 + c)) * cone_sine(&below[i]);
@@ -572,7 +568,7 @@ void lrcsi_tree_fill_cones(const lrcs_point *vertex, const lrcs_facet *facet,
 static int cones_are_apart(const lrcsi_tree_cone *a, const lrcsi_tree_cone *b)
 {
     return a->cosine > 0.0 && b->cosine > 0.0 &&
-           dot_product(a->axis, b->axis) + CONE_MARGIN <
+           lrcsi_vec3_dot(a->axis, b->axis) + CONE_MARGIN <
                a->cosine * b->cosine - cone_sine(a) * cone_sine(b);
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/constant.h"
 #include "base/range.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "mesh/slice.h"
 #include "mesh/tree.h"
@@ -102,11 +103,8 @@ static lrcsi_slice near_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
         const double *b = lrcsi_prepared_corner(p, other, (side + 1) % 3);
         const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
         double out[3];
-        for (int k = 0; k < 3; k++) {
-            out[k] = along[(k + 1) % 3] * n[(k + 2) % 3] - along[(k + 2) % 3] * n[(k + 1) % 3];
-        }
-        double size = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
-        lrcsi_slice_cut(&slice, out, a, slack * size);
+        lrcsi_vec3_cross(along, n, out);
+        lrcsi_slice_cut(&slice, out, a, slack * sqrt(lrcsi_vec3_dot(out, out)));
     }
     return slice;
 }

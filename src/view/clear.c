@@ -22,6 +22,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "optics/closed.h"
 
@@ -42,20 +43,6 @@ typedef struct clear_body {
     double centre[3]; /* of its box */
     double off;       /* of a support along a unit vector */
 } clear_body;
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3;
-        int j = (k + 2) % 3;
-        out[k] = a[i] * b[j] - a[j] * b[i];
-    }
-}
 
 /* Support off: 64 u covers some 30 operations on magnitudes below the sum of its numbers; the
    length of a cone from its half-angle, 4 u more. */
@@ -87,11 +74,11 @@ static clear_body body_make(const lrcs_prepared *p, uint32_t index)
 /* The most of n . x over the true shape: with r the part of n across the axis and z along it. */
 static double support_curved(const clear_body *body, const double n[3])
 {
-    double x = dot(body->part->axis[0], n);
-    double y = dot(body->part->axis[1], n);
-    double z = dot(body->part->axis[2], n);
+    double x = lrcsi_vec3_dot(body->part->axis[0], n);
+    double y = lrcsi_vec3_dot(body->part->axis[1], n);
+    double z = lrcsi_vec3_dot(body->part->axis[2], n);
     double r = sqrt(x * x + y * y);
-    double at = dot(body->origin, n);
+    double at = lrcsi_vec3_dot(body->origin, n);
     double rim = body->radius * r;
     double rise = body->length * z;
     switch (body->part->kind) {
@@ -125,7 +112,7 @@ static double support_facets(const clear_body *body, const double n[3])
     }
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
         for (int k = 0; k < 3 && !p->skip[f]; k++) {
-            most = lrcsi_most(most, dot(lrcsi_prepared_corner(p, f, k), n));
+            most = lrcsi_most(most, lrcsi_vec3_dot(lrcsi_prepared_corner(p, f, k), n));
         }
     }
     return most;
@@ -159,7 +146,7 @@ static double slab_surface(const clear_body *body, double height)
 static int is_separating(const clear_body *P, const clear_body *Q, const double d[3],
                          const double n[3], int knows, double *slab)
 {
-    double error = P->off + Q->off + LENGTH * lrcsi_most(0, 8 * LRCSI_U - dot(n, d));
+    double error = P->off + Q->off + LENGTH * lrcsi_most(0, 8 * LRCSI_U - lrcsi_vec3_dot(n, d));
     const double down[3] = {-n[0], -n[1], -n[2]};
     double gap = -support(P, down) - support(Q, n);
     if (gap > error) {
@@ -174,13 +161,13 @@ static int is_separating(const clear_body *P, const clear_body *Q, const double 
 static int is_separated_along(const clear_body *P, const clear_body *Q, const double d[3],
                               const double n[3], int knows, double *slab)
 {
-    double length = sqrt(dot(n, n));
+    double length = sqrt(lrcsi_vec3_dot(n, n));
     if (!(length > 0x1p-30)) {
         return 0;
     }
     const double up[3] = {n[0] / length, n[1] / length, n[2] / length};
     const double down[3] = {-up[0], -up[1], -up[2]};
-    double toward = dot(up, d);
+    double toward = lrcsi_vec3_dot(up, d);
     return (toward >= -8 * LRCSI_U && is_separating(P, Q, d, up, knows, slab)) ||
            (toward <= 8 * LRCSI_U && is_separating(P, Q, d, down, knows, slab));
 }
@@ -200,11 +187,11 @@ static int is_separated(const clear_body *P, const clear_body *Q, const double d
     for (int k = 0; k < 3; k++) {
         between[k] = P->centre[k] - Q->centre[k];
     }
-    double along = dot(between, d);
+    double along = lrcsi_vec3_dot(between, d);
     for (int k = 0; k < 3; k++) {
         flat[k] = between[k] - along * d[k];
     }
-    cross(P->part->axis[2], d, across);
+    lrcsi_vec3_cross(P->part->axis[2], d, across);
     if (is_separated_along(P, Q, d, flat, round, slab) ||
         is_separated_along(P, Q, d, P->part->axis[2], knows, slab) ||
         is_separated_along(P, Q, d, d, round, slab) ||
@@ -214,7 +201,7 @@ static int is_separated(const clear_body *P, const clear_body *Q, const double d
     }
     const double(*axis)[3] = Q->part->rigid ? (const double(*)[3])Q->part->axis : body_axis;
     for (int k = Q->curved ? 2 : 0; k < 3; k++) {
-        cross(axis[k], d, across);
+        lrcsi_vec3_cross(axis[k], d, across);
         if (is_separated_along(P, Q, d, axis[k], round, slab) ||
             is_separated_along(P, Q, d, across, round, slab)) {
             return 1;
@@ -230,7 +217,7 @@ static int shows_no_inside(const lrcsi_view *view, const lrcs_part *part)
     const lrcs_material *material = lrcsi_prepared_material(view->prepared, part->first_facet);
     int one = part->kind != LRCS_SHAPE_CYLINDER && part->kind != LRCS_SHAPE_FRUSTUM;
     return part->solid || !material->two_sided || !view->backs_reflect ||
-           (one && dot(part->axis[2], view->unit) > 16 * LRCSI_U);
+           (one && lrcsi_vec3_dot(part->axis[2], view->unit) > 16 * LRCSI_U);
 }
 
 size_t lrcsi_clear_need(const lrcs_prepared *p)

@@ -8,6 +8,7 @@
 
 #include "base/degrees.h"
 #include "base/rotate.h"
+#include "base/vec3.h"
 
 lrcs_pose lrcs_pose_default(void)
 {
@@ -65,7 +66,7 @@ int lrcs_pose_from_direction(const double direction[3], lrcs_pose *pose)
     if (status != LRCS_OK) {
         return status;
     }
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double length = sqrt(lrcsi_vec3_dot(d, d));
     const double s_hat[3] = {d[0] / length, d[1] / length, d[2] / length};
     memcpy(pose->direction, d, sizeof d);
     shortest_arc(s_hat, pose->R);

@@ -12,6 +12,7 @@
 #include "base/ieee.h"
 #include "base/length.h"
 #include "base/range.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "view/frame.h"
 #include "view/product.h"
@@ -298,8 +299,7 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
     if (!v.facing) {
         return LRCS_E_MEMORY;
     }
-    v.length = sqrt(v.direction[0] * v.direction[0] + v.direction[1] * v.direction[1] +
-                    v.direction[2] * v.direction[2]);
+    v.length = sqrt(lrcsi_vec3_dot(v.direction, v.direction));
     view_unit(&v);
     view_facings(&v);
     *view = v;
