@@ -17,10 +17,10 @@
    one (4). If not, it is k + 1 from the spoke that is a start only to the one that is an end only
    and k beyond, and k = 0 (4). So the insides of sectors do not overlap. Nor do two spokes
    coincide, seen against m: just before that ray there would be two sectors if both are ends, just
-   after it if both are starts; and a lone start in one ray with the lone end would leave no
+   after it if both are starts; and the only start and the only end in one ray would leave no
    direction free. So if points of two facets coincide, seen against m, they are v or lie on one
-   spoke that bounds both sectors. m is parallel to neither facet (1): the points are the same where
-   they lie on that spoke, along which both facets have the same side. QED
+   spoke that bounds both sectors. m is parallel to neither facet (1), so the points are equal only
+   on that spoke, along which both facets have the same side. QED
 
    4 is decided with a line through v: g = m x w for some w. A sector crosses the ray along w, seen
    against m, if it starts with g . (b - v) < 0 and ends with g . (c - v) > 0, and the opposite ray

@@ -7,9 +7,9 @@
 
 #include "base/vec3.h"
 
-/* Corners of coordinates below 1 come out within some 2^-48, which changes areas by no more than
-   that times the perimeter: for a triangle lower than this no share of the area is certain; for
-   others it is certain to within the margin, 3 2^-48 / (SLICE_LOW / 2). */
+/* Corners, with coordinates below 1, have errors of about 2^-48, which change areas by at most that
+   times the perimeter. The share of a triangle of less altitude than SLICE_LOW is unknown; that of
+   others has at most the error of the margin, 3 2^-48 / (SLICE_LOW / 2). */
 #define SLICE_LOW    1e-7
 #define SLICE_MARGIN (1.0 + 1e-6)
 /* Rounding of the two ends of an extent. */

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "base/work.h"
 #include "mesh/profile.h"
@@ -192,7 +193,7 @@ static int list_rings(uint32_t around, uint32_t corners[RINGS_MOST], double radi
     double r = 1.0;
     while (around >= RING_LEAST && rings < RINGS_MOST) {
         around = 4 * ((around + 16) / 32);
-        r *= 1.0 - 0.5 * (2.0 * LRCSI_PI) / around;
+        r *= 1.0 - LRCSI_PI / around;
         corners[rings] = around;
         radius[rings++] = r;
     }

@@ -159,7 +159,7 @@ static void sink_use(lrcsi_edge_use *use, size_t i, size_t n)
     use[i] = sinking;
 }
 
-/* Insertion sort if there are few, as at most vertices; else heap sort. */
+/* Insertion sort if there are few, as at most vertices; otherwise heap sort. */
 static void sort_uses(lrcsi_edge_use *use, size_t n)
 {
     if (n > 32) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Poses: the direction to the laser and the matrix that carries pictures. Decides how each way
-   of saying an attitude becomes both; how a matrix comes from angles is base/rotate. */
+/* Poses: the direction to the laser and the rotation matrix for pictures. Decides how each
+   description of an attitude becomes both; matrices from angles are computed in base/rotate. */
 #include <lrcs/pose.h>
 
 #include <math.h>
@@ -16,8 +16,8 @@ lrcs_pose lrcs_pose_default(void)
     return pose;
 }
 
-/* The unit vector (c, s) along (x, y), however small those are; (0, 1) where both are zero, which
-   makes the shortest arc from -z a turn about x. */
+/* The unit vector (c, s) along (x, y), however small those are; (0, 1) if both are zero, which
+   makes the shortest arc from -z a rotation about x. */
 static void heading(double x, double y, double out[2])
 {
     const double given[2] = {x, y};
