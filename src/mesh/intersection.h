@@ -17,8 +17,8 @@ typedef struct lrcsi_intersection {
 } lrcsi_intersection;
 
 typedef struct lrcsi_intersections {
-    uint32_t *first; /* facet_count + 1: entries of facet i are touch[first[i] .. first[i+1]) */
-    lrcsi_intersection *touch; /* by facet, then by other */
+    uint32_t *first; /* facet_count + 1: entries of facet i are entry[first[i] .. first[i+1]) */
+    lrcsi_intersection *entry; /* by facet, then by other */
     uint32_t count;
     unsigned char *rim; /* facet: not 0 if another facet meets it elsewhere than in common corners
                        and along common sides; then also a bit for each of its sides
