@@ -7,7 +7,7 @@
 #include "scene/prepared.h"
 
 /* Fills p->redundant and p->opposite; facets of curved shapes are not redundant and have no
-   opposite. Given: the topology, and p->redundant where facets are skipped. Status: LRCS_OK;
+   opposite. Given: the topology, and p->redundant of skipped facets. Status: LRCS_OK;
    LRCS_E_MEMORY. Work: p->opposite stays, if there are any; lrcsi_coincident_need bytes at most.
    Linear time. */
 size_t lrcsi_coincident_need(uint32_t vertex_count, uint32_t facet_count);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Preparing a scene: scaling by a power of two, normals, edges, contacts, and what can be proved
-   for every direction at once. It decides nothing that depends on where the laser stands. */
+   for every direction at once. It decides nothing that depends on the direction to the laser. */
 #include "scene/prepare.h"
 
 #include <math.h>
@@ -65,7 +65,7 @@ static int scene_check(const lrcs_scene *scene, double *most)
     return LRCS_OK;
 }
 
-/* Scaled in two steps, that neither power overflows: exact, unless it becomes 0. */
+/* Scaled in two steps, so that neither power overflows: exact, unless it becomes 0. */
 static void scale_vertices(lrcs_prepared *p)
 {
     double first = ldexp(1, -p->exponent / 2);
@@ -81,7 +81,7 @@ static void scale_vertices(lrcs_prepared *p)
 /* Normals computed side by side. */
 enum { CROSS_LANES = 8 };
 
-/* Where |N| falls below this share of |p| |q|, the products cancel and N is taken exactly. */
+/* If |N| is below this fraction of |p| |q|, the products cancel and N is computed exactly. */
 #define NORMAL_SLIVER 0x1p-10
 
 /* Sides p = b - a and q = c - a of facets, and N = p x q: component by component, so that compilers
@@ -122,8 +122,8 @@ static void lanes_cross(cross_lanes *n)
     }
 }
 
-/* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| comes out
-   of doubles within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
+/* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| is computed
+   within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
 static void normal_take(lrcs_prepared *prepared, uint32_t facet, const cross_lanes *lanes, int at)
 {
     lrcsi_normal *n = &prepared->normal[facet];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The slack between parts and the facets within it. visibility/proximity_band.h proves that these
-   distances suffice. Shares are rounded outward: coordinates here are below 1 and doubles good to
-   2^-48 of that, so every distance is widened by LRCSI_PROXIMITY_ERR. */
+   distances suffice. Shares are rounded outward: coordinates here are below 1 and doubles accurate
+   to 2^-48, so every distance is widened by LRCSI_PROXIMITY_ERR. */
 #include "scene/proximity.h"
 
 #include <math.h>

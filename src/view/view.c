@@ -59,7 +59,8 @@ static double grazing_dot(const lrcsi_view *view, uint32_t facet)
 
 /* A dot product below this multiple of its error is taken exactly. */
 #define GRAZING_DOT 0x1p50
-/* Closer to edge-on than this, only a lower bound of tan^2 is known, whose square is a double. */
+/* Closer to edge-on than this, only a lower bound of tan^2 is known: about 2^1000, still a double.
+ */
 #define GRAZING_LEAST 0x1p-500
 
 /* |N . d| and its error: the computed value, or near grazing incidence the exact one, to 2 u; too
