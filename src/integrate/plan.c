@@ -189,7 +189,8 @@ static lrcs_effect term_effect(int term, int assigned, int seen, const term_text
     if (!seen && term == LRCSI_TERM_FORCED) {
         return (lrcs_effect){1, text->forced};
     }
-    return seen ? (lrcs_effect){1, text->assigned} : (lrcs_effect){0, assigned ? text->unseen : text->none};
+    return seen ? (lrcs_effect){1, text->assigned}
+                : (lrcs_effect){0, assigned ? text->unseen : text->none};
 }
 
 static lrcs_effect closed_effect(const lrcsi_view *view, const lrcsi_clear *clear)
