@@ -18,7 +18,7 @@
 
    Paraboloid: n_z = P + Q cos(phi), P = cos(alpha) cos(theta), Q = sin(alpha) sin(theta). With
    kappa = (P - Q)/(P + Q), tan(phi/2) = tan(sqrt(kappa) y / 2)/sqrt(kappa) and
-   S = sin^2(sqrt(kappa) y / 2)/kappa (for kappa < 0 their hyperbolic twins) one finds
+   S = sin^2(sqrt(kappa) y / 2)/kappa (for kappa < 0 their hyperbolic counterparts) one finds
      dphi / n_z^4 = (1 + 2 S Q/(P + Q))^3 dy / (P + Q)^4,  n_z = (P + Q)/(1 + 2 S Q/(P + Q)),
    an entire function of y with positive terms only, smooth across kappa = 0. */
 #include <math.h>

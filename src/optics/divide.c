@@ -321,9 +321,9 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
                      lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     int status = lrcs_shape_check(shape, NULL);
-    int wear = lrcs_brdf_check(&fineness->brdf);
-    if (status != LRCS_OK || wear < 0) {
-        return status != LRCS_OK ? status : wear;
+    int warnings = lrcs_brdf_check(&fineness->brdf);
+    if (status != LRCS_OK || warnings < 0) {
+        return status != LRCS_OK ? status : warnings;
     }
     if (!isfinite(fineness->tolerance)) {
         return LRCS_E_NUMBER;

@@ -9,7 +9,7 @@
 #include "scene/prepared.h"
 
 /* Every slack is widened by this: coordinates are below 1, and doubles good to 2^-48 of that. */
-#define LRCSI_NEAR_OFF 0x1p-44
+#define LRCSI_PROXIMITY_ERR 0x1p-44
 
 /* The distance between a facet of `part` and one of `other`, or in projection its rims and
    contours, below which the true visibility may differ: 0 if both parts' facets are exact. */

@@ -140,8 +140,8 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
     int order = lrcsi_contact_side(view, a->facet, other);
     for (uint32_t i = intersections->first[a->facet];
          order == 0 && i < intersections->first[a->facet + 1]; i++) {
-        if (intersections->touch[i].other == other &&
-            !lrcsi_intersection_hides(view, a->facet, &intersections->touch[i])) {
+        if (intersections->entry[i].other == other &&
+            !lrcsi_intersection_hides(view, a->facet, &intersections->entry[i])) {
             order = -1;
         }
     }
@@ -304,7 +304,7 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
     lrcsi_cells_work *c = &a->cells;
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
     for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
-        const lrcsi_intersection *touch = &intersections->touch[i];
+        const lrcsi_intersection *touch = &intersections->entry[i];
         if (alone_listed(a, touch->other) && lrcsi_intersection_hides(c->view, a->facet, touch) &&
             !alone_contact(a, touch->other)) {
             return 0;
