@@ -44,8 +44,9 @@ typedef struct patch_scene {
 static void scene_make(const lrcs_shape *shape, const lrcs_place *place, const lrcs_brdf *brdf,
                        int two_sided, const double d[3], patch_scene *s)
 {
-    lrcs_recipe_part part[2] = {{.name = "a", .wears = -1, .place = *place, .shape = *shape},
-                                {.name = "b", .wears = -1, .place = lrcs_place_default()}};
+    lrcs_recipe_part part[2] = {
+        {.name = "a", .material_index = -1, .place = *place, .shape = *shape},
+        {.name = "b", .material_index = -1, .place = lrcs_place_default()}};
     part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {1, 1}};
     part[1].place.translate[2] = -30;
     lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = two_sided};

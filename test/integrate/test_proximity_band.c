@@ -19,7 +19,7 @@ typedef struct built {
     const lrcs_prepared *prepared;
 } built;
 
-static unsigned char run_memory[1u << 27];
+static unsigned char run_memory[1u << 29];
 
 static void build_recipe(const lrcs_recipe *recipe, const lrcs_mesh *models, double tolerance,
                          uint32_t facets, built *b)
