@@ -37,16 +37,22 @@ static const char profile_help[] =
     "  --plot FILE           FILE.svg or FILE.png: density over range, and the pulse's response\n"
     "  --tolerance REL       relative error that shapes are meshed for (1e-4); if given, exit 3 "
     "where\n"
-    "                        the bound of all bins together exceeds it\n" CLI_SCENE_HELP "\n"
+    "                        the bound of all bins together, or the estimated error of curved\n"
+    "                        normals, exceeds it\n"
+    "  --normals N           flat (default); smooth: curved, from smoothing groups and vertex "
+    "normals;\n"
+    "                        auto: only where flat facets are too coarse for their glint. The "
+    "range\n"
+    "                        stays that of the facets\n" CLI_SCENE_HELP "\n"
     "examples\n"
     "  lrcs profile demo --azel 50,40 --bin 0.1\n"
     "  lrcs profile demo --azel 50,40 --bin 0.05 --pulse-fwhm 0.3 --plot profile.svg\n"
     "  lrcs profile aura.3ds --unit in --azel 30,20 --bin 0.02 --csv profile.csv\n";
 
 static const cli_option profile_options[] = {
-    CLI_POSE_OPTIONS, CLI_SCENE_OPTIONS,    {"bin", 1, 0},         {"pulse-fwhm", 1, 0},
-    {"json", 0, 0},   {"csv", CLI_FILE, 0}, {"plot", CLI_FILE, 0}, {"tolerance", 1, 0},
-    {"help", 0, 0},   {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,  CLI_SCENE_OPTIONS,    {"bin", 1, 0},         {"pulse-fwhm", 1, 0},
+    {"json", 0, 0},    {"csv", CLI_FILE, 0}, {"plot", CLI_FILE, 0}, {"tolerance", 1, 0},
+    {"normals", 1, 0}, {"help", 0, 0},       {NULL, 0, 0}};
 
 double cli_profile_sigma(const lrcs_profile_bin *bin)
 {
@@ -95,6 +101,7 @@ static int options_read(profile_job *job)
     code = code ? code : cli_accuracy_read(args, &options);
     code = code ? code : files_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
+    code = code ? code : cli_normals_read(args, &job->load);
     job->load.build.tolerance = options.tolerance;
     job->load.build.facets_only = 1;
     job->asked = cli_value(args, "tolerance") ? options.tolerance : 0.0;
@@ -121,7 +128,7 @@ static int pulse_run(profile_job *job)
     for (uint32_t i = 0; i < job->rows && status == LRCS_OK; i++) {
         profile_row *row = &job->row[i];
         status = lrcs_profile_pulse(fine, job->fwhm_m, 0.5 * row->near_m + 0.5 * row->far_m,
-                                    &row->pulse_m, &row->pulse_bound_m);
+                                    &row->pulse_m, &row->pulse_bound_m, &row->pulse_estimate_m);
     }
     if (status != LRCS_OK && error.text[0] == '\0') {
         snprintf(error.text, sizeof error.text, "pulse of %g m: %s", job->fwhm_m,
@@ -174,7 +181,8 @@ static int profile_run(profile_job *job)
         return cli_failed(&error);
     }
     const lrcs_profile *p = &job->profile.list;
-    job->met = p->bound_m2 <= job->asked * (p->sigma_glint_m2 + p->sigma_diffuse_m2);
+    job->met = fmax(p->bound_m2, p->curvature_estimate_m2) <=
+               job->asked * (p->sigma_glint_m2 + p->sigma_diffuse_m2);
     return rows_list(job);
 }
 
