@@ -105,9 +105,9 @@ typedef struct lrcs_host_input {
 enum lrcs_host_prepare_stage {
     LRCS_HOST_PREPARE_EDGES,      /* checks; points welded; edges */
     LRCS_HOST_PREPARE_NEIGHBOURS, /* coincident facets; which facet lies across each side */
-    LRCS_HOST_PREPARE_NORMALS,    /* and what else is found facet by facet */
-    LRCS_HOST_PREPARE_CONTACTS,
-    LRCS_HOST_PREPARE_PROOFS, /* closed and outward, convex, what is near curved shapes */
+    LRCS_HOST_PREPARE_CONTACTS,   /* between facets; is the scene closed and outward? */
+    LRCS_HOST_PREPARE_NORMALS,
+    LRCS_HOST_PREPARE_PROOFS, /* convex, what is near curved shapes */
     LRCS_HOST_PREPARE_STAGES
 };
 enum lrcs_host_pose_stage {
