@@ -4,7 +4,7 @@
 #ifndef LRCS_CLI_H
 #define LRCS_CLI_H
 
-#include <lrcs/host.h>
+#include <lrcs/picture.h>
 
 #define CLI_PI      3.14159265358979323846
 #define CLI_DEGREES (180.0 / CLI_PI) /* degrees per radian */
@@ -201,10 +201,23 @@ int cli_materials_open(const lrcs_scene *scene);         /* 1 if some are illust
 void cli_version_json(lrcs_host_json *json);             /* schema and version */
 void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* hash of the scene */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
-/* The same in one line for pictures: version, scene hash, files, materials, options. NULL without
-   memory; the caller frees it. */
+/* The same in one line for pictures: version, scene hash, files, materials, options; without a
+   scene (NULL), the operand as the file. NULL without memory; the caller frees it. */
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
+void cli_options_json(const cli_args *args, lrcs_host_json *json); /* only the options given */
+void cli_operand_json(const cli_args *args, lrcs_host_json *json); /* the operand as "files" */
+void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json);
+/* Writes them beside a file of numbers whose format has no place for them, as FILE.json (FILE.csv
+   .json), with the hash of that file; nothing beside standard output or a device. scene and pose
+   may be NULL. 0 or CLI_FAILED. */
+#define CLI_BESIDE ".json"
+int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
+                          const lrcs_pose *pose);
+
+/* FNV-1a: the sum of no bytes, and of more bytes. */
+#define CLI_SUM_BEGIN 0xcbf29ce484222325u
+uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size);
 
 /* The name of a scene's material as it is printed: "(default)" if it has none. */
 const char *cli_material_name(const lrcs_material *material);
@@ -270,6 +283,20 @@ int cli_outputs_places(const cli_args *args);
 int cli_outputs_apart(const cli_command *command, const cli_output *output, int count);
 int cli_outputs_spare(const cli_command *command, const cli_output *output, int count,
                       const lrcs_host_scene *scene);
+
+/* Checks that --csv - and --json do not both want standard output; that a chart's file is SVG or
+   PNG (`option` with its dashes). 0 or CLI_USAGE. */
+int cli_stdout_check(const cli_args *args);
+int cli_chart_check(const cli_args *args, const char *option, const char *path);
+
+/* Writes a chart as PNG or as SVG, with what it was made from (scene as in cli_provenance_text).
+   Status: as lrcs_host_chart_png. */
+int cli_chart_write(FILE *out, int png, const lrcs_host_chart *chart, const cli_args *args,
+                    const lrcs_host_scene *scene, lrcs_host_error *error);
+/* Writes what the laser sees as PNG, likewise. Status: as lrcs_host_picture_png. */
+int cli_picture_write(FILE *out, const lrcs_host_picture *picture, const lrcs_image *image,
+                      uint32_t size, const cli_args *args, const lrcs_host_scene *scene,
+                      lrcs_host_error *error);
 
 /* Writes a file atomically: it appears complete or not at all. 0 or CLI_FAILED with the message
    printed. */

@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -79,6 +80,50 @@ int cli_outputs_spare(const cli_command *command, const cli_output *output, int 
         }
     }
     return 0;
+}
+
+int cli_stdout_check(const cli_args *args)
+{
+    const char *csv = cli_value(args, "csv");
+    return csv && strcmp(csv, "-") == 0 && cli_value(args, "json")
+               ? cli_usage(args->command, "--csv - and --json both want standard output")
+               : 0;
+}
+
+int cli_chart_check(const cli_args *args, const char *option, const char *path)
+{
+    return cli_extension(path, ".svg") || cli_extension(path, ".png")
+               ? 0
+               : cli_usage(args->command, "%s%s: expected FILE.svg or FILE.png, found '%s'",
+                           cli_dashes(option), option, path);
+}
+
+int cli_chart_write(FILE *out, int png, const lrcs_host_chart *chart, const cli_args *args,
+                    const lrcs_host_scene *scene, lrcs_host_error *error)
+{
+    lrcs_host_chart all = *chart;
+    char *about = cli_provenance_text(args, scene);
+    int status = LRCS_OK;
+    all.about = about;
+    if (png) {
+        status = lrcs_host_chart_png(out, &all, error);
+    } else {
+        lrcs_host_chart_svg(out, &all);
+    }
+    free(about);
+    return status;
+}
+
+int cli_picture_write(FILE *out, const lrcs_host_picture *picture, const lrcs_image *image,
+                      uint32_t size, const cli_args *args, const lrcs_host_scene *scene,
+                      lrcs_host_error *error)
+{
+    lrcs_host_picture all = *picture;
+    char *about = cli_provenance_text(args, scene);
+    all.about = about;
+    int status = lrcs_host_picture_png(out, &all, image, size, error);
+    free(about);
+    return status;
 }
 
 int cli_output_write(const char *path, cli_writer *write, const void *context)

@@ -42,7 +42,7 @@ same meshes_are_named_by_their_tolerance "$(column mesh_tolerance mesh | tr '\n'
 same finer_meshes_have_smaller_errors "$(column error_m2 mesh | sort -rg | tr '\n' ' ')" "$(column error_m2 mesh | tr '\n' ' ')"
 same a_mesh_for_a_tolerance_meets_it "$(awk -F, 'NR > 1 && $14 > $4' t.csv | wc -l | tr -d ' ')" 0
 within cylinder_errors_are_within_their_bounds 1e-13
-same json_keys_in_order "$(keys)" "schema version scene_hash truth settings cheapest best notices sentence "
+same json_keys_in_order "$(keys)" "schema version scene_hash files unit direction truth settings cheapest best notices sentence title materials options "
 same json_has_every_setting "$(printf '%s\n' "$out" | grep -c '^    {"setting": ')" "$(sed 1d t.csv | wc -l | tr -d ' ')"
 same json_has_four_tolerances "$(printf '%s\n' "$out" | grep -cE '^    \{"tolerance": [0-9.e-]+, "setting": "')" 4
 same json_says_what_time_left_out "$(printf '%s\n' "$out" | grep -c '"left out: zbuffer 16 and finer, for time"')" 1

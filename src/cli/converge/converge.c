@@ -13,7 +13,8 @@ static const char converge_help[] =
     "is a single shape, not turned or scaled, else exact on the finest mesh.\n"
     "\n" CLI_POSE_HELP "\n"
     "options\n"
-    "  --csv FILE.csv        one row for every setting ('-': instead of the table)\n"
+    "  --csv FILE.csv        one row for every setting ('-': instead of the table); what it\n"
+    "                        was made from goes into FILE.csv.json\n"
     "  --plot FILE           error against time; FILE.svg or FILE.png; repeatable\n"
     "  --seconds S           time for the runs, about (20); loading and preparing come on top\n"
     "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
@@ -39,8 +40,8 @@ static int plot_check(const converge_job *job, int index)
 {
     const cli_args *args = job->args;
     const char *path = args->given[index].value;
-    if (!cli_extension(path, ".svg") && !cli_extension(path, ".png")) {
-        return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'", path);
+    if (cli_chart_check(args, "plot", path) != 0) {
+        return CLI_USAGE;
     }
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *other = &args->given[i];
@@ -65,9 +66,7 @@ static int converge_read(converge_job *job)
         return cli_usage(args->command, "--seconds: expected a time > 0, found '%s'",
                          cli_value(args, "seconds"));
     }
-    if (code == 0 && job->csv && strcmp(job->csv, "-") == 0 && cli_value(args, "json")) {
-        return cli_usage(args->command, "--csv - and --json both want standard output");
-    }
+    code = code ? code : cli_stdout_check(args);
     for (int i = 0; i < args->given_count && code == 0; i++) {
         code = strcmp(args->given[i].name, "plot") == 0 ? plot_check(job, i) : 0;
     }
@@ -112,6 +111,9 @@ static int files_write(const converge_job *job)
 {
     const cli_args *args = job->args;
     int code = job->csv ? cli_output_write(job->csv, csv_write, job) : 0;
+    if (code == 0 && job->csv) {
+        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose);
+    }
     for (int i = 0; i < args->given_count && code == 0; i++) {
         if (strcmp(args->given[i].name, "plot") == 0) {
             const char *path = args->given[i].value;

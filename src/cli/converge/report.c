@@ -252,11 +252,15 @@ static void notices_json(const converge_job *job, lrcs_host_json *json)
 
 void cli_converge_json(const converge_job *job)
 {
+    const lrcs_host_scene *scene = &cli_converge_finest(job)->scene;
     lrcs_host_json json = lrcs_host_json_make(stdout);
     converge_sentence sentence = cli_converge_sentence(job);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
     cli_version_json(&json);
-    cli_hash_json(lrcs_scene_hash(&cli_converge_finest(job)->scene.scene), &json);
+    cli_hash_json(lrcs_scene_hash(&scene->scene), &json);
+    cli_files_json(scene, &json);
+    lrcs_host_json_text(&json, "unit", cli_value(job->args, "unit"));
+    cli_direction_json(&job->pose, &json);
     lrcs_host_json_begin(&json, "truth", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(&json, "from", job->truth.text);
     lrcs_host_json_number(&json, "sigma_m2", job->truth.sigma_m2);
@@ -277,5 +281,6 @@ void cli_converge_json(const converge_job *job)
     cheapest_json("best", 0.0, setting_best(job), &json);
     notices_json(job, &json);
     lrcs_host_json_text(&json, "sentence", sentence.text);
+    cli_provenance_json(job->args, scene, &json);
     lrcs_host_json_end(&json);
 }

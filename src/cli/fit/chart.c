@@ -199,11 +199,7 @@ static int chart_draw(const fit_job *job, int residuals, int png, FILE *out,
         series[chart.series_count] = one;
         chart.series_count += one.count > 0;
     }
-    if (png) {
-        return lrcs_host_chart_png(out, &chart, error);
-    }
-    lrcs_host_chart_svg(out, &chart);
-    return LRCS_OK;
+    return cli_chart_write(out, png, &chart, job->args, NULL, error);
 }
 
 int cli_fit_chart(const fit_job *job, int residuals, int png, FILE *out, lrcs_host_error *error)

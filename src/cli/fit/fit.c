@@ -37,7 +37,9 @@ static const char fit_help[] =
     "                        by its file)\n"
     "  --plot FILE           readings and fit; FILE.svg or FILE.png; repeatable\n"
     "  --residuals FILE      residuals against angle; FILE.svg or FILE.png; repeatable\n"
-    "  --csv FILE.csv        every reading with fit and residual ('-': instead of the table)\n"
+    "  --csv FILE.csv        every reading with fit and residual ('-': instead of the table); "
+    "what\n"
+    "                        it was made from goes into FILE.csv.json\n"
     "  --json                the table as JSON\n"
     "\n"
     "The limits are where the best fit of the other three parameters is worse at 95 % confidence.\n"
@@ -72,10 +74,8 @@ static int is_output(const cli_given *given)
 static int output_check(const cli_args *args, int index)
 {
     const cli_given *given = &args->given[index];
-    if (is_chart(given) && !cli_extension(given->value, ".svg") &&
-        !cli_extension(given->value, ".png")) {
-        return cli_usage(args->command, "--%s: expected FILE.svg or FILE.png, found '%s'",
-                         given->name, given->value);
+    if (is_chart(given) && cli_chart_check(args, given->name, given->value) != 0) {
+        return CLI_USAGE;
     }
     if (lrcs_host_output_same(given->value, args->operand)) {
         return cli_usage(args->command, "--%s %s: would overwrite the readings", given->name,
@@ -109,7 +109,6 @@ static int noise_read(fit_job *job)
 static int fit_read(fit_job *job)
 {
     const cli_args *args = job->args;
-    const char *csv = cli_value(args, "csv");
     job->options = lrcs_fit_options_default();
     job->options.cosine = cli_value(args, "cosine") != NULL;
     int code = noise_read(job);
@@ -123,9 +122,7 @@ static int fit_read(fit_job *job)
         }
         job->options.unit = job->panel / CLI_PI;
     }
-    if (code == 0 && csv && strcmp(csv, "-") == 0 && cli_value(args, "json")) {
-        return cli_usage(args->command, "--csv - and --json both want standard output");
-    }
+    code = code ? code : cli_stdout_check(args);
     for (int i = 0; i < args->given_count && code == 0; i++) {
         code = is_output(&args->given[i]) ? output_check(args, i) : 0;
     }
@@ -354,6 +351,9 @@ static int fit_report(const fit_job *job)
         if (failed) {
             return failed;
         }
+    }
+    if (csv && cli_provenance_beside(args, csv, NULL, NULL) != 0) {
+        return CLI_FAILED;
     }
     cli_notices_print(stderr, &job->readings.notices);
     for (uint32_t i = 0; i < job->materials; i++) {

@@ -78,14 +78,9 @@ static int files_read(profile_job *job)
     job->csv = cli_value(args, "csv");
     job->plot = cli_value(args, "plot");
     const cli_output file[2] = {{"csv", job->csv}, {"plot", job->plot}};
-    if (job->plot && !cli_extension(job->plot, ".svg") && !cli_extension(job->plot, ".png")) {
-        return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'",
-                         job->plot);
-    }
-    if (job->csv && strcmp(job->csv, "-") == 0 && cli_value(args, "json")) {
-        return cli_usage(args->command, "--csv - and --json both want standard output");
-    }
-    return cli_outputs_apart(args->command, file, 2);
+    int code = job->plot ? cli_chart_check(args, "plot", job->plot) : 0;
+    code = code ? code : cli_stdout_check(args);
+    return code ? code : cli_outputs_apart(args->command, file, 2);
 }
 
 static int options_read(profile_job *job)

@@ -228,9 +228,8 @@ int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot
         if (!is_plot(plot, &args->given[i])) {
             continue;
         }
-        if (!cli_extension(path, ".svg") && !cli_extension(path, ".png")) {
-            return cli_usage(args->command, "%s%s: expected FILE.svg or FILE.png, found '%s'",
-                             cli_dashes(plot->option), plot->option, path);
+        if (cli_chart_check(args, plot->option, path) != 0) {
+            return CLI_USAGE;
         }
         plot->asked = 1;
     }
@@ -531,11 +530,7 @@ static void plot_about(const sweep_plot *plots, uint32_t count, char *text, size
 {
     size_t used = (size_t)snprintf(text, size, "lrcs %s sweep", lrcs_version());
     for (uint32_t k = 0; k < count; k++) {
-        const sweep_head *head = plots[k].head;
-        for (uint32_t i = 0; head && i < head->options && used < size; i++) {
-            used += (size_t)snprintf(text + used, size - used, "; %s=%s", head->option[i].key,
-                                     head->option[i].text);
-        }
+        used = plots[k].head ? cli_head_about(plots[k].head, text, size, used) : used;
     }
 }
 
