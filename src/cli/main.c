@@ -145,7 +145,7 @@ int main(int count, char **word)
     }
     cli_args args;
     int code = cli_args_read(command, count - 2, word + 2, &args);
-    code = code ? code : cli_outputs_places(&args);
+    code = code ? code : cli_outputs_check(&args);
     if (code == 0) {
         cli_watch_begin(command->name);
         code = command->run(&args);

@@ -163,8 +163,10 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
     for (int dial = 0; dial < CONVERGE_DIALS; dial++) {
         dial_add(job, &all, dial);
     }
+    char *about = cli_provenance_text(job->args, &cli_converge_finest(job)->scene);
     const lrcs_host_chart chart = {
         .title = title,
+        .about = about,
         .note = note,
         .x_name = "time of one pose, median (ms)",
         .y_name = job->truth.sigma_m2 > 0.0 ? "error of sigma (relative to the truth)"
@@ -175,5 +177,7 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
         .floor_name = job->truth.whole ? "truth's own bound" : "truth's bound (facets)",
         .series = all.series,
         .series_count = all.count};
-    return cli_chart_write(out, png, &chart, job->args, &cli_converge_finest(job)->scene, error);
+    int status = cli_chart_put(out, &chart, png, error);
+    free(about);
+    return status;
 }

@@ -69,7 +69,9 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
     if (cli_materials_open(&job->scene.scene)) {
         snprintf(note + used, sizeof note - (size_t)used, "; materials illustrative or default");
     }
+    char *about = cli_provenance_text(job->args, &job->scene);
     const lrcs_host_chart chart = {.title = title,
+                                   .about = about,
                                    .note = note,
                                    .x_name =
                                        "range from the body's origin, away from the laser (m)",
@@ -77,7 +79,9 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
                                    .y_from_0 = 1,
                                    .series = series,
                                    .series_count = series[1].count > 0 ? 2 : 1};
-    return cli_chart_write(out, png, &chart, job->args, &job->scene, error);
+    int status = cli_chart_put(out, &chart, png, error);
+    free(about);
+    return status;
 }
 
 int cli_profile_chart(const profile_job *job, int png, FILE *out, lrcs_host_error *error)

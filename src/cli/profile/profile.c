@@ -50,9 +50,10 @@ static const char profile_help[] =
     "  lrcs profile aura.3ds --unit in --azel 30,20 --bin 0.02 --csv profile.csv\n";
 
 static const cli_option profile_options[] = {
-    CLI_POSE_OPTIONS,  CLI_SCENE_OPTIONS,    {"bin", 1, 0},         {"pulse-fwhm", 1, 0},
-    {"json", 0, 0},    {"csv", CLI_FILE, 0}, {"plot", CLI_FILE, 0}, {"tolerance", 1, 0},
-    {"normals", 1, 0}, {"help", 0, 0},       {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,       CLI_SCENE_OPTIONS,   {"bin", 1, 0},
+    {"pulse-fwhm", 1, 0},   {"json", 0, 0},      {"csv", CLI_FILE, 0},
+    {"plot", CLI_CHART, 0}, {"tolerance", 1, 0}, {"normals", 1, 0},
+    {"help", 0, 0},         {NULL, 0, 0}};
 
 double cli_profile_sigma(const lrcs_profile_bin *bin)
 {
@@ -72,21 +73,12 @@ static int length_read(const cli_args *args, const char *name, double *length)
     return code;
 }
 
-static int files_read(profile_job *job)
-{
-    const cli_args *args = job->args;
-    job->csv = cli_value(args, "csv");
-    job->plot = cli_value(args, "plot");
-    const cli_output file[2] = {{"csv", job->csv}, {"plot", job->plot}};
-    int code = job->plot ? cli_chart_check(args, "plot", job->plot) : 0;
-    code = code ? code : cli_stdout_check(args);
-    return code ? code : cli_outputs_apart(args->command, file, 2);
-}
-
 static int options_read(profile_job *job)
 {
     const cli_args *args = job->args;
     lrcs_run_options options = lrcs_run_options_default();
+    job->csv = cli_value(args, "csv");
+    job->plot = cli_value(args, "plot");
     int code = cli_pose_read(args, &job->pose);
     code = code ? code : length_read(args, "bin", &job->bin_m);
     if (code == 0 && !(job->bin_m > 0.0)) {
@@ -94,7 +86,6 @@ static int options_read(profile_job *job)
     }
     code = code ? code : length_read(args, "pulse-fwhm", &job->fwhm_m);
     code = code ? code : cli_accuracy_read(args, &options);
-    code = code ? code : files_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);
     job->load.build.tolerance = options.tolerance;
@@ -220,10 +211,9 @@ static int profile_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     int code = options_read(&job);
-    const cli_output file[2] = {{"csv", job.csv}, {"plot", job.plot}};
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
-    code = code ? code : cli_outputs_spare(args->command, file, 2, &job.scene);
+    code = code ? code : cli_outputs_spare(args, &job.scene);
     code = code ? code : profile_run(&job);
     cli_watch_end();
     code = code ? code : outputs_write(&job);

@@ -74,7 +74,7 @@ static const cli_option sweep_options[] = {CLI_POSE_OPTIONS,     CLI_ACCURACY_OP
                                            {"sphere", 1, 0},     {"poses", 1, 0},
                                            {"o", CLI_FILE, 0},   {"json", 0, 0},
                                            {"resume", 0, 0},     {"shard", 1, 0},
-                                           {"jobs", 1, 0},       {"plot", CLI_FILE, 1},
+                                           {"jobs", 1, 0},       {"plot", CLI_CHART, 1},
                                            {"dbsm", 0, 0},       {"polar", 0, 0},
                                            {"brightest", 1, 0},  {"stats", 0, 0},
                                            {"projection", 1, 0}, {"stats-file", CLI_FILE, 1},
@@ -167,18 +167,25 @@ static int job_read(sweep_job *job)
 /* Checks that no output replaces a file that is read. */
 static int job_files_check(const sweep_job *job)
 {
+    const cli_args *args = job->args;
     lrcs_host_error error;
-    const char *poses = cli_value(job->args, "poses");
-    for (int i = 0; job->file.path && i < 2; i++) {
-        const char *path = i == 0 ? job->file.path : job->file.partial;
-        if (lrcs_host_output_check(path, &job->scene, &error) != LRCS_OK) {
-            return cli_usage(job->args->command, "-o %s", error.text);
-        }
-        if (poses && lrcs_host_output_same(path, poses)) {
-            return cli_usage(job->args->command, "-o %s: would overwrite the poses", path);
-        }
+    const char *poses = cli_value(args, "poses");
+    if (job->file.path &&
+        lrcs_host_output_check(job->file.partial, &job->scene, &error) != LRCS_OK) {
+        return cli_usage(args->command, "-o %s", error.text);
     }
-    return cli_plot_spares(job->args, &job->plot, &job->file, &job->scene);
+    for (int i = 0; poses && i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (!cli_is_output(args->command, given->name) ||
+            !lrcs_host_output_same(given->value, poses)) {
+            continue;
+        }
+        return strcmp(given->name, "o") == 0
+                   ? cli_usage(args->command, "-o %s: would overwrite the poses", given->value)
+                   : cli_usage(args->command, "--poses and --%s name the same file: '%s', '%s'",
+                               given->name, poses, given->value);
+    }
+    return cli_outputs_spare(args, &job->scene);
 }
 
 /* ---- the rows ---- */

@@ -377,8 +377,6 @@ typedef struct sweep_plot {
    replaces a file; 0 or CLI_USAGE. Then draws one sweep, or the curves of several along the same
    axis; 0 or CLI_FAILED. Also one drawing as SVG. The caller sets title and row. */
 int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot);
-int cli_plot_spares(const cli_args *args, const sweep_plot *plot, const sweep_file *file,
-                    const lrcs_host_scene *scene);
 int cli_plot_write(const cli_args *args, const sweep_plot *plot, uint32_t count);
 int cli_plot_svg(FILE *out, const sweep_plot *plot);
 
