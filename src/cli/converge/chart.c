@@ -4,6 +4,7 @@
 #include "cli/converge/converge.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #define CHART_SERIES (3 * CONVERGE_DIALS)
 
