@@ -194,6 +194,15 @@ int cli_has_curved_shapes(const lrcs_scene *scene);
    scene file states); the last name of a path; and, as keys of an open object: the files, the
    title, the assigned materials and the options given. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
+
+/* What a table was made from, the beginning of its first line after "# ": "lrcs VERSION COMMAND;
+   key=text; ..". The caller ends the line. */
+void cli_table_head(FILE *out, const cli_args *args, const char *title,
+                    const lrcs_host_scene *scene, const double direction[3]);
+
+/* What a writer writes, as a text that the caller frees; NULL without memory. */
+typedef void cli_text_writer(FILE *out, const void *context);
+char *cli_text_of(cli_text_writer *write, const void *context);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */

@@ -60,6 +60,34 @@ const char *cli_base_name(const char *path)
     return slash && slash[1] ? slash + 1 : path;
 }
 
+/* The options given, but for files to write: a result does not depend on where it is written. */
+static void options_put(FILE *out, const char *before, const cli_args *args)
+{
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (!cli_is_output(args->command, given->name)) {
+            fprintf(out, "%s%s%s%s%s", before, cli_dashes(given->name), given->name,
+                    given->value ? "=" : "", given->value ? given->value : "");
+            before = " ";
+        }
+    }
+}
+
+void cli_table_head(FILE *out, const cli_args *args, const char *title,
+                    const lrcs_host_scene *scene, const double direction[3])
+{
+    fprintf(out, "lrcs %s %s; scene_hash=%016llx; title=%s", lrcs_version(), args->command->name,
+            (unsigned long long)lrcs_scene_hash(&scene->scene), cli_base_name(title));
+    options_put(out, "; options=", args);
+    for (const lrcs_host_input *input = scene->input; input; input = input->next) {
+        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
+                (unsigned long long)input->hash);
+    }
+    for (int k = 0; k < 3; k++) {
+        cli_number_put(out, k == 0 ? "; direction=" : ",", direction[k]);
+    }
+}
+
 void cli_version_json(lrcs_host_json *json)
 {
     lrcs_host_json_count(json, "schema", CLI_SCHEMA);
@@ -277,16 +305,7 @@ char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
         fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
                 (unsigned long long)input->hash);
     }
-    const char *before = "; options: ";
-    for (int i = 0; i < args->given_count; i++) {
-        const cli_given *given = &args->given[i];
-        if (cli_is_output(args->command, given->name)) {
-            continue; /* a result does not depend on where it is written */
-        }
-        fprintf(out, "%s%s%s%s%s", before, cli_dashes(given->name), given->name,
-                given->value ? "=" : "", given->value ? given->value : "");
-        before = " ";
-    }
+    options_put(out, "; options: ", args);
     for (uint32_t i = 0; scene && i < scene->scene.material_count; i++) {
         const lrcs_material *material = &scene->scene.material[i];
         const lrcs_brdf *brdf = &material->brdf;
@@ -296,6 +315,21 @@ char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
     if (fclose(out) != 0) {
         free(text);
         return NULL;
+    }
+    return text;
+}
+
+char *cli_text_of(cli_text_writer *write, const void *context)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (out) {
+        write(out, context);
+        if (fclose(out) != 0) {
+            free(text);
+            return NULL;
+        }
     }
     return text;
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The chart of lrcs converge: for each kind of setting its cost and its error, on logarithmic axes.
-   This file decides which curves there are and how they look; the host draws them. */
+/* The chart of lrcs converge --plot and of lrcs plot: for each kind of setting its cost and its
+   error, on logarithmic axes. This file decides which curves there are and how they look; the host
+   draws them. */
 #include "cli/converge/converge.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define CHART_SERIES (3 * CONVERGE_DIALS)
 
@@ -149,7 +149,7 @@ static void chart_words(const converge_job *job, char title[256], char note[256]
 {
     const double *d = job->pose.direction;
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    snprintf(title, 256, "What accuracy costs in time: %s", cli_base_name(job->args->operand));
+    snprintf(title, 256, "What accuracy costs in time: %s", cli_base_name(job->title));
     snprintf(note, 256, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)", job->truth.text,
              job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
 }
@@ -164,10 +164,9 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
     for (int dial = 0; dial < CONVERGE_DIALS; dial++) {
         dial_add(job, &all, dial);
     }
-    char *about = cli_provenance_text(job->args, &cli_converge_finest(job)->scene);
     const lrcs_host_chart chart = {
         .title = title,
-        .about = about,
+        .about = job->about,
         .note = note,
         .x_name = "time of one pose, median (ms)",
         .y_name = job->truth.sigma_m2 > 0.0 ? "error of sigma (relative to the truth)"
@@ -178,7 +177,5 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
         .floor_name = job->truth.whole ? "truth's own bound" : "truth's bound (facets)",
         .series = all.series,
         .series_count = all.count};
-    int status = cli_chart_put(out, &chart, png, error);
-    free(about);
-    return status;
+    return cli_chart_put(out, &chart, png, error);
 }

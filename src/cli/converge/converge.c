@@ -2,6 +2,7 @@
 /* lrcs converge: the cost of accuracy in time, for one scene from one pose. */
 #include "cli/converge/converge.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static const char converge_help[] =
@@ -13,8 +14,7 @@ static const char converge_help[] =
     "is a single shape, not turned or scaled, else exact on the finest mesh.\n"
     "\n" CLI_POSE_HELP "\n"
     "options\n"
-    "  --csv FILE.csv        one row for every setting ('-': instead of the table); what it\n"
-    "                        was made from goes into FILE.csv.json\n"
+    "  --csv FILE.csv        one row for every setting ('-': instead of the table)\n"
     "  --plot FILE           error against time; FILE.svg or FILE.png; repeatable\n"
     "  --seconds S           time for the runs, about (20); loading and preparing come on top\n"
     "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
@@ -73,9 +73,6 @@ static int files_write(const converge_job *job)
 {
     const cli_args *args = job->args;
     int code = job->csv ? cli_output_write(job->csv, csv_write, job) : 0;
-    if (code == 0 && job->csv) {
-        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose);
-    }
     for (int i = 0; i < args->given_count && code == 0; i++) {
         if (strcmp(args->given[i].name, "plot") == 0) {
             const char *path = args->given[i].value;
@@ -132,11 +129,15 @@ static int converge_command(const cli_args *args)
     converge_job job;
     memset(&job, 0, sizeof job);
     job.args = args;
+    job.title = args->operand;
     int code = converge_read(&job);
     code = code ? code : cli_converge_meshes(&job);
     code = code ? code : cli_outputs_spare(args, &job.mesh[0].scene);
     code = code ? code : cli_converge_measure(&job);
+    char *about = code == 0 ? cli_text_of(cli_converge_about, &job) : NULL;
+    job.about = about;
     code = code ? code : converge_report(&job);
+    free(about);
     for (uint32_t i = 0; i < job.meshes; i++) {
         lrcs_host_scene_free(&job.mesh[i].scene);
     }

@@ -183,8 +183,12 @@ static int csv_write(FILE *out, const void *context, lrcs_host_error *error)
 
 static int plot_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    const profile_job *job = context;
-    return cli_profile_chart(job, cli_extension(job->plot, ".png"), out, error);
+    profile_job job = *(const profile_job *)context;
+    char *about = cli_text_of(cli_profile_about, &job);
+    job.about = about;
+    int status = cli_profile_chart(&job, cli_extension(job.plot, ".png"), out, error);
+    free(about);
+    return status;
 }
 
 static int outputs_write(const profile_job *job)
@@ -214,6 +218,10 @@ static int profile_command(const cli_args *args)
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
     code = code ? code : cli_outputs_spare(args, &job.scene);
+    if (code == 0) {
+        job.title = cli_scene_title(args, &job.scene);
+        job.open = cli_materials_open(&job.scene.scene);
+    }
     code = code ? code : profile_run(&job);
     cli_watch_end();
     code = code ? code : outputs_write(&job);
