@@ -115,7 +115,7 @@ same zero_sigma_is_in_m2 "$(printf '%s\n' "$out" | tail -1 | grep -c 'the best b
 # ---- files ----
 run converge "$examples/plate.toml" --seconds 0.05 --csv -
 same csv_instead_of_the_table "$(printf '%s\n' "$out" | sed -n 2p | cut -c1-15)" "setting,method,"
-same csv_says_what_of "$(printf '%s\n' "$out" | head -1 | grep -cE '^# lrcs [0-9.]+ converge; scene_hash=[0-9a-f]{16}; title=plate.toml; file=plate.toml fnv1a:[0-9a-f]{16}; direction=0,0,1; truth_m2=[0-9.]+; truth_bound_m2=[-0-9.e]+; truth_of=shapes; truth=the closed form of the plate$')" 1
+same csv_says_what_of "$(printf '%s\n' "$out" | head -1 | grep -cE '^# lrcs [0-9.]+ converge; scene_hash=[0-9a-f]{16}; title=plate.toml; options=--[^;]*; file=plate.toml fnv1a:[0-9a-f]{16}; direction=0,0,1; truth_m2=[0-9.]+; truth_bound_m2=[-0-9.e]+; truth_of=shapes; truth=the closed form of the plate$')" 1
 run converge "$examples/plate.toml" --seconds 0.05 --plot no/p.svg
 same unwritable_plot_exits_1 "$rc" 1
 same unwritable_plot_says_nothing_on_stdout "$out" ""
