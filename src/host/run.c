@@ -59,8 +59,8 @@ typedef struct sigma_step {
    memory, tries are left, and the heap has what the next one needs; else the status. */
 static int more_memory(int status, const lrcs_result *result, const lrcs_work *work, int *tries)
 {
-    int degraded = status == LRCS_OK && (result->flags & LRCS_FLAG_MEMORY_FALLBACK) &&
-                   work->peak > work->size;
+    int degraded =
+        status == LRCS_OK && (result->flags & LRCS_FLAG_MEMORY_FALLBACK) && work->peak > work->size;
     if (!degraded || (*tries)-- <= 0) {
         return status;
     }
