@@ -277,8 +277,11 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
     if (!name) {
         return cli_out_of_memory();
     }
+    lrcs_host_error error;
     snprintf(name, room, "%s" CLI_BESIDE, path);
-    int code = cli_output_write(name, beside_write, &from);
+    int code = scene && lrcs_host_output_check(name, scene, &error) != LRCS_OK
+                   ? cli_failed(&error)
+                   : cli_output_write(name, beside_write, &from);
     free(name);
     return code;
 }
