@@ -103,11 +103,7 @@ void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
     lrcs_host_json_number(json, "B_error", error->B);
     lrcs_host_json_number(json, "s_error", error->s);
     lrcs_host_json_number(json, "m_error", error->m);
-    lrcs_host_json_begin(json, "correlation", LRCS_HOST_ROW_ARRAY);
-    for (int i = 0; i < 6; i++) {
-        lrcs_host_json_number(json, NULL, error->correlation[i]);
-    }
-    lrcs_host_json_end(json);
+    cli_numbers_json(json, "correlation", error->correlation, 6);
 }
 
 static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)

@@ -85,11 +85,7 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
     lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
-    lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
-    for (int k = 0; k < 3; k++) {
-        lrcs_host_json_number(json, NULL, s_hat[k]);
-    }
-    lrcs_host_json_end(json);
+    cli_numbers_json(json, "direction", s_hat, 3);
     lrcs_host_json_number(json, "bin_m", job->bin_m);
     lrcs_host_json_number(json, "pulse_fwhm_m", job->fwhm_m > 0.0 ? job->fwhm_m : (double)NAN);
     lrcs_host_json_number(json, "sigma_m2", total_sigma(job));
@@ -112,9 +108,7 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     }
     lrcs_host_json_end(json);
     lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < job->scene.notices.count; i++) {
-        lrcs_host_json_text(json, NULL, job->scene.notices.text[i]);
-    }
+    cli_notices_json(&job->scene.notices, json);
     lrcs_host_json_end(json);
 }
 

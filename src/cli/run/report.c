@@ -126,11 +126,7 @@ static void json_tail(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_count(json, "hidden", result->facets_hidden);
     lrcs_host_json_count(json, "partial", result->facets_partial);
     lrcs_host_json_end(json);
-    lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
-    for (int k = 0; k < 3; k++) {
-        lrcs_host_json_number(json, NULL, s_hat[k]);
-    }
-    lrcs_host_json_end(json);
+    cli_numbers_json(json, "direction", s_hat, 3);
     lrcs_host_json_begin(json, "seconds", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_number(json, "load", job->scene.seconds_load);
     lrcs_host_json_number(json, "prepare", job->scene.seconds_prepare);
@@ -146,11 +142,7 @@ static void json_box(const run_job *job, lrcs_host_json *json)
     double box[2][3];
     lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
     for (int i = 0; i < 2; i++) {
-        lrcs_host_json_begin(json, i == 0 ? "box_min_m" : "box_max_m", LRCS_HOST_ROW_ARRAY);
-        for (int k = 0; k < 3; k++) {
-            lrcs_host_json_number(json, NULL, box[i][k]);
-        }
-        lrcs_host_json_end(json);
+        cli_numbers_json(json, i == 0 ? "box_min_m" : "box_max_m", box[i], 3);
     }
 }
 
