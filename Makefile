@@ -187,8 +187,8 @@ test-core: $(TOOL) $(CORE_TESTS) $(FUZZ_TESTS)
 # worth (needs python3, mpmath).
 bounds: $(LIB)
 	@mkdir -p $(BUILD)/test/hostile
-	$(CC) $(STD) $(OPT) -Wall -Wextra -Iinclude -o $(BUILD)/test/hostile/bounds test/hostile/bounds.c $(LIB) $(LDLIBS)
-	for kind in hostile plain lattice doubled far; do \
+	$(CC) $(STD) $(OPT) -Wall -Wextra -Iinclude -Isrc -o $(BUILD)/test/hostile/bounds test/hostile/bounds.c $(LIB) $(LDLIBS)
+	for kind in hostile plain lattice contacts doubled far; do \
 	    python3 test/hostile/bounds.py $(BOUNDS_SCENES) $(BOUNDS_SEED) $$kind >$(BUILD)/test/hostile/$$kind && \
 	    $(BUILD)/test/hostile/bounds $(BUILD)/test/hostile/$$kind || exit 1; \
 	done

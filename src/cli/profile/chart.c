@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs profile --plot: the density of sigma over range as steps, one for each bin, and the response
-   of a pulse as a curve. */
+/* The chart of lrcs profile --plot and of lrcs plot: the density of sigma over range as steps, one
+   for each bin, and the response of a pulse as a curve. */
 #include "cli/profile/profile.h"
 
 #include <stdlib.h>
@@ -58,15 +58,14 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
     series[0].count = steps_take(job, group, number, number + room);
     series[1].count =
         job->fwhm_m > 0.0 ? pulse_take(job, group, number + 2 * room, number + 3 * room) : 0;
-    snprintf(title, sizeof title, "Range profile of %.180s",
-             cli_base_name(cli_scene_title(job->args, &job->scene)));
+    snprintf(title, sizeof title, "Range profile of %.180s", cli_base_name(job->title));
     int used = snprintf(note, sizeof note, "sigma %.6g m2 in all; bins of %g m",
                         p->sigma_glint_m2 + p->sigma_diffuse_m2, job->bin_m);
     if (job->fwhm_m > 0.0) {
         used += snprintf(note + used, sizeof note - (size_t)used, "; pulse of %g m (FWHM)",
                          job->fwhm_m);
     }
-    if (cli_materials_open(&job->scene.scene)) {
+    if (job->open) {
         snprintf(note + used, sizeof note - (size_t)used, "; materials illustrative or default");
     }
     const lrcs_host_chart chart = {.title = title,

@@ -214,6 +214,10 @@ static int profile_command(const cli_args *args)
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
     code = code ? code : cli_outputs_spare(args, &job.scene);
+    if (code == 0) {
+        job.title = cli_scene_title(args, &job.scene);
+        job.open = cli_materials_open(&job.scene.scene);
+    }
     code = code ? code : profile_run(&job);
     cli_watch_end();
     code = code ? code : outputs_write(&job);
