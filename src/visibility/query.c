@@ -217,7 +217,7 @@ static int touched_by(const lrcsi_view *view, uint32_t facet, uint32_t other)
         return 1;
     }
     for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        if (p->intersections.touch[i].other == other) {
+        if (p->intersections.entry[i].other == other) {
             return 1;
         }
     }
@@ -247,7 +247,7 @@ static int component_unbroken(lrcsi_classification *classification, uint32_t com
         }
     }
     for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        if (classification->component[p->intersections.touch[i].other] == component) {
+        if (classification->component[p->intersections.entry[i].other] == component) {
             return 0;
         }
     }

@@ -162,7 +162,7 @@ static void mark_touches(pixel_marks *m, uint32_t facet)
     const lrcsi_view *view = m->raster->view;
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
-        const lrcsi_intersection *touch = &intersections->touch[i];
+        const lrcsi_intersection *touch = &intersections->entry[i];
         if (!lrcsi_intersection_hides(view, facet, touch)) {
             continue;
         }

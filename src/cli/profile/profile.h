@@ -20,7 +20,7 @@ typedef struct profile_job {
     double bin_m, fwhm_m; /* fwhm_m is 0 if there is no pulse */
     double asked;         /* tolerance; 0 for none */
     int met;
-    const char *csv, *plot;
+    const char *csv;
     const char *title; /* the scene's, or the name of its file */
     int open; /* 1 if materials are illustrative or assumed: no bound includes their error */
     lrcs_host_scene scene;

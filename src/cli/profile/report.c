@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* If there are more bins than this, the table shows only the strongest; --csv and --json contain
    all of them. */
@@ -244,8 +245,10 @@ void cli_profile_table(const profile_job *job)
     if (job->csv) {
         printf("rows         %s\n", job->csv);
     }
-    if (job->plot) {
-        printf("chart        %s\n", job->plot);
+    for (int i = 0; i < job->args->given_count; i++) {
+        if (strcmp(job->args->given[i].name, "plot") == 0) {
+            printf("chart        %s\n", job->args->given[i].value);
+        }
     }
     verdict_print(job);
 }
