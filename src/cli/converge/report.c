@@ -195,16 +195,25 @@ void cli_converge_table(const converge_job *job)
     printf("\n%s\n", sentence.text);
 }
 
-void cli_converge_csv(const converge_job *job, FILE *out)
+/* ---- CSV ---- */
+
+void cli_converge_about(FILE *out, const void *context)
 {
+    const converge_job *job = context;
     double s_hat[3];
     cli_pose_unit(&job->pose, s_hat);
-    cli_table_head(out, "converge", job->title, &cli_converge_finest(job)->scene, s_hat);
+    cli_table_head(out, job->args, job->title, &cli_converge_finest(job)->scene, s_hat);
     cli_number_put(out, "; truth_m2=", job->truth.sigma_m2);
     cli_number_put(out, "; truth_bound_m2=", job->truth.bound_m2);
-    fprintf(out, "; truth_of=%s; truth=%s\n", job->truth.whole ? "shapes" : "facets",
+    fprintf(out, "; truth_of=%s; truth=%s", job->truth.whole ? "shapes" : "facets",
             job->truth.text);
-    fputs("setting,method", out);
+}
+
+void cli_converge_csv(const converge_job *job, FILE *out)
+{
+    fputs("# ", out);
+    cli_converge_about(out, job);
+    fputs("\nsetting,method", out);
     for (int k = 0; k < NUMBERS; k++) {
         fprintf(out, ",%s", number_name[k]);
     }
@@ -261,11 +270,15 @@ static void cheapest_json(const char *key, double tolerance, const converge_sett
 
 void cli_converge_json(const converge_job *job)
 {
+    const lrcs_host_scene *scene = &cli_converge_finest(job)->scene;
     lrcs_host_json json = lrcs_host_json_make(stdout);
     converge_sentence sentence = cli_converge_sentence(job);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
     cli_version_json(&json);
-    cli_hash_json(lrcs_scene_hash(&cli_converge_finest(job)->scene.scene), &json);
+    cli_hash_json(lrcs_scene_hash(&scene->scene), &json);
+    cli_files_json(scene, &json);
+    lrcs_host_json_text(&json, "unit", cli_value(job->args, "unit"));
+    cli_direction_json(&job->pose, &json);
     lrcs_host_json_begin(&json, "truth", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(&json, "from", job->truth.text);
     lrcs_host_json_number(&json, "sigma_m2", job->truth.sigma_m2);
@@ -285,7 +298,7 @@ void cli_converge_json(const converge_job *job)
     lrcs_host_json_end(&json);
     cheapest_json("best", 0.0, setting_best(job), &json);
     lrcs_host_json_begin(&json, "notices", LRCS_HOST_ARRAY);
-    cli_notices_json(&cli_converge_finest(job)->scene.notices, &json);
+    cli_notices_json(&scene->notices, &json);
     if (job->left_out[0]) {
         lrcs_host_json_text(&json, NULL, job->left_out);
     }
@@ -294,5 +307,6 @@ void cli_converge_json(const converge_job *job)
     }
     lrcs_host_json_end(&json);
     lrcs_host_json_text(&json, "sentence", sentence.text);
+    cli_provenance_json(job->args, scene, &json);
     lrcs_host_json_end(&json);
 }

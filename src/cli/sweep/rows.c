@@ -209,15 +209,6 @@ void cli_rows_mean(FILE *out, int format, const sweep_tally *tally)
     putc('\n', out);
 }
 
-uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size)
-{
-    const unsigned char *at = bytes;
-    for (size_t i = 0; i < size; i++) {
-        sum = (sum ^ at[i]) * 0x100000001b3u;
-    }
-    return sum;
-}
-
 void cli_rows_sum(FILE *out, int format, uint64_t sum)
 {
     fprintf(out,

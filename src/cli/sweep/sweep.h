@@ -170,6 +170,10 @@ typedef struct sweep_head {
     uint32_t options;
 } sweep_head;
 
+/* What rows were made from, in one line for pictures, after `used` characters of the text; returns
+   the number of characters used then, which may exceed the size. */
+size_t cli_head_about(const sweep_head *head, char *text, size_t size, size_t used);
+
 /* 0 or CLI_USAGE. */
 int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
                   const lrcs_host_scene *scene, sweep_head *head);
@@ -191,10 +195,8 @@ void cli_rows_head(FILE *out, int format, const sweep_head *head, const sweep_pl
 void cli_rows_put(FILE *out, int format, const sweep_plan *plan, const sweep_row *row);
 void cli_rows_mean(FILE *out, int format, const sweep_tally *tally);
 
-/* The last line: FNV-1a of all bytes before it. The sum of no bytes, of more bytes, and the line,
-   which always has the same length in a format. */
-#define SWEEP_SUM_BEGIN 0xcbf29ce484222325u
-uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size);
+/* The last line: FNV-1a of all bytes before it (cli_sum_more); it always has the same length in a
+   format. */
 void cli_rows_sum(FILE *out, int format, uint64_t sum);
 
 /* ---- rows that were written ---- */

@@ -410,7 +410,7 @@ int cli_text_end(sweep_text *text)
     if (!memchr(text->at, '\n', (size_t)(text->end - text->at))) {
         return 0; /* the end, or a truncated line */
     }
-    uint64_t sum = cli_sum_more(SWEEP_SUM_BEGIN, text->head, (size_t)(text->at - text->head));
+    uint64_t sum = cli_sum_more(CLI_SUM_BEGIN, text->head, (size_t)(text->at - text->head));
     char expected[80];
     FILE *out = fmemopen(expected, sizeof expected, "w");
     if (!out) {
