@@ -11,7 +11,6 @@
 #define SWEEP_OPTIONS 24 /* that the head of a file may hold */
 #define SWEEP_JOINTS  8  /* joints whose angles a file of poses states */
 #define SWEEP_COLUMNS 20
-#define SWEEP_FIELDS  6 /* fields of a row after its values: sigma to flags */
 
 /* ---- ranges ---- */
 
@@ -156,6 +155,18 @@ typedef struct sweep_row {
     double extra[SWEEP_EXTRAS]; /* by kind; 0 where the sweep has none */
     uint32_t flags;
 } sweep_row;
+
+/* The fields of a row after its values, in their order; the extras precede the flags. */
+enum sweep_field {
+    FIELD_SIGMA,
+    FIELD_DBSM,
+    FIELD_BOUND,
+    FIELD_GLINT,
+    FIELD_DIFFUSE,
+    FIELD_FLAGS,
+    SWEEP_FIELDS
+};
+extern const char *const cli_row_field[SWEEP_FIELDS];
 
 /* The content of the first line: nothing in it depends on the machine, the number of threads or the
    shard. */
