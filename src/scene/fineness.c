@@ -18,7 +18,7 @@
 
 /* How far a round body's surface may be from its facets, in units of its radius and the tolerance:
    with 0.3, 14 of 20 directions to examples/satellites/spinner.toml and 11 of 20 to lander.toml
-   meet 1e-4, with 1.0 about 8 and 6, in half the time. The number of its facets grows as
+   meet 1e-4; with 1.0, 25 and 17 of 60 in half the time. The number of its facets grows as
    1/tolerance, so that below this one it stays as it is. */
 #define REACH_ROUND     0.3
 #define TOLERANCE_ROUND 1e-4
