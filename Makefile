@@ -11,6 +11,7 @@
 #   make operations misra   steps a pose takes, beside the most; MISRA C:2012 and its deviations
 #   make stack              what the core takes of the stack: no recursion, the deepest chain of calls
 #   make gpu                the paper's method in OpenGL, judged by the conformance kit
+#   make hard               the hard cases beside plain formulas, which fail on most of them
 #   make bench scaling      what poses cost on this machine, beside other engines, and how that grows
 # Compiling prints one line a file; V=1 prints the commands instead.
 
@@ -47,6 +48,7 @@ HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
 EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c))) $(STUDY)
+INCLUDED = $(BUILD)/demo.inc $(BUILD)/explore.inc $(BUILD)/readme.inc
 STUDY    = $(BUILD)/examples/study/study
 CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 JOINED   = $(BUILD)/amalgamation
@@ -89,7 +91,7 @@ tsan: cmocka
 	    $(BUILD)/tsan/test/host/test_sweep
 	$(BUILD)/tsan/test/host/test_sweep
 
-lint: $(BUILD)/demo.inc $(BUILD)/explore.inc
+lint: $(INCLUDED)
 	sh test/lint.sh $(BUILD)
 
 purity: $(LIB)
@@ -185,8 +187,8 @@ test-core: $(TOOL) $(CORE_TESTS) $(FUZZ_TESTS)
 # worth (needs python3, mpmath).
 bounds: $(LIB)
 	@mkdir -p $(BUILD)/test/hostile
-	$(CC) $(STD) $(OPT) -Wall -Wextra -Iinclude -o $(BUILD)/test/hostile/bounds test/hostile/bounds.c $(LIB) $(LDLIBS)
-	for kind in hostile plain lattice doubled far; do \
+	$(CC) $(STD) $(OPT) -Wall -Wextra -Iinclude -Isrc -o $(BUILD)/test/hostile/bounds test/hostile/bounds.c $(LIB) $(LDLIBS)
+	for kind in hostile plain lattice contacts doubled far; do \
 	    python3 test/hostile/bounds.py $(BOUNDS_SCENES) $(BOUNDS_SEED) $$kind >$(BUILD)/test/hostile/$$kind && \
 	    $(BUILD)/test/hostile/bounds $(BUILD)/test/hostile/$$kind || exit 1; \
 	done
@@ -247,6 +249,10 @@ gpu: $(TOOL)
 GPU_PIXELS = 512
 .PHONY: gpu
 
+# The hard cases: the plain formula in doubles, the engine, and the reference with 50 digits.
+hard: cmocka $(BUILD)/test/integrate/test_plain
+	$(BUILD)/test/integrate/test_plain table
+
 # The exact method on BIG_ROWS^2 * 4 facets with a closed form: ten million in 4 GB.
 big: cmocka $(BUILD)/test/integrate/test_large
 	$(BUILD)/test/integrate/test_large $(BIG_ROWS)
@@ -289,7 +295,7 @@ cmocka:
 
 .PHONY: all demo charts study install uninstall clean cmocka
 .PHONY: test asan tsan lint purity layers amalgamation stack flight operations misra portable
-.PHONY: fuzz fuzz-long coverage test-core bounds agree estimate shadows bench scaling big
+.PHONY: fuzz fuzz-long coverage test-core bounds agree estimate shadows bench scaling hard big
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
@@ -355,16 +361,18 @@ $(FLIGHT)/task.elf: $(wildcard examples/flight/*) $(JOINED)/lrcs.c
 	    -T examples/flight/board_m7.ld -o $@ examples/flight/task.c examples/flight/main.c \
 	    examples/flight/board_m7.c $(JOINED)/lrcs.c -lm
 
-# The built-in scene and the explorer's script, as the bytes of C arrays.
+# The built-in scene, the explorer's script and the text of a kit, as the bytes of C arrays.
 $(BUILD)/demo.inc: examples/satellite.toml
 $(BUILD)/explore.inc: src/cli/report/explore.js
-$(BUILD)/demo.inc $(BUILD)/explore.inc:
+$(BUILD)/readme.inc: src/cli/vectors/readme.md
+$(INCLUDED):
 	@mkdir -p $(@D)
 	$(call say,gen)
 	$(Q)od -An -v -td1 $< | sed 's/-*[0-9][0-9]*/&,/g' >$@
 
 $(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
 $(BUILD)/src/cli/report/explore.o: $(BUILD)/explore.inc
+$(BUILD)/src/cli/vectors/index.o: $(BUILD)/readme.inc
 
 $(BUILD)/src/%.o: src/%.c
 	@mkdir -p $(@D)

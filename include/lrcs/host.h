@@ -105,9 +105,9 @@ typedef struct lrcs_host_input {
 enum lrcs_host_prepare_stage {
     LRCS_HOST_PREPARE_EDGES,      /* checks; points welded; edges */
     LRCS_HOST_PREPARE_NEIGHBOURS, /* coincident facets; which facet lies across each side */
-    LRCS_HOST_PREPARE_NORMALS,    /* and what else is found facet by facet */
-    LRCS_HOST_PREPARE_CONTACTS,
-    LRCS_HOST_PREPARE_PROOFS, /* closed and outward, convex, what is near curved shapes */
+    LRCS_HOST_PREPARE_CONTACTS,   /* between facets; is the scene closed and outward? */
+    LRCS_HOST_PREPARE_NORMALS,
+    LRCS_HOST_PREPARE_PROOFS, /* convex, what is near curved shapes */
     LRCS_HOST_PREPARE_STAGES
 };
 enum lrcs_host_pose_stage {
@@ -248,10 +248,29 @@ typedef struct lrcs_host_glint {
     double around_01_percent;
 } lrcs_host_glint;
 
+/* A part with a larger error is too coarse for the glint of its material. */
+#define LRCS_HOST_GLINT_COARSE 1e-2
+
 /* Lists them, ordered by part and material, in an array that the caller frees.
    Status: LRCS_OK; LRCS_E_SYSTEM (memory). */
 int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint32_t *count,
                           lrcs_host_error *error);
+
+/* The glint of one pose that comes from facets too coarse for it. */
+typedef struct lrcs_host_glint_sum {
+    double glint_m2; /* of all these facets together */
+    double error_m2; /* ESTIMATE of its error: of each part the relative error, at most 1, times
+                        its glint */
+    double most_m2;  /* of the flat face that contributes most: its brightest facet, and the facets
+                        of the same part and material that turn from that by less than 1e-3 rad */
+    uint32_t facet;  /* its brightest facet; LRCS_NONE if none contributes */
+} lrcs_host_glint_sum;
+
+/* From the records of a run of `scene`, and a list of lrcs_host_glint_check of this scene or of the
+   one that it was varied from: the relative errors are those of the slopes in `scene`. */
+void lrcs_host_glint_sum_make(const lrcs_scene *scene, const lrcs_facet_record *records,
+                              const lrcs_host_glint *list, uint32_t count,
+                              lrcs_host_glint_sum *sum);
 
 /* ---- readings to fit ---- */
 

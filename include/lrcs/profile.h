@@ -19,7 +19,9 @@ typedef struct lrcs_profile_bin {
     double bound_m2;     /* proved: of their sum */
     double variation_m2; /* proved: of what anything that weighs sigma by range within the bin, by
                             1 at most, is off by: no less than bound_m2 */
-    double moment_m3;    /* integral over the bin of range - (k + 0.5) bin_m, times d(sigma) */
+    double curvature_estimate_m2; /* ESTIMATE, not proved: the error of the integral over curved
+                                     normals, which no bound includes; 0 without such */
+    double moment_m3; /* integral over the bin of range - (k + 0.5) bin_m, times d(sigma) */
 } lrcs_profile_bin;
 
 typedef struct lrcs_profile {
@@ -31,6 +33,8 @@ typedef struct lrcs_profile {
     double sigma_glint_m2, sigma_diffuse_m2; /* of all bins together */
     double bound_m2; /* proved, of that sum: less than the sum of the bins' bounds, which also
                         hold what may lie on the other side of a bin's edge */
+    double curvature_estimate_m2; /* ESTIMATE: of that sum; -1 if all normals are flat, as in
+                                     lrcs_result */
     int tessellation_known; /* 0: the bounds refer to the facets, not to the curved shapes that they
                                stand for: lrcs_result.budget */
     double range_err_m;     /* proved: no point's range is off by more within its bin */
@@ -48,12 +52,14 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m);
    beyond double range); LRCS_E_MEMORY; LRCS_E_LIMIT (the scene's depth takes more than
    LRCS_PROFILE_BINS bins, its distance from the origin numbers beyond LRCS_PROFILE_INDEX, or a grid
    has more than 2^32 - 2 candidates); LRCS_E_UNSUPPORTED (this thread's arithmetic, as
-   lrcs_prepare_run; a scene with curved normals).
+   lrcs_prepare_run).
    Notes: 1. The truth that bounds refer to is that of lrcs_sigma_run: Eq. 2 over the visible parts
    of the placed facets, and of the true curved shapes where tessellation_known is 1. A bin's bound
    falls with the first power of the facets' angles, that of the sum with the second.
-   2. On a facet d(sigma) is spread evenly over its visible projected area, so that the density over
-   range is piecewise linear; a bin's sigma is its integral, in closed form.
+   2. On a flat facet d(sigma) is spread evenly over its visible projected area, so that the density
+   over range is piecewise linear; a bin's sigma is its integral, in closed form. On a facet with
+   curved normals it is integrated by cubature over the visible parts in each bin, whose error is in
+   curvature_estimate_m2. Range is that of the flat facets.
    3. A facet normal to the line of sight has one range, and counts wholly in one bin: at a bin's
    edge in the farther one. Is it so close to an edge that its side cannot be decided, the bounds of
    both bins hold all of it. For a line of sight along an axis of the body frame all sides are told
@@ -64,12 +70,12 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
 /* The response to a Gaussian pulse: the density of sigma over range, convolved with a Gaussian of
    integral 1 whose full width at half maximum in range is fwhm_m.
    Given: profile; fwhm_m, m, > 0; range_m.
-   Returned: density_m, m^2 per m; bound_m, proved.
-   Status: LRCS_OK; LRCS_E_ARGUMENT (the width); LRCS_E_NUMBER (not finite).
-   Work: O(bins).
-   Notes: 1. A bin counts by its sigma and its moment; what it holds beyond them is in the bound:
-   about (bin_m / fwhm_m)^2 of the density. With bins of fwhm_m / 100 that is 1e-4 of it. */
+   Returned: density_m, m^2 per m; bound_m, proved; estimate_m, an ESTIMATE of what the integral
+   over curved normals adds to that error, 0 without such. Status: LRCS_OK; LRCS_E_ARGUMENT (the
+   width); LRCS_E_NUMBER (not finite). Work: O(bins). Notes: 1. A bin counts by its sigma and its
+   moment; what it holds beyond them is in the bound: about (bin_m / fwhm_m)^2 of the density. With
+   bins of fwhm_m / 100 that is 1e-4 of it. */
 int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_m,
-                       double *density_m, double *bound_m);
+                       double *density_m, double *bound_m, double *estimate_m);
 
 #endif

@@ -23,11 +23,12 @@ typedef int lrcs_host_sweep_scene(void *context, uint64_t index, lrcs_host_scene
                                   lrcs_host_error *error);
 
 /* Callback: takes one result. Called on the thread that called lrcs_host_sweep_run, in order of
-   index, once per index. uncertainty: of the materials, or NULL if none was asked for. Status:
-   LRCS_OK; any other status ends the sweep with it and its error. */
+   index, once per index. uncertainty: of the materials; glint: of facets too coarse for it; each
+   NULL if it was not asked for. Status: LRCS_OK; any other status ends the sweep with it and its
+   error. */
 typedef int lrcs_host_sweep_take(void *context, uint64_t index, const lrcs_pose *pose,
                                  const lrcs_result *result, const lrcs_uncertainty *uncertainty,
-                                 lrcs_host_error *error);
+                                 const lrcs_host_glint_sum *glint, lrcs_host_error *error);
 
 typedef struct lrcs_host_sweep {
     uint64_t first, count; /* poses first .. first + count - 1 */
@@ -36,7 +37,9 @@ typedef struct lrcs_host_sweep {
     lrcs_host_sweep_scene *scene; /* NULL: all poses use the scene passed to the sweep */
     lrcs_host_sweep_take *take;
     const lrcs_uncertainty_options *uncertainty; /* NULL: that of materials is not wanted */
-    void *context;                               /* passed to all callbacks */
+    const lrcs_host_glint *glint; /* as for lrcs_host_glint_sum_make; NULL: not wanted */
+    uint32_t glint_count;
+    void *context;                       /* passed to all callbacks */
     const volatile sig_atomic_t *cancel; /* set by a signal handler or by `take`, for example: if
                                             not 0, the sweep stops after the running poses; or NULL
                                           */
@@ -49,8 +52,9 @@ typedef struct lrcs_host_sweep {
    lrcs_host_scene_run or `pose` for the first pose that fails, whose number the sentence states:
    all poses before it were taken, for any number of threads; as `take`.
    Work: one work area per thread, which grows as the poses need it; a queue of results whose length
-   does not depend on the number of poses. If the system refuses threads, the sweep runs with fewer;
-   if a pose runs out of memory, that pose and the remaining ones are run by half as many threads.
+   does not depend on the number of poses. With `glint` and `uncertainty` each pose is run twice. If
+   the system refuses threads, the sweep runs with fewer; if a pose runs out of memory, that pose
+   and the remaining ones are run by half as many threads.
    */
 int lrcs_host_sweep_run(const lrcs_host_scene *scene, const lrcs_run_options *options,
                         const lrcs_host_sweep *sweep, uint64_t *done, lrcs_host_error *error);

@@ -69,12 +69,15 @@ enum cli_exit {
         "keep-transparent", 0, 0                                                                   \
     }
 
-#define CLI_FILE 2
+/* What an option takes, beside nothing (0) and a value (1): the name of a file to write, of any
+   kind or a chart, FILE.svg or FILE.png. */
+#define CLI_FILE  2
+#define CLI_CHART 3
 
 typedef struct cli_option {
     const char *name; /* without its dashes (a name of one letter has one dash, others have two);
                          NULL ends a list */
-    int has_value;    /* CLI_FILE if the value is the name of a file to write */
+    int has_value;    /* 0, 1, CLI_FILE or CLI_CHART */
     int repeats;
 } cli_option;
 
@@ -88,6 +91,8 @@ typedef struct cli_command {
     const char *help;
     const cli_option *option;
     int (*run)(const cli_args *args);
+    const char *help_more; /* the rest of a long help text (C compilers need accept only 4095
+                              characters in one literal); or NULL */
 } cli_command;
 
 typedef struct cli_given {
@@ -251,28 +256,30 @@ void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
 void cli_manual_page(const cli_command *const *command, size_t count, const char *overview);
 void cli_manual_completion(const cli_command *const *command, size_t count);
 
-/* An output file that an option names. */
-typedef struct cli_output {
-    const char *option, *path; /* path is NULL if the option was not given */
-} cli_output;
-
 /* 1 if a path ends with the extension, in upper or lower case, and has a character before it. */
 int cli_extension(const char *path, const char *extension);
 
-/* Checks before the work, as far as possible, that the files named by options can be written: none
-   is a folder, and each lies in a writable folder. 0 or CLI_FAILED with the message printed. */
-int cli_outputs_places(const cli_args *args);
+/* 1 if an option names a file to write. */
+int cli_is_output(const cli_command *command, const char *option);
 
-/* Checks that no two outputs are the same file and that none would replace a file that the scene
-   was read from. 0 or CLI_USAGE. */
-int cli_outputs_apart(const cli_command *command, const cli_output *output, int count);
-int cli_outputs_spare(const cli_command *command, const cli_output *output, int count,
-                      const lrcs_host_scene *scene);
+/* Checks before the work the files named by options, for every command: charts are FILE.svg or
+   FILE.png; no two are the same file; one that is standard output is not beside --json; none is a
+   folder, and each lies in a writable folder. 0, CLI_USAGE or CLI_FAILED with the message printed.
+ */
+int cli_outputs_check(const cli_args *args);
+
+/* Checks that none of them would replace a file that the scene was read from. 0 or CLI_USAGE. */
+int cli_outputs_spare(const cli_args *args, const lrcs_host_scene *scene);
 
 /* Writes a file atomically: it appears complete or not at all. 0 or CLI_FAILED with the message
    printed. */
 typedef int cli_writer(FILE *out, const void *context, lrcs_host_error *error);
 int cli_output_write(const char *path, cli_writer *write, const void *context);
+
+/* Writes a chart to an open file, as PNG or SVG; and to a file of its own, by its extension: 0 or
+   CLI_FAILED with the message printed. */
+int cli_chart_put(FILE *out, const lrcs_host_chart *chart, int png, lrcs_host_error *error);
+int cli_chart_write(const char *path, const lrcs_host_chart *chart);
 
 /* The range of picture sizes, in pixels. */
 #define CLI_PICTURE_LEAST   16.0

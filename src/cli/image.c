@@ -49,14 +49,15 @@ static const cli_option image_options[] = {
     {"visible", CLI_FILE, 0}, {"vtk", CLI_FILE, 0}, {"by", 1, 0},      {"size", 1, 0},
     {"ground", 1, 0},         {"help", 0, 0},       {NULL, 0, 0}};
 
-enum image_file { IMAGE_PNG, IMAGE_SVG, IMAGE_VTK, IMAGE_FILES };
+enum { IMAGE_PNG, IMAGE_SVG, IMAGE_VTK, IMAGE_FILES };
+static const char *const image_file[IMAGE_FILES] = {"o", "visible", "vtk"}; /* options */
 
 typedef struct image_job {
     const cli_args *args;
     lrcs_pose pose;
     lrcs_run_options options;
     lrcs_host_options load;
-    cli_output file[IMAGE_FILES];
+    const char *path[IMAGE_FILES]; /* NULL if not asked for */
     int colouring, white, ground_asked;
     uint32_t size;
     lrcs_host_scene scene;
@@ -71,8 +72,8 @@ typedef struct image_job {
 /* Checks that a file has one of two endings; the second may be NULL. */
 static int ending_check(const image_job *job, int file, const char *ending, const char *other)
 {
-    const char *path = job->file[file].path;
-    const char *option = job->file[file].option;
+    const char *path = job->path[file];
+    const char *option = image_file[file];
     if (!path || cli_extension(path, ending) || (other && cli_extension(path, other))) {
         return 0;
     }
@@ -83,20 +84,18 @@ static int ending_check(const image_job *job, int file, const char *ending, cons
 
 static int files_read(image_job *job)
 {
-    static const char *const option[IMAGE_FILES] = {"o", "visible", "vtk"};
     const cli_command *command = job->args->command;
     int given = 0;
     for (int i = 0; i < IMAGE_FILES; i++) {
-        job->file[i] = (cli_output){option[i], cli_value(job->args, option[i])};
-        given += job->file[i].path != NULL;
+        job->path[i] = cli_value(job->args, image_file[i]);
+        given += job->path[i] != NULL;
     }
     if (given == 0) {
         return cli_usage(command, "give -o FILE.png, --visible FILE.svg or --vtk FILE.vtp");
     }
     int code = ending_check(job, IMAGE_PNG, ".png", NULL);
     code = code ? code : ending_check(job, IMAGE_SVG, ".svg", NULL);
-    code = code ? code : ending_check(job, IMAGE_VTK, ".vtp", ".vtk");
-    return code ? code : cli_outputs_apart(command, job->file, IMAGE_FILES);
+    return code ? code : ending_check(job, IMAGE_VTK, ".vtp", ".vtk");
 }
 
 static int look_read(image_job *job)
@@ -115,7 +114,7 @@ static int look_read(image_job *job)
     if (ground && !job->white && strcmp(ground, "dark") != 0) {
         return cli_usage(command, "--ground: expected dark or white, found '%s'", ground);
     }
-    if (cli_value(job->args, "size") && !job->file[IMAGE_PNG].path) {
+    if (cli_value(job->args, "size") && !job->path[IMAGE_PNG]) {
         return cli_usage(command, "--size needs -o FILE.png");
     }
     job->size = CLI_PICTURE_DEFAULT;
@@ -151,11 +150,11 @@ static int image_room(image_job *job)
 {
     const lrcs_host_picture picture = picture_of(job);
     job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
-    if (job->file[IMAGE_PNG].path) {
+    if (job->path[IMAGE_PNG]) {
         job->image.size = lrcs_host_picture_need(&picture, job->size);
         job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
     }
-    if (!job->records || (job->file[IMAGE_PNG].path && !job->image.facet)) {
+    if (!job->records || (job->path[IMAGE_PNG] && !job->image.facet)) {
         return cli_out_of_memory();
     }
     return 0;
@@ -177,7 +176,7 @@ static int image_run(image_job *job)
             lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
                                 job->image.facet ? &job->image : NULL, NULL, &error);
     }
-    if (status == LRCS_OK && job->file[IMAGE_SVG].path) {
+    if (status == LRCS_OK && job->path[IMAGE_SVG]) {
         status = lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error);
     }
     return status == LRCS_OK ? 0 : cli_failed(&error);
@@ -215,7 +214,7 @@ static int vtk_write(FILE *out, const void *context, lrcs_host_error *error)
     const image_job *job = context;
     const lrcs_host_picture picture = picture_of(job);
     (void)error;
-    lrcs_host_vtk_write(out, &picture, cli_extension(job->file[IMAGE_VTK].path, ".vtp"));
+    lrcs_host_vtk_write(out, &picture, cli_extension(job->path[IMAGE_VTK], ".vtp"));
     return LRCS_OK;
 }
 
@@ -224,7 +223,7 @@ static int image_write(const image_job *job)
     static cli_writer *const writer[IMAGE_FILES] = {png_write, svg_write, vtk_write};
     int code = 0;
     for (int i = 0; i < IMAGE_FILES && code == 0; i++) {
-        code = job->file[i].path ? cli_output_write(job->file[i].path, writer[i], job) : 0;
+        code = job->path[i] ? cli_output_write(job->path[i], writer[i], job) : 0;
     }
     return code;
 }
@@ -239,7 +238,7 @@ static int image_command(const cli_args *args)
     int code = image_read(&job);
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
-    code = code ? code : cli_outputs_spare(args->command, job.file, IMAGE_FILES, &job.scene);
+    code = code ? code : cli_outputs_spare(args, &job.scene);
     code = code ? code : image_run(&job);
     code = code ? code : image_write(&job);
     cli_watch_end();
@@ -258,4 +257,5 @@ static int image_command(const cli_args *args)
 
 const cli_command cli_image_command = {
     "image",    "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
-    image_help, image_options, image_command};
+    image_help, image_options, image_command,
+    NULL};

@@ -24,7 +24,7 @@ static const char main_help[] =
     "  profile SCENE   which part of sigma comes from which range, in bins, and to a pulse\n"
     "  info SCENE      what a model holds: parts, materials, area, volume, defects\n"
     "  shape KIND      sigma of a simple body from its closed form\n"
-    "  verify          the engine against closed forms, or on hard cases, on this machine\n"
+    "  verify          the engine against closed forms on this machine\n"
     "  converge SCENE  what accuracy costs in time: every method against the truth\n"
     "  sweep SCENE     sigma over attitudes, joints, materials: tables and maps, in threads\n"
     "  merge FILE...   the shards of a sweep made whole\n"
@@ -69,6 +69,7 @@ static int help_print(const cli_command *command)
 {
     const lrcs_brdf_entry *entry;
     fputs(command ? command->help : main_help, stdout);
+    fputs(command && command->help_more ? command->help_more : "", stdout);
     for (const cli_option *o = command ? command->option : NULL; o && o->name; o++) {
         if (strcmp(o->name, "material") != 0) {
             continue;
@@ -144,7 +145,7 @@ int main(int count, char **word)
     }
     cli_args args;
     int code = cli_args_read(command, count - 2, word + 2, &args);
-    code = code ? code : cli_outputs_places(&args);
+    code = code ? code : cli_outputs_check(&args);
     if (code == 0) {
         cli_watch_begin(command->name);
         code = command->run(&args);

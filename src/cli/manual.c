@@ -30,11 +30,9 @@ static const char *roff_line(const char *text)
 
 static void roff_as_is(const char *text)
 {
-    puts(".nf");
     while (*text) {
         text = roff_line(text);
     }
-    puts(".fi");
 }
 
 static const char roff_end[] =
@@ -54,11 +52,14 @@ void cli_manual_page(const cli_command *const *command, size_t count, const char
     printf(".TH LRCS 1 \"\" \"lrcs %s\" \"User Commands\"\n.SH NAME\n", lrcs_version());
     puts("lrcs \\- monostatic laser radar cross\\-section of a facet mesh, with a proved bound");
     puts(".SH DESCRIPTION");
+    puts(".nf");
     roff_as_is(overview);
-    puts(".SH COMMANDS");
+    puts(".fi\n.SH COMMANDS");
     for (size_t i = 0; i < count; i++) {
-        printf(".SS %s\n", command[i]->name);
+        printf(".SS %s\n.nf\n", command[i]->name);
         roff_as_is(command[i]->help);
+        roff_as_is(command[i]->help_more ? command[i]->help_more : "");
+        puts(".fi");
     }
     fputs(roff_end, stdout);
 }

@@ -209,4 +209,5 @@ static int merge_command(const cli_args *args)
 
 const cli_command cli_merge_command = {
     "merge",    "FILE...",     "give the files that lrcs sweep --shard made",
-    merge_help, merge_options, merge_command};
+    merge_help, merge_options, merge_command,
+    NULL};

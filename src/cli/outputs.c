@@ -38,43 +38,64 @@ static int output_place(const char *path)
     return CLI_FAILED;
 }
 
-int cli_outputs_places(const cli_args *args)
+static int option_kind(const cli_command *command, const char *name)
+{
+    const cli_option *option = command->option;
+    while (option->name && strcmp(option->name, name) != 0) {
+        option++;
+    }
+    return option->name ? option->has_value : 0;
+}
+
+int cli_is_output(const cli_command *command, const char *option)
+{
+    return option_kind(command, option) >= CLI_FILE;
+}
+
+/* Checks one output against those given before it. */
+static int output_check(const cli_args *args, int index)
+{
+    const cli_command *command = args->command;
+    const char *name = args->given[index].name;
+    const char *path = args->given[index].value;
+    if (option_kind(command, name) == CLI_CHART && !cli_extension(path, ".svg") &&
+        !cli_extension(path, ".png")) {
+        return cli_usage(command, "%s%s: expected FILE.svg or FILE.png, found '%s'",
+                         cli_dashes(name), name, path);
+    }
+    for (int i = 0; i < index; i++) {
+        const cli_given *other = &args->given[i];
+        if (cli_is_output(command, other->name) && lrcs_host_output_same(other->value, path)) {
+            return cli_usage(command, "%s%s and %s%s name the same file: '%s', '%s'",
+                             cli_dashes(other->name), other->name, cli_dashes(name), name,
+                             other->value, path);
+        }
+    }
+    /* -o is what a command writes in any case, in the form that --json may choose */
+    int flag = cli_value(args, "json") && !cli_is_output(command, "json");
+    if (flag && strcmp(path, "-") == 0 && strcmp(name, "o") != 0) {
+        return cli_usage(command, "--%s - and --json both want standard output", name);
+    }
+    return output_place(path);
+}
+
+int cli_outputs_check(const cli_args *args)
 {
     int code = 0;
     for (int i = 0; i < args->given_count && code == 0; i++) {
-        const cli_option *option = args->command->option;
-        while (option->name && strcmp(option->name, args->given[i].name) != 0) {
-            option++;
-        }
-        code =
-            option->name && option->has_value == CLI_FILE ? output_place(args->given[i].value) : 0;
+        code = cli_is_output(args->command, args->given[i].name) ? output_check(args, i) : 0;
     }
     return code;
 }
 
-int cli_outputs_apart(const cli_command *command, const cli_output *output, int count)
-{
-    for (int i = 0; i < count; i++) {
-        for (int k = i + 1; k < count; k++) {
-            const char *a = output[i].path;
-            const char *b = output[k].path;
-            if (a && b && lrcs_host_output_same(a, b)) {
-                return cli_usage(command, "%s%s and %s%s name the same file: '%s', '%s'",
-                                 cli_dashes(output[i].option), output[i].option,
-                                 cli_dashes(output[k].option), output[k].option, a, b);
-            }
-        }
-    }
-    return 0;
-}
-
-int cli_outputs_spare(const cli_command *command, const cli_output *output, int count,
-                      const lrcs_host_scene *scene)
+int cli_outputs_spare(const cli_args *args, const lrcs_host_scene *scene)
 {
     lrcs_host_error error;
-    for (int i = 0; i < count; i++) {
-        if (output[i].path && lrcs_host_output_check(output[i].path, scene, &error) != LRCS_OK) {
-            return cli_usage(command, "%s%s %s", cli_dashes(output[i].option), output[i].option,
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (cli_is_output(args->command, given->name) &&
+            lrcs_host_output_check(given->value, scene, &error) != LRCS_OK) {
+            return cli_usage(args->command, "%s%s %s", cli_dashes(given->name), given->name,
                              error.text);
         }
     }
@@ -93,4 +114,28 @@ int cli_output_write(const char *path, cli_writer *write, const void *context)
         status = good ? closed : status;
     }
     return status == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+int cli_chart_put(FILE *out, const lrcs_host_chart *chart, int png, lrcs_host_error *error)
+{
+    if (png) {
+        return lrcs_host_chart_png(out, chart, error);
+    }
+    lrcs_host_chart_svg(out, chart);
+    return LRCS_OK;
+}
+
+static int chart_png(FILE *out, const void *chart, lrcs_host_error *error)
+{
+    return cli_chart_put(out, chart, 1, error);
+}
+
+static int chart_svg(FILE *out, const void *chart, lrcs_host_error *error)
+{
+    return cli_chart_put(out, chart, 0, error);
+}
+
+int cli_chart_write(const char *path, const lrcs_host_chart *chart)
+{
+    return cli_output_write(path, cli_extension(path, ".png") ? chart_png : chart_svg, chart);
 }

@@ -149,17 +149,6 @@ void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrc
     lrcs_host_json_end(json);
 }
 
-/* 1 if an option names a file to write: a result does not depend on where it is written. */
-static int names_output(const cli_command *command, const char *name)
-{
-    for (const cli_option *option = command->option; option->name; option++) {
-        if (strcmp(option->name, name) == 0) {
-            return option->has_value == CLI_FILE;
-        }
-    }
-    return 0;
-}
-
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
 {
     char *text = NULL;
@@ -177,8 +166,8 @@ char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
     const char *before = "; options: ";
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
-        if (names_output(args->command, given->name)) {
-            continue;
+        if (cli_is_output(args->command, given->name)) {
+            continue; /* a result does not depend on where it is written */
         }
         fprintf(out, "%s%s%s%s%s", before, cli_dashes(given->name), given->name,
                 given->value ? "=" : "", given->value ? given->value : "");

@@ -484,4 +484,5 @@ static int scene_command(const cli_args *args)
 }
 
 const cli_command cli_scene_command = {"scene",    "MODEL",       "give a .3ds, .obj or .stl model",
-                                       scene_help, scene_options, scene_command};
+                                       scene_help, scene_options, scene_command,
+                                       NULL};

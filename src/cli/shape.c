@@ -269,4 +269,5 @@ const cli_command cli_shape_command = {
     "plate, disc, box, sphere, dome, cylinder, cone, frustum or paraboloid",
     shape_help,
     shape_options,
-    shape_command};
+    shape_command,
+    NULL};

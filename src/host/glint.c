@@ -243,3 +243,55 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
     free(turns);
     return all ? LRCS_OK : lrcsi_host_fail_memory(error, most * sizeof *edges);
 }
+
+/* The entry of a facet's part and material, or NULL. The list is in the order of entry_order. */
+static const lrcs_host_glint *entry_of(const lrcs_scene *scene, uint32_t facet,
+                                       const lrcs_host_glint *list, uint32_t count)
+{
+    const lrcs_host_glint key = {.part = scene->facet_part[facet],
+                                 .material = scene->facet_material[facet]};
+    return count > 0 ? bsearch(&key, list, count, sizeof *list, entry_order) : NULL;
+}
+
+/* The glint of all facets of the same part and material in the plane of this facet, or nearly. */
+static double face_glint(const lrcs_scene *scene, const lrcs_facet_record *records, uint32_t facet)
+{
+    double glint = 0.0;
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        /* cosines of incidence differ by no more than normals turn */
+        if (records[i].sigma_glint_m2 > 0.0 && scene->facet_part[i] == scene->facet_part[facet] &&
+            scene->facet_material[i] == scene->facet_material[facet] &&
+            fabs(records[i].cos_theta - records[facet].cos_theta) <= FLAT_TURN &&
+            facets_turn(scene, i, facet) <= FLAT_TURN) {
+            glint += records[i].sigma_glint_m2;
+        }
+    }
+    return glint;
+}
+
+void lrcs_host_glint_sum_make(const lrcs_scene *scene, const lrcs_facet_record *records,
+                              const lrcs_host_glint *list, uint32_t count, lrcs_host_glint_sum *sum)
+{
+    *sum = (lrcs_host_glint_sum){.facet = LRCS_NONE};
+    const lrcs_host_glint *entry = NULL;
+    double error = 0.0;
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        /* facets of one part and material mostly follow one another */
+        if (i == 0 || scene->facet_part[i] != scene->facet_part[i - 1] ||
+            scene->facet_material[i] != scene->facet_material[i - 1]) {
+            double s = scene->material[scene->facet_material[i]].brdf.s;
+            entry = entry_of(scene, i, list, count);
+            error = !entry ? 0.0 : s == entry->s ? entry->error : lrcsi_comb_error(entry->turn, s);
+        }
+        double glint = records[i].sigma_glint_m2;
+        if (!entry || !(error > LRCS_HOST_GLINT_COARSE) || !(glint > 0.0)) {
+            continue;
+        }
+        sum->glint_m2 += glint;
+        sum->error_m2 += glint * fmin(error, 1.0);
+        if (sum->facet == LRCS_NONE || glint > records[sum->facet].sigma_glint_m2) {
+            sum->facet = i;
+        }
+    }
+    sum->most_m2 = sum->facet == LRCS_NONE ? 0.0 : face_glint(scene, records, sum->facet);
+}

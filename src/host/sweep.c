@@ -17,6 +17,7 @@ typedef struct sweep_slot {
     lrcs_pose pose;
     lrcs_result result;
     lrcs_uncertainty uncertainty;
+    lrcs_host_glint_sum glint;
     int status;
     int crowded;           /* short of memory beside other threads: not an answer yet */
     lrcs_host_error error; /* where the status says so */
@@ -32,22 +33,45 @@ typedef struct sweep_run {
     lrcs_host_error *error;
 } sweep_run;
 
-/* One pose of a scene, with its material uncertainty if requested. */
+/* One pose of a scene, with the glint of coarse facets if requested. */
+static int pose_sigma(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
+                      sweep_slot *one)
+{
+    const lrcs_host_sweep *sweep = run->sweep;
+    lrcs_facet_record *records = NULL;
+    size_t size = ((size_t)scene->scene.facet_count + 1) * sizeof *records;
+    if (sweep->glint) {
+        records = malloc(size);
+        if (!records) {
+            return lrcsi_host_fail_memory(&one->error, size);
+        }
+    }
+    int status = lrcsi_host_sigma(scene, &one->pose, run->options, &run->area[member], &one->result,
+                                  records, NULL, &one->error);
+    if (status == LRCS_OK && records) {
+        lrcs_host_glint_sum_make(&scene->scene, records, sweep->glint, sweep->glint_count,
+                                 &one->glint);
+    }
+    free(records);
+    return status;
+}
+
+/* The same with its material uncertainty if requested. */
 static int sweep_pose(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
                       sweep_slot *one)
 {
     const lrcs_uncertainty_options *how = run->sweep->uncertainty;
-    if (!how) {
-        return lrcsi_host_sigma(scene, &one->pose, run->options, &run->area[member], &one->result,
-                                NULL, NULL, &one->error);
+    int status = how && !run->sweep->glint ? LRCS_OK : pose_sigma(run, member, scene, one);
+    if (!how || status != LRCS_OK) {
+        return status;
     }
     size_t size = ((size_t)scene->scene.material_count + 1) * sizeof(lrcs_sensitivity);
     lrcs_sensitivity *sensitivity = malloc(size);
     if (!sensitivity) {
         return lrcsi_host_fail_memory(&one->error, size);
     }
-    int status = lrcsi_host_uncertainty(scene, &one->pose, run->options, how, &run->area[member],
-                                        &one->result, sensitivity, &one->uncertainty, &one->error);
+    status = lrcsi_host_uncertainty(scene, &one->pose, run->options, how, &run->area[member],
+                                    &one->result, sensitivity, &one->uncertainty, &one->error);
     free(sensitivity);
     return status;
 }
@@ -96,7 +120,8 @@ static int sweep_take(void *context, uint64_t index, const void *slot)
                                (unsigned long long)index, one->error.text);
     }
     return run->sweep->take(run->sweep->context, index, &one->pose, &one->result,
-                            run->sweep->uncertainty ? &one->uncertainty : NULL, run->error);
+                            run->sweep->uncertainty ? &one->uncertainty : NULL,
+                            run->sweep->glint ? &one->glint : NULL, run->error);
 }
 
 /* No more threads than poses. */

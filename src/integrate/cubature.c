@@ -18,7 +18,8 @@
      which one halving does not do. The difference is the estimate; being the error of the coarser,
      it is some ten to sixty times that of what is kept.
    - Where the normals turn by less than a small part p of those widths, and of the way to the dark
-     edge, the rule alone serves: its error is of the order of p^6, which then is the estimate.
+     edge, the rule alone serves: its error is of the order of p^6, which then is the estimate; p^5
+     where a linear function of the caller's is integrated too.
    Where halvings run out, the bound on the cell stands as the estimate. Where cells run out, the
    triangle is done again to a coarser tolerance: all of it a little coarse beats a part untouched.
    Where steps run out, cells that should be divided are left as they are, and what that may cost is
@@ -59,12 +60,13 @@
 typedef struct cube_value {
     double glint, diffuse, rounding;
     double glint_u, diffuse_log; /* moments, where wanted */
+    double weighted;             /* times the caller's linear function, 0 without one */
 } cube_value;
 
 /* A convex polygon. Positions are relative to the first corner, so that they stay good to a few u
    of the cell's size however small it is. */
 struct lrcsi_cubature_cell {
-    double normal[CORNERS][3], at[CORNERS][2];
+    double normal[CORNERS][3], at[CORNERS][2], weight[CORNERS];
     int count;
     double unit;    /* area of the square of positions */
     double theta;   /* from the mean of its corners' normals to the laser */
@@ -101,7 +103,7 @@ static double node_position_err(const lrcsi_cubature *sum, double u, double d, c
    good to 6 u, which is at most 2 u in theta and part of the position error. */
 static cube_value node_value(const lrcsi_cubature *sum, const double n[3])
 {
-    cube_value at = {0, 0, 0, 0, 0};
+    cube_value at = {0, 0, 0, 0, 0, 0};
     if (!(n[2] > 0)) {
         return at;
     }
@@ -126,6 +128,7 @@ static void value_add(cube_value *sum, double weight, const cube_value *value)
     sum->rounding += weight * value->rounding;
     sum->glint_u += weight * value->glint_u;
     sum->diffuse_log += weight * value->diffuse_log;
+    sum->weighted += weight * value->weighted;
 }
 
 /* What rounding may add to the area of the triangle of corners 0, i and i + 1, in units of the
@@ -151,7 +154,7 @@ static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cu
     const double *v = cell->at[i + 1];
     double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
     double slack = fan_slack(cell, i);
-    cube_value mean = {0, 0, 0, 0, 0};
+    cube_value mean = {0, 0, 0, 0, 0, 0};
     for (int k = 0; k < 7 && area > 0; k++) {
         const double *node = rule[(k + 2) / 3]; /* the centroid once, the others three times */
         int odd = (k + 2) % 3;
@@ -161,6 +164,9 @@ static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cu
                    node[odd == 2] * cell->normal[i + 1][c];
         }
         cube_value at = node_value(sum, n);
+        at.weighted = (at.glint + at.diffuse) *
+                      (node[odd == 0] * cell->weight[0] + node[odd == 1] * cell->weight[i] +
+                       node[odd == 2] * cell->weight[i + 1]);
         value_add(&mean, node[2], &at);
     }
     mean.rounding += 16 * LRCSI_U * (mean.glint + mean.diffuse);
@@ -170,7 +176,7 @@ static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cu
 
 static cube_value rule_value(const lrcsi_cubature *sum, const cube_cell *cell)
 {
-    cube_value value = {0, 0, 0, 0, 0};
+    cube_value value = {0, 0, 0, 0, 0, 0};
     for (int i = 1; i + 1 < cell->count; i++) {
         rule_add(sum, cell, i, &value);
     }
@@ -259,7 +265,8 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
     cell->trusted = turn <= MOST_TURN && diffuse && glint;
     double part = lrcsi_most(turn * sqrt(brdf->m + 1), 0.25 * turn * (brdf->m + 1) * t);
     part = lrcsi_most(part, brdf->A > 0 && glint_near ? turn / wide : 0);
-    cell->rough = part < 1 ? part * part * part * part * part * part : 1;
+    double fifth = part * part * part * part * part;
+    cell->rough = part < 1 ? fifth * (sum->weight ? 1 : part) : 1;
     if (cell->trusted) {
         cell->value = rule_value(sum, cell);
     }
@@ -292,7 +299,7 @@ static void cube_chord(const cube_cell *cell, int *from, int *to, double chord[3
 }
 
 /* A convex cell never has too many; one that rounding has dented loses a sliver of its rim. */
-static void corner_add(cube_cell *cell, const double normal[3], const double at[2])
+static void corner_add(cube_cell *cell, const double normal[3], const double at[2], double weight)
 {
     if (cell->count == CORNERS) {
         return;
@@ -303,7 +310,7 @@ static void corner_add(cube_cell *cell, const double normal[3], const double at[
     for (int k = 0; k < 2; k++) {
         cell->at[cell->count][k] = at[k];
     }
-    cell->count++;
+    cell->weight[cell->count++] = weight;
 }
 
 /* The part of a cell with level >= 0, `sign` 1, or <= 0, -1; the level is linear in position. */
@@ -314,7 +321,7 @@ static void cube_cut(const cube_cell *cell, const double level[CORNERS], int sig
         double here = sign * level[i];
         double there = sign * level[j];
         if (here >= 0) {
-            corner_add(part, cell->normal[i], cell->at[i]);
+            corner_add(part, cell->normal[i], cell->at[i], cell->weight[i]);
         }
         if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
             double share = here / (here - there);
@@ -326,7 +333,8 @@ static void cube_cut(const cube_cell *cell, const double level[CORNERS], int sig
             for (int k = 0; k < 2; k++) {
                 at[k] = cell->at[i][k] + share * (cell->at[j][k] - cell->at[i][k]);
             }
-            corner_add(part, normal, at);
+            corner_add(part, normal, at,
+                       cell->weight[i] + share * (cell->weight[j] - cell->weight[i]));
         }
     }
 }
@@ -429,6 +437,7 @@ static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell)
     sum->rounding += cell->value.rounding;
     lrcsi_sum_add(&sum->glint_u, cell->value.glint_u);
     lrcsi_sum_add(&sum->diffuse_log, cell->value.diffuse_log);
+    lrcsi_sum_add(&sum->weighted, cell->value.weighted);
 }
 
 static double cube_shortest(const cube_cell *cell)
@@ -484,12 +493,18 @@ static void cube_give_up(lrcsi_cubature *sum, cube_cell *cell)
 static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_cell quarter[4],
                          int must)
 {
-    cube_value all = {0, 0, 0, 0, 0};
+    cube_value all = {0, 0, 0, 0, 0, 0};
     for (int i = 0; i < 4; i++) {
         value_add(&all, 1, &quarter[i].value);
     }
     double area = cube_area(cell);
     double off = fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
+    if (sum->weight) { /* the integral with the weight, relative to its largest value */
+        const double *w = sum->weight;
+        double largest = lrcsi_most(fabs(w[0]), lrcsi_most(fabs(w[1]), fabs(w[2])));
+        double moved = fabs(all.weighted - cell->value.weighted);
+        off = largest > 0 ? lrcsi_most(off, moved / largest) : off;
+    }
     double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
     double most = sum->tolerance * (all.glint + all.diffuse + had * (area / sum->whole));
     int agree = off <= most + negligible_below(sum) * area;
@@ -558,13 +573,13 @@ static void cells_add(lrcsi_cubature *sum, cube_cell first)
 
 /* --- triangles -------------------------------------------------------------------------------- */
 
-/* A triangle of that area. */
-static cube_cell cube_of(const double normal[3][3], double area)
+/* A triangle of that area, with the values of a linear function at its corners (NULL: 0). */
+static cube_cell cube_of(const double normal[3][3], const double weight[3], double area)
 {
     static const double at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
     cube_cell cell = {.unit = 2 * area};
     for (int i = 0; i < 3; i++) {
-        corner_add(&cell, normal[i], at[i]);
+        corner_add(&cell, normal[i], at[i], weight ? weight[i] : 0);
     }
     return cell;
 }
@@ -583,7 +598,7 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
                                    double tolerance, lrcsi_cubature_cell *waiting)
 {
     lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance, .waiting = waiting};
-    cube_cell cell = cube_of(normal, 0);
+    cube_cell cell = cube_of(normal, NULL, 0);
     cube_measure(&cell);
     sum.most = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
     double far = cell.theta + cube_turn(&cell);
@@ -619,7 +634,7 @@ static double dark_position_err(const lrcsi_cubature *sum, const cube_cell *whol
 void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area)
 {
     double level[CORNERS] = {0};
-    cube_cell whole = cube_of(normal, area);
+    cube_cell whole = cube_of(normal, sum->weight, area);
     cube_cell lit = {.unit = whole.unit};
     if (!(area > 0)) {
         return;

@@ -27,6 +27,9 @@ typedef struct lrcsi_cubature {
     lrcsi_sum glint, diffuse;
     int moments;                    /* 1: sum these too, at the same nodes; set by the caller */
     lrcsi_sum glint_u, diffuse_log; /* f_r cos times tan^2, and times log(1 + tan^2) */
+    const double *weight;           /* at the three corners of the triangle to be added: a linear
+                                       function; set by the caller; NULL: none */
+    lrcsi_sum weighted;             /* f_r cos times that function, at the same nodes */
     double estimate;                /* of the cubature's error */
     double left;     /* bound on the error where the meter left no steps to look closer */
     double rounding; /* bound on the error that rounding adds to the cubature's own sum */

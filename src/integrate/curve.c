@@ -27,28 +27,6 @@
 #define CUBATURE_LEAST 1e-9
 #define CUBATURE_MOST  1e-2
 
-/* All facets to integrate over. The sum so far tells how small a contribution is still worth work:
-   a dark sliver gets no more than it can add. Each facet may err by its share of the sum, by area
-   and by count: all together by twice the aim. */
-typedef struct curve_all {
-    const lrcsi_view *view;
-    const lrcsi_curving *how;
-    double negligible; /* f_r cos below this is negligible beside the brightest facet */
-    double projected;  /* area of all */
-    double count;
-    double done; /* integral of f_r cos over the visible parts of the facets done so far */
-} curve_all;
-
-/* A facet at work. */
-typedef struct curve_job {
-    const lrcsi_view *view;
-    uint32_t facet;
-    lrcsi_incidence incidence;
-    lrcs_brdf brdf;
-    double normal[3][3]; /* at its corners, view axes, on the side that is seen */
-    lrcsi_cubature sum;
-} curve_job;
-
 int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_prepared *p = view->prepared;
@@ -56,7 +34,7 @@ int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet)
            lrcsi_view_reflects(view, facet);
 }
 
-static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
+void lrcsi_curve_start(const lrcsi_curve_all *all, uint32_t facet, lrcsi_curve_facet *job)
 {
     const lrcsi_view *view = all->view;
     const lrcs_point *n = lrcsi_prepared_normals(view->prepared, facet);
@@ -85,13 +63,13 @@ static void job_start(curve_job *job, const curve_all *all, uint32_t facet)
                                  : 0;
 }
 
-static curve_all all_make(const lrcsi_view *view, const lrcsi_curving *how)
+lrcsi_curve_all lrcsi_curve_all_make(const lrcsi_view *view, const lrcsi_curving *how)
 {
-    curve_all all = {view, how, 0, 0, 0, 0};
-    curve_job job;
+    lrcsi_curve_all all = {view, how, 0, 0, 0, 0};
+    lrcsi_curve_facet job;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (lrcsi_curve_wanted(view, f)) {
-            job_start(&job, &all, f);
+            lrcsi_curve_start(&all, f, &job);
             all.negligible = job.sum.negligible;
             all.projected += job.incidence.projected;
             all.count++;
@@ -100,24 +78,23 @@ static curve_all all_make(const lrcsi_view *view, const lrcsi_curving *how)
     return all;
 }
 
-static void all_have(curve_all *all, const lrcsi_curved *curved)
+void lrcsi_curve_have(lrcsi_curve_all *all, double sigma)
 {
-    all->done += (curved->glint + curved->diffuse) / FOUR_PI;
+    all->done += sigma / FOUR_PI;
 }
 
-static void job_whole(curve_job *job)
+static void job_whole(lrcsi_curve_facet *job)
 {
     lrcsi_cubature_add(&job->sum, (const double(*)[3])job->normal, job->incidence.projected);
 }
 
-/* The most that f_r cos reaches on the facet. */
-static double job_most(const curve_job *job)
+double lrcsi_curve_most(const lrcsi_curve_facet *job)
 {
     return job->sum.most.glint + job->sum.most.diffuse;
 }
 
 /* What has been summed, `share` of it. */
-static lrcsi_curved job_part(const curve_job *job, double share)
+static lrcsi_curved job_part(const lrcsi_curve_facet *job, double share)
 {
     const lrcsi_cubature *sum = &job->sum;
     double factor = FOUR_PI * share;
@@ -129,20 +106,21 @@ static lrcsi_curved job_part(const curve_job *job, double share)
     part.rounding = factor * sum->rounding +
                     (job->incidence.error + 16 * LRCSI_U) * (part.glint + part.diffuse);
     part.estimate = factor * sum->estimate;
-    part.most = FOUR_PI * job_most(job) * job->incidence.projected * (1 + job->incidence.error);
+    part.most =
+        FOUR_PI * lrcsi_curve_most(job) * job->incidence.projected * (1 + job->incidence.error);
     return part;
 }
 
 /* --- shares ----------------------------------------------------------------------------------- */
 
-static lrcsi_curved curve_share(curve_job *job, const lrcsi_visible *visible)
+static lrcsi_curved curve_share(lrcsi_curve_facet *job, const lrcsi_visible *visible)
 {
     if (!(visible->high > 0)) {
         return job_part(job, 0);
     }
     job_whole(job);
     double whole = lrcsi_sum_value(&job->sum.glint) + lrcsi_sum_value(&job->sum.diffuse);
-    double most = job_most(job);
+    double most = lrcsi_curve_most(job);
     double projected = job->incidence.projected;
     double high = visible->high < projected ? lrcsi_least(whole, most * visible->high) : whole;
     double low =
@@ -162,15 +140,15 @@ static lrcsi_curved curve_share(curve_job *job, const lrcsi_visible *visible)
 void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_curving *how,
                         const lrcsi_visible *visible, lrcsi_curved *curved)
 {
-    curve_job job;
-    curve_all all = all_make(view, how);
+    lrcsi_curve_facet job;
+    lrcsi_curve_all all = lrcsi_curve_all_make(view, how);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
         lrcsi_view_progress(view, LRCS_PROGRESS_INTEGRATE, f, view->prepared->scene->facet_count);
         if (lrcsi_curve_wanted(view, f)) {
-            job_start(&job, &all, f);
+            lrcsi_curve_start(&all, f, &job);
             curved[f] = curve_share(&job, &visible[f]);
-            all_have(&all, &curved[f]);
+            lrcsi_curve_have(&all, curved[f].glint + curved[f].diffuse);
         }
     }
 }
@@ -178,8 +156,8 @@ void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_curving *how,
 /* --- pieces ----------------------------------------------------------------------------------- */
 
 /* A piece, fanned from its first corner. Returns what its areas may be off by. */
-static double piece_add(curve_job *job, const lrcsi_target *target, const double (*corner)[2],
-                        uint32_t count)
+static double piece_add(lrcsi_curve_facet *job, const lrcsi_target *target,
+                        const double (*corner)[2], uint32_t count)
 {
     double normal[3][3]; /* of the fan's triangle at hand: corners 0, i - 1, i */
     double off = 0;
@@ -208,7 +186,7 @@ static double piece_add(curve_job *job, const lrcsi_target *target, const double
 
 /* Points of pieces are off by 100 u of the reach in projection: as a share of the facet's least
    height, and that times how far its normals lie apart, at most 2. */
-static double pieces_position_err(const curve_job *job, const lrcsi_target *target)
+double lrcsi_curve_position_err(const lrcsi_curve_facet *job, const lrcsi_target *target)
 {
     double height = 2 * job->incidence.projected / target->diameter;
     return SLIP_WHOLE + 200 * LRCSI_U * target->reach / height;
@@ -222,11 +200,11 @@ static lrcsi_visible facet_known(const lrcsi_view *view, uint32_t facet, lrcsi_v
 }
 
 /* All pieces of the facet that is open, which is closed then. */
-static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visible *visible)
+static lrcsi_curved curve_pieces(lrcsi_curve_facet *job, lrcsi_occluding *o, lrcsi_visible *visible)
 {
     const lrcsi_target *target = &o->alone.target;
     double off = 20 * LRCSI_U * target->reach * target->perimeter;
-    job->sum.position_err = pieces_position_err(job, target);
+    job->sum.position_err = lrcsi_curve_position_err(job, target);
     while (lrcsi_occlude_next(o)) {
         off +=
             piece_add(job, target, (const double(*)[2])o->alone.piece.corner, o->alone.piece.count);
@@ -235,13 +213,13 @@ static lrcsi_curved curve_pieces(curve_job *job, lrcsi_occluding *o, lrcsi_visib
     *visible = facet_known(job->view, job->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = job_part(job, 1);
     part.visibility =
-        FOUR_PI * (job_most(job) * (visible->high - visible->low + off) + job->sum.left);
+        FOUR_PI * (lrcsi_curve_most(job) * (visible->high - visible->low + off) + job->sum.left);
     return part;
 }
 
 /* One facet, integrated where there is a job for it. */
-static void facet_pieces(curve_job *job, lrcsi_occluding *o, uint32_t facet, lrcsi_visible *visible,
-                         lrcsi_curved *curved)
+static void facet_pieces(lrcsi_curve_facet *job, lrcsi_occluding *o, uint32_t facet,
+                         lrcsi_visible *visible, lrcsi_curved *curved)
 {
     lrcsi_occlude_open(o, facet);
     if (job && o->undecided) {
@@ -260,8 +238,8 @@ int lrcsi_curve_pieces(lrcsi_classification *classification, const lrcsi_curving
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     lrcsi_occluding o;
-    curve_job job;
-    curve_all all = all_make(view, how);
+    lrcsi_curve_facet job;
+    lrcsi_curve_all all = lrcsi_curve_all_make(view, how);
     int status = lrcsi_occlude_make(classification, work, &o);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
         int wanted = lrcsi_curve_wanted(view, f);
@@ -270,14 +248,14 @@ int lrcsi_curve_pieces(lrcsi_classification *classification, const lrcsi_curving
         lrcsi_view_progress(view, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f,
                             view->prepared->scene->facet_count);
         if (wanted) {
-            job_start(&job, &all, f);
+            lrcsi_curve_start(&all, f, &job);
         }
         if (!sampled || (parted && wanted)) {
             facet_pieces(wanted ? &job : NULL, &o, f, &visible[f], &curved[f]);
         } else if (wanted) {
             curved[f] = curve_share(&job, &visible[f]);
         }
-        all_have(&all, &curved[f]);
+        lrcsi_curve_have(&all, curved[f].glint + curved[f].diffuse);
     }
     work->used = mark;
     return status;

@@ -25,11 +25,19 @@
    facets of a sector are seen whole and lie in one bin, reach included, what the whole patches err.
    The sum of all bins has only (1), (2), (4) and the whole patches' error.
 
+   On a facet with curved normals s varies over P. Its range is still that of the flat facet. The
+   part of P in a bin is divided, at the middle corner too, into trapezia between two lines of equal
+   range, and each of these into two triangles, whose areas are the two terms of (4); s is
+   integrated over them by integrate/cubature.h. (2) and (3) hold with the largest s that the
+   facet's normals allow. In place of (1) stands the rounding of that sum; its corners are off by 8
+   u of the triangle, their normals by twice that, which position_err has room for
+   (integrate/curve.c). The cubature's own error is an estimate, and is not part of any bound.
+
    e: a corner's range is rounded once, 1.01 u |z|; a point of a piece is a sum of corners with
    weights that add up to 1 within 4 u and three roundings, 7 u |z|; it projects to within 100 u of
    the reach, which is tan(theta) times as much in range (visibility/target.h).
    Called: lrcsi_view_make, lrcsi_classify_make, lrcsi_occlude_make; for each facet
-   lrcsi_facet_terms_make, lrcsi_occlude_open, _next, _close. */
+   lrcsi_facet_terms_make or lrcsi_curve_start, lrcsi_occlude_open, _next, _close. */
 #include <lrcs/profile.h>
 
 #include <float.h>
@@ -41,6 +49,7 @@
 #include "base/range.h"
 #include "base/sum.h"
 #include "base/work.h"
+#include "integrate/curve.h"
 #include "integrate/tessellation.h"
 #include "integrate/total.h"
 #include "view/frame.h"
@@ -55,10 +64,15 @@
    the unit vector are accurate to 2^-97, three products and two sums add 16 u^2. */
 #define RANGE_DD_ERROR 0x1p-96
 
+/* The cubature over curved normals aims at a tenth of this, relative to what all facets with curved
+   normals reflect. */
+#define CURVE_TOLERANCE 1e-6
+
 /* bound and variation hold (1) to (4) in `bound`; `bent` and `varied` are (5). */
 typedef struct bin_sums {
     lrcsi_sum glint, diffuse, moment;
     double bound, bent, varied;
+    double estimate; /* of the cubature's error */
 } bin_sums;
 
 /* What the bins are and hold, scaled but for bin_m. */
@@ -72,7 +86,9 @@ typedef struct profile_job {
     bin_sums *bin;
     uint32_t low, high; /* bins low <= i < high may hold something */
     lrcsi_sum glint, diffuse;
-    double bound, additions, range_err;
+    double bound, additions, range_err, estimate;
+    lrcsi_curving how; /* of curved normals; waiting is NULL if all are flat */
+    lrcsi_curve_all curves;
     lrcsi_visible *visible; /* of every facet; NULL if no facet stands for a curved shape */
     lrcsi_proximity_band margin;
     const lrcsi_proximity_band *doubt; /* margin, or NULL if none was made */
@@ -86,7 +102,9 @@ typedef struct profile_facet {
     double range[3], range_most; /* at its corners; the largest |range| */
     double extent;               /* no two of its points are farther apart in range */
     uint32_t first, last;
-    double glint, diffuse, rounding, most; /* most: no less than its true sigma */
+    double glint, diffuse, rounding; /* of a flat facet */
+    double most;                     /* no less than its true sigma anywhere */
+    lrcsi_curve_facet *curve;        /* NULL: its normals are not curved */
 } profile_facet;
 
 /* --- bins ------------------------------------------------------------------------------------- */
@@ -122,20 +140,47 @@ static uint32_t bin_within(const profile_job *job, const profile_facet *f, doubl
     return i < f->first ? f->first : i > f->last ? f->last : i;
 }
 
-/* Adds a projected area, with its first moment about the bin's centre. */
-static void bin_add(profile_job *job, const profile_facet *f, uint32_t i, double area,
-                    double moment)
+/* Adds a part of sigma, with its first moment about the bin's centre and its error. */
+static void bin_add(profile_job *job, uint32_t i, double glint, double diffuse, double moment,
+                    double rounding)
 {
     bin_sums *bin = &job->bin[i];
-    lrcsi_sum_add(&bin->glint, f->glint * area);
-    lrcsi_sum_add(&bin->diffuse, f->diffuse * area);
-    lrcsi_sum_add(&bin->moment, (f->glint + f->diffuse) * moment);
-    lrcsi_sum_add(&job->glint, f->glint * area);
-    lrcsi_sum_add(&job->diffuse, f->diffuse * area);
-    double rounding = f->rounding * area + f->most * PART_ERROR * area + LRCSI_FACET_UNDERFLOW;
-    bin->bound += rounding;
-    job->bound += rounding;
+    lrcsi_sum_add(&bin->glint, glint);
+    lrcsi_sum_add(&bin->diffuse, diffuse);
+    lrcsi_sum_add(&bin->moment, moment);
+    lrcsi_sum_add(&job->glint, glint);
+    lrcsi_sum_add(&job->diffuse, diffuse);
+    bin->bound += rounding + LRCSI_FACET_UNDERFLOW;
+    job->bound += rounding + LRCSI_FACET_UNDERFLOW;
     job->additions++;
+}
+
+/* Adds a projected area of a flat facet, with its first moment about the bin's centre. */
+static void bin_add_flat(profile_job *job, const profile_facet *f, uint32_t i, double area,
+                         double moment)
+{
+    bin_add(job, i, f->glint * area, f->diffuse * area, (f->glint + f->diffuse) * moment,
+            f->rounding * area + f->most * PART_ERROR * area);
+}
+
+/* Adds a triangle with curved normals that lies in one bin: its projected area, and the ranges and
+   normals at its corners. */
+static void bin_add_curved(profile_job *job, const profile_facet *f, uint32_t i, double area,
+                           const double range[3], const double normal[3][3])
+{
+    double centre = centre_of(job, i);
+    const double weight[3] = {range[0] - centre, range[1] - centre, range[2] - centre};
+    lrcsi_cubature sum = f->curve->sum;
+    sum.whole = area;
+    sum.weight = weight;
+    lrcsi_cubature_add(&sum, normal, area);
+    double glint = FOUR_PI * lrcsi_sum_value(&sum.glint);
+    double diffuse = FOUR_PI * lrcsi_sum_value(&sum.diffuse);
+    double relative = f->curve->incidence.error + 16 * LRCSI_U + PART_ERROR;
+    bin_add(job, i, glint, diffuse, FOUR_PI * lrcsi_sum_value(&sum.weighted),
+            FOUR_PI * (sum.rounding + sum.left) + relative * (glint + diffuse));
+    job->bin[i].estimate += FOUR_PI * sum.estimate;
+    job->estimate += FOUR_PI * sum.estimate;
 }
 
 /* --- ranges ----------------------------------------------------------------------------------- */
@@ -199,16 +244,35 @@ static void facet_ranges(const profile_job *job, uint32_t facet, profile_facet *
 
 /* --- one triangle ----------------------------------------------------------------------------- */
 
-/* A triangle of a piece: its area, and the ranges of its corners in ascending order. */
+/* A triangle of a piece: its area, the ranges of its corners in ascending order, and the normals
+   there, which a flat facet does not need. */
 typedef struct profile_triangle {
     double area, z[3];
+    const double *normal[3];
 } profile_triangle;
 
-static void swap_up(double *a, double *b)
+static void swap_up(profile_triangle *t, int a, int b)
 {
-    double least = lrcsi_least(*a, *b);
-    *b = lrcsi_most(*a, *b);
-    *a = least;
+    if (t->z[b] < t->z[a]) {
+        double z = t->z[a];
+        const double *normal = t->normal[a];
+        t->z[a] = t->z[b];
+        t->normal[a] = t->normal[b];
+        t->z[b] = z;
+        t->normal[b] = normal;
+    }
+}
+
+static profile_triangle triangle_of(double area, const double range[3], const double (*normal)[3])
+{
+    profile_triangle t = {area, {range[0], range[1], range[2]}, {NULL, NULL, NULL}};
+    for (int k = 0; k < 3 && normal; k++) {
+        t.normal[k] = normal[k];
+    }
+    swap_up(&t, 0, 1);
+    swap_up(&t, 1, 2);
+    swap_up(&t, 0, 1);
+    return t;
 }
 
 /* The area and moment about `centre` of what lies between two ranges on one side of the middle
@@ -232,6 +296,41 @@ static void part_add(const profile_triangle *t, double from, double to, double c
         part * (0.5 * (from - centre) + 0.5 * (to - centre)) + scale * (last - first) * half / 3;
 }
 
+/* The normal where the side between two corners has a range. */
+static void normal_at(const profile_triangle *t, int a, int b, double range, double normal[3])
+{
+    double share = t->z[a] < t->z[b] ? (range - t->z[a]) / (t->z[b] - t->z[a]) : 0;
+    for (int k = 0; k < 3; k++) {
+        normal[k] = (1 - share) * t->normal[a][k] + share * t->normal[b][k];
+    }
+}
+
+/* What lies between two ranges on one side of the middle corner, with curved normals: a trapezium
+   between a point of the long side and one of a short side at either range. A diagonal divides it
+   into triangles over its two parallel sides, whose areas are the terms of part_add. */
+static void part_add_curved(profile_job *job, const profile_facet *f, const profile_triangle *t,
+                            uint32_t bin, double from, double to)
+{
+    if (!(from < to)) {
+        return;
+    }
+    int rising = to <= t->z[1];
+    int a = rising ? 0 : 1; /* the ends of the short side */
+    int b = rising ? 1 : 2;
+    double length = t->z[b] - t->z[a];
+    double scale = t->area / (t->z[2] - t->z[0]) * (to - from);
+    double first = (rising ? from - t->z[0] : t->z[2] - from) / length;
+    double last = (rising ? to - t->z[0] : t->z[2] - to) / length;
+    const double range[2][3] = {{from, from, to}, {from, to, to}};
+    double normal[4][3]; /* at `from` on the long side, on the short one; at `to` likewise */
+    normal_at(t, 0, 2, from, normal[0]);
+    normal_at(t, a, b, from, normal[1]);
+    normal_at(t, 0, 2, to, normal[2]);
+    normal_at(t, a, b, to, normal[3]);
+    bin_add_curved(job, f, bin, scale * first, range[0], (const double(*)[3])normal);
+    bin_add_curved(job, f, bin, scale * last, range[1], (const double(*)[3])(normal + 1));
+}
+
 /* (3): edges that some of the triangle may lie on the other side of. */
 static void edges_charge(profile_job *job, const profile_facet *f, const profile_triangle *t,
                          double range_err)
@@ -249,20 +348,35 @@ static void edges_charge(profile_job *job, const profile_facet *f, const profile
     job->range_err = lrcsi_most(job->range_err, lrcsi_least(range_err, f->extent));
 }
 
-/* Adds a triangle whose corners' ranges are known to within range_err. */
-static void triangle_add(profile_job *job, const profile_facet *f, double area,
-                         const double range[3], double range_err)
+/* A triangle in one bin. */
+static void whole_add(profile_job *job, const profile_facet *f, const profile_triangle *t,
+                      uint32_t bin)
 {
-    profile_triangle t = {area, {range[0], range[1], range[2]}};
-    swap_up(&t.z[0], &t.z[1]);
-    swap_up(&t.z[1], &t.z[2]);
-    swap_up(&t.z[0], &t.z[1]);
+    double centre = centre_of(job, bin);
+    double mean = ((t->z[0] - centre) + (t->z[1] - centre) + (t->z[2] - centre)) / 3;
+    double normal[3][3];
+    if (!f->curve) {
+        bin_add_flat(job, f, bin, t->area, t->area * mean);
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            normal[i][k] = t->normal[i][k];
+        }
+    }
+    bin_add_curved(job, f, bin, t->area, t->z, (const double(*)[3])normal);
+}
+
+/* Adds a triangle whose corners' ranges are known to within range_err; with its normals there if
+   they are curved, else NULL. */
+static void triangle_add(profile_job *job, const profile_facet *f, double area,
+                         const double range[3], const double (*normal)[3], double range_err)
+{
+    profile_triangle t = triangle_of(area, range, normal);
     uint32_t begin = bin_within(job, f, t.z[0]);
     uint32_t end = bin_within(job, f, t.z[2]);
     if (begin == end) {
-        double centre = centre_of(job, begin);
-        double mean = ((t.z[0] - centre) + (t.z[1] - centre) + (t.z[2] - centre)) / 3;
-        bin_add(job, f, begin, area, area * mean);
+        whole_add(job, f, &t, begin);
     }
     for (uint32_t i = begin; begin < end && i <= end; i++) {
         double from = i == begin ? t.z[0] : edge_of(job, i);
@@ -270,9 +384,14 @@ static void triangle_add(profile_job *job, const profile_facet *f, double area,
         double middle = lrcsi_least(to, lrcsi_most(from, t.z[1]));
         double part = 0;
         double moment = 0;
+        if (f->curve) {
+            part_add_curved(job, f, &t, i, from, middle);
+            part_add_curved(job, f, &t, i, middle, to);
+            continue;
+        }
         part_add(&t, from, middle, centre_of(job, i), &part, &moment);
         part_add(&t, middle, to, centre_of(job, i), &part, &moment);
-        bin_add(job, f, i, part, moment);
+        bin_add_flat(job, f, i, part, moment);
     }
     edges_charge(job, f, &t, range_err);
 }
@@ -284,12 +403,18 @@ static double fan_add(profile_job *job, const profile_facet *f, const lrcsi_targ
                       const lrcsi_clip_polygon *piece, double range_err)
 {
     double range[3] = {0, 0, 0}; /* of corners 0, i - 1, i */
+    double normal[3][3];         /* likewise */
     double off = 0;
     for (uint32_t i = 0; i < piece->count; i++) {
         double weight[3];
         lrcsi_target_weights(target, piece->corner[i], weight);
         range[i < 2 ? i : 2] =
             weight[0] * f->range[0] + weight[1] * f->range[1] + weight[2] * f->range[2];
+        for (int k = 0; k < 3 && f->curve; k++) {
+            const double(*n)[3] = (const double(*)[3])f->curve->normal;
+            normal[i < 2 ? i : 2][k] =
+                weight[0] * n[0][k] + weight[1] * n[1][k] + weight[2] * n[2][k];
+        }
         if (i < 2) {
             continue;
         }
@@ -298,10 +423,14 @@ static double fan_add(profile_job *job, const profile_facet *f, const lrcsi_targ
         const double v[2] = {piece->corner[i][0] - c[0], piece->corner[i][1] - c[1]};
         double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
         if (area > 0) {
-            triangle_add(job, f, area, range, range_err);
+            triangle_add(job, f, area, range, f->curve ? (const double(*)[3])normal : NULL,
+                         range_err);
         }
         off += lrcsi_most(0, -area) + 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
         range[1] = range[2];
+        for (int k = 0; k < 3 && f->curve; k++) {
+            normal[1][k] = normal[2][k];
+        }
     }
     return off;
 }
@@ -312,9 +441,10 @@ static double pieces_add(profile_job *job, const profile_facet *f, uint32_t face
                          const lrcsi_incidence *incidence, lrcsi_occluding *o)
 {
     double rounded = 2 * LRCSI_U * f->range_most;
+    const double(*normal)[3] = f->curve ? (const double(*)[3])f->curve->normal : NULL;
     if (job->plan.unshadowed && job->view->facing[facet] > 0) {
         lrcsi_visible known = lrcsi_visible_unshadowed(incidence, job->plan.grazing_cos);
-        triangle_add(job, f, known.area, f->range, rounded);
+        triangle_add(job, f, known.area, f->range, normal, rounded);
         if (job->visible) {
             job->visible[facet] = known;
         }
@@ -322,6 +452,9 @@ static double pieces_add(profile_job *job, const profile_facet *f, uint32_t face
     }
     double off = 0;
     lrcsi_occlude_open(o, facet);
+    if (f->curve && o->undecided) {
+        f->curve->sum.position_err = lrcsi_curve_position_err(f->curve, &o->alone.target);
+    }
     while (lrcsi_occlude_next(o)) {
         const lrcsi_target *target = &o->alone.target;
         double slope = sqrt(incidence->tan2) * (1 + incidence->tan2_err);
@@ -329,7 +462,7 @@ static double pieces_add(profile_job *job, const profile_facet *f, uint32_t face
         if (o->undecided) {
             off += fan_add(job, f, target, &o->alone.piece, range_err);
         } else {
-            triangle_add(job, f, incidence->projected, f->range, rounded);
+            triangle_add(job, f, incidence->projected, f->range, normal, rounded);
         }
     }
     lrcsi_visible visible = lrcsi_occlude_close(o);
@@ -350,12 +483,20 @@ static void facet_profile(profile_job *job, uint32_t facet, lrcsi_occluding *o)
 {
     lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
     lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
-    lrcsi_facet_terms terms =
-        lrcsi_facet_terms_make(job->view, &job->plan, facet, &incidence, &whole);
-    profile_facet f = {.glint = terms.glint / incidence.projected,
-                       .diffuse = terms.diffuse / incidence.projected,
-                       .rounding = terms.rounding / incidence.projected};
-    f.most = f.glint + f.diffuse + f.rounding;
+    lrcsi_curve_facet curve;
+    profile_facet f = {.curve = lrcsi_curve_wanted(job->view, facet) ? &curve : NULL};
+    double before = lrcsi_sum_value(&job->glint) + lrcsi_sum_value(&job->diffuse);
+    if (f.curve) {
+        lrcsi_curve_start(&job->curves, facet, &curve);
+        f.most = FOUR_PI * lrcsi_curve_most(&curve) * (1 + incidence.error);
+    } else {
+        lrcsi_facet_terms terms =
+            lrcsi_facet_terms_make(job->view, &job->plan, facet, &incidence, &whole);
+        f.glint = terms.glint / incidence.projected;
+        f.diffuse = terms.diffuse / incidence.projected;
+        f.rounding = terms.rounding / incidence.projected;
+        f.most = f.glint + f.diffuse + f.rounding;
+    }
     facet_ranges(job, facet, &f);
     double additions = job->additions;
     double doubt = pieces_add(job, &f, facet, &incidence, o);
@@ -364,6 +505,10 @@ static void facet_profile(profile_job *job, uint32_t facet, lrcsi_occluding *o)
         job->additions++;
     }
     job->bound += f.most * doubt;
+    if (f.curve) {
+        lrcsi_curve_have(&job->curves,
+                         lrcsi_sum_value(&job->glint) + lrcsi_sum_value(&job->diffuse) - before);
+    }
     if (job->additions > additions) {
         job->low = f.first < job->low ? f.first : job->low;
         job->high = f.last + 1 > job->high ? f.last + 1 : job->high;
@@ -415,10 +560,7 @@ static void bent_charge(profile_job *job, uint32_t facet)
     facet_ranges(job, facet, &f);
     facet_ranges(job, parts.partner, &other);
     double reach = reach_of(job, facet, &f);
-    profile_triangle t = {1, {f.range[0], f.range[1], f.range[2]}};
-    swap_up(&t.z[0], &t.z[1]);
-    swap_up(&t.z[1], &t.z[2]);
-    swap_up(&t.z[0], &t.z[1]);
+    profile_triangle t = triangle_of(1, f.range, NULL);
     double low = lrcsi_least(
         t.z[0], lrcsi_least(other.range[0], lrcsi_least(other.range[1], other.range[2])));
     double high =
@@ -476,6 +618,7 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
     need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(bin_sums)));
     need = lrcsi_work_add(need, lrcsi_view_need(prepared));
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
+    need = lrcsi_work_add(need, prepared->smooth ? lrcsi_cubature_need() : 0);
     if (prepared->curved) {
         size_t facets = prepared->scene->facet_count;
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
@@ -533,6 +676,20 @@ static int curved_make(profile_job *job, const lrcsi_classification *classificat
     return status;
 }
 
+/* Prepares the integrals over curved normals. */
+static int smooth_make(profile_job *job, lrcs_work *work)
+{
+    if (!job->prepared->smooth) {
+        return LRCS_OK;
+    }
+    job->how = (lrcsi_curving){&job->plan, CURVE_TOLERANCE, lrcsi_cubature_cells(work), 0};
+    if (!job->how.waiting) {
+        return LRCS_E_MEMORY;
+    }
+    job->curves = lrcsi_curve_all_make(job->view, &job->how);
+    return LRCS_OK;
+}
+
 /* 1. The view, and which facets are undecided. 2. The bins. 3. Every facet that reflects. 4. What
    curved shapes may differ by. */
 static int profile_sum(profile_job *job, lrcsi_view *view, const lrcs_pose *pose, lrcs_work *work)
@@ -556,6 +713,7 @@ static int profile_sum(profile_job *job, lrcsi_view *view, const lrcs_pose *pose
         status = job->bin ? lrcsi_classify_make(view, work, &classification) : LRCS_E_MEMORY;
     }
     status = status == LRCS_OK ? curved_make(job, &classification, work) : status;
+    status = status == LRCS_OK ? smooth_make(job, work) : status;
     status = status == LRCS_OK ? lrcsi_occlude_make(&classification, work, &o) : status;
     for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
         if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&
@@ -590,10 +748,12 @@ static void profile_finish(const profile_job *job, lrcs_profile *profile)
         double diffuse = lrcsi_sum_value(&sums->diffuse);
         double moment = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->moment));
         profile->bin[i] = (lrcs_profile_bin){
-            lrcsi_prepared_area(p, glint), lrcsi_prepared_area(p, diffuse),
+            lrcsi_prepared_area(p, glint),
+            lrcsi_prepared_area(p, diffuse),
             lrcsi_bound_area(p, (sums->bound + sums->bent + (glint + diffuse) * adding) * outward),
             lrcsi_bound_area(p,
                              (sums->bound + sums->varied + (glint + diffuse) * adding) * outward),
+            p->smooth ? lrcsi_bound_area(p, sums->estimate * outward) : 0,
             ldexp(moment, p->exponent)};
         if (profile->bin[i].variation_m2 < profile->bin[i].bound_m2) {
             profile->bin[i].variation_m2 = profile->bin[i].bound_m2;
@@ -607,6 +767,7 @@ static void profile_finish(const profile_job *job, lrcs_profile *profile)
     profile->sigma_diffuse_m2 = lrcsi_prepared_area(p, diffuse);
     profile->bound_m2 = lrcsi_bound_area(
         p, (job->bound + job->tessellation + (glint + diffuse) * adding) * outward);
+    profile->curvature_estimate_m2 = p->smooth ? lrcsi_bound_area(p, job->estimate * outward) : -1;
     profile->tessellation_known = job->tessellation_known;
     profile->range_err_m = ldexp(job->range_err, p->exponent);
 }
@@ -622,7 +783,7 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
     if (!(bin_m > 0 && bin_m <= DBL_MAX) || !(job.width >= DBL_MIN && job.width <= DBL_MAX)) {
         return LRCS_E_ARGUMENT;
     }
-    int status = prepared->smooth ? LRCS_E_UNSUPPORTED : profile_sum(&job, &view, pose, work);
+    int status = profile_sum(&job, &view, pose, work);
     if (status == LRCS_OK) {
         result.count = job.low < job.high ? job.high - job.low : 0;
         result.bin = lrcsi_work_take(work, result.count, sizeof *result.bin);
@@ -661,12 +822,13 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
    most g there; points whose range is off by e count e |g'| more. Rounding: t is off by 4 u of
    (|z| + |c|) / d, as if z were off by 4 u (|z| + |c|), which joins e; the rest is below 64 u. */
 int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_m,
-                       double *density_m, double *bound_m)
+                       double *density_m, double *bound_m, double *estimate_m)
 {
     double d = fwhm_m / FWHM_DEVIATIONS;
     double peak = 1 / (d * sqrt(2 * LRCSI_PI));
     lrcsi_sum density = {0, 0};
     double bound = 0;
+    double estimate = 0;
     if (!(fwhm_m > 0) || !(d >= DBL_MIN && peak <= DBL_MAX)) {
         return LRCS_E_ARGUMENT;
     }
@@ -690,6 +852,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
         lrcsi_sum_add(&density, g * sigma);
         lrcsi_sum_add(&density, g * (t / d) * bin->moment_m3);
         bound += most * (bin->variation_m2 + remainder * sigma);
+        estimate += most * bin->curvature_estimate_m2;
         bound += 64 * LRCSI_U * most * (1 + farthest * farthest) * sigma;
     }
     bound *= 1 + 1e-9 + 4 * LRCSI_U * profile->count;
@@ -697,6 +860,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
         return LRCS_E_NUMBER;
     }
     *density_m = lrcsi_sum_value(&density);
+    *estimate_m = estimate;
     *bound_m = bound + (bound > 0 && bound < DBL_MIN ? 0x1p-1073 : 0);
     return LRCS_OK;
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Contacts between all facets. Pairs are compared (mesh/intersection_pair.h) where
+/* Contacts between all facets. Pairs are tested (mesh/intersection_pair.h) if
 
-   - their boxes meet: the tree of boxes is joined with itself, leaf by leaf (mesh/tree.h);
+   - their boxes intersect: the tree of boxes is joined with itself, leaf by leaf (mesh/tree.h);
    - they have no corner in common whose ring is proved (mesh/ring.h).
 
-   Others meet in corners of both or along a side of both, if at all. */
+   All other pairs meet at most in corners of both or along a side of both. */
 #include "mesh/intersection.h"
 
 #include "base/exact.h"
@@ -13,83 +13,52 @@
 #include "mesh/ring.h"
 #include "mesh/tree.h"
 
-/* A contact as it is found: `other` meets the inside of `facet`. */
-typedef struct touch_found {
-    uint32_t facet, other, kind;
-} touch_found;
-
-/* They are taken from the work area in blocks that follow one another without gaps. */
-enum { FOUND_BLOCK = 4 };
-_Static_assert(FOUND_BLOCK * sizeof(touch_found) % LRCS_WORK_ALIGN == 0, "no gaps");
-
-/* Sinks entry `i` of a heap of n, largest on top. */
-static void sink_found(touch_found *found, size_t i, size_t n)
-{
-    for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
-        if (child + 1 < n && found[child + 1].other > found[child].other) {
-            child++;
-        }
-        if (found[i].other >= found[child].other) {
-            return;
-        }
-        touch_found t = found[i];
-        found[i] = found[child];
-        found[child] = t;
-        i = child;
-    }
-}
-
-/* Heap sort by `other`, in place. */
-static void sort_found(touch_found *found, size_t n)
-{
-    for (size_t i = n / 2; i > 0; i--) {
-        sink_found(found, i - 1, n);
-    }
-    for (size_t last = n; last > 1; last--) {
-        touch_found t = found[0];
-        found[0] = found[last - 1];
-        found[last - 1] = t;
-        sink_found(found, 0, last - 1);
-    }
-}
-
-/* ---- all pairs ---- */
-
 enum { LEAF_LANES = LRCSI_TREE_LANES };
 
-/* A leaf that meets more others than this by boxes is compared by slabs too, and the next one from
-   the first, if slabs left out so many blocks; but slabs are filled only once there have been as
-   many more meetings as there are leaves, which is what filling them costs. */
+/* A leaf whose box intersects more others than this is also compared by slabs, and if slabs left
+   out BLOCKS_APART blocks, the next leaf is from its first block on. Slabs are filled only after as
+   many more intersections as there are leaves, which is what filling them costs. */
 enum { MANY_LEAVES = 16, BLOCKS_APART = 8 };
 
-/* The corners of a leaf's facets, welded, in structure of arrays. */
-typedef struct touch_leaf {
-    uint32_t corner[3][LEAF_LANES];
-} touch_leaf;
+/* A contact as it is found: `other` meets the interior of `facet`. They are taken from the work
+   area in blocks that follow one another without gaps. */
+typedef struct found_contact {
+    uint32_t facet, other, kind;
+} found_contact;
+enum { FOUND_BLOCK = 4 };
+_Static_assert(FOUND_BLOCK * sizeof(found_contact) % LRCS_WORK_ALIGN == 0, "no gaps");
+
+/* The corners of a leaf's facets as welded vertices; and the same, with LRCS_NONE for corners whose
+   ring is not proved. */
+typedef struct search_leaf {
+    uint32_t corner[3][LEAF_LANES], ring[3][LEAF_LANES];
+} search_leaf;
 
 /* The facets among which contacts are sought, and those found. */
-typedef struct touch_search {
+typedef struct contact_search {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
     const uint32_t *piece; /* or NULL */
-    unsigned char *proved; /* welded vertex: its ring is */
+    unsigned char *proved; /* welded vertex: 1 if its ring is proved */
     lrcsi_tree tree;
-    touch_leaf *leaf;
-    uint64_t crowded;   /* meetings of leaves that meet many others */
-    int slabs_pay;      /* they did so for the last leaf */
-    touch_found *found; /* above the tree */
+    search_leaf *leaf;
+    uint64_t crowded;     /* intersections of leaves that intersect many others */
+    int slabs_pay;        /* they did so for the last leaf */
+    found_contact *found; /* above the tree in the work area */
     uint32_t count;
     lrcs_work *work;
     lrcsi_intersections *intersections;
-} touch_search;
+} contact_search;
 
-static int append_found(touch_search *search, touch_found found)
+/* ---- one pair ---- */
+
+static int append_found(contact_search *search, found_contact found)
 {
     if (search->count == LRCS_NONE - 1) {
         return LRCS_E_LIMIT;
     }
     if (search->count % FOUND_BLOCK == 0) {
-        touch_found *block = lrcsi_work_take(search->work, FOUND_BLOCK, sizeof *block);
+        found_contact *block = lrcsi_work_take(search->work, FOUND_BLOCK, sizeof *block);
         search->found = search->count == 0 ? block : search->found;
         if (!block) {
             return LRCS_E_MEMORY;
@@ -97,16 +66,6 @@ static int append_found(touch_search *search, touch_found found)
     }
     search->found[search->count++] = found;
     return LRCS_OK;
-}
-
-/* The facet at a place. */
-static lrcsi_pair_facet facet_of_place(const touch_search *search, uint32_t place)
-{
-    const touch_leaf *leaf = &search->leaf[place / LEAF_LANES];
-    uint32_t lane = place % LEAF_LANES;
-    return (lrcsi_pair_facet){.x = {search->vertex[leaf->corner[0][lane]].x,
-                                    search->vertex[leaf->corner[1][lane]].x,
-                                    search->vertex[leaf->corner[2][lane]].x}};
 }
 
 /* The boxes around the three sides of a facet. */
@@ -163,9 +122,9 @@ static void sides_along(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, un
     }
 }
 
-/* Files how a pair meets. */
-static int file_pair(touch_search *search, uint32_t facet, const lrcsi_pair_facet *f,
-                     uint32_t other, const lrcsi_pair_facet *t, const lrcsi_pair_result *result)
+/* Stores how a pair of facets meets. */
+static int pair_store(contact_search *search, uint32_t facet, const lrcsi_pair_facet *f,
+                      uint32_t other, const lrcsi_pair_facet *t, const lrcsi_pair_result *result)
 {
     lrcsi_intersections *intersections = search->intersections;
     const uint32_t *piece = search->piece;
@@ -175,10 +134,10 @@ static int file_pair(touch_search *search, uint32_t facet, const lrcsi_pair_face
     intersections->rim[facet] |= result->rim[0] ? (unsigned char)(1 | sides[0] << 1) : 0;
     intersections->rim[other] |= result->rim[1] ? (unsigned char)(1 | sides[1] << 1) : 0;
     if (result->kind[0] != LRCSI_INTERSECTION_NONE) {
-        status = append_found(search, (touch_found){facet, other, (uint32_t)result->kind[0]});
+        status = append_found(search, (found_contact){facet, other, (uint32_t)result->kind[0]});
     }
     if (result->kind[1] != LRCSI_INTERSECTION_NONE && status == LRCS_OK) {
-        status = append_found(search, (touch_found){other, facet, (uint32_t)result->kind[1]});
+        status = append_found(search, (found_contact){other, facet, (uint32_t)result->kind[1]});
     }
     if (piece && !intersections->self && piece[facet] == piece[other]) {
         intersections->self = result->kind[0] != LRCSI_INTERSECTION_NONE ||
@@ -188,25 +147,16 @@ static int file_pair(touch_search *search, uint32_t facet, const lrcsi_pair_face
     return status;
 }
 
-/* The lanes of a leaf whose facets have a corner with a proved ring in common with the facet at a
-   place. */
-static unsigned lanes_in_ring(const touch_search *search, uint32_t place, const touch_leaf *leaf)
+/* ---- the tree joined with itself ---- */
+
+/* The lanes of a leaf whose facets have a corner with a proved ring in common with the facet in a
+   lane of `own`. */
+static inline unsigned lanes_in_ring(const search_leaf *own, uint32_t lane, const search_leaf *leaf)
 {
     static const uint32_t lane_bit[LEAF_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
-    const touch_leaf *own = &search->leaf[place / LEAF_LANES];
-    uint32_t proved[3];
-    int count = 0;
-    for (int k = 0; k < 3; k++) {
-        uint32_t v = own->corner[k][place % LEAF_LANES];
-        proved[count] = v;
-        count += search->proved[v];
-    }
-    if (count == 0) {
-        return 0;
-    }
-    const uint32_t a = proved[0];
-    const uint32_t b = count > 1 ? proved[1] : a;
-    const uint32_t c = count > 2 ? proved[2] : a;
+    const uint32_t a = own->ring[0][lane];
+    const uint32_t b = own->ring[1][lane];
+    const uint32_t c = own->ring[2][lane];
     uint32_t lanes = 0;
     for (int k = 0; k < LEAF_LANES; k++) {
         uint32_t x = leaf->corner[0][k];
@@ -219,32 +169,45 @@ static unsigned lanes_in_ring(const touch_search *search, uint32_t place, const 
     return lanes;
 }
 
-/* The facet at a place against those in some lanes of a leaf whose boxes meet its own, less those
-   of a common ring. */
-static int meet_lanes(touch_search *search, uint32_t place, uint32_t leaf, unsigned lanes)
+static lrcsi_pair_facet facet_of_lane(const contact_search *search, const search_leaf *leaf,
+                                      uint32_t lane)
+{
+    return (lrcsi_pair_facet){.x = {search->vertex[leaf->corner[0][lane]].x,
+                                    search->vertex[leaf->corner[1][lane]].x,
+                                    search->vertex[leaf->corner[2][lane]].x}};
+}
+
+/* Tests the facet in a lane of leaf `own` against those in `lanes` of another leaf, which may be
+   the same: if their boxes intersect and they are not in a common ring. */
+static int join_lanes(contact_search *search, uint32_t own, uint32_t lane, uint32_t leaf,
+                      unsigned lanes)
 {
     const lrcsi_tree *tree = &search->tree;
-    lrcsi_box box = lrcsi_tree_box(&tree->block[0][place / LEAF_LANES], place % LEAF_LANES);
+    lrcsi_box box = lrcsi_tree_box(&tree->block[0][own], lane);
     lanes &= lrcsi_tree_meets(&tree->block[0][leaf], &box);
-    lanes = lanes ? lanes & ~lanes_in_ring(search, place, &search->leaf[leaf]) : 0;
+    if (lanes != 0) {
+        lanes &= ~lanes_in_ring(&search->leaf[own], lane, &search->leaf[leaf]);
+    }
     if (lanes == 0) {
         return LRCS_OK;
     }
-    lrcsi_pair_facet f = facet_of_place(search, place);
+    uint32_t facet = tree->order[own * LEAF_LANES + lane];
+    lrcsi_pair_facet f = facet_of_lane(search, &search->leaf[own], lane);
     int status = LRCS_OK;
     lrcsi_pair_plane(&f);
     for (; lanes != 0 && status == LRCS_OK; lanes &= lanes - 1) {
-        uint32_t at = leaf * LEAF_LANES + lrcsi_tree_lane(lanes);
-        lrcsi_pair_facet t = facet_of_place(search, at);
+        uint32_t at = lrcsi_tree_lane(lanes);
+        lrcsi_pair_facet t = facet_of_lane(search, &search->leaf[leaf], at);
         lrcsi_pair_result result;
         if (lrcsi_pair_meet(&f, &t, &result)) {
-            status = file_pair(search, tree->order[place], &f, tree->order[at], &t, &result);
+            uint32_t other = tree->order[leaf * LEAF_LANES + at];
+            status = pair_store(search, facet, &f, other, &t, &result);
         }
     }
     return status;
 }
 
-/* How many bits a mask of lanes has. */
+/* The number of bits of a mask of lanes. */
 static uint32_t count_lanes(unsigned mask)
 {
     mask = (mask & 0x55u) + (mask >> 1 & 0x55u);
@@ -252,52 +215,47 @@ static uint32_t count_lanes(unsigned mask)
     return (mask & 0x0fu) + (mask >> 4);
 }
 
-/* The facets of two leaves that meet the other's box, against each other, those of the leaf with
-   fewer of them one by one; or, where it is one leaf, each of its facets against those after it. */
-static int meet_leaves(touch_search *search, uint32_t first, uint32_t second)
+/* Tests the facets of two leaves against each other: those that intersect the other leaf's box, one
+   by one in the leaf that has fewer of them. */
+static int join_leaves(contact_search *search, uint32_t first, uint32_t second)
 {
     const lrcsi_tree *tree = &search->tree;
-    unsigned rows = 0xff;
+    lrcsi_box box = lrcsi_tree_box(&tree->block[1][second / LEAF_LANES], second % LEAF_LANES);
+    unsigned rows = lrcsi_tree_meets(&tree->block[0][first], &box);
     unsigned columns = 0xff;
     int status = LRCS_OK;
-    if (first != second) {
-        lrcsi_box box = lrcsi_tree_box(&tree->block[1][second / LEAF_LANES], second % LEAF_LANES);
-        rows = lrcsi_tree_meets(&tree->block[0][first], &box);
-        if ((rows & (rows - 1)) != 0) { /* two or more: one compares its own box */
-            box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
-            columns = lrcsi_tree_meets(&tree->block[0][second], &box);
-        }
-        if (count_lanes(columns) < count_lanes(rows)) {
-            unsigned lanes = rows;
-            uint32_t leaf = first;
-            rows = columns;
-            columns = lanes;
-            first = second;
-            second = leaf;
-        }
-    } else if (tree->count - first * LEAF_LANES < LEAF_LANES) {
-        rows = columns = (1u << (tree->count - first * LEAF_LANES)) - 1;
+    if ((rows & (rows - 1)) != 0) { /* for a single one, comparing its own box is as good */
+        box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
+        columns = lrcsi_tree_meets(&tree->block[0][second], &box);
+    }
+    if (count_lanes(columns) < count_lanes(rows)) {
+        unsigned lanes = rows;
+        uint32_t leaf = first;
+        rows = columns;
+        columns = lanes;
+        first = second;
+        second = leaf;
     }
     for (; rows != 0 && columns != 0 && status == LRCS_OK; rows &= rows - 1) {
-        uint32_t lane = lrcsi_tree_lane(rows);
-        columns &= first == second ? ~1u << lane : ~0u;
-        if (columns != 0) {
-            status = meet_lanes(search, first * LEAF_LANES + lane, second, columns);
-        }
+        status = join_lanes(search, first, lrcsi_tree_lane(rows), second, columns);
     }
     return status;
 }
 
-/* All pairs of a leaf's facets with each other, unless all have one proved ring, and with those of
-   leaves after it. */
-static int meet_leaf(touch_search *search, uint32_t leaf)
+/* Tests all pairs of a leaf's facets, unless all are in one proved ring, and its facets against
+   those of leaves that come after it. */
+static int join_leaf(contact_search *search, uint32_t leaf)
 {
     lrcsi_tree *tree = &search->tree;
     lrcsi_tree_walk walk = lrcsi_tree_after(tree, leaf);
     uint32_t apex = tree->label[0][leaf];
     int in_ring = apex != LRCS_NONE && search->proved[apex];
-    int status = in_ring ? LRCS_OK : meet_leaves(search, leaf, leaf);
-    uint32_t other;
+    int status = LRCS_OK;
+    uint32_t left = tree->count - leaf * LEAF_LANES;
+    unsigned lanes = left < LEAF_LANES ? (1u << left) - 1 : 0xff;
+    for (uint32_t lane = 0; lanes >> lane > 1 && !in_ring && status == LRCS_OK; lane++) {
+        status = join_lanes(search, leaf, lane, leaf, lanes & (~1u << lane));
+    }
     if (!in_ring) {
         walk.without = LRCS_NONE;
     }
@@ -307,6 +265,7 @@ static int meet_leaf(touch_search *search, uint32_t leaf)
     if (search->slabs_pay) {
         lrcsi_tree_narrow(&walk, leaf);
     }
+    uint32_t other;
     for (int met = 0; status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
         search->crowded += met >= MANY_LEAVES;
         if (!tree->has_slabs && search->crowded > tree->blocks[0]) {
@@ -315,47 +274,20 @@ static int meet_leaf(touch_search *search, uint32_t leaf)
         if (tree->has_slabs && met == MANY_LEAVES && walk.leaf == LRCS_NONE) {
             lrcsi_tree_narrow(&walk, leaf);
         }
-        status = meet_leaves(search, leaf, other);
+        status = join_leaves(search, leaf, other);
     }
     search->slabs_pay = walk.apart >= BLOCKS_APART;
     return status;
 }
 
-/* Orders what was found by facet, in place, each entry going where its facet's next one belongs;
-   then by other. */
-static int order_found(const touch_search *search, uint32_t facet_count)
-{
-    uint32_t *first = search->intersections->first;
-    uint32_t *next = lrcsi_work_take(search->work, facet_count, sizeof *next);
-    if (!next) {
-        return LRCS_E_MEMORY;
-    }
-    for (uint32_t i = 0; i < search->count; i++) {
-        first[search->found[i].facet + 1]++;
-    }
-    for (uint32_t f = 0; f < facet_count; f++) {
-        next[f] = first[f];
-        first[f + 1] += first[f];
-    }
-    for (uint32_t f = 0; f < facet_count; f++) {
-        while (next[f] < first[f + 1]) {
-            touch_found *here = &search->found[next[f]];
-            touch_found moved = *here;
-            *here = search->found[next[moved.facet]];
-            search->found[next[moved.facet]++] = moved;
-        }
-        if (first[f + 1] > first[f]) { /* where none was found at all there is no list either */
-            sort_found(search->found + first[f], first[f + 1] - first[f]);
-        }
-    }
-    return LRCS_OK;
-}
+/* ---- the whole search ---- */
 
-/* Proves rings, and makes the tree and its leaves' corners. */
-static int prepare_search(touch_search *search, uint32_t vertex_count, uint32_t facet_count,
+/* Proves rings, builds the tree, and fills its leaves. */
+static int search_prepare(contact_search *search, uint32_t vertex_count, uint32_t facet_count,
                           const lrcsi_topology *topology, const unsigned char *skip)
 {
     lrcs_work *work = search->work;
+    lrcsi_tree *tree = &search->tree;
     search->proved = lrcsi_work_take(work, vertex_count, sizeof *search->proved);
     uint32_t *apex = lrcsi_work_take(work, facet_count, sizeof *apex);
     if (!search->proved || !apex) {
@@ -364,20 +296,83 @@ static int prepare_search(touch_search *search, uint32_t vertex_count, uint32_t 
     int status = lrcsi_rings_prove(search->vertex, vertex_count, search->facet, facet_count,
                                    topology, skip, work, search->proved, apex);
     if (status == LRCS_OK) {
-        status = lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, apex, 1, work,
-                                 &search->tree);
+        status =
+            lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, apex, 1, work, tree);
     }
-    lrcsi_tree *tree = &search->tree;
     search->leaf = lrcsi_work_take(work, tree->blocks[0], sizeof *search->leaf);
     if (status != LRCS_OK || !search->leaf) {
         return LRCS_E_MEMORY;
     }
     lrcsi_tree_fill_cones(search->vertex, search->facet, search->proved, tree);
     for (uint32_t place = 0; place < tree->count; place++) {
-        const uint32_t *c = search->facet[tree->order[place]].corner;
-        touch_leaf *leaf = &search->leaf[place / LEAF_LANES];
+        const uint32_t *corner = search->facet[tree->order[place]].corner;
+        search_leaf *leaf = &search->leaf[place / LEAF_LANES];
         for (int k = 0; k < 3; k++) {
-            leaf->corner[k][place % LEAF_LANES] = topology->weld[c[k]];
+            uint32_t v = topology->weld[corner[k]];
+            leaf->corner[k][place % LEAF_LANES] = v;
+            leaf->ring[k][place % LEAF_LANES] = search->proved[v] ? v : LRCS_NONE;
+        }
+    }
+    return LRCS_OK;
+}
+
+/* Sinks entry `i` of a heap of n, largest on top. */
+static void sink_found(found_contact *found, size_t i, size_t n)
+{
+    for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
+        if (child + 1 < n && found[child + 1].other > found[child].other) {
+            child++;
+        }
+        if (found[i].other >= found[child].other) {
+            return;
+        }
+        found_contact t = found[i];
+        found[i] = found[child];
+        found[child] = t;
+        i = child;
+    }
+}
+
+/* Heap sort by `other`, in place. */
+static void sort_found(found_contact *found, size_t n)
+{
+    for (size_t i = n / 2; i > 0; i--) {
+        sink_found(found, i - 1, n);
+    }
+    for (size_t last = n; last > 1; last--) {
+        found_contact t = found[0];
+        found[0] = found[last - 1];
+        found[last - 1] = t;
+        sink_found(found, 0, last - 1);
+    }
+}
+
+/* Sorts the contacts by facet, in place, each going to the next free entry of its facet; then by
+   other. */
+static int order_found(const contact_search *search, uint32_t facet_count)
+{
+    found_contact *found = search->found;
+    uint32_t *first = search->intersections->first;
+    uint32_t *next = lrcsi_work_take(search->work, facet_count, sizeof *next);
+    if (!next) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < search->count; i++) {
+        first[found[i].facet + 1]++;
+    }
+    for (uint32_t f = 0; f < facet_count; f++) {
+        next[f] = first[f];
+        first[f + 1] += first[f];
+    }
+    for (uint32_t f = 0; f < facet_count; f++) {
+        while (next[f] < first[f + 1]) {
+            found_contact *here = &found[next[f]];
+            found_contact moved = *here;
+            *here = found[next[moved.facet]];
+            found[next[moved.facet]++] = moved;
+        }
+        if (first[f + 1] > first[f]) { /* if nothing was found there is no list either */
+            sort_found(found + first[f], first[f + 1] - first[f]);
         }
     }
     return LRCS_OK;
@@ -392,42 +387,10 @@ size_t lrcsi_intersection_need(uint32_t vertex_count, uint32_t facet_count, size
     size_t rings = lrcsi_rings_need(vertex_count);
     size_t search = lrcsi_tree_need(facet_count);
     search =
-        lrcsi_work_add(search, lrcsi_work_bytes(facet_count / LEAF_LANES + 1, sizeof(touch_leaf)));
+        lrcsi_work_add(search, lrcsi_work_bytes(facet_count / LEAF_LANES + 1, sizeof(search_leaf)));
     search = lrcsi_work_add(
-        search, lrcsi_work_bytes(lrcsi_work_add(count, FOUND_BLOCK), sizeof(touch_found)));
+        search, lrcsi_work_bytes(lrcsi_work_add(count, FOUND_BLOCK), sizeof(found_contact)));
     return lrcsi_work_add(need, rings > search ? rings : search);
-}
-
-/* Everything but the release on failure. What is found grows above the tree, and moves down, less
-   the facets' numbers, at the end. */
-static int touches_build(touch_search *search, uint32_t vertex_count, uint32_t facet_count,
-                         const lrcsi_topology *topology, const unsigned char *skip)
-{
-    lrcs_work *work = search->work;
-    lrcsi_intersections *t = search->intersections;
-    t->first = lrcsi_work_take_zero(work, (size_t)facet_count + 1, sizeof *t->first);
-    t->rim = lrcsi_work_take_zero(work, facet_count, 1);
-    size_t mark = work->used;
-    if (!t->first || !t->rim) {
-        return LRCS_E_MEMORY;
-    }
-    int status = prepare_search(search, vertex_count, facet_count, topology, skip);
-    for (uint32_t leaf = 0; status == LRCS_OK && leaf < search->tree.blocks[0]; leaf++) {
-        status = meet_leaf(search, leaf);
-    }
-    if (status == LRCS_OK) {
-        status = order_found(search, facet_count);
-    }
-    if (status != LRCS_OK) {
-        return status;
-    }
-    work->used = mark;
-    t->touch = lrcsi_work_take(work, search->count, sizeof *t->touch);
-    for (t->count = 0; t->touch && t->count < search->count; t->count++) {
-        touch_found found = search->found[t->count];
-        t->touch[t->count] = (lrcsi_intersection){found.other, found.kind};
-    }
-    return t->touch ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
@@ -436,15 +399,35 @@ int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
                             const uint32_t *piece, lrcs_work *work,
                             lrcsi_intersections *intersections)
 {
+    size_t start = work->used;
+    lrcsi_intersections t = {0};
+    t.first = lrcsi_work_take_zero(work, (size_t)facet_count + 1, sizeof *t.first);
+    t.rim = lrcsi_work_take_zero(work, facet_count, 1);
     size_t mark = work->used;
-    lrcsi_intersections made = {0};
-    touch_search search = {
-        .vertex = vertex, .facet = facet, .piece = piece, .work = work, .intersections = &made};
-    int status = touches_build(&search, vertex_count, facet_count, topology, skip);
-    if (status != LRCS_OK) {
+    contact_search search = {
+        .vertex = vertex, .facet = facet, .piece = piece, .work = work, .intersections = &t};
+    int status = t.first && t.rim
+                     ? search_prepare(&search, vertex_count, facet_count, topology, skip)
+                     : LRCS_E_MEMORY;
+    for (uint32_t leaf = 0; status == LRCS_OK && leaf < search.tree.blocks[0]; leaf++) {
+        status = join_leaf(&search, leaf);
+    }
+    if (status == LRCS_OK) {
+        status = order_found(&search, facet_count);
+    }
+    if (status == LRCS_OK) { /* without the facets' numbers, the contacts move down to the mark */
         work->used = mark;
+        t.touch = lrcsi_work_take(work, search.count, sizeof *t.touch);
+        for (t.count = 0; t.touch && t.count < search.count; t.count++) {
+            found_contact found = search.found[t.count];
+            t.touch[t.count] = (lrcsi_intersection){found.other, found.kind};
+        }
+        status = t.touch ? LRCS_OK : LRCS_E_MEMORY;
+    }
+    if (status != LRCS_OK) {
+        work->used = start;
         return status;
     }
-    *intersections = made;
+    *intersections = t;
     return LRCS_OK;
 }

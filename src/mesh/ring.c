@@ -31,9 +31,12 @@
    beyond; so these two lie on one side of the line, and k = 0 if the turn from the end to the start
    is counter-clockwise (less than 180 degrees, in no sector), k = 1 if it is clockwise.
 
-   m, roughly the mean normal, is rounded to whole numbers up to 2^20 and w is (5, 3, 7), so that g
-   is exact. The determinant of 1 is decided by the filter of base/exact.c. In g . d a difference
-   rounds once, a product once, their sum twice: 10 u covers the four. */
+   m, roughly the mean normal, is rounded to whole numbers up to M = 2^20 and w is (5, 3, 7), so
+   that g is exact and |g_k| <= 12 M. Errors, u = 2^-53: in g . d a difference rounds once, a
+   product once, their sum twice, in all less than 10 u 12 M (|d_x| + |d_y| + |d_z|). Of the
+   determinant of 1, a component of the normal q x p is off by at most 5 u (|q_i p_j| + |q_j p_i|)
+   (base/exact.c), and the sum of three products by 3 u of its terms: less than 10 u M times the sum
+   of the components' |q_i p_j| + |q_j p_i|. */
 #include "mesh/ring.h"
 
 #include <math.h>
@@ -48,8 +51,9 @@
 /* The point of a smaller ring is not an apex. */
 enum { FAN_FACETS = 32 };
 
-/* m's largest component. */
+/* m's largest component, M; the largest of g. */
 #define RING_SCALE 0x1p20
+#define LINE_SCALE (12.0 * RING_SCALE)
 
 /* What is known of a point's ring. */
 typedef struct vertex_ring {
@@ -73,17 +77,6 @@ static void difference(const double *a, const double *b, double d[3])
     d[2] = b[2] - a[2];
 }
 
-/* The sign of normal . d where it is proved, or 0; the normal is exact, d rounded once. */
-static int sure_sign(const double normal[3], const double d[3])
-{
-    double x = normal[0] * d[0];
-    double y = normal[1] * d[1];
-    double z = normal[2] * d[2];
-    double sum = (x + y) + z;
-    double error = RING_FILTER * ((fabs(x) + fabs(y)) + fabs(z));
-    return (sum > error) - (sum < -error);
-}
-
 /* Each facet's normal, its largest component brought to 1, is added to m at its corners. */
 static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
                         const uint32_t *weld, const unsigned char *skip, vertex_ring *rings)
@@ -103,12 +96,13 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
         double most = fabs(x) > fabs(y) ? fabs(x) : fabs(y);
         most = fabs(z) > most ? fabs(z) : most;
         double scale = most > 0.0 ? 1.0 / most : 0.0;
+        const float n[3] = {(float)(x * scale), (float)(y * scale), (float)(z * scale)};
         for (int corner = 0; corner < 3; corner++) {
             vertex_ring *r = &rings[weld[c[corner]]];
             r->count++;
-            r->m[0] = (float)((double)r->m[0] + x * scale);
-            r->m[1] = (float)((double)r->m[1] + y * scale);
-            r->m[2] = (float)((double)r->m[2] + z * scale);
+            r->m[0] += n[0];
+            r->m[1] += n[1];
+            r->m[2] += n[2];
         }
     }
 }
@@ -180,24 +174,31 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
         const double plus[3] = {q[1] * p[2], q[2] * p[0], q[0] * p[1]};
         const double minus[3] = {q[2] * p[1], q[0] * p[2], q[1] * p[0]};
         const double normal[3] = {plus[0] - minus[0], plus[1] - minus[1], plus[2] - minus[2]};
-        const double weight[3] = {fabs(plus[0]) + fabs(minus[0]), fabs(plus[1]) + fabs(minus[1]),
-                                  fabs(plus[2]) + fabs(minus[2])};
+        double turn_error = 0.0;
+        double line_error[3]; /* of g . side */
+        for (int k = 0; k < 3; k++) {
+            turn_error += fabs(plus[k]) + fabs(minus[k]);
+            line_error[k] = RING_FILTER * LINE_SCALE *
+                            ((fabs(side[k][0]) + fabs(side[k][1])) + fabs(side[k][2]));
+        }
+        turn_error *= RING_FILTER * RING_SCALE;
         for (int corner = 0; corner < 3; corner++) {
             vertex_ring *r = &rings[weld[c[corner]]];
+            int last = corner > 0 ? corner - 1 : 2; /* the side that leads to the corner */
             double m[3];
             mean_of(r, m);
             const double g[3] = {7.0 * m[1] - 3.0 * m[2], 5.0 * m[2] - 7.0 * m[0],
                                  3.0 * m[0] - 5.0 * m[1]};
             double turn = (normal[0] * m[0] + normal[1] * m[1]) + normal[2] * m[2];
-            double error =
-                (weight[0] * fabs(m[0]) + weight[1] * fabs(m[1])) + weight[2] * fabs(m[2]);
-            int start = sure_sign(g, side[corner]);
-            int end = -sure_sign(g, side[corner > 0 ? corner - 1 : 2]);
-            if (!(turn > RING_FILTER * error) || start == 0 || end == 0) {
+            double start =
+                (g[0] * side[corner][0] + g[1] * side[corner][1]) + g[2] * side[corner][2];
+            double end = -((g[0] * side[last][0] + g[1] * side[last][1]) + g[2] * side[last][2]);
+            if (!(turn > turn_error && fabs(start) > line_error[corner] &&
+                  fabs(end) > line_error[last])) {
                 r->refused = 1;
-            } else if (start < end) {
+            } else if (start < 0.0 && end > 0.0) {
                 count_one_more(&r->up);
-            } else if (start > end) {
+            } else if (start > 0.0 && end < 0.0) {
                 count_one_more(&r->down);
             }
         }

@@ -91,41 +91,40 @@ static uint64_t spread_bits(uint64_t x)
     return x;
 }
 
-/* Facets being ordered, and what for. */
+/* Facets being ordered. */
 typedef struct tree_sort {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
     const uint32_t *apex; /* or NULL */
     uint32_t *order, *order_spare;
     uint64_t *key, *key_spare;
-    lrcs_point *centre; /* in the room of key_spare and order_spare, before these are used */
 } tree_sort;
 
 /* Twice the centre of a facet's box, or twice its apex. */
-static void facet_centre(const tree_sort *s, const uint32_t *apex, uint32_t place, double centre[3])
+static inline lrcs_point facet_centre(const tree_sort *s, const uint32_t *apex, uint32_t place)
 {
     uint32_t f = s->order[place];
-    if (apex && apex[f] != LRCS_NONE) {
-        for (int k = 0; k < 3; k++) {
-            centre[k] = 2.0 * s->vertex[apex[f]].x[k];
-        }
-        return;
-    }
-    lrcsi_box box = lrcsi_box_of(s->vertex, &s->facet[f]);
+    const uint32_t *corner = s->facet[f].corner;
+    int at_apex = apex && apex[f] != LRCS_NONE;
+    const double *a = s->vertex[at_apex ? apex[f] : corner[0]].x;
+    const double *b = s->vertex[at_apex ? apex[f] : corner[1]].x;
+    const double *c = s->vertex[at_apex ? apex[f] : corner[2]].x;
+    lrcs_point centre;
     for (int k = 0; k < 3; k++) {
-        centre[k] = box.low[k] + box.high[k];
+        centre.x[k] =
+            lrcsi_least(lrcsi_least(a[k], b[k]), c[k]) + lrcsi_most(lrcsi_most(a[k], b[k]), c[k]);
     }
+    return centre;
 }
 
-/* Orders places first .. end along a curve through the box of their centres; returns 0, and does
-   nothing, where that is a point. */
+/* Sorts places first .. end along a curve through the box of their centres; returns 0, and does
+   nothing, if that box is a point. */
 static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t first, uint32_t end)
 {
     lrcsi_box all = empty_box();
-    lrcs_point *centre = s->centre;
     for (uint32_t i = first; i < end; i++) {
-        facet_centre(s, apex, i, centre[i - first].x);
-        grow_box(&all, centre[i - first].x, centre[i - first].x);
+        lrcs_point centre = facet_centre(s, apex, i);
+        grow_box(&all, centre.x, centre.x);
     }
     double side = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -140,10 +139,10 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t f
     }
     const double scale = (double)((UINT64_C(1) << bits) - 1) / side;
     for (uint32_t i = first; i < end; i++) {
+        lrcs_point centre = facet_centre(s, apex, i);
         uint64_t key = 0;
         for (int k = 0; k < 3; k++) {
-            double cell =
-                (centre[i - first].x[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
+            double cell = (centre.x[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
             key |= spread_bits((uint64_t)cell) << k;
         }
         s->key[i] = key;
@@ -265,8 +264,8 @@ static void fill_block(const lrcsi_tree *tree, int level, uint32_t b)
 
 size_t lrcsi_tree_need(uint32_t facet_count)
 {
-    size_t scratch = lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
-                                    lrcsi_work_bytes(facet_count, sizeof(lrcs_point)));
+    size_t scratch = lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
+                                    lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
     size_t boxes = 0;
     uint32_t below = facet_count;
     for (int l = 0; l < LRCSI_TREE_LEVELS; l++) {
@@ -291,12 +290,11 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
     tree_sort s = {
         .vertex = vertex, .facet = facet, .apex = apexes ? label : NULL, .order = made.order};
     s.key = lrcsi_work_take(work, facet_count, sizeof *s.key);
-    s.centre = lrcsi_work_take(work, facet_count, sizeof *s.centre);
+    s.key_spare = lrcsi_work_take(work, facet_count, sizeof *s.key_spare);
+    s.order_spare = lrcsi_work_take(work, facet_count, sizeof *s.order_spare);
     work->used = stays;
     int status = LRCS_E_MEMORY;
-    if (s.order && s.key && s.centre) {
-        s.key_spare = (void *)s.centre;
-        s.order_spare = (void *)(s.key_spare + facet_count);
+    if (s.order && s.key && s.key_spare && s.order_spare) {
         for (uint32_t f = 0; f < facet_count; f++) {
             if (!skip || !skip[f]) {
                 made.order[made.count++] = f;
@@ -579,47 +577,6 @@ static int cones_are_apart(const lrcsi_tree_cone *a, const lrcsi_tree_cone *b)
 }
 
 /* ---- walks ---- */
-
-lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane)
-{
-    lrcsi_box box;
-    for (int k = 0; k < 3; k++) {
-        box.low[k] = block->low[k][lane];
-        box.high[k] = block->high[k][lane];
-    }
-    return box;
-}
-
-static uint64_t bits_of(double x)
-{
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-/* Boxes are apart where along some axis the one ends before the other starts: where a difference of
-   their ends is negative. A rounded difference has the sign of the exact one (subnormal numbers are
-   kept, base/ieee.h), and equal ends differ by +0, none being -0. The sign bits of the six are
-   joined, lane by lane: compilers make vectors of that, as they do not of comparisons that might
-   trap. */
-unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box)
-{
-    static const uint64_t lane_bit[TREE_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
-    const double lx = box->low[0];
-    const double ly = box->low[1];
-    const double lz = box->low[2];
-    const double hx = box->high[0];
-    const double hy = box->high[1];
-    const double hz = box->high[2];
-    uint64_t meets = 0;
-    for (int k = 0; k < TREE_LANES; k++) {
-        uint64_t apart = bits_of(hx - block->low[0][k]) | bits_of(hy - block->low[1][k]) |
-                         bits_of(hz - block->low[2][k]) | bits_of(block->high[0][k] - lx) |
-                         bits_of(block->high[1][k] - ly) | bits_of(block->high[2][k] - lz);
-        meets |= ((apart >> 63) - 1) & lane_bit[k];
-    }
-    return (unsigned)meets;
-}
 
 lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, uint32_t without)
 {

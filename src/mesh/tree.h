@@ -6,6 +6,8 @@
 
 #include <lrcs/mesh.h>
 
+#include "base/bits.h"
+
 /* Boxes a block, and the most levels that 2^32 facets can take. */
 enum { LRCSI_TREE_LANES = 8, LRCSI_TREE_LEVELS = 11 };
 
@@ -15,7 +17,8 @@ typedef struct lrcsi_box {
 
 /* Eight boxes in structure of arrays; lanes without one have low > high. */
 typedef struct lrcsi_tree_block {
-    double low[3][LRCSI_TREE_LANES], high[3][LRCSI_TREE_LANES];
+    _Alignas(16) double low[3][LRCSI_TREE_LANES];
+    double high[3][LRCSI_TREE_LANES];
 } lrcsi_tree_block;
 
 /* Slabs that bound what is in the eight boxes: low <= direction . x <= high for every corner x; the
@@ -65,10 +68,37 @@ typedef struct lrcsi_tree_walk {
 lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet);
 
 /* A lane's box. */
-lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane);
+static inline lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane)
+{
+    return (lrcsi_box){{block->low[0][lane], block->low[1][lane], block->low[2][lane]},
+                       {block->high[0][lane], block->high[1][lane], block->high[2][lane]}};
+}
 
-/* The lanes of a block whose boxes intersect `box` (closed, finite, no end of it -0), as bits. */
-unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box);
+/* The lanes of a block whose boxes intersect `box` (closed, finite, no end of it -0), as bits.
+   Boxes are disjoint if along some axis one ends before the other starts: if a difference of their
+   ends is negative. A rounded difference has the sign of the exact one (subnormal numbers are kept,
+   base/ieee.h), and equal ends differ by +0, as none is -0. The sign bits of the six differences
+   are combined lane by lane, which compilers vectorize; comparisons, which might trap, they do
+   not. */
+static inline unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box)
+{
+    static const uint64_t lane_bit[LRCSI_TREE_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const double lx = box->low[0];
+    const double ly = box->low[1];
+    const double lz = box->low[2];
+    const double hx = box->high[0];
+    const double hy = box->high[1];
+    const double hz = box->high[2];
+    uint64_t meets = 0;
+    for (int k = 0; k < LRCSI_TREE_LANES; k++) {
+        uint64_t apart =
+            lrcsi_bits_of(hx - block->low[0][k]) | lrcsi_bits_of(hy - block->low[1][k]) |
+            lrcsi_bits_of(hz - block->low[2][k]) | lrcsi_bits_of(block->high[0][k] - lx) |
+            lrcsi_bits_of(block->high[1][k] - ly) | lrcsi_bits_of(block->high[2][k] - lz);
+        meets |= ((apart >> 63) - 1) & lane_bit[k];
+    }
+    return (unsigned)meets;
+}
 
 /* The number of the lowest bit of a mask that is not 0. */
 static inline uint32_t lrcsi_tree_lane(unsigned mask)

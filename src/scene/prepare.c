@@ -23,21 +23,25 @@
 #include "scene/runs.h"
 #include "scene/solid.h"
 
-/* Checks what lrcs_scene_build promises, so that nothing later need be asked. */
-static int prepare_check(const lrcs_scene *scene)
+/* Checks what lrcs_scene_build guarantees, so that no later stage needs to. *most: the largest
+   magnitude of any coordinate of the facets' corners. */
+static int scene_check(const lrcs_scene *scene, double *most)
 {
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
-        for (int k = 0; k < 3; k++) {
-            if (!(fabs(scene->vertex[v].x[k]) <= 1e100)) {
-                return LRCS_E_NUMBER;
-            }
+        const double *x = scene->vertex[v].x;
+        if (!(fabs(x[0]) <= 1e100 && fabs(x[1]) <= 1e100 && fabs(x[2]) <= 1e100)) {
+            return LRCS_E_NUMBER;
         }
     }
+    *most = 0;
     for (uint32_t f = 0; f < scene->facet_count; f++) {
+        const uint32_t *corner = scene->facet[f].corner;
         for (int k = 0; k < 3; k++) {
-            if (scene->facet[f].corner[k] >= scene->vertex_count) {
+            if (corner[k] >= scene->vertex_count) {
                 return LRCS_E_INDEX;
             }
+            const double *x = scene->vertex[corner[k]].x;
+            *most = lrcsi_most(*most, lrcsi_most(fabs(x[0]), lrcsi_most(fabs(x[1]), fabs(x[2]))));
         }
         for (int k = 0; scene->corner_normal && k < 9; k++) {
             if (!(fabs(scene->corner_normal[3 * (size_t)f + (size_t)k / 3].x[k % 3]) <= 1.0)) {
@@ -57,23 +61,8 @@ static int prepare_check(const lrcs_scene *scene)
     return LRCS_OK;
 }
 
-/* The power of two that brings the facets' largest coordinate into [0.5, 1). */
-static int prepare_exponent(const lrcs_scene *scene)
-{
-    double most = 0;
-    for (uint32_t f = 0; f < scene->facet_count; f++) {
-        for (int k = 0; k < 3; k++) {
-            const double *x = scene->vertex[scene->facet[f].corner[k]].x;
-            most = lrcsi_most(most, lrcsi_most(fabs(x[0]), lrcsi_most(fabs(x[1]), fabs(x[2]))));
-        }
-    }
-    int exponent = 0;
-    frexp(most, &exponent);
-    return exponent;
-}
-
 /* Scaled in two steps, that neither power overflows: exact, unless it becomes 0. */
-static void prepare_vertices(lrcs_prepared *p)
+static void scale_vertices(lrcs_prepared *p)
 {
     double first = ldexp(1, -p->exponent / 2);
     double second = ldexp(1, -p->exponent - -p->exponent / 2);
@@ -152,7 +141,7 @@ static void normal_take(lrcs_prepared *prepared, uint32_t facet, const cross_lan
     }
 }
 
-static void prepare_normals(lrcs_prepared *p)
+static void normals_fill(lrcs_prepared *p)
 {
     uint32_t count = p->scene->facet_count;
     cross_lanes lanes;
@@ -172,21 +161,32 @@ static void prepare_normals(lrcs_prepared *p)
     }
 }
 
-/* Which facets take part, and where those stand. */
-static void prepare_live(lrcs_prepared *p)
+/* Which facets are live, their corners, and what their materials and parts require. A facet that
+   rounding left without area still makes its part count as curved. */
+static void live_find(lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        p->skip[f] = p->topology.degenerate[f] || lrcsi_prepared_material(p, f)->omitted;
+        const lrcs_material *material = lrcsi_prepared_material(p, f);
+        const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
+        p->curved |= !material->omitted && (part->reach > 0 || !part->curvature_known);
+        p->skip[f] = p->topology.degenerate[f] || material->omitted;
         p->redundant[f] = p->skip[f] ? LRCSI_REDUNDANT : LRCSI_NOT_REDUNDANT;
-        p->live += !p->skip[f];
-        for (int k = 0; k < 3 && !p->skip[f]; k++) {
-            p->referenced[p->scene->facet[f].corner[k]] = 1;
+        if (p->skip[f]) {
+            continue;
         }
+        const uint32_t *corner = p->scene->facet[f].corner;
+        p->referenced[corner[0]] = p->referenced[corner[1]] = p->referenced[corner[2]] = 1;
+        p->live++;
+        p->two_sided |= material->two_sided != 0;
+        p->glint |= material->brdf.A > 0;
+        p->diffuse |= material->brdf.B > 0;
+        p->articulated |= part->articulated != 0;
+        p->smooth |= lrcsi_prepared_normals(p, f) != NULL;
     }
 }
 
 /* The box around the live facets, and that around most vertices. */
-static void prepare_box(lrcs_prepared *p)
+static void box_find(lrcs_prepared *p)
 {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -205,123 +205,118 @@ static void prepare_box(lrcs_prepared *p)
     lrcsi_bulk_find(p, half);
 }
 
-/* What the live facets' materials and parts call for. Curved is also what rounding left without
-   area. */
-static void prepare_effects(lrcs_prepared *p)
-{
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        const lrcs_material *material = lrcsi_prepared_material(p, f);
-        const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
-        p->curved |= !material->omitted && (part->reach > 0 || !part->curvature_known);
-        if (p->skip[f]) {
-            continue;
-        }
-        p->two_sided |= material->two_sided != 0;
-        p->glint |= material->brdf.A > 0;
-        p->diffuse |= material->brdf.B > 0;
-        p->articulated |= part->articulated != 0;
-        p->smooth |= lrcsi_prepared_normals(p, f) != NULL;
-    }
-}
+/* ---- stages ---- */
 
-static int prepare_arrays(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared *p)
+static int prepare_edges(lrcs_prepared *p, lrcs_work *work)
 {
+    const lrcs_scene *scene = p->scene;
     p->vertex = lrcsi_work_take(work, scene->vertex_count, sizeof *p->vertex);
-    p->skip = lrcsi_work_take_zero(work, scene->facet_count, sizeof *p->skip);
-    p->redundant = lrcsi_work_take(work, scene->facet_count, sizeof *p->redundant);
-    p->normal = lrcsi_work_take(work, scene->facet_count, sizeof *p->normal);
-    p->referenced = lrcsi_work_take_zero(work, scene->vertex_count, sizeof *p->referenced);
-    if (!p->vertex || !p->skip || !p->redundant || !p->normal || !p->referenced) {
+    if (!p->vertex) {
         return LRCS_E_MEMORY;
     }
-    prepare_vertices(p);
+    scale_vertices(p);
     return lrcsi_topology_make(p->vertex, scene->vertex_count, scene->facet, scene->facet_count,
                                work, &p->topology);
 }
 
-/* A body convex by construction needs no search for contacts: its facets meet on their rims only,
-   up to the rounding for which graze allows; how they meet there is left open. */
-static int prepare_made(lrcs_prepared *p, lrcs_work *work)
-{
-    p->convex = 1;
-    size_t facets = p->scene->facet_count;
-    p->intersections.first = lrcsi_work_take_zero(work, facets + 1, sizeof *p->intersections.first);
-    p->intersections.rim = lrcsi_work_take(work, facets, 1);
-    if (!p->intersections.first || !p->intersections.rim) {
-        return LRCS_E_MEMORY;
-    }
-    memset(p->intersections.rim, 1, facets);
-    return LRCS_OK;
-}
-
-/* How many pieces of surface the live facets make (scene/solid.h). */
-static uint32_t count_pieces(const lrcs_prepared *p, const uint32_t *piece)
-{
-    uint32_t count = 0;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        count += !p->skip[f] && piece[f] == f;
-    }
-    return count;
-}
-
-/* Which facets have no contacts of their own: redundant ones, and of twins the second. */
-static void contacts_none(const lrcs_prepared *p, unsigned char *none)
-{
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        none[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->twin && p->twin[f] < f);
-    }
-}
-
-/* Which facets take part; what of those in one place counts; what lies across the sides of those
-   that do. */
+/* Coincident facets come before neighbours: a redundant facet is nobody's neighbour. */
 static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
 {
-    prepare_live(p);
+    const lrcs_scene *scene = p->scene;
+    p->skip = lrcsi_work_take(work, scene->facet_count, sizeof *p->skip);
+    p->redundant = lrcsi_work_take(work, scene->facet_count, sizeof *p->redundant);
+    p->referenced = lrcsi_work_take_zero(work, scene->vertex_count, sizeof *p->referenced);
+    if (!p->skip || !p->redundant || !p->referenced) {
+        return LRCS_E_MEMORY;
+    }
+    live_find(p);
+    box_find(p);
     int status = lrcsi_coincident_mark(p, work);
-    return status == LRCS_OK ? lrcsi_across_make(&p->topology, p->scene->facet_count, p->redundant,
+    return status == LRCS_OK ? lrcsi_across_make(&p->topology, scene->facet_count, p->redundant,
                                                  p->twin, work, &p->across)
                              : status;
 }
 
-/* Contacts, unless the scene is convex by construction. Pieces of surface are distinguished first,
-   for contacts within one. They stay, as does which facets were asked, beneath the contacts. */
-static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
+/* The facets of a body that is convex by construction meet each other only in their rims, up to the
+   rounding that grazing_cos allows for, so no search is needed; how they meet there is left open.
+ */
+static int contacts_of_convex(lrcs_prepared *p, lrcs_work *work)
 {
-    if (lrcsi_convex_made(p, &p->solid, &p->grazing_cos)) {
-        return prepare_made(p, work);
-    }
-    p->grazing_cos = 0;
-    p->solid = 0;
-    p->convex = p->live == 0;
-    unsigned char *none = lrcsi_work_take(work, p->scene->facet_count, sizeof *none);
-    size_t mark = work->used;
-    uint32_t *piece = lrcsi_work_take(work, p->scene->facet_count, sizeof *piece);
-    if (!none || !piece) {
+    lrcsi_intersections *t = &p->intersections;
+    size_t facets = p->scene->facet_count;
+    t->first = lrcsi_work_take_zero(work, facets + 1, sizeof *t->first);
+    t->rim = lrcsi_work_take(work, facets, 1);
+    if (!t->first || !t->rim) {
         return LRCS_E_MEMORY;
     }
-    contacts_none(p, none);
+    memset(t->rim, 1, facets);
+    return LRCS_OK;
+}
+
+/* Pieces of surface are distinguished first, for contacts within one piece. Not searched are
+   redundant facets, and of twins the second, which gets a copy of the first one's list. Then
+   whether the scene is solid. This stage comes before the normals: they use the memory of its
+   scratch. */
+static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
+{
+    uint32_t facets = p->scene->facet_count;
+    p->convex = lrcsi_convex_made(p, &p->solid);
+    if (p->convex) {
+        return contacts_of_convex(p, work);
+    }
+    unsigned char *without = lrcsi_work_take(work, facets, sizeof *without);
+    size_t mark = work->used;
+    uint32_t *piece = lrcsi_work_take(work, facets, sizeof *piece);
+    if (!without || !piece) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t f = 0; f < facets; f++) {
+        without[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->twin && p->twin[f] < f);
+    }
     if (lrcsi_solid_pieces(p, piece)) {
         p->piece = piece;
     } else {
         work->used = mark;
     }
-    int status = lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet,
-                                         p->scene->facet_count, &p->topology, none, p->piece, work,
-                                         &p->intersections);
-    return status == LRCS_OK ? lrcsi_coincident_touches(p, work) : status;
+    int status = lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet, facets,
+                                         &p->topology, without, p->piece, work, &p->intersections);
+    if (status == LRCS_OK) {
+        status = lrcsi_coincident_touches(p, work);
+    }
+    if (status == LRCS_OK && p->piece && !p->intersections.self) {
+        status = lrcsi_solid_outward(p, p->piece, work, &p->solid);
+    }
+    return status;
 }
 
-/* Whether the scene is solid, and then convex: one piece of surface, as a convex body is. Then the
-   runs of its facets. */
+static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
+{
+    p->normal = lrcsi_work_take(work, p->scene->facet_count, sizeof *p->normal);
+    if (!p->normal) {
+        return LRCS_E_MEMORY;
+    }
+    normals_fill(p);
+    return lrcsi_batches_make(p, work);
+}
+
+/* Is a solid scene convex (one piece of surface, as a convex body is)? How close are curved shapes
+   to each other, and what is the extent of parts? Last, the runs of facets. */
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
     int status = LRCS_OK;
-    if (p->piece && !p->intersections.self) {
-        status = lrcsi_solid_outward(p, p->piece, work, &p->solid);
+    if (p->convex) {
+        p->grazing_cos = lrcsi_convex_grazing(p);
     }
-    if (status == LRCS_OK && p->piece && p->solid && count_pieces(p, p->piece) == 1) {
-        status = lrcsi_convex_exact(p, work, &p->convex);
+    if (p->piece && p->solid) {
+        uint32_t pieces = 0;
+        for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+            pieces += !p->skip[f] && p->piece[f] == f;
+        }
+        if (pieces == 1) {
+            status = lrcsi_convex_exact(p, work, &p->convex);
+        }
     }
+    p->convex |= p->live == 0;
     if (status == LRCS_OK && p->curved && !p->convex) {
         status = lrcsi_proximity_make(p, work);
     }
@@ -331,53 +326,59 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     return status == LRCS_OK ? lrcsi_runs_make(p, work, &p->runs) : status;
 }
 
-/* Of the last stages only the largest counts: each gives back what it does not leave. Facets'
-   contacts that stay are those of touches_need, less what searching for them takes. */
+/* ---- public ---- */
+
+static size_t larger(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
+/* Each stage leaves its results and releases its scratch; of the scratch only the largest counts.
+   lrcsi_topology_need, _coincident_need and _intersection_need include the scratch of these
+   stages. */
 size_t lrcs_prepare_need(const lrcs_scene *scene)
 {
+    uint32_t vertices = scene->vertex_count;
     size_t facets = scene->facet_count;
     size_t contacts = 4 * facets + 64;
-    /* 1. What the stages before the contacts leave. */
+    /* 1. Edges and neighbours. */
     size_t need = lrcsi_work_bytes(1, sizeof(lrcs_prepared));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, sizeof(lrcs_point)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, sizeof(lrcs_point)));
+    need = lrcsi_work_add(need, lrcsi_topology_need(vertices, scene->facet_count));
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(scene->vertex_count, 1));
-    need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
-    size_t coincident =
-        lrcsi_work_add(need, lrcsi_coincident_need(scene->vertex_count, scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, 1));
+    size_t coincident = lrcsi_work_add(need, lrcsi_coincident_need(vertices, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* twins */
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
-    need = lrcsi_work_add(need, lrcsi_batches_need(scene));
-    /* 2. Contacts, on top of which facets are asked and their pieces of surface. */
+    /* 2. Contacts: what is not searched, pieces of surface, and the search with its result. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    size_t search = lrcsi_intersection_need(scene->vertex_count, scene->facet_count, contacts);
-    /* 3. On top of contacts: the volumes of pieces, the proof of convexity, or what is near. */
-    size_t proof = 2 * lrcsi_work_bytes(facets, sizeof(double));
-    size_t convex = lrcsi_convex_exact_need(scene->vertex_count, scene->facet_count);
-    proof = convex > proof ? convex : proof;
+    size_t search = lrcsi_intersection_need(vertices, scene->facet_count, contacts);
+    /* 3. What the search leaves; normals; the proof of convexity, or what is near curved shapes;
+       runs. The volumes of pieces take less than the normals, which come later. */
+    size_t proof = lrcsi_convex_exact_need(vertices, scene->facet_count);
     size_t proximity =
         lrcsi_work_add(lrcsi_proximity_need(scene), lrcsi_tree_need(scene->facet_count));
-    proximity = lrcsi_work_add(proximity, lrcsi_extents_need(scene));
-    proof = proximity > proof ? proximity : proof;
+    proof = larger(proof, lrcsi_work_add(proximity, lrcsi_extents_need(scene)));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets + 1, sizeof(uint32_t)));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 1));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(contacts, sizeof(lrcsi_intersection)));
-    need = lrcsi_work_add(need, search > proof ? search : proof);
-    need = lrcsi_work_add(need, lrcsi_runs_need(scene->facet_count));
-    return need > coincident ? need : coincident;
+    proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
+    proof = lrcsi_work_add(proof, lrcsi_batches_need(scene));
+    proof = lrcsi_work_add(proof, lrcsi_runs_need(scene->facet_count));
+    return larger(lrcsi_work_add(need, larger(search, proof)), coincident);
 }
 
 int lrcsi_prepare_start(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared **prepared)
 {
-    int status = lrcsi_ieee_kept() ? prepare_check(scene) : LRCS_E_UNSUPPORTED;
+    double most = 0;
+    int status = lrcsi_ieee_kept() ? scene_check(scene, &most) : LRCS_E_UNSUPPORTED;
     lrcs_prepared *p = status == LRCS_OK ? lrcsi_work_take_zero(work, 1, sizeof *p) : NULL;
     if (!p) {
         return status == LRCS_OK ? LRCS_E_MEMORY : status;
     }
     p->scene = scene;
-    p->exponent = prepare_exponent(scene);
+    (void)frexp(most, &p->exponent); /* the largest coordinate is in [0.5, 1) once scaled */
     *prepared = p;
     return LRCS_OK;
 }
@@ -386,16 +387,13 @@ int lrcsi_prepare_stage(lrcs_prepared *p, int stage, lrcs_work *work)
 {
     switch (stage) {
     case LRCSI_PREPARE_EDGES:
-        return prepare_arrays(p->scene, work, p);
+        return prepare_edges(p, work);
     case LRCSI_PREPARE_NEIGHBOURS:
         return prepare_neighbours(p, work);
-    case LRCSI_PREPARE_NORMALS:
-        prepare_normals(p);
-        prepare_box(p);
-        prepare_effects(p);
-        return lrcsi_batches_make(p, work);
     case LRCSI_PREPARE_CONTACTS:
         return prepare_contacts(p, work);
+    case LRCSI_PREPARE_NORMALS:
+        return prepare_normals(p, work);
     default:
         return prepare_proofs(p, work);
     }

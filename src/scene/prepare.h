@@ -9,10 +9,10 @@
    them (the core has no clock). */
 enum lrcsi_prepare_stage {
     LRCSI_PREPARE_EDGES,      /* scaled points, welded; edges */
-    LRCSI_PREPARE_NEIGHBOURS, /* coincident facets; which facet lies across each side */
-    LRCSI_PREPARE_NORMALS,    /* and what else is found facet by facet: box, effects, batches */
-    LRCSI_PREPARE_CONTACTS,
-    LRCSI_PREPARE_PROOFS, /* solid, convex, what is near curved shapes */
+    LRCSI_PREPARE_NEIGHBOURS, /* live and coincident facets; which facet lies across each side */
+    LRCSI_PREPARE_CONTACTS,   /* between facets; is the scene solid? */
+    LRCSI_PREPARE_NORMALS,    /* by facet, and sorted by material for the sum */
+    LRCSI_PREPARE_PROOFS,     /* convex, what is near curved shapes; runs of facets */
     LRCSI_PREPARE_STAGES
 };
 

@@ -65,21 +65,26 @@ int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
     for (uint32_t r = 0; r < made.count; r++) {
         uint32_t start = r * LRCSI_RUN;
         uint32_t end = lrcsi_run_end(start, facet_count);
-        lrcsi_run run = {{HUGE_VAL, HUGE_VAL, HUGE_VAL},
-                         {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
-                         made.run[r].first_side,
-                         0};
+        double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+        double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        int touched = 0;
         for (uint32_t f = start; f < end; f++) {
-            run.touched |=
-                lrcsi_intersection_of(&p->intersections, f) != 0 || p->intersections.rim[f];
-            for (int i = 0; i < 9 && p->redundant[f] < LRCSI_REDUNDANT; i++) {
-                double x = lrcsi_prepared_corner(p, f, i / 3)[i % 3];
-                run.low[i % 3] = lrcsi_least(run.low[i % 3], x);
-                run.high[i % 3] = lrcsi_most(run.high[i % 3], x);
+            touched |= lrcsi_intersection_of(&p->intersections, f) != 0 || p->intersections.rim[f];
+            const double *a = lrcsi_prepared_corner(p, f, 0);
+            const double *b = lrcsi_prepared_corner(p, f, 1);
+            const double *c = lrcsi_prepared_corner(p, f, 2);
+            for (int k = 0; k < 3 && p->redundant[f] < LRCSI_REDUNDANT; k++) {
+                low[k] = lrcsi_least(low[k], lrcsi_least(lrcsi_least(a[k], b[k]), c[k]));
+                high[k] = lrcsi_most(high[k], lrcsi_most(lrcsi_most(a[k], b[k]), c[k]));
             }
         }
-        made.run[r] = run;
-        made.run[r + 1].first_side = run.first_side;
+        lrcsi_run *run = &made.run[r];
+        for (int k = 0; k < 3; k++) {
+            run->low[k] = low[k];
+            run->high[k] = high[k];
+        }
+        run->touched = touched;
+        made.run[r + 1].first_side = run->first_side;
         run_join(p, &made, start, end);
     }
     work->used = mark;

@@ -145,41 +145,42 @@ static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude
     }
 }
 
-/* A lone engine-made part. Its exact vertices lie on a convex surface, the placed ones within
-   `off` of them. Let x on a front facet i be hidden by y = x + t d. The body lies below the true
-   surface's tangent plane, so y is within sagitta / cos(theta) of x. Where cos(theta) exceeds
-   three turns that distance is less than a facet, and every normal in reach has a positive
-   component along d: the surface there is a graph over the view plane, met once: x is not hidden.
-   Without dents beyond rounding (plane-faced and singly curved bodies, Delaunay diagonals) the
-   exact mesh is itself convex and only the rounding's tilt counts, at most 2 off / altitude for
-   either facet; 16 covers both and the margin. A body thinner than 1e6 roundings is refused. */
-static int part_is_convex(const lrcs_prepared *p, const lrcs_part *part, double *grazing_cos)
+/* How far a part's vertices are from its convex surface, scaled. */
+static double misplaced_by(const lrcs_prepared *p, const lrcs_part *part)
 {
-    double off = ldexp(part->misplaced, -p->exponent) + 4 * LRCSI_U;
-    double thin = ldexp(part->thinnest, -p->exponent);
-    int plane = part->kind == LRCS_SHAPE_PLATE || part->kind == LRCS_SHAPE_DISC;
-    if (!part->convex_patch || (!plane && !(thin > 1e6 * off))) {
-        return 0;
-    }
-    double dent = 0;
-    double altitude = 0;
-    measure_dents(p, &dent, &altitude);
-    *grazing_cos = 16 * off / altitude;
-    if (dent > 16 * off) {
-        *grazing_cos += 3 * part->curvature.turn;
-    }
-    return 1;
+    return ldexp(part->misplaced, -p->exponent) + 4 * LRCSI_U;
 }
 
-int lrcsi_convex_made(const lrcs_prepared *p, int *solid, double *grazing_cos)
+int lrcsi_convex_made(const lrcs_prepared *p, int *solid)
 {
     uint32_t index = lone_part(p);
     if (index == LRCS_NONE) {
         return 0;
     }
     const lrcs_part *part = &p->scene->part[index];
-    *solid = part->solid != 0;
-    return (part->solid || !p->two_sided) && part_is_convex(p, part, grazing_cos);
+    int flat = part->kind == LRCS_SHAPE_PLATE || part->kind == LRCS_SHAPE_DISC;
+    int thick = ldexp(part->thinnest, -p->exponent) > 1e6 * misplaced_by(p, part);
+    int made = part->convex_patch && (flat || thick) && (part->solid || !p->two_sided);
+    *solid = made && part->solid;
+    return made;
+}
+
+/* The part's exact vertices lie on a convex surface, the placed ones within `off` of them. Let x on
+   a front facet i be hidden by y = x + t d. The body lies below the true surface's tangent plane,
+   so y is within sagitta / cos(theta) of x. Where cos(theta) exceeds three turns that distance is
+   less than a facet, and every normal in reach has a positive component along d: the surface there
+   is a graph over the view plane, met once: x is not hidden. Without dents beyond rounding
+   (plane-faced and singly curved bodies, Delaunay diagonals) the exact mesh is itself convex and
+   only the tilt by rounding counts, at most 2 off / altitude for either facet; 16 covers both and
+   the margin. */
+double lrcsi_convex_grazing(const lrcs_prepared *p)
+{
+    const lrcs_part *part = &p->scene->part[lone_part(p)];
+    double off = misplaced_by(p, part);
+    double dent = 0;
+    double altitude = 0;
+    measure_dents(p, &dent, &altitude);
+    return 16 * off / altitude + (dent > 16 * off ? 3 * part->curvature.turn : 0);
 }
 
 /* Considers the live facets alone if the topology's edges include others. */

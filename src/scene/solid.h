@@ -24,10 +24,14 @@ int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *piece, lr
                         int *proved);
 
 /* 1 if all live facets belong to one part that the library tessellated, which lies on a convex
-   surface, outward, and one-sided or closed (*solid): convex by construction. Rounding, and on
-   doubly curved bodies the choice of diagonals, may have left dents; a front facet with cos(theta)
-   > *graze is nevertheless entirely visible. */
-int lrcsi_convex_made(const lrcs_prepared *prepared, int *solid, double *grazing_cos);
+   surface, outward, and one-sided or closed (then also *solid): convex by construction. A body
+   thinner than 1e6 roundings is refused. */
+int lrcsi_convex_made(const lrcs_prepared *prepared, int *solid);
+
+/* Given such a scene with its normals. Rounding, and on doubly curved bodies the choice of
+   diagonals, may have left dents; a front facet with cos(theta) above the returned value is
+   nevertheless entirely visible. */
+double lrcsi_convex_grazing(const lrcs_prepared *prepared);
 
 /* Proves that the live facets of a solid scene are one convex body, exactly (mesh/convex.h).
    Status: LRCS_OK; LRCS_E_MEMORY. Work: nothing stays; lrcsi_convex_exact_need. */

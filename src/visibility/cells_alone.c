@@ -14,6 +14,10 @@
    touch it. So f is hidden in all of the cell, whatever else the cell may show. Else the cell is
    cut along a segment: of the component that has the fewest left.
 
+   A facet that touches f and is behind it but for a strip no wider than its error still is in front
+   of f there. The strip may reach far along the line of the contact, and end at event edges, which
+   are segments like others; and near that line it is not decided whether the facet is in front.
+
    Error. Lines, strips and cells are those of visibility/cells_charge.c, in coordinates from a
    corner of f. The ends of segments are off by 10 u of their distance R from there, or what matters
    of it (visibility/target.h), those of contacts by 16 u R and a position error; lines through them
@@ -55,7 +59,6 @@ enum alone_order {
     ORDER_NEW = 0x7ffffff0, /* not looked at yet */
     ORDER_FRONT,            /* nearer, wherever a line meets both */
     ORDER_BEHIND,           /* farther */
-    ORDER_ASKED,            /* it cannot be decided but on a line that meets both */
     ORDER_APART,            /* a side of f has all of it beyond: no candidate */
     ORDER_UNKNOWN           /* they touch, in a line that is not known */
 };
@@ -127,8 +130,9 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
     }
 }
 
-/* How a facet stands to f: by their planes; in one plane by the rules of precedence; else by where
-   sides cross. */
+/* How a facet stands to f if their insides do not meet in space: by their planes; in one plane by
+   the rules of precedence; else by where their sides cross, and by their corners. This decides for
+   any two that overlap in the view (visibility/contact.h). */
 static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
@@ -143,7 +147,7 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
     }
     order = order == 0 ? lrcsi_contact_order(view, a->facet, other) : order;
     order = order == 0 ? lrcsi_contact_within(view, a->facet, other) : order;
-    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
+    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_UNKNOWN;
 }
 
 /* Does one side of f have all of another facet beyond it? */
@@ -267,10 +271,9 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
     int kind = side < 0 ? LRCSI_CONTACT_POINT : lrcsi_contact_find(&a->frame, other, &contact);
     a->order[other] = side > 0 ? ORDER_FRONT : side < 0 ? ORDER_BEHIND : ORDER_NEW;
     if (side == 0 && kind != LRCSI_CONTACT_POINT) {
-        a->order[other] = kind == LRCSI_CONTACT_LINE      ? c->segment_count
-                          : kind == LRCSI_CONTACT_BEHIND  ? (uint32_t)ORDER_BEHIND
+        a->order[other] = kind == LRCSI_CONTACT_FLAT      ? (uint32_t)ORDER_FRONT
                           : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)ORDER_UNKNOWN
-                                                          : (uint32_t)ORDER_FRONT;
+                                                          : c->segment_count;
     }
     if (kind == LRCSI_CONTACT_POINT) {
         return 1;
@@ -290,7 +293,7 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
                              : 32 * LRCSI_U * contact.reach + contact.position_err;
     e->owner[0] = a->facet;
     e->owner[1] = other;
-    e->contact = 1;
+    e->contact = kind;
     segment_ends(e, (const double(*)[2])contact.end);
     return 1;
 }
@@ -514,24 +517,21 @@ static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t cand
     return guess && !inside ? -1 : inside;
 }
 
-/* Is a facet that covers the place in front of f there? 1 yes, -1 no, 0 that cannot be decided. */
-static int place_front(lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
+/* Is a facet that covers the place in front of f there? 1 yes, -1 no, 0 that cannot be decided:
+   near the line in which they meet. */
+static int place_front(const lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
 {
-    uint32_t *order = &a->order[other];
-    if (*order == ORDER_ASKED && place->way != WAY_PLACED) {
-        int nearer = lrcsi_sample_nearer(a->cells.view, other, a->facet, place->point, 1);
-        if (place->way == WAY_EXACT && nearer != 0) {
-            *order = nearer > 0 ? ORDER_FRONT : ORDER_BEHIND;
-        }
-        return nearer;
-    }
-    if (*order < a->cells.segment_count) {
-        const lrcsi_cells_segment *e = &a->cells.segment[*order];
+    uint32_t order = a->order[other];
+    if (order < a->cells.segment_count) {
+        const lrcsi_cells_segment *e = &a->cells.segment[order];
         double left = lrcsi_line_at(e->line, place->at[0], place->at[1]);
         double w = place->way == WAY_GUESSED ? 0 : e->off + g + place->off;
-        return left > w ? 1 : left < -w ? -1 : 0;
+        int side = left > w ? 1 : left < -w ? -1 : 0;
+        return e->contact == LRCSI_CONTACT_LINE    ? side
+               : e->contact == LRCSI_CONTACT_FRONT ? side * side
+                                                   : -side * side;
     }
-    return *order == ORDER_FRONT ? 1 : *order == ORDER_BEHIND ? -1 : 0;
+    return order == ORDER_FRONT ? 1 : order == ORDER_BEHIND ? -1 : 0;
 }
 
 /* Is f hidden at a place? 1 by the component told in the place, 0 no, -1 that cannot be decided. Of

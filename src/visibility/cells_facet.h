@@ -35,7 +35,7 @@ typedef struct lrcsi_cells_segment {
     double z_err;      /* of their z */
     uint32_t owner[2]; /* facets whose edge or contact it is, the second perhaps LRCS_NONE */
     uint32_t edge;     /* of more facets; else LRCS_NONE */
-    int contact;
+    int contact;       /* of a contact, of which kind: lrcsi_contact_kind; else 0 */
 } lrcsi_cells_segment;
 
 /* A vertex, once it is made: in the view, and from the middle of a block. */

@@ -139,7 +139,7 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
         e->off = origin->off + 32 * LRCSI_U * contact.reach + contact.position_err;
         e->owner[0] = facet;
         e->owner[1] = other;
-        e->contact = 1;
+        e->contact = kind;
         e->line_off = e->off;
         e->length = lrcsi_line_through(e->end[0], e->end[1], e->line);
     }

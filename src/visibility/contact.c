@@ -90,6 +90,18 @@ int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other)
     return order;
 }
 
+/* Does a facet cover a point in projection, its sides included? */
+static int covers_closed(const lrcsi_view *view, uint32_t facet, const double point[3])
+{
+    int covers = 1;
+    for (int k = 0; k < 3 && covers; k++) {
+        const double *p = lrcsi_prepared_corner(view->prepared, facet, k);
+        const double *q = lrcsi_prepared_corner(view->prepared, facet, (k + 1) % 3);
+        covers = view->facing[facet] * lrcsi_exact_turn(p, q, point, view->direction) >= 0;
+    }
+    return covers;
+}
+
 /* A corner on the other's plane tells nothing: they meet there. */
 int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
 {
@@ -97,10 +109,10 @@ int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
     for (int n = 0; n < 6 && order == 0; n++) {
         const double *its = lrcsi_prepared_corner(view->prepared, facet, n % 3);
         const double *others = lrcsi_prepared_corner(view->prepared, other, n % 3);
-        if (n < 3 && lrcsi_sample_covers(view, other, its)) {
+        if (n < 3 && covers_closed(view, other, its)) {
             order = -lrcsi_sample_above(view, other, its);
         }
-        if (n >= 3 && lrcsi_sample_covers(view, facet, others)) {
+        if (n >= 3 && covers_closed(view, facet, others)) {
             order = lrcsi_sample_above(view, facet, others);
         }
     }
@@ -159,14 +171,21 @@ static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, 
     return 2 * (c->away[k] + c->away[next]) * (off / span);
 }
 
-/* May the segment be off by more than the facet is wide, about? Its corners are counted from a near
-   one, so that its area is no difference of far ones. */
-static int position_err_wide(const lrcsi_contact *c)
+/* May the segment be off by more than the facet, of the area told, is wide, about? */
+static int position_err_wide(const lrcsi_contact *c, double area)
 {
-    const double(*corner)[2] = (const double(*)[2])c->corner;
     lrcsi_clip_polygon triangle;
-    lrcsi_clip_triangle(corner, &triangle);
-    return !(c->position_err * lrcsi_clip_perimeter(&triangle) < lrcsi_clip_area(&triangle));
+    lrcsi_clip_triangle((const double(*)[2])c->corner, &triangle);
+    return c->position_err > 0 && !(c->position_err * lrcsi_clip_perimeter(&triangle) < area);
+}
+
+/* Of the facet. Its corners are counted from a near one, so that this is no difference of far ones.
+ */
+static double contact_area(const lrcsi_contact *c)
+{
+    lrcsi_clip_polygon triangle;
+    lrcsi_clip_triangle((const double(*)[2])c->corner, &triangle);
+    return lrcsi_clip_area(&triangle);
 }
 
 /* Walked counter-clockwise, the facet leaves its part above the plane in one place and enters it in
@@ -214,8 +233,11 @@ static void contact_ends(const lrcsi_target *t, const contact_heights *h, lrcsi_
    crosses both sides of the facet within a quarter of this beyond the ends, and parts the facet as
    the segment does. Else all that it cuts off is as near to the line, or, where the segment is so
    short that its line may turn anywhere, to the line from it to the corner: that is taken in then,
-   and what the rest does is all there is to tell. */
-static int segment_kind(const contact_heights *h, lrcsi_contact *c, int above)
+   and what the rest does is all there is to tell. What is cut off lies along the line as far as the
+   corner, which may be far beyond the segment; of what it has within 4 diameters of the target, the
+   corner's own error moves no more than if it were there. */
+static int segment_kind(const lrcsi_target *t, const contact_heights *h, lrcsi_contact *c,
+                        int above)
 {
     int lone = above == 1 ? 1 : -1; /* the sign of its height */
     int corner = h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2;
@@ -225,14 +247,15 @@ static int segment_kind(const contact_heights *h, lrcsi_contact *c, int above)
                                   {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]}};
     double length = lrcsi_length_flat(line.to[0], line.to[1]);
     double beyond = length > 0 ? lone * lrcsi_clip_side(&line, p) / length : 0;
-    if (c->position_err > 0 && position_err_wide(c)) {
+    if (position_err_wide(c, contact_area(c))) {
         return LRCSI_CONTACT_UNKNOWN;
     }
     if (beyond > 4 * off) {
         return LRCSI_CONTACT_LINE;
     }
     if (length > 4 * off) {
-        c->position_err += fabs(beyond);
+        double away = lrcsi_least(c->away[corner], c->reach + 4 * t->diameter);
+        c->position_err += fabs(beyond) + 16 * LRCSI_U * away;
     } else {
         c->position_err += length;
         memcpy(c->end[1], p, sizeof c->end[1]);
@@ -305,6 +328,17 @@ static int ends_round(contact_finely *f)
     return brief;
 }
 
+/* Of the facet, which may be a needle too: as long as others are, and as narrow as this one. */
+static double area_finely(const contact_finely *f)
+{
+    lrcsi_dd side[2][2];
+    for (int i = 0; i < 4; i++) {
+        side[i / 2][i % 2] = lrcsi_dd_sub(f->corner[1 + i / 2][i % 2], f->corner[0][i % 2]);
+    }
+    return 0.5 * lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(side[0][0], side[1][1]),
+                                             lrcsi_dd_mul(side[0][1], side[1][0])));
+}
+
 /* As segment_kind, of a short segment; a long one is not clipped yet. Of that, ends and corner are
    off by e: the line turns by 2 e over its length, and what the corner is beyond it is off by as
    much of the way there, and 2 e. Where that is long, it counts: `turned`. */
@@ -326,19 +360,17 @@ static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contac
     double beyond = length > 0 ? lone * side / length : 0;
     double far = lrcsi_length_flat(way[0].hi, way[1].hi);
     double turned = brief ? 0 : 4 * far / length * (c->off + c->position_err);
-    if (c->position_err > 0 && position_err_wide(c)) {
-        return LRCSI_CONTACT_UNKNOWN;
+    int kind = LRCSI_CONTACT_LINE;
+    if (!(beyond > 4 * off + turned)) {
+        kind = lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
+        if (length > 4 * off) {
+            c->position_err += fabs(beyond) + turned;
+        } else {
+            c->position_err += length;
+            memcpy(f->end[1], p, sizeof f->end[1]);
+        }
     }
-    if (beyond > 4 * off + turned) {
-        return LRCSI_CONTACT_LINE;
-    }
-    if (length > 4 * off) {
-        c->position_err += fabs(beyond) + turned;
-    } else {
-        c->position_err += length;
-        memcpy(f->end[1], p, sizeof f->end[1]);
-    }
-    return lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
+    return position_err_wide(c, area_finely(f)) ? LRCSI_CONTACT_UNKNOWN : kind;
 }
 
 static int segment_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c, int above)
@@ -380,5 +412,5 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
         return segment_finely(&h, &f, c, above);
     }
     contact_ends(t, &h, c);
-    return segment_kind(&h, c, above);
+    return segment_kind(t, &h, c, above);
 }

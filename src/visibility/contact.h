@@ -9,8 +9,8 @@
 enum lrcsi_contact_kind {
     LRCSI_CONTACT_POINT,  /* in a point at most */
     LRCSI_CONTACT_LINE,   /* in the segment told; what is left of it is in front */
-    LRCSI_CONTACT_FRONT,  /* in the segment told; elsewhere all is in front */
-    LRCSI_CONTACT_BEHIND, /* in the segment told; elsewhere all is behind */
+    LRCSI_CONTACT_FRONT,  /* in the segment told; all is in front but near its line, however far */
+    LRCSI_CONTACT_BEHIND, /* in the segment told; all is behind but near its line */
     LRCSI_CONTACT_FLAT,   /* the two lie in one plane, exactly */
     LRCSI_CONTACT_UNKNOWN /* in a segment, somewhere in the facet: it cannot be decided better */
 };
@@ -32,11 +32,14 @@ int lrcsi_contact_find(const lrcsi_target *target, uint32_t other, lrcsi_contact
    plane; -1 if it is farther; 0 if that does not tell. Exact. */
 int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other);
 
-/* The same of two facets that do not touch, neither of which lies on one side of the other's plane:
-   their order is the same wherever a line meets both, so also where two of their sides cross. */
+/* The same of two facets whose insides do not meet: then their order is the same wherever a line
+   meets both, so also where two of their sides cross. */
 int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other);
 
-/* Where none cross, one may lie within the other: the same by a corner there. */
+/* The same by a corner of one within the other, or on its sides. What both cover of the view is a
+   convex polygon; each of its corners is a place where two sides cross, or such a corner. Unless
+   the two lie in one plane they differ in height at one of these at least: so if they overlap,
+   lrcsi_contact_order or this one tells. */
 int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other);
 
 #endif

@@ -22,7 +22,7 @@ same explain_exits_0 "$rc" 0
 same explain_adds_three_keys_to_each_effect "$(printf '%s\n' "$out" | grep -cE '"reason": "[^"]+", "seconds": [^,]+, "share": [^,]+, "sigma_m2_flipped": [^,]+\},?$')" 8
 same explain_changes_nothing_else "$(printf '%s\n' "$out" | sed 's/, "seconds": [^{]*, "share".*}/}/' | grep -v '"seconds": {\|"options"')" "$plain"
 seconds=$(printf '%s\n' "$out" | grep '"seconds": {"load"')
-same explain_adds_the_stages_of_preparing "$(printf '%s\n' "$seconds" | grep -cE '"prepare_stages": \{"edges": [^,]+, "neighbours": [^,]+, "normals": [^,]+, "contacts": [^,]+, "proofs": [^,]+\}')" 1
+same explain_adds_the_stages_of_preparing "$(printf '%s\n' "$seconds" | grep -cE '"prepare_stages": \{"edges": [^,]+, "neighbours": [^,]+, "contacts": [^,]+, "normals": [^,]+, "proofs": [^,]+\}')" 1
 same and_of_the_pose "$(printf '%s\n' "$seconds" | grep -cE '"pose_stages": \{"view": [^,]+, "classify": [^,]+, "visibility": [^,]+, "sum": [^,]+\}')" 1
 same stages_of_preparing_are_part_of_it "$(printf '%s\n' "$seconds" | sed 's/"[a-z_]*": //g; s/[{}]//g' | awk -F, '{all = $4 + $5 + $6 + $7 + $8; print (all > 0 && all <= $2) + 0}')" 1
 for name in curved_normals articulation; do
@@ -43,7 +43,7 @@ same the_table_has_a_row_for_every_effect "$(printf '%s\n' "$table" | grep -cE '
 same the_table_fits_100_columns "$(printf '%s\n' "$table" | awk 'length($0) > 100' | wc -l | tr -d ' ')" 0
 same stages_end_the_table "$(printf '%s\n' "$table" | sed '/^verdict/,$d' | tail -3 | head -1 | grep -cE '^stages +load and joints [0-9.]+ ms \([0-9.]+ %\), prepare [0-9.]+ ms \([0-9.]+ %\), pose [0-9.]+ ms \([0-9.]+ %\)$')" 1
 number='(< )?[0-9.]+'
-same those_of_preparing_come_after "$(printf '%s\n' "$table" | sed '/^verdict/,$d' | tail -2 | head -1 | grep -cE "^  prepare +edges $number, neighbours $number, normals $number, contacts $number, proofs $number ms\$")" 1
+same those_of_preparing_come_after "$(printf '%s\n' "$table" | sed '/^verdict/,$d' | tail -2 | head -1 | grep -cE "^  prepare +edges $number, neighbours $number, contacts $number, normals $number, proofs $number ms\$")" 1
 same and_those_of_the_pose "$(printf '%s\n' "$table" | sed '/^verdict/,$d' | tail -1 | grep -cE "^  pose +view $number, classify $number, visibility $number, sum $number ms\$")" 1
 same shadows_left_out_add_to_sigma "$(printf '%s\n' "$table" | grep '^  self_shadowing ' | grep -cE '\+[0-9.]+ %')" 1
 usage_error explain_and_facets_both_on_stdout "both want standard output" run box.toml --explain --facets -

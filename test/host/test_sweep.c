@@ -55,10 +55,11 @@ static int pose_at(void *context, uint64_t index, lrcs_pose *pose)
 
 static int result_take(void *context, uint64_t index, const lrcs_pose *pose,
                        const lrcs_result *result, const lrcs_uncertainty *uncertainty,
-                       lrcs_host_error *error)
+                       const lrcs_host_glint_sum *glint, lrcs_host_error *error)
 {
     sweep_seen *seen = context;
     assert_null(uncertainty);
+    assert_null(glint);
     lrcs_pose asked;
     assert_int_equal(pose_at(seen, index, &asked), LRCS_OK);
     seen->in_order &= index == seen->first + seen->taken &&

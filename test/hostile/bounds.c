@@ -12,6 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "visibility/cells.h"
+#include "visibility/occlude.h"
+
 #define MOST 256
 
 typedef struct hostile_case {
@@ -95,6 +98,7 @@ static double quantile(quantiles *q, double share)
 static double worst_area;
 static char worst_area_name[64];
 static unsigned areas_beyond, near_areas, blurred_areas;
+static unsigned bounded[2], out_of_bounds; /* areas of facets divided alone, and together */
 
 static int read_numbers(FILE *in, double *x, int count)
 {
@@ -276,6 +280,55 @@ static void run_profile(const hostile_case *c, unsigned number, int sided,
     note(&profile_ways[1], c, sided, &sums[1]);
 }
 
+/* Does the truth lie between the bounds of a facet's area, but for the error of its projected area?
+ */
+static void check_bounds(const hostile_case *c, const lrcsi_view *view, uint32_t facet,
+                         const lrcsi_visible *area, int together)
+{
+    lrcsi_incidence incidence = lrcsi_view_incidence(view, facet);
+    double truth = (double)(c->share[facet] * incidence.projected);
+    double off = (incidence.error + 2e-16) * incidence.projected;
+    bounded[together]++;
+    if (!(truth >= area->low - off && truth <= area->high + off)) {
+        out_of_bounds++;
+        printf("OUT OF BOUNDS %s %s facet %u, %s: %.17g .. %.17g, truth %.17g of %.3g\n", c->kind,
+               c->name, facet, together ? "together" : "alone", area->low, area->high, truth,
+               incidence.projected);
+    }
+}
+
+/* Each facet divided alone, and all together, however few they are. */
+static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, const lrcs_pose *pose,
+                      lrcs_work work)
+{
+    static unsigned char open[MOST];
+    static lrcsi_visible together[MOST];
+    lrcsi_view view;
+    lrcsi_classification classification;
+    lrcsi_occluding o;
+    if (lrcsi_view_make(prepared, pose, &work, &view) != LRCS_OK ||
+        lrcsi_classify_make(&view, &work, &classification) != LRCS_OK ||
+        lrcsi_occlude_make(&classification, &work, &o) != LRCS_OK) {
+        printf("REFUSED %s %s, areas\n", c->kind, c->name);
+        out_of_bounds++;
+        return;
+    }
+    for (uint32_t f = 0; f < c->scene.facet_count; f++) {
+        open[f] = lrcsi_grid_casts(&view, f) != 0;
+        if (open[f]) {
+            lrcsi_occlude_open(&o, f);
+            lrcsi_visible alone = lrcsi_occlude_area(&o);
+            check_bounds(c, &view, f, &alone, 0);
+        }
+    }
+    lrcsi_cells_areas(&classification, &work, open, together);
+    for (uint32_t f = 0; f < c->scene.facet_count; f++) {
+        if (lrcsi_grid_casts(&view, f) && !open[f]) {
+            check_bounds(c, &view, f, &together[f], 1);
+        }
+    }
+}
+
 static void run_case(hostile_case *c, unsigned number, void *memory, size_t bytes)
 {
     static lrcs_facet_record records[MOST];
@@ -291,6 +344,7 @@ static void run_case(hostile_case *c, unsigned number, void *memory, size_t byte
             return;
         }
         run_profile(c, number, sided, prepared, &pose, work);
+        run_areas(c, prepared, &pose, work);
         for (size_t w = 0; w < WAYS; w++) {
             if (number % ways[w].every != 0) {
                 continue;
@@ -358,8 +412,10 @@ int main(int argc, char **argv)
     }
     printf("exact areas: worst %.3g of what is allowed (%s), %u beyond it\n", worst_area,
            worst_area_name, areas_beyond);
+    printf("bounds of areas: %u of facets alone, %u of facets together, %u do not hold\n",
+           bounded[0], bounded[1], out_of_bounds);
     if (near_areas > 0) {
         printf("areas of bodies beside what is far: %u of %u blurred\n", blurred_areas, near_areas);
     }
-    return bad + areas_beyond != 0 || cases == 0;
+    return bad + areas_beyond + out_of_bounds != 0 || cases == 0;
 }

@@ -10,6 +10,8 @@ usage: bounds.py SCENES SEED hostile > FILE   degenerate, aligned, nearly so
        bounds.py SCENES SEED plain > FILE     soups, piercing plates, spacecraft, slivers at large
        bounds.py SCENES SEED lattice > FILE   facets on few points of a lattice, some of them far out
        bounds.py SCENES SEED far > FILE       bodies with up to three vertices far away, 1e2 to 1e24
+       bounds.py SCENES SEED contacts > FILE  facets that meet: through corners and sides, in one plane,
+                                              at pinched vertices, along sides of many, wound any way
        bounds.py SCENES SEED doubled > FILE   any of these, with facets stored twice, mostly opposite
        bounds.py table [FAMILY:]SEED:NUMBER... > hostile.inc     scenes as rows of C
 """
@@ -492,6 +494,112 @@ def make_far(r):
     return "far_" + kind.__name__, s, d
 
 
+# Facets that meet in every way that there is. Coordinates are multiples of 6, so that middles of sides
+# and of facets are integers: what passes through a corner or a side does so exactly.
+
+def six(r):
+    return tuple(6.0 * r.randint(-4, 4) for _ in range(3))
+
+
+def plus(a, b, t=1):
+    return tuple(x + t * y for x, y in zip(a, b))
+
+
+def spot(r, a, b, c):
+    """A corner of a facet, the middle of a side, a point inside, or one beyond a corner."""
+    a, b, c = r.sample((a, b, c), 3)
+    return r.choice((a, mix(a, b, 0.5), tuple((x + y + z) / 3 for x, y, z in zip(a, b, c)), plus(a, a, 0.5)))
+
+
+def meet(r, s):  # the next facet passes through one spot of another, or two, with a spot of its own
+    at = [tuple(six(r) for _ in range(3))]
+    for _ in range(r.randint(1, 6)):
+        p, q = spot(r, *r.choice(at)), spot(r, *r.choice(at))
+        u, v = six(r), six(r)
+        at.append(r.choice((
+            (p, plus(p, u), plus(p, v)),                                # a corner there
+            (plus(p, u), plus(p, u, -1), plus(p, v)),                   # the middle of a side
+            (plus(p, u), plus(p, v), plus(plus(p, u, -1), v, -1)),      # its own middle
+            (p, q, plus(p, u)),                                         # a side from spot to spot
+            (plus(p, plus(q, p, -1), -0.5), plus(q, plus(q, p, -1), 0.5), plus(p, u)),  # and beyond
+        )))
+    for t in at:
+        s.tri(*t)
+
+
+def plane(r, s):  # overlapping facets in two or three planes that meet, between points of those
+    at, side = six(r), [six(r) for _ in range(3)]
+    for _ in range(r.randint(2, 7)):
+        u, v = r.sample(side, 2)
+        s.tri(*(plus(plus(at, u, r.randint(-2, 2) / 2), v, r.randint(-2, 2) / 2) for _ in range(3)))
+
+
+def pages(r, s):  # facets about one side, some of them on both sides of it, and what passes through it
+    a, b = six(r), six(r)
+    v = [a, b] + [six(r) for _ in range(r.randint(2, 6))]
+    s.add(v, [r.choice(((0, 1, i), (1, 0, i))) for i in range(2, len(v))])
+    m = mix(a, b, r.choice((0, 0.5, 0.5, 1)))
+    for _ in range(r.randint(0, 2)):
+        u, w = six(r), six(r)
+        s.tri(plus(m, u), plus(m, u, -1), plus(m, w))
+
+
+def pinched(r, s):  # cones that share their tip, one of them through a plate, or standing in it
+    tip, v, f = six(r), [], []
+    for _ in range(r.randint(2, 3)):
+        n, first = r.randint(3, 5), len(v) + 1
+        v += [plus(tip, six(r)) for _ in range(n)]
+        turned = r.random() < 0.5
+        f += [(0, first + i, first + (i + 1) % n)[::-1 if turned else 1] for i in range(n - r.randint(0, 1))]
+    s.add([tip] + v, f)
+    if r.random() < 0.7:
+        p = plus(tip, six(r), r.choice((0, 0, 0.5)))
+        u, w = six(r), six(r)
+        s.quad(plus(p, u), plus(p, w), plus(p, u, -1), plus(p, w, -1))
+
+
+def moebius(r, s):  # a strip with one side, perhaps so wide that it passes through itself
+    n, wide = r.randint(3, 9), r.choice((0.5, 1.0, 3.0))
+    v, f = [], []
+    for i in range(n):
+        a = 2 * math.pi * i / n
+        for side in (-wide, wide):
+            far = 2 + side * math.cos(a / 2)
+            v.append((far * math.cos(a), far * math.sin(a), side * math.sin(a / 2)))
+    for i in range(n):
+        a, b = 2 * i, 2 * i + 1
+        c, d = (2 * i + 2, 2 * i + 3) if i + 1 < n else (1, 0)
+        f += [(a, c, d), (a, d, b)]
+    s.add(v, f)
+
+
+def stacked(r, s):  # boxes that share parts of faces, sides or corners, or stand in each other
+    lo = six(r)
+    size = tuple(6.0 * r.randint(1, 3) for _ in range(3))
+    for _ in range(r.randint(2, 3)):
+        s.box(lo, plus(lo, size))
+        at = tuple(r.choice((0, 0.5, 1, -0.5, -1)) for _ in range(3))
+        lo = tuple(x + a * y for x, a, y in zip(lo, at, size))
+        size = tuple(y * r.choice((0.5, 1, 1)) for y in size)
+
+
+CONTACTS = [meet, meet, plane, pages, pinched, moebius, stacked]
+
+
+def make_contacts(r):
+    s = Scene()
+    for kind in [r.choice(CONTACTS)] + [r.choice(CONTACTS)] * (r.random() < 0.2):
+        kind(r, s)
+    if r.random() < 0.25:  # nearly
+        s.v = [tuple(nudge(r, x) if r.random() < 0.2 else x for x in p) for p in s.v]
+    wound = r.choice((0, 0.5, 1))
+    s.f = [t[::-1] if r.random() < wound else t for t in s.f]
+    if r.random() < 0.5:
+        r.shuffle(s.f)
+    valid(s)
+    return kind.__name__, s, direction(r, s) if s.f else None
+
+
 def make(r):
     kind = KINDS[r.randrange(len(KINDS))] if r.random() < 0.9 else KINDS[0]
     s = Scene()
@@ -528,7 +636,7 @@ def make_doubled(r):
 
 
 FAMILIES = {"hostile": make, "plain": make_plain, "lattice": make_lattice, "doubled": make_doubled,
-            "far": make_far}
+            "far": make_far, "contacts": make_contacts}
 
 
 # --- Eq. 2 -------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
    against sigma, edges, pulses, limits. */
 #include <lrcs/profile.h>
 
+#include "curved.h"
 #include "scenes.h"
 #include "starve.h"
 
@@ -32,7 +33,7 @@ static double sigma_of(uint32_t i)
 static lrcs_profile_bin bin_at(int64_t k)
 {
     int inside = k >= profile.first && k < profile.first + profile.count;
-    return inside ? profile.bin[k - profile.first] : (lrcs_profile_bin){0, 0, 0, 0, 0};
+    return inside ? profile.bin[k - profile.first] : (lrcs_profile_bin){0, 0, 0, 0, 0, 0};
 }
 
 static void check_bin(int64_t k, long double truth)
@@ -318,6 +319,187 @@ static void a_bin_is_the_sum_of_its_halves(void **state)
     }
 }
 
+/* --- curved normals --------------------------------------------------------------------------- */
+
+/* Runs the profile of a model with curved normals. */
+static void profile_curved(curved_case *c, const double direction[3], double bin)
+{
+    curved_build(c, LRCS_NORMALS_SMOOTH);
+    size_t need = lrcs_profile_need(c->prepared, bin);
+    assert_true(need <= sizeof scene_memory);
+    work = lrcs_work_make(scene_memory, need);
+    assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+    assert_int_equal(lrcs_profile_run(c->prepared, &pose, bin, &work, &profile), LRCS_OK);
+    assert_true(profile.curvature_estimate_m2 >= 0);
+}
+
+/* 8 points of Gauss on [0, 1]. */
+static const long double gauss_at[8] = {
+    0.019855071751231884L, 0.101666761293186630L, 0.237233795041835507L, 0.408282678752175098L,
+    0.591717321247824902L, 0.762766204958164493L, 0.898333238706813370L, 0.980144928248768116L};
+static const long double gauss_weight[8] = {
+    0.050614268145188130L, 0.111190517226687235L, 0.156853322938943644L, 0.181341891689180991L,
+    0.181341891689180991L, 0.156853322938943644L, 0.111190517226687235L, 0.050614268145188130L};
+
+/* What a triangle with normals interpolated between `unit` reflects, seen from +z, between two
+   ranges -z: the integral over it of 4 pi f_r cos, or of that times range - about, in panels
+   between the corners' ranges and the ends. */
+static long double strip(const double at[3][3], const double unit[3][3], const lrcs_brdf *brdf,
+                         long double from, long double to, long double about, int moment)
+{
+    int k[3] = {0, 1, 2};
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 2; j++) {
+            if (-at[k[j]][2] > -at[k[j + 1]][2]) {
+                int swap = k[j];
+                k[j] = k[j + 1];
+                k[j + 1] = swap;
+            }
+        }
+    }
+    long double z[3] = {-at[k[0]][2], -at[k[1]][2], -at[k[2]][2]};
+    long double area = fabsl((at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) -
+                             (at[1][1] - at[0][1]) * (at[2][0] - at[0][0])) /
+                       2;
+    long double sum = 0;
+    for (int part = 0; part < 2; part++) {
+        long double low = fmaxl(z[part], from);
+        long double high = fminl(z[part + 1], to);
+        for (int panel = 0; panel < 8 * 8 && low < high; panel++) {
+            long double share = (panel / 8 + gauss_at[panel % 8]) / 8;
+            long double here = low + share * (high - low);
+            long double t = (here - z[0]) / (z[2] - z[0]); /* on the long side */
+            long double s = (here - z[part]) / (z[part + 1] - z[part]);
+            long double width = 2 * area / (z[2] - z[0]) * (part == 0 ? s : 1 - s);
+            long double line = 0;
+            for (int i = 0; i < 8 * 4; i++) {
+                long double u = (i / 8 + gauss_at[i % 8]) / 4;
+                long double n[3];
+                for (int c = 0; c < 3; c++) {
+                    long double a = (1 - t) * unit[k[0]][c] + t * unit[k[2]][c];
+                    long double b = (1 - s) * unit[k[part]][c] + s * unit[k[part + 1]][c];
+                    n[c] = (1 - u) * a + u * b;
+                }
+                long double tan2 = (n[0] * n[0] + n[1] * n[1]) / (n[2] * n[2]);
+                long double cosine = 1 / sqrtl(1 + tan2);
+                line += gauss_weight[i % 8] / 4 *
+                        (brdf->A / powl(cosine, 5) * expl(-tan2 / brdf->s / brdf->s) +
+                         brdf->B * powl(cosine, brdf->m + 1));
+            }
+            sum += gauss_weight[panel % 8] / 8 * (high - low) * width * line *
+                   (moment ? here - about : 1);
+        }
+    }
+    return 4 * 3.14159265358979323846264338328L * sum;
+}
+
+/* A triangle over the unit square with normals that point to its front and up; 0: it has none. */
+static int curved_triangle(uint64_t *seed, char *text, double at[3][3], double unit[3][3])
+{
+    double plane[3];
+    text[0] = '\0';
+    for (int i = 0; i < 3; i++) {
+        double p = 0.5 * random_unit(seed);
+        double q = 0.5 * random_unit(seed);
+        double length = sqrt(1 + p * p + q * q);
+        unit[i][0] = p / length;
+        unit[i][1] = q / length;
+        unit[i][2] = 1 / length;
+        at[i][0] = random_unit(seed);
+        at[i][1] = random_unit(seed);
+        at[i][2] = 0.3 * random_unit(seed);
+        curved_line(text, "v %.17g %.17g %.17g\nvn %.17g %.17g %.17g", at[i][0], at[i][1], at[i][2],
+                    unit[i][0], unit[i][1], unit[i][2]);
+    }
+    for (int k = 0; k < 3; k++) {
+        int x = (k + 1) % 3;
+        int y = (k + 2) % 3;
+        plane[k] = (at[1][x] - at[0][x]) * (at[2][y] - at[0][y]) -
+                   (at[1][y] - at[0][y]) * (at[2][x] - at[0][x]);
+    }
+    strcat(text, plane[2] > 0 ? "f 1//1 2//2 3//3\n" : "f 1//1 3//3 2//2\n");
+    for (int i = 0; i < 3; i++) {
+        double dot = plane[0] * unit[i][0] + plane[1] * unit[i][1] + plane[2] * unit[i][2];
+        if (!(dot * (plane[2] > 0 ? 1 : -1) > 0.02)) {
+            return 0;
+        }
+    }
+    return fabs(plane[2]) > 0.05;
+}
+
+/* Against nested quadrature that cuts no polygons. */
+static void bins_of_curved_triangles_are_those_of_quadrature(void **state)
+{
+    (void)state;
+    need_wide_long_double();
+    uint64_t seed = 17;
+    int done = 0;
+    const double direction[3] = {0, 0, 1};
+    static char text[CURVED_TEXT];
+    for (int round = 0; round < 60; round++) {
+        double at[3][3];
+        double unit[3][3];
+        double bin = 0.02 + 0.1 * fabs(random_unit(&seed));
+        if (!curved_triangle(&seed, text, at, unit)) {
+            continue;
+        }
+        curved_case c = curved_obj(text);
+        c.brdf = (lrcs_brdf){1, 0.25, round % 2 ? 0.2 : 0.6, 0.5};
+        profile_curved(&c, direction, bin);
+        for (int64_t k = profile.first - 1; k <= profile.first + profile.count; k++) {
+            lrcs_profile_bin got = bin_at(k);
+            double from = (double)k * bin;
+            double to = (double)(k + 1) * bin;
+            long double about = ((long double)k + 0.5L) * bin;
+            double truth = (double)strip((const double(*)[3])at, (const double(*)[3])unit, &c.brdf,
+                                         from, to, about, 0);
+            double moment = (double)strip((const double(*)[3])at, (const double(*)[3])unit, &c.brdf,
+                                          from, to, about, 1);
+            check_abs(got.sigma_glint_m2 + got.sigma_diffuse_m2, truth,
+                      got.bound_m2 + got.curvature_estimate_m2 + 1e-13);
+            check_abs(got.moment_m3, moment,
+                      bin * (got.variation_m2 + got.curvature_estimate_m2) + 1e-13);
+            assert_true(got.bound_m2 < 1e-10 && got.curvature_estimate_m2 < 1e-6);
+        }
+        done++;
+        curved_free(&c);
+    }
+    assert_true(done > 20);
+}
+
+/* A closed cylinder by vertex normals, its wall hidden in part by a plate: the bins add up to
+   sigma, and their halves to them. */
+static void bins_with_curved_normals_add_up_to_sigma(void **state)
+{
+    (void)state;
+    static const double direction[3][3] = {{1, 0, 0}, {3, -2, 1}, {0.2, 0.1, 1}};
+    static char text[CURVED_TEXT];
+    curved_cylinder(text, 20, 0.5, 2, 'v');
+    curved_line(text, "v 2 -0.1 -0.7\nv 2 1.3 -0.7\nv 2 1.3 0.4\nv 2 -0.1 0.4\nf -4 -3 -2 -1");
+    for (int i = 0; i < 3; i++) {
+        curved_case c = curved_obj(text);
+        curved_build(&c, LRCS_NORMALS_SMOOTH);
+        lrcs_result result = curved_run(&c, direction[i], LRCS_METHOD_EXACT, 0);
+        double sum[2] = {0, 0};
+        double open[2] = {0, 0};
+        for (int fine = 0; fine < 2; fine++) {
+            profile_curved(&c, direction[i], fine ? 0.04 : 0.08);
+            for (uint32_t k = 0; k < profile.count; k++) {
+                sum[fine] += sigma_of(k);
+                open[fine] += profile.bin[k].bound_m2 + profile.bin[k].curvature_estimate_m2;
+            }
+            check_abs(profile.sigma_glint_m2 + profile.sigma_diffuse_m2, result.sigma_m2,
+                      profile.bound_m2 + profile.curvature_estimate_m2 + result.bound_m2 +
+                          result.curvature_estimate_m2);
+            check_abs(sum[fine], result.sigma_m2,
+                      open[fine] + result.bound_m2 + result.curvature_estimate_m2);
+            assert_true(open[fine] < 1e-5 * result.sigma_m2);
+        }
+        check_abs(sum[0], sum[1], open[0] + open[1]);
+        curved_free(&c);
+    }
+}
+
 /* --- pulses ----------------------------------------------------------------------------------- */
 
 static void a_pulse_on_a_tilted_plate_is_a_difference_of_error_functions(void **state)
@@ -333,9 +515,11 @@ static void a_pulse_on_a_tilted_plate_is_a_difference_of_error_functions(void **
         double z = 0.005 * i;
         double density;
         double bound;
+        double estimate;
         double truth =
             sigma / 1.2 * 0.5 * (erf((z + 0.6) / d / sqrt(2)) - erf((z - 0.6) / d / sqrt(2)));
-        assert_int_equal(lrcs_profile_pulse(&profile, 0.3, z, &density, &bound), LRCS_OK);
+        assert_int_equal(lrcs_profile_pulse(&profile, 0.3, z, &density, &bound, &estimate),
+                         LRCS_OK);
         check_abs(density, truth, bound + 1e-15 * sigma);
         assert_true(bound < 2e-5 * sigma);
         sum += 0.005 * density;
@@ -357,7 +541,9 @@ static void a_pulse_on_a_flat_plate_is_the_pulse(void **state)
                 sigma_of(0) * exp(-t * t / 2) * 2 * sqrt(log(2) / 3.14159265358979323846) / 0.1;
             double density;
             double bound;
-            assert_int_equal(lrcs_profile_pulse(&profile, 0.1, z, &density, &bound), LRCS_OK);
+            double estimate;
+            assert_int_equal(lrcs_profile_pulse(&profile, 0.1, z, &density, &bound, &estimate),
+                             LRCS_OK);
             check_abs(density, truth, bound);
             assert_true(k > 0 || bound < 2e-3 * sigma_of(0));
         }
@@ -389,9 +575,13 @@ static void widths_and_numbers_of_bins_have_limits(void **state)
     assert_int_equal(profile.count, 2);
     double density;
     double bound;
-    assert_int_equal(lrcs_profile_pulse(&profile, 0, 0, &density, &bound), LRCS_E_ARGUMENT);
-    assert_int_equal(lrcs_profile_pulse(&profile, NAN, 0, &density, &bound), LRCS_E_ARGUMENT);
-    assert_int_equal(lrcs_profile_pulse(&profile, 1, NAN, &density, &bound), LRCS_E_NUMBER);
+    double estimate;
+    assert_int_equal(lrcs_profile_pulse(&profile, 0, 0, &density, &bound, &estimate),
+                     LRCS_E_ARGUMENT);
+    assert_int_equal(lrcs_profile_pulse(&profile, NAN, 0, &density, &bound, &estimate),
+                     LRCS_E_ARGUMENT);
+    assert_int_equal(lrcs_profile_pulse(&profile, 1, NAN, &density, &bound, &estimate),
+                     LRCS_E_NUMBER);
 }
 
 static const lrcs_prepared *hungry;
@@ -410,6 +600,13 @@ static void the_work_area_grows_until_it_suffices(void **state)
     hungry = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     starve(STARVED("lrcs_profile_run", lrcs_profile_need(hungry, 0.1), profile_hungry, profile, 1));
+    static char text[CURVED_TEXT];
+    curved_cylinder(text, 5, 0.5, 1, 'v');
+    curved_case c = curved_obj(text);
+    curved_build(&c, LRCS_NORMALS_SMOOTH);
+    hungry = c.prepared;
+    starve(STARVED("lrcs_profile_run", lrcs_profile_need(hungry, 0.1), profile_hungry, profile, 1));
+    curved_free(&c);
 }
 
 /* sigma scales by the square, and the bins with it, exactly for a power of two. */
@@ -449,6 +646,8 @@ int main(void)
         cmocka_unit_test(bins_hold_the_truth_of_random_triangles),
         cmocka_unit_test(bins_add_up_to_sigma),
         cmocka_unit_test(a_bin_is_the_sum_of_its_halves),
+        cmocka_unit_test(bins_of_curved_triangles_are_those_of_quadrature),
+        cmocka_unit_test(bins_with_curved_normals_add_up_to_sigma),
         cmocka_unit_test(a_pulse_on_a_tilted_plate_is_a_difference_of_error_functions),
         cmocka_unit_test(a_pulse_on_a_flat_plate_is_the_pulse),
         cmocka_unit_test(widths_and_numbers_of_bins_have_limits),

@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-# References of the hard cases: of `lrcs verify --hard` (src/cli/verify/cases.c repeats them, which
-# test/cli/test_verify.sh checks) and of test_hard.c. sigma from Eq. 2 at inputs that are exact
-# doubles, by mpmath at 50 digits; walls and curved bodies by closed.py, visible areas by hand, as
-# said beside each, in exact fractions. Writes hard.inc: a name, a value rounded once.
+# References of the hard cases: of test_plain.c, by name, and of test_hard.c. sigma from Eq. 2 at
+# inputs that are exact doubles, by mpmath at 50 digits; walls and curved bodies by closed.py, visible
+# areas by hand, as said beside each, in exact fractions. Writes hard.inc: a name, a value rounded once.
 from fractions import Fraction as Q
 from mpmath import mp, mpf, exp, log1p, pi, sqrt
 import closed
@@ -62,7 +61,7 @@ def box(size, direction, mat=DEFAULT):
 
 
 def table():
-    """The rows of lrcs verify --hard, in its order."""
+    """The cases of test_plain.c, in its order."""
     put("sphere, s = 0.02", shape(closed.SPHERE, 0.0, (1.0, 0.25, 0.02, 0.5), R=1.0))
     put("cylinder broadside, m = 10000",
         shape(closed.CYLINDER, 90.0, (1.0, 0.25, 0.2, 1e4), 1, R=0.5, L=2.0))

@@ -73,12 +73,41 @@ static void order_is_told_by_either_plane_or_where_sides_cross(void **state)
     assert_int_equal(lrcsi_contact_order(&view, 0, 1), -1);
 }
 
+/* The corner (-1,1,1) of facet 0 lies on a side of facet 1, which is above it elsewhere: over its
+   corner at the origin, and over a side. No sides cross in the view. All that, turned four times.
+ */
+static void order_is_told_by_a_corner_on_a_side(void **state)
+{
+    (void)state;
+    static const double corner[6][3] = {{0, 0, 0},   {0, 8, 0}, {-1, 1, 1},
+                                        {-11, 1, 1}, {0, 0, 8}, {0, 1, 1}};
+    for (int turns = 0; turns < 4; turns++) {
+        lrcs_pose pose;
+        scene_start(&scene);
+        for (int i = 0; i < 6; i++) {
+            double x = turns % 2 == 0 ? corner[i][0] : -corner[i][1];
+            double y = turns % 2 == 0 ? corner[i][1] : corner[i][0];
+            scene_vertex(&scene, turns < 2 ? x : -x, turns < 2 ? y : -y, corner[i][2]);
+        }
+        scene_facet(&scene, 0, 1, 2);
+        scene_facet(&scene, 3, 4, 5);
+        const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+        assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
+        assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+        assert_int_equal(lrcsi_contact_side(&view, 0, 1), 0);
+        assert_int_equal(lrcsi_contact_order(&view, 0, 1), 0);
+        assert_int_equal(lrcsi_contact_within(&view, 0, 1), 1);
+        assert_int_equal(lrcsi_contact_within(&view, 1, 0), -1);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_contact_is_as_the_heights_say),
         cmocka_unit_test(what_is_in_front_lies_left_of_a_contact),
         cmocka_unit_test(order_is_told_by_either_plane_or_where_sides_cross),
+        cmocka_unit_test(order_is_told_by_a_corner_on_a_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -187,6 +187,76 @@ static void facets_behind_beside_or_in_contact_hide_nothing(void **state)
     check_rel(share_left(up, &error), 15 / 16.0, 1e-14); /* in front, a side on the plane */
 }
 
+/* Facets 1 and 2 are one surface through the plate, folded so that 2 is seen edge-on, but for
+   2^-49: what it has in front of the plate lies along the line in which the two meet, and far
+   beyond the end of that. Its free edge there is where the surface ends all the same. */
+static void the_edge_of_a_facet_seen_edge_on_ends_its_surface(void **state)
+{
+    (void)state;
+    static const uint32_t wound[][3] = {{0, 1, 2}, {0, 2, 1}};
+    for (int n = 0; n < 4; n++) {
+        double error;
+        scene_start(&scene);
+        scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
+                       (const double[3]){0, 4, 0});
+        uint32_t v = scene_vertex(&scene, 1, 1, -1);
+        scene_vertex(&scene, 0.25, 0.5, 1);
+        scene_vertex(&scene, 1, 0.5, 1);
+        scene_vertex(&scene, 1 + 0x1p-49, 1.5, -1);
+        static const uint32_t fold[][3] = {{0, 1, 2}, {0, 2, 3}};
+        for (int i = 0; i < 2; i++) {
+            const uint32_t *f = fold[n < 2 ? i : 1 - i];
+            const uint32_t *turn = wound[n % 2];
+            scene_facet(&scene, v + f[turn[0]], v + f[turn[1]], v + f[turn[2]]);
+        }
+        /* Cut half-way between heights 1 and -1: a trapezoid 0.25 high, 0.75 and 0.375 wide. */
+        check_rel(share_left(up, &error), 1 - 0.25 * 0.5625 / 8, 1e-14);
+        check_most(error, 1e-12);
+    }
+}
+
+/* Facet 1 passes through a corner of facet 0 with a side, and lies above it although the plane of
+   either parts the other's corners; no two of their sides cross in the view. Facet 0 is as wide as
+   1 and as long as told. */
+static void order_is_told_by_corners_on_sides_of_a_needle_too(void **state)
+{
+    (void)state;
+    for (int n = 3; n <= 45; n += 6) {
+        double length = ldexp(1, n);
+        double error;
+        scene_start(&scene);
+        scene_triangle(&scene, (const double[3]){7, 6, 6}, (const double[3]){7, 6 + length, 6},
+                       (const double[3]){6, 7, 7});
+        scene_triangle(&scene, (const double[3]){-4, 7, 7}, (const double[3]){7, 6, 6 + length},
+                       (const double[3]){7, 7, 7});
+        check_abs(share_left(up, &error), 1 - 1 / length, 1e-14);
+        check_most(error, 1e-11);
+    }
+}
+
+/* A fin through a plate, both seen at e from edge-on: of the fin's height z <= 0, the plate in
+   front of it, which ends at y = 3, hides what is above -e (3 - y). At height z the fin has -2 < y
+   < 2 z of 4 in all: 8 e of that is hidden, but for e^2. */
+static void a_fin_through_a_plate_when_both_are_seen_edge_on(void **state)
+{
+    (void)state;
+    for (int n = 22; n <= 46; n += 3) {
+        double e = ldexp(1, -n);
+        double error;
+        scene_start(&scene);
+        scene_triangle(&scene, (const double[3]){0.125, -2, -1}, (const double[3]){0.5, 2, 1},
+                       (const double[3]){0.5, -2, 1});
+        scene_triangle(&scene, (const double[3]){-9, 3, 0}, (const double[3]){9, 3, 0},
+                       (const double[3]){0, -9, 0});
+        for (int i = 0; i < 2; i++) {
+            double left = share_left((const double[3]){0, 1, e}, &error);
+            check_abs(left, 1 - 2 * e, 16 * e * e + error);
+            check_most(error, 1e-11);
+            scene_invert(&scene, 1);
+        }
+    }
+}
+
 static void front_skin_hides_a_back_in_its_plane(void **state)
 {
     (void)state;
@@ -357,6 +427,9 @@ int main(void)
         cmocka_unit_test(facet_in_front_hides_its_shadow),
         cmocka_unit_test(piercing_facet_hides_only_what_its_upper_part_covers),
         cmocka_unit_test(facets_behind_beside_or_in_contact_hide_nothing),
+        cmocka_unit_test(the_edge_of_a_facet_seen_edge_on_ends_its_surface),
+        cmocka_unit_test(order_is_told_by_corners_on_sides_of_a_needle_too),
+        cmocka_unit_test(a_fin_through_a_plate_when_both_are_seen_edge_on),
         cmocka_unit_test(front_skin_hides_a_back_in_its_plane),
         cmocka_unit_test(shallow_cuts_own_up_to_their_position_err),
         cmocka_unit_test(needles_turned_over_by_rounding_hide_nothing),

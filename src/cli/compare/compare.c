@@ -82,23 +82,21 @@ static int grade_read(compare_job *job)
 }
 
 /* Checks that no output replaces a file that is read. */
-static int outputs_read(const compare_job *job, cli_output output[2])
+static int outputs_check(const compare_job *job)
 {
-    const cli_command *command = job->args->command;
-    const char *const input[2] = {job->theirs, job->facets};
-    output[0] = (cli_output){"json", cli_value(job->args, "json")};
-    output[1] = (cli_output){"junit", cli_value(job->args, "junit")};
+    static const char *const option[] = {"json", "junit"};
+    const char *const input[] = {job->theirs, job->facets};
     for (int i = 0; i < 4; i++) {
-        const char *path = output[i % 2].path;
+        const char *path = cli_value(job->args, option[i % 2]);
         if (path && input[i / 2] && lrcs_host_output_same(path, input[i / 2])) {
-            return cli_usage(command, "--%s %s: would overwrite what is to be judged",
-                             output[i % 2].option, path);
+            return cli_usage(job->args->command, "--%s %s: would overwrite what is to be judged",
+                             option[i % 2], path);
         }
     }
-    return cli_outputs_apart(command, output, 2);
+    return 0;
 }
 
-static int options_read(compare_job *job, const char **folder, cli_output output[2])
+static int options_read(compare_job *job, const char **folder)
 {
     const cli_args *args = job->args;
     job->tier = KIT_TIERS;
@@ -109,7 +107,7 @@ static int options_read(compare_job *job, const char **folder, cli_output output
     code = code ? code : cli_whole(args, "tier", 1.0, KIT_TIERS, &job->tier);
     code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &job->pixels);
     code = code ? code : grade_read(job);
-    return code ? code : outputs_read(job, output);
+    return code ? code : outputs_check(job);
 }
 
 /* ---- the command ---- */
@@ -130,18 +128,13 @@ static int compare_make(compare_job *job, const char *folder)
     return code;
 }
 
-static int to_stdout(const cli_output *output)
+static int compare_report(const compare_job *job)
 {
-    return output->path && strcmp(output->path, "-") == 0;
-}
-
-static int compare_report(compare_job *job, const cli_output output[2])
-{
-    int code = output[0].path ? cli_output_write(output[0].path, cli_compare_json, job) : 0;
-    if (code == 0 && output[1].path) {
-        code = cli_output_write(output[1].path, cli_compare_junit, job);
-    }
-    if (code == 0 && !to_stdout(&output[0]) && !to_stdout(&output[1])) {
+    const char *json = cli_value(job->args, "json");
+    const char *junit = cli_value(job->args, "junit");
+    int code = json ? cli_output_write(json, cli_compare_json, job) : 0;
+    code = code == 0 && junit ? cli_output_write(junit, cli_compare_junit, job) : code;
+    if (code == 0 && !(json && strcmp(json, "-") == 0) && !(junit && strcmp(junit, "-") == 0)) {
         cli_compare_table(job);
     }
     return code ? code : cli_compare_passed(job) ? CLI_DONE : CLI_FAILED;
@@ -150,17 +143,17 @@ static int compare_report(compare_job *job, const cli_output output[2])
 static int compare_command(const cli_args *args)
 {
     compare_job job;
-    cli_output output[2];
     const char *folder = NULL;
     memset(&job, 0, sizeof job);
     job.args = args;
-    int code = options_read(&job, &folder, output);
+    int code = options_read(&job, &folder);
     code = code ? code : compare_make(&job, folder);
-    code = code ? code : compare_report(&job, output);
+    code = code ? code : compare_report(&job);
     cli_compare_kit_free(&job.kit);
     return code;
 }
 
 const cli_command cli_compare_command = {
     "compare",    "DIR THEIRS.csv...", "give a kit's folder and a table of answers to it",
-    compare_help, compare_options,     compare_command};
+    compare_help, compare_options,     compare_command,
+    NULL};

@@ -10,35 +10,42 @@
 
 /* ---- tables ---- */
 
+#define COMPARE_COLUMNS 24
+
 /* A table whose first line names the columns, with its file. */
 typedef struct compare_table {
     lrcs_host_file file;
     lrcs_host_table text;
+    size_t lines;                     /* an upper bound of the number of rows */
+    uint32_t column[COMPARE_COLUMNS]; /* of each name asked for; LRCS_NONE if there is none */
 } compare_table;
 
-/* Opens a table and reads its column names. 0 or CLI_FAILED with the message printed; the caller
-   closes it in any case. */
-int cli_table_open(const char *path, compare_table *table);
+/* Opens a table and looks for the named columns, of which the first `needed` ones must exist. 0 or
+   CLI_FAILED with the message printed; the caller closes it in any case. Below, a column is given
+   by the index of its name. */
+int cli_table_open(const char *path, const char *const *name, int count, int needed,
+                   compare_table *table);
 void cli_table_close(compare_table *table);
 
-/* An upper bound of the number of remaining lines. */
-size_t cli_table_lines(const compare_table *table);
+/* 1 if the table has the column. cli_table_missing reports that it is missing, and returns
+   CLI_FAILED. */
+int cli_table_has(const compare_table *table, int name);
+int cli_table_missing(const compare_table *table, const char *name);
 
-/* The column of a name, -1 if there is none; the same for a required column: 0 or CLI_FAILED. */
-int cli_table_column(const compare_table *table, const char *name);
-int cli_table_require(const compare_table *table, const char *name, int *column);
+/* Reads the next line that is not empty: 1, or 0 at the end, if *code is not 0 already, and with
+ *code = CLI_FAILED and the message printed if it is faulty. */
+int cli_table_next(compare_table *table, int *code);
 
-/* Reads the next line that is not empty: 1, 0 at the end, -1 with the message printed. */
-int cli_table_next(compare_table *table);
-
-/* Reads a field of the line: a name, a number, or a number that may be nan or inf. 0, or CLI_FAILED
-   with a message that states the line, the column, what was found and what was expected. */
-int cli_table_name(const compare_table *table, int column, char name[KIT_NAME]);
-int cli_table_number(const compare_table *table, int column, double *value);
-int cli_table_answer(const compare_table *table, int column, double *value);
+/* A field of the line: its text; a name, a number, or a number that may be nan or inf: 0, or
+   CLI_FAILED with a message that states the line, the column, what was found and what was
+   expected. */
+const lrcs_host_field *cli_table_field(const compare_table *table, int name);
+int cli_table_name(const compare_table *table, int name, char text[KIT_NAME]);
+int cli_table_number(const compare_table *table, int name, double *value);
+int cli_table_answer(const compare_table *table, int name, double *value);
 
 /* Reports any other fault of a field in the same form. Returns CLI_FAILED. */
-__attribute__((format(printf, 3, 4))) int cli_table_refuse(const compare_table *table, int column,
+__attribute__((format(printf, 3, 4))) int cli_table_refuse(const compare_table *table, int name,
                                                            const char *format, ...);
 
 /* ---- the kit ---- */
@@ -89,10 +96,9 @@ void cli_compare_kit_free(compare_kit *kit);
 int cli_compare_scene(const compare_kit *kit, compare_scene *scene);
 int cli_compare_records(const compare_kit *kit, compare_case *one);
 
-/* The case whose scene and attitude are in these columns of a line; NULL with the message
-   printed. */
-compare_case *cli_compare_find(const compare_kit *kit, const compare_table *table,
-                               const int column[2]);
+/* The case of a line whose columns 0 and 1 are scene and attitude; NULL with the message printed.
+ */
+compare_case *cli_compare_find(const compare_kit *kit, const compare_table *table);
 
 /* ---- the judgement ---- */
 
@@ -249,14 +255,46 @@ double cli_mistake_right(const mistake_point *spot, double at);
 /* The area without a mistake. */
 double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot);
 
-/* The records of a case if of coplanar facets the wrong one is seen; the true records must be there
-   already. 0 or CLI_FAILED with the message printed. */
-int cli_compare_skins(const compare_kit *kit, const compare_case *one,
-                      const lrcs_run_options *options, lrcs_facet_record *records);
-
 /* sigma of a case with a mistake. 0 or CLI_FAILED with the message printed. */
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
                        double *sigma_m2);
+
+/* ---- the search for causes ---- */
+
+typedef struct compare_search {
+    compare_job *job;
+    compare_case **failing; /* not explained yet */
+    compare_case **passing; /* a sample of them */
+    uint32_t failings, passings;
+    int telling;          /* 1 if some failing case has an answer other than 0 */
+    double weight;        /* number of passing cases that each of the sample stands for */
+    double *answer;       /* answers of a mistake: to the failing cases, then to the passing ones */
+    double *room;         /* for sorting */
+    unsigned char *holds; /* by failing case: 1 if the current cause explains it */
+} compare_search;
+
+/* Finds causes that need no mistake of the catalogue: those visible in the table, before the
+   search; those that are left, after it. The second returns 0, or -1 with the message printed. */
+void cli_compare_format(compare_search *search);
+int cli_compare_symptoms(compare_search *search);
+
+/* 1 if an expected answer explains the submitted one. */
+int cli_search_explained(const compare_search *search, const compare_case *one, double expected);
+
+/* The number of failing cases that the current cause explains (search->holds). */
+uint32_t cli_search_holds(const compare_search *search);
+
+/* Makes that cause a finding with its sentence: its cases are marked and no longer unexplained.
+   NULL if there is no room for one. */
+__attribute__((format(printf, 3, 4))) compare_finding *
+cli_search_find(compare_search *search, const char *name, const char *format, ...);
+
+/* The median, 0 of an empty list; sorts the values. */
+double cli_search_median(double *value, uint32_t count);
+
+/* The possible cause of a constant factor, and its name. */
+const char *cli_factor_text(const compare_job *job, double factor);
+const char *cli_factor_name(double factor);
 
 /* ---- what else they handed in ---- */
 

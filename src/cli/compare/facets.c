@@ -45,25 +45,27 @@ static void cosine_take(compare_facets *facets, double theirs, double truth)
     }
 }
 
-static int facet_line(facets_read *facets, const compare_table *table, const int *column)
+enum { FACET_SCENE, FACET_ATTITUDE, FACET_INDEX, FACET_AREA, FACET_COSINE, FACET_COLUMNS };
+
+static int facet_line(facets_read *facets, const compare_table *table)
 {
     double index;
     double area;
     double cosine;
-    compare_case *one = cli_compare_find(&facets->job->kit, table, column);
+    compare_case *one = cli_compare_find(&facets->job->kit, table);
     double *visible = one ? facets_room(facets, one) : NULL;
-    if (!visible || cli_table_number(table, column[2], &index) != 0 ||
-        cli_table_number(table, column[3], &area) != 0) {
+    if (!visible || cli_table_number(table, FACET_INDEX, &index) != 0 ||
+        cli_table_number(table, FACET_AREA, &area) != 0) {
         return CLI_FAILED;
     }
     uint32_t count = facets->job->kit.scene[one->scene].host.scene.facet_count;
     if (!(index >= 0.0 && index < count) || index != floor(index)) {
-        return cli_table_refuse(table, column[2], "a facet 0 .. %lu", (unsigned long)count - 1);
+        return cli_table_refuse(table, FACET_INDEX, "a facet 0 .. %lu", (unsigned long)count - 1);
     }
-    if (column[4] >= 0 && cli_table_number(table, column[4], &cosine) != 0) {
-        return CLI_FAILED;
-    }
-    if (column[4] >= 0) {
+    if (cli_table_has(table, FACET_COSINE)) {
+        if (cli_table_number(table, FACET_COSINE, &cosine) != 0) {
+            return CLI_FAILED;
+        }
         cosine_take(facets->found, cosine, one->records[(uint32_t)index].cos_theta);
     }
     visible[(uint32_t)index] = area;
@@ -72,20 +74,15 @@ static int facet_line(facets_read *facets, const compare_table *table, const int
 
 static int facets_file(facets_read *facets)
 {
-    static const char *const name[] = {"scene", "attitude", "facet", "visible_area_m2"};
+    static const char *const name[FACET_COLUMNS] = {"scene", "attitude", "facet", "visible_area_m2",
+                                                    "cos_theta"};
     compare_table table;
-    int column[5];
-    int more = 1;
-    int code = cli_table_open(facets->job->facets, &table);
-    for (int i = 0; i < 4 && code == 0; i++) {
-        code = cli_table_require(&table, name[i], &column[i]);
-    }
-    column[4] = cli_table_column(&table, "cos_theta");
-    while (code == 0 && (more = cli_table_next(&table)) > 0) {
-        code = facet_line(facets, &table, column);
+    int code = cli_table_open(facets->job->facets, name, FACET_COLUMNS, FACET_COSINE, &table);
+    while (cli_table_next(&table, &code)) {
+        code = facet_line(facets, &table);
     }
     cli_table_close(&table);
-    return more < 0 ? CLI_FAILED : code;
+    return code;
 }
 
 /* ---- differing ---- */

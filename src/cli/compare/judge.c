@@ -57,52 +57,46 @@ int cli_compare_lack(const compare_job *job, const compare_case *one)
                                                            : LACK_REASON;
 }
 
+enum { ANSWER_SCENE, ANSWER_ATTITUDE, ANSWER_SIGMA, ANSWER_DBSM, ANSWER_COLUMNS };
+
 /* Reads a submitted line: sigma, or dBsm, where an empty field stands for sigma = 0. */
-static int answer_read(const compare_job *job, const compare_table *table, const int *column)
+static int answer_read(compare_job *job, const compare_table *table)
 {
-    int linear = column[2] >= 0;
-    int at = linear ? column[2] : column[3];
-    compare_case *one = cli_compare_find(&job->kit, table, column);
+    int at = job->decibels ? ANSWER_DBSM : ANSWER_SIGMA;
+    compare_case *one = cli_compare_find(&job->kit, table);
     double value = -HUGE_VAL;
     if (!one) {
         return CLI_FAILED;
     }
     if (one->given) {
-        return cli_table_refuse(table, column[1], "every case once");
+        return cli_table_refuse(table, ANSWER_ATTITUDE, "every case once");
     }
-    if (linear || table->text.field[at].size > 0) {
+    if (!job->decibels || cli_table_field(table, at)->size > 0) {
         int code = cli_table_answer(table, at, &value);
         if (code != 0) {
             return code;
         }
     }
     one->printed = value;
-    one->theirs_m2 = linear ? value : pow(10.0, value / 10.0);
+    one->theirs_m2 = job->decibels ? pow(10.0, value / 10.0) : value;
     one->given = 1;
     return 0;
 }
 
 static int answers_read(compare_job *job)
 {
+    static const char *const name[ANSWER_COLUMNS] = {"scene", "attitude", "sigma_m2", "sigma_dbsm"};
     compare_table table;
-    int column[4];
-    int more = 1;
-    int code = cli_table_open(job->theirs, &table);
-    code = code ? code : cli_table_require(&table, "scene", &column[0]);
-    code = code ? code : cli_table_require(&table, "attitude", &column[1]);
-    if (code == 0) {
-        column[2] = cli_table_column(&table, "sigma_m2");
-        column[3] = cli_table_column(&table, "sigma_dbsm");
-        code = column[2] >= 0 || column[3] >= 0
-                   ? 0
-                   : cli_table_require(&table, "sigma_m2 or sigma_dbsm", &column[2]);
+    int code = cli_table_open(job->theirs, name, ANSWER_COLUMNS, ANSWER_SIGMA, &table);
+    job->decibels = code == 0 && !cli_table_has(&table, ANSWER_SIGMA);
+    if (job->decibels && !cli_table_has(&table, ANSWER_DBSM)) {
+        code = cli_table_missing(&table, "sigma_m2 or sigma_dbsm");
     }
-    job->decibels = code == 0 && column[2] < 0;
-    while (code == 0 && (more = cli_table_next(&table)) > 0) {
-        code = answer_read(job, &table, column);
+    while (cli_table_next(&table, &code)) {
+        code = answer_read(job, &table);
     }
     cli_table_close(&table);
-    return more < 0 ? CLI_FAILED : code;
+    return code;
 }
 
 int cli_compare_judge(compare_job *job)

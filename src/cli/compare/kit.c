@@ -10,20 +10,20 @@
 
 /* ---- materials ---- */
 
-static int material_read(const compare_table *table, const int *column, compare_kit *kit)
+static int material_read(const compare_table *table, compare_kit *kit)
 {
     double value[5];
     uint32_t i = kit->bindings;
-    int code = cli_table_name(table, column[0], kit->material[i]);
+    int code = cli_table_name(table, 0, kit->material[i]);
     for (int k = 0; k < 5 && code == 0; k++) {
-        code = cli_table_number(table, column[k + 1], &value[k]);
+        code = cli_table_number(table, k + 1, &value[k]);
     }
     if (code != 0) {
         return code;
     }
     lrcs_brdf brdf = {value[0], value[1], value[2], value[3]};
     if (lrcs_brdf_check(&brdf) < 0) {
-        return cli_table_refuse(table, column[0], "A, B, m >= 0 and s > 0");
+        return cli_table_refuse(table, 0, "A, B, m >= 0 and s > 0");
     }
     kit->binding[kit->bindings++] = (lrcs_binding){.kind = LRCS_BIND_NAME,
                                                    .name = kit->material[i],
@@ -32,31 +32,21 @@ static int material_read(const compare_table *table, const int *column, compare_
     return 0;
 }
 
-static int materials_read(compare_kit *kit)
+static int materials_read(const char *path, compare_kit *kit)
 {
     static const char *const name[] = {"material", "A", "B", "s", "m", "two_sided"};
-    char path[KIT_PATH];
     compare_table table;
-    int column[6];
-    if (cli_kit_path(path, "%s/" KIT_MATERIALS_FILE, kit->folder) != 0) {
-        return CLI_FAILED;
+    int code = cli_table_open(path, name, 6, 6, &table);
+    kit->binding = calloc(table.lines + 1, sizeof *kit->binding);
+    kit->material = calloc(table.lines + 1, sizeof *kit->material);
+    if (code == 0 && (!kit->binding || !kit->material)) {
+        code = cli_out_of_memory();
     }
-    int more = 1;
-    int code = cli_table_open(path, &table);
-    kit->binding = calloc(cli_table_lines(&table), sizeof *kit->binding);
-    kit->material = calloc(cli_table_lines(&table), sizeof *kit->material);
-    if (!kit->binding || !kit->material) {
-        cli_table_close(&table);
-        return cli_out_of_memory();
-    }
-    for (int i = 0; i < 6 && code == 0; i++) {
-        code = cli_table_require(&table, name[i], &column[i]);
-    }
-    while (code == 0 && (more = cli_table_next(&table)) > 0) {
-        code = material_read(&table, column, kit);
+    while (cli_table_next(&table, &code)) {
+        code = material_read(&table, kit);
     }
     cli_table_close(&table);
-    return more < 0 ? CLI_FAILED : code;
+    return code;
 }
 
 /* ---- cases ---- */
@@ -95,15 +85,15 @@ static compare_scene *scene_of(compare_kit *kit, const char *name, int tier)
     return next;
 }
 
-static int case_read(const compare_table *table, const int *column, compare_kit *kit)
+static int case_read(const compare_table *table, compare_kit *kit)
 {
     double value[CASE_COLUMNS] = {0.0};
     char name[KIT_NAME];
     compare_case *one = &kit->list[kit->cases];
-    int code = cli_table_name(table, column[CASE_SCENE], name);
-    code = code ? code : cli_table_name(table, column[CASE_ATTITUDE], one->attitude);
+    int code = cli_table_name(table, CASE_SCENE, name);
+    code = code ? code : cli_table_name(table, CASE_ATTITUDE, one->attitude);
     for (int k = CASE_TIER; k < CASE_COLUMNS && code == 0; k++) {
-        code = cli_table_number(table, column[k], &value[k]);
+        code = cli_table_number(table, k, &value[k]);
     }
     if (code != 0) {
         return code;
@@ -117,13 +107,13 @@ static int case_read(const compare_table *table, const int *column, compare_kit 
     one->edge_m2 = value[CASE_EDGE];
     one->side_m = value[CASE_SIDE];
     if (!(value[CASE_TIER] >= 1.0 && value[CASE_TIER] <= KIT_TIERS)) {
-        return cli_table_refuse(table, column[CASE_TIER], "1 .. %d", KIT_TIERS);
+        return cli_table_refuse(table, CASE_TIER, "1 .. %d", KIT_TIERS);
     }
     if (!(value[CASE_IMAGE] >= 0.0 && value[CASE_IMAGE] <= 16384.0)) {
-        return cli_table_refuse(table, column[CASE_IMAGE], "0 .. 16384");
+        return cli_table_refuse(table, CASE_IMAGE, "0 .. 16384");
     }
     if (cli_kit_pose(one->quaternion, one->direction, &one->pose) != LRCS_OK) {
-        return cli_table_refuse(table, column[CASE_QUATERNION], "an attitude");
+        return cli_table_refuse(table, CASE_QUATERNION, "an attitude");
     }
     one->tier = (int)value[CASE_TIER];
     one->image = (uint32_t)value[CASE_IMAGE];
@@ -134,30 +124,20 @@ static int case_read(const compare_table *table, const int *column, compare_kit 
     return 0;
 }
 
-static int cases_read(compare_kit *kit)
+static int cases_read(const char *path, compare_kit *kit)
 {
-    char path[KIT_PATH];
     compare_table table;
-    int column[CASE_COLUMNS];
-    if (cli_kit_path(path, "%s/" KIT_CASES_FILE, kit->folder) != 0) {
-        return CLI_FAILED;
+    int code = cli_table_open(path, case_names, CASE_COLUMNS, CASE_COLUMNS, &table);
+    kit->list = calloc(table.lines + 1, sizeof *kit->list);
+    kit->scene = calloc(table.lines + 1, sizeof *kit->scene);
+    if (code == 0 && (!kit->list || !kit->scene)) {
+        code = cli_out_of_memory();
     }
-    int more = 1;
-    int code = cli_table_open(path, &table);
-    kit->list = calloc(cli_table_lines(&table), sizeof *kit->list);
-    kit->scene = calloc(cli_table_lines(&table), sizeof *kit->scene);
-    if (!kit->list || !kit->scene) {
-        cli_table_close(&table);
-        return cli_out_of_memory();
-    }
-    for (int i = 0; i < CASE_COLUMNS && code == 0; i++) {
-        code = cli_table_require(&table, case_names[i], &column[i]);
-    }
-    while (code == 0 && (more = cli_table_next(&table)) > 0) {
-        code = case_read(&table, column, kit);
+    while (cli_table_next(&table, &code)) {
+        code = case_read(&table, kit);
     }
     cli_table_close(&table);
-    return more < 0 ? CLI_FAILED : code;
+    return code;
 }
 
 int cli_compare_kit(const char *folder, compare_kit *kit)
@@ -172,8 +152,9 @@ int cli_compare_kit(const char *folder, compare_kit *kit)
         fprintf(stderr, "lrcs: %s: not a kit's folder (lrcs vectors DIR makes one)\n", folder);
         return CLI_FAILED;
     }
-    int code = materials_read(kit);
-    return code ? code : cases_read(kit);
+    int code = cases_read(path, kit);
+    code = code ? code : cli_kit_path(path, "%s/" KIT_MATERIALS_FILE, folder);
+    return code ? code : materials_read(path, kit);
 }
 
 void cli_compare_kit_free(compare_kit *kit)
@@ -253,7 +234,7 @@ int cli_compare_records(const compare_kit *kit, compare_case *one)
 
 /* ---- lines of others ---- */
 
-static compare_scene *scene_find(const compare_kit *kit, const compare_table *table, int column,
+static compare_scene *scene_find(const compare_kit *kit, const compare_table *table,
                                  const char *name)
 {
     const char *best = NULL;
@@ -265,22 +246,20 @@ static compare_scene *scene_find(const compare_kit *kit, const compare_table *ta
         best = cli_nearest(name, best, kit->scene[i].name);
         tiers = kit->scene[i].tier > tiers ? kit->scene[i].tier : tiers;
     }
-    cli_table_refuse(table, column,
-                     "a scene of the kit, which has tiers 1 .. %d (the nearest is %s)", tiers,
-                     best ? best : "none");
+    cli_table_refuse(table, 0, "a scene of the kit, which has tiers 1 .. %d (the nearest is %s)",
+                     tiers, best ? best : "none");
     return NULL;
 }
 
-compare_case *cli_compare_find(const compare_kit *kit, const compare_table *table,
-                               const int column[2])
+compare_case *cli_compare_find(const compare_kit *kit, const compare_table *table)
 {
     char name[KIT_NAME];
     const char *best = NULL;
-    if (cli_table_name(table, column[0], name) != 0) {
+    if (cli_table_name(table, 0, name) != 0) {
         return NULL;
     }
-    compare_scene *scene = scene_find(kit, table, column[0], name);
-    if (!scene || cli_table_name(table, column[1], name) != 0) {
+    compare_scene *scene = scene_find(kit, table, name);
+    if (!scene || cli_table_name(table, 1, name) != 0) {
         return NULL;
     }
     for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
@@ -289,7 +268,7 @@ compare_case *cli_compare_find(const compare_kit *kit, const compare_table *tabl
         }
         best = cli_nearest(name, best, kit->list[i].attitude);
     }
-    cli_table_refuse(table, column[1], "an attitude of %s (the nearest is %s)", scene->name,
+    cli_table_refuse(table, 1, "an attitude of %s (the nearest is %s)", scene->name,
                      best ? best : "none");
     return NULL;
 }

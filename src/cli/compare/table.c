@@ -7,7 +7,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-int cli_table_refuse(const compare_table *table, int column, const char *format, ...)
+int cli_table_refuse(const compare_table *table, int name, const char *format, ...)
 {
     lrcs_host_error error;
     char expected[256];
@@ -15,16 +15,27 @@ int cli_table_refuse(const compare_table *table, int column, const char *format,
     va_start(list, format);
     vsnprintf(expected, sizeof expected, format, list);
     va_end(list);
-    lrcs_host_field_refuse(&table->text, LRCS_E_SYNTAX, (uint32_t)column, expected, &error);
+    lrcs_host_field_refuse(&table->text, LRCS_E_SYNTAX, table->column[name], expected, &error);
     return cli_failed(&error);
 }
 
-int cli_table_open(const char *path, compare_table *table)
+int cli_table_missing(const compare_table *table, const char *name)
+{
+    fprintf(stderr, "lrcs: %s: line %llu: no column is named %s\n", table->text.path,
+            (unsigned long long)table->text.line, name);
+    return CLI_FAILED;
+}
+
+int cli_table_open(const char *path, const char *const *name, int count, int needed,
+                   compare_table *table)
 {
     lrcs_host_error error;
     memset(table, 0, sizeof *table);
     if (lrcs_host_file_read(path, &table->file, &error) != LRCS_OK) {
         return cli_failed(&error);
+    }
+    for (size_t i = 0; i < table->file.size; i++) {
+        table->lines += table->file.bytes[i] == '\n' || table->file.bytes[i] == '\r';
     }
     table->text = lrcs_host_table_make(path, &table->file);
     int status = lrcs_host_table_read(&table->text, &error);
@@ -36,16 +47,13 @@ int cli_table_open(const char *path, compare_table *table)
         return CLI_FAILED;
     }
     lrcs_host_table_names(&table->text);
-    return 0;
-}
-
-size_t cli_table_lines(const compare_table *table)
-{
-    size_t lines = 1;
-    for (const char *at = table->text.at; at < table->text.end; at++) {
-        lines += *at == '\n' || *at == '\r';
+    for (int i = 0; i < count; i++) {
+        table->column[i] = lrcs_host_table_column(&table->text, name[i]);
+        if (i < needed && !cli_table_has(table, i)) {
+            return cli_table_missing(table, name[i]);
+        }
     }
-    return lines;
+    return 0;
 }
 
 void cli_table_close(compare_table *table)
@@ -53,62 +61,52 @@ void cli_table_close(compare_table *table)
     lrcs_host_file_free(&table->file);
 }
 
-int cli_table_column(const compare_table *table, const char *name)
+int cli_table_has(const compare_table *table, int name)
 {
-    uint32_t column = lrcs_host_table_column(&table->text, name);
-    return column == LRCS_NONE ? -1 : (int)column;
+    return table->column[name] != LRCS_NONE;
 }
 
-int cli_table_require(const compare_table *table, const char *name, int *column)
-{
-    *column = cli_table_column(table, name);
-    if (*column < 0) {
-        fprintf(stderr, "lrcs: %s: line %llu: no column is named %s\n", table->text.path,
-                (unsigned long long)table->text.line, name);
-        return CLI_FAILED;
-    }
-    return 0;
-}
-
-int cli_table_next(compare_table *table)
+int cli_table_next(compare_table *table, int *code)
 {
     lrcs_host_error error;
-    int status = lrcs_host_table_read(&table->text, &error);
-    if (status < 0) {
-        cli_failed(&error);
-        return -1;
-    }
-    return status;
+    int status = *code == 0 ? lrcs_host_table_read(&table->text, &error) : 0;
+    *code = status < 0 ? cli_failed(&error) : *code;
+    return status > 0;
 }
 
-int cli_table_name(const compare_table *table, int column, char name[KIT_NAME])
+const lrcs_host_field *cli_table_field(const compare_table *table, int name)
 {
-    const lrcs_host_field *field = &table->text.field[column];
+    return &table->text.field[table->column[name]];
+}
+
+int cli_table_name(const compare_table *table, int name, char text[KIT_NAME])
+{
+    const lrcs_host_field *field = cli_table_field(table, name);
     if (field->size == 0 || field->size >= KIT_NAME) {
-        return cli_table_refuse(table, column, "a name of 1 .. %u bytes", KIT_NAME - 1);
+        return cli_table_refuse(table, name, "a name of 1 .. %u bytes", KIT_NAME - 1);
     }
     for (size_t i = 0; i < field->size; i++) {
         char c = field->text[i];
         if (!(c >= 'a' && c <= 'z') && !(c >= '0' && c <= '9') && c != '-') {
-            return cli_table_refuse(table, column, "a name of a-z, 0-9 and '-'");
+            return cli_table_refuse(table, name, "a name of a-z, 0-9 and '-'");
         }
     }
-    memcpy(name, field->text, field->size);
-    name[field->size] = '\0';
+    memcpy(text, field->text, field->size);
+    text[field->size] = '\0';
     return 0;
 }
 
-int cli_table_number(const compare_table *table, int column, double *value)
+int cli_table_number(const compare_table *table, int name, double *value)
 {
     lrcs_host_error error;
-    int status = lrcs_host_field_read(&table->text, (uint32_t)column, "a number", value, &error);
+    int status = lrcs_host_field_read(&table->text, table->column[name], "a number", value, &error);
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
 /* Accepts what printf writes for nan and inf. */
-int cli_table_answer(const compare_table *table, int column, double *value)
+int cli_table_answer(const compare_table *table, int name, double *value)
 {
-    lrcs_host_field field = table->text.field[column];
+    lrcs_host_field field = *cli_table_field(table, name);
     int negative = field.size > 0 && field.text[0] == '-';
     size_t sign = negative || (field.size > 0 && field.text[0] == '+');
     field.text += sign;
@@ -121,5 +119,5 @@ int cli_table_answer(const compare_table *table, int column, double *value)
         *value = (double)NAN;
         return 0;
     }
-    return cli_table_number(table, column, value);
+    return cli_table_number(table, name, value);
 }

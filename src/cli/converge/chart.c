@@ -175,9 +175,5 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
         .floor_name = job->truth.whole ? "truth's own bound" : "truth's bound (facets)",
         .series = all.series,
         .series_count = all.count};
-    if (png) {
-        return lrcs_host_chart_png(out, &chart, error);
-    }
-    lrcs_host_chart_svg(out, &chart);
-    return LRCS_OK;
+    return cli_chart_put(out, &chart, png, error);
 }

@@ -29,30 +29,11 @@ static const char converge_help[] =
     "  lrcs converge examples/cylinder.toml --azel 0,30 --plot cylinder.png\n";
 
 static const cli_option converge_options[] = {
-    CLI_POSE_OPTIONS,           {"csv", CLI_FILE, 0}, {"plot", CLI_FILE, 1}, {"unit", 1, 0},
-    {"material", 1, 1},         {"json", 0, 0},       {"seconds", 1, 0},     {"help", 0, 0},
+    CLI_POSE_OPTIONS,           {"csv", CLI_FILE, 0}, {"plot", CLI_CHART, 1}, {"unit", 1, 0},
+    {"material", 1, 1},         {"json", 0, 0},       {"seconds", 1, 0},      {"help", 0, 0},
     {"keep-transparent", 0, 0}, {NULL, 0, 0}};
 
 /* ---- options ---- */
-
-static int plot_check(const converge_job *job, int index)
-{
-    const cli_args *args = job->args;
-    const char *path = args->given[index].value;
-    if (!cli_extension(path, ".svg") && !cli_extension(path, ".png")) {
-        return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'", path);
-    }
-    for (int i = 0; i < args->given_count; i++) {
-        const cli_given *other = &args->given[i];
-        int clashes =
-            strcmp(other->name, "csv") == 0 || (strcmp(other->name, "plot") == 0 && i < index);
-        if (clashes && lrcs_host_output_same(other->value, path)) {
-            return cli_usage(args->command, "--%s and --plot name the same file: '%s', '%s'",
-                             other->name, other->value, path);
-        }
-    }
-    return 0;
-}
 
 static int converge_read(converge_job *job)
 {
@@ -64,12 +45,6 @@ static int converge_read(converge_job *job)
     if (code == 0 && !(job->seconds > 0.0)) {
         return cli_usage(args->command, "--seconds: expected a time > 0, found '%s'",
                          cli_value(args, "seconds"));
-    }
-    if (code == 0 && job->csv && strcmp(job->csv, "-") == 0 && cli_value(args, "json")) {
-        return cli_usage(args->command, "--csv - and --json both want standard output");
-    }
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        code = strcmp(args->given[i].name, "plot") == 0 ? plot_check(job, i) : 0;
     }
     return code ? code : cli_scene_options_read(args, &job->load);
 }
@@ -91,21 +66,6 @@ static int csv_write(FILE *out, const void *job, lrcs_host_error *error)
     (void)error;
     cli_converge_csv(job, out);
     return LRCS_OK;
-}
-
-/* Checks that no output would replace a file that the scene was read from. */
-static int files_check(const converge_job *job)
-{
-    const cli_args *args = job->args;
-    lrcs_host_error error;
-    for (int i = 0; i < args->given_count; i++) {
-        const cli_given *one = &args->given[i];
-        int output = strcmp(one->name, "csv") == 0 || strcmp(one->name, "plot") == 0;
-        if (output && lrcs_host_output_check(one->value, &job->mesh[0].scene, &error) != LRCS_OK) {
-            return cli_usage(args->command, "--%s %s", one->name, error.text);
-        }
-    }
-    return 0;
 }
 
 static int files_write(const converge_job *job)
@@ -170,7 +130,7 @@ static int converge_command(const cli_args *args)
     job.args = args;
     int code = converge_read(&job);
     code = code ? code : cli_converge_meshes(&job);
-    code = code ? code : files_check(&job);
+    code = code ? code : cli_outputs_spare(args, &job.mesh[0].scene);
     code = code ? code : cli_converge_measure(&job);
     code = code ? code : converge_report(&job);
     for (uint32_t i = 0; i < job.meshes; i++) {
@@ -182,4 +142,5 @@ static int converge_command(const cli_args *args)
 
 const cli_command cli_converge_command = {
     "converge",    "SCENE",          "give a .3ds, .obj or .stl model, a scene file, or demo",
-    converge_help, converge_options, converge_command};
+    converge_help, converge_options, converge_command,
+    NULL};

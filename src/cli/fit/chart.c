@@ -169,9 +169,8 @@ static void axis_choose(chart_points points[CHART_SERIES], lrcs_host_chart *char
     }
 }
 
-static int chart_draw(const fit_job *job, int residuals, int png, FILE *out,
-                      lrcs_host_series series[CHART_SERIES], chart_points points[CHART_SERIES],
-                      lrcs_host_error *error)
+static int chart_draw(const fit_job *job, int residuals, const char *path,
+                      lrcs_host_series series[CHART_SERIES], chart_points points[CHART_SERIES])
 {
     const fit_material *material = &job->material[0];
     const lrcs_brdf *brdf = &material->fit.brdf;
@@ -199,23 +198,20 @@ static int chart_draw(const fit_job *job, int residuals, int png, FILE *out,
         series[chart.series_count] = one;
         chart.series_count += one.count > 0;
     }
-    if (png) {
-        return lrcs_host_chart_png(out, &chart, error);
-    }
-    lrcs_host_chart_svg(out, &chart);
-    return LRCS_OK;
+    return cli_chart_write(path, &chart);
 }
 
-int cli_fit_chart(const fit_job *job, int residuals, int png, FILE *out, lrcs_host_error *error)
+int cli_fit_chart(const fit_job *job, int residuals, const char *path)
 {
     uint32_t count = job->material[0].count;
     size_t room = count > CHART_CURVE ? count : CHART_CURVE;
     double *number = malloc(2 * (size_t)CHART_SERIES * room * sizeof *number);
     chart_label *label = malloc(2 * room * sizeof *label);
     const char **text = malloc(2 * room * sizeof *text);
-    int status = LRCS_E_SYSTEM;
-    snprintf(error->text, sizeof error->text, "out of memory");
-    if (number && label && text) {
+    int code = 0;
+    if (!number || !label || !text) {
+        code = cli_out_of_memory();
+    } else {
         chart_points points[CHART_SERIES];
         lrcs_host_series series[CHART_SERIES] = {{.name = NULL}};
         for (size_t i = 0; i < CHART_SERIES; i++) {
@@ -226,10 +222,10 @@ int cli_fit_chart(const fit_job *job, int residuals, int png, FILE *out, lrcs_ho
             edge_take(&points[i], label + i * room, text + i * room);
             series[i].label = text + i * room;
         }
-        status = chart_draw(job, residuals, png, out, series, points, error);
+        code = chart_draw(job, residuals, path, series, points);
     }
     free(number);
     free(label);
     free(text);
-    return status;
+    return code;
 }

@@ -49,46 +49,17 @@ static const char fit_help[] =
     "  lrcs fit gold.csv --plot gold.svg --residuals gold-residuals.svg\n"
     "  lrcs fit panels.csv --panel 0.99 --noise absolute --name white --json\n";
 
-static const cli_option fit_options[] = {{"panel", 1, 0},       {"cosine", 0, 0},
-                                         {"noise", 1, 0},       {"name", 1, 0},
-                                         {"plot", CLI_FILE, 1}, {"residuals", CLI_FILE, 1},
-                                         {"csv", CLI_FILE, 0},  {"json", 0, 0},
-                                         {"help", 0, 0},        {NULL, 0, 0}};
+static const cli_option fit_options[] = {{"panel", 1, 0},        {"cosine", 0, 0},
+                                         {"noise", 1, 0},        {"name", 1, 0},
+                                         {"plot", CLI_CHART, 1}, {"residuals", CLI_CHART, 1},
+                                         {"csv", CLI_FILE, 0},   {"json", 0, 0},
+                                         {"help", 0, 0},         {NULL, 0, 0}};
 
 /* ---- options ---- */
 
 static int is_chart(const cli_given *given)
 {
     return strcmp(given->name, "plot") == 0 || strcmp(given->name, "residuals") == 0;
-}
-
-static int is_output(const cli_given *given)
-{
-    return is_chart(given) || strcmp(given->name, "csv") == 0;
-}
-
-/* Checks that a chart's name has a known extension, and that an output is neither another output
-   nor the data. */
-static int output_check(const cli_args *args, int index)
-{
-    const cli_given *given = &args->given[index];
-    if (is_chart(given) && !cli_extension(given->value, ".svg") &&
-        !cli_extension(given->value, ".png")) {
-        return cli_usage(args->command, "--%s: expected FILE.svg or FILE.png, found '%s'",
-                         given->name, given->value);
-    }
-    if (lrcs_host_output_same(given->value, args->operand)) {
-        return cli_usage(args->command, "--%s %s: would overwrite the readings", given->name,
-                         given->value);
-    }
-    for (int i = 0; i < index; i++) {
-        if (is_output(&args->given[i]) &&
-            lrcs_host_output_same(args->given[i].value, given->value)) {
-            return cli_usage(args->command, "--%s and --%s name the same file: '%s', '%s'",
-                             args->given[i].name, given->name, args->given[i].value, given->value);
-        }
-    }
-    return 0;
 }
 
 static int noise_read(fit_job *job)
@@ -109,7 +80,6 @@ static int noise_read(fit_job *job)
 static int fit_read(fit_job *job)
 {
     const cli_args *args = job->args;
-    const char *csv = cli_value(args, "csv");
     job->options = lrcs_fit_options_default();
     job->options.cosine = cli_value(args, "cosine") != NULL;
     int code = noise_read(job);
@@ -123,11 +93,13 @@ static int fit_read(fit_job *job)
         }
         job->options.unit = job->panel / CLI_PI;
     }
-    if (code == 0 && csv && strcmp(csv, "-") == 0 && cli_value(args, "json")) {
-        return cli_usage(args->command, "--csv - and --json both want standard output");
-    }
     for (int i = 0; i < args->given_count && code == 0; i++) {
-        code = is_output(&args->given[i]) ? output_check(args, i) : 0;
+        const cli_given *given = &args->given[i];
+        if (cli_is_output(args->command, given->name) &&
+            lrcs_host_output_same(given->value, args->operand)) {
+            return cli_usage(args->command, "--%s %s: would overwrite the readings", given->name,
+                             given->value);
+        }
     }
     return code;
 }
@@ -313,20 +285,10 @@ static int readings_check(fit_job *job)
 
 /* ---- the command ---- */
 
-typedef struct fit_output {
-    const fit_job *job;
-    const cli_given *given;
-} fit_output;
-
-static int output_write(FILE *out, const void *context, lrcs_host_error *error)
+static int csv_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    const fit_output *output = context;
-    const cli_given *given = output->given;
-    if (is_chart(given)) {
-        return cli_fit_chart(output->job, strcmp(given->name, "residuals") == 0,
-                             cli_extension(given->value, ".png"), out, error);
-    }
-    cli_fit_csv(output->job, out);
+    (void)error;
+    cli_fit_csv(context, out);
     return LRCS_OK;
 }
 
@@ -346,14 +308,15 @@ static int fit_report(const fit_job *job)
     const cli_args *args = job->args;
     const char *csv = cli_value(args, "csv");
     int code = CLI_DONE;
-    for (int i = 0; i < args->given_count; i++) {
-        const fit_output output = {job, &args->given[i]};
-        int failed = is_output(&args->given[i])
-                         ? cli_output_write(args->given[i].value, output_write, &output)
-                         : 0;
-        if (failed) {
-            return failed;
+    int failed = csv ? cli_output_write(csv, csv_write, job) : 0;
+    for (int i = 0; i < args->given_count && !failed; i++) {
+        const cli_given *given = &args->given[i];
+        if (is_chart(given)) {
+            failed = cli_fit_chart(job, strcmp(given->name, "residuals") == 0, given->value);
         }
+    }
+    if (failed) {
+        return failed;
     }
     cli_notices_print(stderr, &job->readings.notices);
     for (uint32_t i = 0; i < job->materials; i++) {
@@ -393,4 +356,5 @@ static int fit_command(const cli_args *args)
 
 const cli_command cli_fit_command = {
     "fit",    "DATA.csv",  "give a table of angles (deg) and BRDF readings",
-    fit_help, fit_options, fit_command};
+    fit_help, fit_options, fit_command,
+    NULL};

@@ -29,10 +29,11 @@ typedef struct fit_job {
 /* The number of parameters, of four, that are not determined. */
 int cli_fit_open(const lrcs_fit *fit);
 
-/* The reports: the table or JSON on stdout, CSV, and charts of the fit and of its residuals. */
+/* The reports: the table or JSON on stdout, CSV, and charts of the fit or of its residuals, which
+   are written to a file: 0 or CLI_FAILED with the message printed. */
 void cli_fit_table(const fit_job *job);
 void cli_fit_json(const fit_job *job);
 void cli_fit_csv(const fit_job *job, FILE *out);
-int cli_fit_chart(const fit_job *job, int residuals, int png, FILE *out, lrcs_host_error *error);
+int cli_fit_chart(const fit_job *job, int residuals, const char *path);
 
 #endif

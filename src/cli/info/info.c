@@ -172,8 +172,8 @@ static void table_glint(const cli_info *info)
         printf(" ");
         cli_column(cli_material_name(&scene->material[glint->material]), 20);
         printf(" %6g %9.3g %8.2g%s %8.0f %8.0f\n", glint->s, glint->turn * CLI_DEGREES,
-               glint->error, glint->error > INFO_GLINT_WARN ? "!" : " ", glint->around_1_percent,
-               glint->around_01_percent);
+               glint->error, glint->error > LRCS_HOST_GLINT_COARSE ? "!" : " ",
+               glint->around_1_percent, glint->around_01_percent);
     }
 }
 
@@ -227,4 +227,5 @@ static int info_command(const cli_args *args)
 
 const cli_command cli_info_command = {
     "info",    "SCENE",      "give a .3ds, .obj or .stl model, a scene file, or demo",
-    info_help, info_options, info_command};
+    info_help, info_options, info_command,
+    NULL};

@@ -34,10 +34,10 @@ static const char plot_help[] =
     "  lrcs plot before.csv after.csv -o both.svg --dbsm\n"
     "  lrcs plot ball.csv --stats --stats-file ball.json --stats-file ball.svg\n";
 
-static const cli_option plot_options[] = {{"o", CLI_FILE, 1}, {"dbsm", 0, 0},
-                                          {"polar", 0, 0},    {"projection", 1, 0},
-                                          {"stats", 0, 0},    {"stats-file", CLI_FILE, 1},
-                                          {"help", 0, 0},     {NULL, 0, 0}};
+static const cli_option plot_options[] = {{"o", CLI_CHART, 1}, {"dbsm", 0, 0},
+                                          {"polar", 0, 0},     {"projection", 1, 0},
+                                          {"stats", 0, 0},     {"stats-file", CLI_FILE, 1},
+                                          {"help", 0, 0},      {NULL, 0, 0}};
 
 typedef struct plot_job {
     const cli_args *args;
@@ -206,4 +206,5 @@ static int plot_command(const cli_args *args)
 }
 
 const cli_command cli_plot_command = {"plot",    "FILE...",    "give files that lrcs sweep wrote",
-                                      plot_help, plot_options, plot_command};
+                                      plot_help, plot_options, plot_command,
+                                      NULL};

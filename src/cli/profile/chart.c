@@ -77,11 +77,7 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
                                    .y_from_0 = 1,
                                    .series = series,
                                    .series_count = series[1].count > 0 ? 2 : 1};
-    if (png) {
-        return lrcs_host_chart_png(out, &chart, error);
-    }
-    lrcs_host_chart_svg(out, &chart);
-    return LRCS_OK;
+    return cli_chart_put(out, &chart, png, error);
 }
 
 int cli_profile_chart(const profile_job *job, int png, FILE *out, lrcs_host_error *error)

@@ -37,16 +37,23 @@ static const char profile_help[] =
     "  --plot FILE           FILE.svg or FILE.png: density over range, and the pulse's response\n"
     "  --tolerance REL       relative error that shapes are meshed for (1e-4); if given, exit 3 "
     "where\n"
-    "                        the bound of all bins together exceeds it\n" CLI_SCENE_HELP "\n"
+    "                        the bound of all bins together, or the estimated error of curved\n"
+    "                        normals, exceeds it\n"
+    "  --normals N           flat (default); smooth: curved, from smoothing groups and vertex "
+    "normals;\n"
+    "                        auto: only where flat facets are too coarse for their glint. The "
+    "range\n"
+    "                        stays that of the facets\n" CLI_SCENE_HELP "\n"
     "examples\n"
     "  lrcs profile demo --azel 50,40 --bin 0.1\n"
     "  lrcs profile demo --azel 50,40 --bin 0.05 --pulse-fwhm 0.3 --plot profile.svg\n"
     "  lrcs profile aura.3ds --unit in --azel 30,20 --bin 0.02 --csv profile.csv\n";
 
 static const cli_option profile_options[] = {
-    CLI_POSE_OPTIONS, CLI_SCENE_OPTIONS,    {"bin", 1, 0},         {"pulse-fwhm", 1, 0},
-    {"json", 0, 0},   {"csv", CLI_FILE, 0}, {"plot", CLI_FILE, 0}, {"tolerance", 1, 0},
-    {"help", 0, 0},   {NULL, 0, 0}};
+    CLI_POSE_OPTIONS,       CLI_SCENE_OPTIONS,   {"bin", 1, 0},
+    {"pulse-fwhm", 1, 0},   {"json", 0, 0},      {"csv", CLI_FILE, 0},
+    {"plot", CLI_CHART, 0}, {"tolerance", 1, 0}, {"normals", 1, 0},
+    {"help", 0, 0},         {NULL, 0, 0}};
 
 double cli_profile_sigma(const lrcs_profile_bin *bin)
 {
@@ -66,26 +73,12 @@ static int length_read(const cli_args *args, const char *name, double *length)
     return code;
 }
 
-static int files_read(profile_job *job)
-{
-    const cli_args *args = job->args;
-    job->csv = cli_value(args, "csv");
-    job->plot = cli_value(args, "plot");
-    const cli_output file[2] = {{"csv", job->csv}, {"plot", job->plot}};
-    if (job->plot && !cli_extension(job->plot, ".svg") && !cli_extension(job->plot, ".png")) {
-        return cli_usage(args->command, "--plot: expected FILE.svg or FILE.png, found '%s'",
-                         job->plot);
-    }
-    if (job->csv && strcmp(job->csv, "-") == 0 && cli_value(args, "json")) {
-        return cli_usage(args->command, "--csv - and --json both want standard output");
-    }
-    return cli_outputs_apart(args->command, file, 2);
-}
-
 static int options_read(profile_job *job)
 {
     const cli_args *args = job->args;
     lrcs_run_options options = lrcs_run_options_default();
+    job->csv = cli_value(args, "csv");
+    job->plot = cli_value(args, "plot");
     int code = cli_pose_read(args, &job->pose);
     code = code ? code : length_read(args, "bin", &job->bin_m);
     if (code == 0 && !(job->bin_m > 0.0)) {
@@ -93,8 +86,8 @@ static int options_read(profile_job *job)
     }
     code = code ? code : length_read(args, "pulse-fwhm", &job->fwhm_m);
     code = code ? code : cli_accuracy_read(args, &options);
-    code = code ? code : files_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
+    code = code ? code : cli_normals_read(args, &job->load);
     job->load.build.tolerance = options.tolerance;
     job->load.build.facets_only = 1;
     job->asked = cli_value(args, "tolerance") ? options.tolerance : 0.0;
@@ -121,7 +114,7 @@ static int pulse_run(profile_job *job)
     for (uint32_t i = 0; i < job->rows && status == LRCS_OK; i++) {
         profile_row *row = &job->row[i];
         status = lrcs_profile_pulse(fine, job->fwhm_m, 0.5 * row->near_m + 0.5 * row->far_m,
-                                    &row->pulse_m, &row->pulse_bound_m);
+                                    &row->pulse_m, &row->pulse_bound_m, &row->pulse_estimate_m);
     }
     if (status != LRCS_OK && error.text[0] == '\0') {
         snprintf(error.text, sizeof error.text, "pulse of %g m: %s", job->fwhm_m,
@@ -174,7 +167,8 @@ static int profile_run(profile_job *job)
         return cli_failed(&error);
     }
     const lrcs_profile *p = &job->profile.list;
-    job->met = p->bound_m2 <= job->asked * (p->sigma_glint_m2 + p->sigma_diffuse_m2);
+    job->met = fmax(p->bound_m2, p->curvature_estimate_m2) <=
+               job->asked * (p->sigma_glint_m2 + p->sigma_diffuse_m2);
     return rows_list(job);
 }
 
@@ -217,10 +211,9 @@ static int profile_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     int code = options_read(&job);
-    const cli_output file[2] = {{"csv", job.csv}, {"plot", job.plot}};
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
-    code = code ? code : cli_outputs_spare(args->command, file, 2, &job.scene);
+    code = code ? code : cli_outputs_spare(args, &job.scene);
     code = code ? code : profile_run(&job);
     cli_watch_end();
     code = code ? code : outputs_write(&job);
@@ -233,4 +226,5 @@ static int profile_command(const cli_args *args)
 
 const cli_command cli_profile_command = {
     "profile",    "SCENE",         "give a .3ds, .obj or .stl model, a scene file, or demo",
-    profile_help, profile_options, profile_command};
+    profile_help, profile_options, profile_command,
+    NULL};

@@ -10,6 +10,7 @@ typedef struct profile_row {
     double near_m, far_m; /* the bin's edges */
     lrcs_profile_bin bin;
     double pulse_m, pulse_bound_m; /* response at the bin's centre, m^2/m */
+    double pulse_estimate_m;       /* estimated error of curved normals, in no bound */
 } profile_row;
 
 typedef struct profile_job {

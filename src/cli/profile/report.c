@@ -14,6 +14,12 @@ static double total_sigma(const profile_job *job)
     return job->profile.list.sigma_glint_m2 + job->profile.list.sigma_diffuse_m2;
 }
 
+/* 1 if some normals are curved: then what their integral may be off by is estimated. */
+static int is_curved(const profile_job *job)
+{
+    return job->profile.list.curvature_estimate_m2 >= 0.0;
+}
+
 /* ---- CSV ---- */
 
 static void fields_write(FILE *out, const double *value, int count)
@@ -40,7 +46,12 @@ void cli_profile_csv(const profile_job *job, FILE *out)
     fprintf(out, "%s\n",
             cli_materials_open(&job->scene.scene) ? "; materials=illustrative or assumed" : "");
     fputs("near_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);
-    fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m\n" : "\n", out);
+    fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m" : "", out);
+    fputs(!is_curved(job)     ? ""
+          : job->fwhm_m > 0.0 ? ",curvature_estimate_m2,pulse_estimate_m"
+                              : ",curvature_estimate_m2",
+          out);
+    putc('\n', out);
     for (uint32_t i = 0; i < job->rows; i++) {
         const profile_row *row = &job->row[i];
         double sigma = cli_profile_sigma(&row->bin);
@@ -53,7 +64,12 @@ void cli_profile_csv(const profile_job *job, FILE *out)
                                  sigma / job->bin_m,
                                  row->pulse_m,
                                  row->pulse_bound_m};
+        const double estimate[2] = {row->bin.curvature_estimate_m2, row->pulse_estimate_m};
         fields_write(out, value, job->fwhm_m > 0.0 ? 9 : 7);
+        if (is_curved(job)) {
+            putc(',', out);
+            fields_write(out, estimate, job->fwhm_m > 0.0 ? 2 : 1);
+        }
         putc('\n', out);
     }
 }
@@ -80,6 +96,9 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     lrcs_host_json_number(json, "sigma_glint_m2", p->sigma_glint_m2);
     lrcs_host_json_number(json, "sigma_diffuse_m2", p->sigma_diffuse_m2);
     lrcs_host_json_number(json, "bound_m2", p->bound_m2);
+    lrcs_host_json_text(json, "normals", lrcs_normals_text(job->scene.scene.normals));
+    lrcs_host_json_number(json, "curvature_estimate_m2",
+                          is_curved(job) ? p->curvature_estimate_m2 : (double)NAN);
     lrcs_host_json_text(json, "bound_refers_to",
                         p->tessellation_known
                             ? "the facets of models, and true curved shapes"
@@ -116,9 +135,15 @@ void cli_profile_json(const profile_job *job)
         lrcs_host_json_number(&json, "sigma_glint_m2", row->bin.sigma_glint_m2);
         lrcs_host_json_number(&json, "sigma_diffuse_m2", row->bin.sigma_diffuse_m2);
         lrcs_host_json_number(&json, "density_m", cli_profile_sigma(&row->bin) / job->bin_m);
+        if (is_curved(job)) {
+            lrcs_host_json_number(&json, "curvature_estimate_m2", row->bin.curvature_estimate_m2);
+        }
         if (job->fwhm_m > 0.0) {
             lrcs_host_json_number(&json, "pulse_m", row->pulse_m);
             lrcs_host_json_number(&json, "pulse_bound_m", row->pulse_bound_m);
+        }
+        if (job->fwhm_m > 0.0 && is_curved(job)) {
+            lrcs_host_json_number(&json, "pulse_estimate_m", row->pulse_estimate_m);
         }
         lrcs_host_json_end(&json);
     }
@@ -188,6 +213,13 @@ static void verdict_print(const profile_job *job)
            all);
     if (worst > 1e-6 * total_sigma(job) && !cli_has_curved_shapes(&job->scene.scene)) {
         printf("             A face within rounding of a bin's edge may be on either side of it\n");
+    }
+    if (is_curved(job)) {
+        cli_bound_text(total_sigma(job) > 0.0 ? p->curvature_estimate_m2 / total_sigma(job) : 0.0,
+                       2, all);
+        printf("             Estimated, not proved: the integral over curved normals, to %s of "
+               "sigma\n",
+               all);
     }
     if (!p->tessellation_known) {
         printf("             Left open: how far curved shapes are from the facets that stand for "

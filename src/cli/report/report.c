@@ -149,9 +149,8 @@ static int report_compare(report_job *job)
 
 static int report_measure(report_job *job)
 {
-    const cli_output file = {"o", job->path};
     int code = cli_scene_read(job->args, &job->load, &job->scene);
-    code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->scene);
+    code = code ? code : cli_outputs_spare(job->args, &job->scene);
     code = code ? code : cli_info_make(job->args, &job->scene, &job->load.build, &job->info);
     cli_watch_stage("pose and pictures", &job->scene);
     code = code ? code : cli_report_run(job);
@@ -163,10 +162,9 @@ static int report_measure(report_job *job)
 
 static int explore_measure(report_job *job)
 {
-    const cli_output file = {"o", job->path};
     lrcs_host_error error;
     int code = cli_scene_read(job->args, &job->load, &job->scene);
-    code = code ? code : cli_outputs_spare(job->args->command, &file, 1, &job->scene);
+    code = code ? code : cli_outputs_spare(job->args, &job->scene);
     cli_watch_stage("preparing", &job->scene);
     if (code == 0 && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         code = cli_failed(&error);
@@ -226,4 +224,5 @@ static int report_command(const cli_args *args)
 
 const cli_command cli_report_command = {
     "report",    "SCENE",        "give a .3ds, .obj or .stl model, a scene file, or demo",
-    report_help, report_options, report_command};
+    report_help, report_options, report_command,
+    NULL};

@@ -149,11 +149,12 @@ static int walk_pose(void *context, uint64_t index, lrcs_pose *pose)
 
 static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
                      const lrcs_result *result, const lrcs_uncertainty *uncertainty,
-                     lrcs_host_error *error)
+                     const lrcs_host_glint_sum *glint, lrcs_host_error *error)
 {
     sweep_walk *walk = context;
     (void)pose;
     (void)uncertainty;
+    (void)glint;
     (void)error;
     double *row = walk->sweep->row[walk->list[index]];
     row[0] = result->sigma_m2;

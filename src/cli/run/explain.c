@@ -18,7 +18,7 @@
 #define WHY_TO   100
 
 static const char *const prepare_stage[LRCS_HOST_PREPARE_STAGES] = {
-    "edges", "neighbours", "normals", "contacts", "proofs"};
+    "edges", "neighbours", "contacts", "normals", "proofs"};
 static const char *const pose_stage[LRCS_HOST_POSE_STAGES] = {"view", "classify", "visibility",
                                                               "sum"};
 

@@ -7,37 +7,25 @@
 
 #include <string.h>
 
-#define FILES 3
-
-static void files_list(const run_job *job, cli_output file[FILES])
-{
-    file[0] = (cli_output){"facets", job->facets};
-    file[1] = (cli_output){"polygons", job->polygons_path};
-    file[2] = (cli_output){"image", job->image_path};
-}
-
 static int to_stdout(const char *path)
 {
     return path && strcmp(path, "-") == 0;
 }
 
-/* Checks that no two outputs are the same file, or both standard output. */
+/* Checks that no output is standard output beside what --explain or --shares print there. */
 static int files_apart(const run_job *job)
 {
-    const cli_command *command = job->args->command;
-    const char *table = cli_value(job->args, "json")      ? "json"
-                        : cli_value(job->args, "explain") ? "explain"
-                        : cli_value(job->args, "shares")  ? "shares"
-                                                          : NULL;
-    cli_output file[FILES];
-    files_list(job, file);
-    for (int i = 0; table && i < FILES; i++) {
-        if (to_stdout(file[i].path)) {
-            return cli_usage(command, "--%s - and --%s both want standard output", file[i].option,
-                             table);
+    static const char *const file[] = {"facets", "polygons"};
+    const char *table = cli_value(job->args, "explain")  ? "explain"
+                        : cli_value(job->args, "shares") ? "shares"
+                                                         : NULL;
+    for (int i = 0; table && i < 2; i++) {
+        if (to_stdout(cli_value(job->args, file[i]))) {
+            return cli_usage(job->args->command, "--%s - and --%s both want standard output",
+                             file[i], table);
         }
     }
-    return cli_outputs_apart(command, file, FILES);
+    return 0;
 }
 
 /* A picture is a PNG file: with the extension of another format no program could open it. */
@@ -81,9 +69,7 @@ int cli_run_outputs_read(run_job *job)
 
 int cli_run_outputs_check(const run_job *job)
 {
-    cli_output file[FILES];
-    files_list(job, file);
-    return cli_outputs_spare(job->args->command, file, FILES, &job->scene);
+    return cli_outputs_spare(job->args, &job->scene);
 }
 
 int cli_run_outputs_stdout(const run_job *job)

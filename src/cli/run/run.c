@@ -27,7 +27,9 @@ static const char run_help[] =
     "                        longer, misses a --tolerance, or the bound exceeds sigma\n"
     "  --steps N             at most N steps of finding what is seen, counted the same on every\n"
     "                        machine; what they leave open is in the bound. A raster's pixels are\n"
-    "                        not counted\n" CLI_SCENE_HELP
+    "                        not counted\n" CLI_SCENE_HELP;
+
+static const char run_help_more[] =
     "  --precision P         float32 or float64: graphics hardware emulated, a z-buffer of "
     "--resolution N\n"
     "                        (1024 if not given); sigma is what it gives, bound what method exact\n"
@@ -238,5 +240,6 @@ static int run_command(const cli_args *args)
 }
 
 const cli_command cli_run_command = {
-    "run",    "SCENE",     "give a .3ds, .obj or .stl model, a scene file, or demo",
-    run_help, run_options, run_command};
+    "run",        "SCENE",     "give a .3ds, .obj or .stl model, a scene file, or demo",
+    run_help,     run_options, run_command,
+    run_help_more};

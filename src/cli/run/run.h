@@ -49,9 +49,7 @@ typedef struct run_open {
         back_share; /* area of one-sided backs that are visible; their share of the silhouette */
     double back_sigma_m2; /* sigma if they reflected; NAN if not known */
     uint32_t coarse;      /* number of curved parts whose facets are too coarse for their glint */
-    double glint_m2, glint_error_m2; /* their contribution to sigma, and an estimate of its error */
-    double glint_most_m2;            /* largest contribution of one facet */
-    uint32_t glint_facet;
+    lrcs_host_glint_sum glint; /* their glint, and an estimate of its error */
 } run_open;
 
 /* The inputs and results of a run. */

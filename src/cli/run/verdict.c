@@ -9,9 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From this share of sigma on, the glint of a single facet is said to dominate. */
-#define GLINT_DOMINATES 0.5
-
 /* ---- what is found ---- */
 
 /* Finds visible backs of materials that are not two-sided, and what they would contribute. */
@@ -34,45 +31,18 @@ static void backs_find(const run_job *job, run_open *open)
     open->back_sigma_m2 = job->records ? job->result.sigma_m2 + more : (double)NAN;
 }
 
-/* The glint of facets of curved parts that are too coarse for it: its share of sigma, its possible
-   error, and whether a single facet makes most of sigma. */
-static void glint_sum(const run_job *job, const lrcs_host_glint *list, uint32_t count,
-                      run_open *open)
-{
-    const lrcs_scene *scene = &job->scene.scene;
-    for (uint32_t k = 0; k < count; k++) {
-        open->coarse++;
-        for (uint32_t i = 0; job->records && i < scene->facet_count; i++) {
-            double glint = job->records[i].sigma_glint_m2;
-            if (scene->facet_part[i] != list[k].part ||
-                scene->facet_material[i] != list[k].material || !(glint > 0.0)) {
-                continue;
-            }
-            open->glint_m2 += glint;
-            open->glint_error_m2 += glint * fmin(list[k].error, 1.0);
-            if (glint > open->glint_most_m2) {
-                open->glint_most_m2 = glint;
-                open->glint_facet = i;
-            }
-        }
-    }
-}
-
 int cli_run_open(run_job *job)
 {
     lrcs_host_glint *list = NULL;
-    uint32_t count = 0;
     memset(&job->open, 0, sizeof job->open);
     backs_find(job, &job->open);
-    int code = cli_coarse_glint(&job->scene, &job->load.build, &list, &count);
-    glint_sum(job, list, count, &job->open);
+    int code = cli_coarse_glint(&job->scene, &job->load.build, 0, &list, &job->open.coarse);
+    if (job->records) {
+        lrcs_host_glint_sum_make(&job->scene.scene, job->records, list, job->open.coarse,
+                                 &job->open.glint);
+    }
     free(list);
     return code;
-}
-
-static int glint_dominates(const run_job *job)
-{
-    return job->open.glint_most_m2 > GLINT_DOMINATES * job->result.sigma_m2;
 }
 
 /* ---- as JSON ---- */
@@ -87,9 +57,10 @@ void cli_run_open_json(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_end(json);
     lrcs_host_json_begin(json, "coarse_glint", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_count(json, "parts", open->coarse);
-    lrcs_host_json_number(json, "sigma_glint_m2", open->glint_m2);
-    lrcs_host_json_number(json, "error_estimate_m2", open->glint_error_m2);
-    lrcs_host_json_bool(json, "one_facet_dominates", glint_dominates(job));
+    lrcs_host_json_number(json, "sigma_glint_m2", open->glint.glint_m2);
+    lrcs_host_json_number(json, "error_estimate_m2", open->glint.error_m2);
+    lrcs_host_json_bool(json, "one_facet_dominates",
+                        cli_glint_dominates(&open->glint, job->result.sigma_m2));
     lrcs_host_json_end(json);
 }
 
@@ -136,22 +107,22 @@ static void backs_say(const run_job *job, FILE *out)
 static void glint_say(const run_job *job, FILE *out)
 {
     const run_open *open = &job->open;
-    if (open->coarse == 0 || !(open->glint_error_m2 > job->result.bound_m2)) {
+    if (open->coarse == 0 || !(open->glint.error_m2 > job->result.bound_m2)) {
         return;
     }
     fprintf(out,
             "  glint      %.3g %% of sigma from facets too coarse for it: flat or curved differ by "
             "some "
             "%.2g %%\n             (an estimate): --normals auto\n",
-            percent(open->glint_m2, job->result.sigma_m2),
-            percent(open->glint_error_m2, job->result.sigma_m2));
-    if (glint_dominates(job)) {
-        fprintf(
-            out,
-            "             facet %lu alone makes %.3g %% of sigma: its normal is the mesh's, not "
-            "the "
-            "surface's\n",
-            (unsigned long)open->glint_facet, percent(open->glint_most_m2, job->result.sigma_m2));
+            percent(open->glint.glint_m2, job->result.sigma_m2),
+            percent(open->glint.error_m2, job->result.sigma_m2));
+    if (cli_glint_dominates(&open->glint, job->result.sigma_m2)) {
+        fprintf(out,
+                "             facet %lu and what lies in its plane make %.3g %% of sigma: its "
+                "normal is "
+                "the mesh's,\n             not the surface's\n",
+                (unsigned long)open->glint.facet,
+                percent(open->glint.most_m2, job->result.sigma_m2));
     }
 }
 

@@ -88,8 +88,8 @@ void cli_file_take(sweep_file *file, const sweep_row *row)
         file->row[row->index][1] = row->bound_m2;
     }
     if (file->band) {
-        file->band[row->index][0] = row->extra[1];
-        file->band[row->index][1] = row->extra[2];
+        file->band[row->index][0] = row->extra[EXTRA_LOW];
+        file->band[row->index][1] = row->extra[EXTRA_HIGH];
     }
     file->next++;
 }

@@ -224,15 +224,7 @@ int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot
         return cli_usage(args->command, "--polar draws curves, --projection maps: give one");
     }
     for (int i = 0; i < args->given_count; i++) {
-        const char *path = args->given[i].value;
-        if (!is_plot(plot, &args->given[i])) {
-            continue;
-        }
-        if (!cli_extension(path, ".svg") && !cli_extension(path, ".png")) {
-            return cli_usage(args->command, "%s%s: expected FILE.svg or FILE.png, found '%s'",
-                             cli_dashes(plot->option), plot->option, path);
-        }
-        plot->asked = 1;
+        plot->asked |= is_plot(plot, &args->given[i]);
     }
     if (!plot->asked && (plot->dbsm || plot->polar || plot->mollweide)) {
         return cli_usage(args->command, "--%s needs %s%s FILE.svg or FILE.png",
@@ -242,28 +234,6 @@ int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot
                          cli_dashes(plot->option), plot->option);
     }
     return plot->asked ? plot_check(args, plan, plot) : 0;
-}
-
-int cli_plot_spares(const cli_args *args, const sweep_plot *plot, const sweep_file *file,
-                    const lrcs_host_scene *scene)
-{
-    int code = 0;
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        if (!is_plot(plot, &args->given[i])) {
-            continue;
-        }
-        const cli_output one = {plot->option, args->given[i].value};
-        const cli_output rows[2] = {{"o", file->path}, one};
-        const cli_output poses[2] = {{"poses", cli_value(args, "poses")}, one};
-        code = cli_outputs_spare(args->command, &one, 1, scene);
-        code = code ? code : cli_outputs_apart(args->command, rows, 2);
-        code = code ? code : cli_outputs_apart(args->command, poses, 2);
-        for (int k = 0; k < i && code == 0; k++) {
-            const cli_output pair[2] = {{plot->option, args->given[k].value}, one};
-            code = is_plot(plot, &args->given[k]) ? cli_outputs_apart(args->command, pair, 2) : 0;
-        }
-    }
-    return code;
 }
 
 /* ---- notes ---- */
@@ -443,11 +413,7 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *err
                                    .about = plot->head ? sheet->about : NULL,
                                    .series = series,
                                    .series_count = curves};
-    if (sheet->png) {
-        return lrcs_host_chart_png(out, &chart, error);
-    }
-    lrcs_host_chart_svg(out, &chart);
-    return LRCS_OK;
+    return cli_chart_put(out, &chart, sheet->png, error);
 }
 
 static int sheet_map(FILE *out, const plot_sheet *sheet, lrcs_host_error *error)

@@ -215,8 +215,8 @@ static void data_take(void *context, const sweep_row *row)
     data->row[row->index][0] = row->sigma_m2;
     data->row[row->index][1] = row->bound_m2;
     if (data->band) {
-        data->band[row->index][0] = row->extra[1];
-        data->band[row->index][1] = row->extra[2];
+        data->band[row->index][0] = row->extra[EXTRA_LOW];
+        data->band[row->index][1] = row->extra[EXTRA_HIGH];
     }
     uint64_t poses = data->plan.track.row ? data->plan.track.count : 0;
     for (int k = 0; k < 4 && row->index < poses; k++) {
@@ -334,7 +334,7 @@ int cli_data_read(const char *path, const cli_command *command, sweep_data *data
     }
     data->words = malloc(data->text.head_size + 1);
     data->row = calloc(data->text.rows, sizeof *data->row);
-    int banded = data->text.extras > 0 && !cli_extension(data->path, ".npy");
+    int banded = data->text.extras.materials && !cli_extension(data->path, ".npy");
     data->band = banded ? calloc(data->text.rows, sizeof *data->band) : NULL;
     if (!data->words || !data->row || (banded && !data->band)) {
         return cli_out_of_memory();

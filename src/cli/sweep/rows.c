@@ -7,8 +7,20 @@
 #include <math.h>
 #include <string.h>
 
-const char *const cli_row_extra[SWEEP_EXTRAS] = {"material_deviation_m2", "material_low_m2",
-                                                 "material_high_m2", "material_sampled"};
+const char *const cli_extra_name[SWEEP_EXTRAS] = {"material_deviation_m2",   "material_low_m2",
+                                                  "material_high_m2",        "material_sampled",
+                                                  "glint_error_estimate_m2", "one_facet_dominates"};
+
+sweep_extras cli_extras_make(int materials, int glint)
+{
+    sweep_extras extras = {.materials = materials, .glint = glint};
+    for (int kind = 0; kind < SWEEP_EXTRAS; kind++) {
+        if (kind < EXTRA_GLINT_ERROR ? materials : glint) {
+            extras.kind[extras.count++] = kind;
+        }
+    }
+    return extras;
+}
 
 void cli_tally_add(sweep_tally *tally, const sweep_row *row)
 {
@@ -20,6 +32,7 @@ void cli_tally_add(sweep_tally *tally, const sweep_row *row)
     tally->missed += (row->flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0;
     tally->estimated += (row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) != 0;
     tally->unjudged += (row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) != 0;
+    tally->dominated += row->extra[EXTRA_DOMINATED] > 0.0;
     tally->starved += (row->flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
 }
 
@@ -74,8 +87,8 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
         csv_field(out, plan->column[i]);
     }
     fputs(",sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2", out);
-    for (uint32_t i = 0; i < plan->extras; i++) {
-        fprintf(out, ",%s", cli_row_extra[i]);
+    for (uint32_t i = 0; i < plan->extras.count; i++) {
+        fprintf(out, ",%s", cli_extra_name[plan->extras.kind[i]]);
     }
     fputs(",flags\n", out);
 }
@@ -92,8 +105,8 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     number_put(out, ",", row->bound_m2);
     number_put(out, ",", row->sigma_glint_m2);
     number_put(out, ",", row->sigma_diffuse_m2);
-    for (uint32_t i = 0; i < plan->extras; i++) {
-        number_put(out, ",", row->extra[i]);
+    for (uint32_t i = 0; i < plan->extras.count; i++) {
+        number_put(out, ",", row->extra[plan->extras.kind[i]]);
     }
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
@@ -144,8 +157,9 @@ static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     lrcs_host_json_number(&json, "bound_m2", row->bound_m2);
     lrcs_host_json_number(&json, "sigma_glint_m2", row->sigma_glint_m2);
     lrcs_host_json_number(&json, "sigma_diffuse_m2", row->sigma_diffuse_m2);
-    for (uint32_t i = 0; i < plan->extras; i++) {
-        lrcs_host_json_number(&json, cli_row_extra[i], row->extra[i]);
+    for (uint32_t i = 0; i < plan->extras.count; i++) {
+        int kind = plan->extras.kind[i];
+        lrcs_host_json_number(&json, cli_extra_name[kind], row->extra[kind]);
     }
     lrcs_host_json_begin(&json, "flags", LRCS_HOST_ROW_ARRAY);
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {

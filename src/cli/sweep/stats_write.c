@@ -31,18 +31,6 @@ int cli_stats_read(const cli_args *args, int *asked)
                              path);
         }
         *asked |= known;
-        for (int k = 0; k < i && known; k++) {
-            const cli_output pair[2] = {{args->given[k].name, args->given[k].value},
-                                        {"stats-file", path}};
-            const char *name = pair[0].option;
-            int code = is_stats_file(&args->given[k]) || strcmp(name, "plot") == 0 ||
-                               strcmp(name, "o") == 0
-                           ? cli_outputs_apart(args->command, pair, 2)
-                           : 0;
-            if (code != 0) {
-                return code;
-            }
-        }
     }
     return 0;
 }
@@ -262,11 +250,7 @@ static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
                                    .y_from_0 = 1,
                                    .series = series,
                                    .series_count = wide > 0.02 ? 4 : 2};
-    if (from->png) {
-        return lrcs_host_chart_png(out, &chart, error);
-    }
-    lrcs_host_chart_svg(out, &chart);
-    return LRCS_OK;
+    return cli_chart_put(out, &chart, from->png, error);
 }
 
 /* The cumulative distribution as steps at the rows from the first edge on (if there are many rows,

@@ -42,13 +42,24 @@ static const char sweep_help[] =
     "  --stats               mean by solid angle, percentiles, least and most, histogram\n"
     "  --stats-file FILE     the same as FILE.json, .csv, .svg or .png; repeatable\n"
     "  --brightest N         with -o FILE: the N brightest peaks (rows that outshine those one\n"
-    "                        step away) and who makes each, on stdout\n"
+    "                        step away) and who makes each, on stdout; marked where it is the\n"
+    "                        normal of a facet that is too coarse for its glint\n"
     "\n"
-    "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
+    "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP;
+
+static const char sweep_help_more[] =
+    "\n"
     "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, sigma_glint_m2,\n"
     "sigma_diffuse_m2, flags; last a checksum; JSON lines without an index are no rows. Exit 3\n"
     "where rows miss the tolerance. With --accept, .npy has a third number: 1 by estimate, 2 by\n"
-    "any, 0 by bound, -1 missed.\n"
+    "any, 0 by bound, -1 missed. Before the flags, in CSV and JSON lines:\n"
+    "  material_deviation_m2, material_low_m2, material_high_m2, material_sampled\n"
+    "                        where materials state errors: their uncertainty\n"
+    "  glint_error_estimate_m2, one_facet_dominates\n"
+    "                        where parts of a model are too coarse for their glint (lrcs info), "
+    "or\n"
+    "                        may be as --vary changes it: the estimated error, not in the bound,\n"
+    "                        and 1 where one flat face of a curved part makes most of sigma\n"
     "\n"
     "examples\n"
     "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
@@ -63,7 +74,7 @@ static const cli_option sweep_options[] = {CLI_POSE_OPTIONS,     CLI_ACCURACY_OP
                                            {"sphere", 1, 0},     {"poses", 1, 0},
                                            {"o", CLI_FILE, 0},   {"json", 0, 0},
                                            {"resume", 0, 0},     {"shard", 1, 0},
-                                           {"jobs", 1, 0},       {"plot", CLI_FILE, 1},
+                                           {"jobs", 1, 0},       {"plot", CLI_CHART, 1},
                                            {"dbsm", 0, 0},       {"polar", 0, 0},
                                            {"brightest", 1, 0},  {"stats", 0, 0},
                                            {"projection", 1, 0}, {"stats-file", CLI_FILE, 1},
@@ -156,18 +167,25 @@ static int job_read(sweep_job *job)
 /* Checks that no output replaces a file that is read. */
 static int job_files_check(const sweep_job *job)
 {
+    const cli_args *args = job->args;
     lrcs_host_error error;
-    const char *poses = cli_value(job->args, "poses");
-    for (int i = 0; job->file.path && i < 2; i++) {
-        const char *path = i == 0 ? job->file.path : job->file.partial;
-        if (lrcs_host_output_check(path, &job->scene, &error) != LRCS_OK) {
-            return cli_usage(job->args->command, "-o %s", error.text);
-        }
-        if (poses && lrcs_host_output_same(path, poses)) {
-            return cli_usage(job->args->command, "-o %s: would overwrite the poses", path);
-        }
+    const char *poses = cli_value(args, "poses");
+    if (job->file.path &&
+        lrcs_host_output_check(job->file.partial, &job->scene, &error) != LRCS_OK) {
+        return cli_usage(args->command, "-o %s", error.text);
     }
-    return cli_plot_spares(job->args, &job->plot, &job->file, &job->scene);
+    for (int i = 0; poses && i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (!cli_is_output(args->command, given->name) ||
+            !lrcs_host_output_same(given->value, poses)) {
+            continue;
+        }
+        return strcmp(given->name, "o") == 0
+                   ? cli_usage(args->command, "-o %s: would overwrite the poses", given->value)
+                   : cli_usage(args->command, "--poses and --%s name the same file: '%s', '%s'",
+                               given->name, poses, given->value);
+    }
+    return cli_outputs_spare(args, &job->scene);
 }
 
 /* ---- the rows ---- */
@@ -179,7 +197,8 @@ static int job_pose(void *context, uint64_t index, lrcs_pose *pose)
 }
 
 static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const lrcs_result *result,
-                    const lrcs_uncertainty *uncertainty, lrcs_host_error *error)
+                    const lrcs_uncertainty *uncertainty, const lrcs_host_glint_sum *glint,
+                    lrcs_host_error *error)
 {
     sweep_job *job = context;
     (void)pose;
@@ -191,10 +210,14 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
                      .flags = cli_flags_in_force(job->args, &job->options, result->flags)};
     cli_plan_values(&job->plan, index, row.value);
     if (uncertainty) {
-        row.extra[0] = uncertainty->deviation_m2;
-        row.extra[1] = uncertainty->low_m2;
-        row.extra[2] = uncertainty->high_m2;
-        row.extra[3] = uncertainty->sampled;
+        row.extra[EXTRA_DEVIATION] = uncertainty->deviation_m2;
+        row.extra[EXTRA_LOW] = uncertainty->low_m2;
+        row.extra[EXTRA_HIGH] = uncertainty->high_m2;
+        row.extra[EXTRA_SAMPLED] = uncertainty->sampled;
+    }
+    if (glint) {
+        row.extra[EXTRA_GLINT_ERROR] = glint->error_m2;
+        row.extra[EXTRA_DOMINATED] = cli_glint_dominates(glint, result->sigma_m2);
     }
     job->notices |= result->notices;
     int status = cli_file_put(&job->file, &job->plan, &row, error);
@@ -219,7 +242,9 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
                              .pose = job_pose,
                              .scene = scene ? NULL : job_scene,
                              .take = job_take,
-                             .uncertainty = job->plan.extras > 0 ? &how : NULL,
+                             .uncertainty = job->plan.extras.materials ? &how : NULL,
+                             .glint = job->plan.extras.glint ? job->coarse : NULL,
+                             .glint_count = job->coarse_count,
                              .context = job,
                              .cancel = &sweep_stop};
     if (lrcs_host_sweep_run(scene, &job->options, &sweep, NULL, &error) == LRCS_OK) {
@@ -301,6 +326,12 @@ static void job_say(const sweep_job *job)
         fprintf(stderr, "lrcs: %llu of %llu rows are accepted whatever their error\n",
                 (unsigned long long)tally->unjudged, (unsigned long long)tally->rows);
     }
+    if (tally->dominated > 0) {
+        fprintf(stderr,
+                "lrcs: in %llu of %llu rows the glint of one flat face of a curved part makes "
+                "most of sigma: its normal is the mesh's, not the surface's\n",
+                (unsigned long long)tally->dominated, (unsigned long long)tally->rows);
+    }
     if (tally->starved > 0) {
         fprintf(stderr, "lrcs: %llu of %llu rows were short of memory\n",
                 (unsigned long long)tally->starved, (unsigned long long)tally->rows);
@@ -316,7 +347,7 @@ static int job_room(sweep_job *job)
             return cli_out_of_memory();
         }
     }
-    if (job->plot.asked && job->plan.extras > 0) {
+    if (job->plot.asked && job->plan.extras.materials) {
         job->band = calloc(job->plan.rows, sizeof *job->band);
         if (!job->band) {
             return cli_out_of_memory();
@@ -371,18 +402,19 @@ static int job_rows(sweep_job *job)
 /* Prints where the error of the glint may exceed the bound. */
 static void coarse_say(const sweep_job *job)
 {
+    uint32_t coarse = 0;
     double worst = 0.0;
     for (uint32_t i = 0; i < job->coarse_count; i++) {
+        coarse += job->coarse[i].error > LRCS_HOST_GLINT_COARSE;
         worst = job->coarse[i].error > worst ? job->coarse[i].error : worst;
     }
-    if (job->coarse_count > 0) {
+    if (coarse > 0) {
         fprintf(
             stderr,
             "notice: glint: %lu curved part%s too coarse for the slope of their material: near the "
             "normals of facets sigma may be off by %.2g %% of its glint, an estimate (--normals "
             "auto)\n",
-            (unsigned long)job->coarse_count, job->coarse_count == 1 ? " is" : "s are",
-            100.0 * worst);
+            (unsigned long)coarse, coarse == 1 ? " is" : "s are", 100.0 * worst);
     }
 }
 
@@ -400,11 +432,14 @@ static int sweep_command(const cli_args *args)
     code = code ? code : job_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
-        code = cli_coarse_glint(&job->scene, &job->load.build, &job->coarse, &job->coarse_count);
+        /* if a slope is varied, parts that are fine now may be too coarse in some rows */
+        code = cli_coarse_glint(&job->scene, &job->load.build, cli_value(args, "vary") != NULL,
+                                &job->coarse, &job->coarse_count);
     }
     if (code == 0) {
         coarse_say(job);
-        job->plan.extras = cli_errors_stated(&job->scene.scene) ? SWEEP_EXTRAS : 0;
+        job->plan.extras =
+            cli_extras_make(cli_errors_stated(&job->scene.scene), job->coarse_count > 0);
         job->plot.head = &job->head;
         job->plot.open = cli_materials_open(&job->scene.scene);
         job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
@@ -423,5 +458,6 @@ static int sweep_command(const cli_args *args)
 }
 
 const cli_command cli_sweep_command = {
-    "sweep",    "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
-    sweep_help, sweep_options, sweep_command};
+    "sweep",        "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
+    sweep_help,     sweep_options, sweep_command,
+    sweep_help_more};

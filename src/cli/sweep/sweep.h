@@ -12,8 +12,6 @@
 #define SWEEP_JOINTS  8  /* joints whose angles a file of poses states */
 #define SWEEP_COLUMNS 20
 #define SWEEP_FIELDS  6 /* fields of a row after its values: sigma to flags */
-/* fields before the flags for the uncertainty, if materials state errors */
-#define SWEEP_EXTRAS 4
 
 /* ---- ranges ---- */
 
@@ -48,6 +46,34 @@ typedef struct sweep_track {
 /* 0, CLI_FAILED or CLI_USAGE with the message printed. */
 int cli_track_read(const char *path, sweep_track *track);
 
+/* ---- extra columns ---- */
+
+/* Columns before the flags that only some sweeps have: the uncertainty, if materials state errors;
+   the glint, if curved parts are too coarse for it. */
+enum sweep_extra {
+    EXTRA_DEVIATION, /* of the material uncertainty, m2 */
+    EXTRA_LOW,       /* lower and upper end of its interval, m2 */
+    EXTRA_HIGH,
+    EXTRA_SAMPLED,     /* 1 if they are from a sample, else 0 */
+    EXTRA_GLINT_ERROR, /* estimated error of the glint of coarse facets, m2 */
+    EXTRA_DOMINATED,   /* 1 if the glint of one coarse facet makes most of sigma, else 0 */
+    SWEEP_EXTRAS
+};
+
+/* Those that a sweep has, in their order. */
+typedef struct sweep_extras {
+    int materials, glint; /* 1 if a sweep has those of this group */
+    uint32_t count;
+    int kind[SWEEP_EXTRAS];
+} sweep_extras;
+
+sweep_extras cli_extras_make(int materials, int glint);
+extern const char *const cli_extra_name[SWEEP_EXTRAS];
+
+/* The keys in the first lines which state that rows have them. */
+#define SWEEP_UNCERTAINTY  "uncertainty"
+#define SWEEP_COARSE_GLINT "coarse_glint"
+
 /* ---- the plan: which rows there are ---- */
 
 enum sweep_kind {
@@ -80,8 +106,8 @@ typedef struct sweep_plan {
     uint64_t poses;      /* number of poses of each scene */
     uint64_t rows;       /* number of rows of all scenes */
     uint64_t first, end; /* the rows of this shard */
-    uint32_t extras;     /* of a row: SWEEP_EXTRAS or 0 */
-    uint32_t columns;    /* number of values of a row */
+    sweep_extras extras;
+    uint32_t columns; /* number of values of a row */
     const char *column[SWEEP_COLUMNS];
 } sweep_plan;
 
@@ -127,15 +153,9 @@ typedef struct sweep_row {
     uint64_t index;
     double value[SWEEP_COLUMNS];
     double sigma_m2, bound_m2, sigma_glint_m2, sigma_diffuse_m2;
-    double extra[SWEEP_EXTRAS]; /* deviation, lower and upper end, m2; 1 if from a sample */
+    double extra[SWEEP_EXTRAS]; /* by kind; 0 where the sweep has none */
     uint32_t flags;
 } sweep_row;
-
-/* The names of the extras. */
-extern const char *const cli_row_extra[SWEEP_EXTRAS];
-
-/* The key in the first lines which states that rows have extras. */
-#define SWEEP_UNCERTAINTY "uncertainty"
 
 /* The content of the first line: nothing in it depends on the machine, the number of threads or the
    shard. */
@@ -158,6 +178,7 @@ int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_o
 typedef struct sweep_tally {
     uint64_t rows, missed, starved; /* missed: the tolerance; starved: short of memory */
     uint64_t estimated, unjudged;   /* accepted by estimate; accepted without a condition */
+    uint64_t dominated;             /* most of sigma is the glint of one coarse facet */
     double mean, square, bound;     /* mean of sigma; sum of squared deviations; sum of bounds */
 } sweep_tally;
 
@@ -189,8 +210,8 @@ typedef struct sweep_text {
     uint64_t shape[SWEEP_AXES + 1];
     uint32_t dimensions;
     uint32_t columns; /* number of values of a row */
-    uint32_t extras;  /* SWEEP_EXTRAS or 0 */
-    int has_mean;     /* one --sphere */
+    sweep_extras extras;
+    int has_mean; /* one --sphere */
     int flagged; /* 1 if rows may be accepted without a proof: a map of them contains their flags */
     char fault[200]; /* what is wrong with the line at `at` */
 } sweep_text;
@@ -354,8 +375,6 @@ typedef struct sweep_plot {
    replaces a file; 0 or CLI_USAGE. Then draws one sweep, or the curves of several along the same
    axis; 0 or CLI_FAILED. Also one drawing as SVG. The caller sets title and row. */
 int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot);
-int cli_plot_spares(const cli_args *args, const sweep_plot *plot, const sweep_file *file,
-                    const lrcs_host_scene *scene);
 int cli_plot_write(const cli_args *args, const sweep_plot *plot, uint32_t count);
 int cli_plot_svg(FILE *out, const sweep_plot *plot);
 

@@ -82,10 +82,10 @@ static int head_read(const char *head, sweep_text *text)
     text->rows = rows ? strtoull(rows, NULL, 10) : 0;
     text->has_mean = sphere && strtoull(sphere, NULL, 10) == text->rows;
     text->flagged = head_value(head, "; accept=", "\"accept\": \"") != NULL;
-    int extras =
-        head_value(head, "; " SWEEP_UNCERTAINTY "=", "\"" SWEEP_UNCERTAINTY "\": \"") != NULL;
-    text->extras = extras ? SWEEP_EXTRAS : 0;
-    text->columns = head_columns(head, text->extras);
+    text->extras = cli_extras_make(
+        head_value(head, "; " SWEEP_UNCERTAINTY "=", "\"" SWEEP_UNCERTAINTY "\": \"") != NULL,
+        head_value(head, "; " SWEEP_COARSE_GLINT "=", "\"" SWEEP_COARSE_GLINT "\": \"") != NULL);
+    text->columns = head_columns(head, text->extras.count);
     return rows && shape && text->rows > 0 && text->columns > 0 && text->columns <= SWEEP_COLUMNS
                ? head_shape(shape, text)
                : -1;
@@ -124,11 +124,11 @@ static const char *const field_name[SWEEP_FIELDS] = {
     "sigma_m2", "sigma_dbsm", "bound_m2", "sigma_glint_m2", "sigma_diffuse_m2", "flags"};
 
 /* The name of field i: sigma and its parts, then extras, then flags. */
-static const char *field_key(uint32_t i, uint32_t extras)
+static const char *field_key(uint32_t i, const sweep_extras *extras)
 {
-    return i < FIELD_FLAGS            ? field_name[i]
-           : i < FIELD_FLAGS + extras ? cli_row_extra[i - FIELD_FLAGS]
-                                      : field_name[FIELD_FLAGS];
+    return i < FIELD_FLAGS                   ? field_name[i]
+           : i < FIELD_FLAGS + extras->count ? cli_extra_name[extras->kind[i - FIELD_FLAGS]]
+                                             : field_name[FIELD_FLAGS];
 }
 
 static int text_refuse(sweep_text *text, const char *name, const char *found, const char *expected)
@@ -180,7 +180,7 @@ static uint32_t csv_split(char *line, const char **field, uint32_t room)
    of fields must be the known ones; those of values are the names that the user chose, in the order
    of the head. */
 static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint32_t columns,
-                            uint32_t extras)
+                            const sweep_extras *extras)
 {
     uint32_t count = 0;
     char *at = line;
@@ -193,7 +193,7 @@ static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint3
         }
         const char *want = count == 0         ? "index"
                            : count <= columns ? NULL
-                           : count <= columns + SWEEP_FIELDS + extras
+                           : count <= columns + SWEEP_FIELDS + extras->count
                                ? field_key(count - columns - 1, extras)
                                : "";
         if (strncmp(at, "\": ", 3) != 0 || (want && (strlen(want) != (size_t)(at - key) ||
@@ -257,31 +257,43 @@ static int values_read(sweep_text *text, const sweep_plan *plan, const char *con
     return 0;
 }
 
-/* Reads a deviation, the ends of its interval, and 1 or 0 (sampled): all finite. To first order the
-   ends lie one deviation below sigma, but not below 0, and one above. */
-static int extras_read(sweep_text *text, const char *const *field, double sigma, sweep_row *row)
+/* Reads the extras, all of them finite and not negative, and yes or no as 1 or 0. To first order
+   the interval of the material uncertainty ends one deviation below sigma, but not below 0, and one
+   above. The error of a glint is at most that glint. */
+static int extras_read(sweep_text *text, const char *const *field, double sigma, double glint,
+                       sweep_row *row)
 {
-    for (uint32_t i = 0; i < text->extras; i++) {
-        double *value = &row->extra[i];
-        if (field_number(text, field[i], value) != 0 || !(*value >= 0.0) || !isfinite(*value)) {
-            return text_refuse(text, cli_row_extra[i], field[i], "a finite number of at least 0");
+    double *e = row->extra;
+    const char *of[SWEEP_EXTRAS] = {NULL};
+    memset(row->extra, 0, sizeof row->extra);
+    for (uint32_t i = 0; i < text->extras.count; i++) {
+        int kind = text->extras.kind[i];
+        int flag = kind == EXTRA_SAMPLED || kind == EXTRA_DOMINATED;
+        of[kind] = field[i];
+        if (field_number(text, field[i], &e[kind]) != 0 || !(e[kind] >= 0.0) ||
+            !isfinite(e[kind])) {
+            return text_refuse(text, cli_extra_name[kind], field[i],
+                               "a finite number of at least 0");
+        }
+        if (flag && e[kind] != 0.0 && e[kind] != 1.0) {
+            return text_refuse(text, cli_extra_name[kind], field[i], "0 or 1");
         }
     }
-    if (text->extras == 0) {
-        return 0;
-    }
-    const double *e = row->extra;
-    if (e[3] != 0.0 && e[3] != 1.0) {
-        return text_refuse(text, cli_row_extra[3], field[3], "0 or 1");
-    }
-    double low = fmax(0.0, sigma - e[0]);
-    int plain = e[3] == 0.0;
-    if (!(e[1] <= e[2]) || (plain && !(fabs(e[1] - low) <= 1e-9 * (sigma + e[0])))) {
-        return text_refuse(text, cli_row_extra[1], field[1],
+    double deviation = e[EXTRA_DEVIATION];
+    double low = fmax(0.0, sigma - deviation);
+    int plain = text->extras.materials && e[EXTRA_SAMPLED] == 0.0;
+    if (!(e[EXTRA_LOW] <= e[EXTRA_HIGH]) ||
+        (plain && !(fabs(e[EXTRA_LOW] - low) <= 1e-9 * (sigma + deviation)))) {
+        return text_refuse(text, cli_extra_name[EXTRA_LOW], of[EXTRA_LOW],
                            plain ? "sigma less a deviation" : "at most material_high_m2");
     }
-    if (plain && !about_equal(e[2], sigma + e[0], 1e-9)) {
-        return text_refuse(text, cli_row_extra[2], field[2], "sigma and a deviation");
+    if (plain && !about_equal(e[EXTRA_HIGH], sigma + deviation, 1e-9)) {
+        return text_refuse(text, cli_extra_name[EXTRA_HIGH], of[EXTRA_HIGH],
+                           "sigma and a deviation");
+    }
+    if (!(e[EXTRA_GLINT_ERROR] <= (1.0 + 1e-9) * glint)) {
+        return text_refuse(text, cli_extra_name[EXTRA_GLINT_ERROR], of[EXTRA_GLINT_ERROR],
+                           "at most sigma_glint_m2");
     }
     return 0;
 }
@@ -310,10 +322,10 @@ static int fields_read(sweep_text *text, const char *const *field, sweep_row *ro
         return text_refuse(text, "sigma_glint_m2 and sigma_diffuse_m2", field[FIELD_GLINT],
                            "what adds up to sigma_m2");
     }
-    if (extras_read(text, field + FIELD_FLAGS, sigma, row) != 0) {
+    if (extras_read(text, field + FIELD_FLAGS, sigma, number[FIELD_GLINT], row) != 0) {
         return -1;
     }
-    const char *flags = field[FIELD_FLAGS + text->extras];
+    const char *flags = field[FIELD_FLAGS + text->extras.count];
     if (flags_read(flags, &row->flags) != 0) {
         return text_refuse(text, "flags", flags, "names of flags");
     }
@@ -331,11 +343,11 @@ static int row_read(sweep_text *text, const sweep_plan *plan, char *line, sweep_
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         field[i] = "";
     }
-    const uint32_t room = 1 + text->columns + SWEEP_FIELDS + text->extras;
+    const uint32_t room = 1 + text->columns + SWEEP_FIELDS + text->extras.count;
     char begun[41];
     snprintf(begun, sizeof begun, "%.40s", line);
     uint32_t count = text->format == SWEEP_JSONL
-                         ? jsonl_split(line, field, room, text->columns, text->extras)
+                         ? jsonl_split(line, field, room, text->columns, &text->extras)
                          : csv_split(line, field, room);
     if (count != room) {
         char expected[60];

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* The content of a kit as tables: materials.csv and cases.csv, which suffice for taking part, and
-   kit.json, the same in one file for programs that prefer it. */
+   kit.json, the same in one file for programs that prefer it; and README.md, which is readme.md
+   with the list of scenes. */
 #include "cli/vectors/vectors.h"
+
+static const char readme_text[] = {
+#include "readme.inc"
+};
 
 static const char *const tier_text[KIT_TIERS] = {
     "one plate: the angle, 4 pi, the cosines, the BRDF",
@@ -144,8 +149,18 @@ static int kit_write(FILE *out, const void *context, lrcs_host_error *error)
 
 static int readme_write(FILE *out, const void *context, lrcs_host_error *error)
 {
+    const vectors_job *job = context;
     (void)error;
-    cli_vectors_readme(out, context);
+    fwrite(readme_text, 1, sizeof readme_text, out);
+    fprintf(out,
+            "## Scenes (kit %d, %lu cases)\n\n| tier | scene | what it tries |\n|---|---|---|\n",
+            KIT_VERSION, (unsigned long)job->cases);
+    for (uint32_t i = 0; i < job->cases; i++) {
+        const vectors_scene *scene = job->list[i].scene;
+        if (i == 0 || scene != job->list[i - 1].scene) {
+            fprintf(out, "| %d | `%s` | %s |\n", scene->tier, scene->name, scene->about);
+        }
+    }
     return LRCS_OK;
 }
 

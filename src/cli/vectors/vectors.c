@@ -209,5 +209,5 @@ static int vectors_command(const cli_args *args)
 }
 
 const cli_command cli_vectors_command = {
-    "vectors",    "DIR",           "give the folder that the kit goes to",
-    vectors_help, vectors_options, vectors_command};
+    "vectors",       "DIR", "give the folder that the kit goes to", vectors_help, vectors_options,
+    vectors_command, NULL};

@@ -110,6 +110,5 @@ int cli_vectors_images(const vectors_job *job, const vectors_case *one, const lr
 
 /* README.md, kit.json, cases.csv, materials.csv. */
 int cli_vectors_index(const vectors_job *job);
-void cli_vectors_readme(FILE *out, const vectors_job *job);
 
 #endif

@@ -1,29 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs verify: compares the engine (shape to facets to sigma) with closed forms, on this machine.
-   hard.c handles the hard cases. */
-#include "cli/verify/verify.h"
+ */
+#include "cli/cli.h"
 
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
 
 static const char verify_help[] =
-    "usage: lrcs verify [--hard] [--json]\n"
+    "usage: lrcs verify [--json]\n"
     "\n"
     "Tessellates simple bodies, computes sigma of the facets, and compares with the closed form\n"
     "of the body, for shapes x aspects x materials. Every error must lie within the bound that\n"
     "the engine states (plus the closed form's own); then the exit code is 0, else 1.\n"
     "\n"
     "options\n"
-    "  --hard   hard cases instead: sigma by the plain formula in doubles (which fails on most),\n"
-    "           by the engine, and a reference computed to 50 digits\n"
     "  --json   the same as JSON\n"
     "\n"
     "example\n"
-    "  lrcs verify --hard\n";
+    "  lrcs verify\n";
 
-static const cli_option verify_options[] = {
-    {"hard", 0, 0}, {"json", 0, 0}, {"help", 0, 0}, {NULL, 0, 0}};
+static const cli_option verify_options[] = {{"json", 0, 0}, {"help", 0, 0}, {NULL, 0, 0}};
 
 /* Fine enough to be a test, coarse enough to take seconds. */
 #define VERIFY_TOLERANCE 1e-2
@@ -191,9 +188,6 @@ static int verify_command(const cli_args *args)
     verify_tally tally = {0, 0, 0.0, 0.0};
     /* rows already show the progress */
     cli_watch_stage(isatty(STDOUT_FILENO) ? NULL : "cases", NULL);
-    if (cli_value(args, "hard")) {
-        return cli_hard_verify(json != NULL);
-    }
     if (json) {
         lrcs_host_json_begin(json, NULL, LRCS_HOST_OBJECT);
         cli_version_json(json);
@@ -217,5 +211,5 @@ static int verify_command(const cli_args *args)
     return tally.failed == 0 ? CLI_DONE : CLI_FAILED;
 }
 
-const cli_command cli_verify_command = {"verify",    NULL,           NULL,
-                                        verify_help, verify_options, verify_command};
+const cli_command cli_verify_command = {"verify",       NULL,           NULL, verify_help,
+                                        verify_options, verify_command, NULL};
