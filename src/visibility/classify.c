@@ -146,7 +146,7 @@ static uint32_t steps_allowed(const lrcsi_meter *meter, uint32_t steps)
    behind all of the facet, no other comes nearer than the facet. Steps are counted in a register
    and charged at the end. */
 static uint32_t crossings_find(lrcsi_classification *classification, uint32_t facet, uint32_t most,
-                               uint32_t *steps)
+                               uint32_t *steps, lrcsi_meter *meter)
 {
     const lrcsi_view *view = classification->view;
     const lrcsi_grid *grid = &classification->grid;
@@ -154,7 +154,7 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
     int asking = 0;
     const lrcsi_view_box box = classification->boxes.facet[facet];
     const lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
-    const uint32_t allowed = steps_allowed(view->meter, *steps);
+    const uint32_t allowed = steps_allowed(meter, *steps);
     const uint32_t asked = ++classification->asked;
     uint32_t left = allowed;
     uint32_t near = *steps == LRCS_NONE ? LRCS_NONE : MOST_ASKED;
@@ -196,33 +196,25 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
             }
         }
     }
-    lrcsi_meter_take(view->meter, allowed - left);
+    lrcsi_meter_take(meter, allowed - left);
     *steps -= *steps != LRCS_NONE ? allowed - left : 0;
     if (near == 0) {
         *steps = 0;
     } else if (more && *steps != 0) {
-        lrcsi_meter_take(view->meter, 1); /* there is none left: it is spent */
+        lrcsi_meter_take(meter, 1); /* there is none left: it is spent */
     }
     return count;
 }
 
-uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t facet)
+uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t facet,
+                                  lrcsi_meter *meter)
 {
     if (classification->crossed != facet) {
         uint32_t steps = LRCS_NONE; /* no limit */
-        classification->crossings = crossings_find(classification, facet, LRCS_NONE, &steps);
-        classification->crossed =
-            lrcsi_meter_spent(classification->view->meter) ? LRCS_NONE : facet;
+        classification->crossings = crossings_find(classification, facet, LRCS_NONE, &steps, meter);
+        classification->crossed = lrcsi_meter_spent(meter) ? LRCS_NONE : facet;
     }
     return classification->crossings;
-}
-
-void lrcsi_classify_recall(lrcsi_classification *classification, uint32_t facet,
-                           const uint32_t *crossing, uint32_t count)
-{
-    memcpy(classification->crossing, crossing, count * sizeof *crossing);
-    classification->crossings = count;
-    classification->crossed = facet;
 }
 
 /* --- contacts --------------------------------------------------------------------------------- */
@@ -346,7 +338,7 @@ static void facet_decide(lrcsi_classification *c, uint32_t f)
     c->along = 0;
     c->undecided[f] = intersection_divides(c->view, f) ||
                       (lrcsi_grid_any(&c->grid, lrcsi_grid_cells(&c->grid, &c->boxes.facet[f])) &&
-                       crossings_find(c, f, 1, &steps) > 0) ||
+                       crossings_find(c, f, 1, &steps, c->view->meter) > 0) ||
                       steps == 0 || lrcsi_meter_spent(c->view->meter);
     c->undecided_count += c->undecided[f];
     if (c->undecided[f] || c->along || c->view->prepared->intersections.rim[f]) {

@@ -11,12 +11,13 @@
 /* A facet's edge functions in pixel coordinates, positive inside: value = at + along x + up y. */
 typedef struct lrcsi_edges {
     double at[3], along[3], up[3];
-    double over[3];          /* 1 / along, 0 if the side runs along the rows */
-    double near[3], far[3];  /* half a pixel, and how far along a row a value changes by off, and by
-                                off and what it changes over half a pixel */
+    double over[3];         /* 1 / along, 0 if the side runs along the rows */
+    double near[3], far[3]; /* half a pixel, and how far along a row a value changes by off, and by
+                               off and what it changes over half a pixel */
     /* Where sides cross rows: side i at x = cross_at[i] + cross_up[i] y for the centres of row y. 0
-       and 1 bound the facet on the left, 2 and 3 on the right; one that there is not is at infinity.
-       cross_near and cross_far: their near and far. level: some side runs along the rows. */
+       and 1 bound the facet on the left, 2 and 3 on the right; one that there is not is at
+       infinity. cross_near and cross_far: their near and far. level: some side runs along the rows.
+     */
     double cross_at[4], cross_up[4], cross_near[4], cross_far[4];
     int level;
     double position_err;     /* error bound of the corners' pixel coordinates and of samples' */
