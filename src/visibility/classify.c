@@ -117,8 +117,14 @@ static int edge_crosses(const lrcsi_view *view, const crossing_ask *ask, uint32_
     if (edge == own[0] || edge == own[1] || edge == own[2]) {
         return 0;
     }
-    return (vertex_nearer(view, ask, e->low) || vertex_nearer(view, ask, e->high)) &&
-           segment_crosses(view, ask, e->low, e->high, along);
+    int beside = 0; /* on the line of a side that separates them */
+    int crosses = segment_crosses(view, ask, e->low, e->high, &beside);
+    if (!(crosses || beside) ||
+        !(vertex_nearer(view, ask, e->low) || vertex_nearer(view, ask, e->high))) {
+        return 0;
+    }
+    *along |= beside;
+    return crosses;
 }
 
 static crossing_ask crossing_ask_of(const lrcsi_view *view, uint32_t facet)
