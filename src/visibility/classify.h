@@ -70,6 +70,11 @@ void lrcsi_classify_regions(const lrcsi_classification *classification);
 uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t facet,
                                   lrcsi_meter *meter);
 
+/* Does an event edge of a component cross a facet, nearer than it somewhere? Where the meter is
+   spent, perhaps. Asked first, this is cheaper than all crossings. */
+int lrcsi_classify_crossed_by(lrcsi_classification *classification, uint32_t facet,
+                              uint32_t component, lrcsi_meter *meter);
+
 /* Can the facet of a contact hide some of the facet that it touches? */
 int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
                              const lrcsi_intersection *touch);

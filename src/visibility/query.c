@@ -226,29 +226,25 @@ static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other, lr
     return 0;
 }
 
-/* Does none of the component's edges cross the facet, and none of its facets touch its inside? */
+/* Does none of the component's edges cross the facet, and none of its facets touch its interior?
+   Where the meter is spent, perhaps not. `all`: another component was found broken before, so that
+   all crossings are searched for at once. */
 static int component_unbroken(lrcsi_classification *classification, uint32_t component,
-                              uint32_t facet, lrcsi_meter *meter)
+                              uint32_t facet, int all, lrcsi_meter *meter)
 {
-    const lrcs_prepared *p = classification->view->prepared;
-    uint32_t crossings = lrcsi_classify_crossings(classification, facet, meter);
-    if (!lrcsi_meter_take(meter, lrcsi_intersection_of(&p->intersections, facet))) {
-        return 0; /* nor are those all the crossings, perhaps */
-    }
-    for (uint32_t i = 0; i < crossings; i++) {
-        const lrcsi_edge *edge = &p->topology.edge[classification->crossing[i]];
-        if (!lrcsi_meter_take(meter, edge->uses)) {
+    const lrcsi_intersections *contacts = &classification->view->prepared->intersections;
+    if (all) {
+        uint32_t crossings = lrcsi_classify_crossings(classification, facet, meter);
+        if (!lrcsi_meter_take(meter, crossings)) {
             return 0;
         }
-        for (uint32_t k = 0; k < edge->uses; k++) {
-            if (classification->component[p->topology.use[edge->first_use + k].facet] ==
-                component) {
-                return 0;
-            }
-        }
     }
-    for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        if (classification->component[p->intersections.touch[i].other] == component) {
+    if (!lrcsi_meter_take(meter, lrcsi_intersection_of(contacts, facet)) ||
+        lrcsi_classify_crossed_by(classification, facet, component, meter)) {
+        return 0;
+    }
+    for (uint32_t i = contacts->first[facet]; i < contacts->first[facet + 1]; i++) {
+        if (classification->component[contacts->touch[i].other] == component) {
             return 0;
         }
     }
@@ -270,7 +266,8 @@ int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid 
             line_nearer(&line, other) <= 0) {
             continue;
         }
-        if (component_unbroken(classification, classification->component[other], facet, meter)) {
+        if (component_unbroken(classification, classification->component[other], facet,
+                               broken != LRCS_NONE, meter)) {
             return 1;
         }
         broken = classification->component[other];
