@@ -30,7 +30,7 @@ int main(void)
         return 1;
     }
 
-    lrcs_recipe_part part = {.name = "body", .file = "tetrahedron.stl", .wears = -1};
+    lrcs_recipe_part part = {.name = "body", .file = "tetrahedron.stl", .material_index = -1};
     part.place = lrcs_place_default();
     lrcs_binding white = {.kind = LRCS_BIND_DEFAULT, .two_sided = -1};
     white.brdf = lrcs_brdf_find("paint-white")->brdf;

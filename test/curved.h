@@ -64,8 +64,11 @@ static inline void curved_build(curved_case *c, int normals)
 {
     static lrcs_recipe_part part;
     static lrcs_binding binding;
-    part = (lrcs_recipe_part){
-        .name = "model", .file = "model", .place = c->place, .joint = c->joint, .wears = -1};
+    part = (lrcs_recipe_part){.name = "model",
+                              .file = "model",
+                              .place = c->place,
+                              .joint = c->joint,
+                              .material_index = -1};
     binding = (lrcs_binding){.kind = LRCS_BIND_DEFAULT, .brdf = c->brdf, .two_sided = c->two_sided};
     lrcs_recipe recipe = {.part = &part, .part_count = 1, .binding = &binding, .binding_count = 1};
     lrcs_build_options options = {c->tolerance, 64, normals, 1};

@@ -111,8 +111,8 @@ static lrcs_recipe_part *put(nasty_scene *s, int kind, double a, double b, doubl
         shape->radius2 = kind == LRCS_SHAPE_FRUSTUM ? b : 0;
         shape->length = kind >= LRCS_SHAPE_CYLINDER ? c : 0;
     }
-    part->wears = (int)pick(2);
-    part->material = part->wears ? "two" : "one";
+    part->material_index = (int)pick(2);
+    part->material = part->material_index ? "two" : "one";
     return part;
 }
 

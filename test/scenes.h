@@ -24,7 +24,7 @@ typedef struct test_scene {
     lrcs_material material[SCENE_MATERIALS];
     lrcs_part part;
     lrcs_scene scene;
-    uint32_t wears;                         /* the material of facets to come */
+    uint32_t assigned;                      /* the material of facets to come */
     lrcs_facet_record record[SCENE_FACETS]; /* of the last run */
 } test_scene;
 
@@ -34,7 +34,7 @@ static unsigned char scene_memory[40u << 20];
 /* An empty scene; material 0 is the default one. */
 static inline void scene_start(test_scene *s)
 {
-    s->wears = 0;
+    s->assigned = 0;
     s->material[0] = (lrcs_material){.name = "", .brdf = {1, 0.25, 0.2, 0.5}, .bound = 1};
     s->part = (lrcs_part){.name = "part", .kind = -1, .curvature_known = 1};
     s->scene = (lrcs_scene){.material_count = 1,
@@ -54,10 +54,10 @@ static inline lrcs_material *scene_material(test_scene *s, double A, double B, d
                                             double m)
 {
     assert_true(s->scene.material_count < SCENE_MATERIALS);
-    s->wears = s->scene.material_count++;
-    s->material[s->wears] = s->material[0];
-    s->material[s->wears].brdf = (lrcs_brdf){A, B, slope, m};
-    return &s->material[s->wears];
+    s->assigned = s->scene.material_count++;
+    s->material[s->assigned] = s->material[0];
+    s->material[s->assigned].brdf = (lrcs_brdf){A, B, slope, m};
+    return &s->material[s->assigned];
 }
 
 static inline uint32_t scene_vertex(test_scene *s, double x, double y, double z)
@@ -71,7 +71,7 @@ static inline uint32_t scene_facet(test_scene *s, uint32_t a, uint32_t b, uint32
 {
     assert_true(s->scene.facet_count < SCENE_FACETS);
     s->facet[s->scene.facet_count] = (lrcs_facet){{a, b, c}};
-    s->material_of[s->scene.facet_count] = s->wears;
+    s->material_of[s->scene.facet_count] = s->assigned;
     s->part_of[s->scene.facet_count] = 0;
     s->smooth_of[s->scene.facet_count] = 0;
     s->part.facet_count = s->scene.facet_count + 1;

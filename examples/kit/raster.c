@@ -31,7 +31,7 @@ typedef struct material {
 static material materials[64];
 static int material_count;
 static double vertex[MOST][3], seen[MOST][3]; /* body frame; observation frame */
-static int facet[MOST][3], wears[MOST];
+static int facet[MOST][3], assigned[MOST];
 static int vertex_count, facet_count;
 static const char *mistake = "none";
 
@@ -112,7 +112,7 @@ static void read_scene(const char *kit, const char *name)
         } else if (sscanf(line, "usemtl %63s", word) == 1) {
             wear = find_material(word);
         } else if (sscanf(line, "f %d %d %d", &f[0], &f[1], &f[2]) == 3) {
-            wears[facet_count++] = wear;
+            assigned[facet_count++] = wear;
         }
     }
     fclose(file);
@@ -258,7 +258,7 @@ static double sigma_raster(const double s[3], int N, double *depth, uint32_t *it
             double c = cosine(i, s, &area);
             if ((c <= 0) == backs) {
                 long count = draw(i, window, N, depth, item);
-                value[i] = shade(&materials[wears[i]], c);
+                value[i] = shade(&materials[assigned[i]], c);
                 sum += is("shadows") ? (double)count * value[i] : 0;
             }
         }
@@ -277,7 +277,7 @@ static double sigma_facets(const double s[3])
     double sum = 0, area;
     for (int i = 0; i < facet_count; i++) {
         double c = cosine(i, s, &area);
-        sum = keep(sum + keep(shade(&materials[wears[i]], c) * area * fabs(c)));
+        sum = keep(sum + keep(shade(&materials[assigned[i]], c) * area * fabs(c)));
     }
     return sum;
 }

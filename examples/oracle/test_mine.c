@@ -44,7 +44,7 @@ static float my_sigma(const lrcs_scene *scene, const lrcs_brdf *brdf, const floa
 static void my_sigma_is_right_from_all_sides(void **state)
 {
     (void)state;
-    lrcs_recipe_part part = {.name = "bus", .wears = -1, .place = lrcs_place_default()};
+    lrcs_recipe_part part = {.name = "bus", .material_index = -1, .place = lrcs_place_default()};
     part.shape = (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {1.0, 0.8, 1.4}};
     lrcs_binding paint = {.kind = LRCS_BIND_DEFAULT, .brdf = {0.5, 0.2, 0.3, 0.5}, .two_sided = -1};
     lrcs_recipe recipe = {.part = &part, .part_count = 1, .binding = &paint, .binding_count = 1};

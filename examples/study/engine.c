@@ -42,7 +42,7 @@ void study_engine(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf
     lrcs_recipe_part part = {.name = lrcs_shape_text(shape->kind),
                              .shape = *shape,
                              .place = lrcs_place_default(),
-                             .wears = -1};
+                             .material_index = -1};
     lrcs_host_scene scene = {.prepared = NULL};
     lrcs_pose pose;
     if (job->status == LRCS_OK) {
@@ -94,8 +94,10 @@ study_number study_shaded(study_job *job, const lrcs_brdf *brdf, double *surface
     lrcs_host_scene scene = {.prepared = NULL};
     study_number mean = {(double)NAN, HUGE_VAL};
     for (int i = 0; i < 3; i++) {
-        part[i] = (lrcs_recipe_part){
-            .name = "box", .shape = shaded_shape[i], .place = lrcs_place_default(), .wears = -1};
+        part[i] = (lrcs_recipe_part){.name = "box",
+                                     .shape = shaded_shape[i],
+                                     .place = lrcs_place_default(),
+                                     .material_index = -1};
         part[i].place.translate[0] = shaded_at[i];
     }
     *surface_m2 = shaded_surface();

@@ -51,8 +51,8 @@ typedef struct lrcs_recipe_part {
     int unit_given; /* model file: 1 if its unit was stated; else metres are assumed */
     lrcs_joint joint;
     const char *material;   /* name of a material for the whole part, or NULL: the model's own */
-    int wears;              /* the same, as an index into the recipe's materials; -1 for none,
-                               or for a material of the library */
+    int material_index;     /* the same, as an index into the recipe's materials; -1 for none,
+                                   or for a material of the library */
     uint32_t line;          /* where the scene file declares it; 0 elsewhere */
     uint32_t material_line; /* where it names its material; 0 elsewhere */
 } lrcs_recipe_part;

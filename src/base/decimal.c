@@ -11,9 +11,9 @@
 #include <stdint.h>
 #include <string.h>
 
-/* A point halfway between doubles is k * 2^-1075 with k < 2^54 where it is smallest, so it is
+/* The smallest points halfway between doubles are k * 2^-1075 with k < 2^54: such a point is
    k * 5^1075 / 10^1075 and has at most 54 log10(2) + 1075 log10(5) < 768 significant digits.
-   Later digits only tell "above": one digit 1 stands for all of them. */
+   Later digits only show that the value is above: one digit 1 replaces them all. */
 #define DIGITS_KEPT 800
 /* 0.d * 10^point with d1 > 0: from 1e309 on it is infinity, below 1e-324 < 2^-1075 zero. */
 #define POINT_MOST  309
@@ -21,8 +21,8 @@
 /* The larger integer is at most 10^(801 + 323), 3734 bits, and is doubled once; 118 words hold
    3776. (Integers: at most 10^309.) */
 #define BIG_WORDS 118
-/* Exponents take no further digit from here on: beyond the length of any text, and ten times as
-   much is far from overflowing. */
+/* Exponents beyond this take no further digits: it exceeds the length of any text, and ten times as
+   much does not overflow. */
 #define EXPONENT_MOST INT64_C(100000000000000000)
 
 typedef struct decimal_text {
@@ -199,7 +199,7 @@ static const char *read_digits(const char *at, const char *end, int fraction, de
     return at;
 }
 
-/* The exponent, where one stands at `at`; otherwise nothing is read. */
+/* Reads an exponent if there is one at `at`. */
 static const char *read_exponent(const char *at, const char *end, decimal_text *t)
 {
     const char *p = at;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Sine and cosine of degrees. It decides how an angle is reduced, exactly, to within 45 degrees of
-   a multiple of 90, and sums the two series in double-double; no libm sine has a say. */
+   a multiple of 90, and sums the two series in double-double; libm is not used. */
 #include "base/degrees.h"
 
 #include <math.h>

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Exponential and logarithm. Argument reduction after Cody and Waite (1980), then Taylor series,
-   whose coefficients are their own derivation; integers made and used via the bits of
-   doubles, since compilers without AVX-512 have no other conversion for lanes.
+   whose coefficients need no derivation. Integers are made and used via the bits of
+   doubles, because without AVX-512 there is no other vector conversion.
 
    ln 2 = LN2_HIGH + LN2_LOW within 2^-86. LN2_HIGH has 32 bits: k LN2_HIGH is exact for |k| <= 2^11
    and a multiple of 2^-32.
 
-   Exponential: x = k ln 2 + r, k the integer nearest to x / ln 2 but for rounding: |r| <= 0.34658.
+   Exponential: x = k ln 2 + r, k the integer nearest to x / ln 2 up to rounding: |r| <= 0.34658.
    x - k LN2_HIGH is exact (0 for k = 0; else |x| > 0.34, so both are multiples of 2^-54 or larger,
    and their difference is below 0.347). Absolute errors of e^r, in units of u:
      r       k LN2_LOW: 1e-6; subtracting it: |r| <= 0.35; times e^r
@@ -63,8 +63,8 @@ static inline double exp_reduced(double x)
     return p * lrcsi_bits_double((lrcsi_bits_of(shifted) + 1023) << 52);
 }
 
-/* Nearer to the ends of the doubles than that the power of two might not be one: halves, squared. A
-   half is exact where it is no tiny number. */
+/* Closer to the ends of the range of doubles the power of two might not be representable: e^(x/2)
+   squared. x/2 is exact unless x is subnormal. */
 double lrcsi_exp(double x)
 {
     if (x >= -700.0 && x <= 700.0) {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Signs of 3 x 3 determinants of differences of points, and what slivers and grazing light leave of
-   normals and heights. No tolerance. A floating-point value with a proved error bound settles
-   almost every call; what it leaves is evaluated without error in expansion arithmetic (Priest
-   1991; Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric
-   predicates"): sums of doubles that do not overlap, smallest first, zeros left out, so that the
-   sign of the whole is that of the last term.
+/* Signs of 3 x 3 determinants of differences of points, and accurate normals and heights of slivers
+   and of facets near grazing incidence. No tolerances. A floating-point value with a proved error
+   bound decides almost every call; the others are evaluated without error in expansion arithmetic
+   (Priest 1991; Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
+   geometric predicates"): sums of doubles that do not overlap, smallest first, zeros left out, so
+   that the sign of the whole is that of the last term.
 
    Filter. Let u = 2^-53 and let each rounding multiply by (1 + e), |e| <= u. The three vectors are
    differences of doubles (one rounding each) or given. A term d_k (u_i v_j - u_j v_i) then carries
@@ -144,7 +144,7 @@ static int exact_det_sign(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_
     return expansion_sign(all, m);
 }
 
-/* Sign of p x q . r where the filter proves it, else EXACT_UNDECIDED. */
+/* Sign of p x q . r if the filter proves it, else EXACT_UNDECIDED. */
 static int filtered_det_sign(const double p[3], const double q[3], const double r[3])
 {
     double xy = p[0] * q[1];

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A look at the arithmetic at hand. It decides whether proofs hold in this build and this thread.
- */
+/* Tests of the arithmetic: they decide whether the proofs hold in this build and this thread. */
 #include "base/ieee.h"
 
-/* Volatile: nothing of this is done by the compiler, whose own arithmetic is right. */
+/* Volatile, so that the compiler, whose arithmetic may differ, evaluates nothing of this. */
 int lrcsi_ieee_kept(void)
 {
     volatile double one = 1;
@@ -12,7 +11,7 @@ int lrcsi_ieee_kept(void)
     double x = one + ulp;
     double square = x * x;
     volatile double rounded = square;
-    double lost = x * x - rounded; /* 2^-104 where the two are fused */
+    double lost = x * x - rounded; /* 2^-104 if the two are fused */
     double even = one + 0.5 * ulp; /* ties: down to 1, and up to 1 + 2 ulp */
     double odd = x + 0.5 * ulp;
     double below = least * 0.5;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The index from names to numbers. Decides where a name sits; what its number means is the
-   caller's business. */
+/* The index from names to numbers. Decides the slot of a name; the meaning of its number
+   is the caller's. */
 #include "base/index.h"
 
 #include <string.h>
@@ -36,7 +36,7 @@ int lrcsi_index_make(lrcs_work *work, uint32_t count, lrcsi_index *names)
     return LRCS_OK;
 }
 
-/* The slot that holds a name, or the empty one where it belongs. */
+/* The slot of a name, or the empty slot for it. */
 static size_t slot_of(const lrcsi_index *names, uint32_t tag, const void *bytes, size_t size)
 {
     uint64_t hash = lrcsi_fnv_bits(LRCSI_FNV_START, tag, 4);

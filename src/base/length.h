@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The length of a vector, also where its square underflows. hypot is not used because its rounding
+/* The length of a vector, even if its square underflows. hypot is not used because its rounding
    depends on libm: these functions return the same bits on every machine. */
 #ifndef LRCSI_LENGTH_H
 #define LRCSI_LENGTH_H

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/degrees.h"
+#include "base/vec3.h"
 
 int lrcsi_rotate_scale(const double *given, int count, double *scaled)
 {
@@ -113,7 +114,7 @@ int lrcsi_rotate_axis(const double axis[3], double deg, double R[3][3])
     if (!isfinite(deg)) {
         return LRCS_E_NUMBER;
     }
-    double length = sqrt(k[0] * k[0] + k[1] * k[1] + k[2] * k[2]);
+    double length = sqrt(lrcsi_vec3_dot(k, k));
     for (int i = 0; i < 3; i++) {
         k[i] /= length;
     }

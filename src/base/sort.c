@@ -28,7 +28,7 @@ void lrcsi_sort_pairs(uint64_t *key, uint32_t *value, uint64_t *key_spare, uint3
         if (radix_digit(differ, shift) == 0) {
             continue;
         }
-        /* 1. How many keys have each digit; then where the first of those goes. */
+        /* 1. Counts the keys of each digit; then computes the index of the first one. */
         memset(place, 0, sizeof place);
         for (uint32_t i = 0; i < count; i++) {
             place[radix_digit(from[i], shift)]++;
@@ -39,7 +39,7 @@ void lrcsi_sort_pairs(uint64_t *key, uint32_t *value, uint64_t *key_spare, uint3
             place[d] = sum;
             sum += n;
         }
-        /* 2. All go there, in the order they come in; the next digit starts from there. */
+        /* 2. Moves all there, in their present order, which is the input of the next digit. */
         for (uint32_t i = 0; i < count; i++) {
             uint32_t at = place[radix_digit(from[i], shift)]++;
             to[at] = from[i];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Texts for status codes, the version, and the account of where a reader stopped. */
+/* Texts for status codes, the version, and the position at which a reader stopped. */
 #include "base/where.h"
 
 #include <string.h>
@@ -52,8 +52,8 @@ static int where_set(lrcs_where *where, int status, uint64_t offset, uint32_t li
     return status;
 }
 
-/* Appends one byte of an excerpt, escaped where it cannot be printed; the new length, or `used`
-   itself where it no longer fits. */
+/* Appends one byte of an excerpt, escaped if it cannot be printed. Returns the new length, or
+   `used` if it no longer fits. */
 static size_t append_printable(char *out, size_t used, size_t size, unsigned char byte)
 {
     static const char digit[] = "0123456789abcdef";

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Filling lrcs_where: a reader's account of where it stopped. Each returns `status`, so that a
-   reader can say `return lrcsi_where_text(...)`. `where` may be NULL. */
+/* Filling lrcs_where: the position and reason at which a reader stopped. Each function returns
+   `status`, so that a reader can write `return lrcsi_where_text(...)`. `where` may be NULL. */
 #ifndef LRCSI_WHERE_H
 #define LRCSI_WHERE_H
 

@@ -194,6 +194,11 @@ int cli_has_curved_shapes(const lrcs_scene *scene);
    scene file states); the last name of a path; and, as keys of an open object: the files, the
    title, the assigned materials and the options given. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
+
+/* The beginning of the first line of a CSV file, "# lrcs VERSION COMMAND; key=text; ..": what it
+   was made from. The caller ends the line. */
+void cli_table_head(FILE *out, const char *command, const char *title, const lrcs_host_scene *scene,
+                    const double direction[3]);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */

@@ -59,6 +59,20 @@ const char *cli_base_name(const char *path)
     return slash && slash[1] ? slash + 1 : path;
 }
 
+void cli_table_head(FILE *out, const char *command, const char *title, const lrcs_host_scene *scene,
+                    const double direction[3])
+{
+    fprintf(out, "# lrcs %s %s; scene_hash=%016llx; title=%s", lrcs_version(), command,
+            (unsigned long long)lrcs_scene_hash(&scene->scene), cli_base_name(title));
+    for (const lrcs_host_input *input = scene->input; input; input = input->next) {
+        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
+                (unsigned long long)input->hash);
+    }
+    for (int k = 0; k < 3; k++) {
+        cli_number_put(out, k == 0 ? "; direction=" : ",", direction[k]);
+    }
+}
+
 void cli_version_json(lrcs_host_json *json)
 {
     lrcs_host_json_count(json, "schema", CLI_SCHEMA);

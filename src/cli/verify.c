@@ -98,7 +98,7 @@ static int shape_scene(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_host
     lrcs_recipe_part part = {.name = lrcs_shape_text(shape->kind),
                              .shape = *shape,
                              .place = lrcs_place_default(),
-                             .wears = -1};
+                             .material_index = -1};
     lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = -1};
     lrcs_recipe recipe = {.part = &part, .binding = &binding, .part_count = 1, .binding_count = 1};
     lrcs_build_options build = lrcs_build_options_default();

@@ -76,7 +76,7 @@ static int recipe_from_model(lrcs_host_scene *scene, const char *path, double un
     part->name = lrcsi_host_basename(file);
     part->file = file;
     part->place = lrcs_place_default();
-    part->wears = -1;
+    part->material_index = -1;
     for (int k = 0; k < 3; k++) {
         part->place.scale[k] = unit_m > 0.0 ? unit_m : 1.0;
     }

@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "base/degrees.h"
+#include "base/vec3.h"
 
 #define STEP_DEG 0.01
 
@@ -16,7 +17,7 @@
 static void pose_turn(const lrcs_pose *pose, int axis, double deg, lrcs_pose *turned)
 {
     const double *d = pose->direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double length = sqrt(lrcsi_vec3_dot(d, d));
     double sine = 0;
     double cosine = 1;
     lrcsi_degrees_sincos(deg, &sine, &cosine);

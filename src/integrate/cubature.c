@@ -31,6 +31,7 @@
 #include "base/constant.h"
 #include "base/elementary.h"
 #include "base/range.h"
+#include "base/vec3.h"
 #include "base/work.h"
 
 /* Halvings of a cell, and cells of one sum but for those that each triangle is granted. A
@@ -196,11 +197,6 @@ static double cube_area(const cube_cell *cell)
 
 /* --- cells ------------------------------------------------------------------------------------ */
 
-static double square_of(const double v[3])
-{
-    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-}
-
 static void cube_mean(const cube_cell *cell, double n[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -227,10 +223,10 @@ static double cube_turn(const cube_cell *cell)
     cube_mean(cell, n);
     for (int i = 0; i < cell->count; i++) {
         const double *m = cell->normal[i];
-        double dot = n[0] * m[0] + n[1] * m[1] + n[2] * m[2];
-        double cross[3] = {n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],
-                           n[0] * m[1] - n[1] * m[0]};
-        most = lrcsi_most(most, dot > 0 ? sqrt(square_of(cross)) / dot : HUGE_VAL);
+        double dot = lrcsi_vec3_dot(n, m);
+        double cross[3];
+        lrcsi_vec3_cross(n, m, cross);
+        most = lrcsi_most(most, dot > 0 ? sqrt(lrcsi_vec3_dot(cross, cross)) / dot : HUGE_VAL);
     }
     return isfinite(most) ? atan(most) * (1 + 4 * LRCSI_U) + 16 * LRCSI_U : LRCSI_PI;
 }
@@ -279,15 +275,15 @@ static void cube_chord(const cube_cell *cell, int *from, int *to, double chord[3
     double unit[CORNERS][3];
     double most = -1;
     for (int i = 0; i < cell->count; i++) {
-        double length = sqrt(square_of(cell->normal[i]));
+        double length = sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i]));
         for (int k = 0; k < 3; k++) {
             unit[i][k] = length > 0 ? cell->normal[i][k] / length : 0;
         }
         for (int j = 0; j < i; j++) {
             double apart[3] = {unit[i][0] - unit[j][0], unit[i][1] - unit[j][1],
                                unit[i][2] - unit[j][2]};
-            if (square_of(apart) > most) {
-                most = square_of(apart);
+            if (lrcsi_vec3_dot(apart, apart) > most) {
+                most = lrcsi_vec3_dot(apart, apart);
                 *from = j;
                 *to = i;
                 for (int k = 0; k < 3; k++) {
@@ -444,7 +440,7 @@ static double cube_shortest(const cube_cell *cell)
 {
     double shortest = HUGE_VAL;
     for (int i = 0; i < cell->count; i++) {
-        shortest = lrcsi_least(shortest, sqrt(square_of(cell->normal[i])));
+        shortest = lrcsi_least(shortest, sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i])));
     }
     return shortest;
 }

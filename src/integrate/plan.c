@@ -178,19 +178,20 @@ static lrcs_effect two_sided_effect(const lrcsi_view *view)
 
 /* The sentences on a term of the BRDF. */
 typedef struct term_text {
-    const char *worn, *none, *unseen, *forced;
+    const char *assigned, *none, *unseen, *forced;
 } term_text;
 
 /* A term that a facet has but none that may be seen adds nothing, and counts as off. */
-static lrcs_effect term_effect(int term, int worn, int seen, const term_text *text)
+static lrcs_effect term_effect(int term, int assigned, int seen, const term_text *text)
 {
-    if (worn && term == LRCSI_TERM_OUT) {
+    if (assigned && term == LRCSI_TERM_OUT) {
         return (lrcs_effect){0, "left out on request"};
     }
     if (!seen && term == LRCSI_TERM_FORCED) {
         return (lrcs_effect){1, text->forced};
     }
-    return seen ? (lrcs_effect){1, text->worn} : (lrcs_effect){0, worn ? text->unseen : text->none};
+    return seen ? (lrcs_effect){1, text->assigned}
+                : (lrcs_effect){0, assigned ? text->unseen : text->none};
 }
 
 static lrcs_effect closed_effect(const lrcsi_view *view, const lrcsi_clear *clear)

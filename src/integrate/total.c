@@ -720,10 +720,10 @@ static double facet_tessellation(const total_job *job, uint32_t facet,
 static void sum_tessellation(total_job *job)
 {
     const lrcsi_batches *b = &job->view->prepared->batches;
-    for (uint32_t place = 0; place < b->count; place += LRCSI_TILTS) {
-        lrcsi_incidence incidence[LRCSI_TILTS];
+    for (uint32_t place = 0; place < b->count; place += LRCSI_INCIDENCES) {
+        lrcsi_incidence incidence[LRCSI_INCIDENCES];
         uint32_t left = b->count - place;
-        uint32_t count = left < LRCSI_TILTS ? left : LRCSI_TILTS;
+        uint32_t count = left < LRCSI_INCIDENCES ? left : LRCSI_INCIDENCES;
         lrcsi_view_incidences(job->view, b->facet + place, count, incidence);
         for (uint32_t i = 0; i < count; i++) {
             job->sums.tessellation += facet_tessellation(job, b->facet[place + i], &incidence[i]);

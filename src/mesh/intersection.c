@@ -417,12 +417,12 @@ int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
     }
     if (status == LRCS_OK) { /* without the facets' numbers, the contacts move down to the mark */
         work->used = mark;
-        t.touch = lrcsi_work_take(work, search.count, sizeof *t.touch);
-        for (t.count = 0; t.touch && t.count < search.count; t.count++) {
+        t.entry = lrcsi_work_take(work, search.count, sizeof *t.entry);
+        for (t.count = 0; t.entry && t.count < search.count; t.count++) {
             found_contact found = search.found[t.count];
-            t.touch[t.count] = (lrcsi_intersection){found.other, found.kind};
+            t.entry[t.count] = (lrcsi_intersection){found.other, found.kind};
         }
-        status = t.touch ? LRCS_OK : LRCS_E_MEMORY;
+        status = t.entry ? LRCS_OK : LRCS_E_MEMORY;
     }
     if (status != LRCS_OK) {
         work->used = start;

@@ -1,29 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* Which facets touch the inside of which others, in space: interpenetration, T-contacts,
-   coincident coplanar facets. It does not depend on direction; visibility may change across such
-   contacts although no contour is near. Every decision is exact. */
+/* Contacts between facets: which facets meet the interior of which others in space
+   (interpenetration, T-junctions of surfaces, coplanar facets that overlap). Contacts do not depend
+   on direction; visibility may change across them without a contour. Every decision is exact. */
 #ifndef LRCSI_INTERSECTION_H
 #define LRCSI_INTERSECTION_H
 
 #include "mesh/intersection_pair.h"
 #include "mesh/topology.h"
 
-/* `other` (closed) meets the relative interior of `facet`. Directed: a strut standing on a plate
-   touches the plate's inside, but the plate only the strut's rim: then there is an entry for the
-   plate alone. */
+/* A contact: `other`, with its boundary, meets the relative interior of `facet`. Contacts are
+   directed: a strut that stands on a plate meets the plate's interior, but the plate meets only the
+   strut's boundary, so there is an entry for the plate alone. */
 typedef struct lrcsi_intersection {
     uint32_t other;
     uint32_t kind;
 } lrcsi_intersection;
 
 typedef struct lrcsi_intersections {
-    uint32_t *first; /* facet_count + 1: entries of facet i are touch[first[i] .. first[i+1]) */
-    lrcsi_intersection *touch; /* by facet, then by other */
+    uint32_t *first; /* facet_count + 1: entries of facet i are entry[first[i] .. first[i+1]) */
+    lrcsi_intersection *entry; /* by facet, then by other */
     uint32_t count;
-    unsigned char *rim; /* facet: not 0 if another touches its inside, or meets its rim other
-                           than in one of its corners or along a side that both have; then also a
-                           bit for each of its sides (lrcsi_intersection_along) */
-    int self; /* a facet meets the inside or a side of another of its own piece; 0 if not asked */
+    unsigned char *rim; /* facet: not 0 if another facet meets it elsewhere than in common corners
+                       and along common sides; then also a bit for each of its sides
+                       (lrcsi_intersection_along) */
+    int self; /* 1: a facet meets the interior or a side of another one of its own piece; 0 if not,
+                 or if pieces are not given */
 } lrcsi_intersections;
 
 /* How many contacts a facet has. */
@@ -33,20 +34,19 @@ static inline uint32_t lrcsi_intersection_of(const lrcsi_intersections *intersec
     return intersections->first[facet + 1] - intersections->first[facet];
 }
 
-/* Does side k of a facet, from its corner k to k + 1, have more than a point in common with a side
-   of another, but not both ends? */
+/* Does side k of a facet, from its corner k to k + 1, overlap a side of another facet along a
+   length, without being the same side? */
 static inline int lrcsi_intersection_along(const lrcsi_intersections *intersections, uint32_t facet,
                                            int k)
 {
     return (intersections->rim[facet] >> (k + 1) & 1) != 0;
 }
 
-/* Finds all of them. Facets marked in `skip` (degenerate, omitted) neither touch nor are touched.
-   `piece`, unless NULL, names the piece of surface that each facet belongs to: then `self` is told
-   also. Inside a side: a corner of one facet on a side of the other, ends excluded, of which no
-   contact in the sense above need come.
+/* Finds all contacts. Facets marked in `skip` (degenerate, omitted) have none. `piece`, unless
+   NULL, names the piece of surface of each facet; then `self` is decided too, which includes a
+   corner of one facet on a side of another, ends excluded: that alone is no contact.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 entries).
-   Work: near linear on ordinary meshes, quadratic where everything overlaps everything. The
+   Work: almost linear on ordinary meshes, quadratic if all facets overlap each other. The
    result stays in the work area, scratch does not; lrcsi_intersection_need bytes serve up to
    `count` entries. */
 size_t lrcsi_intersection_need(uint32_t vertex_count, uint32_t facet_count, size_t count);

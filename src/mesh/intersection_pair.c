@@ -1,28 +1,31 @@
 /* SPDX-License-Identifier: MIT */
-/* Contacts of two facets, by signs of determinants of the given vertices alone: no intersection
-   point is ever computed. First, rounded and with a bound on the error: does a plane separate the
-   two but for corners that they have in common? The plane of either is tried, and one through a
-   side of either along the axis on which the first is seen most broadly. Then they meet in corners
-   of both or along a side of both, if at all. What that leaves is decided exactly.
+/* Contacts of two facets, decided by signs of determinants of the given vertices alone: no
+   intersection point is ever computed. First, in rounded arithmetic with an error bound: does a
+   plane separate the two facets, except for common corners? The planes of both are tried, and the
+   planes through each side parallel to the axis of F. If so, they meet at most in common corners
+   or along a common side. All other pairs are decided exactly.
 
    The exact predicates, for F with corners a_0 a_1 a_2 and T with corners p_0 p_1 p_2:
-   1. Signs of the corners of each against the plane of the other. Where those that are not corners
-      of both are all positive or all negative, again the two meet in what both have.
-   2. All zero: one plane. Seen along an axis on which they are not edge-on, neither meets the
-   inside of the other exactly where the line of a side has the one facet on its one side, the other
-   on its other side or on it (separating axes of convex polygons). If it is a side of F, T meets F
-      on that side at most; if only one of T, F has but one corner on it.
-   3. Else T cuts the plane of F in a segment or a point, whose ends are where lines u w through
-      corners of T cross that plane: u on the plane or across from w, w off the plane. The end X
-      lies on the inner side of a side a b of F exactly where the sign of
+      1. Signs of the corners of each facet relative to the plane of the other. If those of the
+   corners that are not common are all positive or all negative, the two meet at most in what is
+   common.
+   2. All are zero: the facets are coplanar. Seen along an axis along which they are not edge-on,
+      neither meets the interior of the other if and only if the line of some side has one facet on
+      one side and the other facet on the other side or on the line (separating axis theorem). If it
+      is a side of F, T meets F at most on that side; if it is only a side of T, F has at most one
+      corner on it.
+   3. Otherwise T intersects the plane of F in a segment or a point. Its ends lie on lines u w
+      through corners of T, with w off the plane and u on the plane or across it. The end X lies on
+      the inner side of a side a b of F if and only if the sign of
           det(w - u, a - u, b - u) = (w - u) . ((a - X) x (b - X))
-      is that of w against the plane. The segment misses the inside of F exactly if it is all
-      outside of (or on) one side's line, or if F is on one side of the segment's own line
-      (separating axes again); and that line is the cut of the two planes, so there the signs
-      of a_k against the plane of T tell. The other way round the determinants are the same.
-   4. A side of F crosses the plane of T in one point. It is in T where these determinants, of that
-      side and the three of T, are nowhere of opposite signs. Where all ends of the cut of T are
-      outside of one side of F, there is nothing in common at all. */
+      is that of w relative to the plane. The segment misses the interior of F if and only if all of
+      it is outside or on the line of one side, or F is on one side of the segment's own line
+      (separating axis theorem again). That line is the intersection of the two planes, so the
+      second condition is decided by the signs of a_k relative to the plane of T. With F and T
+      exchanged the determinants are the same.
+   4. A side of F crosses the plane of T in one point. The point is in T if no two of the
+      determinants of that side and the three sides of T have opposite signs. If all ends of the
+      segment of T are outside of one side of F, the facets have no point in common. */
 #include "mesh/intersection_pair.h"
 
 #include <math.h>
@@ -36,12 +39,13 @@ static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
    q_i|, each component of n errs by at most 5 u w_k (base/exact.c), a difference x - a by u of
    itself, and the sum of three products by 3 u of its terms; |n_k| <= (1 + 4 u) w_k. Of a turn: 4 u
    of its two products. */
-#define TOUCH_FILTER (10.0 * LRCSI_U)
+#define PAIR_FILTER (10.0 * LRCSI_U)
 
-/* A sign that is not known. */
+/* A sign that rounded arithmetic does not decide. */
 enum { UNSURE = 2 };
 
-/* The axis is another one only where the facet may be edge-on along the first. */
+/* The axis is that of the largest component of the normal, unless the facet may be edge-on along
+   it. */
 void lrcsi_pair_plane(lrcsi_pair_facet *f)
 {
     const double *a = f->x[0];
@@ -59,7 +63,7 @@ void lrcsi_pair_plane(lrcsi_pair_facet *f)
     }
     f->axis = best;
     f->turn = 0;
-    if (fabs(f->normal[best]) > TOUCH_FILTER * f->weight[best]) {
+    if (fabs(f->normal[best]) > PAIR_FILTER * f->weight[best]) {
         f->turn = f->normal[best] > 0.0 ? 1 : -1;
     }
     for (int k = 0; k < 3 && f->turn == 0; k++) {
@@ -73,10 +77,9 @@ static inline int is_corner_of(const lrcsi_pair_facet *f, const double *p)
     return p == f->x[0] || p == f->x[1] || p == f->x[2];
 }
 
-/* ---- proved apart, rounded ---- */
+/* ---- separated, in rounded arithmetic ---- */
 
-/* The side of F's plane on which p is proved to lie; 0 for a corner of F, UNSURE where it is not
-   proved. */
+/* The side of F's plane on which p is proved to lie; 0 for a corner of F; else UNSURE. */
 static inline int rounded_side(const lrcsi_pair_facet *f, const double *p)
 {
     const double *a = f->x[0];
@@ -88,12 +91,13 @@ static inline int rounded_side(const lrcsi_pair_facet *f, const double *p)
     double z = p[2] - a[2];
     double height = (f->normal[0] * x + f->normal[1] * y) + f->normal[2] * z;
     double error =
-        TOUCH_FILTER * ((f->weight[0] * fabs(x) + f->weight[1] * fabs(y)) + f->weight[2] * fabs(z));
+        PAIR_FILTER * ((f->weight[0] * fabs(x) + f->weight[1] * fabs(y)) + f->weight[2] * fabs(z));
     return height > error ? 1 : height < -error ? -1 : UNSURE;
 }
 
-/* Given the sides of T's corners: are those that are not corners of F all strictly on one side, and
-   are there any? Then T meets the plane in corners of F or between them at most. */
+/* Given the sides on which T's corners lie: are those that are not corners of F all strictly on one
+   side, and is there at least one? Then T meets the plane of F at most in common corners and the
+   segment between them. */
 static int plane_separates(const int side[3])
 {
     int above = side[0] == 1 || side[1] == 1 || side[2] == 1;
@@ -102,9 +106,9 @@ static int plane_separates(const int side[3])
     return above != below && !unsure;
 }
 
-/* Seen along an axis along which F turns by `turn`: has the line of a side of F all corners of T
-   proved to be outside, but those that are ends of the side? Then they meet in these or between
-   them at most. */
+/* Seen along an axis along which F has the orientation `turn`: are all corners of T proved to lie
+   outside the line of one side of F, except those that are ends of the side? Then the facets meet
+   at most in these ends and between them. */
 static int line_separates(const lrcsi_pair_facet *f, int turn, const lrcsi_pair_facet *t, int axis)
 {
     const int i = axis == 2 ? 0 : axis + 1;
@@ -118,7 +122,7 @@ static int line_separates(const lrcsi_pair_facet *f, int turn, const lrcsi_pair_
             const double *p = t->x[corner];
             double plus = along[0] * (p[j] - a[j]);
             double minus = along[1] * (p[i] - a[i]);
-            if (p != a && p != b && !(plus - minus < -TOUCH_FILTER * (fabs(plus) + fabs(minus)))) {
+            if (p != a && p != b && !(plus - minus < -PAIR_FILTER * (fabs(plus) + fabs(minus)))) {
                 break;
             }
         }
@@ -140,15 +144,14 @@ static int lines_separate(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
     const double *a = t->x[0];
     double plus = (t->x[1][i] - a[i]) * (t->x[2][j] - a[j]);
     double minus = (t->x[1][j] - a[j]) * (t->x[2][i] - a[i]);
-    double error = TOUCH_FILTER * (fabs(plus) + fabs(minus));
+    double error = PAIR_FILTER * (fabs(plus) + fabs(minus));
     int turn = (plus - minus > error) - (plus - minus < -error);
     return turn != 0 && line_separates(t, turn, f, f->axis);
 }
 
 /* ---- exact ---- */
 
-/* Do points, all on the line a b, or what is between them, meet the open segment a b? Seen along
-   the axis. */
+/* Does the convex hull of points on the line a b meet the open segment a b? Seen along the axis. */
 static int line_covers_segment(const double *a, const double *b, const double *const *on, int count,
                                const double *axis)
 {
@@ -184,7 +187,7 @@ static int segment_meets_flat(const lrcsi_pair_facet *t, const double *a, const 
     if (!(left && right)) {
         return line_covers_segment(a, b, on, count, axis);
     }
-    /* The line meets the inside of T: so does the segment, unless a side has all of it outside. */
+    /* The line meets the interior of T; so does the segment, unless all of it is outside a side. */
     for (int k = 0; k < 3; k++) {
         const double *p = t->x[k];
         const double *q = t->x[(k + 1) % 3];
@@ -196,8 +199,8 @@ static int segment_meets_flat(const lrcsi_pair_facet *t, const double *a, const 
     return 1;
 }
 
-/* Step 1: makes what is unsure of the sides of F's plane exact. Returned: whether a corner of T
-   that is not one of F lies on the plane. */
+/* Step 1: decides exactly on which side of F's plane the corners of T lie that are UNSURE.
+   Returned: whether a corner of T that is not one of F lies on the plane. */
 static int exact_sides(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, int side[3])
 {
     int on = 0;
@@ -210,8 +213,8 @@ static int exact_sides(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, int
     return on;
 }
 
-/* Step 2: the first side of f (which turns by `turn`) whose line has all of g outside or on it,
-   seen along the axis; -1 for none. */
+/* Step 2: the first side of f, which has the orientation `turn` seen along the axis, whose line has
+   all of g outside or on it; -1 if there is none. */
 static int separating_side(const lrcsi_pair_facet *f, int turn, const lrcsi_pair_facet *g,
                            const double *axis)
 {
@@ -229,7 +232,7 @@ static int separating_side(const lrcsi_pair_facet *f, int turn, const lrcsi_pair
     return -1;
 }
 
-/* Does T meet side k of F, which is in its plane, its ends excluded, other than by having it too?
+/* Does T, in the plane of F, meet side k of F elsewhere than in its ends, without having that side?
  */
 static int flat_side_is_met(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, int k)
 {
@@ -255,17 +258,17 @@ static void meet_flat(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t,
     result->rim[1] = of_t >= 0 && flat_side_is_met(t, f, of_t);
 }
 
-/* Two facets, f[0] and f[1], whose planes cut: of[i][k], where corner k of f[i] lies against the
-   plane of the other; cross[j][k], the sign of the determinant of side j of f[0] and side k of
-   f[1], or UNSURE where it has not been asked for. */
-typedef struct touch_cross {
+/* Two facets f[0] and f[1] whose planes intersect. of[i][k]: the side of the other's plane on which
+   corner k of f[i] lies; cross[j][k]: the sign of the determinant of side j of f[0] and side k of
+   f[1], UNSURE until it is computed. */
+typedef struct pair_crossing {
     const lrcsi_pair_facet *f[2];
     const int *of[2];
     int cross[3][3];
-} touch_cross;
+} pair_crossing;
 
-/* The determinant of side j of f[i] and side k of the other: the same either way round. */
-static int cross_sign(touch_cross *c, int i, int j, int k)
+/* The sign of the determinant of side j of f[i] and side k of the other. */
+static int cross_sign(pair_crossing *c, int i, int j, int k)
 {
     int *sign = i == 0 ? &c->cross[j][k] : &c->cross[k][j];
     if (*sign == UNSURE) {
@@ -278,16 +281,16 @@ static int cross_sign(touch_cross *c, int i, int j, int k)
     return *sign;
 }
 
-/* Step 3. Where f[i] is cut by the plane of the other: the one or two ends of that, and how they
-   lie to each side of the other. Returned: 1 if they have an end inside of every side, and so
-   the cut meets the open inside of the other if the other's corners are on either side of the plane
-   of f[i], or the cut is but a point; 0 if not; -1 if one side has all strictly outside. */
-static int cut_meets(touch_cross *c, int i)
+/* Step 3. The ends of the segment in which f[i] intersects the plane of the other, and on which
+   side of each side of the other they lie. Returned: 1 if the segment meets the interior of the
+   other (each side has an end strictly inside, and the other has corners on both sides of the plane
+   of f[i], or the segment is a point); 0 if not; -1 if one side has all ends strictly outside. */
+static int cut_meets(pair_crossing *c, int i)
 {
     const int *side = c->of[i];
     const int *other = c->of[!i];
-    int along[2]; /* the sides of f[i] that lead to its ends, and which way they go through the
-                     plane */
+    int along[2]; /* the sides of f[i] that contain its ends, and the sense in which they cross
+                     the plane */
     int up[2];
     int ends = 0;
     for (int k = 0; k < 3; k++) {
@@ -320,8 +323,9 @@ static int cut_meets(touch_cross *c, int i)
     return inside && (ends == 1 || (above && below));
 }
 
-/* Step 4: does f[i] meet side k of the other, its ends excluded, other than by having it too? */
-static int side_is_met(touch_cross *c, int i, int k)
+/* Step 4: does f[i] meet side k of the other elsewhere than in its ends, without having that side?
+ */
+static int side_is_met(pair_crossing *c, int i, int k)
 {
     int at_a = c->of[!i][k];
     int at_b = c->of[!i][(k + 1) % 3];
@@ -339,7 +343,7 @@ static int side_is_met(touch_cross *c, int i, int k)
 }
 
 /* Steps 3 and 4. */
-static void meet_across(touch_cross *c, lrcsi_pair_result *result)
+static void meet_across(pair_crossing *c, lrcsi_pair_result *result)
 {
     int meets[2];
     for (int i = 0; i < 2; i++) {
@@ -388,7 +392,7 @@ int lrcsi_pair_meet(const lrcsi_pair_facet *f, lrcsi_pair_facet *t, lrcsi_pair_r
         if (!on_t && plane_separates(of_f)) {
             return 0;
         }
-        touch_cross c = {
+        pair_crossing c = {
             {t, f},
             {of_t, of_f},
             {{UNSURE, UNSURE, UNSURE}, {UNSURE, UNSURE, UNSURE}, {UNSURE, UNSURE, UNSURE}}};
@@ -434,7 +438,7 @@ static int is_inside_segment(const double *a, const double *b, const double *p)
 }
 
 /* Does a corner of t lie inside a side of f? */
-static int touches_side(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
+static int corner_on_side(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
 {
     for (int i = 0; i < 3; i++) {
         if (is_corner_of(f, t->x[i])) {
@@ -451,5 +455,5 @@ static int touches_side(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
 
 int lrcsi_pair_on_side(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
 {
-    return touches_side(f, t) || touches_side(t, f);
+    return corner_on_side(f, t) || corner_on_side(t, f);
 }

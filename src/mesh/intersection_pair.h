@@ -7,22 +7,22 @@
 
 enum lrcsi_intersection_kind {
     LRCSI_INTERSECTION_NONE = -1,   /* no contact */
-    LRCSI_INTERSECTION_CROSS = 0,   /* not in one plane: `other` meets the open inside of `facet` */
-    LRCSI_INTERSECTION_COPLANAR = 1 /* exactly in one plane, and their open insides overlap */
+    LRCSI_INTERSECTION_CROSS = 0,   /* not in one plane: `other` meets the interior of `facet` */
+    LRCSI_INTERSECTION_COPLANAR = 1 /* exactly in one plane, and their interiors overlap */
 };
 
-/* A facet's corners: two facets have a corner in common where the pointers are the same. Then its
-   plane, which lrcsi_pair_plane adds. */
+/* A facet's corners (two facets have a corner in common if the pointers are equal), and its plane,
+   which lrcsi_pair_plane computes. */
 typedef struct lrcsi_pair_facet {
     const double *x[3];
-    double normal[3], weight[3]; /* computed, and what bounds the error */
-    int axis;                    /* along which it is seen most broadly */
-    int turn;                    /* how it turns there, exactly; 0 if it is degenerate */
+    double normal[3], weight[3]; /* computed; scale of its error */
+    int axis;                    /* of the largest component of the normal */
+    int turn;                    /* exact orientation seen along that axis; 0 if degenerate */
 } lrcsi_pair_facet;
 
-/* How each of a pair meets the inside of the other (a lrcsi_intersection_kind), and whether it does
-   or meets the other's rim other than in corners of the other or along a side that both have: first
-   what T does to F, then what F does to T. */
+/* How the facets F and T meet: index 0 is about F, which T meets, index 1 about T, which F meets.
+   kind: a lrcsi_intersection_kind. rim: 1 if the facet is met elsewhere than in its corners and
+   along sides that both have. */
 typedef struct lrcsi_pair_result {
     int kind[2];
     int rim[2];
@@ -30,8 +30,8 @@ typedef struct lrcsi_pair_result {
 
 void lrcsi_pair_plane(lrcsi_pair_facet *f);
 
-/* F has its plane; that of T is added where it is needed. Neither may be degenerate. Returns 0 if
- * they meet in nothing but corners and sides of both: *result then is that. */
+/* Given: F with its plane; that of T is computed if it is needed. Neither may be degenerate.
+   Returns 0 if they meet at most in common corners and sides; *result then says so. */
 int lrcsi_pair_meet(const lrcsi_pair_facet *f, lrcsi_pair_facet *t, lrcsi_pair_result *result);
 
 /* Does a corner of either lie inside a side of the other? */

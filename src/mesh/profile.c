@@ -48,11 +48,11 @@
 
 #include <math.h>
 
-#define HALF_PI 1.57079632679489661923
-#define UNIT    1.1102230246251565e-16 /* 2^-53 */
+#include "base/constant.h"
+
 /* D is 1 minus a quotient of sums of positive products: 20 roundings or functions good to 2 units
    reach it, and so A/A' - 1. */
-#define SLACK (64.0 * UNIT)
+#define SLACK (64.0 * LRCSI_U)
 /* A paraboloid's slope is clamped to these limits. It exceeds them only if the radius or the length
    is below 1e-300 of the other: a flatter one is flat, and a narrower one is indistinguishable from
    a line. */
@@ -140,8 +140,8 @@ static profile_strip strip_round(const lrcsi_profile *profile, uint32_t i)
                            sinc * outward,
                            cos(theta) * cos(0.5 * d),
                            1.0,
-                           HALF_PI - profile_polar(profile, i),
-                           HALF_PI - profile_polar(profile, i + 1)};
+                           (0.5 * LRCSI_PI) - profile_polar(profile, i),
+                           (0.5 * LRCSI_PI) - profile_polar(profile, i + 1)};
 }
 
 /* y = tan of the angle from the top = slope rho/R, y1 below, y0 = t y1 above. In units of
@@ -187,7 +187,7 @@ static double profile_blur(const lrcsi_profile *profile, uint32_t i)
     double above = lrcsi_profile_radius(profile, i + 1);
     double kappa = profile->swell * cos(profile->half);
     double slant = hypot(kappa * (below - above), lrcsi_profile_rise(profile, i));
-    double e = (16.0 + (double)profile->strips) * UNIT;
+    double e = (16.0 + (double)profile->strips) * LRCSI_U;
     double along = 1.0 / sin(profile->half);
     double narrow = above > 0.0 ? fmin(below, above) : below;
     double blur = e * along;
@@ -232,7 +232,7 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
 
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)
 {
-    double h = 2.0 * HALF_PI / (double)divisions->around;
+    double h = 2.0 * (0.5 * LRCSI_PI) / (double)divisions->around;
     lrcsi_profile profile = {.kind = shape->kind,
                              .base = shape->radius,
                              .around = divisions->around,
@@ -250,9 +250,10 @@ lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *
         profile.top = shape->radius;
         profile.height = shape->length;
     } else if (shape->kind == LRCS_SHAPE_CONE) {
-        profile.height = shape->half_angle_deg > 0.0
-                             ? shape->radius / tan(shape->half_angle_deg * (HALF_PI / 90.0))
-                             : shape->length;
+        profile.height =
+            shape->half_angle_deg > 0.0
+                ? shape->radius / tan(shape->half_angle_deg * ((0.5 * LRCSI_PI) / 90.0))
+                : shape->length;
     } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
         profile.height = shape->length;
         double slope = shape->radius > 0.0 ? 2.0 * (shape->length / shape->radius) : 0.0;
@@ -260,7 +261,7 @@ lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *
         profile.step = atan(profile.slope) / rings;
     } else {
         profile.height = shape->radius;
-        profile.step = HALF_PI / rings;
+        profile.step = (0.5 * LRCSI_PI) / rings;
     }
     return profile;
 }
@@ -316,10 +317,11 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
 lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
 {
     if (!(blur <= BLUR_MOST)) {
-        return (lrcs_curvature){2.0 * HALF_PI, USELESS, USELESS, sqrt(USELESS)};
+        return (lrcs_curvature){2.0 * (0.5 * LRCSI_PI), USELESS, USELESS, sqrt(USELESS)};
     }
-    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * HALF_PI), c->area_error + 2.0 * blur,
-                            c->bias + 2.0 * blur, c->spread + 2.0 * blur};
+    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * (0.5 * LRCSI_PI)),
+                            c->area_error + 2.0 * blur, c->bias + 2.0 * blur,
+                            c->spread + 2.0 * blur};
 }
 
 /* A linear map takes normals n to N n / |N n|, N being its inverse transpose, and areas dA to
@@ -341,7 +343,7 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
     double h = 0.5 * (k - 1.0) * (k + 1.0);
     double G = g + h * c->turn;
     double square = c->spread * c->spread;
-    double turn = fmin(k * c->turn, 2.0 * HALF_PI);
+    double turn = fmin(k * c->turn, 2.0 * (0.5 * LRCSI_PI));
     double outward = 1.0 + SLACK;
     if (!(G * c->turn <= 1.0)) {
         double area = (1.0 + c->area_error) * k * outward;
@@ -438,5 +440,5 @@ double lrcsi_profile_reach(const lrcsi_profile *profile)
         most = fmax(most, strip_reach(profile, i, fmax(before, off)));
     }
     double size = fmax(profile->base, profile->top) + profile->height;
-    return most * REACH_MARGIN + (32.0 + 2.0 * (double)profile->strips) * UNIT * size;
+    return most * REACH_MARGIN + (32.0 + 2.0 * (double)profile->strips) * LRCSI_U * size;
 }

@@ -17,10 +17,10 @@
    one (4). If not, it is k + 1 from the spoke that is a start only to the one that is an end only
    and k beyond, and k = 0 (4). So the insides of sectors do not overlap. Nor do two spokes
    coincide, seen against m: just before that ray there would be two sectors if both are ends, just
-   after it if both are starts; and a lone start in one ray with the lone end would leave no
+   after it if both are starts; and the only start and the only end in one ray would leave no
    direction free. So if points of two facets coincide, seen against m, they are v or lie on one
-   spoke that bounds both sectors. m is parallel to neither facet (1): the points are the same where
-   they lie on that spoke, along which both facets have the same side. QED
+   spoke that bounds both sectors. m is parallel to neither facet (1), so the points are equal only
+   on that spoke, along which both facets have the same side. QED
 
    4 is decided with a line through v: g = m x w for some w. A sector crosses the ray along w, seen
    against m, if it starts with g . (b - v) < 0 and ends with g . (c - v) > 0, and the opposite ray
@@ -43,6 +43,7 @@
 
 #include "base/constant.h"
 #include "base/exact.h"
+#include "base/vec3.h"
 #include "base/work.h"
 
 /* 10 u */
@@ -65,16 +66,10 @@ typedef struct vertex_ring {
     unsigned char refused;  /* a condition is not met, or not proved */
 } vertex_ring;
 
-static void count_one_more(unsigned char *count)
+/* A count that stops at 2, and one more if `more` is 1; without a branch. */
+static unsigned char one_more(unsigned char count, int more)
 {
-    *count = (unsigned char)(*count < 2 ? *count + 1 : 2);
-}
-
-static void difference(const double *a, const double *b, double d[3])
-{
-    d[0] = b[0] - a[0];
-    d[1] = b[1] - a[1];
-    d[2] = b[2] - a[2];
+    return (unsigned char)(count + (more & (count < 2)));
 }
 
 /* Each facet's normal, its largest component brought to 1, is added to m at its corners. */
@@ -88,8 +83,8 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
         const uint32_t *c = facet[f].corner;
         double p[3];
         double q[3];
-        difference(vertex[c[0]].x, vertex[c[1]].x, p);
-        difference(vertex[c[0]].x, vertex[c[2]].x, q);
+        lrcsi_vec3_between(vertex[c[0]].x, vertex[c[1]].x, p);
+        lrcsi_vec3_between(vertex[c[0]].x, vertex[c[2]].x, q);
         double x = p[1] * q[2] - p[2] * q[1];
         double y = p[2] * q[0] - p[0] * q[2];
         double z = p[0] * q[1] - p[1] * q[0];
@@ -119,8 +114,9 @@ static void round_means(vertex_ring *rings, uint32_t vertex_count)
         double most = x > y ? x : y;
         most = z > most ? z : most;
         r->refused = !(most > 0.0);
-        for (int k = 0; k < 3 && most > 0.0; k++) {
-            r->m[k] = (float)(((double)r->m[k] / most * RING_SCALE + whole) - whole);
+        double scale = most > 0.0 ? RING_SCALE / most : 0.0;
+        for (int k = 0; k < 3; k++) {
+            r->m[k] = (float)(((double)r->m[k] * scale + whole) - whole);
         }
     }
 }
@@ -132,6 +128,10 @@ static void match_spokes(const lrcsi_topology *topology, const unsigned char *sk
     for (uint32_t e = 0; e < topology->edge_count; e++) {
         const lrcsi_edge *edge = &topology->edge[e];
         const lrcsi_edge_use *use = topology->use + edge->first_use;
+        if (edge->uses == 2 && use[0].forward != use[1].forward &&
+            !(skip && (skip[use[0].facet] || skip[use[1].facet]))) {
+            continue; /* most edges */
+        }
         uint32_t uses[2] = {0, 0}; /* from high to low, from low to high */
         for (uint32_t i = 0; i < edge->uses; i++) {
             uses[use[i].forward] += !skip || !skip[use[i].facet];
@@ -144,7 +144,7 @@ static void match_spokes(const lrcsi_topology *topology, const unsigned char *sk
             uint32_t to = uses[1] ? edge->high : edge->low;
             rings[from].start = to;
             rings[to].end = from;
-            count_one_more(&rings[from].open);
+            rings[from].open = one_more(rings[from].open, 1);
         }
     }
 }
@@ -166,9 +166,9 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
         }
         const uint32_t *c = facet[f].corner;
         double side[3][3]; /* from each corner to the next */
-        difference(vertex[c[0]].x, vertex[c[1]].x, side[0]);
-        difference(vertex[c[1]].x, vertex[c[2]].x, side[1]);
-        difference(vertex[c[2]].x, vertex[c[0]].x, side[2]);
+        lrcsi_vec3_between(vertex[c[0]].x, vertex[c[1]].x, side[0]);
+        lrcsi_vec3_between(vertex[c[1]].x, vertex[c[2]].x, side[1]);
+        lrcsi_vec3_between(vertex[c[2]].x, vertex[c[0]].x, side[2]);
         const double *p = side[0];
         const double *q = side[2]; /* turned round: the normal is q x p */
         const double plus[3] = {q[1] * p[2], q[2] * p[0], q[0] * p[1]};
@@ -193,14 +193,11 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
             double start =
                 (g[0] * side[corner][0] + g[1] * side[corner][1]) + g[2] * side[corner][2];
             double end = -((g[0] * side[last][0] + g[1] * side[last][1]) + g[2] * side[last][2]);
-            if (!(turn > turn_error && fabs(start) > line_error[corner] &&
-                  fabs(end) > line_error[last])) {
-                r->refused = 1;
-            } else if (start < 0.0 && end > 0.0) {
-                count_one_more(&r->up);
-            } else if (start > 0.0 && end < 0.0) {
-                count_one_more(&r->down);
-            }
+            int sure = (turn > turn_error) & (fabs(start) > line_error[corner]) &
+                       (fabs(end) > line_error[last]);
+            r->refused |= (unsigned char)!sure;
+            r->up = one_more(r->up, (start < 0.0) & (end > 0.0));
+            r->down = one_more(r->down, (start > 0.0) & (end < 0.0));
         }
     }
 }

@@ -5,9 +5,11 @@
 
 #include <math.h>
 
-/* Corners of coordinates below 1 come out within some 2^-48, which changes areas by no more than
-   that times the perimeter: for a triangle lower than this no share of the area is certain; for
-   others it is certain to within the margin, 3 2^-48 / (SLICE_LOW / 2). */
+#include "base/vec3.h"
+
+/* Corners, with coordinates below 1, have errors of about 2^-48, which change areas by at most that
+   times the perimeter. The share of a triangle of less altitude than SLICE_LOW is unknown; that of
+   others has at most the error of the margin, 3 2^-48 / (SLICE_LOW / 2). */
 #define SLICE_LOW    1e-7
 #define SLICE_MARGIN (1.0 + 1e-6)
 /* Rounding of the two ends of an extent. */
@@ -60,15 +62,15 @@ static double slice_area(const lrcsi_slice *slice)
     for (int i = 1; i + 1 < slice->count; i++) {
         double p[3];
         double q[3];
+        double n[3];
+        lrcsi_vec3_between(slice->x[0], slice->x[i], p);
+        lrcsi_vec3_between(slice->x[0], slice->x[i + 1], q);
+        lrcsi_vec3_cross(p, q, n);
         for (int k = 0; k < 3; k++) {
-            p[k] = slice->x[i][k] - slice->x[0][k];
-            q[k] = slice->x[i + 1][k] - slice->x[0][k];
-        }
-        for (int k = 0; k < 3; k++) {
-            sum[k] += p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
+            sum[k] += n[k];
         }
     }
-    return 0.5 * sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    return 0.5 * sqrt(lrcsi_vec3_dot(sum, sum));
 }
 
 double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest)

@@ -7,11 +7,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/dd.h"
 #include "base/work.h"
 #include "mesh/profile.h"
 
-#define TURN_2PI    6.28318530717958647693
 #define SQRT_HALF   0.70710678118654752440
 #define AROUND_MOST (1u << 24)
 #define ALONG_MOST  (1u << 24)
@@ -64,7 +64,7 @@ static void turn_fraction(uint32_t k, uint32_t n, double *c, double *s)
     uint32_t quarter = n / 4;
     uint32_t rest = k % quarter;
     uint32_t fold = 2 * rest > quarter ? quarter - rest : rest;
-    double angle = TURN_2PI * (double)fold / (double)n;
+    double angle = (2.0 * LRCSI_PI) * (double)fold / (double)n;
     double x = 2 * fold == quarter ? SQRT_HALF : cos(angle);
     double y = 2 * fold == quarter ? SQRT_HALF : sin(angle);
     double ahead = 2 * rest > quarter ? y : x;
@@ -193,7 +193,7 @@ static int list_rings(uint32_t around, uint32_t corners[RINGS_MOST], double radi
     double r = 1.0;
     while (around >= RING_LEAST && rings < RINGS_MOST) {
         around = 4 * ((around + 16) / 32);
-        r *= 1.0 - 0.5 * TURN_2PI / around;
+        r *= 1.0 - LRCSI_PI / around;
         corners[rings] = around;
         radius[rings++] = r;
     }

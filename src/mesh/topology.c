@@ -22,6 +22,9 @@ enum { SIDES = 3 };
    1.5. */
 #define WELD_PROBES 8u
 
+/* Points whose slots are read at once. */
+enum { WELD_AHEAD = 16 };
+
 /* --- points ----------------------------------------------------------------------------------- */
 
 static uint64_t coordinate_key(double x)
@@ -46,26 +49,36 @@ static size_t weld_scratch(uint32_t vertex_count)
 }
 
 /* Represents each point by the first one at its position; the slots hold these representatives.
-   Returns 0 if the allowed number of probes is exceeded. */
+   Returns 0 if the allowed number of probes is exceeded. Slots are read for several points at once,
+   so that waiting for one overlaps waiting for the others. */
 static int weld_hashed(const lrcs_point *vertex, uint32_t count, uint32_t *slot, size_t slots,
                        uint32_t *weld)
 {
     uint64_t probes = (uint64_t)WELD_PROBES * count + 64;
     memset(slot, 0xff, slots * sizeof *slot); /* LRCS_NONE */
-    for (uint32_t i = 0; i < count; i++) {
-        uint64_t key = 0;
-        for (int k = 0; k < 3; k++) {
-            key = lrcsi_store_mix(key + coordinate_key(vertex[i].x[k]));
-        }
-        size_t at = (size_t)key & (slots - 1);
-        while (slot[at] != LRCS_NONE && !same_position(&vertex[slot[at]], &vertex[i])) {
-            at = (at + 1) & (slots - 1);
-            if (probes-- == 0) {
-                return 0;
+    for (uint32_t first = 0; first < count; first += WELD_AHEAD) {
+        uint32_t batch = count - first < WELD_AHEAD ? count - first : WELD_AHEAD;
+        size_t home[WELD_AHEAD];
+        for (uint32_t j = 0; j < batch; j++) {
+            uint64_t key = 0;
+            for (int k = 0; k < 3; k++) {
+                key = lrcsi_store_mix(key + coordinate_key(vertex[first + j].x[k]));
             }
+            home[j] = (size_t)key & (slots - 1);
+            weld[first + j] = slot[home[j]]; /* overwritten below */
         }
-        slot[at] = slot[at] == LRCS_NONE ? i : slot[at];
-        weld[i] = slot[at];
+        for (uint32_t j = 0; j < batch; j++) {
+            uint32_t i = first + j;
+            size_t at = home[j];
+            while (slot[at] != LRCS_NONE && !same_position(&vertex[slot[at]], &vertex[i])) {
+                at = (at + 1) & (slots - 1);
+                if (probes-- == 0) {
+                    return 0;
+                }
+            }
+            slot[at] = slot[at] == LRCS_NONE ? i : slot[at];
+            weld[i] = slot[at];
+        }
     }
     return 1;
 }
@@ -146,7 +159,7 @@ static void sink_use(lrcsi_edge_use *use, size_t i, size_t n)
     use[i] = sinking;
 }
 
-/* Insertion sort if there are few, as at most vertices; else heap sort. */
+/* Insertion sort if there are few, as at most vertices; otherwise heap sort. */
 static void sort_uses(lrcsi_edge_use *use, size_t n)
 {
     if (n > 32) {

@@ -1,31 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes over facets in the order of a Morton curve (Morton 1966), eight by eight, in as many levels
-   as it takes. Where the curve runs decides speed alone.
+/* Facets are sorted along a Morton curve (Morton 1966); boxes of eight consecutive ones, then of
+   eight blocks, and so on. The order affects only speed.
 
-   There are about as many cells as facets on a surface. Facets whose centres share a cell all the
-   same, because a few others are far away, are sorted again along a curve through their own box,
-   and so on: a scale of its own for every cluster. A facet with an apex has its place there, among
-   the others of the apex by its centre. Each time the box shrinks at least 2^MORTON_LEAST - 1
-   times; differences of coordinates lie between 2^1 and 2^-352 (base/exact.c): 45 times by apexes
-   and 45 by centres at most. What has one centre stays together.
+      The curve has about as many cells on a surface as there are facets. If many centres
+   nevertheless share a cell, because a few others are far away, these facets are sorted again along
+   a curve through their own box, and so on: every cluster gets its own scale. A facet with an apex
+   is sorted by the apex first, and among the facets of the apex by its centre. Each time the box
+   shrinks by at least a factor of 2^MORTON_LEAST - 1, and differences of coordinates lie between
+   2^1 and 2^-352 (base/exact.c): at most 45 times by apexes and 45 by centres. Facets with the same
+   centre stay together.
 
    Slabs. A leaf A and a block B are compared along the direction d of A. For x in B, with
    e = d - d_B,
        d . x = d_B . x + e . x,
-   the first bounded by B's own slab, the second by B's box. If B's mean normal is that of A, e is
-   all but 0, and thin layers are distinguished however wide they are. The slab of either is
-   compared with the box of the other too. Errors: |d_k|, |d_Bk| <= 1; let W be the sum of the
-   boxes' largest |x_k|. Slabs are sums of three products, within 4 u W; e is off by u |e_k| <= 2 u,
-   its products and four sums round by less than 20 u W in all: 64 u W covers both sides.
+   the first bounded by B's own slab, the second by B's box. If the mean normals of A and B are
+   almost equal, e is almost 0, and thin layers are separated however wide they are. The slab of
+   each is also compared with the box of the other. Errors: |d_k|, |d_Bk| <= 1; let W be the sum of
+   the boxes' largest |x_k|. Slabs are sums of three products, within 4 u W; e is off by u |e_k| <=
+   2 u, its products and four sums round by less than 20 u W in all: 64 u W covers both sides.
 
    Cones. Let v be a corner of every facet in two blocks, and let the directions from v to their
    other corners lie within alpha of an axis a in the one, within beta of b in the other, both less
    than 90 degrees. A facet is, as seen from v, an arc between two such directions: within alpha
-   too, for caps that small are convex. So if a and b are more than alpha + beta apart, that is if
-   a . b < cos(alpha + beta) = cos(alpha) cos(beta) - sin(alpha) sin(beta), facets of one and of the
-   other meet in v alone. Errors, u = 2^-53: axes and directions are off by 6 u, so that cosines
-   computed of them are by 16 u; CONE_MARGIN is 512 u, and is given away for each. A cosine kept
-   counts as exact: the sine, the root of (1 - c) (1 + c), is then good to 3 u. */
+   too, for caps that small are convex. So if the angle between a and b exceeds alpha + beta, that
+   is if a . b < cos(alpha + beta) = cos(alpha) cos(beta) - sin(alpha) sin(beta), facets of one
+   block meet those of the other in v only. Errors, u = 2^-53: axes and directions are off by 6 u,
+   so that cosines computed from them are off by 16 u; CONE_MARGIN, 512 u, covers each. A stored
+   cosine counts as exact: the sine, the root of (1 - c) (1 + c), then has an error of 3 u. */
 #include "mesh/tree.h"
 
 #include <math.h>
@@ -36,6 +37,7 @@
 #include "base/length.h"
 #include "base/range.h"
 #include "base/sort.h"
+#include "base/vec3.h"
 #include "base/work.h"
 
 enum { TREE_LANES = LRCSI_TREE_LANES };
@@ -43,7 +45,7 @@ enum { TREE_LANES = LRCSI_TREE_LANES };
 /* Bits of a cell's number along each axis. */
 enum { MORTON_LEAST = 8, MORTON_MOST = 21 };
 
-/* More facets than this in one cell are sorted again; curves one within another, at most. */
+/* More facets than this in one cell are sorted again; the largest number of nested curves. */
 enum { CELL_FACETS = 64, SCALES = 96 };
 
 /* See above: 64 u. */
@@ -80,7 +82,7 @@ lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet)
 
 /* ---- the order ---- */
 
-/* Two zero bits before each of the lowest 21. */
+/* The lowest 21 bits, with two zero bits inserted before each. */
 static uint64_t spread_bits(uint64_t x)
 {
     x = (x | x << 32) & UINT64_C(0x001f00000000ffff);
@@ -151,7 +153,7 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t f
     return 1;
 }
 
-/* Orders all places: along one curve, then along one more wherever many share a cell or an apex. */
+/* Sorts all places along one curve, then along another one for all that share a cell or an apex. */
 static void sort_places(const tree_sort *s, uint32_t count)
 {
     uint32_t end[SCALES] = {count};
@@ -183,7 +185,7 @@ static uint32_t blocks_for(uint32_t count)
     return count / TREE_LANES + (count % TREE_LANES != 0);
 }
 
-/* Takes room for a tree over tree->count facets. */
+/* Allocates a tree over tree->count facets. */
 static int take_levels(lrcs_work *work, lrcsi_tree *tree)
 {
     uint32_t below = tree->count;
@@ -322,8 +324,8 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
 
 /* ---- slabs ---- */
 
-/* Adds to a lane's direction the normal of a facet, its largest component brought to 1, turned to
-   the direction's own side. */
+/* Adds to a direction the normal of a facet or its opposite, whichever is on the direction's side,
+   scaled so that the largest component is 1. */
 static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double direction[3])
 {
     const double *a = vertex[facet->corner[0]].x;
@@ -344,8 +346,8 @@ static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double
     }
 }
 
-/* The direction of the slab of a block: the mean of its facets', or above level 0 of the slabs
-   below it, turned to one side; of length 1, or 0 if there is none. */
+/* The direction of a block's slab: the mean of its facets' normals, or above level 0 of the
+   directions below it, all on one side; of length 1, or 0 if there is none. */
 static void mean_direction(const lrcs_point *vertex, const lrcs_facet *facet,
                            const lrcsi_tree *tree, int level, uint32_t b, double d[3])
 {
@@ -359,13 +361,13 @@ static void mean_direction(const lrcs_point *vertex, const lrcs_facet *facet,
             const lrcsi_tree_slabs *below = &tree->slabs[level][b];
             const double n[3] = {below->direction[0][i], below->direction[1][i],
                                  below->direction[2][i]};
-            double sign = n[0] * d[0] + n[1] * d[1] + n[2] * d[2] < 0.0 ? -1.0 : 1.0;
+            double sign = lrcsi_vec3_dot(n, d) < 0.0 ? -1.0 : 1.0;
             for (int k = 0; k < 3; k++) {
                 d[k] += sign * n[k];
             }
         }
     }
-    double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double size = sqrt(lrcsi_vec3_dot(d, d));
     int sign = d[0] + d[1] + d[2] < 0.0 ? -1 : 1; /* layers of either winding have one direction */
     for (int k = 0; k < 3; k++) {
         d[k] = size > 0.0 ? sign * fmax(-1.0, fmin(1.0, d[k] / size)) : 0.0;
@@ -389,7 +391,7 @@ void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lr
                 const uint32_t *corner = facet[tree->order[i]].corner;
                 for (int c = 0; c < 3; c++) {
                     const double *x = vertex[corner[c]].x;
-                    double place = d[0] * x[0] + d[1] * x[1] + d[2] * x[2];
+                    double place = lrcsi_vec3_dot(d, x);
                     low = place < low ? place : low;
                     high = place > high ? place : high;
                 }
@@ -405,7 +407,8 @@ void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lr
     tree->has_slabs = 1;
 }
 
-/* What is within a slab and a box, along a direction that differs by e from the slab's. */
+/* Extends a slab by the range of e . x over a box: bounds along a direction that differs by e from
+   the slab's. */
 static void slab_range(const lrcsi_box *box, const double e[3], double *low, double *high)
 {
     for (int k = 0; k < 3; k++) {
@@ -416,8 +419,8 @@ static void slab_range(const lrcsi_box *box, const double e[3], double *low, dou
     }
 }
 
-/* Is lane `lane` of a block proved to lie apart from a leaf: by both slabs, along the leaf's
-   direction, or by the slab of either and the box of the other? */
+/* Is a lane of a block proved to be disjoint from a leaf: by both slabs, along the leaf's
+   direction, or by the slab of one and the box of the other? */
 static int slab_is_apart(const lrcsi_tree *tree, uint32_t leaf, int level, uint32_t b,
                          uint32_t lane)
 {
@@ -448,7 +451,7 @@ static int slab_is_apart(const lrcsi_tree *tree, uint32_t leaf, int level, uint3
            high[2] + error < slabs->low[lane];
 }
 
-/* The lanes of a mask that slabs do not prove to lie apart from the walk's leaf. */
+/* The lanes of a mask that slabs do not prove to be disjoint from the leaf. */
 static unsigned narrowed(lrcsi_tree_walk *w, int level, unsigned mask)
 {
     unsigned left = mask;
@@ -464,12 +467,7 @@ static unsigned narrowed(lrcsi_tree_walk *w, int level, unsigned mask)
 
 /* ---- cones ---- */
 
-static double dot_product(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* To length 1; 0 if there is no direction. */
+/* Scales to length 1; returns 0 if the length is 0. */
 static int normalise(double v[3])
 {
     double size = lrcsi_length(v);
@@ -516,7 +514,7 @@ static lrcsi_tree_cone leaf_cone(const lrcs_point *vertex, const lrcs_facet *fac
     int found = normalise(cone.axis);
     for (uint32_t i = 0; i < count; i++) {
         for (int n = 0; n < 2; n++) {
-            cone.cosine = fmin(cone.cosine, dot_product(cone.axis, direction[i][n]));
+            cone.cosine = fmin(cone.cosine, lrcsi_vec3_dot(cone.axis, direction[i][n]));
         }
     }
     cone.cosine = found ? cone.cosine - CONE_MARGIN : -1.0;
@@ -543,7 +541,7 @@ static lrcsi_tree_cone block_cone(const lrcsi_tree *tree, int level, uint32_t b)
     }
     int found = normalise(cone.axis);
     for (uint32_t i = 0; i < count; i++) {
-        double c = fmin(1.0, dot_product(cone.axis, below[i].axis)) - CONE_MARGIN;
+        double c = fmin(1.0, lrcsi_vec3_dot(cone.axis, below[i].axis)) - CONE_MARGIN;
         double all = -1.0;
         if (c > 0.0 && below[i].cosine > 0.0) {
             all = c * below[i].cosine - sqrt((1.0 - c) * (1.0 + c)) * cone_sine(&below[i]);
@@ -572,7 +570,7 @@ void lrcsi_tree_fill_cones(const lrcs_point *vertex, const lrcs_facet *facet,
 static int cones_are_apart(const lrcsi_tree_cone *a, const lrcsi_tree_cone *b)
 {
     return a->cosine > 0.0 && b->cosine > 0.0 &&
-           dot_product(a->axis, b->axis) + CONE_MARGIN <
+           lrcsi_vec3_dot(a->axis, b->axis) + CONE_MARGIN <
                a->cosine * b->cosine - cone_sine(a) * cone_sine(b);
 }
 
@@ -593,7 +591,7 @@ lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, 
     return walk;
 }
 
-/* Above the leaf, the lanes after the one that leads to it. */
+/* On each level above the leaf, the lanes after the one that contains it. */
 lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf)
 {
     lrcsi_tree_walk walk = {.tree = tree, .last = 1, .level = 1, .leaf = LRCS_NONE};

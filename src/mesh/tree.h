@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A bounding-volume tree over facets: boxes in blocks of eight, in levels. It finds the facets
+/* A bounding volume hierarchy over facets: boxes in blocks of eight, in levels. It finds the facets
    whose boxes intersect, and decides nothing else. */
 #ifndef LRCSI_TREE_H
 #define LRCSI_TREE_H
@@ -8,7 +8,7 @@
 
 #include "base/bits.h"
 
-/* Boxes a block, and the most levels that 2^32 facets can take. */
+/* Boxes per block, and the largest number of levels (for 2^32 facets). */
 enum { LRCSI_TREE_LANES = 8, LRCSI_TREE_LEVELS = 11 };
 
 typedef struct lrcsi_box {
@@ -21,9 +21,9 @@ typedef struct lrcsi_tree_block {
     double high[3][LRCSI_TREE_LANES];
 } lrcsi_tree_block;
 
-/* Slabs that bound what is in the eight boxes: low <= direction . x <= high for every corner x; the
-   direction is the mean normal, of length 1, or 0 if there is none. For parallel layers, which fill
-   boxes badly where they are at an angle to the axes. */
+/* Slabs that bound the contents of the eight boxes: low <= direction . x <= high for every corner
+   x. The direction is the mean normal, of length 1, or 0 if there is none. They serve parallel
+   layers at an angle to the axes, whose boxes are mostly empty. */
 typedef struct lrcsi_tree_slabs {
     double direction[3][LRCSI_TREE_LANES], low[LRCSI_TREE_LANES], high[LRCSI_TREE_LANES];
 } lrcsi_tree_slabs;
@@ -50,17 +50,17 @@ typedef struct lrcsi_tree {
     lrcsi_tree_cone *cone[LRCSI_TREE_LEVELS];   /* of each block that has a label, if filled */
 } lrcsi_tree;
 
-/* The boxes of one level that meet a given one; `mask` has a bit for each lane still to be looked
-   at, level by level. */
+/* A traversal that finds the boxes of one level that intersect a given box. `mask` has a bit for
+   each lane of a level that is still to be visited. */
 typedef struct lrcsi_tree_walk {
     const lrcsi_tree *tree;
     lrcsi_box box;
-    uint32_t without; /* a label whose whole blocks are left out, or LRCS_NONE */
-    int last, level;  /* the level whose boxes are sought; where the walk is now */
-    uint32_t leaf;    /* where slabs are compared too: the leaf that walks; else LRCS_NONE */
-    uint32_t apart;   /* blocks that slabs have left out */
-    const lrcsi_tree_cone *cone; /* where cones are compared too: that of the leaf, */
-    uint32_t fan;                /* and its label; else NULL */
+    uint32_t without;            /* blocks with this label are left out; LRCS_NONE: none */
+    int last, level;             /* the level whose boxes are sought; the current level */
+    uint32_t leaf;               /* the leaf whose slab is compared too, or LRCS_NONE */
+    uint32_t apart;              /* number of blocks that slabs have left out */
+    const lrcsi_tree_cone *cone; /* the leaf's cone if cones are compared too, else NULL; */
+    uint32_t fan;                /* then the leaf's label */
     uint32_t at[LRCSI_TREE_LEVELS];
     unsigned mask[LRCSI_TREE_LEVELS];
 } lrcsi_tree_walk;
@@ -111,32 +111,34 @@ static inline uint32_t lrcsi_tree_lane(unsigned mask)
 /* Upper bound of what lrcsi_tree_make takes; what it returns stays in the work area. */
 size_t lrcsi_tree_need(uint32_t facet_count);
 
-/* Facets marked in `skip` (which may be NULL) are left out. label[facet] (or NULL: LRCS_NONE for
-   all) is what walks may leave out; where `apexes`, it is a vertex at which the facet is to have
-   its place in the order, so that those of one label are together. Status: LRCS_OK; LRCS_E_MEMORY.
-   Work: linear in time, except for facets of ever finer scales: at most 90 times that. */
+/* Facets marked in `skip` (which may be NULL) are left out. label[facet] (NULL: LRCS_NONE for all):
+   traversals can leave out all facets of a label. If `apexes` is 1, the label is a vertex, and the
+   facet is sorted by the position of that vertex, so that facets of one label are consecutive.
+   Status: LRCS_OK; LRCS_E_MEMORY. Work: linear; at most 90 times that for nested clusters, each on
+   a much finer scale than the one around it. */
 int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
                     const unsigned char *skip, const uint32_t *label, int apexes, lrcs_work *work,
                     lrcsi_tree *tree);
 
-/* Starts a walk over the places of all facets whose boxes intersect `box`. Facets of the label
+/* Starts a traversal of the places of all facets whose boxes intersect `box`. Facets of the label
    `without` (LRCS_NONE: none) may be left out. */
 lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, uint32_t without);
 
-/* A walk over the blocks of level 0 that come after `leaf`, meet its box, and do not have the label
-   that it has: together with the pairs within leaves, every pair of facets whose boxes intersect
-   occurs once, except some pairs of one label. */
+/* Starts a traversal of the blocks of level 0 that come after `leaf`, intersect its box, and do not
+   have its label. Over all leaves, and with the pairs within leaves, every pair of facets whose
+   boxes intersect occurs once, except some pairs of one label. */
 lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
 
-/* Fills the slabs of a tree, from the vertices and facets that it was made of; then leaves out from
-   a walk of a leaf what lies apart by slabs. For leaves whose boxes meet many others. */
+/* Fills the slabs of a tree, from the vertices and facets that it was made from. Then narrow leaves
+   out of a leaf's traversal the blocks that slabs separate from the leaf; this pays for leaves
+   whose boxes intersect many others. */
 void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree);
 void lrcsi_tree_narrow(lrcsi_tree_walk *walk, uint32_t leaf);
 
-/* Fills the cones of blocks whose label is a vertex that all facets in them have, from what the
-   tree was made of, but where proved[label]; then leaves out from a walk of a leaf with such a
-   label the blocks of the same label whose facets are proved to meet those of the leaf in that
-   vertex alone. For fans of which a ring is not proved (mesh/ring.h), where all boxes meet. */
+/* Fills the cones of blocks that have a vertex as label, unless proved[label]. Then narrow_fan
+   leaves out of the traversal of a leaf with such a label the blocks of the same label whose facets
+   are proved to meet those of the leaf in that vertex only. This serves fans whose ring is not
+   proved (mesh/ring.h): all their boxes intersect. */
 void lrcsi_tree_fill_cones(const lrcs_point *vertex, const lrcs_facet *facet,
                            const unsigned char *proved, lrcsi_tree *tree);
 void lrcsi_tree_narrow_fan(lrcsi_tree_walk *walk, uint32_t leaf);

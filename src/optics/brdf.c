@@ -14,8 +14,8 @@
    Table 11.3: solar absorptance a of white silicone paint 0.26, after 1000 hours of ultraviolet
    0.29; of white silicate paint 0.12, then 0.14; of black epoxy paint 0.95. An opaque surface
    reflects 1 - a, and B = (1 - a) / pi if it does so by Lambert's law. The error is what 1000 hours
-   change; of the black paint, one step of the table's last digit. What the sun's spectrum averages
-   over, and how far these paints are from Lambert's law, is in neither. */
+   change; of the black paint, one step of the table's last digit. The variation over the
+   sun's spectrum and the deviation from Lambert's law are in neither. */
 #define BRDF_FORTESCUE "Fortescue, Swinerd and Stark (eds) 2011, Table 11.3"
 #define BRDF_LAMBERT(absorptance)                                                                  \
     {                                                                                              \
@@ -124,8 +124,8 @@ int lrcs_brdf_check(const lrcs_brdf *brdf)
 }
 
 /* The matrix of correlations is positive semidefinite if and only if elimination meets no negative
-   pivot; a pivot of 0 is accepted where the rest of its row is 0. Rounded correlations of nearly
-   dependent parameters give such pivots to 1e-7, and rows to its root. */
+   pivot; a pivot of 0 is accepted if the rest of its row is 0. Rounded correlations of nearly
+   dependent parameters give such pivots to 1e-7, and rows to the root of that. */
 static int correlation_fits(const double correlation[6])
 {
     const double *c = correlation;

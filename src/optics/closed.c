@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* sigma of a shape alone. It decides what each shape is made of (plane faces, caps, one curved
-   wall) and checks; the curved walls are closed_ring.c and closed_cap.c. The bodies are convex, so
-   what faces the light is lit. */
+/* sigma of a shape alone. It decides which faces each shape has (plane faces, caps, one curved
+   wall) and checks the arguments; the curved walls are in closed_ring.c and closed_cap.c. The
+   bodies are convex, so all that faces the light is lit. */
 #include <math.h>
 
 #include "base/constant.h"
@@ -69,7 +69,7 @@ static void closed_add_face(const lrcs_brdf *brdf, const lrcsi_light *light, int
     if (sign < 0) {
         theta.cosine = lrcsi_dd_negate(theta.cosine);
     }
-    if (axis == 2) { /* the aspect's sine has not been through a square and a root */
+    if (axis == 2) { /* the aspect's sine is not rounded by a square and a root */
         theta.sine = light->aspect.sine;
     }
     lrcsi_amount face = lrcsi_closed_reflect(brdf, theta);
@@ -93,7 +93,7 @@ static void closed_add_box(const lrcs_shape *shape, const lrcs_brdf *brdf, const
     }
 }
 
-/* Plane-faced bodies, and the end discs of the others. */
+/* Bodies with plane faces only, and the end discs of the others. */
 static void closed_add_planes(const lrcs_shape *shape, const lrcs_brdf *brdf,
                               const lrcsi_light *light, lrcsi_amount *sum)
 {

@@ -10,13 +10,13 @@
 #include "base/dd.h"
 #include "optics/reflect.h"
 
-/* An angle by its sine and cosine, good to 2^-96 each. */
+/* An angle by its sine and cosine, accurate to 2^-96 each. */
 typedef struct lrcsi_angle {
     lrcsi_dd sine, cosine;
 } lrcsi_angle;
 
-/* Where the laser stands: s_hat in the shape's frame, and its angle from +z. deg is that angle
-   where it was given so, else negative. */
+/* The direction to the laser: s_hat in the shape's frame, and its angle from +z. deg is that angle
+   if it was given in degrees, else negative. */
 typedef struct lrcsi_light {
     lrcsi_dd s_hat[3];
     lrcsi_angle aspect;
@@ -31,7 +31,7 @@ typedef struct lrcsi_amount {
     double value[LRCSI_PARTS], error[LRCSI_PARTS];
 } lrcsi_amount;
 
-/* a / b: relative error at most 2^-98 for operands that are good to that. */
+/* a / b: relative error at most 2^-98 for operands of that accuracy. */
 static inline lrcsi_dd lrcsi_closed_divide(lrcsi_dd a, lrcsi_dd b)
 {
     double q = a.hi / b.hi;
@@ -39,7 +39,7 @@ static inline lrcsi_dd lrcsi_closed_divide(lrcsi_dd a, lrcsi_dd b)
     return lrcsi_dd_quick_sum(q, rest.hi / b.hi);
 }
 
-/* Length of (a, b): the same, but that a component below 2^-480 of the other counts as 0. */
+/* Length of (a, b): the same; a component below 2^-480 of the other counts as 0. */
 lrcsi_dd lrcsi_closed_hypot(lrcsi_dd a, lrcsi_dd b);
 
 /* sine and cosine of a + b and a - b: relative error 2^-94 times the cancellation. */
@@ -53,7 +53,7 @@ double lrcsi_closed_radians(lrcsi_angle a);
 lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta);
 
 /* amount *= factor, by part; the factors' relative error is `units` of 2^-53, or they are off by
-   2^-1070 where they are subnormal. A factor of 0 is exact: no area. */
+   2^-1070 if they are subnormal. A factor of 0 is exact: no area. */
 void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units);
 
 /* The same factor for both parts. */

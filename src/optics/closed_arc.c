@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* One quadrature for every integral without a closed form: Gauss-Legendre on panels that halve
-   towards both ends. It decides how finely an end is graded; what is integrated, the samples say.
+   towards both ends. It decides how finely the panels at an end are graded; the samples define the
+   integrand.
 
    Truncation. All singularities of the integrands lie at an end, behind it, or on the imaginary
    axis through it, and every peak stands at an end or is as wide as its distance from one. On a
@@ -19,8 +20,8 @@
    by less than 40 times from h to 4 h, by exp(40), which rho^(-48) makes 1e-19.
 
    Rounding. Values are positive, their sums compensated: q to 4 units, which the exponent E of
-   exp(-E) multiplies by at most 4 E, and E averages below 3 where F counts; with the powers, 40
-   units in all. */
+   exp(-E) multiplies by at most 4 E, and E averages below 3 where F is not negligible; with the
+   powers, 40 units in all. */
 #include "optics/closed_arc.h"
 
 #include <math.h>
@@ -46,7 +47,7 @@ lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int part, double cos_ref
 }
 
 /* F of one part at a point: its value; the exponent by which it has fallen from its reference
-   (infinity where it is 0); and whether it falls for good with q from here on. */
+   (infinity if it is 0); and whether it decreases monotonically with q from here on. */
 typedef struct arc_sample {
     double value, decay;
     int falling;
@@ -119,9 +120,9 @@ static void arc_add_root(const lrcsi_arc *arc, double h, lrcsi_dd *sum)
     }
 }
 
-/* Is [0, h] at an end fit to be the last panel of a part, `sum` having been gathered outside it?
-   Towards the left end F grows, so it must have come within a factor e; towards the right it may
-   fall for good, or hardly change. */
+/* May [0, h] at an end be the last panel of a part, given `sum`, the integral outside it? Towards
+   the left end F grows, so it must be within a factor e of its end value; towards the right end it
+   must decrease monotonically or hardly change. */
 static int part_ends(const lrcsi_arc *arc, int part, int right, double h, double sum)
 {
     double clear = right ? arc->right_clear : arc->left_clear;

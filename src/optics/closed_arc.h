@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Integrals over an arc that have no closed form, by one quadrature: what an integrand must know of
-   itself, and the rule. */
+/* Integrals over an arc that have no closed form, by one quadrature: the description of an
+   integrand, and the rule. */
 #ifndef LRCSI_CLOSED_ARC_H
 #define LRCSI_CLOSED_ARC_H
 
@@ -19,15 +19,15 @@ typedef struct lrcsi_arc_law {
     double gain, nu;
 } lrcsi_arc_law;
 
-/* A point of an arc: y and q, and what F counts with there; 0 if q is not positive. */
+/* A point of an arc: y, q, and the weight of F there; 0 if q is not positive. */
 typedef struct lrcsi_arc_point {
     double y, q, weight;
 } lrcsi_arc_point;
 
 lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int part, double cos_reference);
 
-/* A ring of normals, azimuth phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). Where rest = 1 - k >= 0 it
-   is wholly lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi - phi_1. */
+/* A ring of normals, azimuth phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). If rest = 1 - k >= 0 it
+   is entirely lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi - phi_1. */
 typedef struct lrcsi_ring {
     double k, rest, psi_1;
 } lrcsi_ring;
@@ -36,11 +36,11 @@ typedef struct lrcsi_ring {
 typedef struct lrcsi_cap {
     int inner;      /* 1: the whole circle lies in the cap of normals; 0: an arc of it */
     int nearer;     /* the light is inside the cap of normals (alpha < tau) */
-    int horizon;    /* theta ends at pi/2, else where the circle leaves the cap */
+    int horizon;    /* 1: theta ends at pi/2; 0: where the circle leaves the cap */
     int paraboloid; /* weighted with (n_0 / n_z)^4; else with 1 */
     double sin_start, cos_start, start; /* theta_d = |tau - alpha| */
     double sin_end, cos_end, end;       /* of the end of theta */
-    double gap, slack;                  /* tau + alpha - pi/2, and pi - gap, where horizon */
+    double gap, slack;                  /* if horizon: tau + alpha - pi/2, and pi - gap */
     double sin_alpha, cos_alpha, sin_tau, n_0;
 } lrcsi_cap;
 
@@ -51,10 +51,10 @@ typedef struct lrcsi_arc {
     int is_cap;
     lrcsi_ring ring;
     lrcsi_cap cap;
-    /* Within this distance of an end the integrand, but for F, is smooth; 0: an algebraic zero or
-       root stands at the end itself. */
+    /* Within this distance of an end the integrand without F is smooth; 0: there is an algebraic
+       zero or root at the end itself. */
     double left_clear, right_clear;
-    int left_root; /* but for a square root at the left end itself, that is */
+    int left_root; /* except for a square root at the left end itself */
     double grain;  /* beyond this distance of an end the rest may still vary by a power */
 } lrcsi_arc;
 
@@ -62,7 +62,7 @@ typedef struct lrcsi_arc {
 lrcsi_arc_point lrcsi_ring_point(const lrcsi_arc *arc, int right, double d);
 lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d);
 
-/* The integrals of the parts that are wanted over the arc, 0 of others. Relative error at most
+/* The integrals of the requested parts over the arc, 0 for the others. Relative error at most
    LRCSI_ARC_UNITS of 2^-53. */
 #define LRCSI_ARC_UNITS 64.0
 void lrcsi_arc_integral(const lrcsi_arc *arc, double integral[LRCSI_PARTS]);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Bodies whose normals fill a cap about the axis, once each: sphere, dome, paraboloid. It decides
-   which of the normals are lit; all but the sphere integrate over circles about the light.
+   which of the normals are lit; except for the sphere, the integrals are over circles about the
+   light.
 
    The normals within tau of +z (dome: pi/2; paraboloid: atan(2 H / R)) carry a surface of
    dA = R^2 dOmega (dome), K n_z^-4 dOmega with K = (R^2 / 2 H)^2 (paraboloid: 1/K n_z^4 is its
    Gaussian curvature). With theta and phi about the light, at alpha from +z,
      integral of F dA = integral over theta of F(theta) sin(theta) Phi(theta),
-   Phi the integral over the azimuths phi whose normal lies in the cap: all, where
+   Phi the integral over the azimuths phi whose normal lies in the cap: all, if
    theta < tau - alpha; else |phi| < phi_1, by the half-angle formula of the triangle with sides
    theta, alpha, tau:
      tan^2(phi_1/2) = sin((tau+theta-alpha)/2) sin((tau+alpha-theta)/2) /
@@ -18,7 +19,7 @@
 
    Paraboloid: n_z = P + Q cos(phi), P = cos(alpha) cos(theta), Q = sin(alpha) sin(theta). With
    kappa = (P - Q)/(P + Q), tan(phi/2) = tan(sqrt(kappa) y / 2)/sqrt(kappa) and
-   S = sin^2(sqrt(kappa) y / 2)/kappa (for kappa < 0 their hyperbolic twins) one finds
+   S = sin^2(sqrt(kappa) y / 2)/kappa (for kappa < 0 their hyperbolic counterparts) one finds
      dphi / n_z^4 = (1 + 2 S Q/(P + Q))^3 dy / (P + Q)^4,  n_z = (P + Q)/(1 + 2 S Q/(P + Q)),
    an entire function of y with positive terms only, smooth across kappa = 0. */
 #include <math.h>
@@ -44,7 +45,7 @@ lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
     return amount;
 }
 
-/* The 14-point Gauss-Legendre rule, as lrcsi_gauss_rule has its own. */
+/* The 14-point Gauss-Legendre rule, in the form of lrcsi_gauss_rule. */
 #define CAP_PAIRS 7
 static const double cap_rule[CAP_PAIRS][2] = {
     {0x1.ba97d36de76b0p-4, 0x1.b8dc415514e34p-3}, {0x1.46c564912d702p-2, 0x1.a43f1796fab09p-3},
@@ -71,8 +72,8 @@ static double cap_stretch_panel(double kappa, double low, double high, double g,
     return half * sum;
 }
 
-/* The integral over all of y, times g. Where it grows exponentially, from its far end, until what
-   is left is less than 2^-60. */
+/* The integral over all of y, times g. If the integrand grows exponentially, from its far end until
+   the rest is less than 2^-60. */
 static double cap_stretch_integral(double kappa, double stretch, double g, double r)
 {
     double sum = 0.0;
@@ -168,17 +169,17 @@ lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d)
     return at;
 }
 
-/* What the caps of dome and paraboloid differ in: the normals' radius tau, and the surface they
-   stand for, `scale`^2 times the weight of a direction, `area` in all. */
+/* What distinguishes the caps of dome and paraboloid: the normals' radius tau, and the surface per
+   solid angle of normals, `scale`^2 times the weight of a direction; `area` in all. */
 typedef struct cap_body {
     lrcsi_angle tau;
     int paraboloid;
     double scale, area;
 } cap_body;
 
-/* sum += the integral over one piece of theta that starts at theta_r, nearest to the light. What
-   has underflowed there falls further, over no more than the whole area. Units: the piece's ends
-   10, its weight 20, scale 10, the arc. */
+/* sum += the integral over one piece of theta that starts at theta_r, nearest to the light. Values
+   that underflow there are smaller still elsewhere, over at most the whole area. Units: the piece's
+   ends 10, its weight 20, scale 10, the arc. */
 static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc *arc,
                           lrcsi_angle theta_r, lrcsi_amount *sum)
 {

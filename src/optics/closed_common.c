@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Angles in double-double, and F at such an angle. It decides nothing: closed.c says what is
- * summed. */
+/* Angles in double-double, and F at such an angle. closed.c decides what is summed. */
 #include <math.h>
 
 #include "base/constant.h"
@@ -50,7 +49,7 @@ double lrcsi_closed_radians(lrcsi_angle a)
     return atan2(a.sine.hi, a.cosine.hi);
 }
 
-/* tan^2 of an angle with a positive cosine; infinite where it overflows. */
+/* tan^2 of an angle with a positive cosine; infinite if it overflows. */
 static lrcsi_dd closed_tan2(lrcsi_angle theta)
 {
     lrcsi_dd tangent = lrcsi_closed_divide(theta.sine, theta.cosine);
@@ -61,7 +60,7 @@ static lrcsi_dd closed_tan2(lrcsi_angle theta)
 }
 
 /* tan^2 = hi + lo; lrcsi_reflect takes hi, and lo enters to first order by d log F / d log u =
-   2u/(1+u) - u/s^2 and -(m/2 + 1) u/(1+u): |lo/hi| <= 2^-53, and where F has not underflowed the
+   2u/(1+u) - u/s^2 and -(m/2 + 1) u/(1+u): |lo/hi| <= 2^-53, and unless F has underflowed the
    derivative is below 3000, so the second order is below 2^-83. */
 lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
 {
@@ -88,7 +87,7 @@ lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
 void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units)
 {
     for (int part = 0; part < LRCSI_PARTS; part++) {
-        /* a part that is exactly nothing stays so, whatever its factor */
+        /* a part that is exactly 0 stays 0 for every factor */
         if (amount->error[part] > 0.0) {
             double before = amount->value[part];
             double after = before * factor[part];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Walls whose normals make one ring about the axis: cylinder, cone, frustum. It decides which part
-   of the ring is lit; the integral of F over it is the Gauss-Legendre rule of closed_arc.c, but for
-   the cylinder, which has a closed form.
+   of the ring is lit; the integral of F over it is the Gauss-Legendre rule of closed_arc.c, except
+   for the cylinder, which has a closed form.
 
    With the half-angle beta (the wall's normals stand pi/2 - beta off the axis) the normal at
    azimuth phi has cos(theta) = sin(beta) cos(alpha) + cos(beta) sin(alpha) cos(phi) = c_max (1 - k
@@ -14,8 +14,8 @@
 #include "optics/closed_arc.h"
 #include "optics/special.h"
 
-/* The half-angle and the surface of a wall of revolution. beta_deg is negative where the angle came
-   from lengths. */
+/* The half-angle and the surface of a wall of revolution. beta_deg is negative if the angle is
+   computed from lengths. */
 typedef struct ring_wall {
     lrcsi_angle beta;
     double beta_deg, area;
@@ -45,8 +45,8 @@ static ring_wall ring_wall_from_degrees(double radius, double beta_deg)
     return wall;
 }
 
-/* alpha + beta and beta - alpha; from exact degrees where both are given so, and then exactly 0 or
-   180 where they are that. */
+/* alpha + beta and beta - alpha; from exact degrees if both are given in degrees, so that 0 and 180
+   are exact. */
 static void ring_extremes(const ring_wall *wall, const lrcsi_light *light, lrcsi_angle *most,
                           lrcsi_angle *least)
 {

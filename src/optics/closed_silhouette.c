@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* How large bodies of revolution look: the projected area of what faces the laser, wall and ends.
-   A point of surface with unit normal n counts |n . s_hat|; the bodies are convex, so nothing else
-   covers it. Reported beside sigma, not part of it: no error bound is derived. */
+/* The projected area of the surface of bodies of revolution that faces the laser, wall and ends.
+   A point of surface with unit normal n counts |n . s_hat|; the bodies are convex, so nothing hides
+   it. Reported beside sigma, not part of it: no error bound is derived. */
 #include <math.h>
 
 #include "base/degrees.h"

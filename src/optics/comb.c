@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* How much a glint suffers from flat facets, by the turn between them: an estimate. It knows a
-   cylinder at broadside only, which is the worst of the common cases.
+/* The error of a glint caused by flat facets, from the turn between them: an estimate. Its model is
+   a cylinder at broadside, the worst of the common cases.
 
-   N facets stand for the normals of a full turn at spacing h = 2 pi / N. Their sum is a trapezoidal
+   N facets sample the normals of a full turn at spacing h = 2 pi / N. Their sum is a trapezoidal
    rule over azimuth for a Gaussian of slope s; by Poisson's formula its error relative to the
-   integral is 2 sum_k exp(-(pi s k / h)^2) cos(k phase), of which the first term is all that
-   matters. Area that chords lose: 1 - sin(h/2)/(h/2), about (h/2)^2 / 6. */
+   integral is 2 sum_k exp(-(pi s k / h)^2) cos(k phase), of which the first term dominates.
+   The relative area that chords lose: 1 - sin(h/2)/(h/2), about (h/2)^2 / 6. */
 #include "optics/comb.h"
 #include "base/constant.h"
 

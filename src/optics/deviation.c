@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* How far F = f_r cos^2 strays over the normals of a curved patch from its value at the facet's
-   normal: the proved tessellation error of one facet. It knows the patch by four numbers only.
+/* How far F = f_r cos^2 deviates over the normals of a curved patch from its value at the facet's
+   normal: the proved tessellation error of one facet. Four numbers describe the patch.
 
    On the sphere of normals F(n) = G(theta), theta the angle between n and s_hat. Along the geodesic
    from the facet's normal by the turn vector t
        F = F_i + grad F_i . t + R,  |R| <= |t|^2/2 sup |Hess F|,
    the eigenvalues of the Hessian being G'' and cot(theta) G'; G is once continuously
-   differentiable, also across 90 deg where it becomes 0, and its second derivative is bounded,
-   which is all that this needs. Integrated over the patch, per unit of facet area, with the numbers
+   differentiable, also across 90 deg, where it becomes 0, and its second derivative is bounded,
+   which suffices here. Integrated over the patch, per unit of facet area, with the numbers
    of lrcs_curvature (a = area_error) and each supremum taken over angles within `turn` of theta_i:
        second   a F_i + bias |G'_i| + spread^2/2 sup max(|G''|, |cot G'|)
        first    a F_i + sqrt(1 + a) spread sup |G'|        (Cauchy-Schwarz on the integral of |t|)
@@ -16,9 +16,9 @@
    most max(sup G - F_i, F_i). Over any part of the patch h = F - F_i integrates to at most the
    integral of its positive part, or of its negative one: with h = g . t + R, either is within (Int
    |g . t| + |Int g . t|)/2 + Int |R|, that is |G'_i| (sqrt(1 + a) spread + bias)/2 + spread^2/2 sup
-   of the bend. Where both sides of a surface reflect, F continues as G(180 deg - theta) beyond 90
-   deg: once continuously differentiable there too, with the same suprema, so that each bound holds
-   also where some points beyond 90 deg count and others do not.
+   of the bend. If both sides of a surface reflect, F continues as G(180 deg - theta) beyond 90
+   deg: once continuously differentiable there too, with the same suprema, so that each bound also
+   holds if some points beyond 90 deg count and others do not.
 
    With u = tan^2 theta, w = 1 + u, E = exp(-u/s^2), nu = m + 2:
        glint/A    G = w^2 E                              G' = 2 sqrt(u) (2 w^2 - w^3/s^2) E
@@ -29,7 +29,7 @@
    A difference of positive terms is at most the greater of their sums. Each glint term
    u^a w^b E / s^(2c) is unimodal in u (its logarithm is concave in u, E included), so its supremum
    over an interval is its value at the clamped peak, the root of u^2 + (1 - (a + b) s^2) u = a s^2.
-   Terms are evaluated as the exponential of a sum of logarithms, none of them above 1e4 where the
+   Terms are evaluated as the exponential of a sum of logarithms, none of them above 1e4 if the
    result is in double range: relative error below 1e4 * 2^-50, which MARGIN covers. */
 #include "base/constant.h"
 #include "optics/reflect.h"
@@ -41,11 +41,11 @@
 #define HALF_PI_BELOW 1.57079632679489655800 /* the double below pi/2 */
 #define STRAY_MARGIN  (1.0 + 1e-10)
 #define EXPONENT_LOW  (-700.0)
-#define STRAY_TINY    0x1p-1009 /* above e^-700: stands for what is below it */
-#define SLOPE_HUGE    1e75      /* s beyond: peaks lie past every finite u met here */
+#define STRAY_TINY    0x1p-1009 /* above e^-700: replaces all smaller values */
+#define SLOPE_HUGE    1e75 /* for larger s the peaks lie beyond every finite u that occurs here */
 
-/* A u = tan^2(theta), and the logarithms of it that every term there is made of: taken when first
-   asked for, for they are most of the work. */
+/* u = tan^2(theta), and the logarithms that the terms there consist of: computed at first use,
+   because they are most of the work. */
 typedef struct tan2_point {
     double u, log_u, log_w;
     int known;
@@ -62,7 +62,7 @@ typedef struct deviation_size {
     double value_most, slope_most, bend; /* over the patch */
 } deviation_size;
 
-/* An upper bound on e^x, but for the margin. */
+/* An upper bound of e^x, without the margin. */
 static double exp_above(double x)
 {
     return x < EXPONENT_LOW ? STRAY_TINY : lrcsi_exp(x);
@@ -102,7 +102,7 @@ static tan2_point *range_nearest(tan2_range *range, double u, tan2_point *inside
     return inside;
 }
 
-/* The glint's slope, and the logarithm of it where that is asked for. */
+/* The glint's slope, and its logarithm if it is requested. */
 typedef struct glint_slope {
     double s, log_s;
 } glint_slope;
@@ -217,7 +217,7 @@ static int range_around(double theta, double turn, tan2_range *range)
     return 1;
 }
 
-/* The least of the three bounds, and what holds of every single point of the patch. */
+/* The least of the three bounds, and the bound for every single point of the patch. */
 static lrcsi_deviation deviation_of(const deviation_size *all, const lrcs_curvature *c)
 {
     double second = times(c->bias, all->slope) + times(0.5 * c->spread * c->spread, all->bend);
@@ -273,7 +273,7 @@ double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double t
     return lrcsi_deviation_make(brdf, cos_theta, tan2, curvature).whole;
 }
 
-/* f_r cos is w^(5/2) E, of the family of glint terms, and w^(-(m+1)/2), which only falls. */
+/* f_r cos is w^(5/2) E, one of the glint terms, and w^(-(m+1)/2), which decreases. */
 lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn)
 {
     lrcsi_reflection most = {0.0, 0.0, 0.0};
@@ -282,7 +282,7 @@ lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double 
         return most;
     }
     if (brdf->A > 0.0) {
-        const glint_slope slope = {brdf->s, 0.0}; /* a term with c = 0 asks for no logarithm */
+        const glint_slope slope = {brdf->s, 0.0}; /* a term with c = 0 needs no logarithm */
         most.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, &slope, &range) * STRAY_MARGIN;
     }
     if (brdf->B > 0.0) {

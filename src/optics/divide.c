@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* How many facets a curved body needs for its material: lrcs_shape_count. The choice is a plan made
-   before any mesh exists; the proof is lrcs_curvature and lrcsi_reflect_deviation, evaluated pose
-   by pose on the mesh, whatever was planned.
+   before any mesh exists; the proved error is that of lrcs_curvature and lrcsi_reflect_deviation,
+   evaluated for each pose on the mesh, independent of the plan.
 
-   The proved error of a body is 4 pi sum a_i stray_i. Over fine facets the sum is an integral over
-   the normals, which a fixed midpoint rule estimates:
-     round bodies (sphere, dome, paraboloid): normals all about s_hat, weight sin(theta), against
-   the same integral of F: the glint seen whole, and the body's mean over attitudes; straight walls
-   (cylinder, cone, frustum): normals on a circle of constant elevation, at a fan of aspects,
-   against the wall's own sigma there or its mean over attitudes, whichever is larger. That ratio
-   falls as 1 / around^2, and the least `around` that brings it to the tolerance is found by
-   bisection. */
+   The proved error of a body is 4 pi sum a_i deviation_i. Over fine facets the sum is an integral
+   over the normals, which a fixed midpoint rule estimates: round bodies (sphere, dome, paraboloid):
+   normals all about s_hat, weight sin(theta), against the same integral of F: the glint seen whole,
+   and the body's mean over attitudes; straight walls (cylinder, cone, frustum): normals on a circle
+   of constant elevation, at a fan of aspects, against the wall's own sigma there or its mean over
+   attitudes, whichever is larger. That ratio falls as 1 / around^2, and the least `around` that
+   brings it to the tolerance is found by bisection. */
 #include <lrcs/shape.h>
 
 #include <math.h>
@@ -25,7 +24,7 @@
 #define PLAN_AIM     0.8  /* of the tolerance: aspects between the sampled ones may err more */
 #define PLAN_SAMPLE  1e-2 /* the tolerance at which dome and paraboloid are sampled */
 #define PLAN_GUESS   16.0 /* quarters of a turn's facets tried first */
-#define PLAN_TRIES   8    /* guesses at most */
+#define PLAN_TRIES   8    /* at most so many guesses */
 #define FACETS_LEAST 64u
 
 /* A material on a curved wall, and how coarse the wall is. */
@@ -34,7 +33,7 @@ typedef struct facet_plan {
     lrcs_curvature curvature;
 } facet_plan;
 
-/* What one direction gives: F and its deviation bound. */
+/* For one direction: F and its deviation bound. */
 typedef struct plan_value {
     double sigma, deviation;
 } plan_value;
@@ -59,7 +58,7 @@ static double plan_node(int k, double near, double end, double *weight)
     return from + ((k % half) + 0.5) * *weight;
 }
 
-/* Where the glint's features end: a few of its widths, or the facets' where those are wider. */
+/* The extent of the glint: a few of its widths, or of the facets' turn if that is wider. */
 static double plan_near(const facet_plan *plan, double end)
 {
     double width = plan->brdf->A > 0.0 ? plan->brdf->s : 1.0;
@@ -106,7 +105,7 @@ static plan_value plan_circle(const facet_plan *plan, double psi, double alpha)
     return sum;
 }
 
-/* The worst of a fan of aspects for a straight wall: every 15 deg, and about the glint. */
+/* The largest ratio over a set of aspects of a straight wall: every 15 deg, and near the glint. */
 static double plan_straight(const facet_plan *plan, double psi)
 {
     double mean = plan_round(plan).sigma;
@@ -174,7 +173,7 @@ static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, doub
     return sum;
 }
 
-/* Worst ratio of a cap of normals over aspects: down to the rim, and about it. */
+/* The largest ratio of a cap of normals over aspects: up to the rim, and near it. */
 static double plan_caps(const facet_plan *plan, const lrcs_shape *shape)
 {
     double mean = plan_round(plan).sigma;
@@ -244,8 +243,8 @@ static uint32_t plan_most(const lrcs_shape *shape, uint32_t max_facets)
     return 4 * good;
 }
 
-/* The least `around` up to `most` that meets the tolerance, or `most`: guessed from what an error
-   that falls as 1 / around^2 would need, and where guesses do not close in, by bisection. */
+/* The least `around` up to `most` that meets the tolerance, or `most`: guessed for an error
+   that falls as 1 / around^2, or by bisection if the guesses do not converge. */
 static uint32_t plan_least(const lrcs_shape *shape, const lrcs_brdf *brdf, double tolerance,
                            uint32_t most)
 {
@@ -267,8 +266,8 @@ static uint32_t plan_least(const lrcs_shape *shape, const lrcs_brdf *brdf, doubl
     return 4 * good;
 }
 
-/* A disc's polygon has the disc's area whatever its corners. Between the two outlines lies the part
-   4 h^2 / (9 sqrt 3) = 0.2566 h^2 of it, h = pi/N, the mean of |2 (r/R - 1)| with
+/* A disc's polygon has the disc's area for any number of corners. Between the two outlines lies the
+   fraction 4 h^2 / (9 sqrt 3) = 0.2566 h^2 of it, h = pi/N, the mean of |2 (r/R - 1)| with
    r = R (1 - h^2/6 + phi^2/2), |phi| <= h: the tolerance bounds that. */
 static uint32_t plan_disc(double tolerance, uint32_t most)
 {
@@ -280,7 +279,8 @@ static uint32_t plan_disc(double tolerance, uint32_t most)
     return around < AROUND_LEAST ? AROUND_LEAST : around > most ? most : around;
 }
 
-/* By how much a dome or paraboloid errs more than a sphere of its fineness, at least 1. */
+/* The factor by which the error of a dome or paraboloid exceeds that of a sphere of the same
+   fineness, at least 1. */
 static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t most)
 {
     if (shape->kind != LRCS_SHAPE_DOME && shape->kind != LRCS_SHAPE_PARABOLOID) {
@@ -294,8 +294,8 @@ static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32
     return isfinite(factor) ? fmax(1.0, factor) : 1.0;
 }
 
-/* Where even `most` leaves an error as large as sigma itself, facets buy nothing: the glint is
-   given up, and the diffuse part (or a matt surface, where there is none) sets the count. */
+/* If even `most` leaves an error as large as sigma itself, more facets do not help: the glint is
+   ignored, and the diffuse part (or a matt surface, if there is none) determines the count. */
 static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *fineness, uint32_t most)
 {
     lrcs_brdf brdf = fineness->brdf;
@@ -321,9 +321,9 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
                      lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     int status = lrcs_shape_check(shape, NULL);
-    int wear = lrcs_brdf_check(&fineness->brdf);
-    if (status != LRCS_OK || wear < 0) {
-        return status != LRCS_OK ? status : wear;
+    int warnings = lrcs_brdf_check(&fineness->brdf);
+    if (status != LRCS_OK || warnings < 0) {
+        return status != LRCS_OK ? status : warnings;
     }
     if (!isfinite(fineness->tolerance)) {
         return LRCS_E_NUMBER;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* f_r cos^2 from u = tan^2(theta), with its rounding bound. It decides in which form each part is
-   evaluated; where u comes from, and how good it is, the caller says.
+   evaluated; the caller gives u and its error.
 
    Glint: A q^2 with q = (1 + u) exp(-x/2), x = u / s^2: no cancellation between a growing and a
    decaying exponent (for s > 0.7 they cancel), no intermediate overflow, and x carries a correction
-   term, so that a far flank (x up to 745) is as good as the peak.
-   Diffuse: B r^2 / (1 + u) with r = (1 + u)^(-m/4), its exponent to twice the digits of a double.
-   For m = 0, 1/2, 1 and 2, as most materials have it, roots do without a power: correctly rounded,
-   and a fourth of the time.
+   term, so that a far flank (x up to 745) is as accurate as the peak.
+   Diffuse: B r^2 / (1 + u) with r = (1 + u)^(-m/4), with its exponent in double-double.
+   For m = 0, 1/2, 1 and 2, the usual values, roots replace the power: correctly rounded, and in a
+   quarter of the time.
 
    Rounding, in units of 2^-53, with the errors of base/elementary.h:
    glint    1 + u: 1, exp: 2, its correction 1 - x'/2 and two products: 4; squared: 14; times A: 2
@@ -30,8 +30,9 @@
 #define REFLECT_DIFFUSE_UNITS 11.0
 #define REFLECT_ROOT_UNITS    7.0
 
-/* Beyond this x, exp(-x/2) nears underflow and q may not: the exponents are added instead. And
-   beyond that, their sum is below -790 for every u that is a double: exp gives 0. */
+/* Beyond the first limit of x, exp(-x/2) is close to underflow although q may not be: the exponents
+   are added instead. Beyond the second limit their sum is below -790 for every double u: exp gives
+   0. */
 #define REFLECT_X_FAR  1400.0
 #define REFLECT_X_NONE 3000.0
 
@@ -40,10 +41,10 @@ typedef struct reflect_part {
     double value, relative, flank;
 } reflect_part;
 
-/* u / s^2 = hi + lo. With s^2 = S + S' exactly, the remainder u - hi S is exact, and lo is good to
-   a few units of itself, where products neither overflow nor underflow to matter: s in [2^-500,
-   2^500], large ones scaled down and u with them, which is exact but for u so small that x is
-   nothing. Elsewhere lo = 0, and x is good to 2 units. */
+/* u / s^2 = hi + lo. With s^2 = S + S' exactly, the remainder u - hi S is exact, and lo has a
+   relative error of a few units if products neither overflow nor underflow noticeably: s in
+   [2^-500, 2^500]; large s is scaled down, and u with it, which is exact unless u is so small that
+   x is negligible. Otherwise lo = 0, and x has an error of 2 units. */
 static lrcsi_dd glint_exponent(double u, double s)
 {
     if (s < 0x1p-500 || s > 0x1p500) {
@@ -102,7 +103,7 @@ static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
 }
 
 /* A bound on the glint for every u in [low, high]: (1 + u)^2 grows and the exponential falls; and
-   on the glint anywhere, with its peak at 1 + u = 2 s^2 where s^2 > 1/2. */
+   on the glint anywhere, with its peak at 1 + u = 2 s^2 if s^2 > 1/2. */
 static double glint_most(const lrcs_brdf *brdf, double low, double high)
 {
     double s2 = brdf->s * brdf->s;
@@ -113,8 +114,8 @@ static double glint_most(const lrcs_brdf *brdf, double low, double high)
     return brdf->A * q * q;
 }
 
-/* Is the first-order error good? Where not (u hardly known, or the part so small that a factor of
-   it may have underflowed), a bound on the part itself stands in. */
+/* Is the first-order error valid? If not (the error of u is large, or the part is so small that one
+   of its factors may have underflowed), a bound on the part itself replaces it. */
 static int part_is_plain(const reflect_part *part, double e)
 {
     return e <= 0.25 && part->relative + 2.0 * e * part->flank <= 0.25 && part->value > 0x1p-900;
@@ -128,16 +129,17 @@ static double part_error(const reflect_part *part, double e)
     return part->value * delta * (1.0 + delta);
 }
 
-/* Is a glint that is not plain its own bound? Where tan^2 is exact only underflow spoils it. A
+/* May a glint whose first-order error is not valid serve as its own bound? If tan^2 is exact, only
+   underflow affects it. A
    value of at most 2^-900 has q < 2^-200 for these A, so that (A q) q loses 2^-1074 q and 2^-1074;
-   a q below 2^-1022, good to 2^-1074, makes it lose 2^-1071. `relative` is above 1 only where
-   nothing is left of truth and value. All of this is below 2^-1000. */
+   a q below 2^-1022, good to 2^-1074, makes it lose 2^-1071. `relative` is above 1 only if
+   both the true and the computed value are negligible. All of this is below 2^-1000. */
 static int glint_is_most(const lrcs_brdf *brdf, const reflect_part *glint, double e)
 {
     return e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500;
 }
 
-/* For a bound `most` on the part: twice, for its own underflow and rounding. */
+/* For a bound `most` on the part: twice that, which covers its own underflow and rounding. */
 static double part_error_all(const reflect_part *part, double most)
 {
     return 2.0 * fmax(part->value, most) + 0x1p-1000;
@@ -157,7 +159,7 @@ static double glint_error(const lrcs_brdf *brdf, const reflect_part *glint, doub
     return part_error_all(glint, glint_most(brdf, low, high));
 }
 
-/* The diffuse part only falls. */
+/* The diffuse part decreases with u. */
 static double diffuse_error(const lrcs_brdf *brdf, const reflect_part *diffuse, double tan2,
                             double e)
 {

@@ -14,7 +14,7 @@ typedef struct lrcsi_reflection {
 } lrcsi_reflection;
 
 /* Given: tan2 = tan^2(theta) >= 0 (infinity allowed: edge-on, both parts 0) with relative error
-   at most tan2_error. Parts are finite and not NaN for every brdf in its domain; where the glint
+   at most tan2_error. Parts are finite and not NaN for every brdf in its domain; if the glint
    exceeds the largest double it is that double, and error is infinite.
    Notes: 1. The only libm function called is sqrt: the same bits on every machine.
    2. Cost: one exponential, and one power except for m = 0, 1/2, 1 and 2; a part of amplitude 0
@@ -23,7 +23,7 @@ lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_e
 
 /* Bound on the flat-facet error of a curved patch, per unit of facet area:
      | integral over the patch of F dA / (facet area)  -  F(facet normal) |,
-   F(n) = f_r cos^2 where n . s_hat > 0, else 0 (the 4 pi is the caller's).
+   F(n) = f_r cos^2 if n . s_hat > 0, else 0 (the 4 pi is the caller's).
    Given: brdf; the facet normal's cos and tan^2 to s_hat (cos <= 0: it faces away, though part of
    the patch may not); the patch's curvature. Proved; 0 for a flat patch (all three zero). */
 double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double tan2,
@@ -32,7 +32,7 @@ double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double t
 /* The variation of F over a patch, for patches that are only partly visible. All fields except
    `here` are upper bounds. */
 typedef struct lrcsi_deviation {
-    double whole; /* lrcsi_reflect_deviation; also where F counts on both sides, by |cos(theta)| */
+    double whole; /* lrcsi_reflect_deviation; also if F counts on both sides, by |cos(theta)| */
     double apart; /* |F - F(facet normal)| at any point of the patch */
     double part;  /* | integral of F - F(facet normal) over any part of the patch | / facet area */
     double here;  /* F(facet normal) */
@@ -46,7 +46,7 @@ lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, do
 
 /* Proved upper bounds of the parts of f_r cos (not cos^2) over all normals within `turn` of a
    normal at angle theta to s_hat, both in rad, theta <= pi. `error` is 0.
-   Notes: 1. Infinite only where f_r itself is near the largest double. */
+   Notes: 1. Infinite only if f_r itself is near the largest double. */
 lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn);
 
 #endif

@@ -2,16 +2,16 @@
 /* f_r cos(theta) by the chord between normal and direction. With v = n - d and q = |v|^2, half of
    which is 1 - cos(theta),
        c = cos(theta) = 1 - q/2,   tan^2(theta) = q (1 - q/4) / c^2,
-   so that everything is a function of q, and near normal incidence v loses nothing: there n and d
-   are subtracted exactly.
+   so that everything is a function of q, and near normal incidence v is accurate: n and d are then
+   subtracted exactly.
 
-   Error of q, with u = 2^-53 and r = |v|: n is off by at most 1.01 u in all, d by nothing, the two
-   subtractions by 2 u of v; squares and their sums add 3 u of q. Together
+   Error of q, with u = 2^-53 and r = |v|: n is off by at most 1.01 u in all, d is exact, the two
+   subtractions add 2 u of v; squares and their sums add 3 u of q. Together
        |dq| <= 2.02 u r + 7 u q + 8 u^2,
-   also with r and q as computed. As dc = -dq/2, it moves the logarithm
+   also with r and q as computed. As dc = -dq/2, this changes the logarithm
        of c^-5 exp(-tan^2/s^2) by at most (2.5/c + 1/(s^2 c^3)) |dq|,
        of c^(m+1)              by at most (m + 2)/(2 c) |dq|,
-   and no farther those of c^-4 exp(-tan^2/s^2) and c^(m+2), which count for an area S c.
+   and by no more those of c^-4 exp(-tan^2/s^2) and c^(m+2), which apply to an area S c.
 
    All else is rounding in functions of q as computed, relative, in units of u:
 
@@ -31,8 +31,8 @@
 
    The constants below leave room for terms in u^2. A logarithm that is off by delta makes the value
    off by at most delta (1 + delta), and LRCSI_SHADE_UNIT has room for delta < 2^-11: its largest
-   part is (2.02 r + 7 q) u/(s^2 c^3). Where r >= 2^-12, 1/(s^2 c^2) <= 2 x/q and x <= 700 make it
-   at most (2.02/r + 7) (1400/c) u < 2^-23; elsewhere c is all but 1, and s >= 2^-20 makes it at
+   part is (2.02 r + 7 q) u/(s^2 c^3). If r >= 2^-12, 1/(s^2 c^2) <= 2 x/q and x <= 700 make it
+   at most (2.02/r + 7) (1400/c) u < 2^-23; otherwise c is almost 1, and s >= 2^-20 makes it at
    most (2.02 r + 7 q) 2^41 u < 2^-22.
 
    Exponents beyond 700 count as 0: the part is then below 4 pi A c^-5 e^-699, or 4 pi B e^-699.
@@ -51,10 +51,10 @@
 #define SHADE_EXPONENT    700.0
 #define SHADE_NOTHING     0x1p-924 /* 2^53 times 2^31 e^-699 */
 
-/* Nearer to grazing than this the errors grow. */
+/* Closer to grazing incidence than this the errors grow. */
 #define SHADE_GRAZING 0x1p-6
-/* The glint of smaller slopes, and diffuse lobes as narrow, are bright where r counts: there, up to
-   an exponent of about 12, 2 r/s^2 exceeds 150 units. */
+/* For a glint of smaller slope, and a diffuse lobe as narrow, the error of q matters within the
+   bright lobe: up to an exponent of about 12, 2 r/s^2 exceeds 150 units. */
 #define SHADE_NARROW_S 0.05
 #define SHADE_NARROW_M 800.0
 #define SHADE_BRIGHT   6.0
@@ -113,7 +113,7 @@ lrcsi_lobes lrcsi_lobes_make(const lrcs_brdf *brdf, int glint, int diffuse)
     return lobes;
 }
 
-/* What the chord gives, and the part of the errors that both lobes share: |dq|/c. */
+/* Quantities from the chord, and the part of the errors that both lobes share: |dq|/c. */
 typedef struct shade_chord {
     double q[LRCSI_LANES], inverse[LRCSI_LANES], off[LRCSI_LANES];
 } shade_chord;

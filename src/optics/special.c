@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* erfcx, the integral of a power of a cosine, and a quantile of Student's t. It decides where a
-   series takes over; libm has none of them in C11, and its erfc and tgamma underflow and overflow
-   where the first two do not. */
+/* erfcx, the integral of a power of a cosine, and a quantile of Student's t. It decides from which
+   argument on a series is used. libm in C11 has none of these functions, and its erfc and tgamma
+   underflow and overflow where the first two do not. */
 #include "optics/special.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 /* erfcx below x = 2 is exp times erfc: x^2 = hi + lo exactly. From 2 on it is Laplace's continued
    fraction, sqrt(pi) erfcx = 1/(x + (1/2)/(x + (2/2)/(x + (3/2)/(x + ...)))) (Abramowitz and
    Stegun 1964, 7.1.14), all terms positive: each level's relative error enters the next with a
-   weight below 1/2, so 4 units in all. What is cut off after n levels falls as
+   weight below 1/2, so 4 units in all. The truncation error after n levels decreases as
    exp(-2 x sqrt(2 n)): 2^-64 at x = 2, n = 64. */
 double lrcsi_special_erfcx(double x)
 {
@@ -30,8 +30,9 @@ double lrcsi_special_erfcx(double x)
 
 /* Gamma(z + 1/2) / Gamma(z + 1) = w^(-1/2) (1 + c1 / w^2 + c2 / w^4 + ...), w = z + 1/4: the even
    series about the midpoint (Tricomi and Erdelyi 1951); c_k 64^k is exact below. At w >= 12 the
-   first term left out is below 2.1e-17. Smaller nu climb by I(nu) = I(nu + 2) (nu + 2)/(nu + 1),
-   at most 12 times, 3 units each, 8 for the series and the root. */
+   first term left out is below 2.1e-17. Smaller nu are reduced to larger ones by
+   I(nu) = I(nu + 2) (nu + 2)/(nu + 1), at most 12 times, 3 units each; 8 for the series and the
+   root. */
 double lrcsi_special_cosine_power(double nu)
 {
     static const double c[] = {464147669.0625, -2612302.875, 22540.375, -335.5, 10.5, -1.0, 1.0};
@@ -51,7 +52,8 @@ double lrcsi_special_cosine_power(double nu)
     return SPECIAL_SQRT_PI / sqrt(w) * sum * (above / below);
 }
 
-/* The quantile 0.975: none for no freedom, eight from 30 digits, then the expansion in 1/freedom
+/* The quantile 0.975: infinite for 0 degrees of freedom, eight values from 30 digits, then the
+   expansion in 1/freedom
    about the normal distribution's (Abramowitz and Stegun 1964, 26.7.5), which is off by 7e-6 at 9
    and less beyond.
  */

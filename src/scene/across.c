@@ -18,7 +18,7 @@ size_t lrcsi_across_need(uint32_t facet_count)
 typedef struct across_job {
     const lrcsi_topology *topology;
     const unsigned char *redundant;
-    const uint32_t *twin; /* or NULL */
+    const uint32_t *opposite; /* or NULL */
 } across_job;
 
 /* The facets on an edge that count: their number, the first four of them, and how many of them
@@ -57,13 +57,13 @@ static int across_set_pairs(const across_job *job, lrcsi_across *a, uint32_t edg
                             const across_edge *all)
 {
     const lrcsi_edge_use *use = all->use;
-    if (!job->twin) {
+    if (!job->opposite) {
         return 0;
     }
     for (int i = 0; i < 4; i++) {
         int held = 0;
         for (int j = 0; j < 4; j++) {
-            held |= job->twin[use[i].facet] == use[j].facet;
+            held |= job->opposite[use[i].facet] == use[j].facet;
         }
         if (!held) {
             return 0;
@@ -71,7 +71,7 @@ static int across_set_pairs(const across_job *job, lrcsi_across *a, uint32_t edg
     }
     for (int i = 0; i < 4; i++) {
         for (int j = 0; j < 4; j++) {
-            if (use[i].forward != use[j].forward && job->twin[use[i].facet] != use[j].facet) {
+            if (use[i].forward != use[j].forward && job->opposite[use[i].facet] != use[j].facet) {
                 across_set(job, a, use[i].facet, edge, use[j].facet);
             }
         }
@@ -104,11 +104,11 @@ static void across_edges(const across_job *job, uint32_t facet_count, lrcsi_acro
 }
 
 int lrcsi_across_make(const lrcsi_topology *topology, uint32_t facet_count,
-                      const unsigned char *redundant, const uint32_t *twin, lrcs_work *work,
+                      const unsigned char *redundant, const uint32_t *opposite, lrcs_work *work,
                       lrcsi_across *across)
 {
     size_t mark = work->used;
-    across_job job = {topology, redundant, twin};
+    across_job job = {topology, redundant, opposite};
     lrcsi_across a = {.irregular_count = 0};
     a.facet = lrcsi_work_take(work, facet_count, sizeof *a.facet);
     size_t end = work->used;

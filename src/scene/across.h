@@ -12,10 +12,10 @@
 size_t lrcsi_across_need(uint32_t facet_count);
 
 /* Given which facets are redundant (a lrcsi_redundant), and the facets coincident with them
-   (prepared->twin) or NULL. Status: LRCS_OK; LRCS_E_MEMORY. The result stays in the work area.
+   (prepared->opposite) or NULL. Status: LRCS_OK; LRCS_E_MEMORY. The result stays in the work area.
    Linear time. */
 int lrcsi_across_make(const lrcsi_topology *topology, uint32_t facet_count,
-                      const unsigned char *redundant, const uint32_t *twin, lrcs_work *work,
+                      const unsigned char *redundant, const uint32_t *opposite, lrcs_work *work,
                       lrcsi_across *across);
 
 #endif

@@ -125,25 +125,26 @@ uint32_t lrcsi_binder_material_count(const lrcs_recipe *recipe)
     return recipe->material_count + library_count();
 }
 
-int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, uint32_t *worn)
+int lrcsi_binder_assigned(const lrcsi_binder *binder, const lrcs_recipe_part *part,
+                          uint32_t *assigned)
 {
     const lrcs_recipe *recipe = binder->recipe;
-    *worn = LRCS_NONE;
+    *assigned = LRCS_NONE;
     if (!part->material) {
         return LRCS_OK;
     }
-    if (part->wears >= 0 && (uint32_t)part->wears < recipe->material_count) {
-        *worn = (uint32_t)part->wears;
+    if (part->material_index >= 0 && (uint32_t)part->material_index < recipe->material_count) {
+        *assigned = (uint32_t)part->material_index;
         return LRCS_OK;
     }
-    *worn = find(binder, TAG_RECIPE, part->material, strlen(part->material));
+    *assigned = find(binder, TAG_RECIPE, part->material, strlen(part->material));
     const lrcs_brdf_entry *entry;
-    for (uint32_t i = 0; *worn == LRCS_NONE && (entry = lrcs_brdf_library(i)) != NULL; i++) {
+    for (uint32_t i = 0; *assigned == LRCS_NONE && (entry = lrcs_brdf_library(i)) != NULL; i++) {
         if (strcmp(entry->name, part->material) == 0) {
-            *worn = recipe->material_count + i;
+            *assigned = recipe->material_count + i;
         }
     }
-    return *worn == LRCS_NONE ? LRCS_E_NAME : LRCS_OK;
+    return *assigned == LRCS_NONE ? LRCS_E_NAME : LRCS_OK;
 }
 
 uint32_t lrcsi_binder_library_source(const lrcs_brdf_entry *entry)
@@ -157,8 +158,8 @@ uint32_t lrcsi_binder_library_source(const lrcs_brdf_entry *entry)
 
 /* Assigns a BRDF with its errors; a two_sided below 0 keeps the present value. Assumed numbers do
    not count as bound. `source` is that of <lrcs/scene.h>. */
-static void dress(lrcs_material *material, const lrcs_brdf *brdf, const lrcs_brdf_error *error,
-                  uint32_t source, int two_sided, int assumed)
+static void assign_brdf(lrcs_material *material, const lrcs_brdf *brdf,
+                        const lrcs_brdf_error *error, uint32_t source, int two_sided, int assumed)
 {
     static const lrcs_brdf_error exact = {0, 0, 0, 0, {0, 0, 0, 0, 0, 0}};
     material->brdf = *brdf;
@@ -172,7 +173,7 @@ static void dress(lrcs_material *material, const lrcs_brdf *brdf, const lrcs_brd
 
 static void dress_by_library(const lrcs_brdf_entry *entry, lrcs_material *material)
 {
-    dress(material, &entry->brdf, &entry->error, lrcsi_binder_library_source(entry), -1, 0);
+    assign_brdf(material, &entry->brdf, &entry->error, lrcsi_binder_library_source(entry), -1, 0);
 }
 
 /* The recipe's materials are sources 1, 2, ...; the bindings follow, except those that have their
@@ -182,8 +183,8 @@ static void dress_by(const lrcsi_binder *binder, const lrcs_binding *binding,
 {
     const lrcs_recipe *recipe = binder->recipe;
     uint32_t own = 1 + recipe->material_count + (uint32_t)(binding - recipe->binding);
-    dress(material, &binding->brdf, &binding->error, binding->source != 0 ? binding->source : own,
-          binding->two_sided, binding->assumed);
+    assign_brdf(material, &binding->brdf, &binding->error,
+                binding->source != 0 ? binding->source : own, binding->two_sided, binding->assumed);
 }
 
 /* Applies a binding of the command line to a material of this name that a scene file has
@@ -196,16 +197,17 @@ static void override_named(const lrcsi_binder *binder, const char *name, lrcs_ma
     }
 }
 
-static void wear(const lrcsi_binder *binder, uint32_t worn, lrcs_material *material)
+static void assign_material(const lrcsi_binder *binder, uint32_t assigned, lrcs_material *material)
 {
     const lrcs_recipe *recipe = binder->recipe;
     const char *name;
-    if (worn < recipe->material_count) {
-        name = recipe->material[worn].name;
-        dress(material, &recipe->material[worn].brdf, &recipe->material[worn].error, worn + 1,
-              recipe->material[worn].two_sided, recipe->material[worn].assumed);
+    if (assigned < recipe->material_count) {
+        name = recipe->material[assigned].name;
+        assign_brdf(material, &recipe->material[assigned].brdf, &recipe->material[assigned].error,
+                    assigned + 1, recipe->material[assigned].two_sided,
+                    recipe->material[assigned].assumed);
     } else {
-        const lrcs_brdf_entry *entry = lrcs_brdf_library(worn - recipe->material_count);
+        const lrcs_brdf_entry *entry = lrcs_brdf_library(assigned - recipe->material_count);
         name = entry->name;
         dress_by_library(entry, material);
     }
@@ -230,13 +232,13 @@ static void apply_default(const lrcsi_binder *binder, lrcs_material *material)
     }
 }
 
-lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t worn)
+lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t assigned)
 {
     lrcs_material material;
     memset(&material, 0, sizeof material);
     material.name = NULL;
-    if (worn != LRCS_NONE) {
-        wear(binder, worn, &material);
+    if (assigned != LRCS_NONE) {
+        assign_material(binder, assigned, &material);
     } else {
         material.name = "";
         apply_default(binder, &material);
@@ -262,7 +264,7 @@ static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
     }
 }
 
-lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,
+lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t assigned,
                                    const lrcs_surface *surface)
 {
     const lrcs_binding *name = find_named(binder, LRCS_BIND_NAME, surface->name);
@@ -281,8 +283,8 @@ lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,
     if (name || colour) {
         const lrcs_binding *binding = name ? name : colour;
         dress_by(binder, binding, &material);
-    } else if (worn != LRCS_NONE) {
-        wear(binder, worn, &material);
+    } else if (assigned != LRCS_NONE) {
+        assign_material(binder, assigned, &material);
     } else {
         apply_map(binder, surface, &material);
     }

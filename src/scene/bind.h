@@ -30,14 +30,16 @@ uint32_t lrcsi_binder_material_count(const lrcs_recipe *recipe);
 
 /* The material assigned to a part as a whole, below lrcsi_binder_material_count, or LRCS_NONE.
    Status: LRCS_OK; LRCS_E_NAME. */
-int lrcsi_binder_worn(const lrcsi_binder *binder, const lrcs_recipe_part *part, uint32_t *worn);
+int lrcsi_binder_assigned(const lrcsi_binder *binder, const lrcs_recipe_part *part,
+                          uint32_t *assigned);
 
-/* The material of surfaces without a name of their own, on a part with the assigned material `worn`
-   (or LRCS_NONE). */
-lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t worn);
+/* The material of surfaces without a name of their own, on a part with the assigned material
+   `assigned` (or LRCS_NONE). */
+lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t assigned);
 
-/* The material of a model's surface on a part with the assigned material `worn` (or LRCS_NONE). */
-lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t worn,
+/* The material of a model's surface on a part with the assigned material `assigned` (or LRCS_NONE).
+ */
+lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t assigned,
                                    const lrcs_surface *surface);
 
 /* The source of a material of the library. */

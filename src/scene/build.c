@@ -35,7 +35,7 @@ typedef struct scene_builder {
 /* A part's mesh while it is added to the scene. */
 typedef struct scene_piece {
     const lrcs_recipe_part *part;
-    uint32_t worn;
+    uint32_t assigned;
     uint32_t surfaces; /* index of the mesh's first material among the scene's */
     lrcsi_placer placer;
 } scene_piece;
@@ -64,9 +64,10 @@ static int refuse_memory(const scene_builder *builder)
 
 /* --- counting ------------------------------------------------------------------------------ */
 
-static int find_worn(const scene_builder *builder, const lrcs_recipe_part *part, uint32_t *worn)
+static int find_assigned(const scene_builder *builder, const lrcs_recipe_part *part,
+                         uint32_t *assigned)
 {
-    int status = lrcsi_binder_worn(&builder->binder, part, worn);
+    int status = lrcsi_binder_assigned(&builder->binder, part, assigned);
     return status == LRCS_OK
                ? LRCS_OK
                : lrcsi_where_text(builder->where, status, 0, part->material_line, "material",
@@ -78,8 +79,8 @@ static int find_worn(const scene_builder *builder, const lrcs_recipe_part *part,
 static int count_shape(const scene_builder *builder, const lrcs_recipe_part *part,
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
-    uint32_t worn;
-    int status = find_worn(builder, part, &worn);
+    uint32_t assigned;
+    int status = find_assigned(builder, part, &assigned);
     if (status == LRCS_OK) {
         status = lrcs_shape_check(&part->shape, builder->where);
         if (status != LRCS_OK && builder->where) {
@@ -89,7 +90,7 @@ static int count_shape(const scene_builder *builder, const lrcs_recipe_part *par
     if (status != LRCS_OK) {
         return status;
     }
-    lrcs_material material = lrcsi_binder_unassigned(&builder->binder, worn);
+    lrcs_material material = lrcsi_binder_unassigned(&builder->binder, assigned);
     status = lrcsi_fineness_divide(&builder->fineness, part, &material, divisions, counts);
     return status == LRCS_OK ? LRCS_OK
                              : refuse_part(builder, status, part,
@@ -213,13 +214,13 @@ static int add_material(const scene_builder *builder, const lrcs_material *mater
 }
 
 /* The index of the material of facets without a surface; the material is added if it is new. */
-static int unassigned_entry(scene_builder *builder, uint32_t worn, lrcs_scene *scene,
+static int unassigned_entry(scene_builder *builder, uint32_t assigned, lrcs_scene *scene,
                             uint32_t *entry)
 {
-    uint32_t *slot = worn != LRCS_NONE ? &builder->entry[worn] : &builder->unassigned;
+    uint32_t *slot = assigned != LRCS_NONE ? &builder->entry[assigned] : &builder->unassigned;
     int status = LRCS_OK;
     if (*slot == LRCS_NONE) {
-        lrcs_material material = lrcsi_binder_unassigned(&builder->binder, worn);
+        lrcs_material material = lrcsi_binder_unassigned(&builder->binder, assigned);
         *slot = scene->material_count;
         status = add_material(builder, &material, scene);
     }
@@ -233,7 +234,7 @@ static int add_surfaces(scene_builder *builder, const lrcs_mesh *mesh, scene_pie
     piece->surfaces = scene->material_count;
     for (uint32_t i = 0; i < mesh->material_count; i++) {
         lrcs_material material =
-            lrcsi_binder_surface(&builder->binder, piece->worn, &mesh->material[i]);
+            lrcsi_binder_surface(&builder->binder, piece->assigned, &mesh->material[i]);
         int status = add_material(builder, &material, scene);
         if (status != LRCS_OK) {
             return status;
@@ -281,7 +282,8 @@ static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene
         scene->facet_smooth[to] = mesh->facet_smooth[i];
         scene->facet_material[to] = piece->surfaces + surface;
         if (surface == LRCS_NONE) {
-            int status = unassigned_entry(builder, piece->worn, scene, &scene->facet_material[to]);
+            int status =
+                unassigned_entry(builder, piece->assigned, scene, &scene->facet_material[to]);
             if (status != LRCS_OK) {
                 return status;
             }
@@ -352,7 +354,7 @@ static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_sc
     scene_piece piece;
     memset(&piece, 0, sizeof piece);
     piece.part = &builder->recipe->part[i];
-    int status = find_worn(builder, piece.part, &piece.worn);
+    int status = find_assigned(builder, piece.part, &piece.assigned);
     if (status != LRCS_OK) {
         return status;
     }

@@ -16,7 +16,7 @@
 /* A sample of the vertices of live facets. */
 typedef struct bulk_sample {
     double x[3][SAMPLE];
-    double far[SAMPLE]; /* distance from the median in the coordinate where that is largest */
+    double far[SAMPLE]; /* distance from the median: the largest over the coordinates */
     uint32_t count;
 } bulk_sample;
 

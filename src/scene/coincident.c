@@ -5,8 +5,8 @@
 
    In a place with both windings, one winding shows its front from every direction (except edge-on,
    where nothing is seen). So only the first facet of each winding is ever seen: the two are the
-   sides of one panel (`twin`). The one that faces away is hidden entirely by the other, and hides
-   nothing that the other does not hide.
+   sides of one panel, each the `opposite` of the other. The one that faces away is hidden entirely
+   by the other, and hides nothing that the other does not hide.
 
    In a place with one winding a facet is never seen if one before it reflects from its back, or if
    there is one before it and the facet itself does not; in both cases the one before hides all that
@@ -87,11 +87,11 @@ static void place_add(lrcs_prepared *p, facet_place *place, uint32_t facet, uint
     if (opposite == LRCS_NONE) {
         return;
     }
-    const uint32_t twin[2] = {facet, opposite};
+    const uint32_t pair[2] = {facet, opposite};
     for (int k = 0; k < 2; k++) {
-        p->redundant[twin[k]] = LRCSI_REDUNDANT_FROM_BEHIND;
-        if (p->twin) {
-            p->twin[twin[k]] = twin[!k];
+        p->redundant[pair[k]] = LRCSI_REDUNDANT_FROM_BEHIND;
+        if (p->opposite) {
+            p->opposite[pair[k]] = pair[!k];
         }
     }
     if (place->second[!winding] != LRCS_NONE) {
@@ -100,11 +100,12 @@ static void place_add(lrcs_prepared *p, facet_place *place, uint32_t facet, uint
 }
 
 /* Facets in one place share the same three edges. They are found at the lowest edge by the corner
-   opposite it: place[corner] is the last one found there. Returns whether any facet has a twin. */
+   opposite it: place[corner] is the last one found there. Returns whether any facet has an
+   opposite. */
 static int mark_places(lrcs_prepared *p, facet_place *place)
 {
     const lrcsi_topology *t = &p->topology;
-    int twins = 0;
+    int pairs = 0;
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
         place[v].edge = LRCS_NONE;
     }
@@ -119,10 +120,10 @@ static int mark_places(lrcs_prepared *p, facet_place *place)
                 *at = (facet_place){e, {LRCS_NONE, LRCS_NONE}, {LRCS_NONE, LRCS_NONE}};
             }
             place_add(p, at, use[i].facet, use[i].forward);
-            twins |= at->first[0] != LRCS_NONE && at->first[1] != LRCS_NONE;
+            pairs |= at->first[0] != LRCS_NONE && at->first[1] != LRCS_NONE;
         }
     }
-    return twins;
+    return pairs;
 }
 
 size_t lrcsi_coincident_need(uint32_t vertex_count, uint32_t facet_count)
@@ -132,12 +133,12 @@ size_t lrcsi_coincident_need(uint32_t vertex_count, uint32_t facet_count)
 }
 
 /* Most scenes have no coincident facets, which is quickly established. Places are visited again
-   only if there are twins to store. */
+   only if there are opposites to store. */
 int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
     size_t mark = work->used;
-    p->twin = NULL;
+    p->opposite = NULL;
     if (!any_may_coincide(p)) {
         return LRCS_OK;
     }
@@ -145,23 +146,23 @@ int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
     if (!place) {
         return LRCS_E_MEMORY;
     }
-    int twins = mark_places(p, place);
+    int pairs = mark_places(p, place);
     work->used = mark;
-    if (!twins) {
+    if (!pairs) {
         return LRCS_OK;
     }
-    uint32_t *twin = lrcsi_work_take(work, facets, sizeof *twin);
+    uint32_t *opposite = lrcsi_work_take(work, facets, sizeof *opposite);
     size_t end = work->used;
     place = lrcsi_work_take(work, p->scene->vertex_count, sizeof *place);
     work->used = end;
-    if (!twin || !place) {
+    if (!opposite || !place) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
     for (uint32_t f = 0; f < facets; f++) {
-        twin[f] = LRCS_NONE;
+        opposite[f] = LRCS_NONE;
     }
-    p->twin = twin;
+    p->opposite = opposite;
     mark_places(p, place);
     return LRCS_OK;
 }
@@ -169,9 +170,9 @@ int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
 /* --- contacts --------------------------------------------------------------------------------- */
 
 /* The facet for which the contacts were computed instead of this one. */
-static uint32_t first_twin(const lrcs_prepared *p, uint32_t facet)
+static uint32_t first_of_pair(const lrcs_prepared *p, uint32_t facet)
 {
-    return p->twin[facet] < facet ? p->twin[facet] : facet;
+    return p->opposite[facet] < facet ? p->opposite[facet] : facet;
 }
 
 /* The number of entries of the lists. */
@@ -180,29 +181,29 @@ static uint64_t count_entries(const lrcs_prepared *p)
     const lrcsi_intersections *t = &p->intersections;
     uint64_t count = 0;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        uint32_t times = p->twin[f] != LRCS_NONE ? 2 : 1;
+        uint32_t times = p->opposite[f] != LRCS_NONE ? 2 : 1;
         for (uint32_t i = t->first[f]; i < t->first[f + 1]; i++) {
-            count += (uint64_t)times * (p->twin[t->touch[i].other] != LRCS_NONE ? 2 : 1);
+            count += (uint64_t)times * (p->opposite[t->entry[i].other] != LRCS_NONE ? 2 : 1);
         }
     }
     return count;
 }
 
-/* In place, from the end: no entry moves down, and the list of a first twin has not moved when the
-   second, which comes after it, gets a copy. */
+/* In place, from the end: no entry moves down, and the list of the first of a pair has not moved
+   when the second, which comes after it, gets a copy. */
 static void spread_entries(lrcs_prepared *p, uint32_t count)
 {
     lrcsi_intersections *t = &p->intersections;
     for (uint32_t f = p->scene->facet_count; f-- > 0;) {
-        uint32_t of = first_twin(p, f);
+        uint32_t of = first_of_pair(p, f);
         uint32_t to = count;
         for (uint32_t i = t->first[of + 1]; i-- > t->first[of];) {
-            lrcsi_intersection touch = t->touch[i];
-            uint32_t twin = p->twin[touch.other];
-            if (twin != LRCS_NONE) {
-                t->touch[--to] = (lrcsi_intersection){twin, touch.kind};
+            lrcsi_intersection touch = t->entry[i];
+            uint32_t opposite = p->opposite[touch.other];
+            if (opposite != LRCS_NONE) {
+                t->entry[--to] = (lrcsi_intersection){opposite, touch.kind};
             }
-            t->touch[--to] = touch;
+            t->entry[--to] = touch;
         }
         t->rim[f] = t->rim[of];
         t->first[f + 1] = count;
@@ -210,18 +211,18 @@ static void spread_entries(lrcs_prepared *p, uint32_t count)
     }
 }
 
-int lrcsi_coincident_touches(lrcs_prepared *p, lrcs_work *work)
+int lrcsi_coincident_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_intersections *t = &p->intersections;
-    if (!p->twin) {
+    if (!p->opposite) {
         return LRCS_OK;
     }
     uint64_t count = count_entries(p);
     if (count >= LRCS_NONE) {
         return LRCS_E_LIMIT;
     }
-    work->used = (size_t)((unsigned char *)t->touch - work->bytes);
-    if (!lrcsi_work_take(work, (size_t)count, sizeof *t->touch)) { /* the same place, longer */
+    work->used = (size_t)((unsigned char *)t->entry - work->bytes);
+    if (!lrcsi_work_take(work, (size_t)count, sizeof *t->entry)) { /* the same place, longer */
         return LRCS_E_MEMORY;
     }
     spread_entries(p, (uint32_t)count);

@@ -6,16 +6,18 @@
 
 #include "scene/prepared.h"
 
-/* Fills p->redundant and p->twin; facets of curved shapes are not redundant and have no twin.
-   Given: the topology, and p->redundant where facets are skipped. Status: LRCS_OK; LRCS_E_MEMORY.
-   Work: twins stay, if there are any; lrcsi_coincident_need bytes at most. Linear time. */
+/* Fills p->redundant and p->opposite; facets of curved shapes are not redundant and have no
+   opposite. Given: the topology, and p->redundant of skipped facets. Status: LRCS_OK;
+   LRCS_E_MEMORY. Work: p->opposite stays, if there are any; lrcsi_coincident_need bytes at most.
+   Linear time. */
 size_t lrcsi_coincident_need(uint32_t vertex_count, uint32_t facet_count);
 int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work);
 
-/* Copies contacts, found between first twins and facets without a twin, to both twins: each gets
-   the list of the first, and in every list a facet is followed by its twin. Given:
+/* Copies contacts, found between the first facets of opposite pairs and facets without an opposite,
+   to both facets of each pair: each gets the list of the first, and in every list a facet is
+   followed by its opposite. Given:
    p->intersections, the last block taken from the work area. Status: LRCS_OK; LRCS_E_MEMORY;
    LRCS_E_LIMIT (more than 2^32 - 2 entries). Linear time. */
-int lrcsi_coincident_touches(lrcs_prepared *p, lrcs_work *work);
+int lrcsi_coincident_contacts(lrcs_prepared *p, lrcs_work *work);
 
 #endif

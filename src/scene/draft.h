@@ -58,10 +58,10 @@ enum lrcsi_key {
 
 typedef struct lrcsi_draft {
     const lrcsi_toml *toml;
-    int table; /* lrcsi_table: where the next keys go */
+    int table; /* lrcsi_table: the table of the next keys */
     int has_joint;
     lrcsi_toml_event header;
-    lrcsi_toml_event value[LRCSI_KEYS]; /* kind LRCSI_TOML_NONE where not given */
+    lrcsi_toml_event value[LRCSI_KEYS]; /* kind LRCSI_TOML_NONE if not given */
 } lrcsi_draft;
 
 /* Begins the top of the file. */

@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+#include "base/vec3.h"
+
 #include "mesh/tessellate.h"
 #include "scene/shaped.h"
 
@@ -32,13 +34,11 @@ static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
         corner[2] >= mesh->vertex_count) {
         return 0.0;
     }
-    for (int k = 0; k < 3; k++) {
-        p[k] = mesh->vertex[corner[1]].x[k] - mesh->vertex[corner[0]].x[k];
-        q[k] = mesh->vertex[corner[2]].x[k] - mesh->vertex[corner[0]].x[k];
-    }
-    const double n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
-                         p[0] * q[1] - p[1] * q[0]};
-    return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double n[3];
+    lrcsi_vec3_between(mesh->vertex[corner[0]].x, mesh->vertex[corner[1]].x, p);
+    lrcsi_vec3_between(mesh->vertex[corner[0]].x, mesh->vertex[corner[2]].x, q);
+    lrcsi_vec3_cross(p, q, n);
+    return 0.5 * sqrt(lrcsi_vec3_dot(n, n));
 }
 
 double lrcsi_fineness_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Preparing a scene: scaling by a power of two, normals, edges, contacts, and what can be proved
-   for every direction at once. It decides nothing that depends on where the laser stands. */
+   for every direction at once. It decides nothing that depends on the direction to the laser. */
 #include "scene/prepare.h"
 
 #include <math.h>
@@ -33,16 +33,19 @@ static int scene_check(const lrcs_scene *scene, double *most)
             return LRCS_E_NUMBER;
         }
     }
-    *most = 0;
+    double largest = 0;
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         const uint32_t *corner = scene->facet[f].corner;
+        double of_facet = 0;
         for (int k = 0; k < 3; k++) {
             if (corner[k] >= scene->vertex_count) {
                 return LRCS_E_INDEX;
             }
             const double *x = scene->vertex[corner[k]].x;
-            *most = lrcsi_most(*most, lrcsi_most(fabs(x[0]), lrcsi_most(fabs(x[1]), fabs(x[2]))));
+            double of_corner = lrcsi_most(fabs(x[0]), lrcsi_most(fabs(x[1]), fabs(x[2])));
+            of_facet = lrcsi_most(of_facet, of_corner);
         }
+        largest = lrcsi_most(largest, of_facet);
         for (int k = 0; scene->corner_normal && k < 9; k++) {
             if (!(fabs(scene->corner_normal[3 * (size_t)f + (size_t)k / 3].x[k % 3]) <= 1.0)) {
                 return LRCS_E_NUMBER;
@@ -58,10 +61,11 @@ static int scene_check(const lrcs_scene *scene, double *most)
             return LRCS_E_NUMBER;
         }
     }
+    *most = largest;
     return LRCS_OK;
 }
 
-/* Scaled in two steps, that neither power overflows: exact, unless it becomes 0. */
+/* Scaled in two steps, so that neither power overflows: exact, unless it becomes 0. */
 static void scale_vertices(lrcs_prepared *p)
 {
     double first = ldexp(1, -p->exponent / 2);
@@ -77,7 +81,7 @@ static void scale_vertices(lrcs_prepared *p)
 /* Normals computed side by side. */
 enum { CROSS_LANES = 8 };
 
-/* Where |N| falls below this share of |p| |q|, the products cancel and N is taken exactly. */
+/* If |N| is below this fraction of |p| |q|, the products cancel and N is computed exactly. */
 #define NORMAL_SLIVER 0x1p-10
 
 /* Sides p = b - a and q = c - a of facets, and N = p x q: component by component, so that compilers
@@ -118,8 +122,8 @@ static void lanes_cross(cross_lanes *n)
     }
 }
 
-/* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| comes out
-   of doubles within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
+/* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| is computed
+   within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
 static void normal_take(lrcs_prepared *prepared, uint32_t facet, const cross_lanes *lanes, int at)
 {
     lrcsi_normal *n = &prepared->normal[facet];
@@ -233,7 +237,7 @@ static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
     box_find(p);
     int status = lrcsi_coincident_mark(p, work);
     return status == LRCS_OK ? lrcsi_across_make(&p->topology, scene->facet_count, p->redundant,
-                                                 p->twin, work, &p->across)
+                                                 p->opposite, work, &p->across)
                              : status;
 }
 
@@ -254,8 +258,8 @@ static int contacts_of_convex(lrcs_prepared *p, lrcs_work *work)
 }
 
 /* Pieces of surface are distinguished first, for contacts within one piece. Not searched are
-   redundant facets, and of twins the second, which gets a copy of the first one's list. Then
-   whether the scene is solid. This stage comes before the normals: they use the memory of its
+   redundant facets, and of opposite pairs the second, which gets a copy of the first one's list.
+   Then whether the scene is solid. This stage comes before the normals: they use the memory of its
    scratch. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
@@ -271,7 +275,7 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
         return LRCS_E_MEMORY;
     }
     for (uint32_t f = 0; f < facets; f++) {
-        without[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->twin && p->twin[f] < f);
+        without[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->opposite && p->opposite[f] < f);
     }
     if (lrcsi_solid_pieces(p, piece)) {
         p->piece = piece;
@@ -281,7 +285,7 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
     int status = lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet, facets,
                                          &p->topology, without, p->piece, work, &p->intersections);
     if (status == LRCS_OK) {
-        status = lrcsi_coincident_touches(p, work);
+        status = lrcsi_coincident_contacts(p, work);
     }
     if (status == LRCS_OK && p->piece && !p->intersections.self) {
         status = lrcsi_solid_outward(p, p->piece, work, &p->solid);
@@ -348,7 +352,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, 1));
     size_t coincident = lrcsi_work_add(need, lrcsi_coincident_need(vertices, scene->facet_count));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* twins */
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* opposite */
     need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
     /* 2. Contacts: what is not searched, pieces of surface, and the search with its result. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));

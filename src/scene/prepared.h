@@ -30,7 +30,7 @@ typedef struct lrcsi_normal {
    nothing that the other does not hide (scene/coincident.h). */
 enum lrcsi_redundant {
     LRCSI_NOT_REDUNDANT = 0,
-    LRCSI_REDUNDANT_FROM_BEHIND = 1, /* if it faces away: its twin then faces the laser */
+    LRCSI_REDUNDANT_FROM_BEHIND = 1, /* if it faces away: its opposite then faces the laser */
     LRCSI_REDUNDANT = 2              /* always; so are facets that are skipped */
 };
 
@@ -57,10 +57,10 @@ typedef struct lrcsi_batches {
 
 /* At most this share of the facet's area is within their parts' slack of `other`, and at most this
    share of its rows (lrcsi_proximity_rows) holds such points. Rounded up. */
-typedef struct lrcsi_near {
+typedef struct lrcsi_proximity_pair {
     uint32_t facet, other;
     float share, rows;
-} lrcsi_near;
+} lrcsi_proximity_pair;
 
 typedef struct lrcsi_proximity {
     double *reach; /* part: lrcs_part.reach, scaled; NULL if this was not requested, or some part's
@@ -68,7 +68,7 @@ typedef struct lrcsi_proximity {
     double *
         grazing_cos; /* part: a facet with |cos(theta)| above this keeps its side of its own part */
     double most;     /* of reach */
-    lrcsi_near *near; /* in no order */
+    lrcsi_proximity_pair *pair; /* in no order */
     size_t count;
 } lrcsi_proximity;
 
@@ -79,7 +79,7 @@ typedef struct lrcsi_proximity {
 typedef struct lrcsi_run {
     double low[3], high[3]; /* the box around its facets, except those always redundant */
     uint32_t first_side;
-    int touched; /* some facet has contacts, or is a rim (mesh/intersection.h) */
+    int has_contacts; /* some facet has a contact or is marked in rim (mesh/intersection.h) */
 } lrcsi_run;
 
 /* A side of a facet of a run across which (scene/across.h) there is a facet of another run that
@@ -122,7 +122,7 @@ struct lrcs_prepared {
     unsigned char *skip;      /* facet: 1 if degenerate or omitted; such a facet is ignored
                                  everywhere */
     unsigned char *redundant; /* facet: a lrcsi_redundant */
-    uint32_t *twin; /* facet: the one in the same place with the opposite winding, or LRCS_NONE;
+    uint32_t *opposite; /* facet: the one in the same place with the opposite winding, or LRCS_NONE;
                        NULL if no facet has any */
     unsigned char *referenced; /* vertex: 1 if a live facet has it as a corner */
     lrcsi_normal *normal;
@@ -130,7 +130,7 @@ struct lrcs_prepared {
     lrcsi_topology topology;           /* of all facets; its edges may include skipped ones */
     lrcsi_across across;               /* across the sides of facets that are not redundant */
     lrcsi_intersections intersections; /* between facets that are not redundant, but not between a
-                                          facet and its twin */
+                                          facet and its opposite */
     lrcsi_runs runs;                   /* facets that follow one another */
     uint32_t *piece;    /* facet: its piece of surface (scene/solid.h) if all are closed; else
                            NULL */

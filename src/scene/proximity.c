@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* The slack between parts and the facets within it. visibility/proximity_band.h proves that these
-   distances suffice. Shares are rounded outward: coordinates here are below 1 and doubles good to
-   2^-48 of that, so every distance is widened by LRCSI_NEAR_OFF. */
+   distances suffice. Shares are rounded outward: coordinates here are below 1 and doubles accurate
+   to 2^-48, so every distance is widened by LRCSI_PROXIMITY_ERR. */
 #include "scene/proximity.h"
 
 #include <math.h>
 
 #include "base/constant.h"
 #include "base/range.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "mesh/slice.h"
 #include "mesh/tree.h"
@@ -34,7 +35,7 @@ double lrcsi_proximity_slack(const lrcs_prepared *p, uint32_t part, uint32_t oth
     if (own == 0 && theirs == 0) {
         return 0;
     }
-    return theirs + (part_is_open(p, other) ? lrcsi_most(own, theirs) : own) + LRCSI_NEAR_OFF;
+    return theirs + (part_is_open(p, other) ? lrcsi_most(own, theirs) : own) + LRCSI_PROXIMITY_ERR;
 }
 
 /* --- one pair --------------------------------------------------------------------------------- */
@@ -102,11 +103,8 @@ static lrcsi_slice near_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
         const double *b = lrcsi_prepared_corner(p, other, (side + 1) % 3);
         const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
         double out[3];
-        for (int k = 0; k < 3; k++) {
-            out[k] = along[(k + 1) % 3] * n[(k + 2) % 3] - along[(k + 2) % 3] * n[(k + 1) % 3];
-        }
-        double size = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
-        lrcsi_slice_cut(&slice, out, a, slack * size);
+        lrcsi_vec3_cross(along, n, out);
+        lrcsi_slice_cut(&slice, out, a, slack * sqrt(lrcsi_vec3_dot(out, out)));
     }
     return slice;
 }
@@ -120,7 +118,7 @@ static float share_float(double share)
 }
 
 /* Entries are allocated one by one and are contiguous. */
-_Static_assert(sizeof(lrcsi_near) % LRCS_WORK_ALIGN == 0, "no gaps between entries");
+_Static_assert(sizeof(lrcsi_proximity_pair) % LRCS_WORK_ALIGN == 0, "no gaps between entries");
 
 static int near_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work *work)
 {
@@ -137,12 +135,12 @@ static int near_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work 
     if (slice.count == 0 || !(share > 0)) {
         return LRCS_OK;
     }
-    lrcsi_near *near = lrcsi_work_take(work, 1, sizeof *near);
-    if (!near) {
+    lrcsi_proximity_pair *pair = lrcsi_work_take(work, 1, sizeof *pair);
+    if (!pair) {
         return LRCS_E_MEMORY;
     }
-    *near = (lrcsi_near){facet, other, share_float(share), share_float(rows)};
-    proximity->near = proximity->near ? proximity->near : near;
+    *pair = (lrcsi_proximity_pair){facet, other, share_float(share), share_float(rows)};
+    proximity->pair = proximity->pair ? proximity->pair : pair;
     proximity->count++;
     return LRCS_OK;
 }
@@ -153,7 +151,7 @@ static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree,
 {
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
-    double within = 2 * (p->proximity.reach[part] + p->proximity.most) + LRCSI_NEAR_OFF;
+    double within = 2 * (p->proximity.reach[part] + p->proximity.most) + LRCSI_PROXIMITY_ERR;
     lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
     for (int k = 0; k < 3; k++) {
         box.low[k] -= within;
@@ -176,7 +174,7 @@ static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree,
 }
 
 /* The list grows above the tree in the work area and is moved down at the end. */
-static int nears_find(lrcs_prepared *p, lrcs_work *work)
+static int pairs_find(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_proximity *proximity = &p->proximity;
     const lrcs_scene *scene = p->scene;
@@ -191,11 +189,11 @@ static int nears_find(lrcs_prepared *p, lrcs_work *work)
     }
     work->used = mark;
     if (status == LRCS_OK) {
-        const lrcsi_near *above = proximity->near;
-        proximity->near = lrcsi_work_take(work, proximity->count, sizeof *proximity->near);
-        status = proximity->near ? LRCS_OK : LRCS_E_MEMORY;
+        const lrcsi_proximity_pair *above = proximity->pair;
+        proximity->pair = lrcsi_work_take(work, proximity->count, sizeof *proximity->pair);
+        status = proximity->pair ? LRCS_OK : LRCS_E_MEMORY;
         for (size_t i = 0; i < proximity->count && status == LRCS_OK; i++) {
-            proximity->near[i] = above[i];
+            proximity->pair[i] = above[i];
         }
     }
     return status;
@@ -247,7 +245,8 @@ size_t lrcsi_proximity_need(const lrcs_scene *scene)
     size_t need = 0;
     for (uint32_t i = 0; i < scene->part_count && need == 0; i++) {
         if (scene->part[i].reach > 0) {
-            need = lrcsi_work_bytes(4 * (size_t)scene->facet_count + 64, sizeof(lrcsi_near));
+            need =
+                lrcsi_work_bytes(4 * (size_t)scene->facet_count + 64, sizeof(lrcsi_proximity_pair));
             need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(scene->part_count, sizeof(double)));
         }
     }
@@ -266,5 +265,5 @@ int lrcsi_proximity_make(lrcs_prepared *p, lrcs_work *work)
         return LRCS_E_MEMORY;
     }
     parts_fill(p);
-    return nears_find(p, work);
+    return pairs_find(p, work);
 }

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Curved shapes among other parts: how far each part's true surface may be from its facets, and
-   which facets are so near to one of another part that the true surfaces may be in a different
-   order. It does not depend on direction. */
+   which facets are so close to one of another part that the order of the true surfaces may
+   differ. It does not depend on direction. */
 #ifndef LRCSI_PROXIMITY_H
 #define LRCSI_PROXIMITY_H
 
 #include "mesh/slice.h"
 #include "scene/prepared.h"
 
-/* Every slack is widened by this: coordinates are below 1, and doubles good to 2^-48 of that. */
-#define LRCSI_NEAR_OFF 0x1p-44
+/* Every slack is widened by this: coordinates are below 1, and doubles accurate to 2^-48. */
+#define LRCSI_PROXIMITY_ERR 0x1p-44
 
 /* The distance between a facet of `part` and one of `other`, or in projection its rims and
    contours, below which the true visibility may differ: 0 if both parts' facets are exact. */

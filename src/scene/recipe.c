@@ -371,7 +371,7 @@ static int resolve_materials(recipe_reader *reader, const lrcsi_index *names)
         if (part->material) {
             status = resolve_name(reader, names, part->material, part->material_line, &material,
                                   &own, &source);
-            part->wears = status == LRCS_OK && own != LRCS_NONE ? (int)own : -1;
+            part->material_index = status == LRCS_OK && own != LRCS_NONE ? (int)own : -1;
         }
     }
     return status;

@@ -7,7 +7,7 @@
 
 #include "scene/draft.h"
 
-/* The draft's `unit` in metres, or `other` where it has none. Status: LRCS_OK; LRCS_E_NAME;
+/* The draft's `unit` in metres, or `other` if it has none. Status: LRCS_OK; LRCS_E_NAME;
    LRCS_E_NUMBER (not above 0). */
 int lrcsi_recipe_unit(const lrcsi_draft *draft, double other, double *metres);
 

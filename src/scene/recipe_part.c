@@ -266,7 +266,7 @@ int lrcsi_recipe_part(const lrcsi_draft *draft, double unit, lrcs_recipe_part *p
     part->name = lrcsi_draft_text(draft, LRCSI_KEY_NAME);
     part->file = NULL;
     part->line = draft->header.line;
-    part->wears = -1;
+    part->material_index = -1;
     part->material = material ? material->text : NULL;
     part->material_line = material ? material->line : 0;
     if (!part->name || part->name[0] == '\0') {

@@ -67,9 +67,10 @@ int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
         uint32_t end = lrcsi_run_end(start, facet_count);
         double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
         double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-        int touched = 0;
+        int has_contacts = 0;
         for (uint32_t f = start; f < end; f++) {
-            touched |= lrcsi_intersection_of(&p->intersections, f) != 0 || p->intersections.rim[f];
+            has_contacts |=
+                lrcsi_intersection_of(&p->intersections, f) != 0 || p->intersections.rim[f];
             const double *a = lrcsi_prepared_corner(p, f, 0);
             const double *b = lrcsi_prepared_corner(p, f, 1);
             const double *c = lrcsi_prepared_corner(p, f, 2);
@@ -83,7 +84,7 @@ int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
             run->low[k] = low[k];
             run->high[k] = high[k];
         }
-        run->touched = touched;
+        run->has_contacts = has_contacts;
         made.run[r + 1].first_side = run->first_side;
         run_join(p, &made, start, end);
     }

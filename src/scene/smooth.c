@@ -22,6 +22,7 @@
 
 #include "base/constant.h"
 #include "base/length.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "optics/comb.h"
 
@@ -44,18 +45,6 @@ typedef struct smooth_job {
     uint32_t *corner;    /* 3 facet + k, by vertex */
     lrcs_point *in_mean; /* corner 3 facet + k: the mean of its groups, or zero */
 } smooth_job;
-
-static double dot_of(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross_of(const double a[3], const double b[3], double c[3])
-{
-    for (int k = 0; k < 3; k++) {
-        c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-    }
-}
 
 /* Scales to length 1, first dividing by the largest component so that nothing overflows. Returns 0
    if the length is zero. */
@@ -80,9 +69,9 @@ static int make_unit(double v[3])
 static double angle_of(const double a[3], const double b[3])
 {
     double c[3];
-    cross_of(a, b, c);
+    lrcsi_vec3_cross(a, b, c);
     double size = lrcsi_length(c);
-    double dot = dot_of(a, b);
+    double dot = lrcsi_vec3_dot(a, b);
     double whole = sqrt(size * size + dot * dot);
     /* tan of the half; beyond a right angle by the other formula, without cancellation */
     double t = dot >= 0.0 ? size / (whole + dot) : (whole - dot) / size;
@@ -124,7 +113,7 @@ static void find_units(smooth_job *job)
         double *n = job->unit[f].x;
         memset(n, 0, sizeof job->unit[f].x);
         if (side_of(job, f, 0, 1, u) && side_of(job, f, 0, 2, v)) {
-            cross_of(u, v, n);
+            lrcsi_vec3_cross(u, v, n);
             make_unit(n);
         }
     }
@@ -233,7 +222,7 @@ static int facet_normals(const smooth_job *job, uint32_t facet, lrcs_point n[3])
     for (uint32_t k = 0; k < 3; k++) {
         given[k] = given_normal(job, facet, k, n[k].x);
         count += given[k];
-        back += given[k] && dot_of(n[k].x, own) < 0.0;
+        back += given[k] && lrcsi_vec3_dot(n[k].x, own) < 0.0;
     }
     int curved = 0;
     for (uint32_t k = 0; k < 3; k++) {
@@ -244,7 +233,7 @@ static int facet_normals(const smooth_job *job, uint32_t facet, lrcs_point n[3])
         for (int i = 0; i < 3 && given[k] && back == count; i++) {
             x[i] = -x[i];
         }
-        if (!(dot_of(x, own) > 0.0)) {
+        if (!(lrcsi_vec3_dot(x, own) > 0.0)) {
             memcpy(x, own, 3 * sizeof *x);
         }
         const double off[3] = {x[0] - own[0], x[1] - own[1], x[2] - own[2]};

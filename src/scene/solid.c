@@ -20,7 +20,7 @@ int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
         piece[f] = f;
         for (int k = 0; k < 3 && !p->skip[f]; k++) {
             uint32_t other = p->across.facet[f].corner[k];
-            if (p->twin || other == f || other == count) {
+            if (p->opposite || other == f || other == count) {
                 return 0;
             }
             if (other < f) {

@@ -1,34 +1,39 @@
 /* SPDX-License-Identifier: MIT */
-/* Proofs that nothing hides a curved shape in a view. It refuses where it is not sure, and decides
-   nothing about what a shape then reflects.
+/* Proofs that nothing hides a curved shape in a view, or no proof. It does not decide what a shape
+   then reflects.
 
    Claim. Let the true surface P of a part lie on the boundary of a convex body, d the direction to
    the laser, and n a vector with n . d >= 0. If n . x >= c on P and n . x <= c on another part Q,
    then Q hides no part of P that has a projected area.
-   Proof. A point q of Q that hides p of P is q = p + t d, t > 0. Then c >= n . q = n . p + t n . d
-   >= c + t n . d: so n . d = 0, and p lies in the plane n . x = c. That plane holds d, so what P
-   has in it is seen edge-on. [] P itself hides none of its front, being on a convex body. So P is
-   clear where each other part has such a plane. One that holds d separates the silhouettes; n = d
-   says that Q is behind P; those in between serve parts that stand on one another.
+   Proof. A point q of Q that hides p in P is q = p + t d with t > 0. Then c >= n . q = n . p + t n
+   . d
+   >= c + t n . d: so n . d = 0, and p lies in the plane n . x = c. That plane contains d, so the
+   part of P in it is seen edge-on. QED. P hides none of its own front, because it lies on a convex
+   body. So P is clear if there is such a plane for each other part. A plane that contains d
+   separates the silhouettes; n = d means that Q is behind P; planes in between serve parts that
+   stand on one another.
 
-   Rounding. With supports (the most of n . x over a body) off by e_P and e_Q, n . d by 8 u, and all
-   within LENGTH of each other, the gap between P and Q along n must exceed e_P + e_Q + LENGTH
-   max(0, 8 u - n . d). Where it is zero but for that error, P may be hidden in a slab of twice the
-   error's height at its lowest end. How much of P's lit surface that holds is known where n is P's
-   own axis (rings of the wall; the end there is a plane with the normal -n, which faces away from
-   the laser or is within 16 u of edge-on) or P a sphere (a zone, whatever n is): its `slab`. */
+   Rounding. Let the errors of the supports (the largest n . x over a body) be e_P and e_Q, that of
+   n . d 8 u, and all distances below LENGTH. Then the gap between P and Q along n must exceed e_P +
+   e_Q + LENGTH max(0, 8 u - n . d). If the gap is zero up to that error, P may be hidden within a
+   slab at its lowest end whose height is twice the error. The area of P's lit surface in it,
+   `slab`, is known if n is P's own axis (rings of the wall; the end there is a plane with the
+   normal -n, which faces away from the laser or is within 16 u of edge-on) or if P is a sphere (a
+   zone, for every n). */
 #include "view/clear.h"
 
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "optics/closed.h"
 
 #define GLINT_SLOPE_MOST 0x1p20
 #define LENGTH           5.0 /* coordinates are below 1, and true shapes not much larger than facets */
 
-/* Parts with fewer facets are supported by their corners, others by the box around them. */
+/* The support of parts with fewer facets is computed from their corners, that of others from the
+   box around them. */
 #define CORNERS_MOST 32u
 
 /* A part as a body with supports. */
@@ -36,29 +41,15 @@ typedef struct clear_body {
     const lrcs_prepared *prepared;
     const lrcs_part *part;
     const lrcsi_extent *extent;
-    int curved; /* by its closed form, in these scaled numbers; else its facets are the truth
-                   or its box holds it */
+    int curved; /* 1: support of the closed form with these scaled dimensions; 0: of the facets
+                   or of the box around the part */
     double radius, radius2, length, origin[3];
     double centre[3]; /* of its box */
     double off;       /* of a support along a unit vector */
 } clear_body;
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3;
-        int j = (k + 2) % 3;
-        out[k] = a[i] * b[j] - a[j] * b[i];
-    }
-}
-
-/* Support off: 64 u covers some 30 operations on magnitudes below the sum of its numbers; the
-   length of a cone from its half-angle, 4 u more. */
+/* The error of a support: 64 u covers about 30 operations on magnitudes below the sum of the
+   dimensions; 4 u more cover the length of a cone from its half-angle. */
 static clear_body body_make(const lrcs_prepared *p, uint32_t index)
 {
     const lrcs_part *part = &p->scene->part[index];
@@ -84,14 +75,15 @@ static clear_body body_make(const lrcs_prepared *p, uint32_t index)
     return body;
 }
 
-/* The most of n . x over the true shape: with r the part of n across the axis and z along it. */
+/* The largest n . x over the true shape; r is the component of n across the axis, z that along it.
+ */
 static double support_curved(const clear_body *body, const double n[3])
 {
-    double x = dot(body->part->axis[0], n);
-    double y = dot(body->part->axis[1], n);
-    double z = dot(body->part->axis[2], n);
+    double x = lrcsi_vec3_dot(body->part->axis[0], n);
+    double y = lrcsi_vec3_dot(body->part->axis[1], n);
+    double z = lrcsi_vec3_dot(body->part->axis[2], n);
     double r = sqrt(x * x + y * y);
-    double at = dot(body->origin, n);
+    double at = lrcsi_vec3_dot(body->origin, n);
     double rim = body->radius * r;
     double rise = body->length * z;
     switch (body->part->kind) {
@@ -105,12 +97,12 @@ static double support_curved(const clear_body *body, const double n[3])
         return at + lrcsi_most(rim, rise);
     case LRCS_SHAPE_FRUSTUM:
         return at + lrcsi_most(body->radius2 * r, rim + rise);
-    default: /* paraboloid: the most of rho r + z H (1 - rho^2/R^2) over rho, at R r / (2 H z) R */
+    default: /* paraboloid: rho r + z H (1 - rho^2/R^2) is largest at rho = R r / (2 H z) R */
         return at + (2 * rise > rim ? rise + 0.25 * rim * (rim / rise) : rim);
     }
 }
 
-/* Of the facets, or of the box around them and the true shape. */
+/* The same over the facets, or over the box around them and the true shape. */
 static double support_facets(const clear_body *body, const double n[3])
 {
     const lrcs_prepared *p = body->prepared;
@@ -125,7 +117,7 @@ static double support_facets(const clear_body *body, const double n[3])
     }
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
         for (int k = 0; k < 3 && !p->skip[f]; k++) {
-            most = lrcsi_most(most, dot(lrcsi_prepared_corner(p, f, k), n));
+            most = lrcsi_most(most, lrcsi_vec3_dot(lrcsi_prepared_corner(p, f, k), n));
         }
     }
     return most;
@@ -138,8 +130,7 @@ static double support(const clear_body *body, const double n[3])
 
 /* The lit surface of a closed form within `height` of its end along its axis, or of a sphere's
    anywhere: rings of the wall no wider than the widest; and for the end itself, where F is below B
-   (20 u)^2 as long as the glint has a slope below GLINT_SLOPE_MOST, a surface that makes up for
-   that. */
+   (20 u)^2 if the glint's slope is below GLINT_SLOPE_MOST, an area that covers it. */
 static double slab_surface(const clear_body *body, double height)
 {
     const double turn = 6.2832;
@@ -154,12 +145,12 @@ static double slab_surface(const clear_body *body, double height)
     return 1.001 * turn * wide * slant * height + 32 * LRCSI_U * wide * wide;
 }
 
-/* One direction n for a pair, a unit vector to 8 u: 1 if it separates them, `slab` then being
-   what may be hidden all the same. `knows` says that slabs of P across n are known. */
+/* Does the direction n, a unit vector to 8 u, separate a pair? If so, *slab is the area that may
+   nevertheless be hidden. `knows`: slabs of P across n are known. */
 static int is_separating(const clear_body *P, const clear_body *Q, const double d[3],
                          const double n[3], int knows, double *slab)
 {
-    double error = P->off + Q->off + LENGTH * lrcsi_most(0, 8 * LRCSI_U - dot(n, d));
+    double error = P->off + Q->off + LENGTH * lrcsi_most(0, 8 * LRCSI_U - lrcsi_vec3_dot(n, d));
     const double down[3] = {-n[0], -n[1], -n[2]};
     double gap = -support(P, down) - support(Q, n);
     if (gap > error) {
@@ -170,17 +161,17 @@ static int is_separating(const clear_body *P, const clear_body *Q, const double 
     return knows && gap >= -error && support(P, n) + support(P, down) > 8 * error;
 }
 
-/* Either sense of n, as far as it looks to the laser; n need not be of unit length. */
+/* Tries n and -n, unless they face away from the laser; n need not have length 1. */
 static int is_separated_along(const clear_body *P, const clear_body *Q, const double d[3],
                               const double n[3], int knows, double *slab)
 {
-    double length = sqrt(dot(n, n));
+    double length = sqrt(lrcsi_vec3_dot(n, n));
     if (!(length > 0x1p-30)) {
         return 0;
     }
     const double up[3] = {n[0] / length, n[1] / length, n[2] / length};
     const double down[3] = {-up[0], -up[1], -up[2]};
-    double toward = dot(up, d);
+    double toward = lrcsi_vec3_dot(up, d);
     return (toward >= -8 * LRCSI_U && is_separating(P, Q, d, up, knows, slab)) ||
            (toward <= 8 * LRCSI_U && is_separating(P, Q, d, down, knows, slab));
 }
@@ -200,11 +191,11 @@ static int is_separated(const clear_body *P, const clear_body *Q, const double d
     for (int k = 0; k < 3; k++) {
         between[k] = P->centre[k] - Q->centre[k];
     }
-    double along = dot(between, d);
+    double along = lrcsi_vec3_dot(between, d);
     for (int k = 0; k < 3; k++) {
         flat[k] = between[k] - along * d[k];
     }
-    cross(P->part->axis[2], d, across);
+    lrcsi_vec3_cross(P->part->axis[2], d, across);
     if (is_separated_along(P, Q, d, flat, round, slab) ||
         is_separated_along(P, Q, d, P->part->axis[2], knows, slab) ||
         is_separated_along(P, Q, d, d, round, slab) ||
@@ -214,7 +205,7 @@ static int is_separated(const clear_body *P, const clear_body *Q, const double d
     }
     const double(*axis)[3] = Q->part->rigid ? (const double(*)[3])Q->part->axis : body_axis;
     for (int k = Q->curved ? 2 : 0; k < 3; k++) {
-        cross(axis[k], d, across);
+        lrcsi_vec3_cross(axis[k], d, across);
         if (is_separated_along(P, Q, d, axis[k], round, slab) ||
             is_separated_along(P, Q, d, across, round, slab)) {
             return 1;
@@ -230,7 +221,7 @@ static int shows_no_inside(const lrcsi_view *view, const lrcs_part *part)
     const lrcs_material *material = lrcsi_prepared_material(view->prepared, part->first_facet);
     int one = part->kind != LRCS_SHAPE_CYLINDER && part->kind != LRCS_SHAPE_FRUSTUM;
     return part->solid || !material->two_sided || !view->backs_reflect ||
-           (one && dot(part->axis[2], view->unit) > 16 * LRCSI_U);
+           (one && lrcsi_vec3_dot(part->axis[2], view->unit) > 16 * LRCSI_U);
 }
 
 size_t lrcsi_clear_need(const lrcs_prepared *p)

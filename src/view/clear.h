@@ -8,7 +8,7 @@
 
 typedef struct lrcsi_clear {
     unsigned char *part; /* part: 1 if no other part hides any of its true surface that faces the
-                            laser, nor shows any inside of it that reflects; NULL: none */
+                            laser, and no reflecting inside of it is visible; NULL: none */
     double *slab;        /* part: if it touches a separating plane to within rounding, the largest
                             area of that surface that can still be hidden, scaled */
     uint32_t count;
@@ -18,7 +18,7 @@ typedef struct lrcsi_clear {
 /* Bytes; 0 if no shape has a closed form. */
 size_t lrcsi_clear_need(const lrcs_prepared *prepared);
 
-/* For a view that knows what back sides do (backs_reflect). Status: LRCS_OK; LRCS_E_MEMORY. What it
+/* For a view with backs_reflect. Status: LRCS_OK; LRCS_E_MEMORY. What it
    finds stays in the work area. Work: O(parts * clear ones). */
 int lrcsi_clear_make(const lrcsi_view *view, lrcs_work *work, lrcsi_clear *clear);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The axes of a view from a pose. Decides which poses are none, and what is left of an R that is
-   rounded: with d the direction and a the first row given, the axes are those of a less its part
-   along d, of d x a, and of d. */
+/* The axes of a view from a pose. Decides which poses are invalid, and how a rounded R is
+   corrected: with d the direction and a the given first row, the axes are those of a without its
+   component along d, of d x a, and of d. */
 #include "view/frame.h"
 
 #include <math.h>
@@ -10,13 +10,13 @@
 #include "scene/prepared.h"
 #include "view/product.h"
 
-/* How far R may be from what it should be: single precision is near enough. */
+/* How far R may be from a rotation: single precision suffices. */
 #define NEAR 0x1p-20
 
 static const double nothing[3];
 
-/* A dot product to one rounding, the square root and quotients to another each: its length is off
-   by 1.5 u, and the rounded quotients add a vector of at most u. */
+/* A dot product with one rounding, the square root and quotients with one more each: the length is
+   off by 1.5 u, and the rounded quotients add a vector of at most u. */
 static void unit(const double v[3], double out[3])
 {
     double length = sqrt(lrcsi_product_dot(v, nothing, v));
@@ -25,7 +25,7 @@ static void unit(const double v[3], double out[3])
     }
 }
 
-/* Is x within `near` of y? Not if one is no number. */
+/* Is x within `near` of y? Not if one of them is NaN. */
 static int is_near(double x, double y, double near)
 {
     return fabs(x - y) <= near;
@@ -48,10 +48,11 @@ static int pose_check(const lrcs_pose *pose)
     return largest >= 0.5 && largest <= 1 ? LRCS_OK : LRCS_E_ARGUMENT;
 }
 
-/* Let e be the unit vector along the first row made, less its part along d. The row's part along d
-   is what rounding leaves of a - t d (t is good to 4 u and below 2^-19), u, and of the quotients,
-   u; its length is off by 2.5 u. The second row: d x the first is exactly along d x e, its
-   components are rounded once, u, and `unit` adds 2.5 u. The third: 2.5 u. All below 4 u. */
+/* Let e be the unit vector along the computed first row without its component along d. The row's
+   component along d consists of the rounding errors of a - t d (t is good to 4 u and below 2^-19),
+   u, and of the quotients, u; its length is off by 2.5 u. The second row: d x the first is exactly
+   along d x e, its components are rounded once, u, and `unit` adds 2.5 u. The third: 2.5 u. All
+   below 4 u. */
 int lrcsi_frame_make(const lrcs_pose *pose, double direction[3], double R[3][3])
 {
     int status = pose_check(pose);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Poses: the direction to the laser and the matrix that carries pictures. Decides how each way
-   of saying an attitude becomes both; how a matrix comes from angles is base/rotate. */
+/* Poses: the direction to the laser and the rotation matrix for pictures. Decides how each
+   description of an attitude becomes both; matrices from angles are computed in base/rotate. */
 #include <lrcs/pose.h>
 
 #include <math.h>
@@ -8,6 +8,7 @@
 
 #include "base/degrees.h"
 #include "base/rotate.h"
+#include "base/vec3.h"
 
 lrcs_pose lrcs_pose_default(void)
 {
@@ -15,8 +16,8 @@ lrcs_pose lrcs_pose_default(void)
     return pose;
 }
 
-/* The unit vector (c, s) along (x, y), however small those are; (0, 1) where both are zero, which
-   makes the shortest arc from -z a turn about x. */
+/* The unit vector (c, s) along (x, y), however small those are; (0, 1) if both are zero, which
+   makes the shortest arc from -z a rotation about x. */
 static void heading(double x, double y, double out[2])
 {
     const double given[2] = {x, y};
@@ -65,7 +66,7 @@ int lrcs_pose_from_direction(const double direction[3], lrcs_pose *pose)
     if (status != LRCS_OK) {
         return status;
     }
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double length = sqrt(lrcsi_vec3_dot(d, d));
     const double s_hat[3] = {d[0] / length, d[1] / length, d[2] / length};
     memcpy(pose->direction, d, sizeof d);
     shortest_arc(s_hat, pose->R);

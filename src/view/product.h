@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Scalar and vector products of a vector that is known to twice the digits and one that is exact,
-   good to nearly one rounding. Inline: every facet of a view takes four. */
+/* Scalar and vector products of a double-double vector and an exact one, accurate to little more
+   than one rounding. Inline, because every facet of a view needs four. */
 #ifndef LRCSI_PRODUCT_H
 #define LRCSI_PRODUCT_H
 
 #include "base/dd.h"
 
-/* N . d, N being high + low. Products and sums are split into what doubles hold of them and what
-   they lose, and only the sum of the lost parts is rounded: with P = sum |N_k d_k|, at most
+/* N . d, N being high + low. Products and sums are split into rounded values and
+   their errors, and only the sum of the errors is rounded: with P = sum |N_k d_k|, at most
    |N| |d|, the three pairs of up to 2 u P and their products 3 u^2 P, the pairs' sums 4 u^2 P,
    those of the sums' own lost parts 2 u^2 P, the two together 4 u^2 P. Off by at most N's own error
    times |d|, 14 u^2 |N| |d|, and the last rounding, u |N . d|. */

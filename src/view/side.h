@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* On which side of a directed segment of the view a point lies, from view coordinates, where their
-   errors let plain doubles tell. */
+/* On which side of a directed segment of the view a point lies, decided from view coordinates in
+   plain doubles if their errors allow it. */
 #ifndef LRCSI_SIDE_H
 #define LRCSI_SIDE_H
 
@@ -8,10 +8,10 @@
 
 #include "view/view.h"
 
-/* A sign that plain doubles do not tell. */
+/* A sign that plain doubles do not decide. */
 enum { LRCSI_VIEW_UNSURE = 2 };
 
-/* A segment of the view: where it starts, where it leads, and how far either may be off. */
+/* A segment of the view: start, direction, and their errors. */
 typedef struct lrcsi_view_side {
     double at[2], to[2];
     double length; /* of `to`, in the 1-norm */
@@ -30,9 +30,10 @@ static inline lrcsi_view_side lrcsi_view_side_of(const lrcsi_view *view, uint32_
     return side;
 }
 
-/* 1: a point x, which is off by err, lies on the left of the segment's line, -1: on the right;
-   LRCSI_VIEW_UNSURE. Differences are off by e and f at most, rounding included (lrcsi_view_off), so
-   p x q by e |q| + f |p| + 2 e f in the 1-norm, and by 2 u |p| |q| more, below a fifth of that. */
+/* Given: a point x with an error of err in each coordinate. Returned: 1 if it lies to the left of
+   the segment's line, -1 if to the right, or LRCSI_VIEW_UNSURE. Let p be the direction and q the
+   difference, with errors e and f including rounding (lrcsi_view_off): p x q has an error of
+   e |q| + f |p| + 2 e f in the 1-norm, and of 2 u |p| |q| more, below a fifth of that. */
 static inline int lrcsi_view_side_turn(const lrcsi_view_side *side, const double *x, double err)
 {
     const double q[2] = {x[0] - side->at[0], x[1] - side->at[1]};

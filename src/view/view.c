@@ -12,6 +12,7 @@
 #include "base/ieee.h"
 #include "base/length.h"
 #include "base/range.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "view/frame.h"
 #include "view/product.h"
@@ -32,8 +33,8 @@ static double normal_off(const lrcsi_normal *n)
     return 21 * LRCSI_U * LRCSI_U * n->length + n->error;
 }
 
-/* The sign of N . d: from doubles where their error (N.high is N within u, three products and two
-   sums: 4 u sum |N_k d_k| and N's own error) allows, else exactly. */
+/* The sign of N . d: from doubles if their error allows it (N.high is N within u, three products
+   and two sums: 4 u sum |N_k d_k| and N's own error), else exactly. */
 static signed char facing_of(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
@@ -58,11 +59,12 @@ static double grazing_dot(const lrcsi_view *view, uint32_t facet)
 
 /* A dot product below this multiple of its error is taken exactly. */
 #define GRAZING_DOT 0x1p50
-/* Nearer to edge-on than this, only a lower bound of tan^2 is known: a square that doubles hold. */
+/* Closer to edge-on than this, only a lower bound of tan^2 is known: about 2^1000, still a double.
+ */
 #define GRAZING_LEAST 0x1p-500
 
-/* |N . d| and its error: what was computed, or near grazing the exact number, to 2 u; nearer to
-   edge-on than can be decided, only a lower bound. */
+/* |N . d| and its error: the computed value, or near grazing incidence the exact one, to 2 u; too
+   close to edge-on to be decided, only a lower bound. */
 typedef struct incidence_dot {
     double value, off;
     int least;
@@ -89,9 +91,9 @@ static double incidence_projected(const lrcsi_view *view, incidence_dot dot)
     return dot.value / (2 * view->length);
 }
 
-/* tan^2 = |N x d|^2 / (N . d)^2. Near normal incidence the cross product drowns in its own error
-   and only an upper bound of tan^2 is known; near grazing the dot product does, and is taken
-   exactly. */
+/* tan^2 = |N x d|^2 / (N . d)^2. Near normal incidence the cross product is smaller than its
+   error, and only an upper bound of tan^2 is known; near grazing incidence the dot product is, and
+   is computed exactly. */
 static lrcsi_incidence incidence_make(const lrcsi_view *view, uint32_t facet, double product,
                                       const double cross_product[3])
 {
@@ -139,16 +141,16 @@ lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet)
     return incidence_make(view, facet, dot, cross);
 }
 
-/* Normals side by side, component by component: so compilers handle two or more at once. Idle
-   places repeat the first facet, that the count be a constant. */
+/* Normals as a structure of arrays, so that compilers vectorize the loops. Unused lanes repeat the
+   first facet, so that the trip count is constant. */
 typedef struct normal_lanes {
-    double high[3][LRCSI_TILTS], low[3][LRCSI_TILTS];
-    double dot[LRCSI_TILTS], cross[3][LRCSI_TILTS];
+    double high[3][LRCSI_INCIDENCES], low[3][LRCSI_INCIDENCES];
+    double dot[LRCSI_INCIDENCES], cross[3][LRCSI_INCIDENCES];
 } normal_lanes;
 
 static void lanes_multiply(normal_lanes *lanes, const double *d)
 {
-    for (uint32_t i = 0; i < LRCSI_TILTS; i++) {
+    for (uint32_t i = 0; i < LRCSI_INCIDENCES; i++) {
         const double high[3] = {lanes->high[0][i], lanes->high[1][i], lanes->high[2][i]};
         const double low[3] = {lanes->low[0][i], lanes->low[1][i], lanes->low[2][i]};
         double cross[3];
@@ -163,7 +165,7 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
                            lrcsi_incidence *incidence)
 {
     normal_lanes lanes;
-    for (uint32_t i = 0; i < LRCSI_TILTS; i++) {
+    for (uint32_t i = 0; i < LRCSI_INCIDENCES; i++) {
         const lrcsi_normal *n = &view->prepared->normal[facet[i < count ? i : 0]];
         for (int k = 0; k < 3; k++) {
             lanes.high[k][i] = n->high[k];
@@ -205,8 +207,8 @@ double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
     return LRCSI_U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
 }
 
-/* By the sign of the dot product of unit vectors. Where its error may hide the sign, which is rare,
-   exactly: one test serves a block. */
+/* By the sign of the dot product of unit vectors; exactly if its error may hide the sign, which is
+   rare: one test serves a block. */
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
@@ -259,7 +261,7 @@ static void view_unit(lrcsi_view *view)
     }
 }
 
-/* The square over the projected box's longer side, centred. */
+/* The window: the square over the longer side of the projected box, centred. */
 static void view_window(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
@@ -298,8 +300,7 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
     if (!v.facing) {
         return LRCS_E_MEMORY;
     }
-    v.length = sqrt(v.direction[0] * v.direction[0] + v.direction[1] * v.direction[1] +
-                    v.direction[2] * v.direction[2]);
+    v.length = sqrt(lrcsi_vec3_dot(v.direction, v.direction));
     view_unit(&v);
     view_facings(&v);
     *view = v;

@@ -17,7 +17,7 @@
    lrcs_prepared. */
 typedef struct lrcsi_incidence {
     double cos_theta; /* signed; its sign agrees with facing */
-    double tan2;      /* tan^2(theta), infinity where edge-on */
+    double tan2;      /* tan^2(theta), infinity if edge-on */
     double tan2_err;  /* relative error of tan2; 1: the true value is in 0 .. tan2; infinity: it is
                         at least tan2, and the facet is edge-on to within 2^-500 rad */
     double projected; /* projected area, >= 0 */
@@ -33,7 +33,7 @@ typedef struct lrcsi_view {
     double unit_low[3];
     signed char *facing; /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
     lrcs_point *point;   /* vertex, view coordinates about prepared->origin: x right, y up, z to the
-                            laser; how far each may be off, lrcsi_view_off tells */
+                            laser; lrcsi_view_off bounds the error of each */
     double scale;        /* a power of two; coordinates of the bulk of the scene times scale are
                             below 1 */
     double low[2], side; /* the square window around the projection of the live facets */
@@ -42,10 +42,10 @@ typedef struct lrcsi_view {
                              proved to show none, unless the options request them */
     int backs_reflect;    /* 1: they reflect if their material is two-sided */
     lrcsi_meter *meter;   /* limit on the steps of the visibility computation; NULL: none */
-    lrcs_progress *progress; /* where a run says how far it is; NULL: nowhere */
+    lrcs_progress *progress; /* where a run reports its progress; NULL: nowhere */
 } lrcsi_view;
 
-/* Says that a run has done so many of so many parts of a stage (lrcs_progress_stage). */
+/* Reports how many parts of a stage are done, and how many there are (lrcs_progress_stage). */
 static inline void lrcsi_view_progress(const lrcsi_view *view, int stage, uint32_t done,
                                        uint32_t total)
 {
@@ -69,17 +69,17 @@ size_t lrcsi_view_need(const lrcs_prepared *prepared);
 int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view);
 
-/* How far each of the view coordinates x of a vertex, or of another point of doubles in scene
-   coordinates, may be from the truth: it grows with the distance from the origin, so that what is
-   far away blurs nothing but itself. Derivation: view_point in view.c. What it leaves over, 1.9 u
-   of the same sum, is for adding it to a coordinate, or for a difference of two coordinates. */
+/* Bound on the error of each of the view coordinates x of a vertex, or of another point of doubles
+   in scene coordinates. It grows with the distance from the origin, so that distant parts do not
+   affect the accuracy of others. Derivation: view_point in view.c. Its margin, 1.9 u of the same
+   sum, covers adding it to a coordinate, or a difference of two coordinates. */
 static inline double lrcsi_view_off(const double x[3])
 {
     return 10 * LRCSI_U * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
 }
 
-/* Bounds of the true view coordinates of some vertices. Written out, for compilers leave short
-   loops as they are. */
+/* Bounds of the true view coordinates of some vertices. Written out, because compilers do not
+   unroll short loops. */
 static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *vertex, int count,
                                      double low[3], double high[3])
 {
@@ -97,7 +97,7 @@ static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *ver
     }
 }
 
-/* 1 if a facet reflects towards the laser where it is visible, else 0. */
+/* 1 if a facet, if visible, reflects towards the laser; else 0. */
 static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 {
     return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_reflect &&
@@ -107,12 +107,12 @@ static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 /* The incidence of a facet that is not skipped. */
 lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet);
 
-/* Only its projected area, the same to the last bit, in a quarter of the time. */
+/* Only the projected area: the same bits, in a quarter of the time. */
 double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 
-/* The incidence of up to LRCSI_TILTS facets, the same to the last bit, in half the time.
-   Returned: tilt[count]. */
-#define LRCSI_TILTS 32u
+/* The incidence of up to LRCSI_INCIDENCES facets: the same bits, in half the time. Returned:
+   incidence[count]. */
+#define LRCSI_INCIDENCES 32u
 void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32_t count,
                            lrcsi_incidence *incidence);
 

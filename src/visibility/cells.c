@@ -276,10 +276,10 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
 
 /* --- all blocks ------------------------------------------------------------------------------- */
 
-static lrcsi_visible facet_decided(const lrcsi_cells_work *c, uint32_t facet, double *off)
+static lrcsi_visible facet_decided(const lrcsi_cells_work *c, uint32_t facet, double whole,
+                                   double *off)
 {
     const lrcsi_cells_found *a = &c->area[facet];
-    double whole = lrcsi_view_incidence(c->view, facet).projected;
     double seen = (c->found[facet] & LRCSI_CELLS_HIDDEN) == 0 ? whole
                   : (c->found[facet] & LRCSI_CELLS_SEEN) == 0 ? 0
                                                               : lrcsi_least(whole, a->seen);
@@ -300,10 +300,10 @@ static double extent_of(const lrcs_prepared *p)
    (visibility/occlude.c): 52 u of its diameter times its perimeter, and for each cut a strip 128 u
    of the diameter wide. Needles, and what is larger than the bulk of the scene, are found better
    one by one. */
-static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, int as_clipping)
+static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double projected,
+                             int as_clipping)
 {
     const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
-    double projected = lrcsi_view_projected(c->view, facet);
     double diameter = 0;
     for (int k = 0; k < 3; k++) {
         const double *p = c->view->point[corner[k]].x;
@@ -327,8 +327,10 @@ static uint32_t areas_tell(const lrcsi_cells_work *c, int as_clipping, lrcsi_vis
             continue;
         }
         double off;
-        lrcsi_visible area = facet_decided(c, f, &off);
-        if (off <= facet_accuracy(c, f, as_clipping)) {
+        double projected = lrcsi_view_projected(c->view, f);
+        lrcsi_visible area = facet_decided(c, f, projected, &off);
+        if (off <= ACCURACY_OF_FACET * projected ||
+            off <= facet_accuracy(c, f, projected, as_clipping)) {
             visible[f] = area;
             c->open[f] = 0;
         } else {

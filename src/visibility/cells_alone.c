@@ -140,8 +140,8 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
     int order = lrcsi_contact_side(view, a->facet, other);
     for (uint32_t i = intersections->first[a->facet];
          order == 0 && i < intersections->first[a->facet + 1]; i++) {
-        if (intersections->touch[i].other == other &&
-            !lrcsi_intersection_hides(view, a->facet, &intersections->touch[i])) {
+        if (intersections->entry[i].other == other &&
+            !lrcsi_intersection_hides(view, a->facet, &intersections->entry[i])) {
             order = -1;
         }
     }
@@ -304,7 +304,7 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
     lrcsi_cells_work *c = &a->cells;
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
     for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
-        const lrcsi_intersection *touch = &intersections->touch[i];
+        const lrcsi_intersection *touch = &intersections->entry[i];
         if (alone_listed(a, touch->other) && lrcsi_intersection_hides(c->view, a->facet, touch) &&
             !alone_contact(a, touch->other)) {
             return 0;
@@ -456,18 +456,30 @@ static lrcsi_view_box place_box(const lrcsi_alone *a, const alone_place *place)
                                     (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach);
 }
 
-/* 1 a facet surely covers the point of a needle that has these shares, -1 surely not, 0 it passes
-   too near a side. The point is off its place by the frame's position error. */
-static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32_t other)
+/* 1 a facet surely covers the point of a needle that has these barycentric coordinates, -1 surely
+   not, 0 it passes too near a side. The point is off its place by the frame's position error. Lines
+   in plain doubles, kept as far as there is room, nearly always suffice. */
+static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32_t candidate)
 {
     const lrcsi_view *view = a->cells.view;
-    const double *at = place->at;
+    uint32_t other = a->candidate[candidate];
+    int kept = candidate < a->side_room;
+    int made = kept && a->side[candidate][0].clear >= 0;
     int guess = place->way == WAY_GUESSED;
     int inside = 1;
+    for (int k = 0; k < 3 && kept && !made; k++) {
+        lrcsi_alone_side *side = &a->side[candidate][k];
+        side->clear = lrcsi_needle_line(a->frame.needle, lrcsi_target_corner(view, other, k),
+                                        lrcsi_target_corner(view, other, (k + 1) % 3), side->line);
+    }
     for (int k = 0; k < 3; k++) {
-        const double *p = lrcsi_target_corner(view, other, k);
-        const double *q = lrcsi_target_corner(view, other, (k + 1) % 3);
-        double left = lrcsi_needle_side(a->frame.needle, p, q, at, guess);
+        const lrcsi_alone_side *side = &a->side[kept ? candidate : 0][k];
+        double left = kept ? lrcsi_line_at(side->line, place->at[0], place->at[1]) : 0;
+        if (!kept || !(fabs(left) > side->clear)) {
+            left =
+                lrcsi_needle_side(a->frame.needle, lrcsi_target_corner(view, other, k),
+                                  lrcsi_target_corner(view, other, (k + 1) % 3), place->at, guess);
+        }
         if (left < 0) {
             return -1;
         }
@@ -493,7 +505,7 @@ static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t cand
         return -1;
     }
     if (a->frame.needle) {
-        return needle_covered(a, place, other);
+        return needle_covered(a, place, candidate);
     }
     if (place->way == WAY_EXACT) {
         return lrcsi_sample_covers(a->cells.view, other, place->point) ? 1 : -1;

@@ -254,9 +254,9 @@ int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t sec
         uint32_t facet = way == 0 ? first : second;
         uint32_t other = way == 0 ? second : first;
         for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
-            if (intersections->touch[i].other == other) {
+            if (intersections->entry[i].other == other) {
                 touch = 1;
-                if (intersections->touch[i].kind == LRCSI_INTERSECTION_COPLANAR) {
+                if (intersections->entry[i].kind == LRCSI_INTERSECTION_COPLANAR) {
                     return lrcsi_sample_beats(view, second, first) ? 1 : -1;
                 }
             }

@@ -9,8 +9,8 @@ int lrcsi_cells_apart(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
-        if (intersections->touch[i].kind == LRCSI_INTERSECTION_COPLANAR &&
-            lrcsi_grid_casts(view, intersections->touch[i].other)) {
+        if (intersections->entry[i].kind == LRCSI_INTERSECTION_COPLANAR &&
+            lrcsi_grid_casts(view, intersections->entry[i].other)) {
             return 1;
         }
     }

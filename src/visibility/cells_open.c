@@ -88,7 +88,7 @@ static int open_joins(lrcsi_cells_work *c, uint32_t facet)
 static int touches_back(const lrcs_prepared *p, uint32_t facet, uint32_t other)
 {
     for (uint32_t i = p->intersections.first[other]; i < p->intersections.first[other + 1]; i++) {
-        if (p->intersections.touch[i].other == facet) {
+        if (p->intersections.entry[i].other == facet) {
             return 1;
         }
     }
@@ -102,8 +102,8 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     lrcsi_target target = {.view = NULL};
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
-        uint32_t other = intersections->touch[i].other;
-        if (intersections->touch[i].kind != LRCSI_INTERSECTION_CROSS ||
+        uint32_t other = intersections->entry[i].other;
+        if (intersections->entry[i].kind != LRCSI_INTERSECTION_CROSS ||
             c->listed[other] != c->look ||
             (other < facet && touches_back(view->prepared, facet, other))) {
             continue;

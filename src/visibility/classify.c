@@ -271,7 +271,7 @@ static int intersection_divides(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
-        if (lrcsi_intersection_hides(view, facet, &intersections->touch[i])) {
+        if (lrcsi_intersection_hides(view, facet, &intersections->entry[i])) {
             return 1;
         }
     }
@@ -395,7 +395,8 @@ static int facets_decide(lrcsi_classification *c, lrcs_work *work)
     size_t mark = work->used;
     int status = lrcsi_grid_edges(c->events.edge, c->events.count, events_most(p), work, &c->grid);
     for (uint32_t r = 0; r < p->runs.count && status == LRCS_OK; r++) {
-        if (c->boxes.state[r] == LRCSI_BOXES_RUN && (p->runs.run[r].touched || !run_clear(c, r))) {
+        if (c->boxes.state[r] == LRCSI_BOXES_RUN &&
+            (p->runs.run[r].has_contacts || !run_clear(c, r))) {
             lrcsi_boxes_open(&c->boxes, r);
         }
     }

@@ -169,6 +169,25 @@ double lrcsi_needle_segment(const lrcsi_needle *n, const double p[3], const doub
 
 /* --- sides ------------------------------------------------------------------------------------ */
 
+/* The determinant of lrcsi_needle_side as a function of u and v: its value at the origin, and what
+   a unit of u and of v adds. Each is off by 29 u^2 of its lengths, as above, and rounded by u of
+   itself; evaluating the line adds 3 u of its terms. u and v are below 2 in magnitude. */
+double lrcsi_needle_line(const lrcsi_needle *n, const double p[3], const double q[3],
+                         double line[3])
+{
+    lrcsi_dd along[3];
+    lrcsi_dd gap[3];
+    lrcsi_dd row[3];
+    double length = gap_between(q, p, along);
+    double far = gap_between(n->origin, p, gap) + 4 * n->reach;
+    cross_view(along, n->direction, -1, row);
+    line[0] = lrcsi_dd_value(dot_finely(row, n->side[0]));
+    line[1] = lrcsi_dd_value(dot_finely(row, n->side[1]));
+    line[2] = lrcsi_dd_value(dot_finely(row, gap));
+    return 8 * LRCSI_U * (2 * fabs(line[0]) + 2 * fabs(line[1]) + fabs(line[2])) +
+           64 * LRCSI_U * LRCSI_U * length * far * n->length + UNDERFLOWN;
+}
+
 /* det(q - p, x - p, d) at x = origin + u e + v f. x - p is off by 13 u^2 of the lengths that it is
    summed from, the rest is as above: below 45 u^2 of all. */
 double lrcsi_needle_side(const lrcsi_needle *n, const double p[3], const double q[3],

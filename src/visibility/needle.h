@@ -39,6 +39,11 @@ void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[
 double lrcsi_needle_segment(const lrcsi_needle *needle, const double p[3], const double q[3],
                             double end[2][2]);
 
+/* The same determinant as a line: line[0] u + line[1] v + line[2] has its sign at places with u and
+   v between -2 and 2, where it exceeds in magnitude what is returned. */
+double lrcsi_needle_line(const lrcsi_needle *n, const double p[3], const double q[3],
+                         double line[3]);
+
 /* On which side of p -> q, seen in the view, the point of the frame lies: positive on the left.
    0 if that is not sure, or, where a guess will do, where it is as good as on the line. */
 double lrcsi_needle_side(const lrcsi_needle *needle, const double p[3], const double q[3],

@@ -270,7 +270,7 @@ static void facet_share(band_job *job, uint32_t facet)
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     double reach = p->proximity.reach[band_part(job, facet)];
-    double wide = 2 * (reach + p->proximity.most) + facet_off(job, facet) + LRCSI_NEAR_OFF;
+    double wide = 2 * (reach + p->proximity.most) + facet_off(job, facet) + LRCSI_PROXIMITY_ERR;
     double low[3];
     double high[3];
     lrcsi_view_bounds(view, p->scene->facet[facet].corner, 3, low, high);
@@ -299,12 +299,12 @@ static void band_contacts(band_job *job)
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     for (size_t i = 0; i < p->proximity.count; i++) {
-        const lrcsi_near *near = &p->proximity.near[i];
-        int facing = view->facing[near->other];
-        int shut = p->solid || lrcsi_proximity_closed(p, band_part(job, near->other));
+        const lrcsi_proximity_pair *pair = &p->proximity.pair[i];
+        int facing = view->facing[pair->other];
+        int shut = p->solid || lrcsi_proximity_closed(p, band_part(job, pair->other));
         if (facing > 0 || (facing < 0 && !shut)) {
-            job->share[near->facet] += (double)near->share;
-            job->rows[near->facet] += (double)near->rows;
+            job->share[pair->facet] += (double)pair->share;
+            job->rows[pair->facet] += (double)pair->rows;
         }
     }
 }

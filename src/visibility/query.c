@@ -219,7 +219,7 @@ static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other, lr
         return 1;
     }
     for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        if (p->intersections.touch[i].other == other) {
+        if (p->intersections.entry[i].other == other) {
             return 1;
         }
     }
@@ -244,7 +244,7 @@ static int component_unbroken(lrcsi_classification *classification, uint32_t com
         return 0;
     }
     for (uint32_t i = contacts->first[facet]; i < contacts->first[facet + 1]; i++) {
-        if (classification->component[contacts->touch[i].other] == component) {
+        if (classification->component[contacts->entry[i].other] == component) {
             return 0;
         }
     }

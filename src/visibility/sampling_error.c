@@ -211,7 +211,7 @@ static void drift_add_touches(const sampled_facet *d, lrcsi_sampling_error *samp
     const lrcsi_view *view = d->raster->view;
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     for (uint32_t i = intersections->first[d->facet]; i < intersections->first[d->facet + 1]; i++) {
-        const lrcsi_intersection *touch = &intersections->touch[i];
+        const lrcsi_intersection *touch = &intersections->entry[i];
         if (!lrcsi_intersection_hides(view, d->facet, touch)) {
             continue;
         }
@@ -268,7 +268,7 @@ static double drift_hiders(const lrcsi_raster *raster, uint32_t facet, const uin
         }
     }
     for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        area += miscount_area(raster, p->intersections.touch[i].other);
+        area += miscount_area(raster, p->intersections.entry[i].other);
     }
     return area;
 }

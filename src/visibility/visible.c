@@ -189,7 +189,7 @@ static void mark_facet(const visible_job *job, const drawn_facet *f)
     }
     const lrcsi_intersections *contacts = &p->intersections;
     for (uint32_t i = contacts->first[f->facet]; i < contacts->first[f->facet + 1]; i++) {
-        const lrcsi_intersection *contact = &contacts->touch[i];
+        const lrcsi_intersection *contact = &contacts->entry[i];
         if (!lrcsi_intersection_hides(view, f->facet, contact)) {
             continue;
         }

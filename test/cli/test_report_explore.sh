@@ -98,8 +98,15 @@ async function use(frame) {
   log.push({name: "click", ...state(page), ...pictures(view, page)})
   const body = page.getElementById("body")
   body.setPointerCapture = () => {}
-  body.dispatchEvent(new view.PointerEvent("pointermove", {movementX: -40, movementY: 0, buttons: 1, pointerId: 1, bubbles: true})); await frames()
+  const point = (kind, id, x, y, type) => body.dispatchEvent(new view.PointerEvent(kind, {clientX: x, clientY: y, pointerId: id, pointerType: type, buttons: 1, bubbles: true}))
+  point("pointerdown", 1, 100, 100, "mouse"); point("pointermove", 1, 60, 100, "mouse"); point("pointerup", 1, 60, 100, "mouse"); await frames()
   log.push({name: "drag", ...state(page), ...pictures(view, page)})
+  point("pointermove", 1, 0, 100, "mouse"); await frames()
+  log.push({name: "released", ...state(page), ...pictures(view, page)})
+  point("pointerdown", 2, 100, 100, "touch"); point("pointerdown", 3, 140, 100, "touch"); point("pointermove", 3, 180, 100, "touch"); await frames()
+  log.push({name: "pinch", ...state(page), ...pictures(view, page)})
+  point("pointercancel", 2, 0, 0, "touch"); point("pointercancel", 3, 0, 0, "touch"); point("pointermove", 3, 0, 0, "touch"); await frames()
+  log.push({name: "cancelled", ...state(page), ...pictures(view, page)})
   const style = view.getComputedStyle(page.getElementById("keys"))
   return {log, wide: view.innerWidth, scroll: page.documentElement.scrollWidth, loaded: view.performance.getEntriesByType("resource").length,
           tab: [...page.querySelectorAll("canvas,button")].every(e => e.tabIndex >= 0 && (e.getAttribute("aria-label") || e.textContent)),
@@ -145,6 +152,8 @@ for name in ("phone", "desk") if result else ():
     check("the_brightest_is_found" + on, log[29]["sigma"] == most)
     check("the_map_takes_a_click" + on, where[30] == (90, 0), log[30]["where"])
     check("the_body_turns_under_the_mouse" + on, log[31]["where"] != log[30]["where"] and log[31]["body"]["sum"] != log[30]["body"]["sum"], log[31]["where"])
+    check("once_released_it_stays" + on, log[32]["where"] == log[31]["where"])
+    check("two_fingers_zoom" + on, log[33]["body"]["sum"] != log[32]["body"]["sum"] and log[33]["where"] != log[32]["where"] and log[34]["body"]["sum"] == log[33]["body"]["sum"])
     check("keys_turn_the_body_and_move_the_mark" + on, log[1]["body"]["sum"] != log[0]["body"]["sum"] and log[1]["map"]["sum"] != log[0]["map"]["sum"])
     check("keys_zoom" + on, log[6]["body"]["sum"] != log[5]["body"]["sum"] and log[6]["map"]["sum"] == log[5]["map"]["sum"] and log[7]["body"]["sum"] == log[5]["body"]["sum"])
     check("what_has_keys_has_the_focus" + on, all(x["focus"] == x["id"] for x in log if "id" in x))
@@ -157,4 +166,86 @@ net = json.load(open("net.json")) if found else {"events": []}
 urls = {e["params"]["url"] for e in net["events"] if isinstance(e.get("params"), dict) and "url" in e["params"] and e["params"].get("initiator", "").startswith(("file", "null"))}
 check("no_request_of_the_page_goes_out", not [u for u in urls if not u.startswith(("file:", "data:", "about:"))], sorted(urls))
 END
+
+# A phone under real fingers, by the browser's own protocol over pipes.
+cat >touch.py <<'END'
+import json, os, subprocess, sys, threading
+from tap import check
+threading.Timer(60, lambda: os._exit(3)).start()
+from_us, to_browser = os.pipe()
+from_browser, to_us = os.pipe()
+
+
+def pipes():
+    os.dup2(from_us, 3)
+    os.dup2(to_us, 4)
+
+
+# 3 and 4 are the browser's ends
+low = [os.dup(fd) for fd in (from_us, to_us)]
+while min(low) < 10:
+    low = [os.dup(fd) for fd in low]
+from_us, to_us = low
+browser = subprocess.Popen([sys.argv[1], "--headless=new", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe", "--user-data-dir=" + os.getcwd() + "/touched", "about:blank"],
+                           preexec_fn=pipes, pass_fds=(3, 4, from_us, to_us), stderr=subprocess.DEVNULL)
+number, rest = 0, b""
+
+
+def ask(method, session=None, **params):
+    global number, rest
+    number += 1
+    message = {"id": number, "method": method, "params": params}
+    if session:
+        message["sessionId"] = session
+    os.write(to_browser, json.dumps(message).encode() + b"\0")
+    while True:
+        while b"\0" not in rest:
+            rest += os.read(from_browser, 1 << 16)
+        line, rest = rest.split(b"\0", 1)
+        reply = json.loads(line)
+        if reply.get("id") == number:
+            return reply.get("result", reply)
+
+
+page = ask("Target.createTarget", url="about:blank")["targetId"]
+session = ask("Target.attachToTarget", targetId=page, flatten=True)["sessionId"]
+ask("Emulation.setDeviceMetricsOverride", session, width=390, height=700, deviceScaleFactor=2, mobile=True)
+ask("Emulation.setTouchEmulationEnabled", session, enabled=True, maxTouchPoints=5)
+ask("Page.enable", session)
+ask("Page.navigate", session, url="file://" + os.getcwd() + "/page.html")
+value = lambda text: ask("Runtime.evaluate", session, expression=text, awaitPromise=True, returnByValue=True)["result"].get("value")
+value("new Promise(done => { const wait = () => document.getElementById('readout') && document.getElementById('readout').dataset.row ? done(1) : setTimeout(wait, 50); wait() })")
+
+
+def middle(name):
+    value("document.getElementById('%s').scrollIntoView({block: 'center'})" % name)
+    return value("(b => ({x: b.x + b.width / 2, y: b.y + b.height / 2}))(document.getElementById('%s').getBoundingClientRect())" % name)
+
+
+def touch(name, across, down):
+    """A finger from the middle of a canvas, or a tap. Returns where the laser stood, and how far the page moved."""
+    at = middle(name)
+    place = "[document.getElementById('where').textContent, document.getElementById('%s').getBoundingClientRect().y]" % name
+    before = value(place)
+    steps = 12 if across or down else 0
+    ask("Input.dispatchTouchEvent", session, type="touchStart", touchPoints=[at])
+    for k in range(1, steps + 1):
+        ask("Input.dispatchTouchEvent", session, type="touchMove", touchPoints=[{"x": at["x"] + across * k / steps, "y": at["y"] + down * k / steps}])
+    ask("Input.dispatchTouchEvent", session, type="touchEnd", touchPoints=[])
+    after = value("new Promise(done => setTimeout(() => done(%s), 400))" % place)
+    return before[0], after[0], before[1] - after[1]
+
+
+for name in ("body", "map"):
+    before, after, moved = touch(name, 0, -120)
+    check(f"a_finger_scrolls_the_page_over_the_{name}", moved > 60 and after == before, (before, after, moved))
+    before, after, moved = touch(name, -90, 10)
+    check(f"a_finger_sideways_turns_by_the_{name}", abs(moved) < 2 and after != before, (before, after, moved))
+before, after, moved = touch("map", 0, 0)
+check("a_tap_on_the_map_chooses", after != before and abs(moved) < 2, (before, after, moved))
+check("the_page_is_no_wider_than_the_phone", value("document.documentElement.scrollWidth") <= 390)
+browser.kill()
+os._exit(0)
+END
+python3 touch.py "$browser" || not_ok the_touches_end_well
 finish

@@ -38,6 +38,18 @@ same nothing_is_drawn_of_nothing "$rc $(ls dark.svg 2>/dev/null) $(printf '%s\n'
 pair_scene >pair.toml
 run sweep pair.toml --az -180:180:30 --el -90:90:15 --method zbuffer --resolution 32 -o z.csv --stats-file z.json --stats-file z.csv.csv --stats-file z.png
 run sweep pair.toml --az -180:180:30 --el -90:90:15 --tolerance 1e-6 -o exact.csv
+# One uncertain amplitude moves all rows by the same factor; two amplitudes move them together at
+# most: the band of the mean is no narrower than its deviation.
+run sweep box.toml --az 0:360:10 --el -90:90:10 --material 0,0.25+-0.05,0.2,0 -o one.csv --stats --stats-file one.json --stats-file one.csv.csv --stats-file one.svg
+same text_has_the_band_of_materials "$(printf '%s\n' "$out" | grep -c ';  materials [0-9.e+-]* .. [0-9.e+-]* m2$') $(printf '%s\n' "$out" | grep -c 'materials: 68 % by their errors')" "12 1"
+same a_chart_has_a_band "$(grep -c 'shaded: 68 % by the errors of materials' one.svg) $(grep -c '<polygon fill="#bfdcec"' one.svg | awk '{ print ($1 > 5) }')" "1 1"
+run plot one.csv --stats-file again.json --stats-file again.svg
+same statistics_of_the_file_have_the_same_band "$rc $(cmp one.json again.json && cmp one.svg again.svg && echo same)" "0 same"
+run sweep box.toml --az 0:360:10 --el -90:90:10 --material 1+-0.1,0.25+-0.03,0.2,0.5 -o two.csv --stats-file two.json
+run sweep box.toml --az 0:360:10 --el -90:90:10 --material 1,0.25+-0.03,0.2,0.5 -o twob.csv --stats-file twob.json
+run sweep box.toml --az 0:360:10 --el -90:90:10 --material 1+-0.1,0.25,0.2,0.5 -o twoa.csv --stats-file twoa.json
+run sweep box.toml --az 0:90:10 --stats --stats-file none.json -o none.csv
+same without_errors_there_is_no_band "$(printf '%s\n' "$out" | grep -c materials) $(grep -c material_low none.json)" "0 0"
 command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 python3 - <<'END' || not_ok the_python_ends_well
 import csv, json, math
@@ -46,6 +58,24 @@ def rows(path):
     return [{k: float(v) for k, v in r.items() if k != "flags" and v} for r in csv.DictReader(l for l in open(path) if l[0] != "#")]
 s, p, z = (json.load(open(f + ".json")) for f in "spz")
 ball = 7.24989628827
+one = json.load(open("one.json"))
+near = lambda a, b: abs(a - b) <= 1e-9 * abs(b) + 1e-30
+band = lambda v: near(v["material_low"], 0.8 * v["value"]) and near(v["material_high"], 1.2 * v["value"])
+check("an_amplitude_scales_all_statistics", band(one["mean_m2"]) and all(band(q["sigma_m2"]) for q in one["percentiles"])
+      and near(one["most"]["material_high"], 1.2 * one["most"]["sigma_m2"]), one["mean_m2"])
+moved = lambda factor, edge: sum(r["weight"] for r in weighed if factor * r["sigma_m2"] <= edge * (1 + 1e-12)) / sum(r["weight"] for r in weighed)
+weighed = rows("one.csv")
+for r in weighed:
+    el = math.radians(r["el_deg"])
+    r["weight"] = (math.sin(min(el + math.radians(5), math.pi / 2)) - math.sin(max(el - math.radians(5), -math.pi / 2))) * (0.5 if r["az_deg"] in (0, 360) else 1)
+check("so_are_the_shares", all(abs(c["share"]["material_high"] - moved(0.8, c["sigma_m2"])) < 1e-9
+      and abs(c["share"]["material_low"] - moved(1.2, c["sigma_m2"])) < 1e-9 for c in one["cdf"]))
+columns = [{k: float(v) for k, v in r.items()} for r in csv.DictReader(l for l in open("one.csv.csv") if l[0] != "#")]
+check("and_the_table", [(r["cdf_material_low"], r["cdf_material_high"]) for r in columns] ==
+      [(c["share"]["material_low"], c["share"]["material_high"]) for c in one["cdf"]])
+half = lambda f: (lambda m: (m["material_high"] - m["material_low"]) / 2)(json.load(open(f))["mean_m2"])
+both, a, b = half("two.json"), half("twoa.json"), half("twob.json")
+check("the_band_of_a_mean_is_no_narrower_than_its_deviation", 0 < a and 0 < b and math.hypot(a, b) <= both * 1.001 <= (a + b) * 1.01, (both, a, b))
 check("a_ball_is_the_same_everywhere", all(abs(v / ball - 1) < 1e-11 for v in
       [s["mean_m2"]["value"], s["least"]["sigma_m2"], s["most"]["sigma_m2"]] + [q["sigma_m2"]["value"] for q in s["percentiles"]]))
 check("its_distribution_is_one_step", [c["share"]["value"] for c in s["cdf"]] == [0.0, 1.0])

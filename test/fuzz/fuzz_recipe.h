@@ -10,7 +10,7 @@ static inline void require_recipe(const lrcs_recipe *recipe)
     require(recipe->part_count > 0);
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         const lrcs_recipe_part *part = &recipe->part[i];
-        require(part->wears >= -1 && part->wears < (int)recipe->material_count);
+        require(part->material_index >= -1 && part->material_index < (int)recipe->material_count);
         require(part->file || lrcs_shape_check(&part->shape, NULL) == LRCS_OK);
     }
     for (uint32_t i = 0; i < recipe->material_count; i++) {

@@ -583,7 +583,22 @@ def stacked(r, s):  # boxes that share parts of faces, sides or corners, or stan
         size = tuple(y * r.choice((0.5, 1, 1)) for y in size)
 
 
-CONTACTS = [meet, meet, plane, pages, pinched, moebius, stacked]
+def pierced(r, s):  # a folded strip, and what passes through it
+    n = r.randint(3, 7)
+    s.add([point(r, 3) for _ in range(n)], [(i, i + 1, i + 2) if i % 2 else (i + 1, i, i + 2) for i in range(n - 2)])
+    for _ in range(r.randint(1, 3)):
+        s.tri(point(r), point(r), point(r))
+
+
+CONTACTS = [meet, meet, plane, pages, pinched, moebius, stacked, pierced, pierced]
+
+
+def edge_on(r, s):
+    """A direction in the plane of a facet, or nearly so."""
+    a, b, c = (s.v[i] for i in r.choice(s.f))
+    w = r.choice((0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-12, 1e-9))
+    d = mix(sub(b, a), sub(c, a), r.choice((0, 0.5, r.uniform(-1, 2))))
+    return tuple(x + w * r.uniform(-1, 1) for x in d)
 
 
 def make_contacts(r):
@@ -597,7 +612,8 @@ def make_contacts(r):
     if r.random() < 0.5:
         r.shuffle(s.f)
     valid(s)
-    return kind.__name__, s, direction(r, s) if s.f else None
+    d = s.f and (edge_on if kind is pierced else r.choice((direction, edge_on)))(r, s)
+    return kind.__name__, s, d if d and max(map(abs, d)) > 0 else (0.0, 0.0, 1.0)
 
 
 def make(r):

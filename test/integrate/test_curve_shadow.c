@@ -99,8 +99,8 @@ static lrcs_result shadow_run(const shadow_case *s, const lrcs_mesh *cylinder,
                               const lrcs_brdf *brdf, uint32_t facets, int method)
 {
     lrcs_recipe_part part[2] = {
-        {.name = "can", .file = "can", .place = lrcs_place_default(), .wears = -1},
-        {.name = "ball", .place = lrcs_place_default(), .material = "black", .wears = 0}};
+        {.name = "can", .file = "can", .place = lrcs_place_default(), .material_index = -1},
+        {.name = "ball", .place = lrcs_place_default(), .material = "black", .material_index = 0}};
     part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = s->radius};
     for (int k = 0; k < 3; k++) {
         part[1].place.translate[k] = s->centre[k];

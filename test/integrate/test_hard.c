@@ -704,7 +704,7 @@ static void coordinates_above_1e100_m_are_refused_with_the_reason(void **state)
     lrcs_recipe_part part = {.name = "far",
                              .shape = {.kind = LRCS_SHAPE_PLATE, .size = {1, 1, 0}},
                              .place = lrcs_place_default(),
-                             .wears = -1};
+                             .material_index = -1};
     lrcs_recipe recipe = {.part = &part, .part_count = 1};
     lrcs_build_options options = lrcs_build_options_default();
     lrcs_work work = lrcs_work_make(scene_memory, sizeof scene_memory);

@@ -227,6 +227,32 @@ static void far_vertices_blur_no_facet_but_their_own(void **state)
     check_case("far_spacecraft 2:157");
 }
 
+/* A facet seen edge-on, part of a fan that a large facet pierces: what it has in front of that is
+   no wider than rounding, but ends the fan. The fan hid more than there is of it. */
+static void a_facet_seen_edge_on_ends_its_fan(void **state)
+{
+    (void)state;
+    check_case("fan 3006:802");
+    check_case("fan 3010:109");
+}
+
+/* Fins through a plate, all within 1e-9 of edge-on: as the fins' frames have it, where they meet
+   the plate was unknown, and up to half of each stayed undecided. */
+static void fins_of_a_plate_seen_edge_on_show_their_exact_shares(void **state)
+{
+    (void)state;
+    check_case("comb 3002:440");
+    check_case("comb 3006:589");
+}
+
+/* Sides meet above corners and sides, and none cross: half of a needle stayed undecided. */
+static void needles_under_facets_that_meet_their_corners_are_decided(void **state)
+{
+    (void)state;
+    check_case("lattice 3005:192");
+    check_case("lattice 3007:401");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -241,6 +267,9 @@ int main(void)
         cmocka_unit_test(long_slivers_show_their_exact_shares),
         cmocka_unit_test(strips_that_nothing_tells_leave_cells_for_the_rest),
         cmocka_unit_test(far_vertices_blur_no_facet_but_their_own),
+        cmocka_unit_test(a_facet_seen_edge_on_ends_its_fan),
+        cmocka_unit_test(fins_of_a_plate_seen_edge_on_show_their_exact_shares),
+        cmocka_unit_test(needles_under_facets_that_meet_their_corners_are_decided),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

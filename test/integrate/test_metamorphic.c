@@ -166,7 +166,7 @@ static void splitting_facets_changes_nothing(void **state)
                     middle[c] = scene_vertex(&scene, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]),
                                              0.5 * (a[2] + b[2]));
                 }
-                scene.wears = scene.material_of[f];
+                scene.assigned = scene.material_of[f];
                 scene_facet(&scene, old.corner[0], middle[0], middle[2]);
                 scene_facet(&scene, old.corner[1], middle[1], middle[0]);
                 scene_facet(&scene, old.corner[2], middle[2], middle[1]);
@@ -190,7 +190,7 @@ static void doubling_a_caster_changes_nothing(void **state)
         lrcs_result one = seen(i, LRCS_METHOD_EXACT);
         uint32_t count = scene.scene.facet_count;
         for (uint32_t f = 0; f < count; f += 3) {
-            scene.wears = scene.material_of[f];
+            scene.assigned = scene.material_of[f];
             scene_facet(&scene, scene.facet[f].corner[1], scene.facet[f].corner[2],
                         scene.facet[f].corner[0]);
         }

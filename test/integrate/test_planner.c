@@ -46,7 +46,7 @@ static void scene_of(const planner_case *c, size_t w)
         scene_vertex(&scene, c->vertex[v].x[0], c->vertex[v].x[1], c->vertex[v].x[2]);
     }
     for (uint32_t f = 0; f < c->facets; f++) {
-        scene.wears = c->body[f];
+        scene.assigned = c->body[f];
         scene_facet(&scene, c->facet[f].corner[0], c->facet[f].corner[1], c->facet[f].corner[2]);
     }
 }

@@ -212,8 +212,8 @@ static void scene_cast(int which, uint32_t directions, int side)
     nasty_make(&plain, which);
     cast_scene rays = {.seed = nasty_seed};
     for (uint32_t i = 0; i < plain.recipe.part_count; i++) {
-        int wears = plain.part[i].wears;
-        cast_part(&rays, &plain.part[i], &plain.material[wears].brdf, wears);
+        int assigned = plain.part[i].material_index;
+        cast_part(&rays, &plain.part[i], &plain.material[assigned].brdf, assigned);
     }
     double size = any_size();
     nasty_transform(&plain, size, any_offset(size, 1e3), &s);
@@ -305,7 +305,8 @@ static void build_odd(double tolerance, uint32_t facets, int two_sided, built *b
     const lrcs_mesh models[4] = {{0}, {0}, {0}, mesh};
     lrcs_recipe_part part[4];
     for (int i = 0; i < 4; i++) {
-        part[i] = (lrcs_recipe_part){.name = "p", .place = lrcs_place_default(), .wears = -1};
+        part[i] =
+            (lrcs_recipe_part){.name = "p", .place = lrcs_place_default(), .material_index = -1};
         part[i].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .parts = LRCS_SHAPE_WALL};
         part[i].shape.radius = 0.5;
         part[i].shape.length = 1;
@@ -381,7 +382,8 @@ static void what_is_not_known_of_one_part_is_known_of_no_sum(void **state)
     for (int i = 0; i < 6; i++) {
         lrcs_recipe_part part[2];
         for (int k = 0; k < 2; k++) {
-            part[k] = (lrcs_recipe_part){.name = "p", .place = lrcs_place_default(), .wears = -1};
+            part[k] = (lrcs_recipe_part){
+                .name = "p", .place = lrcs_place_default(), .material_index = -1};
         }
         part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = i % 3 < 2 ? 0.5 : 1e-17};
         part[0].place.scale[0] = i % 3 == 1 ? 2 : 1;

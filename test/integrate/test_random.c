@@ -32,7 +32,7 @@ static void soup(uint64_t *seed, uint32_t count, int bits, uint32_t reach)
 {
     for (uint32_t f = 0; f < count; f++) {
         double x[3][3];
-        scene.wears = scene_random(seed, scene.scene.material_count);
+        scene.assigned = scene_random(seed, scene.scene.material_count);
         for (int c = 0; c < 3; c++) {
             random_point(seed, bits, reach, x[c]);
         }
@@ -58,7 +58,7 @@ static void piercing_plates(uint64_t *seed)
         double corner[3];
         double u[3];
         double v[3];
-        scene.wears = scene_random(seed, scene.scene.material_count);
+        scene.assigned = scene_random(seed, scene.scene.material_count);
         random_point(seed, 8, 4, u);
         random_point(seed, 8, 4, v);
         for (int k = 0; k < 3; k++) {
@@ -73,7 +73,7 @@ static void slivers(uint64_t *seed)
 {
     for (int i = 0; i < 16; i++) {
         double x[3][3];
-        scene.wears = scene_random(seed, scene.scene.material_count);
+        scene.assigned = scene_random(seed, scene.scene.material_count);
         random_point(seed, 6, 2, x[0]);
         random_point(seed, 6, 2, x[1]);
         double off = ldexp(1, -6 - (int)scene_random(seed, 21));
@@ -96,9 +96,9 @@ static void satellite(uint64_t *seed)
         high[k] = 0.25 + ldexp((double)scene_random(seed, 256), -8);
         at[k] = grain(seed, 8, 1);
     }
-    scene.wears = 0;
+    scene.assigned = 0;
     scene_box(&scene, low, high);
-    scene.wears = scene_random(seed, scene.scene.material_count);
+    scene.assigned = scene_random(seed, scene.scene.material_count);
     uint32_t first = scene.scene.vertex_count;
     scene_sphere(&scene, at, 0.5, 8);
     for (uint32_t v = first; v < scene.scene.vertex_count; v++) {
@@ -107,7 +107,7 @@ static void satellite(uint64_t *seed)
         }
     }
     for (int side = -1; side <= 1; side += 2) {
-        scene.wears = scene_random(seed, scene.scene.material_count);
+        scene.assigned = scene_random(seed, scene.scene.material_count);
         scene_plate(&scene, (const double[3]){side * 1.625 - 1, -0.5, at[2] / 4},
                     (const double[3]){2, 0, at[0] / 4}, (const double[3]){0, 1, at[1] / 4});
     }
@@ -259,7 +259,7 @@ static double split(uint64_t *seed, double direction[3])
         const double *q = scene.vertex[c].x;
         uint32_t middle =
             scene_vertex(&scene, 0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2]));
-        scene.wears = scene.material_of[f];
+        scene.assigned = scene.material_of[f];
         scene.facet[f] = (lrcs_facet){{a, b, middle}};
         scene_facet(&scene, a, middle, c);
     }
@@ -278,7 +278,7 @@ static double duplicate(uint64_t *seed, double direction[3])
     (void)direction;
     uint32_t count = scene.scene.facet_count;
     for (uint32_t f = 0; f < count; f += 3) {
-        scene.wears = scene.material_of[f];
+        scene.assigned = scene.material_of[f];
         scene_facet(&scene, scene.facet[f].corner[1], scene.facet[f].corner[2],
                     scene.facet[f].corner[0]);
     }

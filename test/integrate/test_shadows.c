@@ -30,7 +30,7 @@ static lrcs_recipe_part *add(shadow_scene *s, lrcs_shape shape, double x, double
     part->place.translate[1] = y;
     part->place.translate[2] = z;
     part->material = "skin";
-    part->wears = 0;
+    part->material_index = 0;
     return part;
 }
 

@@ -49,7 +49,7 @@ static lrcs_recipe_part *add(shapes_scene *s, lrcs_shape shape)
 {
     lrcs_recipe_part *part = &s->part[s->parts++];
     *part = (lrcs_recipe_part){
-        .name = "", .shape = shape, .place = lrcs_place_default(), .material = "skin", .wears = 0};
+        .name = "", .shape = shape, .place = lrcs_place_default(), .material = "skin", .material_index = 0};
     return part;
 }
 

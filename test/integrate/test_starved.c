@@ -218,7 +218,7 @@ typedef struct inner_steps {
     int proved;
 } inner_steps;
 
-static int step_nears(inner_steps *s, lrcs_work *work)
+static int step_proximity(inner_steps *s, lrcs_work *work)
 {
     int status = lrcsi_proximity_make(&s->prepared, work);
     work->used = 0; /* the caller's to put back */
@@ -246,8 +246,8 @@ static int step_margin(inner_steps *s, lrcs_work *work)
 static void steps_within_grow_until_they_fit(void **state)
 {
     (void)state;
-    static int (*const step[])(inner_steps *, lrcs_work *) = {step_nears, step_outward, step_convex,
-                                                              step_margin};
+    static int (*const step[])(inner_steps *, lrcs_work *) = {step_proximity, step_outward,
+                                                              step_convex, step_margin};
     static test_scene boxed; /* a box that passes for curved, and a plate over it */
     static unsigned char little[1 << 16];
     static inner_steps s;

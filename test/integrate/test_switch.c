@@ -66,7 +66,7 @@ static void random_scene(uint64_t *seed)
         scene.material[i].two_sided = scene_random(seed, 2) != 0;
     }
     for (uint32_t i = 0; i < bodies; i++) {
-        scene.wears = scene_random(seed, 2);
+        scene.assigned = scene_random(seed, 2);
         random_body(seed, exact);
     }
 }
@@ -274,7 +274,7 @@ static void check_shape(const lrcs_shape *shape, int two_sided)
     const lrcs_brdf brdf = {1, 0.25, 0.3, 0.5};
     const lrcs_build_options build = {1e-2, 1u << 13, LRCS_NORMALS_FLAT, 1};
     lrcs_recipe_part part = {
-        .name = "part", .shape = *shape, .place = lrcs_place_default(), .wears = -1};
+        .name = "part", .shape = *shape, .place = lrcs_place_default(), .material_index = -1};
     lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = brdf, .two_sided = two_sided};
     lrcs_recipe recipe = {.part = &part, .binding = &binding, .part_count = 1, .binding_count = 1};
     lrcs_work work = lrcs_work_make(memory, sizeof memory);

@@ -53,7 +53,7 @@ static const lrcs_prepared *shape_prepare(const lrcs_shape *shape, const lrcs_br
     material = (lrcs_recipe_material){.name = "skin", .brdf = *brdf, .two_sided = -1};
     material.error = error ? *error : material.error;
     part = (lrcs_recipe_part){
-        .name = "", .shape = *shape, .place = lrcs_place_default(), .material = "skin", .wears = 0};
+        .name = "", .shape = *shape, .place = lrcs_place_default(), .material = "skin", .material_index = 0};
     for (int k = 0; k < 3; k++) {
         part.place.scale[k] = scale;
     }
@@ -205,9 +205,9 @@ static void shadowed_scene(void)
     scene_start(&scene);
     scene_material(&scene, 1.5, 0.2, 0.3, 0.7);
     scene.material[0].two_sided = 1;
-    scene.wears = 0;
+    scene.assigned = 0;
     scene_plate(&scene, corner, u, v);
-    scene.wears = 1;
+    scene.assigned = 1;
     scene_box(&scene, low, high);
     scene.material[1].brdf = (lrcs_brdf){0.5, 0.3, 0.25, 2};
 }

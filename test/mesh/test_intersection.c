@@ -148,8 +148,8 @@ static void check_facet(uint32_t f, uint32_t facets, const unsigned char *skip,
                  (kind != LRCSI_INTERSECTION_NONE || contacts_on_side(&own, &other));
         if (kind != LRCSI_INTERSECTION_NONE) {
             assert_true(at < t->first[f + 1]);
-            assert_int_equal(t->touch[at].other, g);
-            assert_int_equal(t->touch[at].kind, kind);
+            assert_int_equal(t->entry[at].other, g);
+            assert_int_equal(t->entry[at].kind, kind);
             at++;
         }
     }
@@ -362,7 +362,7 @@ static void an_empty_list_and_a_skipped_one_have_no_contacts(void **state)
     assert_int_equal(make_touches(3, 2, NULL, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count, 2);
     assert_int_equal(t.first[1], 1);
-    assert_int_equal(t.touch[1].other, 0);
+    assert_int_equal(t.entry[1].other, 0);
 }
 
 static void starved_searches_fail_clean(void **state)

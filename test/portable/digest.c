@@ -390,7 +390,7 @@ static void digest_materials(void)
         for (int k = 0; k < 9; k++) {
             p[k / 3][k % 3] = (double)scene_random(&seed, 1u << 20) - 0x1p19;
         }
-        scene.wears = scene_random(&seed, scene.scene.material_count);
+        scene.assigned = scene_random(&seed, scene.scene.material_count);
         scene_triangle(&scene, p[0], p[1], p[2]);
     }
     lrcs_work work = lrcs_work_make(memory, sizeof memory);

@@ -39,7 +39,7 @@ static void rims_have_none_and_omitted_facets_are_none(void **state)
         assert_int_equal(met, 1); /* the diagonal */
     }
     scene_material(&scene, 1, 1, 0.2, 0)->omitted = 1;
-    scene.material_of[1] = scene.wears;
+    scene.material_of[1] = scene.assigned;
     across = &scene_prepare(&scene, &work)->across;
     for (int k = 0; k < 3; k++) {
         assert_int_equal(across->facet[0].corner[k], 2);
@@ -53,7 +53,7 @@ static int same_vertex(uint32_t a, uint32_t b)
 }
 
 /* Facets other than f with the side a b, either way round, that are not redundant; how many run it
-   from a to b; the only one, or the last that runs it from b to a and is not the twin of f. */
+   from a to b; the only one, or the last that runs it from b to a and is not the opposite of f. */
 static uint32_t others_on(const lrcs_prepared *prepared, uint32_t f, uint32_t a, uint32_t b,
                           uint32_t *other, uint32_t *along)
 {
@@ -64,9 +64,9 @@ static uint32_t others_on(const lrcs_prepared *prepared, uint32_t f, uint32_t a,
             uint32_t p = scene.facet[g].corner[k];
             uint32_t q = scene.facet[g].corner[(k + 1) % 3];
             int same = same_vertex(a, p) && same_vertex(b, q);
-            int twin = prepared->twin && prepared->twin[f] == g;
+            int opposite = prepared->opposite && prepared->opposite[f] == g;
             if (same || (same_vertex(a, q) && same_vertex(b, p))) {
-                *other = *other == LRCS_NONE || !(same || twin) ? g : *other;
+                *other = *other == LRCS_NONE || !(same || opposite) ? g : *other;
                 *along += (uint32_t)same;
                 count++;
             }
@@ -118,8 +118,8 @@ static void random_soups_agree_with_a_search(void **state)
             uint32_t along;
             uint32_t others = others_on(p, f, scene.facet[f].corner[k],
                                         scene.facet[f].corner[(k + 1) % 3], &other, &along);
-            int pairs = others == 3 && p->twin && p->twin[f] != LRCS_NONE &&
-                        p->twin[other] != LRCS_NONE && other != p->twin[f];
+            int pairs = others == 3 && p->opposite && p->opposite[f] != LRCS_NONE &&
+                        p->opposite[other] != LRCS_NONE && other != p->opposite[f];
             uint32_t want = others == 0 ? count : (others == 1 && along == 0) || pairs ? other : f;
             assert_int_equal(p->across.facet[f].corner[k], want);
             int listed = 0;

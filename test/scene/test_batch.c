@@ -29,7 +29,7 @@ static const lrcs_prepared *random_scene(uint32_t facets)
         for (int k = 0; i % 11 == 3 && k < 3; k++) {
             p[2][k] = p[1][k]; /* degenerate */
         }
-        scene.wears = scene_random(&seed, scene.scene.material_count);
+        scene.assigned = scene_random(&seed, scene.scene.material_count);
         scene_triangle(&scene, p[0], p[1], p[2]);
     }
     return scene_prepare(&scene, &work);

@@ -240,26 +240,26 @@ static void parts_wear_the_recipes_materials_before_the_librarys(void **state)
     lrcs_recipe_material gold = {
         .name = "mli-gold", .brdf = mark(BY_PART), .two_sided = -1, .line = 1};
     lrcs_recipe recipe = {.material = &gold, .material_count = 1};
-    lrcs_recipe_part part = {.material = "mli-gold", .wears = -1};
+    lrcs_recipe_part part = {.material = "mli-gold", .material_index = -1};
     lrcsi_binder binder = lrcsi_binder_plain(&recipe);
     uint32_t worn;
-    assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_OK);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_OK);
     assert_int_equal(worn, 0);
     part.material = "solar-cell";
-    assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_OK);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_OK);
     assert_true(worn >= 1 && worn < lrcsi_binder_material_count(&recipe));
     lrcs_material material = bind(&recipe, worn, NULL, NULL);
     assert_string_equal(material.name, "solar-cell");
     part.material = "none such";
-    assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_E_NAME);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_E_NAME);
     part.material = "mli-geld";
-    assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_E_NAME);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_E_NAME);
     part.material = "mli-gold";
-    part.wears = 1; /* beyond the recipe's materials: by name */
-    assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_OK);
+    part.material_index = 1; /* beyond the recipe's materials: by name */
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_OK);
     assert_int_equal(worn, 0);
     part.material = NULL;
-    assert_int_equal(lrcsi_binder_worn(&binder, &part, &worn), LRCS_OK);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_OK);
     assert_int_equal(worn, LRCS_NONE);
 }
 

@@ -41,14 +41,14 @@ static lrcs_mesh tetra(void)
 static lrcs_recipe_part model_part(const char *name)
 {
     lrcs_recipe_part part = {
-        .name = name, .file = "x", .place = lrcs_place_default(), .wears = -1, .line = 42};
+        .name = name, .file = "x", .place = lrcs_place_default(), .material_index = -1, .line = 42};
     return part;
 }
 
 static lrcs_recipe_part shape_part(int kind, double a, double b, double c)
 {
     lrcs_recipe_part part = {
-        .name = "shape", .place = lrcs_place_default(), .wears = -1, .line = 43};
+        .name = "shape", .place = lrcs_place_default(), .material_index = -1, .line = 43};
     part.shape.kind = kind;
     if (kind == LRCS_SHAPE_PLATE || kind == LRCS_SHAPE_BOX) {
         part.shape.size[0] = a;
@@ -174,7 +174,7 @@ static void materials_stand_once_for_each_surface_and_each_worn_one(void **state
     lrcs_scene scene;
     void *area;
     parts[1].material = parts[2].material = "white";
-    parts[1].wears = 0; /* the other one is found by its name */
+    parts[1].material_index = 0; /* the other one is found by its name */
     assert_int_equal(build_scene(&recipe, meshes, &area, &scene, NULL), LRCS_OK);
     static const char *const want[] = {"skin",  "glass", "unused", "",
                                        "white", "skin",  "glass",  "unused"};
@@ -440,7 +440,7 @@ static void the_hash_is_fnv_1a_of_what_it_says(void **state)
     lrcs_facet facet = {{0, 1, 2}};
     uint32_t material = 0;
     uint32_t smooth = 5;
-    lrcs_material wears = {.name = "a", .brdf = {0.5, 0.25, 0.125, 0.0}, .two_sided = 1};
+    lrcs_material assigned = {.name = "a", .brdf = {0.5, 0.25, 0.125, 0.0}, .two_sided = 1};
     lrcs_scene scene = {.vertex_count = 3,
                         .facet_count = 1,
                         .material_count = 1,
@@ -448,15 +448,15 @@ static void the_hash_is_fnv_1a_of_what_it_says(void **state)
                         .facet = &facet,
                         .facet_material = &material,
                         .facet_smooth = &smooth,
-                        .material = &wears};
+                        .material = &assigned};
     const uint64_t want = UINT64_C(0xd8844c0ee612acd5);
     assert_true(lrcs_scene_hash(&scene) == want);
-    wears.name = "b"; /* names and colours say nothing of sigma */
-    wears.rgb[0] = 7;
+    assigned.name = "b"; /* names and colours say nothing of sigma */
+    assigned.rgb[0] = 7;
     assert_true(lrcs_scene_hash(&scene) == want);
-    wears.two_sided = 0;
+    assigned.two_sided = 0;
     assert_true(lrcs_scene_hash(&scene) != want);
-    wears.two_sided = 1;
+    assigned.two_sided = 1;
     vertex[2].x[1] = 2.0000000000000004;
     assert_true(lrcs_scene_hash(&scene) != want);
 }

@@ -30,7 +30,7 @@ static void random_copies(uint64_t *seed, uint32_t count)
     scene_material(&scene, 0, 0.7, 0.2, 2)->two_sided = 1;
     scene_material(&scene, 3, 1, 0.2, 2)->omitted = 1;
     for (uint32_t i = 0; i < count; i++) {
-        scene.wears = scene_random(seed, 4);
+        scene.assigned = scene_random(seed, 4);
         add_copy(scene_random(seed, 3), (int)scene_random(seed, 2));
     }
 }
@@ -108,7 +108,8 @@ static void any_number_of_copies_is_the_work_of_one(void **state)
         lrcs_pose pose;
         lrcsi_view view;
         const lrcs_prepared *p = scene_prepare(&scene, &work);
-        assert_int_equal(p->intersections.first[2000], both ? 0 : 2); /* twins are no contact */
+        assert_int_equal(p->intersections.first[2000],
+                         both ? 0 : 2); /* opposite facets have no contact */
         assert_int_equal(lrcs_pose_from_direction((const double[3]){0.1, 0.2, 1}, &pose), LRCS_OK);
         assert_int_equal(lrcsi_view_make(p, &pose, &work, &view), LRCS_OK);
         uint32_t cast = 0;
@@ -134,11 +135,12 @@ static void facets_of_curved_shapes_are_no_copies(void **state)
         assert_int_equal(p->redundant[1], reach ? LRCSI_NOT_REDUNDANT : LRCSI_REDUNDANT);
         add_copy(2, 1);
         p = scene_prepare(&scene, &work);
-        assert_int_equal(p->twin != NULL, !reach);
+        assert_int_equal(p->opposite != NULL, !reach);
     }
 }
 
-/* --- twins ------------------------------------------------------------------------------------ */
+/* --- opposite pairs
+ * ------------------------------------------------------------------------------------ */
 
 /* Plates, boxes and a polyhedron on a lattice: they touch, pierce each other, and lie in one plane
    in part. */
@@ -150,7 +152,7 @@ static void random_bodies(uint64_t *seed)
     for (uint32_t i = 0; i < 6; i++) {
         double at[3];
         double far[3];
-        scene.wears = scene_random(seed, 3);
+        scene.assigned = scene_random(seed, 3);
         for (int k = 0; k < 3; k++) {
             at[k] = 0.25 * scene_random(seed, 9);
             far[k] = at[k] + 0.25 * (1 + scene_random(seed, 4));
@@ -176,7 +178,7 @@ static void store_twice(uint64_t *seed, int all)
             uint32_t turn = scene_random(seed, 3);
             lrcs_point p[3] = {scene.vertex[c[turn]], scene.vertex[c[(turn + 2) % 3]],
                                scene.vertex[c[(turn + 1) % 3]]};
-            scene.wears = scene_random(seed, 3);
+            scene.assigned = scene_random(seed, 3);
             scene_triangle(&scene, p[0].x, p[1].x, p[2].x);
         }
     }
@@ -194,8 +196,8 @@ static int same_place(const test_scene *s, uint32_t f, uint32_t g)
     return same == 3;
 }
 
-/* The scene without those of two twins that face away, as their recorded cosines say. Returned:
-   place[facet], where it stands in the reference, or LRCS_NONE. */
+/* The scene without those of an opposite pair that face away, as their recorded cosines say.
+   Returned: place[facet], where it stands in the reference, or LRCS_NONE. */
 static void keep_what_faces_the_laser(uint32_t *place)
 {
     reference = scene;
@@ -208,13 +210,13 @@ static void keep_what_faces_the_laser(uint32_t *place)
     reference.scene.material = reference.material;
     reference.scene.part = &reference.part;
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        int twins = 0;
+        int pairs = 0;
         for (uint32_t g = 0; g < scene.scene.facet_count; g++) {
-            twins |= g != f && same_place(&scene, f, g) &&
+            pairs |= g != f && same_place(&scene, f, g) &&
                      scene.record[f].cos_theta * scene.record[g].cos_theta < 0;
         }
         place[f] = LRCS_NONE;
-        if (!twins || scene.record[f].cos_theta > 0) {
+        if (!pairs || scene.record[f].cos_theta > 0) {
             place[f] = reference.scene.facet_count++;
             reference.facet[place[f]] = scene.facet[f];
             reference.material_of[place[f]] = scene.material_of[f];
@@ -348,18 +350,18 @@ static void twins_have_the_contacts_of_both_sides(void **state)
                 uint32_t listed = 0;
                 for (uint32_t k = p->intersections.first[f]; k < p->intersections.first[f + 1];
                      k++) {
-                    listed += p->intersections.touch[k].other == g;
+                    listed += p->intersections.entry[k].other == g;
                 }
                 int live = p->redundant[f] != LRCSI_REDUNDANT && p->redundant[g] != LRCSI_REDUNDANT;
-                int want = g != f && live && !(p->twin && p->twin[f] == g) &&
+                int want = g != f && live && !(p->opposite && p->opposite[f] == g) &&
                            lrcsi_intersection_pair(p->vertex, scene.facet[f], scene.facet[g]) !=
                                LRCSI_INTERSECTION_NONE;
                 assert_int_equal(listed, want);
                 met += listed;
             }
-            if (p->twin && p->twin[f] != LRCS_NONE) {
-                assert_int_equal(p->intersections.rim[f], p->intersections.rim[p->twin[f]]);
-                assert_int_equal(p->twin[p->twin[f]], f);
+            if (p->opposite && p->opposite[f] != LRCS_NONE) {
+                assert_int_equal(p->intersections.rim[f], p->intersections.rim[p->opposite[f]]);
+                assert_int_equal(p->opposite[p->opposite[f]], f);
             }
         }
     }

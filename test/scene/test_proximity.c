@@ -14,7 +14,7 @@ static const lrcs_prepared *prepare_shape(const lrcs_shape *shape, double mirror
     static lrcs_scene scene;
     lrcs_recipe_part part = {.name = "", .shape = *shape, .place = lrcs_place_default()};
     part.place.scale[0] = mirror;
-    part.wears = -1;
+    part.material_index = -1;
     lrcs_recipe recipe = {.part = &part, .part_count = 1};
     lrcs_build_options options = {1e-3, 1000, LRCS_NORMALS_FLAT, 1};
     lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);

@@ -113,7 +113,7 @@ static void a_rich_file_comes_to_its_recipe(void **state)
     check_same(model->place.rotate[1][0], 1.0);
     check_same(model->place.rotate[0][1], -1.0);
     check_same(model->place.translate[2], 3.0);
-    assert_int_equal(model->wears, 0);
+    assert_int_equal(model->material_index, 0);
     assert_int_equal(model->line, 7);
     assert_int_equal(model->material_line, 15);
     assert_int_equal(model->joint.used, 1);
@@ -128,7 +128,7 @@ static void a_rich_file_comes_to_its_recipe(void **state)
     check_same(cone->place.scale[1], 0.0254);
     check_same(cone->place.rotate[0][0], -1.0);
     check_same(cone->place.rotate[2][2], 1.0);
-    assert_int_equal(cone->wears, -1);
+    assert_int_equal(cone->material_index, -1);
     assert_string_equal(cone->material, "mli-gold");
     assert_int_equal(cone->joint.used, 0);
     check_same(r.part[2].place.scale[2], 2.5);

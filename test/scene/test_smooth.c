@@ -253,7 +253,7 @@ static void too_small_an_area_is_refused_until_it_suffices(void **state)
     (void)state;
     curved_cylinder(text, 8, 0.5, 2, 's');
     curved_case c = curved_obj(text);
-    lrcs_recipe_part part = {.name = "m", .file = "m", .place = c.place, .wears = -1};
+    lrcs_recipe_part part = {.name = "m", .file = "m", .place = c.place, .material_index = -1};
     lrcs_recipe recipe = {.part = &part, .part_count = 1};
     lrcs_build_options options = {1e-4, 64, LRCS_NORMALS_SMOOTH, 1};
     size_t need = lrcs_scene_need(&recipe, &c.mesh, &options);
@@ -277,7 +277,7 @@ static void a_normal_that_the_mesh_does_not_have_is_refused(void **state)
     (void)state;
     curved_case c = curved_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0.1 1\nf 1//1 2//1 3//1\n");
     c.mesh.facet_normal[0].corner[1] = 1;
-    lrcs_recipe_part part = {.name = "m", .file = "m", .place = c.place, .wears = -1};
+    lrcs_recipe_part part = {.name = "m", .file = "m", .place = c.place, .material_index = -1};
     lrcs_recipe recipe = {.part = &part, .part_count = 1};
     lrcs_build_options options = {1e-4, 64, LRCS_NORMALS_SMOOTH, 1};
     unsigned char area[4096];

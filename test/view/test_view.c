@@ -148,9 +148,9 @@ static void many_tilts_are_those_of_one_facet_each(void **state)
     scene_sphere(&scene, (const double[3]){3, 0, 0}, 1, 12);
     for (int i = 0; i < 4; i++) {
         lrcsi_view view = view_along(along[i]);
-        for (uint32_t count = 1; count <= LRCSI_TILTS; count++) {
-            uint32_t facet[LRCSI_TILTS];
-            lrcsi_incidence incidence[LRCSI_TILTS];
+        for (uint32_t count = 1; count <= LRCSI_INCIDENCES; count++) {
+            uint32_t facet[LRCSI_INCIDENCES];
+            lrcsi_incidence incidence[LRCSI_INCIDENCES];
             for (uint32_t k = 0; k < count; k++) {
                 facet[k] = (7 * k + 3 * count) % scene.scene.facet_count;
             }

@@ -115,6 +115,30 @@ static void sides_are_told_within_the_width(void **state)
     }
 }
 
+/* A line that passes (1/4, 1/4): at all places but those nearly on it the plain line has the sign
+   of the side in double-double. */
+static void lines_have_the_sign_of_the_side(void **state)
+{
+    (void)state;
+    double from[3];
+    double to[3];
+    double line[3];
+    for (int thin = 24; thin <= 70; thin += 2) {
+        uint32_t sure = 0;
+        assert_int_equal(look(thin), 1);
+        point_of(-0.75, 0.125, 0.25, from);
+        point_of(1.25, 0.375, -0.5, to);
+        double clear = lrcsi_needle_line(&needle, from, to, line);
+        for (int k = -60; k <= 60; k++) {
+            const double at[2] = {0.25, 0.25 + (k < 0 ? -1 : 1) * ldexp(1, k < 0 ? k : -k)};
+            double value = line[0] * at[0] + line[1] * at[1] + line[2];
+            assert_true(!(fabs(value) > clear) || value * (at[1] - 0.25) > 0);
+            sure += fabs(value) > clear;
+        }
+        assert_true(sure >= (thin <= 48 ? 80 : 40));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -122,6 +146,7 @@ int main(void)
         cmocka_unit_test(shares_are_exact_however_thin),
         cmocka_unit_test(segments_are_clipped_to_what_is_near),
         cmocka_unit_test(sides_are_told_within_the_width),
+        cmocka_unit_test(lines_have_the_sign_of_the_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The chart of lrcs converge: for each kind of setting its cost and its error, on logarithmic axes.
-   This file decides which curves there are and how they look; the host draws them. */
+/* The chart of lrcs converge --plot and of lrcs plot: for each kind of setting its cost and its
+   error, on logarithmic axes. This file decides which curves there are and how they look; the host
+   draws them. */
 #include "cli/converge/converge.h"
 
 #include <math.h>
@@ -148,7 +149,7 @@ static void chart_words(const converge_job *job, char title[256], char note[256]
 {
     const double *d = job->pose.direction;
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    snprintf(title, 256, "What accuracy costs in time: %s", cli_base_name(job->args->operand));
+    snprintf(title, 256, "What accuracy costs in time: %s", cli_base_name(job->title));
     snprintf(note, 256, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)", job->truth.text,
              job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
 }

@@ -128,6 +128,7 @@ static int converge_command(const cli_args *args)
     converge_job job;
     memset(&job, 0, sizeof job);
     job.args = args;
+    job.title = args->operand;
     int code = converge_read(&job);
     code = code ? code : cli_converge_meshes(&job);
     code = code ? code : cli_outputs_spare(args, &job.mesh[0].scene);

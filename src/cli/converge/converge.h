@@ -58,6 +58,7 @@ typedef struct converge_truth {
 
 typedef struct converge_job {
     const cli_args *args;
+    const char *title; /* the name of the scene's file */
     lrcs_pose pose;
     lrcs_host_options load;
     const char *csv;
@@ -100,6 +101,9 @@ converge_sentence cli_converge_sentence(const converge_job *job);
 void cli_converge_table(const converge_job *job);
 void cli_converge_json(const converge_job *job);
 void cli_converge_csv(const converge_job *job, FILE *out);
+
+/* The chart, from the title, the pose's direction, the truth, the settings and the digits of their
+   meshes. */
 int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_error *error);
 
 #endif

@@ -159,6 +159,13 @@ void cli_converge_table(const converge_job *job)
 
 void cli_converge_csv(const converge_job *job, FILE *out)
 {
+    double s_hat[3];
+    cli_pose_unit(&job->pose, s_hat);
+    cli_table_head(out, "converge", job->title, &cli_converge_finest(job)->scene, s_hat);
+    cli_number_put(out, "; truth_m2=", job->truth.sigma_m2);
+    cli_number_put(out, "; truth_bound_m2=", job->truth.bound_m2);
+    fprintf(out, "; truth_of=%s; truth=%s\n", job->truth.whole ? "shapes" : "facets",
+            job->truth.text);
     fputs("setting,method,resolution,mesh_tolerance,facets,repetitions,prepare_ms,pose_ms,"
           "sigma_m2,error_m2,bound_m2,estimate_m2,relative_error,relative_bound,"
           "relative_estimate,accepted_by\n",

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs plot: draws the output of sweeps again without computing: one file as lrcs sweep --plot
-   draws it, or the curves of several together. This file decides which files fit together;
-   sweep/plot.c draws. */
+/* lrcs plot: draws the output of sweeps, profiles and lrcs converge again without computing: one
+   file as its command draws it, or the curves of several sweeps together. This file decides which
+   files fit together; sweep/plot.c and plot/table.c draw. */
+#include "cli/plot/table.h"
 #include "cli/sweep/sweep.h"
 
 #include <stdlib.h>
@@ -10,13 +11,17 @@
 static const char plot_help[] =
     "usage: lrcs plot FILE... -o OUT [options]\n"
     "\n"
-    "Draws what lrcs sweep wrote, without computing: FILE.csv, FILE.jsonl, or FILE.npy with its\n"
-    "FILE.npy.head. Files are checked as sweep --resume checks them: one that is damaged, or a\n"
-    "shard (lrcs merge), is refused. Curves of several files along the same axis are drawn\n"
+    "Draws without computing what other commands wrote: of lrcs sweep FILE.csv, FILE.jsonl, or\n"
+    "FILE.npy with its FILE.npy.head; of lrcs profile and lrcs converge FILE.csv, one at a time, "
+    "as\n"
+    "their --plot does. Files of sweeps are checked as sweep --resume checks them: one that is "
+    "damaged, or a\n"
+    "shard (lrcs merge), is refused. Curves of several sweeps along the same axis are drawn\n"
     "together; where the files differ in scene, options or version, a notice says in what.\n"
     "\n"
     "options\n"
     "  -o OUT                OUT.svg or OUT.png, repeatable: up to 7 curves, or a map\n"
+    "of sweeps only:\n"
     "  --dbsm                sigma in dBsm (default: m2); sigma 0 is left out, or grey\n"
     "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
     "  --projection KIND     of a map over azimuth and elevation: flat (default), or mollweide,\n"
@@ -27,11 +32,14 @@ static const char plot_help[] =
     "\n"
     "Directions of sweep --sphere are drawn as a map: each place shows the nearest of them.\n"
     "Statistics are those of the rows. Each number stands with the least and most that it can be\n"
-    "where sigma of every row is within its bound.\n"
+    "where sigma of every row is within its bound; where materials have errors, with a 68 % band "
+    "of\n"
+    "these, as if they moved all rows together: an estimate that is seldom too narrow.\n"
     "\n"
     "examples\n"
     "  lrcs plot map.npy -o sky.svg --projection mollweide --dbsm\n"
     "  lrcs plot before.csv after.csv -o both.svg --dbsm\n"
+    "  lrcs plot profile.csv -o profile.svg\n"
     "  lrcs plot ball.csv --stats --stats-file ball.json --stats-file ball.svg\n";
 
 static const cli_option plot_options[] = {{"o", CLI_CHART, 1}, {"dbsm", 0, 0},
@@ -184,16 +192,57 @@ static int job_run(plot_job *job)
     }
     if (code == 0 && job->stats) {
         sweep_stats stats;
-        code = cli_stats_make(&job->data->plan, &job->data->head,
-                              (const double(*)[2])job->data->row, &stats);
+        code =
+            cli_stats_make(&job->data->plan, &job->data->head, (const double(*)[2])job->data->row,
+                           (const double(*)[2])job->data->band, &stats);
         code = code ? code : cli_stats_write(args, stdout, &stats);
         cli_stats_free(&stats);
     }
     return code;
 }
 
+/* Checks the options for one file of lrcs profile or lrcs converge, and draws it. */
+static int table_run(const cli_args *args, const char *path, int kind)
+{
+    static const char *const what[] = {
+        [TABLE_PROFILE] = "a range profile", [TABLE_CONVERGE] = "of lrcs converge"};
+    int files = 0;
+    int outputs = 0;
+    if (kind == TABLE_STATISTICS) {
+        return cli_usage(args->command,
+                         "%s holds statistics: draw them from the sweep's own file, with "
+                         "--stats-file OUT.svg",
+                         path);
+    }
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *one = &args->given[i];
+        if (one->name[0] == '\0') {
+            files++;
+        } else if (strcmp(one->name, "o") != 0) {
+            return cli_usage(args->command, "--%s is for sweeps: %s is %s", one->name, path,
+                             what[kind]);
+        } else if (lrcs_host_output_same(one->value, path)) {
+            return cli_usage(args->command, "-o %s: would overwrite what is read", one->value);
+        } else {
+            outputs++;
+        }
+    }
+    if (files > 1) {
+        return cli_usage(args->command, "%s is %s: these are drawn one by one", path, what[kind]);
+    }
+    return outputs > 0 ? cli_table_draw(args, path, kind)
+                       : cli_usage(args->command, "nothing to do: give -o OUT.svg");
+}
+
 static int plot_command(const cli_args *args)
 {
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *one = &args->given[i];
+        int kind = one->name[0] == '\0' ? cli_table_kind(one->value) : TABLE_NONE;
+        if (kind != TABLE_NONE) {
+            return table_run(args, one->value, kind);
+        }
+    }
     size_t room = (size_t)args->given_count + 1;
     plot_job job = {args, 0, calloc(room, sizeof *job.data), calloc(room, sizeof *job.plot), 0};
     int code = job.data && job.plot ? job_run(&job) : cli_out_of_memory();
@@ -205,6 +254,7 @@ static int plot_command(const cli_args *args)
     return code;
 }
 
-const cli_command cli_plot_command = {"plot",    "FILE...",    "give files that lrcs sweep wrote",
-                                      plot_help, plot_options, plot_command,
-                                      NULL};
+const cli_command cli_plot_command = {
+    "plot",    "FILE...",    "give files that lrcs sweep, profile or converge wrote",
+    plot_help, plot_options, plot_command,
+    NULL};

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs profile --plot: the density of sigma over range as steps, one for each bin, and the response
-   of a pulse as a curve. */
+/* The chart of lrcs profile --plot and of lrcs plot: the density of sigma over range as steps, one
+   for each bin, and the response of a pulse as a curve. */
 #include "cli/profile/profile.h"
 
 #include <stdlib.h>
 
 /* More bins are drawn in groups, each with its mean density. */
 #define CHART_STEPS 4000u
+
+/* The response is known at points: they are marked if there are no more. */
+#define CHART_MARKED 100u
 
 /* Two points for each group of bins. Returns their count. */
 static uint32_t steps_take(const profile_job *job, uint32_t group, double *x, double *y)
@@ -50,7 +53,7 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
                                    .y = number + room,
                                    .colour = LRCS_HOST_BLUE,
                                    .marker = LRCS_HOST_NO_MARKER},
-                                  {.name = "pulse",
+                                  {.name = "pulse, at the middle of each bin",
                                    .x = number + 2 * room,
                                    .y = number + 3 * room,
                                    .colour = LRCS_HOST_VERMILION,
@@ -58,15 +61,17 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
     series[0].count = steps_take(job, group, number, number + room);
     series[1].count =
         job->fwhm_m > 0.0 ? pulse_take(job, group, number + 2 * room, number + 3 * room) : 0;
-    snprintf(title, sizeof title, "Range profile of %.180s",
-             cli_base_name(cli_scene_title(job->args, &job->scene)));
+    if (series[1].count <= CHART_MARKED) {
+        series[1].marker = LRCS_HOST_DISC;
+    }
+    snprintf(title, sizeof title, "Range profile of %.180s", cli_base_name(job->title));
     int used = snprintf(note, sizeof note, "sigma %.6g m2 in all; bins of %g m",
                         p->sigma_glint_m2 + p->sigma_diffuse_m2, job->bin_m);
     if (job->fwhm_m > 0.0) {
         used += snprintf(note + used, sizeof note - (size_t)used, "; pulse of %g m (FWHM)",
                          job->fwhm_m);
     }
-    if (cli_materials_open(&job->scene.scene)) {
+    if (job->open) {
         snprintf(note + used, sizeof note - (size_t)used, "; materials illustrative or default");
     }
     const lrcs_host_chart chart = {.title = title,

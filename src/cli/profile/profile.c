@@ -34,7 +34,8 @@ static const char profile_help[] =
     "                        that; a pulse of 1 ns is 0.15 m\n"
     "  --json                everything as JSON, one line for each bin\n"
     "  --csv FILE.csv        one row for each bin ('-': instead of the table)\n"
-    "  --plot FILE           FILE.svg or FILE.png: density over range, and the pulse's response\n"
+    "  --plot FILE           FILE.svg or FILE.png: density over range, and the pulse's response;\n"
+    "                        repeatable\n"
     "  --tolerance REL       relative error that shapes are meshed for (1e-4); if given, exit 3 "
     "where\n"
     "                        the bound of all bins together, or the estimated error of curved\n"
@@ -52,7 +53,7 @@ static const char profile_help[] =
 static const cli_option profile_options[] = {
     CLI_POSE_OPTIONS,       CLI_SCENE_OPTIONS,   {"bin", 1, 0},
     {"pulse-fwhm", 1, 0},   {"json", 0, 0},      {"csv", CLI_FILE, 0},
-    {"plot", CLI_CHART, 0}, {"tolerance", 1, 0}, {"normals", 1, 0},
+    {"plot", CLI_CHART, 1}, {"tolerance", 1, 0}, {"normals", 1, 0},
     {"help", 0, 0},         {NULL, 0, 0}};
 
 double cli_profile_sigma(const lrcs_profile_bin *bin)
@@ -78,7 +79,6 @@ static int options_read(profile_job *job)
     const cli_args *args = job->args;
     lrcs_run_options options = lrcs_run_options_default();
     job->csv = cli_value(args, "csv");
-    job->plot = cli_value(args, "plot");
     int code = cli_pose_read(args, &job->pose);
     code = code ? code : length_read(args, "bin", &job->bin_m);
     if (code == 0 && !(job->bin_m > 0.0)) {
@@ -181,16 +181,25 @@ static int csv_write(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
-static int plot_write(FILE *out, const void *context, lrcs_host_error *error)
+static int svg_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    const profile_job *job = context;
-    return cli_profile_chart(job, cli_extension(job->plot, ".png"), out, error);
+    return cli_profile_chart(context, 0, out, error);
+}
+
+static int png_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    return cli_profile_chart(context, 1, out, error);
 }
 
 static int outputs_write(const profile_job *job)
 {
     int code = job->csv ? cli_output_write(job->csv, csv_write, job) : 0;
-    code = code == 0 && job->plot ? cli_output_write(job->plot, plot_write, job) : code;
+    for (int i = 0; i < job->args->given_count && code == 0; i++) {
+        const char *path = job->args->given[i].value;
+        if (strcmp(job->args->given[i].name, "plot") == 0) {
+            code = cli_output_write(path, cli_extension(path, ".png") ? png_write : svg_write, job);
+        }
+    }
     if (code != 0) {
         return code;
     }
@@ -214,6 +223,10 @@ static int profile_command(const cli_args *args)
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
     code = code ? code : cli_outputs_spare(args, &job.scene);
+    if (code == 0) {
+        job.title = cli_scene_title(args, &job.scene);
+        job.open = cli_materials_open(&job.scene.scene);
+    }
     code = code ? code : profile_run(&job);
     cli_watch_end();
     code = code ? code : outputs_write(&job);

@@ -20,7 +20,9 @@ typedef struct profile_job {
     double bin_m, fwhm_m; /* fwhm_m is 0 if there is no pulse */
     double asked;         /* tolerance; 0 for none */
     int met;
-    const char *csv, *plot;
+    const char *csv;
+    const char *title; /* the scene's, or the name of its file */
+    int open; /* 1 if materials are illustrative or assumed: no bound includes their error */
     lrcs_host_scene scene;
     lrcs_host_profile profile;
     profile_row *row;
@@ -34,6 +36,8 @@ double cli_profile_sigma(const lrcs_profile_bin *bin);
 void cli_profile_table(const profile_job *job);
 void cli_profile_json(const profile_job *job);
 void cli_profile_csv(const profile_job *job, FILE *out);
+
+/* The chart, from the title, rows, sigma of the list, bin_m and fwhm_m. */
 int cli_profile_chart(const profile_job *job, int png, FILE *out, lrcs_host_error *error);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* If there are more bins than this, the table shows only the strongest; --csv and --json contain
    all of them. */
@@ -33,18 +34,13 @@ void cli_profile_csv(const profile_job *job, FILE *out)
 {
     double s_hat[3];
     cli_pose_unit(&job->pose, s_hat);
-    fprintf(out, "# lrcs %s profile; scene_hash=%016llx", lrcs_version(),
-            (unsigned long long)lrcs_scene_hash(&job->scene.scene));
-    for (const lrcs_host_input *input = job->scene.input; input; input = input->next) {
-        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
-                (unsigned long long)input->hash);
-    }
-    for (int k = 0; k < 3; k++) {
-        cli_number_put(out, k == 0 ? "; direction=" : ",", s_hat[k]);
+    cli_table_head(out, "profile", job->title, &job->scene, s_hat);
+    cli_number_put(out, "; sigma_m2=", total_sigma(job));
+    if (job->fwhm_m > 0.0) {
+        cli_number_put(out, "; pulse_fwhm_m=", job->fwhm_m);
     }
     cli_number_put(out, "; bound_of_the_sum_m2=", job->profile.list.bound_m2);
-    fprintf(out, "%s\n",
-            cli_materials_open(&job->scene.scene) ? "; materials=illustrative or assumed" : "");
+    fprintf(out, "%s\n", job->open ? "; materials=illustrative or assumed" : "");
     fputs("near_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);
     fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m" : "", out);
     fputs(!is_curved(job)     ? ""
@@ -225,7 +221,7 @@ static void verdict_print(const profile_job *job)
         printf("             Left open: how far curved shapes are from the facets that stand for "
                "them\n");
     }
-    if (cli_materials_open(&job->scene.scene)) {
+    if (job->open) {
         printf("             Left open: materials, which are illustrative or default ones\n");
     }
 }
@@ -237,7 +233,7 @@ void cli_profile_table(const profile_job *job)
     char bound[CLI_BOUND_SIZE];
     cli_pose_unit(&job->pose, s_hat);
     printf("scene        ");
-    cli_column(cli_scene_title(job->args, &job->scene), 0);
+    cli_column(job->title, 0);
     printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
     printf("direction    %.10g, %.10g, %.10g   to the laser, body frame\n", s_hat[0], s_hat[1],
            s_hat[2]);
@@ -255,8 +251,10 @@ void cli_profile_table(const profile_job *job)
     if (job->csv) {
         printf("rows         %s\n", job->csv);
     }
-    if (job->plot) {
-        printf("chart        %s\n", job->plot);
+    for (int i = 0; i < job->args->given_count; i++) {
+        if (strcmp(job->args->given[i].name, "plot") == 0) {
+            printf("chart        %s\n", job->args->given[i].value);
+        }
     }
     verdict_print(job);
 }

@@ -231,7 +231,7 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
 static const char explore_style[] =
     ".explore{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,22rem),1fr));"
     "gap:1.25rem;align-items:start;margin:1rem 0}\n"
-    "canvas{display:block;width:100%;border-radius:6px;touch-action:none;cursor:grab;"
+    "canvas{display:block;width:100%;border-radius:6px;touch-action:pan-y;cursor:grab;"
     "color:var(--ink)}\n"
     "#body{aspect-ratio:1;background:#0d111c}#map{aspect-ratio:4/3;cursor:crosshair}\n"
     "canvas:focus-visible,button:focus-visible{outline:3px solid var(--mark);outline-offset:2px}\n"
@@ -279,7 +279,9 @@ static void page_controls(FILE *out)
         "<p id=\"keys\" class=\"faint\">Drag the body to turn it, or choose a direction on the map "
         "(azimuth to the right, elevation upwards). Keys: arrows go along the map\xe2\x80\x99s "
         "grid, "
-        "with Shift by one degree; + and \xe2\x88\x92 zoom; Home goes back.</p>\n",
+        "with Shift by one degree; + and \xe2\x88\x92 zoom; Home goes back. On a touch screen: one "
+        "finger sideways turns the body (up and down scrolls the page), two fingers turn it freely "
+        "and zoom, a tap on the map chooses a direction.</p>\n",
         out);
 }
 

@@ -231,23 +231,46 @@
     event.preventDefault();
     act();
   }
-  function drag(canvas, move) {
+  // Pointers that are down on a canvas. `move` gets how far one moved, how many are down, and by what
+  // factor two went apart. A finger alone takes part once it goes sideways: one that starts up or
+  // down scrolls the page (touch-action: pan-y) and is cancelled.
+  function drag(canvas, down, move) {
+    const held = new Map();
+    const spread = () => {
+      const [a, b] = [...held.values()];
+      return b ? Math.hypot(a.x - b.x, a.y - b.y) : 0;
+    };
     canvas.addEventListener("keydown", key);
     canvas.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      const mouse = event.pointerType !== "touch";
       canvas.setPointerCapture(event.pointerId);
-      move(event, true);
+      held.set(event.pointerId, {x: event.clientX, y: event.clientY, taken: mouse});
+      if (mouse) down(event);
     });
-    canvas.addEventListener("pointermove", (event) => { if (event.buttons & 1) move(event, false); });
+    canvas.addEventListener("pointermove", (event) => {
+      const at = held.get(event.pointerId), before = spread();
+      if (!at) return;
+      const x = event.clientX - at.x, y = event.clientY - at.y;
+      at.taken ||= held.size > 1 || Math.abs(x) > Math.max(8, Math.abs(y));
+      if (!at.taken) return;
+      [at.x, at.y] = [event.clientX, event.clientY];
+      move(event, x, y, held.size, before > 0 ? spread() / before : 1);
+    });
+    ["pointerup", "pointercancel", "lostpointercapture"].forEach((name) => canvas.addEventListener(name, (event) => held.delete(event.pointerId)));
   }
-  drag(body, (event, first) => {
-    const degree = 180 / body.clientWidth / Math.max(view.zoom, 1);
-    if (!first) go(view.az - degree * event.movementX, view.el + degree * event.movementY);
+  drag(body, () => {}, (event, x, y, fingers, apart) => {
+    const degree = 180 / body.clientWidth / Math.max(view.zoom, 1) / fingers;
+    go(view.az - degree * x, view.el + degree * y);
+    if (fingers === 2) zoom(apart);
   });
-  drag(map, (event) => {
+  function place(event) {
     const wide = map.clientWidth - box.left - box.right, high = map.clientHeight - box.top - box.bottom;
     const a = Math.min(Math.max((event.offsetX - box.left) / wide, 0), 1);
     go(360 * a, 90 - 180 * (event.offsetY - box.top) / high);
-  });
+  }
+  drag(map, place, place);
+  map.addEventListener("click", place); // a tap: a finger that goes down may be about to scroll
   body.addEventListener("wheel", (event) => { event.preventDefault(); zoom(Math.exp(-event.deltaY / 500)); }, {passive: false});
   find("brightest").addEventListener("click", () => go(az.least + Math.floor(brightest / rows) * az.step, el.least + brightest % rows * el.step));
   find("back").addEventListener("click", () => { view.zoom = 1; go(start.az, start.el); });

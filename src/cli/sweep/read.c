@@ -318,7 +318,9 @@ static int data_open(sweep_data *data)
     }
     if (cli_text_open((const char *)data->file.bytes, data->file.size, &data->text) != 0 ||
         data->text.rows > data->file.size) {
-        return data_refuse(data, "expected what lrcs sweep writes: CSV, JSON lines, or .npy");
+        return data_refuse(
+            data, "expected what lrcs sweep writes (CSV, JSON lines, .npy), or a CSV file of "
+                  "lrcs profile or lrcs converge");
     }
     return 0;
 }

@@ -3,7 +3,15 @@
    cumulative distribution. A map of azimuth and elevation weights each row by the solid angle of
    its cell; in all other sweeps rows have equal weights (for --sphere that is the solid angle). The
    statistics are those of the rows: how sigma varies between them is not known. stats_write.c
-   writes them. */
+   writes them.
+
+   Materials are the same in all rows, so that their errors move the rows together. The band of a
+   statistic is from its value with every row at the low end of that row's band to its value with
+   every row at the high end. With one uncertain parameter that moves sigma of all rows the same
+   way, this is the interval of the same probability: mean and percentiles increase with every
+   sigma. With several it is an estimate that errs to the wide side: to first order the deviation of
+   the mean is at most the mean of the deviations, whatever their correlations (Minkowski's
+   inequality). It is no bound. */
 #include "cli/sweep/sweep.h"
 
 #include <float.h>
@@ -87,13 +95,27 @@ static uint64_t row_at(const stats_row *row, uint64_t rows, double part, double 
     return at;
 }
 
-/* Percentiles of sigma moved to one end of its bound: -1 below, 1 above. Sigma of every row lies
+/* The rows from which percentiles and shares are taken: sigma, sigma at one end of its bound, or at
+   one end of its material band. */
+enum stats_end { END_LEAST = -1, END_VALUE, END_MOST, END_LOW, END_HIGH };
+
+static double *value_at(stats_value *value, int which)
+{
+    return which == END_LEAST  ? &value->least
+           : which == END_MOST ? &value->most
+           : which == END_LOW  ? &value->low
+           : which == END_HIGH ? &value->high
+                               : &value->value;
+}
+
+/* Percentiles of sigma moved to an end. Sigma of every row lies
    between its ends, and a percentile increases with every sigma, so that the percentiles of the
    ends enclose it. If weights are not whole numbers, two sums of n weights differ by at most 2 n u
    of the whole, u = DBL_EPSILON / 2. */
-static void percentiles_at(sweep_stats *stats, stats_row *end, int side)
+static void percentiles_at(sweep_stats *stats, stats_row *end, int which)
 {
     int whole = stats->whole == (double)stats->rows; /* all weights are 1, and sums are exact */
+    int side = which <= END_MOST ? which : 0;
     double slack = whole ? 0.0 : side * (double)stats->rows * DBL_EPSILON * stats->whole;
     for (uint64_t i = 0; i < stats->rows; i++) {
         end[i] = stats->row[i];
@@ -101,13 +123,16 @@ static void percentiles_at(sweep_stats *stats, stats_row *end, int side)
             double moved = end[i].sigma + side * end[i].bound;
             end[i].sigma = fmax(nextafter(moved, side * HUGE_VAL), 0.0);
         }
+        end[i].sigma = which == END_LOW    ? end[i].low
+                       : which == END_HIGH ? end[i].high
+                                           : end[i].sigma;
     }
     qsort(end, stats->rows, sizeof *end, by_sigma);
     for (int k = 0; k < STATS_PERCENTS; k++) {
         stats_value *value = &stats->percentile[k];
         double part = cli_stats_percent[k] * stats->whole / 100.0;
         double sigma = end[row_at(end, stats->rows, part, slack)].sigma;
-        *(side < 0 ? &value->least : side > 0 ? &value->most : &value->value) = sigma;
+        *value_at(value, which) = sigma;
     }
     double below = 0.0;
     uint64_t at = 0;
@@ -119,7 +144,12 @@ static void percentiles_at(sweep_stats *stats, stats_row *end, int side)
         double share = at == stats->rows ? 1.0 : below / stats->whole;
         share += whole || at == 0 || at == stats->rows ? 0.0 : -slack / stats->whole;
         share = fmax(fmin(share, 1.0), 0.0);
-        *(side < 0 ? &value->most : side > 0 ? &value->least : &value->value) = share;
+        /* more sigma, a smaller share below an edge */
+        *value_at(value, which == END_LEAST  ? END_MOST
+                         : which == END_MOST ? END_LEAST
+                         : which == END_LOW  ? END_HIGH
+                         : which == END_HIGH ? END_LOW
+                                             : END_VALUE) = share;
     }
 }
 
@@ -133,6 +163,8 @@ static void mean_make(sweep_stats *stats)
     cli_sum mean = {0.0, 0.0};
     cli_sum total = {0.0, 0.0};
     cli_sum bound = {0.0, 0.0};
+    cli_sum low = {0.0, 0.0};
+    cli_sum high = {0.0, 0.0};
     sweep_tally tally = {0};
     for (uint64_t i = 0; i < stats->rows; i++) {
         const stats_row *row = &stats->row[i];
@@ -140,13 +172,17 @@ static void mean_make(sweep_stats *stats)
         cli_sum_add(&mean, row->weight * row->sigma);
         cli_sum_add(&bound, row->weight * row->bound);
         cli_sum_add(&total, row->weight);
+        cli_sum_add(&low, row->weight * row->low);
+        cli_sum_add(&high, row->weight * row->high);
         cli_tally_add(&tally, &one);
     }
     stats->whole = cli_sum_value(&total);
     double value = cli_sum_value(&mean) / stats->whole;
     double within = cli_sum_value(&bound) / stats->whole * (1.0 + 8.0 * DBL_EPSILON) +
                     4.0 * DBL_EPSILON * value;
-    stats->mean = (stats_value){fmax(value - within, 0.0), value, value + within};
+    stats->mean =
+        (stats_value){fmax(value - within, 0.0), value, value + within,
+                      cli_sum_value(&low) / stats->whole, cli_sum_value(&high) / stats->whole};
     stats->standard_error = cli_plan_has_mean(stats->plan) ? cli_tally_error(&tally) : (double)NAN;
 }
 
@@ -185,7 +221,7 @@ static void bins_choose(sweep_stats *stats)
 /* ---- all of it ---- */
 
 int cli_stats_make(const sweep_plan *plan, const sweep_head *head, const double (*row)[2],
-                   sweep_stats *stats)
+                   const double (*band)[2], sweep_stats *stats)
 {
     int map = is_map(plan);
     stats_row *end = calloc(plan->rows, sizeof *end);
@@ -193,19 +229,31 @@ int cli_stats_make(const sweep_plan *plan, const sweep_head *head, const double 
                            .head = head,
                            .rows = plan->rows,
                            .row = calloc(plan->rows, sizeof *stats->row),
-                           .weights = weights_text(plan, map)};
+                           .weights = weights_text(plan, map),
+                           .banded = band != NULL};
     if (!stats->row || !end) {
         free(end);
         return cli_out_of_memory();
     }
     for (uint64_t i = 0; i < plan->rows; i++) {
-        stats->row[i] = (stats_row){row[i][0], row[i][1], map ? row_weight(plan, i) : 1.0, i};
+        stats->row[i] = (stats_row){.sigma = row[i][0],
+                                    .bound = row[i][1],
+                                    .weight = map ? row_weight(plan, i) : 1.0,
+                                    .low = band ? band[i][0] : (double)NAN,
+                                    .high = band ? band[i][1] : (double)NAN,
+                                    .index = i};
+    }
+    for (int k = 0; k < STATS_PERCENTS; k++) {
+        stats->percentile[k].low = stats->percentile[k].high = (double)NAN;
+    }
+    for (int i = 0; i <= STATS_BINS; i++) {
+        stats->cdf[i].low = stats->cdf[i].high = (double)NAN;
     }
     mean_make(stats);
     qsort(stats->row, plan->rows, sizeof *stats->row, by_sigma);
     bins_choose(stats);
-    for (int side = -1; side <= 1; side++) {
-        percentiles_at(stats, end, side);
+    for (int which = END_LEAST; which <= (band ? END_HIGH : END_MOST); which++) {
+        percentiles_at(stats, end, which);
     }
     free(end);
     return 0;

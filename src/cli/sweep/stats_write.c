@@ -45,6 +45,14 @@ static void sigma_print(FILE *out, const char *label, double sigma)
     }
 }
 
+/* Prints the band of the errors of materials, if there is one. */
+static void band_print(FILE *out, double low, double high)
+{
+    if (high >= 0.0) {
+        fprintf(out, ";  materials %.5g .. %.5g m2", low, high);
+    }
+}
+
 static void place_print(FILE *out, const char *label, const sweep_plan *plan, const stats_row *row)
 {
     double value[SWEEP_COLUMNS];
@@ -53,6 +61,7 @@ static void place_print(FILE *out, const char *label, const sweep_plan *plan, co
     for (uint32_t i = 0; i < plan->columns; i++) {
         fprintf(out, "%s%s = %.9g", i == 0 ? " at " : ", ", plan->column[i], value[i]);
     }
+    band_print(out, row->low, row->high);
     fputc('\n', out);
 }
 
@@ -91,7 +100,9 @@ static void stats_print(FILE *out, const sweep_stats *stats)
     sigma_print(out, "mean", stats->mean.value);
     fprintf(out, ", known to ");
     within_print(out, &stats->mean);
-    fprintf(out, " for these rows\n");
+    fprintf(out, " for these rows");
+    band_print(out, stats->mean.low, stats->mean.high);
+    fputc('\n', out);
     place_print(out, "least", stats->plan, &stats->row[0]);
     double worst = 0.0;
     for (int k = 0; k < STATS_PERCENTS; k++) {
@@ -99,17 +110,33 @@ static void stats_print(FILE *out, const sweep_stats *stats)
         char label[16];
         snprintf(label, sizeof label, "%d %%", cli_stats_percent[k]);
         sigma_print(out, label, value->value);
-        fprintf(out, "%s\n", cli_stats_percent[k] == 50 ? "   median" : "");
+        fputs(cli_stats_percent[k] == 50 ? "   median" : "", out);
+        band_print(out, value->low, value->high);
+        fputc('\n', out);
         worst = fmax(worst, fmax(value->most - value->value, value->value - value->least));
     }
     place_print(out, "most", stats->plan, &stats->row[stats->rows - 1]);
     char text[CLI_BOUND_SIZE];
     cli_bound_text(worst, 2, text);
     fprintf(out, "  percentiles are known to %s m2 or better for these rows\n", text);
+    if (stats->banded) {
+        fprintf(
+            out,
+            "  materials: 68 %% by their errors, as if these moved all rows together, which is\n"
+            "  seldom too narrow; an estimate, not a bound\n");
+    }
     histogram_print(out, stats);
 }
 
 /* ---- JSON ---- */
+
+static void band_json(lrcs_host_json *json, double low, double high)
+{
+    if (high >= 0.0) {
+        lrcs_host_json_number(json, "material_low", low);
+        lrcs_host_json_number(json, "material_high", high);
+    }
+}
 
 static void value_json(lrcs_host_json *json, const char *key, const stats_value *value)
 {
@@ -117,6 +144,7 @@ static void value_json(lrcs_host_json *json, const char *key, const stats_value 
     lrcs_host_json_number(json, "value", value->value);
     lrcs_host_json_number(json, "least", value->least);
     lrcs_host_json_number(json, "most", value->most);
+    band_json(json, value->low, value->high);
     lrcs_host_json_end(json);
 }
 
@@ -128,6 +156,7 @@ static void row_json(lrcs_host_json *json, const char *key, const sweep_stats *s
     lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_number(json, "sigma_m2", row->sigma);
     lrcs_host_json_number(json, "bound_m2", row->bound);
+    band_json(json, row->low, row->high);
     lrcs_host_json_count(json, "index", row->index);
     for (uint32_t i = 0; i < stats->plan->columns; i++) {
         lrcs_host_json_number(json, stats->plan->column[i], value[i]);
@@ -190,7 +219,8 @@ static int stats_csv(FILE *out, const void *context, lrcs_host_error *error)
     for (uint32_t i = 0; i < stats->head->options; i++) {
         fprintf(out, "; %s=%s", stats->head->option[i].key, stats->head->option[i].text);
     }
-    fputs("\nto_dbsm,to_m2,share,cdf,cdf_least,cdf_most\n", out);
+    fprintf(out, "\nto_dbsm,to_m2,share,cdf,cdf_least,cdf_most%s\n",
+            stats->banded ? ",cdf_material_low,cdf_material_high" : "");
     for (uint32_t i = 0; i <= stats->bins && stats->bins > 0; i++) {
         const stats_value *cdf = &stats->cdf[i];
         cli_number_put(out, "", stats->edge_dbsm[i]);
@@ -199,6 +229,10 @@ static int stats_csv(FILE *out, const void *context, lrcs_host_error *error)
         cli_number_put(out, ",", cdf->value);
         cli_number_put(out, ",", cdf->least);
         cli_number_put(out, ",", cdf->most);
+        if (stats->banded) {
+            cli_number_put(out, ",", cdf->low);
+            cli_number_put(out, ",", cdf->high);
+        }
         putc('\n', out);
     }
     return LRCS_OK;
@@ -222,19 +256,24 @@ static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
     const char *title = cli_head_text(stats->head, "title");
     char words[300], note[300], bars[80];
     double least[STATS_BINS + 1], most[STATS_BINS + 1];
+    double middle[STATS_BINS + 1], low[STATS_BINS + 1], high[STATS_BINS + 1];
     double wide = 0.0;
     for (uint32_t i = 0; i <= stats->bins; i++) {
         least[i] = stats->cdf[i].least;
         most[i] = stats->cdf[i].most;
         wide = fmax(wide, most[i] - least[i]);
+        middle[i] = stats->cdf[i].value;
+        low[i] = stats->cdf[i].low;
+        high[i] = stats->cdf[i].high;
     }
     snprintf(words, sizeof words, "Distribution of sigma of %.200s", title ? title : "");
-    snprintf(note, sizeof note, "%llu rows, %s; mean %.4g m2, median %.4g m2",
+    snprintf(note, sizeof note, "%llu rows, %s; mean %.4g m2, median %.4g m2%s",
              (unsigned long long)stats->rows, stats->weights, stats->mean.value,
-             stats->percentile[4].value);
+             stats->percentile[4].value,
+             stats->banded ? "; shaded: 68 % by the errors of materials" : "");
     snprintf(bars, sizeof bars, "histogram: 1 is %.3g %% in %.3g dB", 100.0 * from->fullest,
              stats->edge_dbsm[1] - stats->edge_dbsm[0]);
-    const lrcs_host_series series[] = {
+    const lrcs_host_series known[] = {
         {bars, 2 * stats->bins + 2, from->bin_x, from->bin_y, NULL, LRCS_HOST_ORANGE,
          LRCS_HOST_NO_MARKER, LRCS_HOST_SOLID, 0, NULL, NULL},
         {"cumulative", from->count, from->x, from->y, NULL, LRCS_HOST_BLUE, LRCS_HOST_NO_MARKER,
@@ -242,14 +281,21 @@ static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
         {"at least, by bound", stats->bins + 1, stats->edge_dbsm, least, NULL, LRCS_HOST_SKY_BLUE,
          LRCS_HOST_TRIANGLE, LRCS_HOST_NO_LINE, 0, NULL, NULL},
         {"at most, by bound", stats->bins + 1, stats->edge_dbsm, most, NULL, LRCS_HOST_PURPLE,
-         LRCS_HOST_CROSS, LRCS_HOST_NO_LINE, 0, NULL, NULL}};
+         LRCS_HOST_CROSS, LRCS_HOST_NO_LINE, 0, NULL, NULL},
+        {NULL, stats->bins + 1, stats->edge_dbsm, middle, NULL, LRCS_HOST_BLUE, LRCS_HOST_NO_MARKER,
+         LRCS_HOST_NO_LINE, 0, low, high}};
+    lrcs_host_series series[5] = {known[0], known[1], known[2], known[3]};
+    uint32_t count = wide > 0.02 ? 4 : 2;
+    if (stats->banded) {
+        series[count++] = known[4];
+    }
     const lrcs_host_chart chart = {.title = words,
                                    .note = note,
                                    .x_name = "sigma (dBsm)",
                                    .y_name = "share of all rows",
                                    .y_from_0 = 1,
                                    .series = series,
-                                   .series_count = wide > 0.02 ? 4 : 2};
+                                   .series_count = count};
     return cli_chart_put(out, &chart, from->png, error);
 }
 

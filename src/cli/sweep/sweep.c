@@ -39,7 +39,8 @@ static const char sweep_help[] =
     "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
     "  --polar               curves about a pole, the angle counter-clockwise\n"
     "  --projection KIND     of a map: flat (default), or mollweide, which keeps areas\n"
-    "  --stats               mean by solid angle, percentiles, least and most, histogram\n"
+    "  --stats               mean by solid angle, percentiles, least and most, histogram;\n"
+    "                        with bands where materials have errors\n"
     "  --stats-file FILE     the same as FILE.json, .csv, .svg or .png; repeatable\n"
     "  --brightest N         with -o FILE: the N brightest peaks (rows that outshine those one\n"
     "                        step away) and who makes each, on stdout; marked where it is the\n"
@@ -347,7 +348,7 @@ static int job_room(sweep_job *job)
             return cli_out_of_memory();
         }
     }
-    if (job->plot.asked && job->plan.extras.materials) {
+    if ((job->plot.asked || job->stats) && job->plan.extras.materials) {
         job->band = calloc(job->plan.rows, sizeof *job->band);
         if (!job->band) {
             return cli_out_of_memory();
@@ -363,7 +364,8 @@ static int job_show(sweep_job *job)
     int code = job->plot.asked ? cli_plot_write(job->args, &job->plot, 1) : 0;
     if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
         sweep_stats stats;
-        code = cli_stats_make(&job->plan, &job->head, (const double(*)[2])job->row, &stats);
+        code = cli_stats_make(&job->plan, &job->head, (const double(*)[2])job->row,
+                              (const double(*)[2])job->band, &stats);
         code = code ? code : cli_stats_write(job->args, job->file.path ? stdout : stderr, &stats);
         cli_stats_free(&stats);
     }

@@ -410,12 +410,15 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
 /* A row and its weight. */
 typedef struct stats_row {
     double sigma, bound, weight;
+    double low, high; /* 68 % by the errors of materials; NAN if none are given */
     uint64_t index;
 } stats_row;
 
-/* A number with the interval that contains it for every sigma within the bounds of the rows. */
+/* A number with the interval that contains it for every sigma within the bounds of the rows, and
+   the band of its material uncertainty (NAN if no material has an error): that of stats.c. */
 typedef struct stats_value {
     double least, value, most;
+    double low, high;
 } stats_value;
 
 /* The distribution of sigma over the rows. Shares are of the weight of all rows. */
@@ -426,6 +429,7 @@ typedef struct sweep_stats {
     stats_row *row;      /* sorted by ascending sigma */
     double whole;        /* the weight of all rows */
     const char *weights; /* how rows are weighted, in words */
+    int banded;          /* 1 if materials have errors */
     stats_value mean;
     double standard_error; /* of --sphere, an estimate; else NAN */
     stats_value percentile[STATS_PERCENTS];
@@ -440,9 +444,10 @@ extern const int cli_stats_percent[STATS_PERCENTS];
    CLI_USAGE. */
 int cli_stats_read(const cli_args *args, int *asked);
 
-/* Computes the statistics; the caller frees them in any case. 0 or CLI_FAILED. */
+/* Computes the statistics from sigma and bound of every row, and the ends of its material band
+   (NULL: none); the caller frees them in any case. 0 or CLI_FAILED. */
 int cli_stats_make(const sweep_plan *plan, const sweep_head *head, const double (*row)[2],
-                   sweep_stats *stats);
+                   const double (*band)[2], sweep_stats *stats);
 void cli_stats_free(sweep_stats *stats);
 
 /* Writes the table for people, if --stats is given, and every --stats-file. 0 or CLI_FAILED. */

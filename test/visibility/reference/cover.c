@@ -96,7 +96,7 @@ static uint32_t order_mixed(const ref_cuts *cuts, uint32_t other)
         }
     }
     for (uint32_t i = intersections->first[t->facet]; i < intersections->first[t->facet + 1]; i++) {
-        if (intersections->touch[i].other == other) {
+        if (intersections->entry[i].other == other) {
             return ORDER_BEHIND;
         }
     }

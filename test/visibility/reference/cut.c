@@ -189,8 +189,8 @@ int ref_cuts_make(lrcsi_classification *classification, const lrcsi_target *targ
     }
     cuts_crossing(cuts, classification, crossings);
     for (uint32_t i = first; i < end; i++) {
-        if (lrcsi_intersection_hides(target->view, target->facet, &intersections->touch[i])) {
-            cuts_contact(cuts, classification, intersections->touch[i].other);
+        if (lrcsi_intersection_hides(target->view, target->facet, &intersections->entry[i])) {
+            cuts_contact(cuts, classification, intersections->entry[i].other);
         }
     }
     for (uint32_t i = 0; i < cuts->count; i++) {

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* Products and differences of vectors in plain doubles. The order of operations is fixed, so that
+   results have the same bits everywhere; base/length.h has lengths. */
+#ifndef LRCSI_VEC3_H
+#define LRCSI_VEC3_H
+
+static inline double lrcsi_vec3_dot(const double a[3], const double b[3])
+{
+    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+/* out = a x b, which is neither of them. */
+static inline void lrcsi_vec3_cross(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* out = b - a, the vector from a to b. */
+static inline void lrcsi_vec3_between(const double a[3], const double b[3], double out[3])
+{
+    out[0] = b[0] - a[0];
+    out[1] = b[1] - a[1];
+    out[2] = b[2] - a[2];
+}
+
+#endif
