@@ -145,7 +145,7 @@ static uint32_t steps_allowed(const lrcsi_meter *meter, uint32_t steps)
 }
 
 /* Does a facet of the component have this edge? */
-static int edge_of(const lrcsi_classification *c, uint32_t edge, uint32_t component)
+static int component_has_edge(const lrcsi_classification *c, uint32_t edge, uint32_t component)
 {
     const lrcsi_topology *t = &c->view->prepared->topology;
     const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
@@ -206,7 +206,8 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
                     continue;
                 }
                 event->asked = asked;
-                if (component != LRCS_NONE && !edge_of(classification, event->edge, component)) {
+                if (component != LRCS_NONE &&
+                    !component_has_edge(classification, event->edge, component)) {
                     continue;
                 }
                 if (!asking) {
@@ -247,7 +248,7 @@ int lrcsi_classify_crossed_by(lrcsi_classification *classification, uint32_t fac
     uint32_t steps = LRCS_NONE; /* no limit */
     if (classification->crossed == facet) {
         for (uint32_t i = 0; i < classification->crossings; i++) {
-            if (edge_of(classification, classification->crossing[i], component)) {
+            if (component_has_edge(classification, classification->crossing[i], component)) {
                 return 1;
             }
         }
