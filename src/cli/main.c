@@ -28,7 +28,7 @@ static const char main_help[] =
     "  converge SCENE  what accuracy costs in time: every method against the truth\n"
     "  sweep SCENE     sigma over attitudes, joints, materials: tables and maps, in threads\n"
     "  merge FILE...   the shards of a sweep made whole\n"
-    "  plot FILE...    sweeps drawn again from their files, several together; statistics\n"
+    "  plot FILE...    charts drawn again from files of sweep, profile, converge; statistics\n"
     "  report SCENE    all of it on one page of HTML, with pictures and charts inside\n"
     "  fit DATA.csv    a material's A, B, s, m from measured BRDF against angle\n"
     "  vectors DIR     a conformance kit for other implementations: scenes, attitudes, truth\n"

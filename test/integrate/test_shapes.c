@@ -48,8 +48,11 @@ typedef struct shapes_scene {
 static lrcs_recipe_part *add(shapes_scene *s, lrcs_shape shape)
 {
     lrcs_recipe_part *part = &s->part[s->parts++];
-    *part = (lrcs_recipe_part){
-        .name = "", .shape = shape, .place = lrcs_place_default(), .material = "skin", .material_index = 0};
+    *part = (lrcs_recipe_part){.name = "",
+                               .shape = shape,
+                               .place = lrcs_place_default(),
+                               .material = "skin",
+                               .material_index = 0};
     return part;
 }
 

@@ -52,8 +52,11 @@ static const lrcs_prepared *shape_prepare(const lrcs_shape *shape, const lrcs_br
     const lrcs_prepared *prepared;
     material = (lrcs_recipe_material){.name = "skin", .brdf = *brdf, .two_sided = -1};
     material.error = error ? *error : material.error;
-    part = (lrcs_recipe_part){
-        .name = "", .shape = *shape, .place = lrcs_place_default(), .material = "skin", .material_index = 0};
+    part = (lrcs_recipe_part){.name = "",
+                              .shape = *shape,
+                              .place = lrcs_place_default(),
+                              .material = "skin",
+                              .material_index = 0};
     for (int k = 0; k < 3; k++) {
         part.place.scale[k] = scale;
     }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "build3ds.h"
+#include "mesh/3ds.h"
 
 static int format_of(const char *text, const char *name)
 {
@@ -25,6 +26,24 @@ static void a_3ds_file_is_known_by_its_root_chunk(void **state)
     assert_int_equal(lrcs_format_check(file.bytes, file.size + 3, NULL), LRCS_FORMAT_3DS);
     assert_int_equal(lrcs_format_check(file.bytes, 8, NULL), LRCS_FORMAT_3DS);
     assert_int_equal(lrcs_format_check(file.bytes, 5, NULL), LRCS_FORMAT_UNKNOWN);
+}
+
+/* A root that claims more bytes than there are is known by its first chunk. */
+static void a_3ds_file_cut_short_is_known_by_its_first_chunk(void **state)
+{
+    (void)state;
+    static const unsigned first[] = {LRCSI_TDS_VERSION, LRCSI_TDS_EDITOR, LRCSI_TDS_KEYFRAMER};
+    unsigned char bytes[8] = {0x4d, 0x4d, 100, 0, 0, 0, 0, 0};
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++) {
+        bytes[6] = (unsigned char)(first[i] & 0xff);
+        bytes[7] = (unsigned char)(first[i] >> 8);
+        assert_int_equal(lrcs_format_check(bytes, 8, NULL), LRCS_FORMAT_3DS);
+        assert_int_equal(lrcs_format_check(bytes, 6, NULL), LRCS_FORMAT_UNKNOWN);
+    }
+    bytes[7] = 0x77;
+    assert_int_equal(lrcs_format_check(bytes, 8, NULL), LRCS_FORMAT_UNKNOWN);
+    bytes[2] = 5; /* shorter than its own header */
+    assert_int_equal(lrcs_format_check(bytes, 8, NULL), LRCS_FORMAT_UNKNOWN);
 }
 
 static void text_that_starts_with_mm_is_not_3ds(void **state)
@@ -121,6 +140,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_3ds_file_is_known_by_its_root_chunk),
+        cmocka_unit_test(a_3ds_file_cut_short_is_known_by_its_first_chunk),
         cmocka_unit_test(text_that_starts_with_mm_is_not_3ds),
         cmocka_unit_test(an_obj_file_is_known_by_its_first_word),
         cmocka_unit_test(scene_and_material_files_are_no_models),

@@ -453,6 +453,17 @@ static void coordinates_that_are_not_finite_or_huge_are_refused(void **state)
     check_facets("v 1e100 -1e100 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "0,1,2");
 }
 
+static void words_that_resemble_nan_or_inf_are_no_numbers(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"n", "ni", "nod", "none", "nix", "int", "iota", "-no", "+x"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "\nv 1 %s 2\n", bad[i]);
+        check_failure(text, LRCS_E_SYNTAX, 5, 2, "vertex coordinate", bad[i]);
+    }
+}
+
 static void smoothing_groups_that_are_no_numbers_are_refused(void **state)
 {
     (void)state;
@@ -622,6 +633,7 @@ int main(void)
         cmocka_unit_test(corners_that_are_no_indices_are_refused),
         cmocka_unit_test(coordinates_that_are_no_numbers_are_refused),
         cmocka_unit_test(coordinates_that_are_not_finite_or_huge_are_refused),
+        cmocka_unit_test(words_that_resemble_nan_or_inf_are_no_numbers),
         cmocka_unit_test(smoothing_groups_that_are_no_numbers_are_refused),
         cmocka_unit_test(failure_leaves_the_outputs_untouched),
         cmocka_unit_test(a_starved_work_area_is_refused_until_it_serves),

@@ -3,6 +3,7 @@
    than they share, and given where surfaces are plain. */
 #include "mesh/ring.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/exact.h"
@@ -315,6 +316,66 @@ static void surfaces_are_proved_whichever_way_they_face(void **state)
     }
 }
 
+/* A fan of 40 facets about vertex 0, and one of 50 about vertex 1 with two facets in common, which
+   is not proved: 48 of its facets have a side in common. With `spoiled` the first is not either. */
+static uint32_t make_two_fans(int spoiled)
+{
+    enum { FIRST = 40, SECOND = 50 };
+    vertex[0] = (lrcs_point){{0, 0, 0}};
+    for (uint32_t k = 0; k < FIRST; k++) {
+        double t = 2.0 * 3.14159265358979 * k / FIRST;
+        vertex[1 + k] = (lrcs_point){{cos(t), sin(t), 0}};
+        facet[k] = (lrcs_facet){{0, 1 + k, 1 + (k + 1) % FIRST}};
+    }
+    uint32_t facets = FIRST;
+    uint32_t tip = FIRST + 1;
+    vertex[tip] = (lrcs_point){{3, 0, 1}};
+    for (uint32_t k = 0; k < SECOND - 2; k++) {
+        vertex[tip + 1 + k] = (lrcs_point){{2, 0.1 * k + 0.1, 2}};
+        facet[facets++] = (lrcs_facet){{1, tip, tip + 1 + k}};
+    }
+    uint32_t vertices = tip + SECOND - 1;
+    for (uint32_t k = 0; k < 2 && spoiled; k++) { /* two more facets on one side of the first fan */
+        vertex[vertices] = (lrcs_point){{0.5, 0.5, 1.0 + k}};
+        facet[facets++] = (lrcs_facet){{0, 11, vertices++}};
+    }
+    memset(skip, 0, sizeof skip);
+    prove_rings(vertices, facets);
+    return facets;
+}
+
+static void the_apex_is_proved_if_any_is_and_else_the_one_with_more_facets(void **state)
+{
+    (void)state;
+    make_two_fans(0);
+    assert_true(proved[0] && !proved[1]);
+    assert_int_equal(apex[0], 0);
+    assert_int_equal(apex[20], 0);
+    assert_int_equal(apex[45], 1);
+    make_two_fans(1);
+    assert_true(!proved[0] && !proved[1]);
+    assert_int_equal(apex[0], 1);
+    assert_int_equal(apex[20], 0);
+}
+
+/* Facets without area that are not skipped prevent proofs at their corners; apexes are optional. */
+static void facets_without_area_are_no_proof(void **state)
+{
+    (void)state;
+    static const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
+    for (uint32_t v = 0; v < 4; v++) {
+        memcpy(vertex[v].x, corner[v], sizeof corner[v]);
+    }
+    facet[0] = (lrcs_facet){{0, 1, 2}};
+    facet[1] = (lrcs_facet){{0, 1, 3}};
+    lrcs_work work = lrcs_work_make(room, ROOM);
+    lrcsi_topology topology;
+    assert_int_equal(lrcsi_topology_make(vertex, 4, facet, 2, &work, &topology), LRCS_OK);
+    assert_int_equal(lrcsi_rings_prove(vertex, 4, facet, 2, &topology, NULL, &work, proved, NULL),
+                     LRCS_OK);
+    assert_true(!proved[0] && !proved[1] && proved[2] && !proved[3]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -323,6 +384,8 @@ int main(void)
         cmocka_unit_test(fans_are_proved_and_their_pairs_left_out),
         cmocka_unit_test(cones_leave_out_only_facets_that_meet_in_the_apex),
         cmocka_unit_test(fans_without_a_proof_have_an_apex),
+        cmocka_unit_test(the_apex_is_proved_if_any_is_and_else_the_one_with_more_facets),
+        cmocka_unit_test(facets_without_area_are_no_proof),
         cmocka_unit_test(surfaces_are_proved_whichever_way_they_face),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -305,6 +305,54 @@ static void facets_in_one_place_are_found_there(void **state)
     assert_int_equal(found, N);
 }
 
+/* Facets without a normal have slabs without a direction, and fans whose directions cancel, or are
+   none, have cones that bound nothing: no block is left out. */
+static void slabs_and_cones_without_a_direction_leave_out_nothing(void **state)
+{
+    (void)state;
+    static const unsigned char unproved[3] = {0, 0, 0};
+    for (int full = 0; full < 2; full++) {
+        const uint32_t count = full ? 40 : 200; /* 40: few enough to keep their order */
+        for (uint32_t v = 0; v < 5; v++) {
+            vertex[v] = (lrcs_point){{0, 0, 0}};
+        }
+        for (uint32_t v = 1; v < 5 && full; v++) { /* a cross of four spokes about vertex 0 */
+            vertex[v].x[v / 3] = v % 2 ? 1.0 : -1.0;
+        }
+        for (uint32_t f = 0; f < count; f++) {
+            static const uint32_t spoke[4] = {1, 3, 2, 4};
+            facet[f] = (lrcs_facet){{0, spoke[f % 4], spoke[(f + 1) % 4]}};
+            label[f] = 0;
+        }
+        lrcs_work work = lrcs_work_make(room, ROOM);
+        lrcsi_tree tree;
+        assert_int_equal(lrcsi_tree_make(vertex, facet, count, NULL, label, 1, &work, &tree),
+                         LRCS_OK);
+        lrcsi_tree_fill_slabs(vertex, facet, &tree);
+        lrcsi_tree_fill_cones(vertex, facet, unproved, &tree);
+        for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
+            lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
+            walk.without = LRCS_NONE;
+            lrcsi_tree_narrow_fan(&walk, leaf);
+            lrcsi_tree_narrow(&walk, leaf);
+            uint32_t found = leaf + 1;
+            while (lrcsi_tree_next(&walk) != LRCS_NONE) {
+                found++;
+            }
+            assert_int_equal(found, tree.blocks[0]);
+        }
+    }
+}
+
+static void a_tree_of_no_facets_has_none_in_any_box(void **state)
+{
+    (void)state;
+    lrcsi_tree tree = make_tree(0, NULL, NULL);
+    lrcsi_box box = {{-1, -1, -1}, {1, 1, 1}};
+    lrcsi_tree_walk walk = lrcsi_tree_within(&tree, &box, LRCS_NONE);
+    assert_int_equal(lrcsi_tree_next(&walk), LRCS_NONE);
+}
+
 static void starved_trees_fail_clean(void **state)
 {
     (void)state;
@@ -334,6 +382,8 @@ int main(void)
         cmocka_unit_test(a_walk_finds_all_boxes_that_meet_a_given_one),
         cmocka_unit_test(far_vertices_and_small_clusters_do_not_spoil_the_order),
         cmocka_unit_test(facets_in_one_place_are_found_there),
+        cmocka_unit_test(slabs_and_cones_without_a_direction_leave_out_nothing),
+        cmocka_unit_test(a_tree_of_no_facets_has_none_in_any_box),
         cmocka_unit_test(starved_trees_fail_clean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -248,14 +248,14 @@ static void page_head(FILE *out, const report_job *job)
           "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
           "'unsafe-inline'; script-src 'unsafe-inline'\">\n<title>",
           out);
-    cli_page_text(out, cli_base_name(job->args->operand));
+    cli_page_text(out, cli_report_title(job));
     fputs(": laser radar cross-section, explorer</title>\n<style>\n", out);
     cli_report_style(out);
     fputs(explore_style, out);
     fputs("</style>\n</head>\n<body>\n<header>\n<p class=\"kind\">Laser radar cross-section</p>\n"
           "<h1>",
           out);
-    cli_page_text(out, cli_base_name(job->args->operand));
+    cli_page_text(out, cli_report_title(job));
     fputs("</h1>\n</header>\n<main>\n", out);
 }
 

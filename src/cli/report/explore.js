@@ -141,7 +141,7 @@
     const wide = w - box.left - box.right, high = h - box.top - box.bottom;
     const X = (a) => box.left + wide * a / 360, Y = (e) => box.top + high * (90 - e) / 180;
     context.scale(ratio, ratio);
-    context.imageSmoothingEnabled = true;
+    context.imageSmoothingEnabled = false; // nothing is interpolated
     // pixels stand for directions at their centres: the outer halves are cut off
     context.drawImage(ground, 0.5, 0.5, az.count - 1, el.count - 1, box.left, box.top, wide, high);
     context.strokeStyle = context.fillStyle = ink;

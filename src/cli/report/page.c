@@ -18,7 +18,7 @@ static void page_head(FILE *out, const report_job *job)
           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n"
           "<meta name=\"color-scheme\" content=\"light dark\" />\n<title>",
           out);
-    cli_page_text(out, cli_base_name(job->args->operand));
+    cli_page_text(out, cli_report_title(job));
     fputs(": laser radar cross-section</title>\n<style>\n", out);
     cli_report_style(out);
     fputs("</style>\n</head>\n<body>\n", out);
@@ -87,7 +87,7 @@ static void lead_direction(FILE *out, const report_job *job)
 static void page_lead(FILE *out, const report_job *job)
 {
     fputs("<header>\n<p class=\"kind\">Laser radar cross-section</p>\n<h1>", out);
-    cli_page_text(out, cli_base_name(job->args->operand));
+    cli_page_text(out, cli_report_title(job));
     fputs("</h1>\n", out);
     lead_sigma(out, job);
     lead_direction(out, job);

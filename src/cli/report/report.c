@@ -121,7 +121,7 @@ static int report_compare(report_job *job)
     converge_job *compare = &job->converge;
     double least = 1.0;
     *compare = (converge_job){.args = job->args,
-                              .title = job->args->operand,
+                              .title = cli_report_title(job),
                               .pose = job->pose,
                               .load = job->load,
                               .seconds = REPORT_COMPARE * job->seconds};

@@ -70,6 +70,9 @@ typedef struct report_job {
 /* Runs the scene, with pictures and shares. */
 int cli_report_run(report_job *job);
 
+/* The scene's title, or the name of its file. */
+const char *cli_report_title(const report_job *job);
+
 /* Computes the sweeps, their drawings and peaks. */
 int cli_report_sweeps(report_job *job);
 

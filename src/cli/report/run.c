@@ -5,14 +5,19 @@
 
 #include <stdlib.h>
 
+const char *cli_report_title(const report_job *job)
+{
+    const char *name = cli_scene_title(job->args, &job->scene);
+    return name == job->args->operand ? cli_base_name(name) : name;
+}
+
 static lrcs_host_picture picture_of(const report_job *job, int kind, int white)
 {
     static const int look[REPORT_PICTURES] = {LRCS_HOST_BY_SIGMA, LRCS_HOST_BY_MATERIAL};
-    const char *name = cli_scene_title(job->args, &job->scene);
     return (lrcs_host_picture){.scene = &job->scene.scene,
                                .pose = &job->pose,
                                .records = job->records,
-                               .title = name == job->args->operand ? cli_base_name(name) : name,
+                               .title = cli_report_title(job),
                                .colouring = look[kind],
                                .white = white,
                                .annotated = 1};

@@ -113,7 +113,7 @@ static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
     words_make(job, kind, sweep);
     int code = cli_plan_read(&sweep->args, NULL, &sweep->plan);
     code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
-    sweep->plot.title = cli_base_name(job->args->operand);
+    sweep->plot.title = cli_report_title(job);
     sweep->plot.open = cli_materials_open(&job->scene.scene);
     sweep->plot.map = kind == REPORT_MAP; /* even if it has few rows */
     return code;
