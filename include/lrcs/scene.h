@@ -144,9 +144,10 @@ typedef struct lrcs_part {
     int rigid;        /* an engine-made shape placed by rotations, reflections and one scale for all
                          axes: the fields below are valid, and its closed form may be used */
     lrcs_shape shape; /* in its own units */
-    double unit;      /* metres per unit */
-    double origin[3]; /* m, position of its origin, to within `misplaced` */
-    double axis[3][3]; /* unit vectors, body frame: its x, y and z axes, rounded; axis + */
+    lrcs_divisions divisions; /* of its mesh */
+    double unit;              /* metres per unit */
+    double origin[3];         /* m, position of its origin, to within `misplaced` */
+    double axis[3][3];        /* unit vectors, body frame: its x, y and z axes, rounded; axis + */
     double axis_low[3]
                    [3]; /* axis_low is accurate to 2^-97. The truth is the shape rotated by the */
     int axis_exact;     /* rotations nearest to the matrices given; 1: nothing was rounded */
@@ -185,8 +186,10 @@ int lrcs_normals_find(const char *name);
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
     double tolerance;    /* relative, > 0, for a shape alone; among other parts, small shapes may be
-                            coarser, and a sphere, dome or paraboloid is tessellated for ten times
-                            this, at least 1e-4 */
+                            coarser. There the mean over the true surface counts for each facet of a
+                            curved wall, so that only shadows call for facets; but where a scale
+                            differs between axes the facets' normals count, and a sphere, dome or
+                            paraboloid is tessellated for ten times this, at least 1e-4 */
     uint32_t max_facets; /* limit for one shape */
     int normals;         /* lrcs_normals */
     int facets_only;     /* 1: the facets of a shape alone meet the tolerance too, for runs that

@@ -4,7 +4,7 @@
 #ifndef LRCS_CLI_H
 #define LRCS_CLI_H
 
-#include <lrcs/host.h>
+#include <lrcs/picture.h>
 
 #define CLI_PI      3.14159265358979323846
 #define CLI_DEGREES (180.0 / CLI_PI) /* degrees per radian */
@@ -195,10 +195,14 @@ int cli_has_curved_shapes(const lrcs_scene *scene);
    title, the assigned materials and the options given. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 
-/* The beginning of the first line of a CSV file, "# lrcs VERSION COMMAND; key=text; ..": what it
-   was made from. The caller ends the line. */
-void cli_table_head(FILE *out, const char *command, const char *title, const lrcs_host_scene *scene,
-                    const double direction[3]);
+/* What a table was made from, the beginning of its first line after "# ": "lrcs VERSION COMMAND;
+   key=text; ..". The caller ends the line. */
+void cli_table_head(FILE *out, const cli_args *args, const char *title,
+                    const lrcs_host_scene *scene, const double direction[3]);
+
+/* What a writer writes, as a text that the caller frees; NULL without memory. */
+typedef void cli_text_writer(FILE *out, const void *context);
+char *cli_text_of(cli_text_writer *write, const void *context);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */
@@ -209,10 +213,23 @@ int cli_materials_open(const lrcs_scene *scene);         /* 1 if some are illust
 void cli_version_json(lrcs_host_json *json);             /* schema and version */
 void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* hash of the scene */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
-/* The same in one line for pictures: version, scene hash, files, materials, options. NULL without
-   memory; the caller frees it. */
+/* The same in one line for pictures: version, scene hash, files, materials, options; without a
+   scene (NULL), the operand as the file. NULL without memory; the caller frees it. */
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
+void cli_options_json(const cli_args *args, lrcs_host_json *json); /* only the options given */
+void cli_operand_json(const cli_args *args, lrcs_host_json *json); /* the operand as "files" */
+void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json);
+/* Writes them beside a file of numbers whose format has no place for them, as FILE.json (FILE.csv
+   .json), with the hash of that file; nothing beside standard output or a device. scene and pose
+   may be NULL. 0 or CLI_FAILED. */
+#define CLI_BESIDE ".json"
+int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
+                          const lrcs_pose *pose);
+
+/* FNV-1a: the sum of no bytes, and of more bytes. */
+#define CLI_SUM_BEGIN 0xcbf29ce484222325u
+uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size);
 
 /* The name of a scene's material as it is printed: "(default)" if it has none. */
 const char *cli_material_name(const lrcs_material *material);
@@ -275,6 +292,12 @@ int cli_outputs_check(const cli_args *args);
 
 /* Checks that none of them would replace a file that the scene was read from. 0 or CLI_USAGE. */
 int cli_outputs_spare(const cli_args *args, const lrcs_host_scene *scene);
+
+/* Writes what the laser sees as PNG, with what it was made from. Status: as lrcs_host_picture_png.
+ */
+int cli_picture_write(FILE *out, const lrcs_host_picture *picture, const lrcs_image *image,
+                      uint32_t size, const cli_args *args, const lrcs_host_scene *scene,
+                      lrcs_host_error *error);
 
 /* Writes a file atomically: it appears complete or not at all. 0 or CLI_FAILED with the message
    printed. */

@@ -24,7 +24,8 @@ static const char image_help[] =
     "text)\n"
     "                        or FILE.vtk (legacy, binary), with cos_theta, area_m2, "
     "visible_area_m2\n"
-    "                        (projected), visible_fraction, sigma_m2, material and part of each\n"
+    "                        (projected), visible_fraction, sigma_m2, material and part of each;\n"
+    "                        what it was made from goes into FILE.json\n"
     "\n"
     "options\n"
     "  --by LOOK             what colours stand for:\n"
@@ -187,12 +188,8 @@ static int image_run(image_job *job)
 static int png_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const image_job *job = context;
-    lrcs_host_picture picture = picture_of(job);
-    char *about = cli_provenance_text(job->args, &job->scene);
-    picture.about = about;
-    int status = lrcs_host_picture_png(out, &picture, &job->image, job->size, error);
-    free(about);
-    return status;
+    const lrcs_host_picture picture = picture_of(job);
+    return cli_picture_write(out, &picture, &job->image, job->size, job->args, &job->scene, error);
 }
 
 /* SVG is meant for print, so its background is white unless an option says otherwise. */
@@ -224,6 +221,10 @@ static int image_write(const image_job *job)
     int code = 0;
     for (int i = 0; i < IMAGE_FILES && code == 0; i++) {
         code = job->path[i] ? cli_output_write(job->path[i], writer[i], job) : 0;
+    }
+    const char *vtk = job->path[IMAGE_VTK];
+    if (code == 0 && vtk) {
+        code = cli_provenance_beside(job->args, vtk, &job->scene, &job->pose);
     }
     return code;
 }

@@ -117,7 +117,7 @@ static void rows_write(FILE *out, merge_rows *rows)
     const sweep_text *head = &rows->shard[0].text;
     sweep_tally tally = {0};
     sweep_row row;
-    uint64_t sum = sum_write(out, head->head, head->head_size, SWEEP_SUM_BEGIN);
+    uint64_t sum = sum_write(out, head->head, head->head_size, CLI_SUM_BEGIN);
     while (merge_next(rows, &row) == 1) {
         cli_tally_add(&tally, &row);
         sum = sum_write(out, rows->line, rows->size, sum);

@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -100,6 +101,18 @@ int cli_outputs_spare(const cli_args *args, const lrcs_host_scene *scene)
         }
     }
     return 0;
+}
+
+int cli_picture_write(FILE *out, const lrcs_host_picture *picture, const lrcs_image *image,
+                      uint32_t size, const cli_args *args, const lrcs_host_scene *scene,
+                      lrcs_host_error *error)
+{
+    lrcs_host_picture all = *picture;
+    char *about = cli_provenance_text(args, scene);
+    all.about = about;
+    int status = lrcs_host_picture_png(out, &all, image, size, error);
+    free(about);
+    return status;
 }
 
 int cli_output_write(const char *path, cli_writer *write, const void *context)

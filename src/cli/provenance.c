@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene)
 {
@@ -59,11 +60,25 @@ const char *cli_base_name(const char *path)
     return slash && slash[1] ? slash + 1 : path;
 }
 
-void cli_table_head(FILE *out, const char *command, const char *title, const lrcs_host_scene *scene,
-                    const double direction[3])
+/* The options given, but for files to write: a result does not depend on where it is written. */
+static void options_put(FILE *out, const char *before, const cli_args *args)
 {
-    fprintf(out, "# lrcs %s %s; scene_hash=%016llx; title=%s", lrcs_version(), command,
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (!cli_is_output(args->command, given->name)) {
+            fprintf(out, "%s%s%s%s%s", before, cli_dashes(given->name), given->name,
+                    given->value ? "=" : "", given->value ? given->value : "");
+            before = " ";
+        }
+    }
+}
+
+void cli_table_head(FILE *out, const cli_args *args, const char *title,
+                    const lrcs_host_scene *scene, const double direction[3])
+{
+    fprintf(out, "lrcs %s %s; scene_hash=%016llx; title=%s", lrcs_version(), args->command->name,
             (unsigned long long)lrcs_scene_hash(&scene->scene), cli_base_name(title));
+    options_put(out, "; options=", args);
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
         fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
                 (unsigned long long)input->hash);
@@ -86,16 +101,60 @@ void cli_hash_json(uint64_t hash, lrcs_host_json *json)
     lrcs_host_json_text(json, "scene_hash", text);
 }
 
+static void file_json(const char *key, const char *name, uint64_t hash, lrcs_host_json *json)
+{
+    char text[32];
+    snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)hash);
+    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
+    lrcs_host_json_text(json, "name", name);
+    lrcs_host_json_text(json, "hash", text);
+    lrcs_host_json_end(json);
+}
+
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)
 {
-    char hash[32];
     lrcs_host_json_begin(json, "files", LRCS_HOST_ARRAY);
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
-        snprintf(hash, sizeof hash, "fnv1a:%016llx", (unsigned long long)input->hash);
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "name", input->path);
-        lrcs_host_json_text(json, "hash", hash);
-        lrcs_host_json_end(json);
+        file_json(NULL, input->path, input->hash, json);
+    }
+    lrcs_host_json_end(json);
+}
+
+uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < size; i++) {
+        sum = (sum ^ at[i]) * 0x100000001b3u;
+    }
+    return sum;
+}
+
+/* The hash of a file; that of no bytes if it cannot be read. */
+static uint64_t file_hash(const char *path)
+{
+    lrcs_host_file file;
+    uint64_t hash = CLI_SUM_BEGIN;
+    if (lrcs_host_file_read(path, &file, NULL) == LRCS_OK) {
+        hash = cli_sum_more(hash, file.bytes, file.size);
+        lrcs_host_file_free(&file);
+    }
+    return hash;
+}
+
+void cli_operand_json(const cli_args *args, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, "files", LRCS_HOST_ARRAY);
+    file_json(NULL, args->operand, file_hash(args->operand), json);
+    lrcs_host_json_end(json);
+}
+
+void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json)
+{
+    double s_hat[3];
+    cli_pose_unit(pose, s_hat);
+    lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
+    for (int k = 0; k < 3; k++) {
+        lrcs_host_json_number(json, NULL, s_hat[k]);
     }
     lrcs_host_json_end(json);
 }
@@ -148,11 +207,9 @@ static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
-void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json)
+void cli_options_json(const cli_args *args, lrcs_host_json *json)
 {
     char word[1200];
-    lrcs_host_json_text(json, "title", cli_scene_title(args, scene));
-    materials_json(&scene->scene, json);
     lrcs_host_json_begin(json, "options", LRCS_HOST_ROW_ARRAY);
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
@@ -163,6 +220,71 @@ void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrc
     lrcs_host_json_end(json);
 }
 
+void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json)
+{
+    lrcs_host_json_text(json, "title", cli_scene_title(args, scene));
+    materials_json(&scene->scene, json);
+    cli_options_json(args, json);
+}
+
+/* ---- beside a file of numbers ---- */
+
+typedef struct beside {
+    const cli_args *args;
+    const char *path;
+    const lrcs_host_scene *scene; /* NULL: made from the operand alone */
+    const lrcs_pose *pose;        /* or NULL */
+} beside;
+
+static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const beside *from = context;
+    (void)error;
+    lrcs_host_json json = lrcs_host_json_make(out);
+    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    lrcs_host_json_text(&json, "lrcs", from->args->command->name);
+    cli_version_json(&json);
+    file_json("file", cli_base_name(from->path), file_hash(from->path), &json);
+    if (from->scene) {
+        cli_hash_json(lrcs_scene_hash(&from->scene->scene), &json);
+        cli_files_json(from->scene, &json);
+        lrcs_host_json_text(&json, "unit", cli_value(from->args, "unit"));
+    } else {
+        cli_operand_json(from->args, &json);
+    }
+    if (from->pose) {
+        cli_direction_json(from->pose, &json);
+    }
+    if (from->scene) {
+        cli_provenance_json(from->args, from->scene, &json);
+    } else {
+        cli_options_json(from->args, &json);
+    }
+    lrcs_host_json_end(&json);
+    return LRCS_OK;
+}
+
+int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
+                          const lrcs_pose *pose)
+{
+    const beside from = {args, path, scene, pose};
+    struct stat about;
+    if (strcmp(path, "-") == 0 || stat(path, &about) != 0 || !S_ISREG(about.st_mode)) {
+        return 0; /* nothing stands beside standard output or a device */
+    }
+    size_t room = strlen(path) + sizeof CLI_BESIDE;
+    char *name = malloc(room);
+    if (!name) {
+        return cli_out_of_memory();
+    }
+    snprintf(name, room, "%s" CLI_BESIDE, path);
+    int code = cli_output_write(name, beside_write, &from);
+    free(name);
+    return code;
+}
+
+/* ---- in one line ---- */
+
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
 {
     char *text = NULL;
@@ -171,23 +293,20 @@ char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
     if (!out) {
         return NULL;
     }
-    fprintf(out, "lrcs %s; scene=%s; scene_hash=%016llx", lrcs_version(),
-            cli_base_name(args->operand), (unsigned long long)lrcs_scene_hash(&scene->scene));
-    for (const lrcs_host_input *input = scene->input; input; input = input->next) {
+    fprintf(out, "lrcs %s", lrcs_version());
+    if (scene) {
+        fprintf(out, "; scene=%s; scene_hash=%016llx", cli_base_name(args->operand),
+                (unsigned long long)lrcs_scene_hash(&scene->scene));
+    } else {
+        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(args->operand),
+                (unsigned long long)file_hash(args->operand));
+    }
+    for (const lrcs_host_input *input = scene ? scene->input : NULL; input; input = input->next) {
         fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
                 (unsigned long long)input->hash);
     }
-    const char *before = "; options: ";
-    for (int i = 0; i < args->given_count; i++) {
-        const cli_given *given = &args->given[i];
-        if (cli_is_output(args->command, given->name)) {
-            continue; /* a result does not depend on where it is written */
-        }
-        fprintf(out, "%s%s%s%s%s", before, cli_dashes(given->name), given->name,
-                given->value ? "=" : "", given->value ? given->value : "");
-        before = " ";
-    }
-    for (uint32_t i = 0; i < scene->scene.material_count; i++) {
+    options_put(out, "; options: ", args);
+    for (uint32_t i = 0; scene && i < scene->scene.material_count; i++) {
         const lrcs_material *material = &scene->scene.material[i];
         const lrcs_brdf *brdf = &material->brdf;
         fprintf(out, "; material %s=%.6g,%.6g,%.6g,%.6g %s", cli_material_name(material), brdf->A,
@@ -196,6 +315,21 @@ char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
     if (fclose(out) != 0) {
         free(text);
         return NULL;
+    }
+    return text;
+}
+
+char *cli_text_of(cli_text_writer *write, const void *context)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (out) {
+        write(out, context);
+        if (fclose(out) != 0) {
+            free(text);
+            return NULL;
+        }
     }
     return text;
 }

@@ -55,13 +55,19 @@ typedef struct sigma_step {
     int tries; /* with more memory, if the answer was degraded because of lack of memory */
 } sigma_step;
 
-/* Does the heap have the memory that the next try needs? */
-static int heap_holds(const lrcs_work *work)
+/* LRCS_E_MEMORY, which asks for a larger work area, if the answer was degraded because of lack of
+   memory, tries are left, and the heap has what the next one needs; else the status. */
+static int more_memory(int status, const lrcs_result *result, const lrcs_work *work, int *tries)
 {
+    int degraded =
+        status == LRCS_OK && (result->flags & LRCS_FLAG_MEMORY_FALLBACK) && work->peak > work->size;
+    if (!degraded || (*tries)-- <= 0) {
+        return status;
+    }
     size_t twice = work->size <= SIZE_MAX / 4 ? 2 * work->size : SIZE_MAX / 2;
     void *probe = malloc((work->peak > twice ? work->peak : twice) + 64);
     free(probe);
-    return probe != NULL;
+    return probe ? LRCS_E_MEMORY : status;
 }
 
 static int run_sigma(void *context, lrcs_work *work)
@@ -69,9 +75,7 @@ static int run_sigma(void *context, lrcs_work *work)
     sigma_step *step = context;
     int status = lrcs_sigma_run(step->prepared, step->pose, step->options, work, step->result,
                                 step->records, step->image);
-    int degraded = status == LRCS_OK && (step->result->flags & LRCS_FLAG_MEMORY_FALLBACK) &&
-                   work->peak > work->size;
-    return degraded && step->tries-- > 0 && heap_holds(work) ? LRCS_E_MEMORY : status;
+    return more_memory(status, step->result, work, &step->tries);
 }
 
 /* The bytes to begin with: fewer than requested give a coarser raster, and a flag. */
@@ -139,9 +143,7 @@ static int run_uncertainty(void *context, lrcs_work *work)
     uncertainty_step *step = context;
     int status = lrcs_uncertainty_run(step->prepared, step->pose, step->options, step->how, work,
                                       step->result, step->sensitivity, step->uncertainty);
-    int degraded = status == LRCS_OK && (step->result->flags & LRCS_FLAG_MEMORY_FALLBACK) &&
-                   work->peak > work->size;
-    return degraded && step->tries-- > 0 && heap_holds(work) ? LRCS_E_MEMORY : status;
+    return more_memory(status, step->result, work, &step->tries);
 }
 
 int lrcsi_host_uncertainty(const lrcs_host_scene *scene, const lrcs_pose *pose,

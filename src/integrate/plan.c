@@ -89,6 +89,7 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
     plan.backless = !view->backs_cast || view->front == 0 || view->back == 0;
     plan.alone = p->convex && plan.backless;
     plan.searched = effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING);
+    plan.patches = p->curved;
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
     plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
     plan.size = options->resolution != 0 ? options->resolution : FIRST_SIZE;

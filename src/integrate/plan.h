@@ -24,6 +24,7 @@ typedef struct lrcsi_plan {
     int backless;       /* no facet hides a back side that counts */
     int alone;          /* proved: unshadowed and backless */
     int searched;       /* what hides them is looked for all the same */
+    int patches;        /* facets of curved walls stand for the true surface (integrate/patch.h) */
     int glint, diffuse; /* lrcsi_term */
 } lrcsi_plan;
 

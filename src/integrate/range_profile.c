@@ -92,6 +92,7 @@ typedef struct profile_job {
     lrcsi_visible *visible; /* of every facet; NULL if no facet stands for a curved shape */
     lrcsi_proximity_band margin;
     const lrcsi_proximity_band *doubt; /* margin, or NULL if none was made */
+    lrcsi_patch patch;                 /* of the last facet that has one */
     int tessellation_known;
     double tessellation;
 } profile_job;
@@ -491,7 +492,7 @@ static void facet_profile(profile_job *job, uint32_t facet, lrcsi_occluding *o)
         f.most = FOUR_PI * lrcsi_curve_most(&curve) * (1 + incidence.error);
     } else {
         lrcsi_facet_terms terms =
-            lrcsi_facet_terms_make(job->view, &job->plan, facet, &incidence, &whole);
+            lrcsi_facet_terms_make(job->view, &job->plan, facet, &incidence, &whole, &job->patch);
         f.glint = terms.glint / incidence.projected;
         f.diffuse = terms.diffuse / incidence.projected;
         f.rounding = terms.rounding / incidence.projected;
@@ -554,9 +555,8 @@ static void bent_charge(profile_job *job, uint32_t facet)
     profile_facet f;
     profile_facet other;
     lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
-    lrcs_brdf brdf = lrcsi_plan_brdf(&job->plan, lrcsi_prepared_material(job->prepared, facet));
-    lrcsi_patch_parts parts =
-        lrcsi_tessellation_parts(job->view, facet, &brdf, &incidence, job->visible, job->doubt);
+    lrcsi_patch_parts parts = lrcsi_tessellation_parts(job->view, &job->plan, facet, &incidence,
+                                                       job->visible, job->doubt, &job->patch);
     facet_ranges(job, facet, &f);
     facet_ranges(job, parts.partner, &other);
     double reach = reach_of(job, facet, &f);

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "integrate/patch.h"
 #include "optics/reflect.h"
 #include "visibility/query.h"
 
@@ -47,6 +48,18 @@ static void response_add_facet(const lrcsi_view *view, const lrcs_brdf *brdf, ui
     lrcsi_sum_add(&response->diffuse_m, weight * (at.diffuse * (-0.5 * lrcsi_log1p(u).hi)));
 }
 
+/* One that stands for a patch of a curved wall. */
+static void response_add_patch(const lrcsi_view *view, double s, uint32_t facet, double share,
+                               const lrcsi_patch *patch, lrcsi_response *response)
+{
+    double weight = FOUR_PI * 0.5 * view->prepared->normal[facet].length * share;
+    double slope = patch->glint_u > 0 ? 2 * (patch->glint_u / s / s) / s : 0;
+    lrcsi_sum_add(&response->glint, weight * patch->glint);
+    lrcsi_sum_add(&response->glint_s, weight * slope);
+    lrcsi_sum_add(&response->diffuse, weight * patch->diffuse);
+    lrcsi_sum_add(&response->diffuse_m, weight * (-0.5 * patch->diffuse_log));
+}
+
 /* One with curved normals. */
 static void response_add_curved(const lrcs_brdf *brdf, const lrcsi_curved *curved,
                                 lrcsi_response *response)
@@ -65,6 +78,7 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_scene *scene = p->scene;
+    lrcsi_patch patch = {.side = 0};
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         int in_shape = clear && clear->count > 0 && clear->part[scene->facet_part[f]];
@@ -74,8 +88,12 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
         uint32_t material = scene->facet_material[f];
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         double share = visible_share(view, areas, f, incidence.projected);
+        const lrcs_brdf unit = {brdf[material].s > 0 ? 1 : 0, 1, brdf[material].s,
+                                brdf[material].m};
         if (curved && lrcsi_curve_wanted(view, f)) {
             response_add_curved(&brdf[material], &curved[f], &response[material]);
+        } else if (share > 0 && lrcsi_patch_make(view, plan, &unit, f, &patch)) {
+            response_add_patch(view, unit.s, f, share, &patch, &response[material]);
         } else if (share > 0) {
             response_add_facet(view, &brdf[material], f, share, incidence.tan2,
                                &response[material]);

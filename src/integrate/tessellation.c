@@ -4,7 +4,8 @@
    (visibility/proximity_band.h), and decides neither.
 
    Let U be the facet's patch and f the facet, of area S, |U| within a S of it; v and w say what is
-   seen of them, off a share b of both alike. Truth T = Int_U F v, the facets' M = F_i Int_f w.
+   seen of them, off a share b of both alike. Truth T = Int_U F v, the facets' M = F_i Int_f w; F_i
+   is F at the facet's normal or, where that is known, its mean over the patch (patch_deviation).
      seen all over, b = 0: T - M is the whole patch's deviation; its numbers hold for the two facets
    of a sector together, so both must be seen; hidden but for a share h: M <= S h F_i and T <= (1 +
    a) S (b + h) sup F, neither below 0; else |T - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f
@@ -136,6 +137,37 @@ static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrc
     return c->area_error + uneven + c->area_error * uneven;
 }
 
+/* How F strays over a patch from the value F_i that the sum takes for its facet; *stretch: the
+   share by which a part of a patch may be larger or smaller than the facet's own part, in a term
+   that F_i multiplies. Where the sum takes the mean over the patch (integrate/patch.h), F_i = (1 +
+   a') F^ with F^ the mean per unit of the patch's own area, which is 1 + a' times the facet's. The
+   map stretches area evenly, but for rounding (patch->blur): so over a part E, T - M = Int_E (F -
+   F^), and no stretch is left. With h = F - F(facet normal), max(Int h+, Int h-) <= S part, so that
+       Int_U |h| = 2 max - |Int_U h| <= S (2 part) - (1 + a') S |F^ - F(facet normal)|,
+       Int_U |F - F^| <= Int_U |h| + (1 + a') S |F^ - F(facet normal)| <= S (2 part),
+       |Int_E (F - F^)| <= (Int_U |F - F^| + |Int_U (F - F^)|) / 2 <= S (part + remainder / 2).
+   At single points F^ differs from F(facet normal) by at most |F_i - F(facet normal)| + a F_i. */
+static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan *plan,
+                                       uint32_t facet, const lrcsi_incidence *incidence,
+                                       const lrcs_curvature *c, lrcsi_patch *patch, double *stretch)
+{
+    lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
+    double cosine = fabs(incidence->cos_theta);
+    lrcsi_deviation deviation = lrcsi_deviation_make(&brdf, cosine, incidence->tan2, c);
+    *stretch = patch_area_error(view->prepared, facet, c);
+    if (c->turn > FLAT_TILT && lrcsi_patch_make(view, plan, &brdf, facet, patch)) {
+        double mean = patch->glint + patch->diffuse;
+        double error = patch->remainder + patch->rounding;
+        double apart = fabs(mean - deviation.here) + error + 2e-10 * deviation.here;
+        deviation.whole = fmin(patch->remainder, deviation.whole + apart);
+        deviation.part += error;
+        deviation.apart += apart + *stretch * (mean + error);
+        deviation.here = mean + error;
+        *stretch = patch->blur;
+    }
+    return deviation;
+}
+
 /* How a sector none of which is hidden or dark is bounded. */
 typedef struct sector_way {
     double lost; /* by what the facet loses of its whole patch; 2: not this way */
@@ -158,26 +190,26 @@ static double sector_rows(const lrcsi_view *view, uint32_t facet,
 
 /* The way with the least bound; the third is that of parts, facet by facet. Numbers of the sector's
    first facet decide for both. */
-static sector_way sector_choose(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+static sector_way sector_choose(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
                                 const lrcs_curvature *c, const lrcsi_visible *visible,
-                                const lrcsi_proximity_band *margin)
+                                const lrcsi_proximity_band *margin, lrcsi_patch *patch)
 {
     const lrcs_part *part = patch_part(view->prepared, facet);
     uint32_t begin = part->first_facet;
     uint32_t first = begin + ((facet - begin) & ~UINT32_C(1));
     lrcsi_incidence incidence = lrcsi_view_incidence(view, first);
-    lrcsi_deviation deviation =
-        lrcsi_deviation_make(brdf, fabs(incidence.cos_theta), incidence.tan2, c);
+    double stretch;
+    lrcsi_deviation deviation = patch_deviation(view, plan, first, &incidence, c, patch, &stretch);
     double lost = fmax(share_lost(view, first, visible, margin),
                        share_lost(view, first + 1, visible, margin));
     double a = patch_area_error(view->prepared, facet, c);
     double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, margin);
     double share = fmax(margin->share[first], margin->share[first + 1]);
     double by_lost = deviation.whole + (1 + a) * lost * deviation.most;
-    double by_rows = deviation.whole + rows * (deviation.part + a * deviation.here) +
+    double by_rows = deviation.whole + rows * (deviation.part + stretch * deviation.here) +
                      (1 + a) * share * deviation.here;
-    double by_parts =
-        fmin(deviation.part + (a + (1 + a) * share) * deviation.here, (1 + a) * deviation.most);
+    double by_parts = fmin(deviation.part + (stretch + (1 + a) * share) * deviation.here,
+                           (1 + a) * deviation.most);
     sector_way way = {2, 2};
     if (by_rows < fmin(by_lost, by_parts)) {
         way.rows = rows;
@@ -188,8 +220,8 @@ static sector_way sector_choose(const lrcsi_view *view, uint32_t facet, const lr
 }
 
 /* The error of a facet on a curved wall, per unit of its area. */
-static double wall_error(const lrcsi_deviation *deviation, double a, double share, int state,
-                         int partner, const sector_way *way)
+static double wall_error(const lrcsi_deviation *deviation, double a, double stretch, double share,
+                         int state, int partner, const sector_way *way)
 {
     double lit = is_lit(partner) ? deviation->part : (1 + a) * deviation->apart;
     if (state == PATCH_HIDDEN) {
@@ -206,9 +238,9 @@ static double wall_error(const lrcsi_deviation *deviation, double a, double shar
     }
     if (way->rows <= 1) {
         return deviation->whole + way->rows * deviation->part +
-               deviation->here * (a * way->rows + (1 + a) * share);
+               deviation->here * (stretch * way->rows + (1 + a) * share);
     }
-    return fmin(lit + deviation->here * (a + (1 + a) * share), (1 + a) * deviation->most);
+    return fmin(lit + deviation->here * (stretch + (1 + a) * share), (1 + a) * deviation->most);
 }
 
 /* What the facets may show of a closed part's inside, by rounding. */
@@ -235,11 +267,13 @@ int lrcsi_tessellation_known(const lrcs_prepared *p, int unshadowed)
     return unshadowed || p->proximity.reach != NULL;
 }
 
-double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+double lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
                                 const lrcsi_incidence *incidence, const lrcsi_visible *visible,
-                                const lrcsi_proximity_band *margin)
+                                const lrcsi_proximity_band *margin, lrcsi_patch *patch)
 {
     const lrcs_prepared *p = view->prepared;
+    const lrcs_brdf assigned = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, facet));
+    const lrcs_brdf *brdf = &assigned;
     const lrcs_curvature c = patch_curvature(p, facet);
     int curve = c.turn > FLAT_TILT;
     int state = patch_state(view, facet, visible, margin);
@@ -253,18 +287,25 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
                    ? area * inside_shown(view, facet, brdf, incidence, visible, margin)
                    : 0;
     }
-    double cosine = state == PATCH_DARK ? incidence->cos_theta : fabs(incidence->cos_theta);
-    lrcsi_deviation deviation = lrcsi_deviation_make(brdf, cosine, incidence->tan2, &c);
+    int partner = curve && margin ? partner_state(view, facet, visible, margin) : state;
+    if (curve && state == PATCH_SEEN && partner == PATCH_SEEN && share == 0 &&
+        lrcsi_patch_make(view, plan, brdf, facet, patch)) {
+        return area * patch->remainder;
+    }
+    double stretch = 0;
+    lrcsi_deviation deviation =
+        state == PATCH_DARK ? lrcsi_deviation_make(brdf, incidence->cos_theta, incidence->tan2, &c)
+                            : patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
     double error = state == PATCH_DARK ? 0 : share * deviation.most;
     if (curve) {
-        int partner = margin ? partner_state(view, facet, visible, margin) : state;
         int mixed =
             is_lit(state) && is_lit(partner) && (state == PATCH_MIXED || partner == PATCH_MIXED);
         sector_way way = {2, 2};
         if (mixed) {
-            way = sector_choose(view, facet, brdf, &c, visible, margin);
+            way = sector_choose(view, plan, facet, &c, visible, margin, patch);
         }
-        error = wall_error(&deviation, patch_area_error(p, facet, &c), share, state, partner, &way);
+        double a = patch_area_error(p, facet, &c);
+        error = wall_error(&deviation, a, stretch, share, state, partner, &way);
     }
     if (state == PATCH_DARK) {
         error += inside_shown(view, facet, brdf, incidence, visible, margin);
@@ -282,17 +323,17 @@ double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lr
    facet is not lit it counts nothing, but for what `whole` has, and the truth in an interval is at
    most the truth. The bound of the whole patch may hold for two facets of a sector together only.
  */
-lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, uint32_t facet,
-                                           const lrcs_brdf *brdf, const lrcsi_incidence *incidence,
+lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_plan *plan,
+                                           uint32_t facet, const lrcsi_incidence *incidence,
                                            const lrcsi_visible *visible,
-                                           const lrcsi_proximity_band *margin)
+                                           const lrcsi_proximity_band *margin, lrcsi_patch *patch)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_curvature c = patch_curvature(p, facet);
     int curve = c.turn > FLAT_TILT;
     int state = patch_state(view, facet, visible, margin);
     lrcsi_patch_parts parts = {
-        .whole = lrcsi_tessellation_error(view, facet, brdf, incidence, visible, margin),
+        .whole = lrcsi_tessellation_error(view, plan, facet, incidence, visible, margin, patch),
         .lit = is_lit(state),
         .share = margin ? margin->share[facet] : 0,
         .partner = facet};
@@ -302,11 +343,12 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, uint32_t face
         parts.partner = other;
     }
     if (parts.lit) {
+        double stretch;
         lrcsi_deviation deviation =
-            lrcsi_deviation_make(brdf, fabs(incidence->cos_theta), incidence->tan2, &c);
+            patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
         double area = 0.5 * p->normal[facet].length;
         double a = curve ? patch_area_error(p, facet, &c) : 0;
-        parts.bend = curve ? area * ((1 + a) * deviation.apart + a * deviation.here) : 0;
+        parts.bend = curve ? area * ((1 + a) * deviation.apart + stretch * deviation.here) : 0;
         parts.shift = area * (1 + a) * deviation.here;
         parts.most = area * (1 + a) * deviation.most;
     }

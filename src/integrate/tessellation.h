@@ -4,6 +4,7 @@
 #ifndef LRCSI_TESSELLATION_H
 #define LRCSI_TESSELLATION_H
 
+#include "integrate/patch.h"
 #include "visibility/proximity_band.h"
 #include "visibility/visible.h"
 
@@ -12,10 +13,11 @@ int lrcsi_tessellation_known(const lrcs_prepared *prepared, int unshadowed);
 
 /* A bound on it for one facet that is not skipped and its patch, scaled, without the 4 pi.
    Given: what the facet has; the visible areas of all facets; the proximity band, or NULL if
-   every front is wholly visible or what could be hidden is in the visible area's bounds. */
-double lrcsi_tessellation_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+   every front is wholly visible or what could be hidden is in the visible area's bounds; the patch
+   of the last facet, or one with side = 0. */
+double lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
                                 const lrcsi_incidence *incidence, const lrcsi_visible *visible,
-                                const lrcsi_proximity_band *margin);
+                                const lrcsi_proximity_band *margin, lrcsi_patch *patch);
 
 /* What may be wrong in a part of a patch: of the points of facet and patch, those in some interval
    of a coordinate, which the map between facet and patch changes by at most the part's reach.
@@ -33,9 +35,9 @@ typedef struct lrcsi_patch_parts {
 } lrcsi_patch_parts;
 
 /* For one facet that is not skipped; what is given is as for lrcsi_tessellation_error. */
-lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, uint32_t facet,
-                                           const lrcs_brdf *brdf, const lrcsi_incidence *incidence,
+lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_plan *plan,
+                                           uint32_t facet, const lrcsi_incidence *incidence,
                                            const lrcsi_visible *visible,
-                                           const lrcsi_proximity_band *margin);
+                                           const lrcsi_proximity_band *margin, lrcsi_patch *patch);
 
 #endif

@@ -20,6 +20,7 @@
 #include "base/length.h"
 #include "base/range.h"
 #include "base/sum.h"
+#include "integrate/patch.h"
 #include "integrate/tessellation.h"
 #include "optics/reflect.h"
 #include "optics/shade.h"
@@ -49,6 +50,7 @@ typedef struct total_job {
     const lrcsi_proximity_band *margin; /* NULL: none was made */
     const lrcsi_clear *clear;           /* shapes that count by closed forms; NULL: none */
     lrcs_facet_record *records;         /* NULL: none asked for */
+    lrcsi_patch patch;                  /* of the last facet that has one */
     lrcsi_total total;
     total_sums sums;
 } total_job;
@@ -127,23 +129,30 @@ static double share_of(double part, double whole)
     return part == whole ? 1 : part / whole;
 }
 
-/* One facet that reflects towards the laser, precisely. Rounding: S, 4 pi, two products and the
-   share, 8 u; the relative error of areas; what f_r cos^2 is off by, over all that may be visible.
- */
+/* One facet that reflects towards the laser, precisely: by the mean over its patch where it stands
+   for a part of a curved wall, else by its normal. Rounding: S, 4 pi, two products and the share,
+   8 u; the relative error of areas; what f_r cos^2 is off by, over all that may be visible. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t facet, const lrcsi_incidence *incidence,
-                                         const lrcsi_visible *visible)
+                                         const lrcsi_visible *visible, lrcsi_patch *patch)
 {
     const lrcs_prepared *p = view->prepared;
     lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, facet));
-    lrcsi_reflection at = reflection_planned(&brdf, plan, incidence->tan2);
+    lrcsi_reflection at;
+    double uncertainty = 0;
+    if (lrcsi_patch_make(view, plan, &brdf, facet, patch)) {
+        at = (lrcsi_reflection){patch->glint, patch->diffuse, patch->rounding};
+    } else {
+        at = reflection_planned(&brdf, plan, incidence->tan2);
+        uncertainty = reflection_uncertainty(&brdf, incidence, &at);
+    }
     double whole = FOUR_PI * 0.5 * p->normal[facet].length;
     double share = share_of(visible->area, incidence->projected);
     double most = share_of(visible->high, incidence->projected);
     lrcsi_facet_terms terms = {.glint = whole * at.glint * share,
                                .diffuse = whole * at.diffuse * share};
     terms.rounding = (terms.glint + terms.diffuse) * (incidence->error + 8 * LRCSI_U) +
-                     whole * most * (at.error + reflection_uncertainty(&brdf, incidence, &at)) +
+                     whole * most * (at.error + uncertainty) +
                      (brdf.A > 0 || brdf.B > 0 ? LRCSI_FACET_UNDERFLOW : 0);
     terms.per_area = whole * (at.glint + at.diffuse) / incidence->projected;
     return terms;
@@ -273,7 +282,7 @@ static void sum_precisely(total_job *job, uint32_t facet)
         return;
     }
     lrcsi_facet_terms terms =
-        lrcsi_facet_terms_make(job->view, job->plan, facet, &incidence, &visible);
+        lrcsi_facet_terms_make(job->view, job->plan, facet, &incidence, &visible, &job->patch);
     lrcsi_sum_add(&sums->glint, terms.glint);
     lrcsi_sum_add(&sums->diffuse, terms.diffuse);
     sums->rounding += terms.rounding;
@@ -620,6 +629,18 @@ static void places_pick(const total_job *job, const total_batch *batch, uint32_t
     pick->any_other = others;
 }
 
+/* Facets that stand for patches of curved walls are summed one by one. */
+static void patches_pick(const total_job *job, uint32_t place, uint32_t count, total_pick *pick)
+{
+    const lrcsi_batches *b = &job->view->prepared->batches;
+    for (uint32_t i = 0; i < count; i++) {
+        if (lrcsi_patch_exists(job->view->prepared, b->facet[place + i])) {
+            pick->front[i] = pick->back[i] = 0;
+            pick->any_other = UINT64_MAX;
+        }
+    }
+}
+
 /* Up to LRCSI_LANES facets from a place on:
    1. which of them blocks serve;
    2. front sides wait for a block;
@@ -629,6 +650,9 @@ static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint3
 {
     total_pick pick;
     places_pick(job, batch, place, count, &pick);
+    if (job->plan->patches) {
+        patches_pick(job, place, count, &pick);
+    }
     if (pick.any_front >> 63) {
         batch_add(job, batch, place, pick.front, 1);
     }
@@ -702,8 +726,7 @@ static void sum_material(total_job *job, uint32_t material)
 }
 
 /* What the facets of tessellated shapes err from their true surfaces. */
-static double facet_tessellation(const total_job *job, uint32_t facet,
-                                 const lrcsi_incidence *incidence)
+static double facet_tessellation(total_job *job, uint32_t facet, const lrcsi_incidence *incidence)
 {
     if (is_in_shape(job, facet)) {
         return 0;
@@ -711,10 +734,8 @@ static double facet_tessellation(const total_job *job, uint32_t facet,
     if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
         return job->margin ? job->margin->share[facet] * job->curved[facet].most : 0;
     }
-    lrcs_brdf brdf =
-        lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(job->view->prepared, facet));
-    return FOUR_PI *
-           lrcsi_tessellation_error(job->view, facet, &brdf, incidence, job->visible, job->margin);
+    return FOUR_PI * lrcsi_tessellation_error(job->view, job->plan, facet, incidence, job->visible,
+                                              job->margin, &job->patch);
 }
 
 static void sum_tessellation(total_job *job)
@@ -737,12 +758,13 @@ static void sum_tessellation(total_job *job)
 static lrcsi_shape_terms shape_records(const total_job *job, const lrcs_part *part)
 {
     lrcsi_shape_terms all = {0, 0, 0, 0, 0};
+    lrcsi_patch patch = {.side = 0};
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
         lrcsi_incidence incidence = lrcsi_view_incidence(job->view, f);
         lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
         if (job->view->facing[f] > 0) {
             lrcsi_facet_terms terms =
-                lrcsi_facet_terms_make(job->view, job->plan, f, &incidence, &whole);
+                lrcsi_facet_terms_make(job->view, job->plan, f, &incidence, &whole, &patch);
             job->records[f].sigma_glint_m2 = terms.glint;
             job->records[f].sigma_m2 = terms.diffuse;
             all.glint += terms.glint;

@@ -4,6 +4,7 @@
 #define LRCSI_TOTAL_H
 
 #include "integrate/curve.h"
+#include "integrate/patch.h"
 #include "integrate/shapes.h"
 #include "visibility/proximity_band.h"
 
@@ -25,10 +26,11 @@ typedef struct lrcsi_facet_terms {
     double per_area; /* glint + diffuse for each unit of visible area */
 } lrcsi_facet_terms;
 
-/* Given: a facet that reflects towards the laser, its incidence, what is visible of it. */
+/* Given: a facet that reflects towards the laser, its incidence, what is visible of it; the patch
+   of the last facet (integrate/patch.h), or one with side = 0. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t facet, const lrcsi_incidence *incidence,
-                                         const lrcsi_visible *visible);
+                                         const lrcsi_visible *visible, lrcsi_patch *patch);
 
 /* A scaled bound on areas or on sigma in square metres, rounded outward where it underflows. */
 double lrcsi_bound_area(const lrcs_prepared *p, double scaled);

@@ -174,14 +174,13 @@ static profile_strip strip_make(const lrcsi_profile *profile, uint32_t i)
                                                   : strip_round(profile, i);
 }
 
-/* The effect of rounding on the facets of strip i: returns an upper bound of their tilt (rad) and
-   of the relative change of their area. A corner displaced by e tilts its facet by at most e over
+/* A corner displaced by e tilts its facet by at most e over
    the altitude that stands on the opposite side, and changes its area by at most that fraction.
    Coordinates are accurate to a relative `e` (straight walls have exact z); all corners of a row
    share one z. With l the slant height, two corners of a facet lie on a row of radius r, their
    altitudes at least w l / (w + l), w >= 2 r sin h (r over that: 1/(2 sin h) + r/l), the third's is
    l. Rows of equal radius have equal x and y, which cancels all but the error along the row. */
-static double profile_blur(const lrcsi_profile *profile, uint32_t i)
+double lrcsi_profile_blur(const lrcsi_profile *profile, uint32_t i)
 {
     double below = lrcsi_profile_radius(profile, i);
     double above = lrcsi_profile_radius(profile, i + 1);
@@ -227,7 +226,7 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
     c.bias = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
     c.area_error = fabs(ratio - 1.0);
-    return lrcsi_profile_blurred(&c, profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
+    return lrcsi_profile_blurred(&c, lrcsi_profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
 }
 
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)

@@ -31,6 +31,10 @@ double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i);
 /* The numbers of lrcs_curvature, proved, over all facets of the wall. */
 lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile);
 
+/* An upper bound of the tilt (rad) that rounding the vertices gives to the facets between rows i
+   and i + 1, and of the relative change of their areas. */
+double lrcsi_profile_blur(const lrcsi_profile *profile, uint32_t i);
+
 /* The numbers for facets that rounding tilts by at most `blur` rad, and whose areas it changes by
    at most that fraction. */
 lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *curvature, double blur);

@@ -327,6 +327,34 @@ static void revolved_counts(const lrcs_shape *shape, const lrcs_divisions *divis
     }
 }
 
+/* The facets of a wall follow those of the cap below it, strip by strip and sector by sector. */
+int lrcsi_tessellate_patch(const lrcs_shape *shape, const lrcs_divisions *divisions, uint32_t facet,
+                           lrcsi_wall_patch *patch)
+{
+    uint64_t inside = 0;
+    uint64_t cap = 0;
+    if (shape_is_plane_faced(shape) || shape->kind == LRCS_SHAPE_DISC) {
+        return 0;
+    }
+    if (shape_caps(shape) > 0) {
+        disc_counts(divisions->around, &inside, &cap);
+    }
+    uint64_t around = divisions->around;
+    uint64_t apex = shape_has_apex(shape) ? 1 : 0;
+    uint64_t wall = around * (2 * (uint64_t)divisions->along - apex);
+    uint64_t halves = shape->kind == LRCS_SHAPE_SPHERE ? 2 : 1;
+    if (facet < cap || facet - cap >= halves * wall) {
+        return 0;
+    }
+    uint64_t place = facet - cap;
+    patch->mirrored = place >= wall;
+    place -= patch->mirrored ? wall : 0;
+    patch->row = (uint32_t)(place / (2 * around));
+    patch->facets = apex && patch->row + 1 == divisions->along ? 1 : 2;
+    patch->sector = (uint32_t)(place % (2 * around) / patch->facets);
+    return 1;
+}
+
 int lrcsi_tessellate_fits(const lrcs_shape *shape, const lrcs_divisions *divisions)
 {
     uint32_t around = divisions->around;

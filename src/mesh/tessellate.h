@@ -18,4 +18,17 @@ lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_di
 /* The distance of lrcsi_profile_reach; 0 for plate and box. O(along). */
 double lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
+/* The true surface that a facet of a wall stands for: all of it between two rows and two
+   half-planes through the axis. */
+typedef struct lrcsi_wall_patch {
+    uint32_t row;    /* the lower one, as in lrcsi_profile */
+    uint32_t sector; /* between the azimuths of corners `sector` and `sector` + 1 of the rows */
+    uint32_t facets; /* that share it: 2, numbers 2 k and 2 k + 1 of the mesh; or 1 */
+    int mirrored;    /* a sphere's lower half: z is negated */
+} lrcsi_wall_patch;
+
+/* Returns 0 for a facet that is no part of a curved wall. O(log around). */
+int lrcsi_tessellate_patch(const lrcs_shape *shape, const lrcs_divisions *divisions, uint32_t facet,
+                           lrcsi_wall_patch *patch);
+
 #endif

@@ -142,6 +142,7 @@ void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisi
         part->axis_exact = axes.exact;
     }
     part->shape = *shape;
+    part->divisions = *divisions;
     part->unit = most;
     lrcsi_placer_run(placer, zero, part->origin);
     part->curvature = *curvature;

@@ -44,6 +44,26 @@ bound=$(value bound_m2)
 run run pair.toml --direction 1,1,1 --time-budget 60000 --json
 same the_best_of_plane_facets_is_exact "$(value bound_m2)" "$bound"
 
+# Of a box alone, no shadows is the first setting and clipping the last one, with a larger bound (it
+# rounds more): the last answer does not replace a better one.
+run run box.toml --direction 1,1,1 --method exact --json
+clipped=$(value bound_m2)
+run run box.toml --direction 1,1,1 --method facet --json
+first=$(value bound_m2)
+same the_last_setting_is_the_worse_one "$(awk -v a="$first" -v b="$clipped" 'BEGIN { print a * 1.01 < b }')" 1
+run run box.toml --direction 1,1,1 --time-budget 60000 --json
+same a_later_worse_answer_replaces_nothing "$(value bound_m2) $(value method)" "$first \"facet\""
+# With all the time that is needed, no setting by itself is better.
+for scene in pair round; do
+    run run $scene.toml --direction 1,1,1 --time-budget 60000 --json
+    got=$(value bound_m2)
+    for setting in '--method facet' '--method exact' '--method zbuffer --resolution 256' '--method zbuffer --resolution 1024' '--tolerance 1e-1' '--tolerance 1e-6'; do
+        # shellcheck disable=SC2086 # options are words
+        run run $scene.toml --direction 1,1,1 $setting --json
+        same "nor_is_${setting#--}_of_$scene" "$(awk -v a="$got" -v b="$(value bound_m2)" 'BEGIN { print a <= 1.001 * b }')" 1
+    done
+done
+
 # ---- a tolerance beside it ----
 run run round.toml --direction 1,1,1 --time-budget 60000 --tolerance 0.01 --json
 same a_tolerance_that_is_met_ends_it "$rc $(value tolerance)" '0 {"asked": 0.01, "met": true, "accepted_by": "bound"}'

@@ -44,7 +44,7 @@ same meshes_are_named_by_their_tolerance "$(column mesh_tolerance mesh | tr '\n'
 same finer_meshes_have_smaller_errors "$(column error_m2 mesh | sort -rg | tr '\n' ' ')" "$(column error_m2 mesh | tr '\n' ' ')"
 same a_mesh_for_a_tolerance_meets_it "$(rows | awk -F, 'NR > 1 && $14 > $4' | wc -l | tr -d ' ')" 0
 within cylinder_errors_are_within_their_bounds 1e-13
-same json_keys_in_order "$(keys)" "schema version scene_hash truth settings cheapest best notices sentence "
+same json_keys_in_order "$(keys)" "schema version scene_hash files unit direction truth settings cheapest best notices sentence title materials options "
 same json_has_every_setting "$(printf '%s\n' "$out" | grep -c '^    {"setting": ')" "$(rows | sed 1d | wc -l | tr -d ' ')"
 same json_has_four_tolerances "$(printf '%s\n' "$out" | grep -cE '^    \{"tolerance": [0-9.e-]+, "setting": "')" 4
 same json_says_what_time_left_out "$(printf '%s\n' "$out" | grep -c '"left out: zbuffer 16 and finer, for time"')" 1
@@ -115,7 +115,7 @@ same zero_sigma_is_in_m2 "$(printf '%s\n' "$out" | tail -1 | grep -c 'the best b
 # ---- files ----
 run converge "$examples/plate.toml" --seconds 0.05 --csv -
 same csv_instead_of_the_table "$(printf '%s\n' "$out" | sed -n 2p | cut -c1-15)" "setting,method,"
-same csv_says_what_of "$(printf '%s\n' "$out" | head -1 | grep -cE '^# lrcs [0-9.]+ converge; scene_hash=[0-9a-f]{16}; title=plate.toml; file=plate.toml fnv1a:[0-9a-f]{16}; direction=0,0,1; truth_m2=[0-9.]+; truth_bound_m2=[-0-9.e]+; truth_of=shapes; truth=the closed form of the plate$')" 1
+same csv_says_what_of "$(printf '%s\n' "$out" | head -1 | grep -cE '^# lrcs [0-9.]+ converge; scene_hash=[0-9a-f]{16}; title=plate.toml; options=--[^;]*; file=plate.toml fnv1a:[0-9a-f]{16}; direction=0,0,1; truth_m2=[0-9.]+; truth_bound_m2=[-0-9.e]+; truth_of=shapes; truth=the closed form of the plate$')" 1
 run converge "$examples/plate.toml" --seconds 0.05 --plot no/p.svg
 same unwritable_plot_exits_1 "$rc" 1
 same unwritable_plot_says_nothing_on_stdout "$out" ""

@@ -94,7 +94,7 @@ run fit lambert.txt --json
 same json_exits_3_too "$rc" 3
 same json_has_no_limit_for_s "$(parameter s high)" null
 same json_names_the_open "$(parameter s determined) $(parameter B determined)" "false true"
-same json_keys_in_order "$(keys)" "schema version unit_per_sr cosine fits notices "
+same json_keys_in_order "$(keys)" "schema version files unit_per_sr cosine fits notices options "
 brdf 1 0.25 0.1 0.5 30 75 1 | awk '{ srand(NR); print $1, $2 + 0.002 * (rand() - 0.5) }' >beyond.txt
 run fit beyond.txt
 same hidden_glint_is_said "$(printf '%s\n' "$out" | grep -c '^A not determined: a glint narrower .* from 30 to 75 deg')" 1

@@ -5,7 +5,7 @@
 
 run info demo --json
 same info_exits_0 "$rc" 0
-same info_keys_in_order "$(keys)" "schema parts vertices facets area_m2 volume_m3 box_min_m box_max_m closed convex materials defects glint notices "
+same info_keys_in_order "$(keys)" "schema version files unit parts vertices facets area_m2 volume_m3 box_min_m box_max_m closed convex materials defects glint notices title options "
 same defects_keys "$(value defects | grep -cE '^\{"degenerate": [0-9]+, "duplicate": [0-9]+, "opposite_pairs": [0-9]+, "boundary_edges": [0-9]+, "nonmanifold_edges": [0-9]+\}$')" 1
 same library_values_are_called_illustrative "$(printf '%s\n' "$out" | grep -c illustrative | sed 's/[1-9][0-9]*/some/')" some
 run info demo
@@ -27,7 +27,7 @@ same unbound_facets_are_noticed "$(printf '%s\n' "$out" | grep -c '12 of 12 face
 same unbound_facets_wear_the_default "$(printf '%s\n' "$out" | grep -c '"brdf": {"A": 1, "B": 0.25, "s": 0.2[0-9]*, "m": 0.5}')" 1
 
 run shape sphere --radius 1 --material 1,0.25,0.2,0.5 --json
-same shape_keys_in_order "$(keys)" "schema sigma_m2 sigma_glint_m2 sigma_diffuse_m2 bound_m2 "
+same shape_keys_in_order "$(keys)" "schema version sigma_m2 sigma_glint_m2 sigma_diffuse_m2 bound_m2 shape options "
 near sphere_spot_value "$(value sigma_m2)" 7.24989628827
 run shape plate --size 1,1 --aspect=60 --material=1,0.25,0.2,0.5 --json
 near plate_spot_value "$(value sigma_m2)" 0.55536036727

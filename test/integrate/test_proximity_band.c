@@ -19,7 +19,7 @@ typedef struct built {
     const lrcs_prepared *prepared;
 } built;
 
-static unsigned char run_memory[1u << 27];
+static unsigned char run_memory[1u << 29];
 
 static void build_recipe(const lrcs_recipe *recipe, const lrcs_mesh *models, double tolerance,
                          uint32_t facets, built *b)
@@ -180,8 +180,10 @@ static void scene_compare(int which, uint32_t directions)
         lrcs_result best = look(&fine, d, LRCS_METHOD_EXACT);
         lrcs_result exact = look(&coarse, d, LRCS_METHOD_EXACT);
         lrcs_result other = look(&coarse, d, pick(2) ? LRCS_METHOD_ZBUFFER : LRCS_METHOD_FACET);
+        lrcs_result patches = look(&coarse, d, LRCS_METHOD_AUTO);
         compare(&s, began, d, &exact, &best);
         compare(&s, began, d, &other, &best);
+        compare(&s, began, d, &patches, &best);
     }
     family[which].scenes++;
     unbuild(&coarse);
@@ -225,7 +227,7 @@ static void scene_cast(int which, uint32_t directions, int side)
         for (int k = 0; k < 3; k++) {
             d[k] = size < 0 ? -d[k] : d[k];
         }
-        lrcs_result r = look(&b, d, LRCS_METHOD_EXACT);
+        lrcs_result r = look(&b, d, i % 2 ? LRCS_METHOD_AUTO : LRCS_METHOD_EXACT);
         double sigma = r.sigma_m2 / (size * size);
         double bound = r.bound_m2 / (size * size);
         double apart = fabs(sigma - truth.sigma);

@@ -166,6 +166,7 @@ int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_er
     }
     const lrcs_host_chart chart = {
         .title = title,
+        .about = job->about,
         .note = note,
         .x_name = "time of one pose, median (ms)",
         .y_name = job->truth.sigma_m2 > 0.0 ? "error of sigma (relative to the truth)"

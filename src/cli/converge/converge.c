@@ -2,6 +2,7 @@
 /* lrcs converge: the cost of accuracy in time, for one scene from one pose. */
 #include "cli/converge/converge.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static const char converge_help[] =
@@ -133,7 +134,10 @@ static int converge_command(const cli_args *args)
     code = code ? code : cli_converge_meshes(&job);
     code = code ? code : cli_outputs_spare(args, &job.mesh[0].scene);
     code = code ? code : cli_converge_measure(&job);
+    char *about = code == 0 ? cli_text_of(cli_converge_about, &job) : NULL;
+    job.about = about;
     code = code ? code : converge_report(&job);
+    free(about);
     for (uint32_t i = 0; i < job.meshes; i++) {
         lrcs_host_scene_free(&job.mesh[i].scene);
     }

@@ -59,6 +59,7 @@ typedef struct converge_truth {
 typedef struct converge_job {
     const cli_args *args;
     const char *title; /* the name of the scene's file */
+    const char *about; /* in the chart: what it was made from */
     lrcs_pose pose;
     lrcs_host_options load;
     const char *csv;
@@ -102,8 +103,11 @@ void cli_converge_table(const converge_job *job);
 void cli_converge_json(const converge_job *job);
 void cli_converge_csv(const converge_job *job, FILE *out);
 
-/* The chart, from the title, the pose's direction, the truth, the settings and the digits of their
-   meshes. */
+/* What it was made from: the first line of the table without "# ". The context is the job. */
+void cli_converge_about(FILE *out, const void *context);
+
+/* The chart, from the title, about, the pose's direction, the truth, the settings and the digits of
+   their meshes. */
 int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_error *error);
 
 #endif

@@ -157,16 +157,23 @@ void cli_converge_table(const converge_job *job)
 
 /* ---- CSV ---- */
 
-void cli_converge_csv(const converge_job *job, FILE *out)
+void cli_converge_about(FILE *out, const void *context)
 {
+    const converge_job *job = context;
     double s_hat[3];
     cli_pose_unit(&job->pose, s_hat);
-    cli_table_head(out, "converge", job->title, &cli_converge_finest(job)->scene, s_hat);
+    cli_table_head(out, job->args, job->title, &cli_converge_finest(job)->scene, s_hat);
     cli_number_put(out, "; truth_m2=", job->truth.sigma_m2);
     cli_number_put(out, "; truth_bound_m2=", job->truth.bound_m2);
-    fprintf(out, "; truth_of=%s; truth=%s\n", job->truth.whole ? "shapes" : "facets",
+    fprintf(out, "; truth_of=%s; truth=%s", job->truth.whole ? "shapes" : "facets",
             job->truth.text);
-    fputs("setting,method,resolution,mesh_tolerance,facets,repetitions,prepare_ms,pose_ms,"
+}
+
+void cli_converge_csv(const converge_job *job, FILE *out)
+{
+    fputs("# ", out);
+    cli_converge_about(out, job);
+    fputs("\nsetting,method,resolution,mesh_tolerance,facets,repetitions,prepare_ms,pose_ms,"
           "sigma_m2,error_m2,bound_m2,estimate_m2,relative_error,relative_bound,"
           "relative_estimate,accepted_by\n",
           out);
@@ -259,11 +266,15 @@ static void notices_json(const converge_job *job, lrcs_host_json *json)
 
 void cli_converge_json(const converge_job *job)
 {
+    const lrcs_host_scene *scene = &cli_converge_finest(job)->scene;
     lrcs_host_json json = lrcs_host_json_make(stdout);
     converge_sentence sentence = cli_converge_sentence(job);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
     cli_version_json(&json);
-    cli_hash_json(lrcs_scene_hash(&cli_converge_finest(job)->scene.scene), &json);
+    cli_hash_json(lrcs_scene_hash(&scene->scene), &json);
+    cli_files_json(scene, &json);
+    lrcs_host_json_text(&json, "unit", cli_value(job->args, "unit"));
+    cli_direction_json(&job->pose, &json);
     lrcs_host_json_begin(&json, "truth", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(&json, "from", job->truth.text);
     lrcs_host_json_number(&json, "sigma_m2", job->truth.sigma_m2);
@@ -284,5 +295,6 @@ void cli_converge_json(const converge_job *job)
     cheapest_json("best", 0.0, setting_best(job), &json);
     notices_json(job, &json);
     lrcs_host_json_text(&json, "sentence", sentence.text);
+    cli_provenance_json(job->args, scene, &json);
     lrcs_host_json_end(&json);
 }

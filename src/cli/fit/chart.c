@@ -198,7 +198,11 @@ static int chart_draw(const fit_job *job, int residuals, const char *path,
         series[chart.series_count] = one;
         chart.series_count += one.count > 0;
     }
-    return cli_chart_write(path, &chart);
+    char *about = cli_provenance_text(job->args, NULL);
+    chart.about = about;
+    int code = cli_chart_write(path, &chart);
+    free(about);
+    return code;
 }
 
 int cli_fit_chart(const fit_job *job, int residuals, const char *path)

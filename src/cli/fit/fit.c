@@ -37,7 +37,9 @@ static const char fit_help[] =
     "                        by its file)\n"
     "  --plot FILE           readings and fit; FILE.svg or FILE.png; repeatable\n"
     "  --residuals FILE      residuals against angle; FILE.svg or FILE.png; repeatable\n"
-    "  --csv FILE.csv        every reading with fit and residual ('-': instead of the table)\n"
+    "  --csv FILE.csv        every reading with fit and residual ('-': instead of the table); "
+    "what\n"
+    "                        it was made from goes into FILE.csv.json\n"
     "  --json                the table as JSON\n"
     "\n"
     "The limits are where the best fit of the other three parameters is worse at 95 % confidence.\n"
@@ -314,6 +316,9 @@ static int fit_report(const fit_job *job)
         if (is_chart(given)) {
             failed = cli_fit_chart(job, strcmp(given->name, "residuals") == 0, given->value);
         }
+    }
+    if (failed == 0 && csv) {
+        failed = cli_provenance_beside(args, csv, NULL, NULL);
     }
     if (failed) {
         return failed;

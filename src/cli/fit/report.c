@@ -320,6 +320,7 @@ void cli_fit_json(const fit_job *job)
     lrcs_host_json json = lrcs_host_json_make(stdout);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
     cli_version_json(&json);
+    cli_operand_json(job->args, &json);
     lrcs_host_json_number(&json, "unit_per_sr", job->options.unit);
     lrcs_host_json_bool(&json, "cosine", job->options.cosine);
     lrcs_host_json_begin(&json, "fits", LRCS_HOST_ARRAY);
@@ -332,5 +333,6 @@ void cli_fit_json(const fit_job *job)
         lrcs_host_json_text(&json, NULL, job->readings.notices.text[i]);
     }
     lrcs_host_json_end(&json);
+    cli_options_json(job->args, &json);
     lrcs_host_json_end(&json);
 }

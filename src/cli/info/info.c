@@ -98,13 +98,15 @@ static void json_notices(const cli_info *info, lrcs_host_json *json)
     lrcs_host_json_end(json);
 }
 
-static void info_json(const cli_info *info)
+static void info_json(const cli_args *args, const cli_info *info)
 {
     const lrcs_scene *scene = &info->scene.scene;
     const lrcs_mesh_report *report = &info->report;
     lrcs_host_json json = lrcs_host_json_make(stdout);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
+    cli_version_json(&json);
+    cli_files_json(&info->scene, &json);
+    lrcs_host_json_text(&json, "unit", cli_value(args, "unit"));
     lrcs_host_json_count(&json, "parts", info->parts);
     lrcs_host_json_count(&json, "vertices", scene->vertex_count);
     lrcs_host_json_count(&json, "facets", scene->facet_count);
@@ -124,6 +126,8 @@ static void info_json(const cli_info *info)
     lrcs_host_json_end(&json);
     json_glint(info, &json);
     json_notices(info, &json);
+    lrcs_host_json_text(&json, "title", cli_scene_title(args, &info->scene));
+    cli_options_json(args, &json);
     lrcs_host_json_end(&json);
 }
 
@@ -216,7 +220,7 @@ static int info_command(const cli_args *args)
     code = code ? code : cli_info_read(args, &options, &info);
     cli_watch_end();
     if (code == 0 && cli_value(args, "json")) {
-        info_json(&info);
+        info_json(args, &info);
     } else if (code == 0) {
         info_table(&info, args->operand);
     }

@@ -21,6 +21,7 @@ typedef struct table_job {
     lrcs_host_file file;
     lrcs_host_table table;
     char title[TABLE_TEXT];
+    char *about; /* the first line without "# " */
     profile_job profile;
     converge_job converge;
 } table_job;
@@ -272,6 +273,17 @@ static int converge_read(table_job *job, lrcs_host_error *error)
 
 /* ---- the drawing ---- */
 
+static void about_write(FILE *out, const void *context)
+{
+    const table_job *job = context;
+    const char *at = (const char *)job->file.bytes;
+    const char *end = memchr(at, '\n', job->file.size);
+    size_t size = end ? (size_t)(end - at) : job->file.size;
+    if (size > 2) {
+        fwrite(at + 2, 1, size - 2 - (at[size - 1] == '\r'), out);
+    }
+}
+
 static int drawing_write(FILE *out, const table_job *job, int png, lrcs_host_error *error)
 {
     return job->profile.rows > 0 ? cli_profile_chart(&job->profile, png, out, error)
@@ -321,12 +333,15 @@ int cli_table_draw(const cli_args *args, const char *path, int kind)
     }
     job->path = path;
     int code = job_read(job, kind, &error) == LRCS_OK ? 0 : cli_failed(&error);
+    job->about = code == 0 ? cli_text_of(about_write, job) : NULL;
+    job->profile.about = job->converge.about = job->about;
     for (int i = 0; i < args->given_count && code == 0; i++) {
         const char *out = args->given[i].value;
         if (strcmp(args->given[i].name, "o") == 0) {
             code = cli_output_write(out, cli_extension(out, ".png") ? png_write : svg_write, job);
         }
     }
+    free(job->about);
     free(job->profile.row);
     lrcs_host_file_free(&job->file);
     free(job);

@@ -75,6 +75,7 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
         snprintf(note + used, sizeof note - (size_t)used, "; materials illustrative or default");
     }
     const lrcs_host_chart chart = {.title = title,
+                                   .about = job->about,
                                    .note = note,
                                    .x_name =
                                        "range from the body's origin, away from the laser (m)",

@@ -229,7 +229,10 @@ static int profile_command(const cli_args *args)
     }
     code = code ? code : profile_run(&job);
     cli_watch_end();
+    char *about = code == 0 ? cli_text_of(cli_profile_about, &job) : NULL;
+    job.about = about;
     code = code ? code : outputs_write(&job);
+    free(about);
     free(job.row);
     lrcs_host_profile_free(&job.profile);
     lrcs_host_scene_free(&job.scene);

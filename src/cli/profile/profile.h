@@ -21,6 +21,7 @@ typedef struct profile_job {
     double asked;         /* tolerance; 0 for none */
     int met;
     const char *csv;
+    const char *about; /* in the chart: what it was made from */
     const char *title; /* the scene's, or the name of its file */
     int open; /* 1 if materials are illustrative or assumed: no bound includes their error */
     lrcs_host_scene scene;
@@ -37,7 +38,10 @@ void cli_profile_table(const profile_job *job);
 void cli_profile_json(const profile_job *job);
 void cli_profile_csv(const profile_job *job, FILE *out);
 
-/* The chart, from the title, rows, sigma of the list, bin_m and fwhm_m. */
+/* What it was made from: the first line of the table without "# ". The context is the job. */
+void cli_profile_about(FILE *out, const void *context);
+
+/* The chart, from the title, about, rows, sigma of the list, bin_m and fwhm_m. */
 int cli_profile_chart(const profile_job *job, int png, FILE *out, lrcs_host_error *error);
 
 #endif

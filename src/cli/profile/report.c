@@ -30,18 +30,25 @@ static void fields_write(FILE *out, const double *value, int count)
     }
 }
 
-void cli_profile_csv(const profile_job *job, FILE *out)
+void cli_profile_about(FILE *out, const void *context)
 {
+    const profile_job *job = context;
     double s_hat[3];
     cli_pose_unit(&job->pose, s_hat);
-    cli_table_head(out, "profile", job->title, &job->scene, s_hat);
+    cli_table_head(out, job->args, job->title, &job->scene, s_hat);
     cli_number_put(out, "; sigma_m2=", total_sigma(job));
     if (job->fwhm_m > 0.0) {
         cli_number_put(out, "; pulse_fwhm_m=", job->fwhm_m);
     }
     cli_number_put(out, "; bound_of_the_sum_m2=", job->profile.list.bound_m2);
-    fprintf(out, "%s\n", job->open ? "; materials=illustrative or assumed" : "");
-    fputs("near_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);
+    fputs(job->open ? "; materials=illustrative or assumed" : "", out);
+}
+
+void cli_profile_csv(const profile_job *job, FILE *out)
+{
+    fputs("# ", out);
+    cli_profile_about(out, job);
+    fputs("\nnear_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);
     fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m" : "", out);
     fputs(!is_curved(job)     ? ""
           : job->fwhm_m > 0.0 ? ",curvature_estimate_m2,pulse_estimate_m"
@@ -81,11 +88,7 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
     lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
-    lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
-    for (int k = 0; k < 3; k++) {
-        lrcs_host_json_number(json, NULL, s_hat[k]);
-    }
-    lrcs_host_json_end(json);
+    cli_direction_json(&job->pose, json);
     lrcs_host_json_number(json, "bin_m", job->bin_m);
     lrcs_host_json_number(json, "pulse_fwhm_m", job->fwhm_m > 0.0 ? job->fwhm_m : (double)NAN);
     lrcs_host_json_number(json, "sigma_m2", total_sigma(job));

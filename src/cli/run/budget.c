@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --time-budget: the most accurate answer that can be computed in a given time. Settings
-   are tried one after another, always the one that is expected to take the least time, judging by
-   those before it. Their actual times are not known in advance, so a separate process runs them and
-   reports every answer; when the time is up, the best answer counts, and the running setting is
-   stopped. This file decides which settings are tried; each is an ordinary run, which the same
-   options reproduce. */
+/* lrcs run --time-budget: the most accurate answer that can be computed in a given time. How long a
+   setting takes is not known in advance, and whether the exact method is quicker than a raster
+   depends on the scene. So after the cheapest setting of all, without shadows, two processes run
+   settings at the same time, each in the order of cost: one the rasters, the other the tolerances
+   or clipping. Each reports every answer. When the time is up, the best of all answers counts,
+   whenever it came, and the running settings are stopped: no setting that was reached within the
+   time would have been better. This file decides which settings are tried; each is an ordinary run,
+   which the same options reproduce. */
 #include "cli/run/run.h"
 
 #include <errno.h>
@@ -45,7 +47,10 @@ typedef struct budget_answer {
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
-/* The process that tries settings, and the pipe of its answers. */
+/* The processes that try settings: rasters, and tolerances or clipping. */
+enum budget_chain { CHAIN_RASTERS, CHAIN_SOUGHT, CHAINS };
+
+/* One of them, and the pipe of its answers. */
 typedef struct budget_runner {
     pid_t process;
     int end; /* read end of its pipe; negative if the process has ended */
@@ -69,42 +74,44 @@ static double rung_tolerance(int rung)
     return value;
 }
 
-/* ---- in the runner ---- */
+/* ---- settings ---- */
 
-/* Runs one setting and reports it with the seconds that it took; 0, or -1 if the pipe is closed. */
-static int setting_run(run_job *job, int rung, int sought, int answers, double *seconds)
+/* Runs one setting. Status: as lrcs_host_scene_run. */
+static int setting_run(run_job *job, int rung, int sought, budget_answer *answer,
+                       lrcs_host_error *error)
 {
-    lrcs_host_error error;
+    memset(answer, 0, sizeof *answer);
+    int status = lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer->result, NULL,
+                                     NULL, &answer->seconds_pose, error);
+    answer->rung = rung;
+    answer->named = job->options.method != LRCS_METHOD_AUTO;
+    answer->sought = sought;
+    answer->accept = job->options.accept;
+    answer->seconds_load = job->scene.seconds_load;
+    answer->seconds_prepare = job->scene.seconds_prepare;
+    return status;
+}
+
+/* The same in a runner, which reports the answer; 0, or -1 if it failed or the pipe is closed. */
+static int setting_report(run_job *job, int rung, int sought, int answers)
+{
     budget_answer answer;
-    memset(&answer, 0, sizeof answer);
-    int status = lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer.result, NULL,
-                                     NULL, &answer.seconds_pose, &error);
-    answer.rung = rung;
-    answer.named = job->options.method != LRCS_METHOD_AUTO;
-    answer.sought = sought;
-    answer.accept = job->options.accept;
-    answer.seconds_load = job->scene.seconds_load;
-    answer.seconds_prepare = job->scene.seconds_prepare;
-    *seconds = answer.seconds_pose;
-    return status == LRCS_OK && write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
+    return setting_run(job, rung, sought, &answer, NULL) == LRCS_OK &&
+                   write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
                ? 0
                : -1;
 }
 
-/* Runs a raster on the current mesh. The time of the next one is expected to grow in proportion to
-   its pixels per row, because part of the time depends on the facets. */
-static int raster_run(run_job *job, int rung, size_t i, int answers, double *expected)
+/* All rasters of the current mesh. */
+static void rasters_run(run_job *job, int rung, int answers)
 {
-    double seconds = 0.0;
+    int over = 0;
     job->options.method = LRCS_METHOD_ZBUFFER;
-    job->options.resolution = rasters[i].size;
-    job->options.accept = rasters[i].accept;
-    int over = setting_run(job, rung, 0, answers, &seconds);
-    double times = i + 1 < RASTERS ? (double)rasters[i + 1].size / rasters[i].size : 1.0;
-    *expected = seconds * fmax(times, 1.0);
-    job->options.resolution = 0;
-    job->options.accept = LRCS_ACCEPT_BOUND;
-    return over;
+    for (size_t i = 0; i < RASTERS && over == 0; i++) {
+        job->options.resolution = rasters[i].size;
+        job->options.accept = rasters[i].accept;
+        over = setting_report(job, rung, 0, answers);
+    }
 }
 
 /* Reads the scene with its shapes built for finer and finer rungs, starting with this one, until
@@ -126,36 +133,22 @@ static int rung_scene(run_job *job, int rung)
     return rung < RUNGS && lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? rung : RUNGS;
 }
 
-/* Runs settings, the cheapest first:
-   1. no shadows;
-   2. rasters, and tolerances by the method that suffices; if no tolerance changes anything,
-      clipping instead. The first of them is expected to take as long as the scene took to prepare:
-      rasters come before it as long as they take less. Once it has an answer, rasters of the same
-      mesh cannot improve it. */
-static void settings_run(run_job *job, int rung, int answers)
+/* Tolerances by the method that suffices; if no tolerance changes anything, clipping once. */
+static void tolerances_run(run_job *job, int rung, int answers)
 {
     const int last = rung == RUNG_NONE ? RUNG_NONE : RUNGS - 1;
-    const int method = rung == RUNG_NONE ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;
     const int shapes = cli_has_curved_shapes(&job->scene.scene);
-    const double first = job->scene.seconds_prepare;
-    double expected = 0.0; /* expected time of the next raster */
-    size_t raster = 0;
-    job->options.method = LRCS_METHOD_FACET;
-    int over = setting_run(job, rung, 0, answers, &expected);
-    while (over == 0 && raster < RASTERS && expected <= first) {
-        over = raster_run(job, rung, raster++, answers, &expected);
-    }
+    int over = 0;
+    job->options.method = rung == RUNG_NONE ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;
     while (over == 0 && rung <= last) {
-        double seconds;
-        job->options.method = method;
         job->options.tolerance = rung_tolerance(rung);
-        over = setting_run(job, rung, 1, answers, &seconds);
+        over = setting_report(job, rung, 1, answers);
         rung = shapes ? rung_scene(job, rung + 1) : rung + 1;
     }
 }
 
-/* Starts the process; if that fails, it counts as ended. */
-static void runner_start(run_job *job, int rung, budget_runner *runner)
+/* Starts a process; if that fails, it counts as ended. */
+static void runner_start(run_job *job, int chain, int rung, budget_runner *runner)
 {
     int end[2];
     *runner = (budget_runner){.end = -1};
@@ -166,7 +159,7 @@ static void runner_start(run_job *job, int rung, budget_runner *runner)
     if (runner->process == 0) {
         signal(SIGINT, SIG_DFL); /* the parent reports what remains after a Ctrl-C */
         close(end[0]);
-        settings_run(job, rung, end[1]);
+        (chain == CHAIN_RASTERS ? rasters_run : tolerances_run)(job, rung, end[1]);
         _exit(0);
     }
     close(end[1]);
@@ -201,7 +194,9 @@ static double answer_error(const budget_answer *answer)
 }
 
 /* Is an answer better than the best so far? Errors within a thousandth of each other count as
-   equal: of these an answer found by a tolerance or by clipping is preferred. */
+   equal: of these an answer found by a tolerance or by clipping is preferred. Therefore the best of
+   any sequence has at most 1.001 times its least error: an answer that is not sought is best only
+   if its error is the least so far, and what replaces it as equal is replaced only by less. */
 static int answer_beats(const budget_answer *answer, const budget_answer *best)
 {
     const double alike = 1.001;
@@ -213,31 +208,41 @@ static int answer_beats(const budget_answer *answer, const budget_answer *best)
     return error < least;
 }
 
-/* Milliseconds left, as a time-out for poll: infinite if there is no answer yet. */
+/* Milliseconds left, as a time-out for poll. */
 static int time_left(const run_budget *budget)
 {
     double left = budget->asked_ms - 1e3 * (cli_seconds() - budget->start);
-    return !budget->answered ? -1 : left > 1e9 ? 1000000000 : left > 0.0 ? (int)ceil(left) : 0;
+    return left > 1e9 ? 1000000000 : left > 0.0 ? (int)ceil(left) : 0;
 }
 
-/* Receives answers until the time is up, no more are to come, or one meets the tolerance asked
-   for. */
-static void runner_watch(run_job *job, budget_runner *runner, budget_answer *best)
+/* Receives answers until the time is up, no more are to come, or one meets the tolerance asked for.
+   A sought answer with an informative bound ends the rasters: they cannot improve on it. */
+static void runners_watch(run_job *job, budget_runner runner[CHAINS], budget_answer *best)
 {
-    while (!cli_run_meets(&best->result, job->asked)) {
-        struct pollfd wait = {.fd = runner->end, .events = POLLIN};
-        int ready = poll(&wait, 1, time_left(&job->budget));
+    while (!cli_run_meets(&best->result, job->asked) &&
+           (runner[CHAIN_RASTERS].end >= 0 || runner[CHAIN_SOUGHT].end >= 0)) {
+        /* poll ignores negative descriptors */
+        struct pollfd wait[CHAINS] = {{.fd = runner[CHAIN_RASTERS].end, .events = POLLIN},
+                                      {.fd = runner[CHAIN_SOUGHT].end, .events = POLLIN}};
+        int ready = poll(wait, CHAINS, time_left(&job->budget));
         if (ready < 0 && errno == EINTR) {
             continue; /* interrupted by the signal of the watch */
         }
-        budget_answer answer;
-        if (ready <= 0 || read(runner->end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
+        if (ready <= 0) {
             break;
         }
-        if (!job->budget.answered || answer_beats(&answer, best)) {
+        int chain = wait[CHAIN_SOUGHT].revents ? CHAIN_SOUGHT : CHAIN_RASTERS;
+        budget_answer answer;
+        if (read(runner[chain].end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
+            runner_stop(&runner[chain]); /* it has run all of its settings */
+            continue;
+        }
+        if (answer_beats(&answer, best)) {
             *best = answer;
         }
-        job->budget.answered = 1;
+        if (best->sought && best->result.bound_m2 <= BOUND_TELLS * best->result.sigma_m2) {
+            runner_stop(&runner[CHAIN_RASTERS]);
+        }
     }
 }
 
@@ -320,27 +325,27 @@ int cli_run_budget(run_job *job)
 {
     lrcs_host_error error;
     budget_answer best;
-    budget_runner runner;
+    budget_runner runner[CHAINS];
     int scales =
         cli_has_curved_shapes(&job->scene.scene) || job->scene.scene.normals != LRCS_NORMALS_FLAT;
     int rung = scales ? 0 : RUNG_NONE;
-    memset(&best, 0, sizeof best);
-    best.result.bound_m2 = HUGE_VAL; /* before the first answer */
-    best.result.estimate_m2 = -1.0;
     if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
     cli_watch_stage("trying settings", NULL);
-    fflush(NULL); /* otherwise both processes would write the buffered output */
-    runner_start(job, rung, &runner);
-    if (runner.end >= 0) {
-        runner_watch(job, &runner, &best);
+    job->options.method = LRCS_METHOD_FACET; /* whatever the budget, there is this answer */
+    if (setting_run(job, rung, 0, &best, &error) != LRCS_OK) {
+        return cli_failed(&error);
     }
+    job->options.method = LRCS_METHOD_AUTO;
+    fflush(NULL); /* otherwise all processes would write the buffered output */
+    for (int i = 0; i < CHAINS; i++) {
+        runner_start(job, i, rung, &runner[i]);
+    }
+    runners_watch(job, runner, &best);
     job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
-    runner_stop(&runner);
-    if (!job->budget.answered) {
-        fprintf(stderr, "lrcs: --time-budget: no setting gave an answer\n");
-        return CLI_FAILED;
+    for (int i = 0; i < CHAINS; i++) {
+        runner_stop(&runner[i]);
     }
     return budget_settle(job, &best);
 }

@@ -102,19 +102,22 @@ lrcs_host_picture cli_run_picture(const run_job *job)
 static int image_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const run_job *job = context;
-    lrcs_host_picture picture = cli_run_picture(job);
-    char *about = cli_provenance_text(job->args, &job->scene);
-    picture.about = about;
-    int status = lrcs_host_picture_png(out, &picture, &job->image, job->image_size, error);
-    free(about);
-    return status;
+    const lrcs_host_picture picture = cli_run_picture(job);
+    return cli_picture_write(out, &picture, &job->image, job->image_size, job->args, &job->scene,
+                             error);
+}
+
+/* Writes a table, and beside it what it was made from. */
+static int table_write(const run_job *job, const char *path, cli_writer *write)
+{
+    int code = path ? cli_output_write(path, write, job) : 0;
+    return code == 0 && path ? cli_provenance_beside(job->args, path, &job->scene, &job->pose)
+                             : code;
 }
 
 int cli_run_outputs_write(const run_job *job)
 {
     int code = job->image_path ? cli_output_write(job->image_path, image_write, job) : 0;
-    code = code == 0 && job->facets ? cli_output_write(job->facets, facets_write, job) : code;
-    return code == 0 && job->polygons_path
-               ? cli_output_write(job->polygons_path, polygons_write, job)
-               : code;
+    code = code ? code : table_write(job, job->facets, facets_write);
+    return code ? code : table_write(job, job->polygons_path, polygons_write);
 }

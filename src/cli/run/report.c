@@ -118,19 +118,13 @@ static void json_effects(const run_job *job, lrcs_host_json *json)
 static void json_tail(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_result *result = &job->result;
-    double s_hat[3];
-    cli_pose_unit(&job->pose, s_hat);
     lrcs_host_json_begin(json, "facets", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_count(json, "total", result->facets_total);
     lrcs_host_json_count(json, "front", result->facets_front);
     lrcs_host_json_count(json, "hidden", result->facets_hidden);
     lrcs_host_json_count(json, "partial", result->facets_partial);
     lrcs_host_json_end(json);
-    lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
-    for (int k = 0; k < 3; k++) {
-        lrcs_host_json_number(json, NULL, s_hat[k]);
-    }
-    lrcs_host_json_end(json);
+    cli_direction_json(&job->pose, json);
     lrcs_host_json_begin(json, "seconds", LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_number(json, "load", job->scene.seconds_load);
     lrcs_host_json_number(json, "prepare", job->scene.seconds_prepare);

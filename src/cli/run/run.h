@@ -28,8 +28,7 @@ typedef struct run_budget {
     double asked_ms; /* 0 for no budget */
     double start;    /* start of the command on the monotonic clock */
     double spent_ms; /* time until the answer was known */
-    int answered;
-    char same[128]; /* the options that reproduce the answer */
+    char same[128];  /* the options that reproduce the answer */
 } run_budget;
 
 /* --precision, --depth-bits: emulated hardware, and the error of its answer. */

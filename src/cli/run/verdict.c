@@ -33,13 +33,16 @@ static void backs_find(const run_job *job, run_open *open)
 
 int cli_run_open(run_job *job)
 {
+    run_open *open = &job->open;
     lrcs_host_glint *list = NULL;
-    memset(&job->open, 0, sizeof job->open);
-    backs_find(job, &job->open);
-    int code = cli_coarse_glint(&job->scene, &job->load.build, 0, &list, &job->open.coarse);
+    memset(open, 0, sizeof *open);
+    backs_find(job, open);
+    int code = cli_coarse_glint(&job->scene, &job->load.build, 0, &list, &open->coarse);
+    open->glint.facet = LRCS_NONE;
     if (job->records) {
-        lrcs_host_glint_sum_make(&job->scene.scene, job->records, list, job->open.coarse,
-                                 &job->open.glint);
+        lrcs_host_glint_sum_make(&job->scene.scene, job->records, list, open->coarse, &open->glint);
+    } else if (open->coarse > 0) {
+        open->glint.glint_m2 = open->glint.error_m2 = (double)NAN; /* not known */
     }
     free(list);
     return code;
@@ -59,8 +62,12 @@ void cli_run_open_json(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_count(json, "parts", open->coarse);
     lrcs_host_json_number(json, "sigma_glint_m2", open->glint.glint_m2);
     lrcs_host_json_number(json, "error_estimate_m2", open->glint.error_m2);
-    lrcs_host_json_bool(json, "one_facet_dominates",
-                        cli_glint_dominates(&open->glint, job->result.sigma_m2));
+    if (job->records || open->coarse == 0) {
+        lrcs_host_json_bool(json, "one_facet_dominates",
+                            cli_glint_dominates(&open->glint, job->result.sigma_m2));
+    } else {
+        lrcs_host_json_text(json, "one_facet_dominates", NULL); /* not known */
+    }
     lrcs_host_json_end(json);
 }
 
@@ -107,6 +114,13 @@ static void backs_say(const run_job *job, FILE *out)
 static void glint_say(const run_job *job, FILE *out)
 {
     const run_open *open = &job->open;
+    if (open->coarse > 0 && !job->records) {
+        fprintf(out,
+                "  glint      %lu curved part%s too coarse for the slope of their material: "
+                "--normals auto\n",
+                (unsigned long)open->coarse, open->coarse == 1 ? " is" : "s are");
+        return;
+    }
     if (open->coarse == 0 || !(open->glint.error_m2 > job->result.bound_m2)) {
         return;
     }

@@ -214,7 +214,7 @@ static int rows_recover(sweep_file *file, const char *path, const sweep_plan *pl
     }
     *summed = end;
     file->size = (uint64_t)(good - bytes);
-    file->sum = cli_sum_more(SWEEP_SUM_BEGIN, bytes, (size_t)(good - bytes));
+    file->sum = cli_sum_more(CLI_SUM_BEGIN, bytes, (size_t)(good - bytes));
     return 0;
 }
 
@@ -312,7 +312,7 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
     size_t size[2] = {0, 0};
     int resume = cli_value(args, "resume") != NULL;
     file->next = plan->first;
-    file->sum = SWEEP_SUM_BEGIN;
+    file->sum = CLI_SUM_BEGIN;
     int code = waiting_begin(file);
     if (code == 0 && !file->path) {
         cli_rows_head(file->stream, file->format, head, plan);

@@ -116,3 +116,16 @@ int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_o
     int code = head_options(args, plan, options, head);
     return code ? code : head_scene(args, scene, head);
 }
+
+size_t cli_head_about(const sweep_head *head, char *text, size_t size, size_t used)
+{
+    if (used < size) {
+        used += (size_t)snprintf(text + used, size - used, "; scene_hash=%016llx",
+                                 (unsigned long long)head->scene_hash);
+    }
+    for (uint32_t i = 0; i < head->options && used < size; i++) {
+        used += (size_t)snprintf(text + used, size - used, "; %s=%s", head->option[i].key,
+                                 head->option[i].text);
+    }
+    return used;
+}

@@ -50,7 +50,7 @@ static void npy_row(FILE *out, const sweep_text *text, const sweep_row *row)
 static void map_sum(FILE *out, const lrcs_host_file *map, const sweep_tally *tally)
 {
     fprintf(out, "# map=fnv1a:%016llx; missed=%llu; starved=%llu; estimated=%llu; unjudged=%llu\n",
-            (unsigned long long)cli_sum_more(SWEEP_SUM_BEGIN, map->bytes, map->size),
+            (unsigned long long)cli_sum_more(CLI_SUM_BEGIN, map->bytes, map->size),
             (unsigned long long)tally->missed, (unsigned long long)tally->starved,
             (unsigned long long)tally->estimated, (unsigned long long)tally->unjudged);
 }

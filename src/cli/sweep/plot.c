@@ -497,11 +497,7 @@ static void plot_about(const sweep_plot *plots, uint32_t count, char *text, size
 {
     size_t used = (size_t)snprintf(text, size, "lrcs %s sweep", lrcs_version());
     for (uint32_t k = 0; k < count; k++) {
-        const sweep_head *head = plots[k].head;
-        for (uint32_t i = 0; head && i < head->options && used < size; i++) {
-            used += (size_t)snprintf(text + used, size - used, "; %s=%s", head->option[i].key,
-                                     head->option[i].text);
-        }
+        used = plots[k].head ? cli_head_about(plots[k].head, text, size, used) : used;
     }
 }
 

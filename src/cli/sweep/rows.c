@@ -11,6 +11,19 @@ const char *const cli_extra_name[SWEEP_EXTRAS] = {"material_deviation_m2",   "ma
                                                   "material_high_m2",        "material_sampled",
                                                   "glint_error_estimate_m2", "one_facet_dominates"};
 
+const char *const cli_row_field[SWEEP_FIELDS] = {"sigma_m2",       "sigma_dbsm",       "bound_m2",
+                                                 "sigma_glint_m2", "sigma_diffuse_m2", "flags"};
+
+/* The numbers of a row up to its extras; sigma = 0 has no dBsm. */
+static void row_numbers(const sweep_row *row, double number[FIELD_FLAGS])
+{
+    number[FIELD_SIGMA] = row->sigma_m2;
+    number[FIELD_DBSM] = row->sigma_m2 > 0.0 ? cli_dbsm(row->sigma_m2) : (double)NAN;
+    number[FIELD_BOUND] = row->bound_m2;
+    number[FIELD_GLINT] = row->sigma_glint_m2;
+    number[FIELD_DIFFUSE] = row->sigma_diffuse_m2;
+}
+
 sweep_extras cli_extras_make(int materials, int glint)
 {
     sweep_extras extras = {.materials = materials, .glint = glint};
@@ -86,7 +99,9 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
         putc(',', out);
         csv_field(out, plan->column[i]);
     }
-    fputs(",sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2", out);
+    for (int i = 0; i < FIELD_FLAGS; i++) {
+        fprintf(out, ",%s", cli_row_field[i]);
+    }
     for (uint32_t i = 0; i < plan->extras.count; i++) {
         fprintf(out, ",%s", cli_extra_name[plan->extras.kind[i]]);
     }
@@ -96,15 +111,15 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
 static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 {
     const char *before = ",";
+    double number[FIELD_FLAGS];
+    row_numbers(row, number);
     fprintf(out, "%llu", (unsigned long long)row->index);
     for (uint32_t i = 0; i < plan->columns; i++) {
         number_put(out, ",", row->value[i]);
     }
-    number_put(out, ",", row->sigma_m2);
-    number_put(out, ",", row->sigma_m2 > 0.0 ? cli_dbsm(row->sigma_m2) : (double)NAN);
-    number_put(out, ",", row->bound_m2);
-    number_put(out, ",", row->sigma_glint_m2);
-    number_put(out, ",", row->sigma_diffuse_m2);
+    for (int i = 0; i < FIELD_FLAGS; i++) {
+        number_put(out, ",", number[i]);
+    }
     for (uint32_t i = 0; i < plan->extras.count; i++) {
         number_put(out, ",", row->extra[plan->extras.kind[i]]);
     }
@@ -145,18 +160,17 @@ static void jsonl_head(FILE *out, const sweep_head *head, const sweep_plan *plan
 
 static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 {
+    double number[FIELD_FLAGS];
+    row_numbers(row, number);
     lrcs_host_json json = lrcs_host_json_make(out);
     lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_count(&json, "index", row->index);
     for (uint32_t i = 0; i < plan->columns; i++) {
         lrcs_host_json_number(&json, plan->column[i], row->value[i]);
     }
-    lrcs_host_json_number(&json, "sigma_m2", row->sigma_m2);
-    lrcs_host_json_number(&json, "sigma_dbsm",
-                          row->sigma_m2 > 0.0 ? cli_dbsm(row->sigma_m2) : (double)NAN);
-    lrcs_host_json_number(&json, "bound_m2", row->bound_m2);
-    lrcs_host_json_number(&json, "sigma_glint_m2", row->sigma_glint_m2);
-    lrcs_host_json_number(&json, "sigma_diffuse_m2", row->sigma_diffuse_m2);
+    for (int i = 0; i < FIELD_FLAGS; i++) {
+        lrcs_host_json_number(&json, cli_row_field[i], number[i]);
+    }
     for (uint32_t i = 0; i < plan->extras.count; i++) {
         int kind = plan->extras.kind[i];
         lrcs_host_json_number(&json, cli_extra_name[kind], row->extra[kind]);
@@ -207,15 +221,6 @@ void cli_rows_mean(FILE *out, int format, const sweep_tally *tally)
     number_put(out, "; standard_error_m2=", cli_tally_error(tally));
     number_put(out, "; mean_bound_m2=", bound);
     putc('\n', out);
-}
-
-uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size)
-{
-    const unsigned char *at = bytes;
-    for (size_t i = 0; i < size; i++) {
-        sum = (sum ^ at[i]) * 0x100000001b3u;
-    }
-    return sum;
 }
 
 void cli_rows_sum(FILE *out, int format, uint64_t sum)

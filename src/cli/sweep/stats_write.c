@@ -254,7 +254,7 @@ static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
     const stats_chart *from = context;
     const sweep_stats *stats = from->stats;
     const char *title = cli_head_text(stats->head, "title");
-    char words[300], note[300], bars[80];
+    char words[300], note[300], bars[80], about[4000];
     double least[STATS_BINS + 1], most[STATS_BINS + 1];
     double middle[STATS_BINS + 1], low[STATS_BINS + 1], high[STATS_BINS + 1];
     double wide = 0.0;
@@ -289,8 +289,11 @@ static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
     if (stats->banded) {
         series[count++] = known[4];
     }
+    int used = snprintf(about, sizeof about, "lrcs %s statistics", lrcs_version());
+    cli_head_about(stats->head, about, sizeof about, (size_t)used);
     const lrcs_host_chart chart = {.title = words,
                                    .note = note,
+                                   .about = about,
                                    .x_name = "sigma (dBsm)",
                                    .y_name = "share of all rows",
                                    .y_from_0 = 1,

@@ -11,7 +11,6 @@
 #define SWEEP_OPTIONS 24 /* that the head of a file may hold */
 #define SWEEP_JOINTS  8  /* joints whose angles a file of poses states */
 #define SWEEP_COLUMNS 20
-#define SWEEP_FIELDS  6 /* fields of a row after its values: sigma to flags */
 
 /* ---- ranges ---- */
 
@@ -157,6 +156,18 @@ typedef struct sweep_row {
     uint32_t flags;
 } sweep_row;
 
+/* The fields of a row after its values, in their order; the extras precede the flags. */
+enum sweep_field {
+    FIELD_SIGMA,
+    FIELD_DBSM,
+    FIELD_BOUND,
+    FIELD_GLINT,
+    FIELD_DIFFUSE,
+    FIELD_FLAGS,
+    SWEEP_FIELDS
+};
+extern const char *const cli_row_field[SWEEP_FIELDS];
+
 /* The content of the first line: nothing in it depends on the machine, the number of threads or the
    shard. */
 typedef struct sweep_head {
@@ -169,6 +180,10 @@ typedef struct sweep_head {
     } option[SWEEP_OPTIONS];
     uint32_t options;
 } sweep_head;
+
+/* What rows were made from, in one line for pictures, after `used` characters of the text; returns
+   the number of characters used then, which may exceed the size. */
+size_t cli_head_about(const sweep_head *head, char *text, size_t size, size_t used);
 
 /* 0 or CLI_USAGE. */
 int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
@@ -191,10 +206,8 @@ void cli_rows_head(FILE *out, int format, const sweep_head *head, const sweep_pl
 void cli_rows_put(FILE *out, int format, const sweep_plan *plan, const sweep_row *row);
 void cli_rows_mean(FILE *out, int format, const sweep_tally *tally);
 
-/* The last line: FNV-1a of all bytes before it. The sum of no bytes, of more bytes, and the line,
-   which always has the same length in a format. */
-#define SWEEP_SUM_BEGIN 0xcbf29ce484222325u
-uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size);
+/* The last line: FNV-1a of all bytes before it (cli_sum_more); it always has the same length in a
+   format. */
 void cli_rows_sum(FILE *out, int format, uint64_t sum);
 
 /* ---- rows that were written ---- */

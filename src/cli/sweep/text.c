@@ -118,17 +118,12 @@ int cli_text_open(const char *bytes, size_t size, sweep_text *text)
 
 /* ---- rows ---- */
 
-/* Fields of a row after its values, in their order. */
-enum { FIELD_SIGMA, FIELD_DBSM, FIELD_BOUND, FIELD_GLINT, FIELD_DIFFUSE, FIELD_FLAGS };
-static const char *const field_name[SWEEP_FIELDS] = {
-    "sigma_m2", "sigma_dbsm", "bound_m2", "sigma_glint_m2", "sigma_diffuse_m2", "flags"};
-
 /* The name of field i: sigma and its parts, then extras, then flags. */
 static const char *field_key(uint32_t i, const sweep_extras *extras)
 {
-    return i < FIELD_FLAGS                   ? field_name[i]
+    return i < FIELD_FLAGS                   ? cli_row_field[i]
            : i < FIELD_FLAGS + extras->count ? cli_extra_name[extras->kind[i - FIELD_FLAGS]]
-                                             : field_name[FIELD_FLAGS];
+                                             : cli_row_field[FIELD_FLAGS];
 }
 
 static int text_refuse(sweep_text *text, const char *name, const char *found, const char *expected)
@@ -304,7 +299,7 @@ static int fields_read(sweep_text *text, const char *const *field, sweep_row *ro
     for (int i = 0; i < FIELD_FLAGS; i++) {
         int none = field_number(text, field[i], &number[i]) != 0;
         if (none || (i != FIELD_DBSM && !(number[i] >= 0.0))) {
-            return text_refuse(text, field_name[i], field[i],
+            return text_refuse(text, cli_row_field[i], field[i],
                                i == FIELD_DBSM ? "a number" : "a number of at least 0");
         }
     }
@@ -410,7 +405,7 @@ int cli_text_end(sweep_text *text)
     if (!memchr(text->at, '\n', (size_t)(text->end - text->at))) {
         return 0; /* the end, or a truncated line */
     }
-    uint64_t sum = cli_sum_more(SWEEP_SUM_BEGIN, text->head, (size_t)(text->at - text->head));
+    uint64_t sum = cli_sum_more(CLI_SUM_BEGIN, text->head, (size_t)(text->at - text->head));
     char expected[80];
     FILE *out = fmemopen(expected, sizeof expected, "w");
     if (!out) {

@@ -284,7 +284,7 @@ int cli_track_read(const char *path, sweep_track *track)
     if (lrcs_host_file_read(path, &file, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    track->hash = cli_sum_more(SWEEP_SUM_BEGIN, file.bytes, file.size);
+    track->hash = cli_sum_more(CLI_SUM_BEGIN, file.bytes, file.size);
     reader.table = lrcs_host_table_make(path, &file);
     int code = track_parse(&reader, &file, track);
     lrcs_host_file_free(&file);

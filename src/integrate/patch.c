@@ -1,0 +1,383 @@
+/* SPDX-License-Identifier: MIT */
+/* The mean of F = f_r cos^2 over the patch of a facet, by Gauss-Legendre rules with a proved
+   remainder. Whether the patch is seen is decided elsewhere (integrate/tessellation.c).
+
+   The patch in the shape's frame. The normal at azimuth phi, at an angle alpha from the axis, is
+       N = (sin alpha cos phi, sin alpha sin phi, cos alpha).
+   With h half a sector's azimuth, the patch has these areas (mesh/profile.c):
+       straight wall      alpha constant; (rho0 + rho1) / 2 times the slant height, d phi
+       sphere, dome       R^2 sin alpha, d alpha d phi
+       paraboloid         (R / y_rim)^2 sin alpha / cos^4 alpha, d alpha d phi: rho = R y / y_rim at
+                          slope y = tan alpha, and d rho sqrt(1 + y^2) is the element of the
+   meridian Rows are at equal steps of alpha. With g the direction to the laser in that frame, c = g
+   . N and p = |g x N|, F is a function of u = p^2 / c^2 = tan^2 theta: A w^2 exp(-u / s^2) + B
+   w^(-m/2 - 1), w = 1 + u = 1 / c^2.
+
+   Remainder. On [-1, 1] let f have a Taylor series about 0 whose radius exceeds r > 1, and |f| <= M
+   on the disc of radius r: its coefficients are at most M r^-k. A rule of n points is exact for odd
+   k and for k < 2 n; for even k >= 2 n its mean of x^k lies between 0 and the true mean 1/(k+1),
+   since the error of Gauss's rule is f^(2n)(xi) times a positive number. So its mean of f errs by
+       at most M sum over even k >= 2 n of r^-k / (k+1) <= M r^(-2n) / ((2n+1) (1 - r^-2)).
+   Of a product of rules in alpha and phi, I - QQ' = (I - Q) I' + Q (I' - Q') errs by at most the
+   sum of the two, M being taken over one complex and one real variable.
+
+   M. Turning by a complex angle of size a moves a unit vector by at most e^a - 1, and N is a turn
+   about z by phi of a turn by alpha of the axis; the turn about z moves only the part of N across
+   z, at most (|sin alpha| + a) e^a. So where |d alpha| <= a, |d phi| <= b, N moves by at most
+       kappa = (e^b - 1) (|sin alpha| + a) e^a + e^a - 1        (alpha constant: a = 0),
+   and so do c and the vector g x N; (g x N) . (g x N) = 1 - c^2 holds there too. With c, p, u of
+   the patch's middle and kappa <= c / 2, |w| = |c'|^-2 <= (c - kappa)^-2,                |w|^-1 <=
+   (c + kappa)^2, Re u' >= u - [2 p kappa + kappa^2 + u (2 c kappa + kappa^2)] / (c - kappa)^2,
+   which bounds both terms of F; the weights by |sin alpha'| <= (|sin alpha| + a) e^a and |cos
+   alpha'| >= |cos alpha| - (e^a - 1).
+
+   Rounding. N and g are off by at most TURN_OFF = 64 u together: azimuths and angles below 7 are
+   good to 4 u of that, a sine or cosine to 2 u, axes and direction to a few u. So c and p are off
+   by as much, u by at most du = (2 p TURN_OFF + TURN_OFF^2 + 2 u c TURN_OFF) / c^2 up to 1 %, and
+   with |d log glint / du| <= 2 + 1/s^2 and |d log diffuse / du| <= m/2 + 1 each term by the factor
+   exp of that times du. Areas, weights and sums are good to AREA_OFF relative, a paraboloid's to
+   that over cos alpha.
+   Called: lrcsi_tessellate_patch, lrcsi_profile_make, lrcsi_reflect. */
+#include "integrate/patch.h"
+
+#include <math.h>
+
+#include "base/elementary.h"
+#include "base/range.h"
+#include "mesh/profile.h"
+#include "optics/reflect.h"
+
+#define TURN_OFF (64 * LRCSI_U)
+#define AREA_OFF (512 * LRCSI_U)
+/* What the rule may err by, relative to F in the middle of the patch, if it has enough points. */
+#define REMAINDER_ENOUGH 0x1p-26
+/* The same, of the mean, beyond which the rule is of no use. */
+#define REMAINDER_MOST 0x1p-10
+/* The most pieces of a patch, in each variable. */
+#define PIECES_MOST 4
+/* The most points of a rule. */
+#define POINTS_MOST 8
+/* Below this slope of the glint, a double is too coarse for its flank. */
+#define GLINT_SLOPE_LEAST 1e-3
+
+/* Rules for the mean over [-1, 1]: the points >= 0 of those with 2, 3, 4, 6 and 8 points, and their
+   weights, each for x and -x. Generated to 50 digits with Newton's method. */
+typedef struct gauss_rule {
+    int points, half;
+    double x[POINTS_MOST / 2], weight[POINTS_MOST / 2];
+} gauss_rule;
+
+static const gauss_rule rules[] = {
+    {2, 1, {0.577350269189625764509}, {0.5}},
+    {3, 2, {0.0, 0.774596669241483377035}, {0.444444444444444444444, 0.277777777777777777777}},
+    {4,
+     2,
+     {0.339981043584856264802, 0.861136311594052575223},
+     {0.326072577431273071313, 0.173927422568726928686}},
+    {6,
+     3,
+     {0.238619186083196908630, 0.661209386466264513661, 0.932469514203152027812},
+     {0.233956967286345523694, 0.180380786524069303784, 0.085662246189585172520}},
+    {8,
+     4,
+     {0.183434642495649804939, 0.525532409916328985817, 0.796666477413626739591,
+      0.960289856497536231683},
+     {0.181341891689180991482, 0.156853322938943643668, 0.111190517226687235272,
+      0.050614268145188129576}}};
+#define RULES ((int)(sizeof rules / sizeof *rules))
+
+/* Radii r at which M is tried. */
+static const double radii[] = {1.5, 2.5, 4.0, 7.0, 12.0};
+#define RADII ((int)(sizeof radii / sizeof *radii))
+
+/* A patch in the shape's frame, and the laser. */
+typedef struct patch_frame {
+    double g[3];         /* the direction to the laser, from the side that is lit */
+    double alpha, step;  /* of the middle, and half the width; step 0: straight wall */
+    double phi, half;    /* the same of the azimuth */
+    double sine, cosine; /* of alpha */
+    double c, p, u;      /* in the middle */
+    int fourth;          /* the weight has cos^-4 alpha */
+    double area;         /* of the patch, where the weight is 1, over that of its facets */
+} patch_frame;
+
+int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
+{
+    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+    return p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0 && part->rigid &&
+           part->curvature_known;
+}
+
+/* u = tan^2 theta of the normal at an azimuth, given sine and cosine of its angle from the axis. */
+static double patch_tan2(const patch_frame *f, double sine, double cosine, double phi, double *c,
+                         double *p)
+{
+    const double n[3] = {sine * cos(phi), sine * sin(phi), cosine};
+    const double *g = f->g;
+    double x = g[1] * n[2] - g[2] * n[1];
+    double y = g[2] * n[0] - g[0] * n[2];
+    double z = g[0] * n[1] - g[1] * n[0];
+    double square = x * x + y * y + z * z;
+    *c = g[0] * n[0] + g[1] * n[1] + g[2] * n[2];
+    *p = sqrt(square);
+    return square / (*c * *c);
+}
+
+/* The frame of patch->at. Returns 0 if rounding left one of its facets without area. */
+static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lrcsi_patch *patch)
+{
+    const lrcs_prepared *prepared = view->prepared;
+    const lrcs_part *part = &prepared->scene->part[patch->part];
+    const lrcsi_wall_patch *at = &patch->at;
+    lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
+    double unit = ldexp(part->unit, -prepared->exponent);
+    double facets = 0.5 * prepared->normal[facet].length;
+    if (at->facets == 2) {
+        uint32_t other = part->first_facet + ((facet - part->first_facet) ^ 1);
+        facets += prepared->skip[other] ? 0 : 0.5 * prepared->normal[other].length;
+    }
+    for (int k = 0; k < 3; k++) {
+        f->g[k] =
+            patch->side * (part->axis[k][0] * view->unit[0] + part->axis[k][1] * view->unit[1] +
+                           part->axis[k][2] * view->unit[2]);
+    }
+    f->half = profile.half;
+    f->phi = (2.0 * at->sector + 1.0) * profile.half;
+    f->fourth = part->kind == LRCS_SHAPE_PARABOLOID;
+    f->step = 0.5 * profile.step;
+    f->alpha = (2.0 * (double)(profile.strips - at->row) - 1.0) * f->step;
+    if (profile.step > 0) {
+        double radius = (f->fourth ? profile.base / profile.slope : profile.base) * unit;
+        f->sine = sin(f->alpha);
+        f->cosine = cos(f->alpha);
+        f->area = 4 * f->step * f->half * radius * radius;
+    } else {
+        double fall = profile.base - profile.top;
+        double slant = hypot(fall, profile.height);
+        f->sine = profile.height / slant;
+        f->cosine = fall / slant;
+        f->area = f->half * ((profile.base + profile.top) * unit) * (slant * unit);
+    }
+    f->cosine = at->mirrored ? -f->cosine : f->cosine;
+    f->area /= facets;
+    f->u = patch_tan2(f, f->sine, f->cosine, f->phi, &f->c, &f->p);
+    patch->blur = 2 * (lrcsi_profile_blur(&profile, at->row) + part->tilted);
+    return isfinite(f->area) && (!f->fourth || profile.step > 0);
+}
+
+/* --- the remainder ---------------------------------------------------------------------------- */
+
+/* kappa, from a and the exponentials of a and b. */
+static double normal_moved(const patch_frame *f, double a, double exp_a, double exp_b)
+{
+    return (exp_b - 1) * (f->sine + a) * exp_a + (exp_a - 1) + TURN_OFF;
+}
+
+/* M, weights included; infinite if the laser may see a point of that neighbourhood edge-on. With
+   x = c + kappa, x^(m+2) <= x^2 exp(m (x - 1)), or x^2 if x <= 1. */
+static double patch_most(const patch_frame *f, const lrcs_brdf *brdf, double a, double exp_a,
+                         double exp_b)
+{
+    double kappa = normal_moved(f, a, exp_a, exp_b);
+    double near = f->c - kappa;
+    double far = f->c + kappa;
+    double most = 0;
+    if (!(kappa <= 0.5 * f->c)) {
+        return HUGE_VAL;
+    }
+    if (brdf->A > 0) {
+        double less =
+            (2 * f->p * kappa + kappa * kappa + f->u * kappa * (2 * f->c + kappa)) / (near * near);
+        double exponent = (less - f->u + 16 * LRCSI_U * (less + f->u)) / (brdf->s * brdf->s);
+        most += brdf->A * lrcsi_exp(exponent) / (near * near * near * near);
+    }
+    if (brdf->B > 0) {
+        most += brdf->B * far * far * (far > 1 ? lrcsi_exp(brdf->m * (far - 1)) : 1);
+    }
+    if (f->step > 0) {
+        double low = f->fourth ? fabs(f->cosine) - (exp_a - 1) : 1;
+        most *= low > 0 ? (f->sine + a) * exp_a / (low * low * low * low) : HUGE_VAL;
+    }
+    return 1.000001 * most;
+}
+
+/* The rule in one variable that is enough, or the one with the most points; *error is its
+   remainder. */
+static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf, int along,
+                                     double enough, double *error)
+{
+    double best[RULES];
+    double other = lrcsi_exp(along ? f->half : f->step);
+    for (int n = 0; n < RULES; n++) {
+        best[n] = HUGE_VAL;
+    }
+    for (int i = RADII - 1; i >= 0 && !(best[0] <= enough); i--) {
+        double r = radii[i];
+        double wide = lrcsi_exp(r * (along ? f->step : f->half));
+        double most = along ? patch_most(f, brdf, r * f->step, wide, other)
+                            : patch_most(f, brdf, f->step, other, wide);
+        double q = 1 / (r * r);
+        for (int n = 0, k = 0; n < RULES && most < HUGE_VAL; n++) {
+            for (; k < rules[n].points; k++) {
+                most *= q;
+            }
+            best[n] = lrcsi_least(best[n], most / ((2 * k + 1) * (1 - q)));
+        }
+    }
+    int n = 0;
+    while (n + 1 < RULES && !(best[n] <= enough)) {
+        n++;
+    }
+    *error = 1.000001 * best[n];
+    return &rules[n];
+}
+
+/* --- the mean --------------------------------------------------------------------------------- */
+
+/* Adds F at one normal. Returns 0 if rounding says too much about it. */
+static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double alpha, double phi,
+                           double weight, lrcsi_patch *patch)
+{
+    double sine = f->sine;
+    double cosine = f->cosine;
+    double c;
+    double p;
+    if (f->step > 0) {
+        sine = sin(alpha);
+        cosine = copysign(fabs(cos(alpha)), f->cosine);
+        weight *= f->fourth ? sine / (cosine * cosine * cosine * cosine) : sine;
+    }
+    double u = patch_tan2(f, sine, cosine, phi, &c, &p);
+    double du = 1.01 * (2 * p * TURN_OFF + TURN_OFF * TURN_OFF + 2 * u * c * TURN_OFF) / (c * c);
+    double glint_off = brdf->A > 0 ? du * (2 + 1 / (brdf->s * brdf->s)) : 0;
+    double diffuse_off = du * (0.5 * brdf->m + 1);
+    if (!(glint_off <= 1 && diffuse_off <= 1)) {
+        return 0;
+    }
+    lrcsi_reflection at = lrcsi_reflect(brdf, u, 0);
+    patch->glint += weight * at.glint;
+    patch->diffuse += weight * at.diffuse;
+    patch->glint_u += weight * at.glint * u;
+    patch->diffuse_log += weight * at.diffuse * log(1 + u);
+    patch->rounding += weight * (at.error + at.glint * (glint_off + glint_off * glint_off) +
+                                 at.diffuse * (diffuse_off + diffuse_off * diffuse_off));
+    return 1;
+}
+
+/* The sum over the points of both rules, times `share`. */
+static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *along,
+                            const gauss_rule *around, double share, lrcsi_patch *patch)
+{
+    int known = 1;
+    int rows = f->step > 0 ? 2 * along->half : 1;
+    for (int i = 0; i < rows && known; i++) {
+        double x = i % 2 ? -along->x[i / 2] : along->x[i / 2];
+        double weight = f->step > 0 ? share * along->weight[i / 2] : share;
+        if (i % 2 && f->step > 0 && x == 0) {
+            continue;
+        }
+        for (int k = 0; k < 2 * around->half && known; k++) {
+            double y = k % 2 ? -around->x[k / 2] : around->x[k / 2];
+            if (k % 2 && y == 0) {
+                continue;
+            }
+            known = patch_add_point(f, brdf, f->alpha + x * f->step, f->phi + y * f->half,
+                                    weight * around->weight[k / 2], patch);
+        }
+    }
+    return known;
+}
+
+/* Piece (i, k) of n x n: with half the width of the patch over n in either variable. */
+static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
+{
+    patch_frame f = *whole;
+    f.half = whole->half / n;
+    f.phi = whole->phi + (2 * k + 1 - n) * f.half;
+    if (f.step > 0) {
+        f.step = whole->step / n;
+        f.alpha = whole->alpha + (2 * i + 1 - n) * f.step;
+        f.sine = sin(f.alpha);
+        f.cosine = copysign(cos(f.alpha), whole->cosine);
+    }
+    f.u = patch_tan2(&f, f.sine, f.cosine, f.phi, &f.c, &f.p);
+    return f;
+}
+
+/* Adds one piece, `share` of the patch in those variables. Returns 0 if the laser may see some of
+   it edge-on, or if rounding says too much about it. */
+static int patch_add(const patch_frame *f, const lrcs_brdf *brdf, double share, lrcsi_patch *patch)
+{
+    if (!(normal_moved(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half)) < 0.25 * f->c)) {
+        return 0;
+    }
+    double along_error = 0;
+    double around_error;
+    lrcsi_reflection middle = lrcsi_reflect(brdf, f->u, 0);
+    double cosine4 = f->cosine * f->cosine * f->cosine * f->cosine;
+    double weight = f->step > 0 ? f->sine / (f->fourth ? cosine4 : 1) : 1;
+    double enough = REMAINDER_ENOUGH * weight * (middle.glint + middle.diffuse);
+    const gauss_rule *around = rule_choose(f, brdf, 0, enough, &around_error);
+    const gauss_rule *along =
+        f->step > 0 ? rule_choose(f, brdf, 1, enough, &along_error) : &rules[0];
+    patch->remainder += share * (along_error + around_error);
+    return patch_add_points(f, brdf, along, around, share, patch);
+}
+
+/* The mean over the patch that patch->at names: in one piece, or in 4 or 16, if more are needed for
+   the remainder. */
+static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t facet,
+                           lrcsi_patch *patch)
+{
+    patch_frame f;
+    if (!frame_make(view, facet, &f, patch)) {
+        return 0;
+    }
+    int known = 0;
+    int enough = 0;
+    for (int n = 1; n <= PIECES_MOST && !enough; n *= 2) {
+        int rows = f.step > 0 ? n : 1;
+        patch->glint = patch->diffuse = patch->glint_u = patch->diffuse_log = 0;
+        patch->remainder = patch->rounding = 0;
+        known = 1;
+        for (int i = 0; i < rows * n && known; i++) {
+            patch_frame piece = frame_piece(&f, n, i / n, i % n);
+            known = patch_add(&piece, brdf, 1.0 / (rows * n), patch);
+        }
+        enough =
+            known && patch->remainder <= 4 * REMAINDER_ENOUGH * (patch->glint + patch->diffuse);
+    }
+    if (!known) {
+        return 0;
+    }
+    double off = f.fourth ? AREA_OFF / (fabs(f.cosine) - f.step) : AREA_OFF;
+    patch->rounding += off * (patch->glint + patch->diffuse);
+    patch->glint *= f.area;
+    patch->diffuse *= f.area;
+    patch->glint_u *= f.area;
+    patch->diffuse_log *= f.area;
+    patch->rounding *= 1.0001 * f.area;
+    patch->remainder *= 1.0001 * f.area;
+    return patch->remainder <= REMAINDER_MOST * (patch->glint + patch->diffuse);
+}
+
+int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_brdf *brdf,
+                     uint32_t facet, lrcsi_patch *patch)
+{
+    const lrcs_scene *scene = view->prepared->scene;
+    const uint32_t index = scene->facet_part[facet];
+    const lrcs_part *part = &scene->part[index];
+    lrcsi_patch made = {.part = index, .side = view->facing[facet]};
+    if (!plan->patches || made.side == 0 || !lrcsi_patch_exists(view->prepared, facet) ||
+        (brdf->A > 0 && !(brdf->s >= GLINT_SLOPE_LEAST)) ||
+        !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,
+                                &made.at)) {
+        return 0;
+    }
+    if (patch->side != made.side || patch->part != index || patch->at.row != made.at.row ||
+        patch->at.sector != made.at.sector || patch->at.mirrored != made.at.mirrored) {
+        made.known = patch_integrate(view, brdf, facet, &made);
+        *patch = made;
+    }
+    return patch->known;
+}

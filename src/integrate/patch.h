@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* Eq. 2 over the true surface that a facet of a shape's curved wall stands for: its patch. */
+#ifndef LRCSI_PATCH_H
+#define LRCSI_PATCH_H
+
+#include "integrate/plan.h"
+#include "mesh/tessellate.h"
+
+/* f_r cos^2, as its mean over a patch per unit of area of the patch's facets. */
+typedef struct lrcsi_patch {
+    double glint, diffuse;
+    double glint_u;      /* the mean of u times the glint, u = tan^2(theta) */
+    double diffuse_log;  /* the mean of log(1 + u) times the diffuse part */
+    double remainder;    /* a bound on the error of glint + diffuse from the quadrature rule */
+    double rounding;     /* a bound on their rounding error */
+    double blur;         /* rounding of the facets' corners changes a share of their area by at most
+                            this, relative */
+    lrcsi_wall_patch at; /* where it is, */
+    uint32_t part;       /* on which part, */
+    int side;            /* 1: from outside, -1: from inside; 0: this is no patch yet */
+    int known;           /* lrcsi_patch_make returned 1 */
+} lrcsi_patch;
+
+/* 1 if a facet may stand for a patch: one of the curved wall of a shape placed without distortion.
+ */
+int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
+
+/* Given: a facet that is not skipped; the BRDF; what `patch` holds from the last call with the same
+   BRDF, which serves again for the other facet of the same patch, or side = 0.
+   Returned: 1 and the patch; or 0: the plan asks for facets, the facet has no patch, the laser may
+   see the patch edge-on or from its other side in part, or it is too large for the rules. */
+int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_brdf *brdf,
+                     uint32_t facet, lrcsi_patch *patch);
+
+#endif

@@ -1,0 +1,108 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# What results were made from: every JSON has a schema and a version, and every file that a command writes
+# names the files with their hashes, the version and the options, inside it or, where its format has no
+# place for them, in FILE.json beside it.
+. "$(dirname "$0")/check.sh"
+cd "$scratch" || exit 1
+pair_scene >pair.toml
+box_scene >box.toml
+printf 'angle_deg,f_r\n0,1\n5,0.8\n10,0.5\n20,0.3\n30,0.25\n40,0.2\n50,0.19\n60,0.17\n' >data.csv
+
+# FNV-1a in awk, 32 bits at a time in halves of 16, from the bytes that od prints.
+fnv1a() {
+    od -An -v -tu1 "$1" | awk '
+        function xor(a, b,   r, p) { r = 0; for (p = 1; p < 65536; p *= 2) { if (int(a / p) % 2 != int(b / p) % 2) r += p } return r }
+        BEGIN { h[3] = 52210; h[2] = 40164; h[1] = 33826; h[0] = 8997 }
+        { for (i = 1; i <= NF; i++) {
+            h[0] = xor(h[0], $i)
+            # times 0x100000001b3: by 0x1b3, and by 2^40, which is two halves and 8 bits up
+            c = h[0] * 435; n0 = c % 65536
+            c = h[1] * 435 + int(c / 65536); n1 = c % 65536
+            c = h[2] * 435 + h[0] * 256 + int(c / 65536); n2 = c % 65536
+            c = h[3] * 435 + h[1] * 256 + int(c / 65536); n3 = c % 65536
+            h[0] = n0; h[1] = n1; h[2] = n2; h[3] = n3 } }
+        END { printf "fnv1a:%04x%04x%04x%04x\n", h[3], h[2], h[1], h[0] }'
+}
+same the_hash_of_a_known_text "$(printf foobar >foobar && fnv1a foobar)" fnv1a:85944171f73967e8
+pair=$(fnv1a pair.toml)
+box=$(fnv1a box.toml)
+
+# ---- what stands beside tables ----
+# beside FILE INPUT HASH COMMAND...: FILE.json names the file and its input with their hashes.
+beside() {
+    file=$1 input=$2 hash=$3
+    shift 3
+    run "$@"
+    same "${file}_is_written_with_what_it_was_made_from" "$(sed -n '2,5p; s/^    {"name": \(.*\), "hash": \(.*\)}.*/\1 \2/p' "$file.json")" \
+"  \"lrcs\": \"$1\",
+  \"schema\": 1,
+  \"version\": \"$("$tool" --version | cut -c6-)\",
+  \"file\": {\"name\": \"$file\", \"hash\": \"$(fnv1a "$file")\"},
+\"$input\" \"$hash\""
+    same "${file}_has_its_options" "$(grep -c "\"options\": \[.*=$file\"" "$file.json")" 1
+}
+beside facets.csv pair.toml "$pair" run pair.toml --azel 30,20 --facets facets.csv
+same a_table_of_facets_has_its_header_first "$(head -1 facets.csv)" "facet,material,area_m2,cos_theta,visible_area_m2,sigma_m2"
+run run pair.toml --azel 30,20 --json
+for key in scene_hash unit direction; do
+    same "beside_it_is_the_${key}_of_the_run" "$(sed -n "s/^  \"$key\": \(.*\),$/\1/p" facets.csv.json)" "$(value $key)"
+done
+same beside_it_are_the_materials "$(grep -c '"name": "paint-white".*"source": "illustrative"' facets.csv.json)" 1
+beside polygons.csv pair.toml "$pair" run pair.toml --azel 30,20 --polygons polygons.csv
+beside body.vtk pair.toml "$pair" image pair.toml --azel 30,20 --vtk body.vtk
+beside body.vtp pair.toml "$pair" image pair.toml --azel 30,20 --vtk body.vtp
+beside fitted.csv data.csv "$(fnv1a data.csv)" fit data.csv --csv fitted.csv
+mkdir empty
+cd empty || exit 1
+run run ../pair.toml --facets - >/dev/null
+run run ../pair.toml --facets /dev/null
+same nothing_stands_beside_standard_output_or_a_device "$(ls)" ""
+cd .. || exit 1
+
+# ---- what stands inside ----
+# inside FILE INPUT HASH: the file holds the version and both.
+inside() {
+    same "$1_holds_what_it_was_made_from" "$(LC_ALL=C tr -d '\0' <"$1" | LC_ALL=C grep -a -c "lrcs $("$tool" --version | cut -c6-).*$2 $3")" 1
+}
+"$tool" run pair.toml --image seen.png >/dev/null 2>&1
+inside seen.png pair.toml "$pair"
+"$tool" image pair.toml -o image.png --visible visible.svg 2>/dev/null
+inside image.png pair.toml "$pair"
+inside visible.svg pair.toml "$pair"
+"$tool" profile pair.toml --bin 0.1 --csv bins.csv --plot bins.svg >/dev/null 2>&1
+inside bins.csv pair.toml "$pair"
+inside bins.svg pair.toml "$pair"
+same a_table_has_its_options "$(head -1 bins.csv | grep -c "; options=--bin=0.1;")" 1
+"$tool" converge box.toml --seconds 0.05 --csv settings.csv --plot cost.svg --plot cost.png >/dev/null 2>&1
+for file in settings.csv cost.svg cost.png; do
+    inside $file box.toml "$box"
+done
+"$tool" fit data.csv --plot fit.svg --residuals left.png >/dev/null 2>&1
+inside fit.svg data.csv "$(fnv1a data.csv)"
+inside left.png data.csv "$(fnv1a data.csv)"
+"$tool" sweep pair.toml --az 0:90:30 --el 0 -o rows.csv --plot rows.svg --stats-file stats.csv --stats-file stats.svg --stats-file stats.png >/dev/null 2>&1
+for file in rows.csv rows.svg stats.csv stats.svg stats.png; do
+    inside $file pair.toml "$pair"
+done
+same drawings_of_a_sweep_name_its_scene_by_hash "$(grep -l "scene_hash=$(sed -n '1s/.*scene_hash=\([0-9a-f]*\).*/\1/p' rows.csv)" rows.svg stats.svg | wc -l | tr -d ' ')" 2
+
+# ---- every JSON ----
+# stated NAME ARGUMENTS...: its first keys are the schema and the version.
+stated() {
+    name=$1
+    shift
+    run "$@"
+    same "json_of_${name}_has_schema_and_version" "$(printf '%s\n' "$out" | grep -E '^ *"(schema|version)":' | head -2 | tr -d ' \n')" "\"schema\":1,\"version\":\"$("$tool" --version | cut -c6-)\","
+}
+stated run run pair.toml --json
+same json_of_run_names_its_file "$(printf '%s\n' "$out" | grep -c "\"pair.toml\", \"hash\": \"$pair\"")" 1
+stated info info pair.toml --json
+same json_of_info_names_its_file "$(printf '%s\n' "$out" | grep -c "\"pair.toml\", \"hash\": \"$pair\"")" 1
+stated shape shape sphere --radius 1 --json
+stated fit fit data.csv --json
+same json_of_fit_names_its_file "$(printf '%s\n' "$out" | grep -c "\"data.csv\", \"hash\": \"$(fnv1a data.csv)\"")" 1
+stated profile profile pair.toml --bin 0.1 --json
+stated converge converge box.toml --seconds 0.05 --json
+same json_of_converge_names_its_file "$(printf '%s\n' "$out" | grep -c "\"box.toml\", \"hash\": \"$box\"")" 1
+finish

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: MIT */
+/* Means over patches of true surfaces against quadrature of the same surfaces written down here
+   with other parameters: spheres over the square root of the depth below the top, paraboloids over
+   the radius. usage: test_patch [SHAPES SEED]    (many more) */
+#include "integrate/patch.h"
+
+#include <lrcs/lrcs.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/rotate.h"
+#include "check.h"
+#include "view/view.h"
+
+static unsigned char memory[1u << 26];
+static uint64_t seed = 1;
+
+/* splitmix64, in 0 .. 1. */
+static double chance(void)
+{
+    seed += UINT64_C(0x9e3779b97f4a7c15);
+    uint64_t z = seed;
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static double between(double low, double high)
+{
+    return low * pow(high / low, chance());
+}
+
+/* --- one shape in a view -----------------------------------------------------------------------
+ */
+
+typedef struct patch_scene {
+    lrcs_scene scene;
+    lrcsi_view view;
+    lrcsi_plan plan;
+} patch_scene;
+
+/* The shape, placed, and a plate far away, so that it is one among others. */
+static void scene_make(const lrcs_shape *shape, const lrcs_place *place, const lrcs_brdf *brdf,
+                       int two_sided, const double d[3], patch_scene *s)
+{
+    lrcs_recipe_part part[2] = {
+        {.name = "a", .material_index = -1, .place = *place, .shape = *shape},
+        {.name = "b", .material_index = -1, .place = lrcs_place_default()}};
+    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {1, 1}};
+    part[1].place.translate[2] = -30;
+    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = two_sided};
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = 2, .binding = &binding, .binding_count = 1};
+    lrcs_build_options options = lrcs_build_options_default();
+    lrcs_run_options run = lrcs_run_options_default();
+    const lrcs_prepared *prepared;
+    lrcsi_clear clear;
+    lrcs_pose pose;
+    options.tolerance = 2e-2;
+    lrcs_work work = lrcs_work_make(memory, sizeof memory);
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &s->scene, NULL), LRCS_OK);
+    assert_int_equal(lrcs_prepare_run(&s->scene, &work, &prepared), LRCS_OK);
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &s->view), LRCS_OK);
+    lrcsi_plan_backs(&run, &s->view);
+    assert_int_equal(lrcsi_clear_make(&s->view, &work, &clear), LRCS_OK);
+    s->plan = lrcsi_plan_make(&s->view, &clear, &run);
+}
+
+/* --- the reference -----------------------------------------------------------------------------
+ */
+
+static double reflect_at(const lrcs_brdf *brdf, double c)
+{
+    double u = 1 / (c * c) - 1;
+    return brdf->A / (c * c * c * c) * exp(-u / (brdf->s * brdf->s)) +
+           brdf->B * pow(c, brdf->m + 2);
+}
+
+/* F times the area element at azimuth phi, where the parameter t goes from 0 at the lower row of
+   the patch to 1 at the upper one. g: the laser in the shape's frame. */
+static double element_at(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
+                         const double g[3], double t, double phi)
+{
+    const lrcs_part *part = &s->scene.part[0];
+    const lrcs_shape *shape = &part->shape;
+    double rows = part->divisions.along;
+    double r = shape->radius;
+    double across; /* of the normal */
+    double up;
+    double element;
+    if (shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME) {
+        double w0 = sqrt(2) * sin((rows - patch->at.row) / rows * acos(0.0) / 2);
+        double w1 = sqrt(2) * sin((rows - patch->at.row - 1) / rows * acos(0.0) / 2);
+        double w = w0 + t * (w1 - w0);
+        up = 1 - w * w;
+        across = w * sqrt(2 - w * w);
+        element = r * r * 2 * w * (w0 - w1);
+    } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
+        double rim = 2 * shape->length / r;
+        double y0 = tan(atan(rim) * (rows - patch->at.row) / rows);
+        double y1 = tan(atan(rim) * (rows - patch->at.row - 1) / rows);
+        double y = y0 + t * (y1 - y0);
+        up = 1 / sqrt(1 + y * y);
+        across = y * up;
+        element = r / rim * y * sqrt(1 + y * y) * (y0 - y1) * r / rim;
+    } else {
+        double low = shape->kind == LRCS_SHAPE_FRUSTUM ? shape->radius2 : r;
+        double high = shape->kind == LRCS_SHAPE_CONE ? 0 : r;
+        double slant = hypot(low - high, shape->length);
+        up = (low - high) / slant;
+        across = shape->length / slant;
+        element = (low + t * (high - low)) * slant;
+    }
+    up = patch->at.mirrored ? -up : up;
+    double c = g[0] * across * cos(phi) + g[1] * across * sin(phi) + g[2] * up;
+    return reflect_at(brdf, c) * element;
+}
+
+/* Gauss's rule of five points on 12 parts of each parameter. */
+static double reference(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch)
+{
+    static const double x[5] = {0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
+                                -0.9061798459386640};
+    static const double w[5] = {0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
+                                0.2369268850561891, 0.2369268850561891};
+    const lrcs_part *part = &s->scene.part[0];
+    double wide = 4 * acos(0.0) / part->divisions.around;
+    double g[3] = {0, 0, 0};
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            g[i] += patch->side * part->axis[i][k] * s->view.unit[k];
+        }
+    }
+    for (int i = 0; i < 60; i++) {
+        for (int k = 0; k < 60; k++) {
+            double t = (i / 5 + 0.5 + 0.5 * x[i % 5]) / 12;
+            double phi = wide * (patch->at.sector + (k / 5 + 0.5 + 0.5 * x[k % 5]) / 12);
+            sum += w[i % 5] * w[k % 5] * element_at(s, brdf, patch, g, t, phi);
+        }
+    }
+    return sum * wide / 24 / 24 * part->unit * part->unit;
+}
+
+/* --- tests -------------------------------------------------------------------------------------
+ */
+
+static lrcs_shape any_shape(void)
+{
+    static const int kind[] = {LRCS_SHAPE_SPHERE, LRCS_SHAPE_DOME,    LRCS_SHAPE_PARABOLOID,
+                               LRCS_SHAPE_CONE,   LRCS_SHAPE_FRUSTUM, LRCS_SHAPE_CYLINDER};
+    lrcs_shape shape = {.kind = kind[(int)(6 * chance())]};
+    shape.radius = between(0.1, 2);
+    if (shape.kind != LRCS_SHAPE_SPHERE && shape.kind != LRCS_SHAPE_DOME) {
+        shape.length = between(0.1, 2);
+    }
+    shape.radius2 = shape.kind == LRCS_SHAPE_FRUSTUM ? between(0.1, 2) : 0;
+    shape.parts =
+        shape.kind != LRCS_SHAPE_SPHERE && chance() < 0.5 ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
+    return shape;
+}
+
+static unsigned known;
+static unsigned beyond;
+static double closest;
+
+/* Every 37th facet of one shape. */
+static void shape_check(void)
+{
+    static patch_scene s;
+    uint64_t began = seed;
+    lrcs_shape shape = any_shape();
+    lrcs_place place = lrcs_place_default();
+    const lrcs_brdf brdf = {chance() < 0.7 ? chance() : 0, chance(), between(0.02, 2),
+                            4 * chance() * chance()};
+    double scale = between(0.1, 10) * (chance() < 0.5 ? -1 : 1);
+    double d[3];
+    double euler[3];
+    for (int k = 0; k < 3; k++) {
+        place.scale[k] = scale;
+        place.translate[k] = chance();
+        euler[k] = 360 * chance();
+        d[k] = chance() - 0.5;
+    }
+    assert_int_equal(lrcsi_rotate_euler("XYZ", euler, place.rotate), LRCS_OK);
+    scene_make(&shape, &place, &brdf, 1, d, &s);
+    const lrcs_part *part = &s.scene.part[0];
+    for (uint32_t f = (uint32_t)(37 * chance()); f < part->facet_count; f += 37) {
+        lrcsi_patch patch = {.side = 0};
+        if (s.view.prepared->skip[f] || !lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch)) {
+            continue;
+        }
+        double truth = reference(&s, &brdf, &patch);
+        double area = 0;
+        for (uint32_t i = 0; i < patch.at.facets; i++) {
+            area += lrcsi_prepared_area(s.view.prepared,
+                                        0.5 * s.view.prepared->normal[i ? f ^ 1 : f].length);
+        }
+        double apart = fabs((patch.glint + patch.diffuse) * area - truth);
+        double most = (patch.remainder + patch.rounding) * area + 1e-11 * truth;
+        known++;
+        closest = fmax(closest, apart / most);
+        if (!(apart <= most)) {
+            beyond++;
+            fprintf(stderr, "seed %llu, kind %d, facet %u: %.17g, by quadrature %.17g +- %.3g\n",
+                    (unsigned long long)began, shape.kind, (unsigned)f,
+                    (patch.glint + patch.diffuse) * area, truth, most);
+        }
+    }
+}
+
+static void means_are_those_of_the_true_surface(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 60; i++) {
+        shape_check();
+    }
+    assert_true(known > 200);
+    assert_int_equal(beyond, 0);
+}
+
+/* Nose-on all of a cone's wall has one incidence: the means add up to its closed form. */
+static void patches_of_a_cone_add_up_to_its_closed_form(void **state)
+{
+    (void)state;
+    static patch_scene s;
+    const lrcs_shape shape = {
+        .kind = LRCS_SHAPE_CONE, .radius = 0.5, .length = 1, .parts = LRCS_SHAPE_WALL};
+    const lrcs_brdf brdf = {1, 0.25, 0.5, 0.5};
+    const double d[3] = {0, 0, 1};
+    const lrcs_place place = lrcs_place_default();
+    const lrcs_aspect aspect = {1, 0, {0, 0, 1}};
+    lrcs_closed closed;
+    double sum = 0;
+    scene_make(&shape, &place, &brdf, 0, d, &s);
+    for (uint32_t f = 0; f < s.scene.part[0].facet_count; f++) {
+        lrcsi_patch patch = {.side = 0};
+        assert_int_equal(lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch), 1);
+        sum += (patch.glint + patch.diffuse) * 0.5 * s.view.prepared->normal[f].length;
+    }
+    assert_int_equal(lrcs_closed_eval(&shape, &brdf, &aspect, &closed), LRCS_OK);
+    check_rel(lrcsi_prepared_area(s.view.prepared, 4 * LRCSI_PI * sum), closed.sigma_m2, 1e-12);
+}
+
+/* Facets that the laser sees edge-on, or nearly, and flat ones have no mean; nor has any where
+   facets were asked for. */
+static void no_mean_is_given_at_the_limb_or_of_flat_parts(void **state)
+{
+    (void)state;
+    static patch_scene s;
+    const lrcs_shape shape = {.kind = LRCS_SHAPE_DOME, .radius = 1};
+    const lrcs_brdf brdf = {1, 0.25, 0.5, 0.5};
+    const double d[3] = {1, 0.01, 0.02};
+    const lrcs_place place = lrcs_place_default();
+    unsigned with = 0;
+    unsigned without = 0;
+    scene_make(&shape, &place, &brdf, 0, d, &s);
+    for (uint32_t f = 0; f < s.scene.facet_count; f++) {
+        lrcsi_patch patch = {.side = 0};
+        double cosine = fabs(lrcsi_view_incidence(&s.view, f).cos_theta);
+        int made = lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch);
+        assert_false(made && (cosine <= 0.01 || s.scene.facet_smooth[f] == 0));
+        with += made != 0;
+        without += !made && cosine > 0.5 && s.scene.facet_smooth[f] != 0;
+        s.plan.patches = 0;
+        assert_int_equal(lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch), 0);
+        s.plan.patches = 1;
+    }
+    assert_true(with > 100);
+    assert_int_equal(without, 0);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(means_are_those_of_the_true_surface),
+        cmocka_unit_test(patches_of_a_cone_add_up_to_its_closed_form),
+        cmocka_unit_test(no_mean_is_given_at_the_limb_or_of_flat_parts),
+    };
+    if (argc > 2) {
+        seed = strtoull(argv[2], NULL, 10);
+        for (unsigned long i = strtoul(argv[1], NULL, 10); i > 0; i--) {
+            shape_check();
+        }
+        printf("%u patches, %u beyond, worst share of the bound %.3f\n", known, beyond, closest);
+        return beyond != 0;
+    }
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
